@@ -1,0 +1,94 @@
+"""Normals along the outline: what the fair surface has to be tangent to."""
+
+from __future__ import annotations
+
+import fairing
+import numpy as np
+
+from .region import Floats, Ints, Mask, MeshArrays, Patch
+
+RINGS = 4  # of outside faces handed to the engine's fit, which uses the nearest of them
+
+
+def unit(vectors: Floats) -> Floats:
+    """Return the (k, 3) vectors with length 1; zero vectors stay zero."""
+    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
+    units: Floats = vectors / np.where(lengths > 0.0, lengths, 1.0)
+    return units
+
+
+def _sum_at_vertices(vertices: Ints, vectors: Floats, count: int) -> Floats:
+    columns = [np.bincount(vertices, weights=column, minlength=count) for column in vectors.T]
+    return np.stack(columns, axis=1)
+
+
+def average_normals(positions: Floats, triangles: Ints) -> Floats:
+    """Return (n, 3): the normalised mean of the unit normals of the triangles at each vertex."""
+    a, b, c = (positions[column] for column in triangles.T)
+    normals = unit(np.cross(b - a, c - a))
+    return unit(_sum_at_vertices(triangles.ravel(), normals.repeat(3, axis=0), len(positions)))
+
+
+def custom_normals(mesh: MeshArrays) -> Floats:
+    """Return (n, 3): the normalised mean of each vertex's corner normals."""
+    if mesh.corner_normals is None:
+        raise ValueError("boundary_normals: the mesh was read without its corner normals")
+    return unit(_sum_at_vertices(mesh.corner_vertices, mesh.corner_normals, len(mesh.positions)))
+
+
+def _nearby(triangles: Ints, start: Mask) -> Ints:
+    """Return the triangles within RINGS steps of the vertices in `start`."""
+    reached = start.copy()
+    near = np.zeros(len(triangles), dtype=bool)
+    for _ in range(RINGS):
+        near = reached[triangles].any(axis=1)
+        reached[triangles[near]] = True
+    found: Ints = triangles[near]
+    return found
+
+
+def surrounding_normals(mesh: MeshArrays, fixed: Ints) -> tuple[Floats, Mask]:
+    """Fit normals at the `fixed` vertices (mesh indices, k) to the faces outside the patch.
+
+    Returns ((k, 3) unit normals, (k,) mask of those that have faces outside). The others take
+    the average of all their faces.
+    """
+    normals = average_normals(mesh.positions, mesh.triangles)[fixed]
+    outside = mesh.triangles[~mesh.in_patch[mesh.triangle_faces]]
+    touched = np.zeros(len(mesh.positions), dtype=bool)
+    touched[outside] = True
+    found = touched[fixed]
+    if not found.any():
+        return normals, found
+    start = np.zeros(len(mesh.positions), dtype=bool)
+    start[fixed[found]] = True
+    near = _nearby(outside, start)
+    used, triangles = np.unique(near, return_inverse=True)
+    at = np.searchsorted(used, fixed[found])
+    fitted, _ = fairing.surrounding_normals(
+        mesh.positions[used], triangles.reshape(-1, 3).astype(np.int64), at
+    )
+    # A zero normal is one that even the average of the outside faces leaves open.
+    usable = np.flatnonzero(found)[np.linalg.norm(fitted, axis=1) > 0.5]
+    normals[usable] = fitted[np.linalg.norm(fitted, axis=1) > 0.5]
+    return normals, found
+
+
+def prescribed_normals(
+    mesh: MeshArrays, patch: Patch, source: str
+) -> tuple[Floats, tuple[str, ...]]:
+    """Return ((k, 3) unit normals in the order of `patch.fixed`, warnings).
+
+    source: one of options.BOUNDARY_NORMALS.
+    """
+    fixed = patch.vertices[patch.fixed]
+    if source == "CUSTOM":
+        return custom_normals(mesh)[fixed], ()
+    if source == "AVERAGE":
+        return average_normals(mesh.positions, mesh.triangles)[fixed], ()
+    normals, found = surrounding_normals(mesh, fixed)
+    alone = int(np.count_nonzero(~found & ~mesh.pinned[fixed]))
+    if alone == 0:
+        return normals, ()
+    text = f"{alone} border vertices have no faces outside: their normals come from the patch"
+    return normals, (text,)

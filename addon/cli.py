@@ -1,0 +1,97 @@
+"""`blender --background FILE --command fair …`: fairing without a window."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from typing import Any
+
+import bpy
+import fairing
+import numpy as np
+
+from .fair_mesh import fair_faces
+from .options import FairOptions, option_names
+from .solve import Fairing
+
+CONVERGED, NOT_CONVERGED, REFUSED = 0, 1, 2
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="blender --background FILE --command fair",
+        description="Fair faces of a mesh. Exit status: 0 converged, 1 not converged, 2 refused.",
+    )
+    parser.add_argument("--object", required=True, help="name of the mesh object")
+    parser.add_argument(
+        "--vertex-group",
+        help="fair the faces inside this vertex group; "
+        "default: the faces that are selected in the file",
+    )
+    parser.add_argument("--output", required=True, help="the .blend file to write")
+    parser.add_argument("--report", choices=("text", "json"), default="text")
+    defaults = FairOptions()
+    for name in option_names():
+        value = getattr(defaults, name)
+        flag = "--" + name.replace("_", "-")
+        parser.add_argument(flag, dest=name, type=type(value), default=value)
+    return parser
+
+
+def _mesh_object(name: str) -> bpy.types.Object:
+    obj = bpy.data.objects.get(name)
+    if obj is None or obj.type != "MESH":
+        raise ValueError(f"--object: the file has no mesh object named {name!r}")
+    return obj
+
+
+def _faces(obj: bpy.types.Object, group: str | None) -> list[int]:
+    polygons = obj.data.polygons
+    if group is None:
+        return [polygon.index for polygon in polygons if polygon.select]
+    if group not in obj.vertex_groups:
+        raise ValueError(f"--vertex-group: {obj.name} has no vertex group named {group!r}")
+    index = obj.vertex_groups[group].index
+    member = [any(e.group == index and e.weight > 0.0 for e in v.groups) for v in obj.data.vertices]
+    return [polygon.index for polygon in polygons if all(member[v] for v in polygon.vertices)]
+
+
+def _figures(outcome: Fairing) -> dict[str, Any]:
+    result = outcome.result
+    return {
+        "free_vertices": len(outcome.vertices),
+        "converged": bool(result.converged),
+        "residual": float(result.residual),
+        "boundary_angle": float(result.boundary_angle.max(initial=0.0)),
+        "warnings": list(outcome.warnings),
+    }
+
+
+def _print(figures: dict[str, Any], form: str) -> None:
+    if form == "json":
+        print(json.dumps(figures))
+        return
+    for name, value in figures.items():
+        print(f"{name.replace('_', ' ')}: {value}")
+
+
+def _progress(fraction: float, stage: str) -> None:
+    print(f"{100 * fraction:3.0f} % {stage}", file=sys.stderr)
+
+
+def execute(arguments: list[str]) -> int:
+    """Run the command and return its exit status."""
+    chosen = _parser().parse_args(arguments)
+    try:
+        options = FairOptions.of(chosen)
+        obj = _mesh_object(chosen.object)
+        faces = _faces(obj, chosen.vertex_group)
+        matrix = np.array(obj.matrix_world, dtype=np.float64)
+        outcome = fair_faces(obj.data, faces, matrix, options, _progress)
+    except (ValueError, fairing.SolverError) as error:
+        print(f"fair: {error}", file=sys.stderr)
+        return REFUSED
+    bpy.ops.wm.save_as_mainfile(filepath=chosen.output, copy=True)
+    _print(_figures(outcome), chosen.report)
+    return CONVERGED if outcome.result.converged else NOT_CONVERGED

@@ -1,0 +1,194 @@
+"""Blender meshes to arrays and positions back: the only file that touches bmesh."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import bmesh
+import bpy
+import numpy as np
+
+from .options import FairOptions
+from .region import Floats, Ints, Mask, MeshArrays
+
+# Read and written as float32, which is what Blender stores; doubles in between.
+
+
+def _column(items: Any, name: str, width: int, dtype: Any) -> Any:
+    """Read one property of a Blender collection: (k,) for width 1, else (k, width)."""
+    values = np.empty(len(items) * width, dtype=dtype)
+    items.foreach_get(name, values)
+    return values if width == 1 else values.reshape(-1, width)
+
+
+def _indices(items: Any, name: str, width: int = 1) -> Ints:
+    values: Ints = _column(items, name, width, np.int32).astype(np.int64)
+    return values
+
+
+@contextmanager
+def _snapshot(mesh: bpy.types.Mesh) -> Iterator[bpy.types.Mesh]:
+    """Give a temporary object-mode copy of a mesh in edit mode, active shape key included."""
+    copy = bpy.data.meshes.new("fairing snapshot")
+    try:
+        bmesh.from_edit_mesh(mesh).to_mesh(copy)
+        yield copy
+    finally:
+        bpy.data.meshes.remove(copy)
+
+
+def read_edit_mesh(obj: bpy.types.Object, options: FairOptions) -> MeshArrays:
+    """Read the mesh of an object in edit mode; the patch is its selected, visible faces.
+
+    Raises ValueError where `options` name a vertex group that the object does not have.
+    """
+    with _snapshot(obj.data) as mesh:
+        selected = _column(mesh.polygons, "select", 1, bool)
+        return _arrays(mesh, selected, _group_index(obj, options.pin_group), options)
+
+
+def read_mesh(mesh: bpy.types.Mesh, faces: Ints, options: FairOptions) -> MeshArrays:
+    """Read a mesh in object mode; the patch is those of the polygons `faces` that are visible.
+
+    Raises IndexError for a polygon that is not there, ValueError for a mesh in edit mode.
+    """
+    if mesh.is_editmode:
+        raise ValueError(f"{mesh.name} is in edit mode: leave it, or use bpy.ops.mesh.fair_region")
+    selected = np.zeros(len(mesh.polygons), dtype=bool)
+    if faces.size and not 0 <= faces.min() <= faces.max() < len(selected):
+        raise IndexError(f"faces: expected polygon indices below {len(selected)}")
+    selected[faces] = True
+    group = _group_index(_user_of(mesh), options.pin_group) if options.pin_group else None
+    return _arrays(mesh, selected, group, options)
+
+
+def _user_of(mesh: bpy.types.Mesh) -> bpy.types.Object | None:
+    """Return an object that shows the mesh: vertex groups have their names there."""
+    return next((obj for obj in bpy.data.objects if obj.data == mesh), None)
+
+
+def _group_index(obj: bpy.types.Object | None, name: str) -> int | None:
+    if not name:
+        return None
+    if obj is None or name not in obj.vertex_groups:
+        raise ValueError(f"pin_group: there is no vertex group named {name!r}")
+    return int(obj.vertex_groups[name].index)
+
+
+def _arrays(
+    mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: FairOptions
+) -> MeshArrays:
+    mesh.calc_loop_triangles()
+    sizes = _indices(mesh.polygons, "loop_total")
+    corner_vertices = _indices(mesh.loops, "vertex_index")
+    corner_faces = np.repeat(np.arange(len(sizes)), sizes)
+    in_patch = selected & ~_column(mesh.polygons, "hide", 1, bool)
+    edges = _indices(mesh.edges, "vertices", 2)
+    pinned = np.zeros(len(mesh.vertices), dtype=bool)
+    pinned[edges[_marked_edges(mesh, options.pin_edges)]] = True
+    if group is not None:
+        touched = np.unique(corner_vertices[in_patch[corner_faces]])
+        pinned[_members(mesh, touched, group)] = True
+    custom = options.boundary_normals == "CUSTOM"
+    return MeshArrays(
+        positions=_column(mesh.vertices, "co", 3, np.float32).astype(np.float64),
+        edges=edges,
+        corner_vertices=corner_vertices,
+        corner_edges=_indices(mesh.loops, "edge_index"),
+        corner_faces=corner_faces,
+        triangles=_indices(mesh.loop_triangles, "vertices", 3),
+        triangle_faces=_indices(mesh.loop_triangle_polygons, "value"),
+        in_patch=in_patch,
+        pinned=pinned,
+        corner_normals=_corner_normals(mesh) if custom else None,
+    )
+
+
+def _corner_normals(mesh: bpy.types.Mesh) -> Floats:
+    normals: Floats = _column(mesh.corner_normals, "vector", 3, np.float32).astype(np.float64)
+    return normals
+
+
+def _marked_edges(mesh: bpy.types.Mesh, kind: str) -> Mask:
+    """Return the (e,) mask of the edges that one of options.PIN_EDGES names."""
+    if kind in ("SHARP", "SEAM"):
+        name = "use_edge_sharp" if kind == "SHARP" else "use_seam"
+        marked: Mask = _column(mesh.edges, name, 1, bool)
+        return marked
+    crease = mesh.attributes.get("crease_edge") if kind == "CREASE" else None
+    if crease is None:
+        return np.zeros(len(mesh.edges), dtype=bool)
+    positive: Mask = _column(crease.data, "value", 1, np.float32) > 0.0
+    return positive
+
+
+def _members(mesh: bpy.types.Mesh, vertices: Ints, group: int) -> list[int]:
+    """Return those of the vertices that are in the vertex group with a weight above zero."""
+    return [
+        vertex
+        for vertex in vertices.tolist()
+        if any(e.group == group and e.weight > 0.0 for e in mesh.vertices[vertex].groups)
+    ]
+
+
+def write_edit_mesh(mesh: bpy.types.Mesh, vertices: Ints, positions: Floats) -> None:
+    """Move the vertices (k,) of a mesh in edit mode to `positions` (k, 3), and only them."""
+    bm = bmesh.from_edit_mesh(mesh)
+    bm.verts.ensure_lookup_table()
+    table = bm.verts
+    for vertex, position in zip(vertices.tolist(), positions.tolist(), strict=True):
+        table[vertex].co = position
+    bm.normal_update()
+    bmesh.update_edit_mesh(mesh, destructive=False)
+
+
+def write_mesh(mesh: bpy.types.Mesh, vertices: Ints, positions: Floats) -> None:
+    """Move the vertices of a mesh in object mode.
+
+    With shape keys the Basis moves, and the keys relative to it follow, as they do
+    when Blender's own tools edit the Basis.
+    """
+    before = _column(mesh.vertices, "co", 3, np.float32)
+    after = before.copy()
+    after[vertices] = positions
+    mesh.vertices.foreach_set("co", after.ravel())
+    if mesh.shape_keys is not None:
+        _move_keys(mesh.shape_keys, vertices, after[vertices] - before[vertices], after)
+    mesh.update()
+
+
+def _move_keys(keys: bpy.types.Key, vertices: Ints, offsets: Any, basis: Any) -> None:
+    keys.reference_key.data.foreach_set("co", basis.ravel())
+    if not keys.use_relative:
+        return
+    for block in keys.key_blocks:
+        if _follows(block, keys.reference_key):
+            moved = _column(block.data, "co", 3, np.float32)
+            moved[vertices] += offsets
+            block.data.foreach_set("co", moved.ravel())
+
+
+def _follows(block: bpy.types.ShapeKey, basis: bpy.types.ShapeKey) -> bool:
+    """Tell whether a chain of relative keys leads from the block to the basis."""
+    seen = set()
+    while block != basis and block.name not in seen:
+        seen.add(block.name)
+        block = block.relative_key
+        if block == basis:
+            return True
+    return False
+
+
+def select_vertices(mesh: bpy.types.Mesh, vertices: Ints) -> None:
+    """Select exactly these vertices of a mesh in edit mode; nothing else about it changes."""
+    bm = bmesh.from_edit_mesh(mesh)
+    bm.select_mode = {"VERT"}
+    bm.verts.ensure_lookup_table()
+    for element in (*bm.faces, *bm.edges, *bm.verts):
+        element.select = False
+    for vertex in vertices.tolist():
+        bm.verts[vertex].select = True
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)

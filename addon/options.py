@@ -1,0 +1,66 @@
+"""What the caller can choose, by the names that operator, script and command line share."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+EQUATIONS = ("HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL")
+INNER_FAIRNESS = ("UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING")
+BOUNDARY_NORMALS = ("SURROUNDING", "AVERAGE", "CUSTOM")
+METHODS = ("GLOBAL", "PAPER")
+PIN_EDGES = ("NONE", "SHARP", "SEAM", "CREASE")
+
+_CHOICES = {
+    "equation": EQUATIONS,
+    "inner_fairness": INNER_FAIRNESS,
+    "boundary_normals": BOUNDARY_NORMALS,
+    "method": METHODS,
+    "pin_edges": PIN_EDGES,
+}
+
+
+@dataclass(frozen=True)
+class FairOptions:
+    """The properties of `mesh.fair_region`; raises ValueError for a value it does not know."""
+
+    factor: float = 1.0  # 0 keeps the original, 1 is fair
+    equation: str = "HARMONIC"
+    bulge: float = 0.0  # for CONSTANT: 1 lifts a flat disc by a quarter of its radius
+    inner_fairness: str = "UNIFORM"
+    boundary_normals: str = "SURROUNDING"
+    method: str = "GLOBAL"
+    levels: int = 0  # 0: chosen by the engine
+    tolerance: float = 1e-6  # of the patch's diameter
+    max_iterations: int = 200
+    pin_group: str = ""  # name of a vertex group, empty for none
+    pin_edges: str = "NONE"
+
+    def __post_init__(self) -> None:
+        for name, choices in _CHOICES.items():
+            value = getattr(self, name)
+            if value not in choices:
+                raise ValueError(f"{name}: expected one of {', '.join(choices)}, got {value!r}")
+        if not 0.0 <= self.factor <= 1.0:
+            raise ValueError(f"factor: expected a number from 0 to 1, got {self.factor!r}")
+
+    @classmethod
+    def of(cls, properties: Any) -> FairOptions:
+        """Read every option from an object with attributes of the same names."""
+        return cls(**{name: getattr(properties, name) for name in option_names()})
+
+    def engine_arguments(self) -> dict[str, Any]:
+        """Return the keyword arguments of `fairing.fair` that need no mesh."""
+        return {
+            "equation": self.equation.lower(),
+            "inner_fairness": self.inner_fairness.lower(),
+            "method": self.method.lower(),
+            "levels": self.levels,
+            "tolerance": self.tolerance,
+            "max_iterations": self.max_iterations,
+        }
+
+
+def option_names() -> tuple[str, ...]:
+    """Return the option names in the order of the redo panel."""
+    return tuple(field.name for field in fields(FairOptions))

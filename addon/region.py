@@ -1,0 +1,124 @@
+"""From polygons and a selection to the patch that the engine solves. Plain numpy, no bpy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class MeshArrays:
+    """A polygon mesh: n vertices, e edges, f faces, c corners, t triangles of Blender's own."""
+
+    positions: Floats  # (n, 3)
+    edges: Ints  # (e, 2)
+    corner_vertices: Ints  # (c,)
+    corner_edges: Ints  # (c,) the edge from this corner to the next one
+    corner_faces: Ints  # (c,)
+    triangles: Ints  # (t, 3) vertices, counter-clockwise from outside
+    triangle_faces: Ints  # (t,)
+    in_patch: Mask  # (f,) selected and visible
+    pinned: Mask  # (n,)
+    corner_normals: Floats | None = None  # (c, 3), where they were asked for
+
+    def transformed(self, matrix: Floats) -> MeshArrays:
+        """Return the mesh under a 4×4 affine map, wound so that outside stays outside.
+
+        Raises ValueError where the map flattens the mesh: there is no way back then.
+        """
+        linear = matrix[:3, :3]
+        if not np.isfinite(matrix).all() or np.linalg.cond(linear) > 1e7:
+            raise ValueError("The object's scale is zero or not finite: apply or mend it first")
+        mirrored = np.linalg.det(linear) < 0.0
+        normals = self.corner_normals
+        return replace(
+            self,
+            positions=self.positions @ linear.T + matrix[:3, 3],
+            triangles=self.triangles[:, ::-1] if mirrored else self.triangles,
+            corner_normals=None if normals is None else normals @ np.linalg.inv(linear),
+        )
+
+
+@dataclass(frozen=True)
+class Patch:
+    """The selected faces alone, vertices numbered 0 … p−1 in the order of the mesh."""
+
+    vertices: Ints  # (p,) mesh indices, ascending
+    triangles: Ints  # (m, 3) patch indices
+    free: Ints  # patch indices, ascending
+    fixed: Ints  # patch indices, ascending: all that are not free
+    outline: Ints  # patch indices of the vertices on edges with one face of the patch
+    neighbours: Ints | None  # (e, 2) patch indices; None where all faces are triangles
+
+
+def vertices_of(mesh: MeshArrays, faces: Mask) -> Mask:
+    """Return the (n,) mask of the vertices of the faces in the (f,) mask."""
+    touched = np.zeros(len(mesh.positions), dtype=bool)
+    touched[mesh.corner_vertices[faces[mesh.corner_faces]]] = True
+    return touched
+
+
+def _ends(mesh: MeshArrays, edges: Mask) -> Mask:
+    ends = np.zeros(len(mesh.positions), dtype=bool)
+    ends[mesh.edges[edges]] = True
+    return ends
+
+
+def _edge_uses(mesh: MeshArrays, corners: Mask | slice) -> Ints:
+    return np.bincount(mesh.corner_edges[corners], minlength=len(mesh.edges))
+
+
+def free_vertices(mesh: MeshArrays) -> Mask:
+    """Return the (n,) mask of vertices with only patch faces, on no open border, not pinned."""
+    open_border = _ends(mesh, _edge_uses(mesh, slice(None)) == 1)
+    inside = vertices_of(mesh, mesh.in_patch)
+    outside = vertices_of(mesh, ~mesh.in_patch)
+    return inside & ~outside & ~open_border & ~mesh.pinned
+
+
+def make_patch(mesh: MeshArrays) -> Patch:
+    """Cut the selected visible faces out of the mesh."""
+    inside = vertices_of(mesh, mesh.in_patch)
+    vertices = np.flatnonzero(inside)
+    number = np.full(len(inside), -1, dtype=np.int64)
+    number[vertices] = np.arange(len(vertices))
+    free = free_vertices(mesh)
+    uses = _edge_uses(mesh, mesh.in_patch[mesh.corner_faces])
+    return Patch(
+        vertices=vertices,
+        triangles=number[mesh.triangles[mesh.in_patch[mesh.triangle_faces]]],
+        free=number[free],
+        fixed=number[inside & ~free],
+        outline=number[_ends(mesh, uses == 1)],
+        neighbours=None if _all_triangles(mesh) else number[mesh.edges[uses > 0]],
+    )
+
+
+def _all_triangles(mesh: MeshArrays) -> bool:
+    corners = np.bincount(mesh.corner_faces, minlength=len(mesh.in_patch))
+    return bool((corners[mesh.in_patch] == 3).all())
+
+
+def island_count(patch: Patch) -> int:
+    """Count the pieces of the patch that share no vertex."""
+    label = np.arange(len(patch.vertices))
+    while True:
+        lowest = label[patch.triangles].min(axis=1)
+        following = label.copy()
+        np.minimum.at(following, patch.triangles, lowest[:, None])
+        following = following[following]  # pointer jumping: steps ~ log of the diameter
+        if np.array_equal(following, label):
+            return len(np.unique(label))
+        label = following
+
+
+def outline_radius(patch: Patch, positions: Floats) -> float:
+    """Return the RMS distance of the outline from its centroid, in the units of `positions`."""
+    points = positions[patch.vertices[patch.outline]]
+    return float(np.sqrt(((points - points.mean(axis=0)) ** 2).sum(axis=1).mean()))

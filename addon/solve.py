@@ -1,0 +1,103 @@
+"""Arrays in, arrays out: the one path from a mesh to its fair positions, for all callers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+import fairing
+import numpy as np
+
+from .boundary import prescribed_normals
+from .options import FairOptions
+from .region import Floats, Ints, MeshArrays, Patch, island_count, make_patch, outline_radius
+
+Progress = Callable[[float, str], "bool | None"]
+
+# The codes whose elements count triangles; those of all others count vertices.
+TRIANGLE_CODES = frozenset({"NOT_ORIENTABLE", "DEGENERATE_FACE", "INCONSISTENT_WINDING"})
+
+
+@dataclass(frozen=True)
+class Fairing:
+    """New positions for the free vertices, in the mesh's own coordinates."""
+
+    vertices: Ints  # (k,) mesh indices, ascending
+    positions: Floats  # (k, 3)
+    result: Any  # what fairing.fair returned for the patch, in world space
+    warnings: tuple[str, ...]
+
+
+def fair_arrays(
+    mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None = None
+) -> Fairing:
+    """Fair the patch of `mesh` in the space that the 4×4 `matrix` leads to.
+
+    Raises fairing.MeshError (its `elements` are vertices of `mesh` here), ValueError,
+    fairing.SolverError and fairing.Cancelled. `mesh` is never changed.
+    """
+    world = mesh.transformed(matrix)
+    patch = make_patch(world)
+    normals, warnings = prescribed_normals(world, patch, options.boundary_normals)
+    with _mesh_indices(patch):
+        result = fairing.fair(
+            world.positions[patch.vertices],
+            patch.triangles,
+            fixed=patch.fixed,
+            fixed_normals=normals,
+            neighbours=patch.neighbours,
+            load=_load(world, patch, options),
+            progress=progress,
+            **options.engine_arguments(),
+        )
+    free = patch.vertices[patch.free]
+    fair = _to_local(result.vertices[patch.free], matrix)
+    original = mesh.positions[free]
+    # Blended in local space, so that factor 0 gives the very bits that were there.
+    positions = original + options.factor * (fair - original)
+    return Fairing(free, positions, result, warnings + _texts(result.warnings))
+
+
+@contextmanager
+def _mesh_indices(patch: Patch) -> Iterator[None]:
+    """Make the elements of a MeshError vertices of the whole mesh instead of the patch's."""
+    try:
+        yield
+    except fairing.MeshError as error:
+        error.elements = mesh_vertices(error, patch)
+        raise
+
+
+def mesh_vertices(diagnostic: Any, patch: Patch) -> Ints:
+    """Return the mesh vertices that an error or warning of the engine is about, ascending.
+
+    Edges come from the engine as pairs of vertices; triangles give their corners.
+    """
+    elements = np.asarray(diagnostic.elements, dtype=np.int64).ravel()
+    if diagnostic.code in TRIANGLE_CODES:
+        elements = patch.triangles[elements].ravel()
+    vertices: Ints = patch.vertices[np.unique(elements)]
+    return vertices
+
+
+def _load(world: MeshArrays, patch: Patch, options: FairOptions) -> float:
+    """Return the engine's load, in length⁻³: 8 bulge / a³ with a the outline's RMS radius."""
+    if options.equation != "CONSTANT" or options.bulge == 0.0:
+        return 0.0
+    if island_count(patch) > 1:
+        raise ValueError("bulge: fair one island at a time, each has a radius of its own")
+    return 8.0 * options.bulge / outline_radius(patch, world.positions) ** 3
+
+
+def _to_local(positions: Floats, matrix: Floats) -> Floats:
+    """Take world positions (k, 3) back; raises SolverError rather than pass on a NaN."""
+    local: Floats = np.linalg.solve(matrix[:3, :3], (positions - matrix[:3, 3]).T).T
+    if not np.isfinite(local).all():
+        raise fairing.SolverError("The solution is not finite; the mesh was left as it was")
+    return local
+
+
+def _texts(diagnostics: Any) -> tuple[str, ...]:
+    return tuple(str(diagnostic) for diagnostic in diagnostics)

@@ -1,0 +1,68 @@
+# shellcheck shell=bash disable=SC2034
+# Shared by the scripts beside it; sourced, never run.
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=$root/build
+default_bpy=5.0.1
+all_bpy=(4.2.23 4.5.15 5.0.1)
+export PIP_DISABLE_PIP_VERSION_CHECK=1
+cd "$root"
+
+say() { printf '\n== %s\n' "$*"; }
+
+fail() {
+    printf '%s: %s\n' "$(basename "$0")" "$*" >&2
+    exit 1
+}
+
+# Runs a long command quietly, with a sign of life every 20 seconds; its output goes to a log
+# that is shown when it fails.
+# usage: quietly NAME COMMAND…
+quietly() {
+    local name=$1 log start pid status=0
+    shift
+    log=$build/log/$name.log
+    mkdir -p "$build/log"
+    start=$SECONDS
+    "$@" >"$log" 2>&1 &
+    pid=$!
+    while kill -0 "$pid" 2>/dev/null; do
+        sleep 1
+        if ((SECONDS > start && (SECONDS - start) % 20 == 0)); then
+            printf '   %s: %d s, %s\n' "$name" $((SECONDS - start)) "$(tail -n 1 "$log" | cut -c 1-80)"
+        fi
+    done
+    wait "$pid" || status=$?
+    if ((status != 0)); then
+        tail -n 60 "$log" >&2
+        fail "$name failed; all of its output is in $log"
+    fi
+    printf '   %s: done in %d s\n' "$name" $((SECONDS - start))
+}
+
+# Prints one hash of the files and folders given, and of the words after --.
+fingerprint() {
+    local -a paths=() words=()
+    while (($#)) && [[ $1 != -- ]]; do
+        paths+=("$1")
+        shift
+    done
+    words=("$@")
+    {
+        find "${paths[@]}" -type f ! -path '*/__pycache__/*' -print0 | sort -z | xargs -0 sha256sum
+        printf '%s\n' "${words[@]}"
+    } | sha256sum | cut -d ' ' -f 1
+}
+
+# True when the stamp file says that this very input has been dealt with.
+is_done() { [[ -f $1 && $(<"$1") == "$2" ]]; }
+
+venv_python() { printf '%s/venv-%s/bin/python' "$build" "$1"; }
+
+# The zip that scripts/package has built for the version in the manifest.
+zip_path() {
+    local version
+    version=$(sed -n 's/^version = "\(.*\)"/\1/p' addon/blender_manifest.toml)
+    printf '%s/package/intrinsic_fairing-%s.zip' "$build" "$version"
+}
