@@ -1,0 +1,168 @@
+"""The blend of three cylinders (Figs. 1 and 2 of Schneider & Kobbelt 2001) as irregular meshes.
+
+Three cylinders of radius 1 leave the origin in the plane z = 0, 120° apart; the patch ends in one
+circle of each, `reach` from the origin: χ = −1. Its connectivity is the double cover of a flat Y:
+triangulations of a sheet above and a sheet below, glued along the three sides of the Y. The arms of
+the flat Y are as wide as half a circumference, so edges keep about their length.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import Delaunay, cKDTree
+
+from curves import FloatArray
+from domains import thinned
+from shapes import membrane
+
+IntArray = NDArray[np.int64]
+HALF_WIDTH = 0.5 * np.pi
+DIRECTIONS = np.radians([90.0, 210.0, 330.0])
+
+
+@dataclass(frozen=True)
+class Blend:
+    """vertices (n, 3), exact on the rims and a uniform membrane inside; triangles (m, 3) outward.
+
+    fixed (k,): the rims, with fixed_normals (k, 3) those of the cylinders.
+    """
+
+    vertices: FloatArray
+    triangles: IntArray
+    fixed: IntArray
+    fixed_normals: FloatArray
+
+    @property
+    def diameter(self) -> float:
+        """D: twice the largest distance of the fixed vertices from their centroid."""
+        rim = self.vertices[self.fixed]
+        return float(2 * np.linalg.norm(rim - rim.mean(axis=0), axis=1).max())
+
+
+@dataclass(frozen=True)
+class Outline:
+    """The flat Y, counter-clockwise: points (k, 2) and for each the rim it is on (−1: a side).
+
+    `across` is the position along the rim in [−1, 1]; its ends lie on both rim and sides.
+    """
+
+    points: FloatArray
+    rim: IntArray
+    across: FloatArray
+
+
+def _outline(reach: float, h: float) -> Outline:
+    notch = HALF_WIDTH / np.sin(np.pi / 3)
+    points, rims, across = [], [], []
+    for k, direction in enumerate(DIRECTIONS):
+        out = np.array([np.cos(direction), np.sin(direction)])
+        side = np.array([-out[1], out[0]])
+        share = np.linspace(-1, 1, max(4, round(2 * HALF_WIDTH / h)) + 1)
+        rim = reach * out + HALF_WIDTH * share[:, None] * side
+        corner = notch * np.array([np.cos(direction + np.pi / 3), np.sin(direction + np.pi / 3)])
+        turn = DIRECTIONS[(k + 1) % 3]
+        following = np.array([np.cos(turn), np.sin(turn)])
+        landing = reach * following - HALF_WIDTH * np.array([-following[1], following[0]])
+        sides = np.vstack([_between(rim[-1], corner, h), corner, _between(corner, landing, h)])
+        points += [rim, sides]
+        rims += [np.full(len(rim), k), np.full(len(sides), -1)]
+        across += [share, np.zeros(len(sides))]
+    return Outline(np.vstack(points), np.concatenate(rims), np.concatenate(across))
+
+
+def _between(start: FloatArray, end: FloatArray, h: float) -> FloatArray:
+    """Evenly spaced points strictly between."""
+    count = max(2, round(float(np.linalg.norm(end - start)) / h))
+    share = np.arange(1, count)[:, None] / count
+    return start + share * (end - start)
+
+
+def _inside(outline: FloatArray, points: FloatArray) -> NDArray[np.bool_]:
+    """Even-odd test of points (k, 2) in a polygon."""
+    x, y = points[:, 0], points[:, 1]
+    inside = np.zeros(len(points), dtype=bool)
+    for (ax, ay), (bx, by) in zip(outline, np.roll(outline, -1, axis=0), strict=True):
+        if ay != by:
+            inside ^= ((ay > y) != (by > y)) & (x < (bx - ax) * (y - ay) / (by - ay) + ax)
+    return inside
+
+
+def _sheet(outline: FloatArray, h: float, jitter: float, rng: np.random.Generator) -> FloatArray:
+    """Jittered hexagonal points of random phase and direction, 0.6 h clear of the outline."""
+    reach = int(2 * np.abs(outline).max() / h) + 2
+    i, j = np.meshgrid(np.arange(-reach, reach + 1), np.arange(-reach, reach + 1))
+    lattice = np.column_stack([(i + 0.5 * (j % 2)).ravel(), (0.5 * np.sqrt(3) * j).ravel()])
+    turn = rng.random() * np.pi / 3
+    rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+    shaken = lattice + jitter * (rng.random(lattice.shape) - 0.5)
+    points = h * (shaken + rng.random(2)) @ rotation.T
+    refined = np.vstack(
+        [outline + s * (np.roll(outline, -1, 0) - outline) for s in (0, 0.33, 0.67)]
+    )
+    clear = cKDTree(refined).query(points)[0] > 0.6 * h
+    points = points[clear]
+    points = points[_inside(outline, points)]
+    return np.asarray(points[thinned(points, np.full(len(points), 0.6 * h))])
+
+
+def _triangulated(outline: FloatArray, sheet: FloatArray) -> IntArray:
+    """Delaunay triangles inside the Y, outline vertices first, counter-clockwise."""
+    points = np.vstack([outline, sheet])
+    triangles = Delaunay(points).simplices.astype(np.int64)
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    doubled = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
+    triangles[doubled < 0] = triangles[doubled < 0][:, [0, 2, 1]]
+    keep = _inside(outline, points[triangles].mean(axis=1)) & (np.abs(doubled) > 1e-9)
+    return np.asarray(triangles[keep])
+
+
+def _on_circle(outline: Outline, which: IntArray, up: int) -> FloatArray:
+    """Unit normals (k, 3) of the cylinders at rim points of the upper (1) or lower (−1) sheet."""
+    angle = 0.5 * np.pi * outline.across[which]
+    direction = DIRECTIONS[outline.rim[which]]
+    side = np.column_stack([-np.sin(direction), np.cos(direction)])
+    return np.column_stack([np.sin(angle)[:, None] * side, up * np.cos(angle)])
+
+
+def cylinder_blend(n_free: int, *, jitter: float = 0.6, seed: int = 0, reach: float = 2.0) -> Blend:
+    """An irregular mesh with about n_free free vertices; jitter 0 gives the regular kind."""
+    h = np.sqrt(2 * (9.0 * reach - 8.0) / (0.5 * np.sqrt(3) * n_free))
+    for _ in range(8):
+        blend = _blend(h, jitter, seed, reach)
+        count = len(blend.vertices) - len(blend.fixed)
+        if abs(count - n_free) < 0.005 * n_free:
+            break
+        h *= np.sqrt(count / n_free)
+    return blend
+
+
+def _blend(h: float, jitter: float, seed: int, reach: float) -> Blend:
+    rng = np.random.default_rng(seed)
+    flat = _outline(reach, h)
+    sheets = [_sheet(flat.points, h, jitter, rng) for _ in range(2)]
+    upper, lower = (_triangulated(flat.points, sheet) for sheet in sheets)
+    corners = len(flat.points)
+    return _glued(flat, upper, lower, (corners, len(sheets[0]), len(sheets[1])), reach)
+
+
+def _glued(
+    flat: Outline, upper: IntArray, lower: IntArray, sizes: tuple[int, int, int], reach: float
+) -> Blend:
+    """Both sheets in one mesh: the sides are shared, the open rim points exist twice."""
+    corners, above, below = sizes
+    doubled = np.flatnonzero((flat.rim >= 0) & (np.abs(flat.across) < 1 - 1e-9))
+    lower_index = np.arange(corners + below)
+    lower_index[doubled] = corners + above + np.arange(len(doubled))
+    lower_index[corners:] = corners + above + len(doubled) + np.arange(below)
+    triangles = np.vstack([upper, lower_index[lower][:, ::-1]])
+    rim = np.flatnonzero(flat.rim >= 0)
+    fixed = np.concatenate([rim, lower_index[doubled]])
+    normals = np.vstack([_on_circle(flat, rim, 1), _on_circle(flat, doubled, -1)])
+    direction = DIRECTIONS[np.concatenate([flat.rim[rim], flat.rim[doubled]])]
+    axis = np.column_stack([np.cos(direction), np.sin(direction), 0 * direction])
+    vertices = np.zeros((corners + above + len(doubled) + below, 3))
+    vertices[fixed] = normals + reach * axis
+    return Blend(membrane(vertices, triangles, fixed), triangles, fixed, normals)
