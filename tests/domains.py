@@ -238,8 +238,8 @@ def interior(
     near = 0.4 * size / np.sqrt(max(style.aspect, 1 / style.aspect))
     keep = contains(domain, st) & (clearance(domain, st, loops) > near)
     st, size, near = st[keep], size[keep], near[keep]
-    if not len(st):
-        return st
+    if len(st) == 0:
+        return np.empty((0, 2))
     moved = jittered(domain, st, size, style, rng)
     stays = ~contains(domain, moved) | (clearance(domain, moved, loops) < near)
-    return np.where(stays[:, None], st, moved)
+    return np.asarray(np.where(stays[:, None], st, moved))

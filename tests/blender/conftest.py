@@ -1,0 +1,49 @@
+"""Installs the packaged zip into a scratch Blender once; every test starts from an empty file."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+# Before bpy is imported: it looks for its folders then.
+SCRATCH = Path(tempfile.mkdtemp(prefix="fairing-blender-"))
+os.environ["BLENDER_USER_RESOURCES"] = str(SCRATCH)
+sys.path.insert(0, str(Path(__file__).parent))
+
+import bpy  # noqa: E402
+
+PACKAGES = Path(__file__).parents[2] / "build" / "package"
+
+
+def _zip() -> Path:
+    given = os.environ.get("FAIRING_ZIP")
+    found = [Path(given)] if given else sorted(PACKAGES.glob("*.zip"))
+    if len(found) != 1 or not found[0].is_file():
+        pytest.exit("run scripts/package first: the tests use the zip that it builds", 2)
+    return found[0]
+
+
+@pytest.fixture(scope="session", autouse=True)
+def extension() -> Iterator[None]:
+    """Install and enable the zip, wheel included, and make sure that this wheel is the one used."""
+    bpy.ops.extensions.package_install_files(
+        repo="user_default", filepath=str(_zip()), enable_on_install=True, overwrite=True
+    )
+    import fairing
+
+    assert Path(fairing.__file__).is_relative_to(SCRATCH)
+    yield
+    shutil.rmtree(SCRATCH, ignore_errors=True)
+
+
+@pytest.fixture(autouse=True)
+def empty_file(extension: None) -> None:
+    """Start from nothing, with no report left over."""
+    bpy.ops.wm.read_homefile(use_empty=True)
+    bpy.context.tool_settings.mesh_select_mode = (False, False, True)

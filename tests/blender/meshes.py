@@ -1,0 +1,167 @@
+"""Objects to fair, selections, and the bytes of a mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+import bmesh
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+# How each attribute type is read: name of the value, numbers per element, numpy type.
+_LAYOUT: dict[str, tuple[str, int, Any]] = {
+    "FLOAT": ("value", 1, np.float32),
+    "INT": ("value", 1, np.int32),
+    "INT8": ("value", 1, np.int32),
+    "BOOLEAN": ("value", 1, bool),
+    "FLOAT2": ("vector", 2, np.float32),
+    "FLOAT_VECTOR": ("vector", 3, np.float32),
+    "FLOAT_COLOR": ("color", 4, np.float32),
+    "BYTE_COLOR": ("color", 4, np.float32),
+    "INT32_2D": ("value", 2, np.int32),
+    "INT16_2D": ("value", 2, np.int32),
+    "QUATERNION": ("value", 4, np.float32),
+    "FLOAT4X4": ("value", 16, np.float32),
+}
+
+
+def add(points: Any, faces: Sequence[Sequence[int]], name: str = "Patch") -> bpy.types.Object:
+    """Add a mesh object and make it the active one."""
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata([tuple(map(float, p)) for p in points], [], [list(f) for f in faces])
+    obj = bpy.data.objects.new(name, mesh)
+    bpy.context.collection.objects.link(obj)
+    for other in bpy.context.view_layer.objects:
+        other.select_set(other == obj)
+    bpy.context.view_layer.objects.active = obj
+    return obj
+
+
+def sphere(segments: int = 48, centre: Sequence[float] = (0.0, 0.0, 0.0)) -> bpy.types.Object:
+    """Add a unit sphere of quads with triangles at the poles and a rim of vertices at z = 0."""
+    mesh = bpy.data.meshes.new("Sphere")
+    bm = bmesh.new()
+    bmesh.ops.create_uvsphere(bm, u_segments=segments, v_segments=segments // 2, radius=1.0)
+    points = np.array([v.co for v in bm.verts])
+    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    faces = [[v.index for v in face.verts] for face in bm.faces]
+    bm.free()
+    bpy.data.meshes.remove(mesh)
+    return add(points + np.array(centre), faces, "Sphere")
+
+
+def grid(size: int = 8) -> bpy.types.Object:
+    """Add a flat square grid of size × size quads over [−1, 1]²."""
+    steps = np.linspace(-1.0, 1.0, size + 1)
+    points = [(x, y, 0.0) for y in steps for x in steps]
+    corner = lambda i, j: j * (size + 1) + i  # noqa: E731
+    faces = [
+        (corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1))
+        for j in range(size)
+        for i in range(size)
+    ]
+    return add(points, faces, "Grid")
+
+
+def positions(obj: bpy.types.Object) -> Floats:
+    """Return the (n, 3) positions of a mesh in object mode."""
+    flat = np.empty(3 * len(obj.data.vertices), dtype=np.float32)
+    obj.data.vertices.foreach_get("co", flat)
+    return flat.reshape(-1, 3).astype(np.float64)
+
+
+def move(obj: bpy.types.Object, points: Any) -> None:
+    """Set all positions of a mesh in object mode."""
+    obj.data.vertices.foreach_set("co", np.asarray(points, dtype=np.float32).ravel())
+    obj.data.update()
+
+
+def faces_where(obj: bpy.types.Object, chosen: Callable[[Any], bool]) -> Mask:
+    """Return the mask of the polygons whose centre `chosen` accepts."""
+    return np.array([bool(chosen(polygon.center)) for polygon in obj.data.polygons])
+
+
+def select(obj: bpy.types.Object, faces: Mask) -> None:
+    """Select exactly these faces of a mesh in object mode, and their edges and vertices."""
+    data = obj.data
+    vertices = np.zeros(len(data.vertices), dtype=bool)
+    edges = np.zeros(len(data.edges), dtype=bool)
+    corners = [(data.loops[i].vertex_index, data.loops[i].edge_index)
+               for face in np.flatnonzero(faces) for i in data.polygons[face].loop_indices]
+    for vertex, edge in corners:
+        vertices[vertex] = edges[edge] = True
+    data.polygons.foreach_set("select", faces)
+    data.edges.foreach_set("select", edges)
+    data.vertices.foreach_set("select", vertices)
+
+
+def free_vertices(obj: bpy.types.Object, faces: Mask) -> Mask:
+    """Return the vertices with chosen faces only, for a mesh without open border in them."""
+    inside = np.zeros(len(obj.data.vertices), dtype=bool)
+    outside = inside.copy()
+    for polygon, chosen in zip(obj.data.polygons, faces, strict=True):
+        (inside if chosen else outside)[list(polygon.vertices)] = True
+    return inside & ~outside
+
+
+def edit(*objects: bpy.types.Object) -> None:
+    """Enter edit mode with these objects."""
+    for obj in bpy.context.view_layer.objects:
+        obj.select_set(obj in objects)
+    bpy.context.view_layer.objects.active = objects[0]
+    bpy.ops.object.mode_set(mode="EDIT")
+
+
+def leave() -> None:
+    """Go back to object mode."""
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def fair(obj: bpy.types.Object, faces: Mask, **properties: Any) -> set[str]:
+    """Run the operator on the faces, from and to object mode."""
+    select(obj, faces)
+    edit(obj)
+    try:
+        return run(**properties)
+    finally:
+        leave()
+
+
+def run(**properties: Any) -> set[str]:
+    """Run the operator in edit mode, with an undo step as from the user interface."""
+    status: set[str] = bpy.ops.mesh.fair_region("EXEC_DEFAULT", True, **properties)
+    return status
+
+
+def report() -> Any:
+    """Return the last run's report."""
+    return bpy.context.window_manager.fairing_report
+
+
+def contents(obj: bpy.types.Object) -> dict[str, bytes]:
+    """Return every attribute, weight and shape key of a mesh in object mode as bytes."""
+    data = {f"{a.domain} {a.name}": _bytes(a.data, *_LAYOUT[a.data_type])
+            for a in obj.data.attributes}
+    sizes = np.empty(len(obj.data.polygons), dtype=np.int32)
+    obj.data.polygons.foreach_get("loop_total", sizes)
+    data["sizes"] = sizes.tobytes()
+    groups = [[(g.group, g.weight) for g in v.groups] for v in obj.data.vertices]
+    data["weights"] = repr(groups).encode()
+    for block in _blocks(obj.data):
+        data[f"key {block.name}"] = _bytes(block.data, "co", 3, np.float32)
+    return data
+
+
+def _blocks(mesh: bpy.types.Mesh) -> Iterable[Any]:
+    return mesh.shape_keys.key_blocks if mesh.shape_keys else ()
+
+
+def _bytes(items: Any, name: str, width: int, dtype: Any) -> bytes:
+    values = np.empty(len(items) * width, dtype=dtype)
+    items.foreach_get(name, values)
+    return values.tobytes()

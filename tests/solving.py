@@ -1,0 +1,44 @@
+"""Fairing of exact patches from their boundary alone, cached for the tests that look at it."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+import fairing
+
+import blend
+import shapes
+from shapes import Patch, Style
+
+TIGHT = 1e-10
+
+
+def fair_patch(patch: Patch, **options: Any) -> fairing.Result:
+    """The patch from its outline and the normals there, starting from a membrane."""
+    settings: dict[str, Any] = {"tolerance": TIGHT, **options}
+    return fairing.fair(
+        shapes.start_from_nothing(patch), patch.triangles,
+        fixed=patch.fixed, fixed_normals=patch.fixed_normals, **settings,
+    )  # fmt: skip
+
+
+@lru_cache(maxsize=64)
+def solved(family: str, n_free: int, style: Style | None = None) -> tuple[Patch, fairing.Result]:
+    """A patch of the family and its fair surface with uniform inner fairness."""
+    patch = shapes.FAMILIES[family](n_free, style or Style())
+    return patch, fair_patch(patch)
+
+
+def fair_blend(patch: blend.Blend, **options: Any) -> fairing.Result:
+    """The three-cylinder blend from its rims."""
+    settings: dict[str, Any] = {"tolerance": TIGHT, **options}
+    return fairing.fair(
+        patch.vertices, patch.triangles,
+        fixed=patch.fixed, fixed_normals=patch.fixed_normals, **settings,
+    )  # fmt: skip
+
+
+def codes(result: fairing.Result) -> set[str]:
+    """Codes of the warnings."""
+    return {warning.code for warning in result.warnings}

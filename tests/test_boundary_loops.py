@@ -1,0 +1,44 @@
+"""`fairing.boundary_loops`: every border vertex once, loops in order along the border."""
+
+from __future__ import annotations
+
+import fairing
+import numpy as np
+import pytest
+
+import bad_inputs
+import blend
+import measures
+import shapes
+from meshing import IntArray
+
+
+def check(triangles: IntArray, count: int) -> None:
+    loops = fairing.boundary_loops(triangles)
+    assert len(loops) == count
+    border = {tuple(edge) for edge in measures.border_edges(triangles).tolist()}
+    steps = [
+        (int(a), int(b)) for loop in loops for a, b in zip(loop, np.roll(loop, -1), strict=True)
+    ]
+    assert len(steps) == len(set(steps)) == len(border)
+    assert set(steps) in (border, {(b, a) for a, b in border})
+
+
+@pytest.mark.parametrize(
+    ("name", "count"), [("cap", 1), ("cylinder", 2), ("plane", 1), ("torus", 1)]
+)
+def test_loops_of_patches(name: str, count: int) -> None:
+    check(getattr(shapes, name)(200).triangles, count)
+
+
+def test_three_rims_of_the_blend() -> None:
+    check(blend.cylinder_blend(820).triangles, 3)
+
+
+def test_closed_meshes_have_none() -> None:
+    assert fairing.boundary_loops(bad_inputs.closed_ball()[1]) == []
+
+
+def test_moebius_strip_has_one() -> None:
+    loops = fairing.boundary_loops(bad_inputs.moebius_strip().triangles)
+    assert [len(loop) for loop in loops] == [60]

@@ -1,0 +1,77 @@
+"""The contract of `progress`: fractions, cancelling, exceptions; inputs stay intact."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import fairing
+import numpy as np
+import pytest
+
+import shapes
+
+PATCH = shapes.catenoid(500)
+START = shapes.start_from_nothing(PATCH)
+
+
+def run(progress: Callable[[float, str], bool | None] | None) -> fairing.Result:
+    start, triangles = START.copy(), PATCH.triangles.copy()
+    try:
+        return fairing.fair(
+            start, triangles, fixed=PATCH.fixed, fixed_normals=PATCH.fixed_normals,
+            tolerance=1e-10, progress=progress,
+        )  # fmt: skip
+    finally:
+        assert np.array_equal(start, START)
+        assert np.array_equal(triangles, PATCH.triangles)
+
+
+def recorded() -> list[tuple[float, str]]:
+    calls: list[tuple[float, str]] = []
+    run(lambda fraction, stage: calls.append((fraction, stage)))
+    return calls
+
+
+def test_fractions_rise_from_zero_to_one_and_stages_have_names() -> None:
+    calls = recorded()
+    fractions = np.array([fraction for fraction, _ in calls])
+    assert len(calls) >= 5
+    assert fractions.min() >= 0
+    assert fractions.max() <= 1
+    assert (np.diff(fractions) >= 0).all()
+    assert all(isinstance(stage, str) and stage for _, stage in calls)
+
+
+def test_result_does_not_depend_on_the_callback() -> None:
+    assert np.array_equal(run(None).vertices, run(lambda fraction, stage: True).vertices)
+    assert np.array_equal(run(None).vertices, run(lambda fraction, stage: None).vertices)
+
+
+def test_false_cancels_at_any_call() -> None:
+    total = len(recorded())
+    for last in sorted({1, 2, total // 2, total}):
+        calls: list[float] = []
+
+        def stop(fraction: float, stage: str, last: int = last, calls: list[float] = calls) -> bool:
+            calls.append(fraction)
+            return len(calls) < last
+
+        with pytest.raises(fairing.Cancelled):
+            run(stop)
+        assert len(calls) == last
+
+
+def test_exceptions_of_the_callback_come_through() -> None:
+    class Mine(Exception):
+        pass
+
+    def fail(fraction: float, stage: str) -> bool:
+        raise Mine(stage)
+
+    with pytest.raises(Mine):
+        run(fail)
+
+
+def test_cancelled_is_not_a_value_error() -> None:
+    assert issubclass(fairing.Cancelled, Exception)
+    assert not issubclass(fairing.Cancelled, ValueError)

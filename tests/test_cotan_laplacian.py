@@ -1,0 +1,71 @@
+"""`fairing.cotan_laplacian`: identities of the matrix with entries −(cot α + cot β), no ½."""
+
+from __future__ import annotations
+
+import fairing
+import numpy as np
+import pytest
+from scipy.sparse import coo_array, csr_array
+
+import shapes
+from curves import FloatArray
+from meshing import IntArray
+from shapes import Patch, Style
+
+
+def stiffness(patch: Patch) -> csr_array:
+    rows, columns, values = fairing.cotan_laplacian(patch.vertices, patch.triangles)
+    count = len(patch.vertices)
+    return coo_array((values, (rows, columns)), shape=(count, count)).tocsr()
+
+
+def reference(vertices: FloatArray, triangles: IntArray) -> FloatArray:
+    """The same matrix, dense, corner by corner."""
+    result = np.zeros((len(vertices), len(vertices)))
+    for k in range(3):
+        apex, i, j = (triangles[:, (k + turn) % 3] for turn in range(3))
+        a, b = vertices[i] - vertices[apex], vertices[j] - vertices[apex]
+        cot = (a * b).sum(axis=1) / np.linalg.norm(np.cross(a, b), axis=1)
+        for p, q, sign in ((i, j, -1), (j, i, -1), (i, i, 1), (j, j, 1)):
+            np.add.at(result, (p, q), sign * cot)
+    return result
+
+
+@pytest.mark.parametrize("style", [Style(), Style(flips=0.3), Style(aspect=5.0)])
+def test_entries(style: Style) -> None:
+    patch = shapes.catenoid(200, style)
+    expected = reference(patch.vertices, patch.triangles)
+    assert np.abs(stiffness(patch).toarray() - expected).max() < 1e-11 * np.abs(expected).max()
+
+
+def test_symmetric_and_semidefinite_with_constants_as_kernel() -> None:
+    matrix = stiffness(shapes.torus(200)).toarray()
+    assert np.abs(matrix - matrix.T).max() < 1e-12
+    assert np.abs(matrix.sum(axis=1)).max() < 1e-11
+    values = np.linalg.eigvalsh(matrix)
+    assert abs(values[0]) < 1e-11
+    assert values[1] > 1e-6
+
+
+def test_linear_functions_are_harmonic_on_a_flat_mesh() -> None:
+    patch = shapes.plane(300, Style(flips=0.2))
+    residual = stiffness(patch) @ patch.vertices
+    assert np.abs(residual[patch.free]).max() < 1e-11
+
+
+def test_energy_of_a_linear_function_is_twice_the_area() -> None:
+    """xᵀ S x = 2 ∫ |∇x|²."""
+    patch = shapes.plane(300)
+    height = patch.vertices[:, 2]
+    corners = patch.vertices[patch.triangles]
+    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    area = 0.5 * np.linalg.norm(cross, axis=1).sum()
+    assert height @ (stiffness(patch) @ height) == pytest.approx(2 * area, rel=1e-12)
+
+
+def test_invariant_under_scale_and_winding() -> None:
+    patch = shapes.catenoid(200)
+    rows, columns, values = fairing.cotan_laplacian(1e5 * patch.vertices, patch.triangles[:, ::-1])
+    count = len(patch.vertices)
+    other = coo_array((values, (rows, columns)), shape=(count, count)).toarray()
+    assert np.abs(other - stiffness(patch).toarray()).max() < 1e-10

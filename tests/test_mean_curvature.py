@@ -1,0 +1,97 @@
+"""`fairing.mean_curvature`: sign, exactness on spheres, consistency on irregular meshes."""
+
+from __future__ import annotations
+
+import fairing
+import numpy as np
+import pytest
+
+import measures
+import shapes
+from curves import FloatArray
+from shapes import Patch, Style
+
+STYLES = {
+    "jittered": Style(),
+    "valence 3": Style(valence3=0.2),
+    "flipped": Style(flips=0.2),
+    "random": Style(layout="random"),
+}
+
+
+def curvature(patch: Patch, **options: str) -> FloatArray:
+    return fairing.mean_curvature(
+        patch.vertices, patch.triangles,
+        fixed=patch.fixed, fixed_normals=patch.fixed_normals, **options,
+    )  # fmt: skip
+
+
+def rms_error(patch: Patch, **options: str) -> float:
+    """Over the free vertices, relative to the largest exact curvature."""
+    error = (curvature(patch, **options) - patch.mean_curvature)[patch.free]
+    return float(np.sqrt((error**2).mean()) / np.abs(patch.mean_curvature).max())
+
+
+@pytest.mark.parametrize("style", STYLES)
+def test_exact_on_spheres_at_every_vertex(style: str) -> None:
+    """Max's normal is exact there, so is every κ_j; 1e-9 is the regularisation of the fit."""
+    patch = shapes.cap(500, STYLES[style], radius=2.0)
+    assert np.abs(curvature(patch) + 0.5).max() < 1e-7
+
+
+def test_zero_on_planes() -> None:
+    assert np.abs(curvature(shapes.plane(300))).max() < 1e-12
+
+
+def test_sign_follows_the_side_of_the_normals() -> None:
+    patch = shapes.cylinder(500)
+    inward = fairing.mean_curvature(
+        patch.vertices, patch.triangles[:, ::-1],
+        fixed=patch.fixed, fixed_normals=-patch.fixed_normals,
+    )  # fmt: skip
+    assert curvature(patch).mean() == pytest.approx(-0.5, abs=0.02)
+    assert np.abs(inward + curvature(patch)).max() < 1e-9
+
+
+def test_scales_with_the_inverse_length() -> None:
+    patch = shapes.catenoid(300)
+    larger = fairing.mean_curvature(
+        1e3 * patch.vertices, patch.triangles,
+        fixed=patch.fixed, fixed_normals=patch.fixed_normals,
+    )  # fmt: skip
+    assert np.abs(1e3 * larger - curvature(patch)).max() < 1e-9
+
+
+@pytest.mark.parametrize("style", ["jittered", "flipped", "random"])
+@pytest.mark.parametrize("name", ["cylinder", "unduloid", "linear_flux", "torus", "clothoid"])
+def test_error_falls_with_the_edge_length(name: str, style: str) -> None:
+    """First order in the worst case (one-ring fit); averaged normals: order 0."""
+    coarse, fine = (getattr(shapes, name)(n, STYLES[style]) for n in (500, 4000))
+    errors = rms_error(coarse), rms_error(fine)
+    assert measures.observed_order((len(coarse.free), len(fine.free)), errors) > 0.7
+
+
+def test_averaged_normals_do_not_converge() -> None:
+    """Why the fitted ones are the default: 30 times the error at 4k, and no better than at 500."""
+    coarse, fine = shapes.cylinder(500), shapes.cylinder(4000)
+    averaged = rms_error(coarse, normals="averaged"), rms_error(fine, normals="averaged")
+    assert averaged[1] > 0.6 * averaged[0]
+    assert averaged[1] > 5 * rms_error(fine)
+
+
+def test_border_is_fixed_by_default() -> None:
+    """Without normals the border has those of the patch itself; the rest does not change."""
+    patch = shapes.cap(500)
+    alone = fairing.mean_curvature(patch.vertices, patch.triangles)
+    assert alone.shape == (len(patch.vertices),)
+    away = np.setdiff1d(patch.free, rings_from(patch, 2))
+    assert np.abs(alone[away] + 1).max() < 1e-7
+
+
+def rings_from(patch: Patch, count: int) -> FloatArray:
+    """The fixed vertices and this many rings of neighbours."""
+    near = np.isin(np.arange(len(patch.vertices)), patch.fixed)
+    for _ in range(count):
+        touched = patch.triangles[near[patch.triangles].any(axis=1)]
+        near[touched.ravel()] = True
+    return np.flatnonzero(near)

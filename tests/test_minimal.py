@@ -1,0 +1,56 @@
+"""H = 0: a catenoid from its rims' positions alone, whatever normals are given."""
+
+from __future__ import annotations
+
+import fairing
+import numpy as np
+import pytest
+
+import measures
+import shapes
+
+
+def minimal(patch: shapes.Patch) -> fairing.Result:
+    return fairing.fair(
+        shapes.start_from_nothing(patch), patch.triangles,
+        fixed=patch.fixed, equation="minimal", tolerance=1e-10,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(("n_free", "goal"), [(1000, 2e-4), (4000, 5e-5)])
+def test_catenoid_from_positions_only(n_free: int, goal: float) -> None:
+    patch = shapes.catenoid(n_free)
+    result = minimal(patch)
+    assert result.converged
+    assert patch.error(result.vertices) <= goal
+
+
+def test_error_falls_with_the_edge_length() -> None:
+    patches = shapes.catenoid(500), shapes.catenoid(2000)
+    errors = [patch.error(minimal(patch).vertices) for patch in patches]
+    counts = len(patches[0].free), len(patches[1].free)
+    assert measures.observed_order(counts, (errors[0], errors[1])) >= 1.2
+
+
+def test_mean_curvature_vanishes() -> None:
+    """At free vertices the discrete H itself is the equation; residual is |H| D."""
+    patch = shapes.catenoid(500)
+    result = minimal(patch)
+    assert np.abs(result.mean_curvature[patch.free]).max() * patch.diameter < 1e-6
+    assert result.residual < 1e-6
+
+
+def test_flat_outline_gives_a_plane() -> None:
+    patch = shapes.plane(300)
+    assert patch.error(minimal(patch).vertices) < 1e-9
+
+
+def test_prescribed_normals_do_not_matter() -> None:
+    patch = shapes.catenoid(500)
+    start = shapes.start_from_nothing(patch)
+    wrong = np.tile([0.0, 0.0, 1.0], (len(patch.fixed), 1))
+    tilted = fairing.fair(
+        start, patch.triangles, fixed=patch.fixed, fixed_normals=wrong,
+        equation="minimal", tolerance=1e-10,
+    )  # fmt: skip
+    assert np.abs(tilted.vertices - minimal(patch).vertices).max() < 1e-7 * patch.diameter
