@@ -14,7 +14,7 @@ from shapes import Patch, Style
 TIGHT = 1e-10
 
 
-def fair_patch(patch: Patch, **options: Any) -> fairing.Result:
+def fair_patch(patch: Patch, **options: Any) -> fairing.FairResult:
     """The patch from its outline and the normals there, starting from a membrane."""
     settings: dict[str, Any] = {"tolerance": TIGHT, **options}
     return fairing.fair(
@@ -24,13 +24,15 @@ def fair_patch(patch: Patch, **options: Any) -> fairing.Result:
 
 
 @lru_cache(maxsize=64)
-def solved(family: str, n_free: int, style: Style | None = None) -> tuple[Patch, fairing.Result]:
+def solved(
+    family: str, n_free: int, style: Style | None = None
+) -> tuple[Patch, fairing.FairResult]:
     """A patch of the family and its fair surface with uniform inner fairness."""
     patch = shapes.FAMILIES[family](n_free, style or Style())
     return patch, fair_patch(patch)
 
 
-def fair_blend(patch: blend.Blend, **options: Any) -> fairing.Result:
+def fair_blend(patch: blend.Blend, **options: Any) -> fairing.FairResult:
     """The three-cylinder blend from its rims."""
     settings: dict[str, Any] = {"tolerance": TIGHT, **options}
     return fairing.fair(
@@ -39,6 +41,6 @@ def fair_blend(patch: blend.Blend, **options: Any) -> fairing.Result:
     )  # fmt: skip
 
 
-def codes(result: fairing.Result) -> set[str]:
+def codes(result: fairing.FairResult) -> set[str]:
     """Codes of the warnings."""
     return {warning.code for warning in result.warnings}

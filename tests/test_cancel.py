@@ -14,7 +14,7 @@ PATCH = shapes.catenoid(500)
 START = shapes.start_from_nothing(PATCH)
 
 
-def run(progress: Callable[[float, str], bool | None] | None) -> fairing.Result:
+def run(progress: Callable[[float, str], bool | None] | None) -> fairing.FairResult:
     start, triangles = START.copy(), PATCH.triangles.copy()
     try:
         return fairing.fair(
@@ -62,13 +62,13 @@ def test_false_cancels_at_any_call() -> None:
 
 
 def test_exceptions_of_the_callback_come_through() -> None:
-    class Mine(Exception):
+    class MineError(Exception):
         pass
 
     def fail(fraction: float, stage: str) -> bool:
-        raise Mine(stage)
+        raise MineError(stage)
 
-    with pytest.raises(Mine):
+    with pytest.raises(MineError):
         run(fail)
 
 

@@ -9,6 +9,7 @@ import pytest
 import measures
 import shapes
 from curves import FloatArray
+from meshing import IntArray
 from shapes import Patch, Style
 
 STYLES = {
@@ -88,7 +89,7 @@ def test_border_is_fixed_by_default() -> None:
     assert np.abs(alone[away] + 1).max() < 1e-7
 
 
-def rings_from(patch: Patch, count: int) -> FloatArray:
+def rings_from(patch: Patch, count: int) -> IntArray:
     """The fixed vertices and this many rings of neighbours."""
     near = np.isin(np.arange(len(patch.vertices)), patch.fixed)
     for _ in range(count):

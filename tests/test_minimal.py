@@ -10,7 +10,7 @@ import measures
 import shapes
 
 
-def minimal(patch: shapes.Patch) -> fairing.Result:
+def minimal(patch: shapes.Patch) -> fairing.FairResult:
     return fairing.fair(
         shapes.start_from_nothing(patch), patch.triangles,
         fixed=patch.fixed, equation="minimal", tolerance=1e-10,

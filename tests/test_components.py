@@ -1,0 +1,56 @@
+"""Islands are solved each on its own: the same alone and together."""
+
+from __future__ import annotations
+
+import fairing
+import numpy as np
+
+import shapes
+from shapes import Patch, Style
+
+
+def alone(patch: Patch, shift: float) -> fairing.FairResult:
+    return fairing.fair(
+        patch.vertices + shift, patch.triangles,
+        fixed=patch.fixed, fixed_normals=patch.fixed_normals, tolerance=1e-10,
+    )  # fmt: skip
+
+
+def test_islands_together_are_the_islands_alone() -> None:
+    patches = [shapes.cap(300), shapes.catenoid(400), shapes.clothoid(200, Style(seed=3))]
+    shifts = [0.0, 4.0, 11.0]
+    offsets = np.cumsum([0] + [len(patch.vertices) for patch in patches])
+    together = fairing.fair(
+        np.vstack([patch.vertices + s for patch, s in zip(patches, shifts, strict=True)]),
+        np.vstack([patch.triangles + o for patch, o in zip(patches, offsets[:-1], strict=True)]),
+        fixed=np.concatenate([p.fixed + o for p, o in zip(patches, offsets[:-1], strict=True)]),
+        fixed_normals=np.vstack([patch.fixed_normals for patch in patches]),
+        tolerance=1e-10,
+    )
+    results = [alone(patch, shift) for patch, shift in zip(patches, shifts, strict=True)]
+    expected = np.vstack([result.vertices for result in results])
+    assert np.abs(together.vertices - expected).max() < 1e-9
+    assert together.iterations == max(result.iterations for result in results)
+    assert together.converged
+    assert together.residual == max(result.residual for result in results)
+
+
+def test_lobes_that_share_an_outline_vertex_are_solved_apart() -> None:
+    patch = shapes.plane(200)
+    count, shared = len(patch.vertices), int(patch.fixed[0])
+    other = patch.triangles + count
+    other[other == shared + count] = shared
+    turned = 2 * patch.vertices[shared] - patch.vertices
+    everything = np.vstack([patch.vertices, turned])
+    used = np.unique(np.vstack([patch.triangles, other]))
+    normals = np.vstack([patch.normals, patch.normals])
+    fixed = np.setdiff1d(np.concatenate([patch.fixed, patch.fixed + count]), [shared + count])
+    start = everything.copy()
+    free = np.setdiff1d(used, fixed)
+    start[free, 0] += 0.2
+    result = fairing.fair(
+        start, np.vstack([patch.triangles, other]),
+        fixed=fixed, fixed_normals=normals[fixed], tolerance=1e-10,
+    )  # fmt: skip
+    assert np.abs(result.vertices[free] - everything[free])[:, 0].max() < 1e-9
+    assert np.array_equal(result.vertices[shared], patch.vertices[shared])

@@ -1,0 +1,107 @@
+"""Where vertices sit within the surface: Σ λ_ij q_j − q_i is parallel to the normal (§7.3)."""
+
+from __future__ import annotations
+
+import fairing
+import numpy as np
+import pytest
+
+import measures
+import shapes
+from curves import FloatArray
+from meshing import IntArray
+from shapes import Patch, Style
+from solving import fair_patch
+
+CURVED = {"cap": shapes.cap(500), "linear_flux": shapes.linear_flux(500)}
+
+
+def uniform_weights(edges: IntArray, count: int) -> FloatArray:
+    """λ (count, count), dense, 1/m."""
+    weights = np.zeros((count, count))
+    weights[edges[:, 0], edges[:, 1]] = weights[edges[:, 1], edges[:, 0]] = 1.0
+    return np.asarray(weights / np.maximum(weights.sum(axis=1), 1.0)[:, None])
+
+
+def tangential_imbalance(patch: Patch, result: fairing.FairResult, weights: FloatArray) -> float:
+    """Largest tangential part of Σ λ_ij q_j − q_i over the free vertices, over the mean edge."""
+    ends = result.vertices[measures.edges(patch.triangles)]
+    edge = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).mean()
+    normals = fairing.vertex_normals(result.vertices, patch.triangles)
+    delta = weights @ result.vertices - result.vertices
+    tangential = delta - (delta * normals).sum(axis=1)[:, None] * normals
+    return float(np.linalg.norm(tangential, axis=1)[patch.free].max() / edge)
+
+
+@pytest.mark.parametrize("name", CURVED)
+def test_uniform_is_balanced(name: str) -> None:
+    """At 1e-10 D per step a vertex is within about 1e-6 edges of its place."""
+    patch = CURVED[name]
+    weights = uniform_weights(measures.edges(patch.triangles), len(patch.vertices))
+    assert tangential_imbalance(patch, fair_patch(patch), weights) < 1e-6
+    conformal = fair_patch(patch, inner_fairness="conformal", reference=patch.vertices)
+    assert tangential_imbalance(patch, conformal, weights) > 0.05
+
+
+def test_conformal_reproduces_a_planar_mesh() -> None:
+    """Harmonic weights reproduce linear functions: every flat mesh is its own fair mesh."""
+    patch = shapes.plane(500)
+    result = fair_patch(patch, inner_fairness="conformal", reference=patch.vertices)
+    assert np.abs(result.vertices - patch.vertices).max() < 1e-8
+    uniform = fair_patch(patch)
+    assert np.abs(uniform.vertices - patch.vertices).max() > 1e-2
+
+
+def test_conformal_uses_the_reference_not_the_start() -> None:
+    patch = shapes.plane(300)
+    stretched = patch.vertices * np.array([1.0, 1.0, 3.0])
+    plain = fair_patch(patch, inner_fairness="conformal", reference=patch.vertices)
+    other = fair_patch(patch, inner_fairness="conformal", reference=stretched)
+    assert np.abs(plain.vertices - other.vertices).max() > 1e-3
+
+
+def test_reference_defaults_to_the_vertices() -> None:
+    patch = shapes.linear_flux(300)
+    given = fairing.fair(
+        patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals,
+        inner_fairness="conformal", reference=patch.vertices,
+    )  # fmt: skip
+    default = fairing.fair(
+        patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals,
+        inner_fairness="conformal",
+    )  # fmt: skip
+    assert np.array_equal(given.vertices, default.vertices)
+
+
+def test_reference_does_not_matter_for_uniform_weights() -> None:
+    patch = shapes.cap(300)
+    noise = np.random.default_rng(0).standard_normal(patch.vertices.shape)
+    with_noise = fair_patch(patch, reference=patch.vertices + noise)
+    assert np.array_equal(with_noise.vertices, fair_patch(patch).vertices)
+
+
+def quad_edges(patch: Patch, quads: int) -> IntArray:
+    """Edges of the grid's quads: triangles k and k + quads share the diagonal of quad k."""
+    first, second = patch.triangles[:quads], patch.triangles[quads:]
+    shared = [np.intersect1d(a, b) for a, b in zip(first, second, strict=True)]
+    diagonals = {tuple(pair) for pair in np.sort(shared, axis=1).tolist()}
+    edges = measures.edges(patch.triangles)
+    return np.array([edge for edge in edges.tolist() if tuple(edge) not in diagonals])
+
+
+def test_neighbours_of_quads_leave_the_diagonals_out() -> None:
+    patch = shapes.cylinder(400, Style(layout="grid", jitter=0.2))
+    edges = quad_edges(patch, len(patch.triangles) // 2)
+    assert len(edges) < len(measures.edges(patch.triangles))
+    result = fair_patch(patch, neighbours=edges)
+    weights = uniform_weights(edges, len(patch.vertices))
+    assert tangential_imbalance(patch, result, weights) < 1e-6
+    assert np.abs(result.vertices - fair_patch(patch).vertices).max() > 1e-3
+
+
+def test_the_surface_does_not_depend_on_inner_fairness() -> None:
+    """Inner and outer fairness are independent: both meshes lie on the same surface."""
+    patch = CURVED["linear_flux"]
+    conformal = fair_patch(patch, inner_fairness="conformal", reference=patch.vertices)
+    assert patch.error(conformal.vertices) < 2e-3
+    assert patch.error(fair_patch(patch).vertices) < 2e-3
