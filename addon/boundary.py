@@ -26,6 +26,7 @@ def average_normals(positions: Floats, triangles: Ints) -> Floats:
     """Return (n, 3): the normalised mean of the unit normals of the triangles at each vertex."""
     a, b, c = (positions[column] for column in triangles.T)
     normals = unit(np.cross(b - a, c - a))
+    normals[~np.isfinite(normals).all(axis=1)] = 0.0
     return unit(_sum_at_vertices(triangles.ravel(), normals.repeat(3, axis=0), len(positions)))
 
 
@@ -54,7 +55,9 @@ def surrounding_normals(mesh: MeshArrays, fixed: Ints) -> tuple[Floats, Mask]:
     the average of all their faces.
     """
     normals = average_normals(mesh.positions, mesh.triangles)[fixed]
+    usable = np.isfinite(mesh.positions).all(axis=1)
     outside = mesh.triangles[~mesh.in_patch[mesh.triangle_faces]]
+    outside = outside[usable[outside].all(axis=1)]
     touched = np.zeros(len(mesh.positions), dtype=bool)
     touched[outside] = True
     found = touched[fixed]
@@ -69,8 +72,8 @@ def surrounding_normals(mesh: MeshArrays, fixed: Ints) -> tuple[Floats, Mask]:
         mesh.positions[used], triangles.reshape(-1, 3).astype(np.int64), at
     )
     # A zero normal is one that even the average of the outside faces leaves open.
-    usable = np.flatnonzero(found)[np.linalg.norm(fitted, axis=1) > 0.5]
-    normals[usable] = fitted[np.linalg.norm(fitted, axis=1) > 0.5]
+    decided = np.linalg.norm(fitted, axis=1) > 0.5
+    normals[np.flatnonzero(found)[decided]] = fitted[decided]
     return normals, found
 
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import bpy
+import fairing
 import numpy as np
 
 from . import mesh_io
@@ -15,7 +16,7 @@ from .solve import Fairing, Progress, fair_arrays
 
 def fair_mesh(
     mesh: bpy.types.Mesh, faces: Sequence[int], *, matrix: Any = None, **properties: Any
-) -> Any:
+) -> fairing.FairResult:
     """Make the polygons `faces` of `mesh` the fair surface of their surroundings.
 
     matrix: 4×4, to the space in which the surface is fair; default: the mesh's own.
@@ -40,6 +41,6 @@ def fair_faces(
     world = np.eye(4) if matrix is None else np.array(matrix, dtype=np.float64)
     if world.shape != (4, 4):
         raise ValueError(f"matrix: expected 4×4 numbers, got shape {world.shape}")
-    fairing = fair_arrays(arrays, world, options, progress)
-    mesh_io.write_mesh(mesh, fairing.vertices, fairing.positions)
-    return fairing
+    outcome = fair_arrays(arrays, world, options, progress)
+    mesh_io.write_mesh(mesh, outcome.vertices, outcome.positions)
+    return outcome

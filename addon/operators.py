@@ -32,7 +32,7 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
 
     bl_idname = "mesh.fair_region"
     bl_label = "Fair Region"
-    bl_options = {"REGISTER", "UNDO"}
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

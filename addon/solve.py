@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
 
 import fairing
 import numpy as np
@@ -16,9 +15,6 @@ from .region import Floats, Ints, MeshArrays, Patch, island_count, make_patch, o
 
 Progress = Callable[[float, str], "bool | None"]
 
-# The codes whose elements count triangles; those of all others count vertices.
-TRIANGLE_CODES = frozenset({"NOT_ORIENTABLE", "DEGENERATE_FACE", "INCONSISTENT_WINDING"})
-
 
 @dataclass(frozen=True)
 class Fairing:
@@ -26,7 +22,7 @@ class Fairing:
 
     vertices: Ints  # (k,) mesh indices, ascending
     positions: Floats  # (k, 3)
-    result: Any  # what fairing.fair returned for the patch, in world space
+    result: fairing.FairResult  # for the patch, in world space
     warnings: tuple[str, ...]
 
 
@@ -38,9 +34,11 @@ def fair_arrays(
     Raises fairing.MeshError (its `elements` are vertices of `mesh` here), ValueError,
     fairing.SolverError and fairing.Cancelled. `mesh` is never changed.
     """
-    world = mesh.transformed(matrix)
-    patch = make_patch(world)
-    normals, warnings = prescribed_normals(world, patch, options.boundary_normals)
+    # What is not finite outside the patch is none of our business, and the engine looks inside.
+    with np.errstate(invalid="ignore", over="ignore"):
+        world = mesh.transformed(matrix)
+        patch = make_patch(world)
+        normals, warnings = prescribed_normals(world, patch, options.boundary_normals)
     with _mesh_indices(patch):
         result = fairing.fair(
             world.positions[patch.vertices],
@@ -66,17 +64,18 @@ def _mesh_indices(patch: Patch) -> Iterator[None]:
     try:
         yield
     except fairing.MeshError as error:
-        error.elements = mesh_vertices(error, patch)
-        raise
+        elements = mesh_vertices(error.diagnostic, patch).astype(np.int32)
+        diagnostic = replace(error.diagnostic, elements=elements, kind="vertex")
+        raise fairing.MeshError(diagnostic) from error
 
 
-def mesh_vertices(diagnostic: Any, patch: Patch) -> Ints:
+def mesh_vertices(diagnostic: fairing.Diagnostic, patch: Patch) -> Ints:
     """Return the mesh vertices that an error or warning of the engine is about, ascending.
 
     Edges come from the engine as pairs of vertices; triangles give their corners.
     """
-    elements = np.asarray(diagnostic.elements, dtype=np.int64).ravel()
-    if diagnostic.code in TRIANGLE_CODES:
+    elements: Ints = diagnostic.elements.astype(np.int64)
+    if diagnostic.kind == "triangle":
         elements = patch.triangles[elements].ravel()
     vertices: Ints = patch.vertices[np.unique(elements)]
     return vertices
@@ -99,5 +98,5 @@ def _to_local(positions: Floats, matrix: Floats) -> Floats:
     return local
 
 
-def _texts(diagnostics: Any) -> tuple[str, ...]:
+def _texts(diagnostics: tuple[fairing.Diagnostic, ...]) -> tuple[str, ...]:
     return tuple(str(diagnostic) for diagnostic in diagnostics)

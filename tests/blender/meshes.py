@@ -14,7 +14,7 @@ Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 # How each attribute type is read: name of the value, numbers per element, numpy type.
-_LAYOUT: dict[str, tuple[str, int, Any]] = {
+LAYOUT: dict[str, tuple[str, int, Any]] = {
     "FLOAT": ("value", 1, np.float32),
     "INT": ("value", 1, np.int32),
     "INT8": ("value", 1, np.int32),
@@ -33,7 +33,13 @@ _LAYOUT: dict[str, tuple[str, int, Any]] = {
 def add(points: Any, faces: Sequence[Sequence[int]], name: str = "Patch") -> bpy.types.Object:
     """Add a mesh object and make it the active one."""
     mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata([tuple(map(float, p)) for p in points], [], [list(f) for f in faces])
+    # Not from_pydata: setting the selection of the edges that it makes crashes Blender 5.0.1.
+    bm = bmesh.new()
+    vertices = [bm.verts.new(tuple(map(float, point))) for point in points]
+    for face in faces:
+        bm.faces.new([vertices[v] for v in face])
+    bm.to_mesh(mesh)
+    bm.free()
     obj = bpy.data.objects.new(name, mesh)
     bpy.context.collection.objects.link(obj)
     for other in bpy.context.view_layer.objects:
@@ -44,28 +50,27 @@ def add(points: Any, faces: Sequence[Sequence[int]], name: str = "Patch") -> bpy
 
 def sphere(segments: int = 48, centre: Sequence[float] = (0.0, 0.0, 0.0)) -> bpy.types.Object:
     """Add a unit sphere of quads with triangles at the poles and a rim of vertices at z = 0."""
-    mesh = bpy.data.meshes.new("Sphere")
     bm = bmesh.new()
     bmesh.ops.create_uvsphere(bm, u_segments=segments, v_segments=segments // 2, radius=1.0)
     points = np.array([v.co for v in bm.verts])
     points /= np.linalg.norm(points, axis=1, keepdims=True)
     faces = [[v.index for v in face.verts] for face in bm.faces]
     bm.free()
-    bpy.data.meshes.remove(mesh)
     return add(points + np.array(centre), faces, "Sphere")
 
 
-def grid(size: int = 8) -> bpy.types.Object:
-    """Add a flat square grid of size × size quads over [−1, 1]²."""
+def grid_points(size: int = 8) -> Floats:
+    """Return the vertices of a flat square grid of size × size quads over [−1, 1]²."""
     steps = np.linspace(-1.0, 1.0, size + 1)
-    points = [(x, y, 0.0) for y in steps for x in steps]
-    corner = lambda i, j: j * (size + 1) + i  # noqa: E731
-    faces = [
-        (corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1))
-        for j in range(size)
-        for i in range(size)
-    ]
-    return add(points, faces, "Grid")
+    return np.array([(x, y, 0.0) for y in steps for x in steps])
+
+
+def grid(size: int = 8) -> bpy.types.Object:
+    """Add the grid of `grid_points`."""
+    row = size + 1
+    starts = [row * j + i for j in range(size) for i in range(size)]
+    faces = [(start, start + 1, start + row + 1, start + row) for start in starts]
+    return add(grid_points(size), faces, "Grid")
 
 
 def positions(obj: bpy.types.Object) -> Floats:
@@ -91,13 +96,16 @@ def select(obj: bpy.types.Object, faces: Mask) -> None:
     data = obj.data
     vertices = np.zeros(len(data.vertices), dtype=bool)
     edges = np.zeros(len(data.edges), dtype=bool)
-    corners = [(data.loops[i].vertex_index, data.loops[i].edge_index)
-               for face in np.flatnonzero(faces) for i in data.polygons[face].loop_indices]
+    corners = [
+        (data.loops[i].vertex_index, data.loops[i].edge_index)
+        for face in np.flatnonzero(faces)
+        for i in data.polygons[face].loop_indices
+    ]
     for vertex, edge in corners:
         vertices[vertex] = edges[edge] = True
-    data.polygons.foreach_set("select", faces)
-    data.edges.foreach_set("select", edges)
-    data.vertices.foreach_set("select", vertices)
+    data.polygons.foreach_set("select", faces.tolist())
+    data.edges.foreach_set("select", edges.tolist())
+    data.vertices.foreach_set("select", vertices.tolist())
 
 
 def free_vertices(obj: bpy.types.Object, faces: Mask) -> Mask:
@@ -145,8 +153,9 @@ def report() -> Any:
 
 def contents(obj: bpy.types.Object) -> dict[str, bytes]:
     """Return every attribute, weight and shape key of a mesh in object mode as bytes."""
-    data = {f"{a.domain} {a.name}": _bytes(a.data, *_LAYOUT[a.data_type])
-            for a in obj.data.attributes}
+    data = {
+        f"{a.domain} {a.name}": _bytes(a.data, *LAYOUT[a.data_type]) for a in obj.data.attributes
+    }
     sizes = np.empty(len(obj.data.polygons), dtype=np.int32)
     obj.data.polygons.foreach_get("loop_total", sizes)
     data["sizes"] = sizes.tobytes()

@@ -1,0 +1,99 @@
+"""Fairs an ear off Suzanne and restores half a sphere with the packaged extension, headless."""
+
+import os
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+if "BLENDER_USER_RESOURCES" not in os.environ:  # before bpy looks for it
+    os.environ["BLENDER_USER_RESOURCES"] = tempfile.mkdtemp(prefix="fairing-demo-")
+
+import bpy
+import demo_pictures as pictures
+import demo_scenes as scenes
+import numpy as np
+
+
+def install(package: Path) -> None:
+    """Install and enable the extension's zip in Blender's scratch folder."""
+    bpy.ops.extensions.package_install_files(
+        repo="user_default", filepath=str(package), enable_on_install=True, overwrite=True
+    )
+
+
+def fair(obj: bpy.types.Object, faces: Any) -> dict[str, float]:
+    """Run the operator on the faces and return what its report says."""
+    scenes.select(obj, faces)
+    bpy.ops.mesh.fair_region("EXEC_DEFAULT")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    report = bpy.context.window_manager.fairing_report
+    names = ("free_vertices", "seconds", "residual", "boundary_angle")
+    return {name: getattr(report, name) for name in names}
+
+
+def take_pictures(out: Path, stem: str) -> list[Path]:
+    """Save the file and render it twice; returns the pictures."""
+    bpy.ops.wm.save_as_mainfile(filepath=str(out / f"{stem}.blend"), copy=True)
+    paths = [out / f"{stem}_shaded.png", out / f"{stem}_stripes.png"]
+    pictures.shaded(paths[0])
+    pictures.striped(paths[1])
+    return paths
+
+
+def before_and_after(out: Path, name: str, obj: bpy.types.Object, faces: Any) -> dict[str, float]:
+    """Picture, fair, picture; joins the four pictures into `name`.png."""
+    pictures.tint(obj.data, faces)
+    before = take_pictures(out, f"{name}_before")
+    figures = fair(obj, faces)
+    after = take_pictures(out, f"{name}_after")
+    pictures.contact_sheet(zip(before, after, strict=True), out / f"{name}.png")
+    return figures
+
+
+def ear(out: Path) -> dict[str, float]:
+    """Remove the ear by fairing."""
+    monkey = scenes.suzanne()
+    pictures.add_camera((0.3, 0.0, 0.0), (1.0, -0.75, 0.25), 2.9)
+    return before_and_after(out, "suzanne_ear", monkey, scenes.ear_faces(monkey.data))
+
+
+def hemisphere(out: Path) -> dict[str, float]:
+    """Restore the spoilt half of a sphere and measure how far it is off."""
+    sphere, upper = scenes.spoilt_sphere()
+    pictures.add_camera((0.0, 0.0, 0.0), (1.0, -1.0, 0.7), 2.4)
+    figures = before_and_after(out, "hemisphere", sphere, upper)
+    radii = np.linalg.norm(scenes.positions(sphere.data), axis=1)
+    return {**figures, "deviation": float(np.abs(radii - 1.0).max())}
+
+
+def print_table(rows: dict[str, dict[str, float]]) -> None:
+    """Print one line per model."""
+    print(
+        f"\n{'':14}{'free vertices':>14}{'seconds':>9}{'residual':>10}"
+        f"{'largest boundary angle':>24}{'off the exact sphere':>22}"
+    )
+    for name, row in rows.items():
+        deviation = f"{row['deviation']:.1e} R" if "deviation" in row else "-"
+        print(
+            f"{name:14}{row['free_vertices']:14}{row['seconds']:9.3f}{row['residual']:10.1e}"
+            f"{row['boundary_angle']:22.3f} °{deviation:>22}"
+        )
+
+
+def main() -> None:
+    """Usage: demo.py ZIP OUTPUT_FOLDER."""
+    package, out = Path(sys.argv[1]), Path(sys.argv[2])
+    out.mkdir(parents=True, exist_ok=True)
+    rows = {}
+    for name, run in (("Suzanne's ear", ear), ("hemisphere", hemisphere)):
+        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+        install(package)
+        print(f"-- {name}", flush=True)
+        rows[name] = run(out)
+    print_table(rows)
+    print(f"\nPictures (before, after; shaded, reflection stripes) and .blend files: {out}")
+
+
+if __name__ == "__main__":
+    main()

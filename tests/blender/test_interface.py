@@ -1,0 +1,191 @@
+"""Operator, menus, scripts and command as users meet them."""
+
+from __future__ import annotations
+
+import inspect
+import json
+from pathlib import Path
+from typing import Any
+
+import bpy
+import meshes
+import numpy as np
+import pytest
+from test_integrity import domed_grid, in_edit_mode_once
+
+ID = "bl_ext.user_default.intrinsic_fairing"
+
+DEFAULTS = {
+    "factor": 1.0,
+    "equation": "HARMONIC",
+    "bulge": 0.0,
+    "inner_fairness": "UNIFORM",
+    "boundary_normals": "SURROUNDING",
+    "method": "GLOBAL",
+    "levels": 0,
+    "tolerance": 1e-6,
+    "max_iterations": 200,
+    "pin_group": "",
+    "pin_edges": "NONE",
+}
+CHOICES = {
+    "equation": ["HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL"],
+    "inner_fairness": ["UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING"],
+    "boundary_normals": ["SURROUNDING", "AVERAGE", "CUSTOM"],
+    "method": ["GLOBAL", "PAPER"],
+    "pin_edges": ["NONE", "SHARP", "SEAM", "CREASE"],
+}
+
+
+def properties() -> Any:
+    return bpy.ops.mesh.fair_region.get_rna_type().properties
+
+
+def test_operator_has_the_documented_properties() -> None:
+    found = {p.identifier: p for p in properties() if p.identifier != "rna_type"}
+    assert list(found) == list(DEFAULTS)
+    for name, default in DEFAULTS.items():
+        assert found[name].default == pytest.approx(default)
+        assert found[name].description
+    for name, choices in CHOICES.items():
+        assert [item.identifier for item in found[name].enum_items] == choices
+
+
+def test_poll_says_why() -> None:
+    meshes.grid()
+    assert not bpy.ops.mesh.fair_region.poll()
+    with pytest.raises(RuntimeError, match="edit mode"):
+        bpy.ops.mesh.fair_region()
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert bpy.ops.mesh.fair_region.poll()
+
+
+def test_registers_again_and_again() -> None:
+    def footprint() -> tuple[int, ...]:
+        menus = (bpy.types.VIEW3D_MT_edit_mesh_faces, bpy.types.VIEW3D_MT_edit_mesh_context_menu)
+        entries = [len(menu.draw._draw_funcs) for menu in menus]
+        return (*entries, hasattr(bpy.types, "VIEW3D_PT_fairing"))
+
+    import addon_utils
+
+    before = footprint()
+    for _ in range(5):
+        addon_utils.disable(ID)
+        assert not hasattr(bpy.types, "VIEW3D_PT_fairing")
+        assert not hasattr(bpy.types.WindowManager, "fairing_report")
+        addon_utils.enable(ID)
+    assert footprint() == before
+
+
+def test_minimal_needs_no_normals() -> None:
+    obj, faces = domed_grid()
+    assert meshes.fair(obj, faces, equation="MINIMAL") == {"FINISHED"}
+    assert meshes.report().converged
+
+
+def test_fair_mesh_is_the_operator() -> None:
+    from bl_ext.user_default.intrinsic_fairing import fair_mesh
+
+    obj, faces = domed_grid()
+    obj.scale = (1.0, 2.0, 1.0)
+    meshes.fair(obj, faces)
+    scripted, _ = domed_grid()
+    indices = np.flatnonzero(faces)
+    result = fair_mesh(scripted.data, indices, matrix=obj.matrix_world)
+    assert meshes.positions(scripted).tobytes() == meshes.positions(obj).tobytes()
+    patch = np.unique([v for i in indices for v in obj.data.polygons[i].vertices])
+    world = meshes.positions(obj)[patch] * (1.0, 2.0, 1.0)
+    np.testing.assert_allclose(result.vertices, world, atol=1e-6)
+    assert result.converged
+
+
+def test_fair_mesh_keeps_every_other_bit() -> None:
+    from bl_ext.user_default.intrinsic_fairing import fair_mesh
+
+    obj, faces = domed_grid()
+    for name in ("Basis", "Smile"):
+        obj.shape_key_add(name=name)
+    before = in_edit_mode_once(obj, faces)
+    fair_mesh(obj.data, np.flatnonzero(faces))
+    after = meshes.contents(obj)
+    free = meshes.free_vertices(obj, faces)
+    for name in ("POINT position", "key Basis", "key Smile"):
+        old, new = (np.frombuffer(c[name], np.uint32).reshape(-1, 3) for c in (before, after))
+        np.testing.assert_array_equal((old != new).any(axis=1), free)
+    assert [
+        k for k in before if k.startswith((".", "CORNER", "EDGE", "FACE")) and before[k] != after[k]
+    ] == []
+    meshes.edit(obj)  # the positions survive edit mode, keys and all
+    meshes.leave()
+    assert meshes.contents(obj)["POINT position"] == after["POINT position"]
+
+
+def test_fair_mesh_refuses() -> None:
+    from bl_ext.user_default.intrinsic_fairing import fair_mesh
+
+    obj, faces = domed_grid()
+    indices = np.flatnonzero(faces)
+    before = meshes.contents(obj)
+    with pytest.raises(IndexError):
+        fair_mesh(obj.data, [len(faces)])
+    with pytest.raises(TypeError):
+        fair_mesh(obj.data, indices, fator=1.0)
+    with pytest.raises(ValueError, match="equation"):
+        fair_mesh(obj.data, indices, equation="round")
+    with pytest.raises(ValueError, match="matrix"):
+        fair_mesh(obj.data, indices, matrix=np.eye(3))
+    with pytest.raises(ValueError):
+        fair_mesh(obj.data, indices[:1])
+    assert meshes.contents(obj) == before
+    meshes.edit(obj)
+    with pytest.raises(ValueError, match="edit mode"):
+        fair_mesh(obj.data, indices)
+
+
+def test_fair_mesh_has_the_operators_defaults() -> None:
+    from bl_ext.user_default.intrinsic_fairing import options
+
+    parameters = inspect.signature(options.FairOptions).parameters
+    assert {name: p.default for name, p in parameters.items()} == DEFAULTS
+
+
+def command(*arguments: str) -> int:
+    from bl_ext.user_default.intrinsic_fairing import cli
+
+    status: int = cli.execute(list(arguments))
+    return status
+
+
+def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    obj, faces = domed_grid()
+    inside = {v for i in np.flatnonzero(faces) for v in obj.data.polygons[i].vertices}
+    obj.vertex_groups.new(name="Region").add(sorted(inside), 1.0, "REPLACE")
+    output = tmp_path / "fair.blend"
+    status = command(
+        "--object",
+        "Grid",
+        "--vertex-group",
+        "Region",
+        "--output",
+        str(output),
+        "--report",
+        "json",
+        "--factor",
+        "0.5",
+    )
+    assert status == 0
+    lines = capsys.readouterr().out.splitlines()
+    figures = json.loads(next(line for line in lines if line.startswith("{")))
+    assert figures["free_vertices"] == int(meshes.free_vertices(obj, faces).sum())
+    expected = meshes.positions(obj)
+    bpy.ops.wm.open_mainfile(filepath=str(output))
+    assert meshes.positions(bpy.data.objects["Grid"]).tobytes() == expected.tobytes()
+
+
+def test_command_refuses(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    domed_grid()
+    output = tmp_path / "fair.blend"
+    assert command("--object", "Nobody", "--output", str(output)) == 2
+    assert "Nobody" in capsys.readouterr().err
+    assert command("--object", "Grid", "--vertex-group", "No", "--output", str(output)) == 2
+    assert not output.exists()

@@ -1,0 +1,225 @@
+"""Closed forms through the operator: half a sphere, given only what lies around it, comes back.
+
+The surroundings of a rim of n edges give its normals to about (2π/n)³ · 0.05 rad (a cubic fit is
+of fourth order in positions, third in slopes), and the surface is off by the same order of the
+radius: bounds are 2e-3 R for 48 edges and 2e-4 R for 96.
+"""
+
+from __future__ import annotations
+
+import bpy
+import meshes
+import numpy as np
+import pytest
+from mathutils import Euler, Matrix
+
+UPPER = 1e-3  # centres above this height are in the upper half
+BOUND = {48: 2e-3, 96: 2e-4}
+
+
+def spoil(obj: bpy.types.Object, faces: meshes.Mask, seed: int = 0) -> None:
+    """Squash the free vertices and shake them: the result may not depend on them."""
+    points = meshes.positions(obj)
+    free = meshes.free_vertices(obj, faces)
+    random = np.random.default_rng(seed)
+    points[free, 2] *= 0.2
+    points[free] += random.normal(0.0, 0.01, (int(free.sum()), 3))
+    meshes.move(obj, points)
+
+
+def upper_half(obj: bpy.types.Object) -> meshes.Mask:
+    return meshes.faces_where(obj, lambda centre: centre.z > UPPER)
+
+
+def off_sphere(points: meshes.Floats) -> float:
+    return float(np.abs(np.linalg.norm(points, axis=1) - 1.0).max())
+
+
+@pytest.mark.parametrize("segments", [48, 96])
+def test_hemisphere_from_its_surroundings(segments: int) -> None:
+    obj = meshes.sphere(segments)
+    upper = upper_half(obj)
+    spoil(obj, upper)
+    assert off_sphere(meshes.positions(obj)) > 0.5
+    assert meshes.fair(obj, upper) == {"FINISHED"}
+    assert off_sphere(meshes.positions(obj)) < BOUND[segments]
+    assert meshes.report().converged
+    assert meshes.report().boundary_angle < 1.0
+
+
+def test_result_does_not_depend_on_the_interior() -> None:
+    results = []
+    for seed in (1, 2):
+        obj = meshes.sphere()
+        upper = upper_half(obj)
+        spoil(obj, upper, seed)
+        meshes.fair(obj, upper)
+        results.append(meshes.positions(obj))
+    # the tolerance 1e-6 of the diameter 2, and float32
+    np.testing.assert_allclose(results[0], results[1], atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    "scale", [(1.0, 1.0, 1.0), (3.0, 0.5, 1.5), (-1.0, 1.0, 1.0), (-2.0, -3.0, -0.4)]
+)
+def test_fair_in_world_space(scale: tuple[float, float, float]) -> None:
+    obj = meshes.sphere()
+    upper = upper_half(obj)
+    spoil(obj, upper)
+    obj.matrix_world = Matrix.LocRotScale((1.0, -2.0, 0.5), Euler((0.3, -0.8, 1.1)), scale)
+    bpy.context.view_layer.update()
+    world = np.array(obj.matrix_world)
+    inverse = np.linalg.inv(world)
+    points = meshes.positions(obj)
+    meshes.move(obj, points @ inverse[:3, :3].T + inverse[:3, 3])
+    if np.linalg.det(world) < 0.0:
+        obj.data.flip_normals()  # the mesh itself is inside out so that the object is not
+    meshes.fair(obj, upper)
+    assert off_sphere(meshes.positions(obj) @ world[:3, :3].T + world[:3, 3]) < BOUND[48] + 1e-5
+
+
+def test_inside_out_sphere() -> None:
+    obj = meshes.sphere()
+    upper = upper_half(obj)
+    spoil(obj, upper)
+    obj.data.flip_normals()
+    meshes.fair(obj, upper)
+    assert off_sphere(meshes.positions(obj)) < BOUND[48]
+
+
+def test_triangles_and_ngons() -> None:
+    obj = meshes.sphere()
+    meshes.edit(obj)
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.quads_convert_to_tris()
+    bpy.ops.mesh.select_all(action="DESELECT")
+    meshes.leave()
+    for obj_name, expected in (("Sphere", {3}), ("Ngons", {3, 4, 6})):
+        obj = meshes.sphere() if obj_name == "Ngons" else obj
+        if obj_name == "Ngons":
+            _join_pairs(obj)
+        sizes = {polygon.loop_total for polygon in obj.data.polygons}
+        assert sizes == expected
+        upper = upper_half(obj)
+        spoil(obj, upper)
+        before = [tuple(p.vertices) for p in obj.data.polygons]
+        meshes.fair(obj, upper)
+        assert [tuple(p.vertices) for p in obj.data.polygons] == before
+        assert off_sphere(meshes.positions(obj)) < BOUND[48]
+
+
+def _join_pairs(obj: bpy.types.Object) -> None:
+    """Dissolve one edge between two quads around each 30° of the upper half: hexagons."""
+    import bmesh
+
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    chosen, used = [], set()
+    for edge in bm.edges:
+        z = [v.co.z for v in edge.verts]
+        quads = all(len(face.verts) == 4 for face in edge.link_faces)
+        if min(z) > 0.2 and abs(z[0] - z[1]) < 1e-4 and quads and not used & set(edge.link_faces):
+            if len(chosen) % 4 == 0 or not chosen:
+                used |= set(edge.link_faces)
+                chosen.append(edge)
+            else:
+                chosen.append(None)
+    bmesh.ops.dissolve_edges(bm, edges=[e for e in chosen if e], use_verts=False)
+    bm.to_mesh(obj.data)
+    bm.free()
+
+
+def test_islands_as_alone() -> None:
+    alone = meshes.sphere()
+    upper = upper_half(alone)
+    spoil(alone, upper)
+    points = meshes.positions(alone)
+    faces = [list(p.vertices) for p in alone.data.polygons]
+    count = len(points)
+    both = meshes.add(
+        np.concatenate([points, points + np.array([4.0, 0.0, 0.0])]),
+        faces + [[v + count for v in face] for face in faces],
+    )
+    meshes.fair(alone, upper)
+    assert meshes.fair(both, np.concatenate([upper, upper])) == {"FINISHED"}
+    together = meshes.positions(both)
+    expected = meshes.positions(alone)
+    np.testing.assert_allclose(together[:count], expected, atol=2e-6)
+    # float32 at distance 4 has a spacing of 5e-7, also in the positions that were given
+    np.testing.assert_allclose(together[count:] - np.array([4.0, 0.0, 0.0]), expected, atol=2e-5)
+
+
+def test_average_normals() -> None:
+    obj = meshes.sphere()
+    upper = upper_half(obj)
+    meshes.fair(obj, upper, boundary_normals="AVERAGE")
+    # Both sides of the rim are as they should be, so that by symmetry their average is exact;
+    # what remains is the tolerance, 1e-6 of the diameter, and float32.
+    assert off_sphere(meshes.positions(obj)) < 1e-5
+
+
+def test_custom_normals() -> None:
+    obj = meshes.sphere()
+    upper = upper_half(obj)
+    exact = meshes.positions(obj)
+    spoil(obj, upper)
+    obj.data.normals_split_custom_set_from_vertices(exact.tolist())
+    meshes.fair(obj, upper, boundary_normals="CUSTOM")
+    # Blender keeps custom normals as two 16-bit angles: good to about 2π / 65536.
+    assert off_sphere(meshes.positions(obj)) < 2e-4
+
+
+def test_flat_stays_flat() -> None:
+    obj = meshes.grid()
+    inner = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7)
+    free = meshes.free_vertices(obj, inner)
+    points = meshes.positions(obj)
+    points[free, 2] = 0.3
+    meshes.move(obj, points)
+    meshes.fair(obj, inner)
+    result = meshes.positions(obj)
+    assert np.abs(result[:, 2]).max() < 2e-6  # the tolerance times the diameter
+    # uniform weights on the quads' own edges: the regular grid is their fixed point, with the
+    # triangulation's diagonals it would not be
+    np.testing.assert_allclose(result[free], meshes.grid_points()[free], atol=1e-5)
+
+
+def test_pins() -> None:
+    obj = meshes.grid()
+    inner = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7)
+    centre = int(np.linalg.norm(meshes.positions(obj), axis=1).argmin())
+    points = meshes.positions(obj)
+    points[centre, 2] = 0.25  # a float32 too
+    meshes.move(obj, points)
+    obj.vertex_groups.new(name="Pin").add([centre], 1.0, "REPLACE")
+    meshes.fair(obj, inner, pin_group="Pin")
+    result = meshes.positions(obj)
+    assert result[centre].tobytes() == points[centre].tobytes()
+    neighbours = np.linalg.norm(result[:, :2] - result[centre, :2], axis=1) < 0.3
+    assert (result[neighbours, 2] > 0.02).all()
+
+
+@pytest.mark.parametrize("kind", ["SHARP", "SEAM", "CREASE"])
+def test_pinned_edges(kind: str) -> None:
+    obj = meshes.grid()
+    inner = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7)
+    points = meshes.positions(obj)
+    middle = np.abs(points[:, 0]) < 1e-6
+    rise = middle & (np.abs(points[:, 1]) < 0.6)
+    points[rise, 2] = 0.125  # a float32 too
+    meshes.move(obj, points)
+    _mark(obj, middle, kind)
+    meshes.fair(obj, inner, pin_edges=kind)
+    result = meshes.positions(obj)
+    assert result[middle].tobytes() == points[middle].tobytes()
+    assert (meshes.free_vertices(obj, inner) & ~middle).sum() == meshes.report().free_vertices
+
+
+def _mark(obj: bpy.types.Object, vertices: meshes.Mask, kind: str) -> None:
+    marked = np.array([vertices[list(edge.vertices)].all() for edge in obj.data.edges])
+    if kind == "CREASE":
+        layer = obj.data.attributes.new("crease_edge", "FLOAT", "EDGE")
+        layer.data.foreach_set("value", marked.astype(float).tolist())
+    else:
+        name = "use_edge_sharp" if kind == "SHARP" else "use_seam"
+        obj.data.edges.foreach_set(name, marked.tolist())
