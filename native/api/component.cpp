@@ -1,0 +1,129 @@
+#include "api/component.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "geometry/surface_fit.h"
+
+namespace fairing {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+double degrees_between(const Vector3& a, const Vector3& b) {
+    return std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / std::numbers::pi;
+}
+
+bool touches_free(const Patch& patch, int vertex) {
+    const auto ring = patch.ring(vertex).vertices;
+    return std::any_of(ring.begin(), ring.end(), [&](int v) { return patch.is_free(v); });
+}
+
+// The caller's edges within one patch, in local numbers. A vertex on a cut has several copies at the same place, any
+// of which will do.
+std::vector<std::array<int, 2>> local_edges(const Patch& patch, const std::vector<std::array<int, 2>>& edges) {
+    const int highest = *std::max_element(patch.to_input.begin(), patch.to_input.end());
+    Indices local(at(highest) + 1, none);
+    for (int v = 0; v < patch.vertex_count(); ++v) local[at(patch.to_input[at(v)])] = v;
+    const auto find = [&](int v) { return v <= highest ? local[at(v)] : none; };
+    std::vector<std::array<int, 2>> result;
+    std::vector<char> reached(at(patch.free_count), 0);
+    for (const auto& [a, b] : edges) {
+        const std::array ends{find(a), find(b)};
+        if (ends[0] == none || ends[1] == none || ends[0] == ends[1]) continue;
+        result.push_back(ends);
+        for (int v : ends) {
+            if (patch.is_free(v)) reached[at(v)] = 1;
+        }
+    }
+    const auto missing = std::find(reached.begin(), reached.end(), 0);
+    if (missing != reached.end()) {
+        const int v = patch.to_input[static_cast<std::size_t>(missing - reached.begin())];
+        throw std::invalid_argument("neighbours: free vertex " + std::to_string(v) +
+                                    " has no edge to another vertex of its patch");
+    }
+    return result;
+}
+
+void warn_of_flips(const Patch& patch, const Points& points, Diagnostics& warnings) {
+    FaceGeometry faces;
+    faces.update(points, patch.triangles);
+    const Points no_normals = Points::Zero(3, patch.vertex_count() - patch.free_count);
+    const Points normals = max_normals(patch, points, no_normals);
+    Indices flipped;
+    for (int t = 0; t < patch.triangle_count(); ++t) {
+        Vector3 around = Vector3::Zero();
+        for (int v : patch.triangles.col(t)) around += normals.col(v);
+        if (around.dot(faces.normals.col(t)) < 0.0) flipped.push_back(patch.input_triangle[at(t)]);
+    }
+    if (flipped.empty()) return;
+    warnings.push_back({Code::flipped_triangles,
+                        std::to_string(flipped.size()) + " triangles of the result are turned over",
+                        std::move(flipped), ElementKind::triangle});
+}
+
+void warn_of_sharp_outline(const Patch& patch, const Points& prescribed, Diagnostics& warnings) {
+    constexpr double widest_turn = 20.0;
+    Indices sharp;
+    double widest = 0.0;
+    for (int e = 0; e < patch.edge_count(); ++e) {
+        if (patch.edge_triangles[at(e)][1] != none) continue;
+        const auto [a, b] = patch.edge_ends[at(e)];
+        const double turn = degrees_between(prescribed.col(a - patch.free_count), prescribed.col(b - patch.free_count));
+        widest = std::max(widest, turn);
+        if (turn > widest_turn) sharp.insert(sharp.end(), {patch.to_input[at(a)], patch.to_input[at(b)]});
+    }
+    if (sharp.empty()) return;
+    warnings.push_back({Code::sharp_boundary,
+                        "the normals along the outline turn by up to " + std::to_string(std::lround(widest)) +
+                            "° from one vertex to the next; a finer outline gives a more accurate surface",
+                        std::move(sharp)});
+}
+
+}  // namespace
+
+Points gather(const Points& points, std::span<const int> vertices) {
+    Points result(3, static_cast<Eigen::Index>(vertices.size()));
+    for (std::size_t k = 0; k < vertices.size(); ++k) result.col(static_cast<Eigen::Index>(k)) = points.col(vertices[k]);
+    return result;
+}
+
+Normalisation normalise(const Points& fixed_points) {
+    const Vector3 centre = fixed_points.rowwise().mean();
+    return {centre, 2.0 * std::sqrt((fixed_points.colwise() - centre).colwise().squaredNorm().maxCoeff())};
+}
+
+std::span<const int> free_vertices(const Patch& patch) { return std::span(patch.to_input).first(at(patch.free_count)); }
+
+std::span<const int> fixed_vertices(const Patch& patch) {
+    return std::span(patch.to_input).subspan(at(patch.free_count));
+}
+
+InnerWeights make_inner_weights(const Patch& patch, const Points& reference, const FairOptions& options) {
+    if (options.inner_fairness == InnerFairness::conformal) {
+        return conformal_weights(patch, gather(reference, patch.to_input));
+    }
+    return options.neighbours ? uniform_weights(local_edges(patch, *options.neighbours)) : uniform_weights(patch);
+}
+
+VectorX boundary_angles(const Patch& patch, const Points& points, const Points& prescribed) {
+    const Points actual = one_sided_normals(patch, points);
+    VectorX angles = VectorX::Zero(prescribed.cols());
+    for (int k = 0; k < prescribed.cols(); ++k) {
+        const int v = patch.free_count + k;
+        if (patch.pin[at(v)] || !touches_free(patch, v)) continue;
+        angles[k] = degrees_between(prescribed.col(k), actual.col(k));
+    }
+    return angles;
+}
+
+void diagnose(const Patch& patch, const Points& points, const Points& prescribed, Diagnostics& warnings) {
+    warn_of_flips(patch, points, warnings);
+    warn_of_sharp_outline(patch, prescribed, warnings);
+}
+
+}  // namespace fairing

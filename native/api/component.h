@@ -1,0 +1,36 @@
+// One component of a call: from the caller's units to the solver's and back.
+#pragma once
+
+#include "api/fair.h"
+
+namespace fairing {
+
+// The similarity that takes a component to D = 1 with the centroid of its fixed vertices at the origin.
+struct Normalisation {
+    Vector3 centre;
+    double diameter;  // D: twice the largest distance of the fixed vertices from their centroid
+
+    [[nodiscard]] Points to_unit(const Points& points) const { return (points.colwise() - centre) / diameter; }
+    [[nodiscard]] Points from_unit(const Points& points) const { return (points * diameter).colwise() + centre; }
+};
+
+// Columns of `points` at the given vertices.
+Points gather(const Points& points, std::span<const int> vertices);
+
+Normalisation normalise(const Points& fixed_points);
+
+// Local vertices 0 … n − 1 of a patch, input numbers: free ones, then fixed ones.
+std::span<const int> free_vertices(const Patch& patch);
+std::span<const int> fixed_vertices(const Patch& patch);
+
+// λ of one patch, from its own edges, from `neighbours` or from the reference.
+InnerWeights make_inner_weights(const Patch& patch, const Points& reference, const FairOptions& options);
+
+// Degrees between the prescribed normals (3 × fixed count, local order) and those of the patch's own side;
+// zero at pins and where no free vertex is adjacent.
+VectorX boundary_angles(const Patch& patch, const Points& points, const Points& prescribed);
+
+// Warnings about a solved patch: flipped triangles and an outline that turns more than 20° from vertex to vertex.
+void diagnose(const Patch& patch, const Points& points, const Points& prescribed, Diagnostics& warnings);
+
+}  // namespace fairing

@@ -1,0 +1,141 @@
+#include "api/fair.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "api/component.h"
+#include "api/measure.h"
+#include "geometry/surface_fit.h"
+#include "solver/global_solver.h"
+
+namespace fairing {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+class Stopwatch {
+public:
+    [[nodiscard]] double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// Leaves out components without fixed vertices; refuses when nothing is left.
+std::vector<Patch> solvable_patches(const CheckedMesh& mesh, Diagnostics& warnings) {
+    std::vector<Patch> patches = make_patches(mesh.cut, mesh.roles);
+    if (patches.empty()) {
+        throw MeshError({Code::no_free_vertices, "there is no vertex that may move: all are fixed or on the border", {}});
+    }
+    Indices closed;
+    std::erase_if(patches, [&](const Patch& patch) {
+        if (patch.free_count < patch.vertex_count()) return false;
+        closed.insert(closed.end(), patch.to_input.begin(), patch.to_input.end());
+        return true;
+    });
+    if (closed.empty()) return patches;
+    const std::string text = "a closed component has no fixed vertices to hold it: fix some of them";
+    if (patches.empty()) throw MeshError({Code::no_boundary, text, std::move(closed)});
+    warnings.push_back({Code::no_boundary, text + "; it was left alone", std::move(closed)});
+    return patches;
+}
+
+class Call {
+public:
+    Call(const MeshInput& input, const std::optional<Points>& reference, const FairOptions& options)
+        : input_(input), reference_(reference ? *reference : input.vertices), options_(options) {}
+
+    FairResult run(const ProgressCallback& callback) {
+        const Stopwatch watch;
+        const Progress progress(callback);
+        progress.report(0.0, "topology");
+        mesh_ = check_mesh(input_);
+        result_.warnings = mesh_.warnings;
+        result_.vertices = input_.vertices;
+        result_.fixed = mesh_.fixed;
+        side_angles_.assign(at(static_cast<int>(input_.vertices.cols())), 0.0);
+        const std::vector<Patch> patches = solvable_patches(mesh_, result_.warnings);
+        result_.seconds["topology"] = watch.seconds();
+        double done = 0.0;
+        double total = 0.0;
+        for (const Patch& patch : patches) total += patch.vertex_count();
+        for (const Patch& patch : patches) {
+            const double share = patch.vertex_count() / total;
+            solve(patch, progress.range(done, done + share));
+            done += share;
+        }
+        finish();
+        result_.seconds["total"] = watch.seconds();
+        progress.report(1.0, "done");
+        return std::move(result_);
+    }
+
+private:
+    void solve(const Patch& patch, const Progress& progress) {
+        const Points fixed_points = gather(input_.vertices, fixed_vertices(patch));
+        const Normalisation unit = normalise(fixed_points);
+        if (!(unit.diameter > 0.0)) {
+            throw MeshError({Code::no_boundary, "a component is held in a single point: fix more of its vertices",
+                             Indices(fixed_vertices(patch).begin(), fixed_vertices(patch).end())});
+        }
+        const Problem problem{patch, unit.to_unit(fixed_points), gather(mesh_.normals, fixed_vertices(patch)),
+                              make_inner_weights(patch, reference_, options_), options_.solver};
+        const Solution solution = solve_global(problem, progress);
+        const Points points = unit.from_unit(solution.points);
+        for (int v = 0; v < patch.free_count; ++v) result_.vertices.col(patch.to_input[at(v)]) = points.col(v);
+        record(patch, problem, solution);
+    }
+
+    void record(const Patch& patch, const Problem& problem, const Solution& solution) {
+        result_.residual = std::max(result_.residual, solution.residual);
+        result_.initial_residual = std::max(result_.initial_residual, solution.initial_residual);
+        result_.iterations = std::max(result_.iterations, solution.iterations);
+        result_.levels.resize(1, 0);
+        result_.levels[0] += patch.vertex_count();
+        for (const auto& [stage, seconds] : solution.seconds) result_.seconds[stage] += seconds;
+        if (solution.termination != Termination::converged) {
+            result_.converged = false;
+            if (result_.termination != Termination::stalled) result_.termination = solution.termination;
+            result_.warnings.push_back({Code::not_converged,
+                                        "a component of " + std::to_string(patch.free_count) +
+                                            " free vertices did not converge; its positions are the best that were found",
+                                        Indices(free_vertices(patch).begin(), free_vertices(patch).end())});
+        }
+        const bool has_normals = options_.solver.equation != Equation::minimal;
+        const Points prescribed = has_normals ? problem.fixed_normals : one_sided_normals(patch, solution.points);
+        const VectorX angles = boundary_angles(patch, solution.points, prescribed);
+        for (int k = 0; k < angles.size(); ++k) {
+            double& angle = side_angles_[at(fixed_vertices(patch)[at(k)])];
+            angle = std::max(angle, angles[k]);
+        }
+        diagnose(patch, solution.points, prescribed, result_.warnings);
+    }
+
+    void finish() {
+        result_.mean_curvature = measure_mean_curvature(mesh_, result_.vertices, options_.solver.normals);
+        result_.boundary_angle.resize(static_cast<Eigen::Index>(result_.fixed.size()));
+        for (std::size_t k = 0; k < result_.fixed.size(); ++k) {
+            result_.boundary_angle[static_cast<Eigen::Index>(k)] = side_angles_[at(result_.fixed[k])];
+        }
+    }
+
+    const MeshInput& input_;
+    const Points& reference_;
+    const FairOptions& options_;
+    CheckedMesh mesh_;
+    FairResult result_;
+    std::vector<double> side_angles_;  // per input vertex, the larger of its sides
+};
+
+}  // namespace
+
+FairResult fair(const MeshInput& input, const std::optional<Points>& reference, const FairOptions& options,
+                const ProgressCallback& progress) {
+    return Call(input, reference, options).run(progress);
+}
+
+}  // namespace fairing

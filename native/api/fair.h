@@ -1,0 +1,36 @@
+// The whole call: checks, patches, one solve for each component, result.
+#pragma once
+
+#include "api/input.h"
+#include "solver/problem.h"
+
+namespace fairing {
+
+struct FairOptions {
+    SolverOptions solver;
+    InnerFairness inner_fairness = InnerFairness::uniform;
+    // Edges (input vertices) that uniform weights use instead of the triangles' own.
+    std::optional<std::vector<std::array<int, 2>>> neighbours;
+};
+
+struct FairResult {
+    Points vertices;
+    Indices fixed;
+    VectorX mean_curvature;  // eq. 8: −1/R on a sphere with outward normals; the mean of the sides on cut curves
+    VectorX boundary_angle;  // degrees, in the order of `fixed`
+    bool converged = true;
+    Termination termination = Termination::converged;
+    int iterations = 0;
+    double residual = 0.0;
+    double initial_residual = 0.0;
+    Indices levels;
+    std::map<std::string, double> seconds;
+    Diagnostics warnings;
+};
+
+// `reference`: M0 of the conformal weights; the input's vertices where it is left out.
+// Throws what check_mesh throws, NO_FREE_VERTICES, NO_BOUNDARY, SolverError and Cancelled; the input stays as it is.
+FairResult fair(const MeshInput& input, const std::optional<Points>& reference, const FairOptions& options,
+                const ProgressCallback& progress);
+
+}  // namespace fairing

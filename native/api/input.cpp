@@ -1,0 +1,167 @@
+#include "api/input.h"
+
+#include <algorithm>
+#include <string>
+
+#include <Eigen/Geometry>
+
+namespace fairing {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+void check_indices(const MeshInput& input) {
+    const auto count = static_cast<int>(input.vertices.cols());
+    Indices offenders;
+    for (int t = 0; t < input.triangles.cols(); ++t) {
+        const auto corners = input.triangles.col(t);
+        if (corners.minCoeff() < 0 || corners.maxCoeff() >= count) offenders.push_back(t);
+    }
+    if (!offenders.empty()) {
+        throw MeshError({Code::index_range,
+                         "triangle " + std::to_string(offenders.front()) + " names a vertex outside 0 … " +
+                             std::to_string(count - 1),
+                         std::move(offenders), ElementKind::triangle});
+    }
+}
+
+std::vector<char> mark_fixed(const MeshInput& input) {
+    const auto count = static_cast<int>(input.vertices.cols());
+    std::vector<char> fixed(at(count), 0);
+    if (!input.fixed) return fixed;
+    for (int v : *input.fixed) {
+        if (v < 0 || v >= count) {
+            throw MeshError({Code::index_range,
+                             "fixed names vertex " + std::to_string(v) + ", outside 0 … " + std::to_string(count - 1),
+                             {v}});
+        }
+        if (fixed[at(v)]) throw std::invalid_argument("fixed names vertex " + std::to_string(v) + " twice");
+        fixed[at(v)] = 1;
+    }
+    return fixed;
+}
+
+void check_finite(const MeshInput& input, const VertexRoles& roles) {
+    Indices offenders;
+    for (int v = 0; v < input.vertices.cols(); ++v) {
+        if (roles.used[at(v)] && !input.vertices.col(v).allFinite()) offenders.push_back(v);
+    }
+    if (!offenders.empty()) {
+        throw MeshError({Code::nonfinite,
+                         "vertex " + std::to_string(offenders.front()) + " has a coordinate that is NaN or infinite",
+                         std::move(offenders)});
+    }
+}
+
+Indices all_fixed(const MeshInput& input, const VertexRoles& roles, Diagnostics& warnings) {
+    Indices fixed = input.fixed.value_or(Indices{});
+    std::vector<char> given(roles.fixed.size(), 0);
+    for (int v : fixed) given[at(v)] = 1;
+    Indices added;
+    for (int v = 0; v < static_cast<int>(roles.fixed.size()); ++v) {
+        if (roles.border[at(v)] && !given[at(v)]) added.push_back(v);
+    }
+    fixed.insert(fixed.end(), added.begin(), added.end());
+    if (input.fixed && !added.empty()) {
+        warnings.push_back({Code::open_border_in_selection,
+                            std::to_string(added.size()) +
+                                " vertices on an open border were not given as fixed and stay where they are; where this is a "
+                                "seam of doubled vertices, use Merge by Distance first",
+                            std::move(added)});
+    }
+    return fixed;
+}
+
+// Average of the unit normals of the triangles at each vertex (paper §7.5).
+Points averaged_triangle_normals(const Points& points, const CutMesh& mesh) {
+    Points sums = Points::Zero(3, points.cols());
+    for (const auto t : mesh.triangles.colwise()) {
+        const auto v = [&](int k) { return mesh.input_vertex[at(t[k])]; };
+        const Vector3 a = points.col(v(0));
+        const Vector3 cross = (points.col(v(1)) - a).cross(Vector3(points.col(v(2)) - a));
+        const double length = cross.norm();
+        if (!(length > 0.0)) continue;
+        for (int k = 0; k < 3; ++k) sums.col(v(k)) += cross / length;
+    }
+    for (auto column : sums.colwise()) {
+        const double length = column.norm();
+        if (length > 0.0) column /= length;
+    }
+    return sums;
+}
+
+void copy_given_normals(const MeshInput& input, CheckedMesh& mesh) {
+    for (std::size_t k = 0; k < input.fixed->size(); ++k) {
+        const int v = (*input.fixed)[k];
+        if (!mesh.roles.used[at(v)] || mesh.roles.pin[at(v)]) continue;
+        const Vector3 n = input.fixed_normals->col(static_cast<Eigen::Index>(k));
+        const double length = n.stableNorm();
+        if (!n.allFinite()) {
+            throw MeshError({Code::nonfinite,
+                             "the normal prescribed at vertex " + std::to_string(v) + " is NaN or infinite", {v}});
+        }
+        if (!(length > 0.0)) {
+            throw std::invalid_argument("fixed_normals: row " + std::to_string(k) + " (vertex " + std::to_string(v) +
+                                        ") has length zero; a unit normal is needed there");
+        }
+        mesh.normals.col(v) = n / length;
+    }
+}
+
+void warn_of_normals(const MeshInput& input, CheckedMesh& mesh) {
+    if (!input.fixed_normals) {
+        mesh.warnings.push_back({Code::normals_from_patch,
+                                 "no normals were prescribed: averages of the triangles given are used, so the result "
+                                 "depends on the interior",
+                                 {}});
+        return;
+    }
+    Indices pins;
+    for (std::size_t k = 0; k < input.fixed->size(); ++k) {
+        const int v = (*input.fixed)[k];
+        if (mesh.roles.pin[at(v)] && input.fixed_normals->col(static_cast<Eigen::Index>(k)).norm() > 0.0) pins.push_back(v);
+    }
+    if (pins.empty()) return;
+    mesh.warnings.push_back({Code::pin_normal_ignored,
+                             std::to_string(pins.size()) +
+                                 " fixed vertices have no fixed neighbour: their position counts, their normal doesn't",
+                             std::move(pins)});
+}
+
+void warn_of_flat_triangles(const MeshInput& input, const CutMesh& mesh, Diagnostics& warnings) {
+    Indices offenders;
+    for (int t : mesh.input_triangle) {
+        const Vector3 a = input.vertices.col(input.triangles(0, t));
+        const Vector3 b = input.vertices.col(input.triangles(1, t));
+        const Vector3 c = input.vertices.col(input.triangles(2, t));
+        const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+        if (!((b - a).cross(c - a).norm() > 1e-12 * longest)) offenders.push_back(t);
+    }
+    if (offenders.empty()) return;
+    warnings.push_back({Code::degenerate_face, std::to_string(offenders.size()) + " triangles have no area",
+                        std::move(offenders), ElementKind::triangle});
+}
+
+}  // namespace
+
+CheckedMesh check_mesh(const MeshInput& input) {
+    check_indices(input);
+    CheckedMesh mesh;
+    Indices kept;
+    const Triangles triangles = drop_collapsed_triangles(input.triangles, kept, mesh.warnings);
+    mesh.roles = classify_vertices(make_edges(triangles, static_cast<int>(input.vertices.cols())), mark_fixed(input));
+    check_finite(input, mesh.roles);
+    mesh.fixed = all_fixed(input, mesh.roles, mesh.warnings);
+    mesh.cut = cut_mesh(triangles, kept, mesh.roles, mesh.warnings);
+    warn_of_flat_triangles(input, mesh.cut, mesh.warnings);
+    mesh.normals = averaged_triangle_normals(input.vertices, mesh.cut);
+    for (int v = 0; v < mesh.normals.cols(); ++v) {
+        if (!mesh.roles.fixed[at(v)]) mesh.normals.col(v).setZero();
+    }
+    if (input.fixed_normals) copy_given_normals(input, mesh);
+    warn_of_normals(input, mesh);
+    return mesh;
+}
+
+}  // namespace fairing

@@ -1,0 +1,133 @@
+#include "api/measure.h"
+
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include "api/component.h"
+#include "geometry/mean_curvature.h"
+#include "geometry/one_ring_buffer.h"
+#include "geometry/surface_fit.h"
+
+namespace fairing {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+// Visits every piece of the cut mesh as a patch with its positions.
+template <typename Visit>
+void for_each_piece(const CheckedMesh& mesh, const Points& points, Visit visit) {
+    for (const Indices& piece : triangles_of_pieces(mesh.cut)) {
+        const Patch patch(mesh.cut, piece, mesh.roles);
+        visit(patch, gather(points, patch.to_input));
+    }
+}
+
+// Planar coordinates of a triangle: columns b − a and c − a in its own plane.
+Eigen::Matrix2d planar_edges(const Points& points, const Eigen::Vector3i& triangle) {
+    const Vector3 ab = points.col(triangle[1]) - points.col(triangle[0]);
+    const Vector3 ac = points.col(triangle[2]) - points.col(triangle[0]);
+    const double length = ab.norm();
+    Eigen::Matrix2d edges;
+    edges << length, ab.dot(ac) / length, 0.0, ab.cross(ac).norm() / length;
+    return edges;
+}
+
+// Fixed vertices whose normals nobody prescribed get the fit to their own side.
+Points normals_at_fixed(const Patch& patch, const Points& local, const CheckedMesh& mesh, bool prescribed) {
+    return prescribed ? gather(mesh.normals, fixed_vertices(patch)) : one_sided_normals(patch, local);
+}
+
+VectorX mean_over_sides(const CheckedMesh& mesh, const Points& points, NormalKind kind, bool prescribed) {
+    VectorX sum = VectorX::Zero(points.cols());
+    VectorX sides = VectorX::Zero(points.cols());
+    for_each_piece(mesh, points, [&](const Patch& patch, const Points& local) {
+        FaceGeometry faces;
+        faces.update(local, patch.triangles);
+        const Points boundary = normals_at_fixed(patch, local, mesh, prescribed);
+        const Points normals = vertex_normals(patch, local, faces, boundary, kind);
+        const VectorX H = patch_mean_curvature(patch, local, faces, normals);
+        for (int v = 0; v < patch.vertex_count(); ++v) {
+            sum[patch.to_input[at(v)]] += H[v];
+            sides[patch.to_input[at(v)]] += 1.0;
+        }
+    });
+    return sum.cwiseQuotient(sides.cwiseMax(1.0));
+}
+
+}  // namespace
+
+VectorX measure_mean_curvature(const CheckedMesh& mesh, const Points& points, NormalKind kind) {
+    return mean_over_sides(mesh, points, kind, true);
+}
+
+VectorX mean_curvature(const MeshInput& input, NormalKind kind) {
+    return mean_over_sides(check_mesh(input), input.vertices, kind, input.fixed_normals.has_value());
+}
+
+Points vertex_normals(const MeshInput& input, NormalKind kind) {
+    const CheckedMesh mesh = check_mesh(input);
+    Points sum = Points::Zero(3, input.vertices.cols());
+    for_each_piece(mesh, input.vertices, [&](const Patch& patch, const Points& local) {
+        FaceGeometry faces;
+        faces.update(local, patch.triangles);
+        const Points boundary = kind == NormalKind::fitted ? one_sided_normals(patch, local)
+                                                           : Points(3, patch.vertex_count() - patch.free_count);
+        Points normals = vertex_normals(patch, local, faces, boundary, kind);
+        for (int v = patch.free_count; v < patch.vertex_count() && kind == NormalKind::averaged; ++v) {
+            OneRingBuffer buffer;
+            normals.col(v) = averaged_normal(buffer.gather(patch, local, v));
+        }
+        for (int v = 0; v < patch.vertex_count(); ++v) sum.col(patch.to_input[at(v)]) += normals.col(v);
+    });
+    for (auto column : sum.colwise()) {
+        const double length = column.norm();
+        if (length > 0.0) column /= length;
+    }
+    return sum;
+}
+
+MatrixEntries cotan_laplacian(const Points& points, const Triangles& triangles) {
+    FaceGeometry faces;
+    faces.update(points, triangles);
+    const EdgeTable edges = make_edges(triangles, static_cast<int>(points.cols()));
+    VectorX weights = VectorX::Zero(edges.size());
+    for (int s = 0; s < 3 * triangles.cols(); ++s) {
+        weights[edges.edge_of_side[at(s)]] += faces.cotangents((s + 2) % 3, s / 3);
+    }
+    VectorX diagonal = VectorX::Zero(points.cols());
+    MatrixEntries entries;
+    const auto add = [&](int row, int column, double value) {
+        entries.rows.push_back(row);
+        entries.columns.push_back(column);
+        entries.values.push_back(value);
+    };
+    for (int e = 0; e < edges.size(); ++e) {
+        const auto [a, b] = edges.ends[at(e)];
+        add(a, b, -weights[e]);
+        add(b, a, -weights[e]);
+        diagonal[a] += weights[e];
+        diagonal[b] += weights[e];
+    }
+    for (int v = 0; v < points.cols(); ++v) add(v, v, diagonal[v]);
+    return entries;
+}
+
+VectorX conformal_distortion(const Points& reference, const Points& points, const Triangles& triangles) {
+    VectorX ratio(triangles.cols());
+    for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
+        const Eigen::Matrix2d J =
+            planar_edges(points, triangles.col(t)) * planar_edges(reference, triangles.col(t)).inverse();
+        // Singular values from J = conformal + anticonformal part: σ = |f_z| ± |f_z̄|.
+        const double conformal = std::hypot(J(0, 0) + J(1, 1), J(1, 0) - J(0, 1));
+        const double anticonformal = std::hypot(J(0, 0) - J(1, 1), J(1, 0) + J(0, 1));
+        const double smallest = std::abs(conformal - anticonformal);
+        const double value = (conformal + anticonformal) / smallest;
+        ratio[t] = std::isfinite(value) ? value : std::numeric_limits<double>::infinity();
+    }
+    return ratio;
+}
+
+}  // namespace fairing

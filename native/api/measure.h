@@ -1,0 +1,32 @@
+// What can be measured on a mesh without fairing it.
+#pragma once
+
+#include "api/input.h"
+#include "geometry/vertex_normal.h"
+
+namespace fairing {
+
+// H at each vertex of a checked mesh (prescribed normals at its fixed vertices): the mean of the sides on cut curves,
+// zero at vertices without triangles. Positions may differ from those that were checked.
+VectorX measure_mean_curvature(const CheckedMesh& mesh, const Points& points, NormalKind kind);
+
+// H of a mesh; normals of fixed vertices that are not prescribed are one-sided fits.
+VectorX mean_curvature(const MeshInput& input, NormalKind kind);
+
+// Unit normals of all vertices, those of the border included; zero at vertices without triangles.
+Points vertex_normals(const MeshInput& input, NormalKind kind);
+
+// Entries of S for all vertices of any triangle list, duplicates summed: cot α + cot β off the diagonal (negative), the
+// sum of the row on it; positive semidefinite, no factor ½ (paper §5, eq. 6, 7).
+struct MatrixEntries {
+    Indices rows;
+    Indices columns;
+    std::vector<double> values;
+};
+MatrixEntries cotan_laplacian(const Points& points, const Triangles& triangles);
+
+// Ratio ≥ 1 of the singular values of the affine map of each triangle from the reference to the points; infinite where one of
+// them is degenerate.
+VectorX conformal_distortion(const Points& reference, const Points& points, const Triangles& triangles);
+
+}  // namespace fairing

@@ -1,0 +1,31 @@
+// Progress reports and cancellation.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string_view>
+
+namespace fairing {
+
+// Receives the finished fraction in [0, 1] and the name of the stage; returning false asks to stop.
+using ProgressCallback = std::function<bool(double fraction, std::string_view stage)>;
+
+// A view of a callback that maps [0, 1] onto a sub-range of the whole run, so that a stage need not know its place.
+// The fraction that callers see never decreases. Asked at every outer step and around each factorisation.
+class Progress {
+public:
+    Progress() = default;
+    explicit Progress(ProgressCallback callback);
+
+    // Reports and throws Cancelled when the callback says so.
+    void report(double fraction, std::string_view stage) const;
+    [[nodiscard]] Progress range(double begin, double end) const;
+
+private:
+    struct Shared;
+    std::shared_ptr<Shared> shared_;
+    double begin_ = 0.0;
+    double end_ = 1.0;
+};
+
+}  // namespace fairing

@@ -1,0 +1,70 @@
+#include "api/measure.h"
+#include "bindings/convert.h"
+#include "bindings/topics.h"
+#include "geometry/surface_fit.h"
+#include "mesh/loops.h"
+
+namespace fairing::bindings {
+
+namespace {
+
+NormalKind to_kind(const std::string& name) {
+    return name == "averaged" ? NormalKind::averaged : NormalKind::fitted;
+}
+
+py::array mean_curvature_array(const DoubleArray& vertices, const IntArray& triangles,
+                               const std::optional<IntArray>& fixed, const std::optional<DoubleArray>& fixed_normals,
+                               const std::string& normals) {
+    const MeshInput input{to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices),
+                          to_optional(fixed_normals, to_points)};
+    return from_vector(mean_curvature(input, to_kind(normals)));
+}
+
+py::array vertex_normals_array(const DoubleArray& vertices, const IntArray& triangles, const std::string& normals) {
+    return from_points(vertex_normals({to_points(vertices), to_triangles(triangles), {}, {}}, to_kind(normals)));
+}
+
+py::tuple cotan_laplacian_arrays(const DoubleArray& vertices, const IntArray& triangles) {
+    const MatrixEntries entries = cotan_laplacian(to_points(vertices), to_triangles(triangles));
+    const VectorX values = Eigen::Map<const VectorX>(entries.values.data(), static_cast<Eigen::Index>(entries.values.size()));
+    return py::make_tuple(from_indices(entries.rows), from_indices(entries.columns), from_vector(values));
+}
+
+py::list boundary_loop_arrays(const IntArray& triangles) {
+    const Triangles list = to_triangles(triangles);
+    const int count = list.size() > 0 ? list.maxCoeff() + 1 : 0;
+    py::list loops;
+    for (const Indices& loop : boundary_loops(list, count)) loops.append(from_indices(loop));
+    return loops;
+}
+
+py::array conformal_distortion_array(const DoubleArray& reference, const DoubleArray& vertices,
+                                     const IntArray& triangles) {
+    return from_vector(conformal_distortion(to_points(reference), to_points(vertices), to_triangles(triangles)));
+}
+
+py::tuple surrounding_normal_arrays(const DoubleArray& vertices, const IntArray& triangles, const IntArray& at) {
+    const SurroundingNormals result =
+        surrounding_normals(to_points(vertices), to_triangles(triangles), to_indices(at));
+    py::array_t<bool> fitted(static_cast<py::ssize_t>(result.fitted.size()));
+    for (std::size_t k = 0; k < result.fitted.size(); ++k) {
+        fitted.mutable_at(static_cast<py::ssize_t>(k)) = result.fitted[k] != 0;
+    }
+    return py::make_tuple(from_points(result.normals), fitted);
+}
+
+}  // namespace
+
+void bind_measure(py::module_& module) {
+    module.def("mean_curvature", &mean_curvature_array, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
+               py::arg("fixed_normals"), py::arg("normals"));
+    module.def("vertex_normals", &vertex_normals_array, py::arg("vertices"), py::arg("triangles"), py::arg("normals"));
+    module.def("cotan_laplacian", &cotan_laplacian_arrays, py::arg("vertices"), py::arg("triangles"));
+    module.def("boundary_loops", &boundary_loop_arrays, py::arg("triangles"));
+    module.def("conformal_distortion", &conformal_distortion_array, py::arg("reference"), py::arg("vertices"),
+               py::arg("triangles"));
+    module.def("surrounding_normals", &surrounding_normal_arrays, py::arg("vertices"), py::arg("triangles"),
+               py::arg("at"));
+}
+
+}  // namespace fairing::bindings

@@ -1,0 +1,61 @@
+#include "bindings/convert.h"
+
+namespace fairing::bindings {
+
+namespace {
+
+py::array read_only(py::array array) {
+    array.attr("flags").attr("writeable") = false;
+    return array;
+}
+
+py::object package_type(const char* name) { return py::module_::import("fairing._types").attr(name); }
+
+void raise_mesh_error(const MeshError& error) {
+    const py::object exception = package_type("MeshError")(from_diagnostic(error.diagnostic()));
+    PyErr_SetObject(package_type("MeshError").ptr(), exception.ptr());
+}
+
+}  // namespace
+
+Points to_points(const DoubleArray& array) {
+    return Eigen::Map<const Points>(array.data(), 3, array.shape(0));
+}
+
+Triangles to_triangles(const IntArray& array) {
+    return Eigen::Map<const Triangles>(array.data(), 3, array.shape(0));
+}
+
+Indices to_indices(const IntArray& array) { return {array.data(), array.data() + array.size()}; }
+
+py::array from_points(const Points& points) {
+    return read_only(py::array_t<double>({points.cols(), Eigen::Index{3}}, points.data()));
+}
+
+py::array from_vector(const VectorX& values) { return read_only(py::array_t<double>(values.size(), values.data())); }
+
+py::array from_indices(const Indices& indices) {
+    return read_only(py::array_t<int>(static_cast<py::ssize_t>(indices.size()), indices.data()));
+}
+
+py::object from_diagnostic(const Diagnostic& diagnostic) {
+    return package_type("Diagnostic")(std::string(code_name(diagnostic.code)), diagnostic.message,
+                                      from_indices(diagnostic.elements),
+                                      diagnostic.kind == ElementKind::vertex ? "vertex" : "triangle");
+}
+
+void register_errors() {
+    py::register_exception_translator([](std::exception_ptr pointer) {
+        try {
+            if (pointer) std::rethrow_exception(pointer);
+        } catch (const MeshError& error) {
+            raise_mesh_error(error);
+        } catch (const SolverError& error) {
+            PyErr_SetString(package_type("SolverError").ptr(), error.what());
+        } catch (const Cancelled& error) {
+            PyErr_SetString(package_type("Cancelled").ptr(), error.what());
+        }
+    });
+}
+
+}  // namespace fairing::bindings

@@ -1,0 +1,40 @@
+// numpy ↔ Eigen. An (n, 3) C-ordered array and a 3 × n column-major matrix share their memory layout.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <optional>
+
+#include "base/errors.h"
+
+namespace fairing::bindings {
+
+namespace py = pybind11;
+
+using DoubleArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using IntArray = py::array_t<int, py::array::c_style | py::array::forcecast>;
+
+Points to_points(const DoubleArray& array);
+Triangles to_triangles(const IntArray& array);
+Indices to_indices(const IntArray& array);
+
+template <typename Array, typename Convert>
+auto to_optional(const std::optional<Array>& array, Convert convert) -> std::optional<decltype(convert(*array))> {
+    if (!array) return std::nullopt;
+    return convert(*array);
+}
+
+// Arrays handed out are marked read-only.
+py::array from_points(const Points& points);
+py::array from_vector(const VectorX& values);
+py::array from_indices(const Indices& indices);
+
+// fairing.Diagnostic of the Python package.
+py::object from_diagnostic(const Diagnostic& diagnostic);
+
+// MeshError, SolverError and Cancelled become the Python package's exceptions.
+void register_errors();
+
+}  // namespace fairing::bindings

@@ -1,0 +1,10 @@
+#include "bindings/convert.h"
+#include "bindings/topics.h"
+
+PYBIND11_MODULE(_core, module) {
+    module.doc() = "Engine of the fairing package; use the package, not this module.";
+    module.attr("__version__") = FAIRING_VERSION;
+    fairing::bindings::register_errors();
+    fairing::bindings::bind_fair(module);
+    fairing::bindings::bind_measure(module);
+}

@@ -1,0 +1,11 @@
+// One function for each topic of the module.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace fairing::bindings {
+
+void bind_fair(pybind11::module_& module);
+void bind_measure(pybind11::module_& module);
+
+}  // namespace fairing::bindings

@@ -1,0 +1,33 @@
+# Eigen and OpenMesh, with errors that name the packages to install.
+
+find_package(Eigen3 3.4 QUIET NO_MODULE)
+if(NOT TARGET Eigen3::Eigen)
+  message(FATAL_ERROR "Eigen 3.4 was not found. Debian and Ubuntu: apt-get install libeigen3-dev")
+endif()
+
+add_library(fairing_openmesh INTERFACE)
+if(FAIRING_OPENMESH_SOURCE)
+  set(openmesh_root "${FAIRING_OPENMESH_SOURCE}/src")
+  if(NOT EXISTS "${openmesh_root}/OpenMesh/Core/Mesh/BaseKernel.hh")
+    message(FATAL_ERROR "FAIRING_OPENMESH_SOURCE=${FAIRING_OPENMESH_SOURCE} holds no src/OpenMesh/Core; "
+                        "point it at the top folder of OpenMesh's sources")
+  endif()
+  # The mesh kernel alone: no file formats.
+  file(GLOB openmesh_sources
+    "${openmesh_root}/OpenMesh/Core/Mesh/*.cc"
+    "${openmesh_root}/OpenMesh/Core/Utils/*.cc"
+    "${openmesh_root}/OpenMesh/Core/System/*.cc")
+  add_library(openmesh_static STATIC ${openmesh_sources})
+  target_include_directories(openmesh_static SYSTEM PUBLIC "${openmesh_root}")
+  target_compile_definitions(openmesh_static PUBLIC OM_STATIC_BUILD)
+  target_link_libraries(fairing_openmesh INTERFACE openmesh_static)
+else()
+  find_path(OPENMESH_INCLUDE_DIR OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh)
+  find_library(OPENMESH_CORE_LIBRARY OpenMeshCore)
+  if(NOT OPENMESH_INCLUDE_DIR OR NOT OPENMESH_CORE_LIBRARY)
+    message(FATAL_ERROR "OpenMesh was not found. Debian and Ubuntu: apt-get install libopenmesh-dev; "
+                        "or give its sources: -DFAIRING_OPENMESH_SOURCE=/path/to/OpenMesh")
+  endif()
+  target_include_directories(fairing_openmesh SYSTEM INTERFACE "${OPENMESH_INCLUDE_DIR}")
+  target_link_libraries(fairing_openmesh INTERFACE "${OPENMESH_CORE_LIBRARY}")
+endif()

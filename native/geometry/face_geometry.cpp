@@ -1,0 +1,45 @@
+#include "geometry/face_geometry.h"
+
+#include <algorithm>
+
+#include <Eigen/Geometry>
+
+namespace fairing {
+
+void FaceGeometry::update(const Points& points, const Triangles& triangles) {
+    const Eigen::Index count = triangles.cols();
+    cotangents.resize(3, count);
+    areas.resize(count);
+    normals.resize(3, count);
+    for (Eigen::Index t = 0; t < count; ++t) {
+        const Vector3 a = points.col(triangles(0, t));
+        const Vector3 b = points.col(triangles(1, t));
+        const Vector3 c = points.col(triangles(2, t));
+        const Vector3 ab = b - a;
+        const Vector3 bc = c - b;
+        const Vector3 ca = a - c;
+        const Vector3 cross = ab.cross(-ca);
+        const double twice_area = cross.norm();
+        const double longest = std::max({ab.squaredNorm(), bc.squaredNorm(), ca.squaredNorm()});
+        const double safe = std::max(twice_area, std::max(1e-12 * longest, 1e-300));
+        cotangents.col(t) << -ab.dot(ca) / safe, -bc.dot(ab) / safe, -ca.dot(bc) / safe;
+        areas[t] = 0.5 * twice_area;
+        normals.col(t) = twice_area > 1e-12 * longest ? Vector3(cross / twice_area) : Vector3(Vector3::Zero());
+    }
+}
+
+void Stiffness::update(const FaceGeometry& faces, const Patch& patch) {
+    weights.setZero(patch.edge_count());
+    mass.setZero(patch.vertex_count());
+    for (int t = 0; t < patch.triangle_count(); ++t) {
+        for (int k = 0; k < 3; ++k) {
+            weights[patch.triangle_edges(k, t)] += faces.cotangents(k, t);
+            mass[patch.triangles(k, t)] += faces.areas[t] / 3.0;
+        }
+    }
+    // A one-ring collapsed to a point has no area; the equations divide by it.
+    const double floor = 1e-14 * std::max(mass.mean(), 1e-300);
+    mass = mass.cwiseMax(floor);
+}
+
+}  // namespace fairing

@@ -1,0 +1,45 @@
+// Cotangents, areas and unit normals of all triangles, and the Laplace–Beltrami weights that follow from them.
+#pragma once
+
+#include "mesh/patch.h"
+
+namespace fairing {
+
+// Scratch data of one pass over the triangles. Column k of `cotangents` belongs to the angle at corner k.
+// Finite for any finite input: a triangle flatter than 1e-12 of its longest edge squared counts as that flat,
+// and its normal is zero.
+struct FaceGeometry {
+    Eigen::Matrix3Xd cotangents;
+    VectorX areas;
+    Points normals;
+
+    void update(const Points& points, const Triangles& triangles);
+};
+
+// Laplace–Beltrami matrix S of all vertices of a patch, kept as one weight for each edge (paper §5, eq. 6, 7):
+// S_ij = −w_ij, S_ii = Σ_j w_ij with w = cot α + cot β (no factor ½); positive semidefinite for the full mesh.
+// mass_i = ⅓ of the area of the triangles at i.
+struct Stiffness {
+    VectorX weights;
+    VectorX mass;
+
+    void update(const FaceGeometry& faces, const Patch& patch);
+
+    // (S f)_i of a scalar (1 × n) or of points (3 × n), for vertices 0 … count − 1.
+    template <typename Field>
+    Field apply(const Patch& patch, const Field& field, int count) const;
+};
+
+template <typename Field>
+Field Stiffness::apply(const Patch& patch, const Field& field, int count) const {
+    Field result = Field::Zero(field.rows(), count);
+    for (int i = 0; i < count; ++i) {
+        const RingView ring = patch.ring(i);
+        for (std::size_t k = 0; k < ring.valence(); ++k) {
+            result.col(i) += weights[ring.spokes[k]] * (field.col(i) - field.col(ring.vertices[k]));
+        }
+    }
+    return result;
+}
+
+}  // namespace fairing

@@ -1,0 +1,43 @@
+#include "geometry/mean_curvature.h"
+
+#include <Eigen/Cholesky>
+
+#include "geometry/frame.h"
+#include "geometry/one_ring_buffer.h"
+#include "geometry/virtual_points.h"
+
+namespace fairing {
+
+CurvatureFit fit_curvature(const Vector3& centre, std::span<const Vector3> points, const Vector3& normal) {
+    const Frame frame(normal);
+    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+    Vector3 rhs = Vector3::Zero();
+    for (const Vector3& p : points) {
+        const Vector3 d = p - centre;
+        const double squared = d.squaredNorm();
+        const Eigen::Vector2d t(frame.u.dot(d), frame.v.dot(d));
+        const double in_plane = t.squaredNorm();
+        if (!(in_plane > 1e-24 * squared)) continue;
+        const Vector3 row(t.x() * t.x() / in_plane, t.x() * t.y() / in_plane, t.y() * t.y() / in_plane);
+        A.noalias() += row * row.transpose();
+        rhs += (2.0 * normal.dot(d) / squared) * row;
+    }
+    A.diagonal().array() += 1e-9 * A.trace() + 1e-300;
+    const Vector3 x = A.llt().solve(rhs);
+    return {x[0], x[1], x[2]};
+}
+
+VectorX patch_mean_curvature(const Patch& patch, const Points& points, const FaceGeometry& faces,
+                             const Points& normals) {
+    const Points virtual_points = edge_virtual_points(patch, points, faces, normals);
+    OneRingBuffer buffer;
+    VectorX H(patch.vertex_count());
+    for (int i = 0; i < patch.vertex_count(); ++i) {
+        buffer.gather(patch, points, i);
+        const auto all = buffer.with_virtual(patch, virtual_points, i);
+        H[i] = fit_curvature(points.col(i), all, normals.col(i)).mean();
+    }
+    return H;
+}
+
+}  // namespace fairing

@@ -1,0 +1,28 @@
+// Moreton–Séquin mean curvature (paper §6).
+#pragma once
+
+#include <span>
+
+#include "geometry/vertex_normal.h"
+
+namespace fairing {
+
+// Second fundamental form fitted at a vertex, in an arbitrary orthonormal basis of the tangent plane:
+// κ(t) = x0 tx² + x1 tx ty + x2 ty².
+struct CurvatureFit {
+    double x0 = 0.0;
+    double x1 = 0.0;
+    double x2 = 0.0;
+    [[nodiscard]] double mean() const { return 0.5 * (x0 + x2); }                 // eq. 10
+    [[nodiscard]] double gaussian() const { return x0 * x2 - 0.25 * x1 * x1; }
+};
+
+// Least squares fit to the normal curvatures κ_j = 2⟨d_j, n⟩/⟨d_j, d_j⟩ (eq. 8, 11) of the directions to `points`;
+// `normal` is a unit vector. Negative on a sphere with outward normals. Points at the centre or straight above it
+// carry no direction and are left out. Regularised by 1e-9 of the trace: finite for any input.
+CurvatureFit fit_curvature(const Vector3& centre, std::span<const Vector3> points, const Vector3& normal);
+
+// H at all vertices of a patch, from the neighbours and a virtual point between every two of them.
+VectorX patch_mean_curvature(const Patch& patch, const Points& points, const FaceGeometry& faces, const Points& normals);
+
+}  // namespace fairing

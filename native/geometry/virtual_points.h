@@ -1,0 +1,26 @@
+// Virtual points that complete the curvature fit where neighbours are few or one-sided (paper §6.2).
+#pragma once
+
+#include "geometry/face_geometry.h"
+
+namespace fairing {
+
+// The chord from a to b with the vertex normals at its ends and the sum of the unit normals of the triangles at it
+// (on a border edge the single one).
+struct NormalChord {
+    Vector3 a;
+    Vector3 b;
+    Vector3 normal_a;
+    Vector3 normal_b;
+    Vector3 triangle_normals;
+};
+
+// The point between a and b, midway between the two circular arcs that leave a and b along the tangents in the
+// plane of the chord and `triangle_normals` (paper §6.2). On a straight line it is the midpoint, exactly; continuous
+// in all its arguments while the triangle normals don't cancel.
+Vector3 virtual_point(const NormalChord& chord);
+
+// One virtual point for each edge of a patch: it does not depend on the vertex that looks at it.
+Points edge_virtual_points(const Patch& patch, const Points& points, const FaceGeometry& faces, const Points& normals);
+
+}  // namespace fairing

@@ -1,0 +1,61 @@
+// One connected piece of the cut mesh: its half-edge mesh and flat adjacency arrays for the numerics.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "mesh/surface_mesh.h"
+#include "mesh/topology.h"
+
+namespace fairing {
+
+// The neighbours of one vertex, counter-clockwise; on the border from the first border edge to the last.
+struct RingView {
+    std::span<const int> vertices;  // neighbour k
+    std::span<const int> spokes;    // edge to neighbour k
+    std::span<const int> rim;       // edge from neighbour k to k + 1; one entry less than vertices when open
+    [[nodiscard]] bool closed() const { return rim.size() == vertices.size(); }
+    [[nodiscard]] std::size_t valence() const { return vertices.size(); }
+};
+
+// Topology of a patch. Local vertices 0 … free_count − 1 are free, the others fixed.
+class Patch {
+public:
+    Patch(const CutMesh& cut, const Indices& piece_triangles, const VertexRoles& roles);
+
+    [[nodiscard]] int vertex_count() const { return static_cast<int>(to_input.size()); }
+    [[nodiscard]] int edge_count() const { return static_cast<int>(edge_ends.size()); }
+    [[nodiscard]] int triangle_count() const { return static_cast<int>(triangles.cols()); }
+    [[nodiscard]] bool is_free(int vertex) const { return vertex < free_count; }
+    [[nodiscard]] RingView ring(int vertex) const;
+
+    int free_count = 0;
+    Indices to_input;           // local vertex → input vertex
+    Indices input_triangle;     // local triangle → input triangle
+    std::vector<char> pin;      // per local vertex: fixed position, no prescribed normal
+    Triangles triangles;        // local, consistently wound
+    Triangles triangle_edges;   // edge opposite to corner k of each triangle
+    std::vector<std::array<int, 2>> edge_ends;
+    std::vector<std::array<int, 2>> edge_triangles;  // second entry `none` on the border
+    SurfaceMesh mesh;           // the same connectivity; vertex, edge and face indices agree with the arrays
+
+private:
+    void number_vertices(const CutMesh& cut, const Indices& piece_triangles, const VertexRoles& roles);
+    void build_mesh();
+    void flatten_edges();
+    void flatten_rings();
+
+    Indices ring_begin_;
+    Indices ring_vertices_;
+    Indices ring_spokes_;
+    Indices rim_begin_;
+    Indices ring_rim_;
+};
+
+// The patches that have free vertices, in the order of their lowest triangle.
+std::vector<Patch> make_patches(const CutMesh& mesh, const VertexRoles& roles);
+
+// Triangle lists of all pieces, free vertices or not.
+std::vector<Indices> triangles_of_pieces(const CutMesh& mesh);
+
+}  // namespace fairing

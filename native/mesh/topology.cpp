@@ -1,0 +1,265 @@
+#include "mesh/topology.h"
+
+#include <algorithm>
+#include <string>
+
+#include "mesh/union_find.h"
+
+namespace fairing {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+bool has_free_corner(const Triangles& triangles, int side, const VertexRoles& roles) {
+    const auto corners = triangles.col(side / 3);
+    return !(roles.fixed[at(corners[0])] && roles.fixed[at(corners[1])] && roles.fixed[at(corners[2])]);
+}
+
+bool is_between_fixed(const EdgeTable& edges, int edge, const VertexRoles& roles) {
+    const auto [a, b] = edges.ends[at(edge)];
+    return roles.fixed[at(a)] && roles.fixed[at(b)];
+}
+
+// A two-sided edge between two border vertices with a triangle behind it that has no free vertex.
+bool is_corner_chord(const Triangles& triangles, const EdgeTable& edges, int edge, const VertexRoles& roles) {
+    const auto [a, b] = edges.ends[at(edge)];
+    if (!roles.border[at(a)] || !roles.border[at(b)]) return false;
+    return !has_free_corner(triangles, edges.side(edge, 0), roles) ||
+           !has_free_corner(triangles, edges.side(edge, 1), roles);
+}
+
+void check_edge_is_manifold(const EdgeTable& edges, int edge, const VertexRoles& roles, Indices& offenders) {
+    if (edges.side_count(edge) <= 2 || is_between_fixed(edges, edge, roles)) return;
+    offenders.insert(offenders.end(), edges.ends[at(edge)].begin(), edges.ends[at(edge)].end());
+}
+
+// Nothing opens along a single edge whose ends lie inside the mesh: both its ends would keep their whole ring.
+void keep_lone_edges(const EdgeTable& edges, const VertexRoles& roles, std::vector<char>& cut) {
+    Indices degree(roles.fixed.size(), 0);
+    for (int e = 0; e < edges.size(); ++e) {
+        if (!cut[at(e)]) continue;
+        for (int v : edges.ends[at(e)]) ++degree[at(v)];
+    }
+    for (int e = 0; e < edges.size(); ++e) {
+        const auto [a, b] = edges.ends[at(e)];
+        const bool inside = !roles.border[at(a)] && !roles.border[at(b)];
+        if (cut[at(e)] && inside && degree[at(a)] == 1 && degree[at(b)] == 1 && edges.side_count(e) == 2) cut[at(e)] = 0;
+    }
+}
+
+bool same_direction(const Triangles& triangles, int side_a, int side_b) {
+    return side_tail(triangles, side_a) == side_tail(triangles, side_b);
+}
+
+int corner_at(const Triangles& triangles, int side, int vertex) {
+    return 3 * (side / 3) + (side_tail(triangles, side) == vertex ? side % 3 : (side % 3 + 1) % 3);
+}
+
+// One cut vertex for each fan of triangles around an input vertex.
+struct Fans {
+    Indices of_corner;
+    Indices input_vertex;
+};
+
+Fans number_fans(const Triangles& triangles, UnionFind& corners) {
+    Fans fans;
+    const int corner_count = 3 * static_cast<int>(triangles.cols());
+    fans.of_corner.assign(at(corner_count), none);
+    for (int c = 0; c < corner_count; ++c) {
+        int& fan = fans.of_corner[at(corners.root(c))];
+        if (fan == none) {
+            fan = static_cast<int>(fans.input_vertex.size());
+            fans.input_vertex.push_back(triangles(c % 3, c / 3));
+        }
+        fans.of_corner[at(c)] = fan;
+    }
+    return fans;
+}
+
+void check_fans(const Fans& fans, const VertexRoles& roles) {
+    Indices count(roles.fixed.size(), 0);
+    Indices offenders;
+    for (int v : fans.input_vertex) {
+        if (++count[at(v)] == 2 && !roles.fixed[at(v)]) offenders.push_back(v);
+    }
+    if (offenders.empty()) return;
+    throw MeshError({Code::nonmanifold_vertex,
+                     "free vertex " + std::to_string(offenders.front()) + " (and " +
+                         std::to_string(offenders.size() - 1) +
+                         " more) joins several fans of triangles: split it, or fix it",
+                     std::move(offenders)});
+}
+
+// Union of triangles across edges; parity records the windings.
+struct Windings {
+    UnionFind pieces;       // across uncut edges
+    UnionFind orientation;  // across all two-sided edges, uncut ones first
+    Indices conflicts;      // triangles at uncut edges where the windings can't agree
+};
+
+Windings join_windings(const Triangles& triangles, const EdgeTable& edges, const std::vector<char>& cut) {
+    const int count = static_cast<int>(triangles.cols());
+    Windings windings{UnionFind(count), UnionFind(count), {}};
+    for (const bool across_cuts : {false, true}) {
+        for (int e = 0; e < edges.size(); ++e) {
+            if (edges.side_count(e) != 2 || (cut[at(e)] != 0) != across_cuts) continue;
+            const int a = edges.side(e, 0);
+            const int b = edges.side(e, 1);
+            if (!across_cuts) windings.pieces.join(a / 3, b / 3);
+            const bool agrees = windings.orientation.join(a / 3, b / 3, same_direction(triangles, a, b));
+            if (!agrees && !across_cuts) windings.conflicts.insert(windings.conflicts.end(), {a / 3, b / 3});
+        }
+    }
+    return windings;
+}
+
+void check_orientable(const Triangles& triangles, const Indices& input_triangle, Windings& windings,
+                      const VertexRoles& roles) {
+    Indices offenders;
+    std::vector<char> has_free(at(static_cast<int>(triangles.cols())), 0);
+    for (int t = 0; t < triangles.cols(); ++t) {
+        if (has_free_corner(triangles, 3 * t, roles)) has_free[at(windings.pieces.root(t))] = 1;
+    }
+    for (int t : windings.conflicts) {
+        if (has_free[at(windings.pieces.root(t))]) offenders.push_back(input_triangle[at(t)]);
+    }
+    if (offenders.empty()) return;
+    throw MeshError({Code::not_orientable,
+                     "the mesh has a single side (a Möbius strip) through triangle " + std::to_string(offenders.front()) +
+                         ": cut it open, or fair a part that has two sides",
+                     std::move(offenders), ElementKind::triangle});
+}
+
+// Triangles to turn round, so that each piece follows the majority of its triangles.
+std::vector<char> minority_triangles(int count, UnionFind& orientation) {
+    Indices balance(at(count), 0);
+    for (int t = 0; t < count; ++t) {
+        const auto [root, opposite] = orientation.find(t);
+        balance[at(root)] += opposite ? -1 : 1;
+    }
+    std::vector<char> flipped(at(count), 0);
+    for (int t = 0; t < count; ++t) {
+        const auto [root, opposite] = orientation.find(t);
+        flipped[at(t)] = (balance[at(root)] < 0) != opposite;
+    }
+    return flipped;
+}
+
+void warn_of_windings(const CutMesh& mesh, Diagnostics& warnings) {
+    Indices offenders;
+    for (std::size_t t = 0; t < mesh.flipped.size(); ++t) {
+        if (mesh.flipped[t]) offenders.push_back(mesh.input_triangle[t]);
+    }
+    if (offenders.empty()) return;
+    warnings.push_back({Code::inconsistent_winding,
+                        std::to_string(offenders.size()) +
+                            " triangles are wound against the others; solved on a copy with one winding",
+                        std::move(offenders), ElementKind::triangle});
+}
+
+void number_pieces(CutMesh& mesh, UnionFind& pieces) {
+    const int count = static_cast<int>(mesh.triangles.cols());
+    Indices number(at(count), none);
+    mesh.piece.resize(at(count));
+    for (int t = 0; t < count; ++t) {
+        int& piece = number[at(pieces.root(t))];
+        if (piece == none) piece = mesh.piece_count++;
+        mesh.piece[at(t)] = piece;
+    }
+}
+
+UnionFind join_corners(const Triangles& triangles, const EdgeTable& edges, const std::vector<char>& cut) {
+    UnionFind corners(3 * static_cast<int>(triangles.cols()));
+    for (int e = 0; e < edges.size(); ++e) {
+        if (cut[at(e)] || edges.side_count(e) != 2) continue;
+        for (int v : edges.ends[at(e)]) {
+            corners.join(corner_at(triangles, edges.side(e, 0), v), corner_at(triangles, edges.side(e, 1), v));
+        }
+    }
+    return corners;
+}
+
+}  // namespace
+
+Triangles drop_collapsed_triangles(const Triangles& triangles, Indices& kept, Diagnostics& warnings) {
+    Indices dropped;
+    for (int t = 0; t < triangles.cols(); ++t) {
+        const auto c = triangles.col(t);
+        const bool collapsed = c[0] == c[1] || c[1] == c[2] || c[2] == c[0];
+        (collapsed ? dropped : kept).push_back(t);
+    }
+    Triangles result(3, static_cast<Eigen::Index>(kept.size()));
+    for (std::size_t k = 0; k < kept.size(); ++k) result.col(static_cast<Eigen::Index>(k)) = triangles.col(kept[k]);
+    if (!dropped.empty()) {
+        warnings.push_back({Code::degenerate_face,
+                            std::to_string(dropped.size()) + " triangles name a vertex twice and were left out",
+                            std::move(dropped), ElementKind::triangle});
+    }
+    return result;
+}
+
+VertexRoles classify_vertices(const EdgeTable& edges, const std::vector<char>& given_fixed) {
+    const std::size_t count = given_fixed.size();
+    VertexRoles roles{given_fixed, std::vector<char>(count, 0), {}, std::vector<char>(count, 0)};
+    for (int e = 0; e < edges.size(); ++e) {
+        for (int v : edges.ends[at(e)]) {
+            roles.used[at(v)] = 1;
+            if (edges.side_count(e) == 1) roles.fixed[at(v)] = roles.border[at(v)] = 1;
+        }
+    }
+    roles.pin = roles.fixed;
+    for (int e = 0; e < edges.size(); ++e) {
+        if (!is_between_fixed(edges, e, roles)) continue;
+        for (int v : edges.ends[at(e)]) roles.pin[at(v)] = 0;
+    }
+    for (std::size_t v = 0; v < count; ++v) roles.pin[v] = roles.pin[v] && roles.used[v];
+    return roles;
+}
+
+std::vector<char> find_cut_edges(const Triangles& triangles, const EdgeTable& edges, const VertexRoles& roles) {
+    std::vector<char> cut(at(edges.size()), 0);
+    Indices offenders;
+    for (int e = 0; e < edges.size(); ++e) {
+        check_edge_is_manifold(edges, e, roles, offenders);
+        if (!is_between_fixed(edges, e, roles) || edges.side_count(e) < 2) continue;
+        const bool many = edges.side_count(e) > 2;
+        const bool beside_free = has_free_corner(triangles, edges.side(e, 0), roles) ||
+                                 has_free_corner(triangles, edges.side(e, 1), roles);
+        cut[at(e)] = many || (beside_free && !is_corner_chord(triangles, edges, e, roles));
+    }
+    if (!offenders.empty()) {
+        throw MeshError({Code::nonmanifold_edge,
+                         "more than two triangles meet at the edge " + std::to_string(offenders[0]) + "–" +
+                             std::to_string(offenders[1]) + ": delete the extra ones, or fix both ends",
+                         std::move(offenders)});
+    }
+    keep_lone_edges(edges, roles, cut);
+    return cut;
+}
+
+CutMesh cut_mesh(const Triangles& triangles, const Indices& input_triangle, const VertexRoles& roles,
+                 Diagnostics& warnings) {
+    const EdgeTable edges = make_edges(triangles, static_cast<int>(roles.fixed.size()));
+    const std::vector<char> cut = find_cut_edges(triangles, edges, roles);
+    UnionFind corners = join_corners(triangles, edges, cut);
+    Fans fans = number_fans(triangles, corners);
+    check_fans(fans, roles);
+    Windings windings = join_windings(triangles, edges, cut);
+    check_orientable(triangles, input_triangle, windings, roles);
+
+    CutMesh mesh;
+    mesh.input_triangle = input_triangle;
+    mesh.input_vertex = std::move(fans.input_vertex);
+    mesh.flipped = minority_triangles(static_cast<int>(triangles.cols()), windings.orientation);
+    warn_of_windings(mesh, warnings);
+    mesh.triangles.resize(3, triangles.cols());
+    for (int c = 0; c < 3 * triangles.cols(); ++c) mesh.triangles(c % 3, c / 3) = fans.of_corner[at(c)];
+    for (int t = 0; t < triangles.cols(); ++t) {
+        if (mesh.flipped[at(t)]) std::swap(mesh.triangles(1, t), mesh.triangles(2, t));
+    }
+    number_pieces(mesh, windings.pieces);
+    return mesh;
+}
+
+}  // namespace fairing

@@ -1,0 +1,43 @@
+// From a triangle list and its fixed vertices to consistently wound pieces that end in their fixed curves.
+#pragma once
+
+#include "base/errors.h"
+#include "mesh/edges.h"
+
+namespace fairing {
+
+// What the caller's vertices are.
+struct VertexRoles {
+    std::vector<char> fixed;   // keeps its position: given, or on the mesh border
+    std::vector<char> border;  // on an edge with a single triangle
+    std::vector<char> pin;     // fixed, but none of its neighbours is: position only
+    std::vector<char> used;    // in some triangle
+};
+
+// The mesh cut open along curves of fixed vertices. A fixed vertex has one copy for each side of the curves through it.
+struct CutMesh {
+    Triangles triangles;     // of cut vertices, consistently wound within a piece
+    Indices input_vertex;    // cut vertex → input vertex
+    Indices input_triangle;  // triangle → input triangle
+    Indices piece;           // triangle → piece, numbered by the lowest triangle
+    std::vector<char> flipped;  // triangle: stored the other way round than the caller's
+    int piece_count = 0;
+};
+
+// Removes triangles that name a vertex twice; `kept` are the input indices of the others.
+Triangles drop_collapsed_triangles(const Triangles& triangles, Indices& kept, Diagnostics& warnings);
+
+VertexRoles classify_vertices(const EdgeTable& edges, const std::vector<char>& given_fixed);
+
+// The edges at which the mesh is cut open. Both ends of such an edge are fixed, and there is a free vertex beside it
+// or more than two triangles meet there. Two kinds of edges between fixed vertices are left whole: the chord that
+// only cuts a corner off the mesh border, and a lone edge inside, which has nothing to open.
+// Throws NONMANIFOLD_EDGE where more than two triangles meet at an edge with a free end.
+std::vector<char> find_cut_edges(const Triangles& triangles, const EdgeTable& edges, const VertexRoles& roles);
+
+// Cuts, orients (the majority of triangles wins in each piece and across its curves, with a warning), numbers pieces.
+// Throws NONMANIFOLD_VERTEX (several fans at a free vertex) and NOT_ORIENTABLE.
+CutMesh cut_mesh(const Triangles& triangles, const Indices& input_triangle, const VertexRoles& roles,
+                 Diagnostics& warnings);
+
+}  // namespace fairing

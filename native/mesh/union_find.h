@@ -1,0 +1,62 @@
+// Disjoint sets with an optional parity between members (used for windings).
+#pragma once
+
+#include <numeric>
+#include <utility>
+
+#include "base/types.h"
+
+namespace fairing {
+
+class UnionFind {
+public:
+    explicit UnionFind(int size) : parent_(static_cast<std::size_t>(size)), parity_(static_cast<std::size_t>(size), 0) {
+        std::iota(parent_.begin(), parent_.end(), 0);
+    }
+
+    // The set's representative, and whether `item` has the opposite parity to it.
+    std::pair<int, bool> find(int item) {
+        int root = item;
+        bool flipped = false;
+        while (parent_[at(root)] != root) {
+            flipped ^= parity_[at(root)] != 0;
+            root = parent_[at(root)];
+        }
+        compress(item, root, flipped);
+        return {root, flipped};
+    }
+
+    int root(int item) { return find(item).first; }
+
+    // Joins the sets of a and b, whose parities differ where `opposite`; false: they were joined already and disagree.
+    bool join(int a, int b, bool opposite = false) {
+        auto [root_a, flipped_a] = find(a);
+        auto [root_b, flipped_b] = find(b);
+        const bool relative = (flipped_a != flipped_b) != opposite;
+        if (root_a == root_b) return !relative;
+        // The smaller index leads, so that the outcome does not depend on the order of the calls.
+        if (root_a > root_b) std::swap(root_a, root_b);
+        parent_[at(root_b)] = root_a;
+        parity_[at(root_b)] = relative ? 1 : 0;
+        return true;
+    }
+
+private:
+    static std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+    void compress(int item, int root, bool flipped) {
+        while (item != root) {
+            const int next = parent_[at(item)];
+            const bool own = parity_[at(item)] != 0;
+            parent_[at(item)] = root;
+            parity_[at(item)] = flipped ? 1 : 0;
+            flipped ^= own;
+            item = next;
+        }
+    }
+
+    Indices parent_;
+    std::vector<char> parity_;
+};
+
+}  // namespace fairing

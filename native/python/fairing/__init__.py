@@ -1,0 +1,29 @@
+"""Intrinsic fairing of triangle meshes: Δ_B H = 0 with G1 boundary data (Schneider & Kobbelt 2001)."""
+
+from fairing._core import __version__
+from fairing._fair import fair
+from fairing._measure import (
+    boundary_loops,
+    conformal_distortion,
+    cotan_laplacian,
+    mean_curvature,
+    surrounding_normals,
+    vertex_normals,
+)
+from fairing._types import Cancelled, Diagnostic, FairResult, MeshError, SolverError
+
+__all__ = [
+    "Cancelled",
+    "Diagnostic",
+    "FairResult",
+    "MeshError",
+    "SolverError",
+    "__version__",
+    "boundary_loops",
+    "conformal_distortion",
+    "cotan_laplacian",
+    "fair",
+    "mean_curvature",
+    "surrounding_normals",
+    "vertex_normals",
+]

@@ -1,0 +1,84 @@
+"""Checks of shapes, types and options: every message names the argument and what it should have been."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
+
+_INT32 = np.iinfo(np.int32)
+
+
+def floats(name: str, value: npt.ArrayLike, rows: int | None = None) -> FloatArray:
+    """(n, 3) float64 in C order, or ValueError. ``rows``: the n that is needed."""
+    array = np.asarray(value)
+    if array.dtype.kind not in "fiu":
+        raise ValueError(f"{name}: numbers are needed, not {array.dtype}")
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"{name}: shape (n, 3) is needed, not {array.shape}")
+    if rows is not None and array.shape[0] != rows:
+        raise ValueError(f"{name}: {rows} rows are needed, not {array.shape[0]}")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def integers(name: str, value: npt.ArrayLike, columns: int | None) -> IntArray:
+    """(n, columns), or (n,) for None, as int32 in C order, or ValueError."""
+    array = np.asarray(value)
+    if array.size == 0 and array.ndim == 1:
+        array = array.reshape((0,) if columns is None else (0, columns)).astype(np.int32)
+    if array.dtype.kind not in "iu":
+        raise ValueError(f"{name}: integers are needed, not {array.dtype}")
+    wanted = "(k,)" if columns is None else f"(n, {columns})"
+    if array.ndim != (1 if columns is None else 2) or (columns and array.shape[1] != columns):
+        raise ValueError(f"{name}: shape {wanted} is needed, not {array.shape}")
+    if array.size and (array.max() > _INT32.max or array.min() < _INT32.min):
+        raise _index_range(name, int(np.flatnonzero((array > _INT32.max).any(-1))[0]))
+    return np.ascontiguousarray(array, dtype=np.int32)
+
+
+def _index_range(name: str, row: int) -> MeshError:
+    text = f"{name}: row {row} names a vertex that does not exist"
+    return MeshError(Diagnostic("INDEX_RANGE", text, np.array([row], dtype=np.int32), "triangle"))
+
+
+def indices_within(name: str, array: IntArray, count: int) -> IntArray:
+    """The array itself, or MeshError INDEX_RANGE where an index is outside 0 … count − 1."""
+    bad = np.flatnonzero((array < 0) | (array >= count))
+    if bad.size:
+        index = int(array.reshape(-1)[bad[0]])
+        text = f"{name}: vertex {index} is outside 0 … {count - 1}"
+        elements = np.unique(array.reshape(-1)[bad]).astype(np.int32)
+        raise MeshError(Diagnostic("INDEX_RANGE", text, elements, "vertex"))
+    return array
+
+
+def choice(name: str, value: Any, accepted: Sequence[str]) -> str:
+    """One of the accepted words, or a ValueError that lists them."""
+    if not isinstance(value, str) or value not in accepted:
+        listed = ", ".join(repr(word) for word in accepted)
+        raise ValueError(f"{name}: {value!r} is not accepted; accepted are {listed}")
+    return value
+
+
+def positive(name: str, value: Any) -> float:
+    """A finite number above zero."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.floating, np.integer)):
+        raise ValueError(f"{name}: a positive number is needed, not {value!r}")
+    if not (math.isfinite(value) and value > 0):
+        raise ValueError(f"{name}: a positive number is needed, not {value!r}")
+    return float(value)
+
+
+def whole(name: str, value: Any, smallest: int, largest: int | None = None) -> int:
+    """An integer within the given bounds."""
+    bounds = f"{smallest} or more" if largest is None else f"{smallest} … {largest}"
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+        raise ValueError(f"{name}: an integer, {bounds}, is needed, not {value!r}")
+    if value < smallest or (largest is not None and value > largest):
+        raise ValueError(f"{name}: {value} is not accepted; accepted is {bounds}")
+    return int(value)

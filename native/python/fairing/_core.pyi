@@ -1,0 +1,46 @@
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+__version__: str
+
+class Options:
+    def __init__(
+        self,
+        *,
+        equation: str,
+        inner_fairness: str,
+        normals: str,
+        tolerance: float,
+        max_iterations: int,
+    ) -> None: ...
+
+_Floats = npt.NDArray[np.float64]
+_Ints = npt.NDArray[np.int32]
+
+def fair(
+    vertices: _Floats,
+    triangles: _Ints,
+    fixed: _Ints | None,
+    fixed_normals: _Floats | None,
+    reference: _Floats | None,
+    neighbours: _Ints | None,
+    options: Options,
+    progress: Callable[[float, str], bool | None] | None,
+) -> dict[str, Any]: ...
+def mean_curvature(
+    vertices: _Floats,
+    triangles: _Ints,
+    fixed: _Ints | None,
+    fixed_normals: _Floats | None,
+    normals: str,
+) -> _Floats: ...
+def vertex_normals(vertices: _Floats, triangles: _Ints, normals: str) -> _Floats: ...
+def cotan_laplacian(vertices: _Floats, triangles: _Ints) -> tuple[_Ints, _Ints, _Floats]: ...
+def boundary_loops(triangles: _Ints) -> list[_Ints]: ...
+def conformal_distortion(reference: _Floats, vertices: _Floats, triangles: _Ints) -> _Floats: ...
+def surrounding_normals(
+    vertices: _Floats, triangles: _Ints, at: _Ints
+) -> tuple[_Floats, npt.NDArray[np.bool_]]: ...

@@ -1,0 +1,133 @@
+"""The main call."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy.typing as npt
+
+from fairing import _arguments, _core
+from fairing._types import FairResult, IntArray
+
+Progress = Callable[[float, str], "bool | None"]
+
+EQUATIONS = ("harmonic", "minimal")
+INNER_FAIRNESS = ("uniform", "conformal")
+METHODS = ("global",)
+NORMALS = ("fitted", "averaged")
+
+
+def fair(
+    vertices: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    *,
+    fixed: npt.ArrayLike | None = None,
+    fixed_normals: npt.ArrayLike | None = None,
+    reference: npt.ArrayLike | None = None,
+    equation: str = "harmonic",
+    load: float = 0.0,
+    inner_fairness: Any = "uniform",
+    neighbours: npt.ArrayLike | None = None,
+    method: str = "global",
+    levels: int = 0,
+    tolerance: float = 1e-6,
+    max_iterations: int = 200,
+    normals: str = "fitted",
+    threads: int = 0,
+    progress: Progress | None = None,
+) -> FairResult:
+    """Replace the free vertices of a mesh by the fairest surface with the given boundary data.
+
+    Solves Δ_B H = 0 (Schneider & Kobbelt 2001, eq. 4) for the positions of all vertices that are not fixed,
+    with prescribed positions and normals at the fixed ones. The interior given is not looked at (conformal
+    weights without ``reference`` and default normals apart). No argument is ever changed.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float
+        Positions, any unit.
+    triangles : (m, 3) int
+        Vertex indices, consistently wound.
+    fixed : (k,) int
+        Vertices that keep their position; default: the vertices on the mesh border, which are always fixed.
+        Curves of fixed vertices inside the mesh are cut: the patches on both sides end there. A fixed vertex
+        without fixed neighbours is a pin: its position counts, its normal does not.
+    fixed_normals : (k, 3) float
+        Normals at ``fixed``, on the side from which the triangles are counter-clockwise. Default: the average
+        of the adjacent triangle normals (§7.5), which makes the result depend on the interior.
+    reference : (n, 3) float
+        The original mesh M0 of the conformal weights; default: ``vertices``.
+    equation : "harmonic" | "minimal"
+        Δ_B H = 0 with tangent planes met (G1), or H = 0 with positions met only (G0).
+    load : float
+        Belongs to an equation that this version does not have; must be 0.
+    inner_fairness : "uniform" | "conformal"
+        How vertices sit within the surface (§7.3).
+    neighbours : (e, 2) int
+        Edges that uniform weights use instead of the triangles' own (for quads and n-gons).
+    method : "global"
+    levels : 0 | 1
+        1: no hierarchy; 0: the solver's choice (in this version no hierarchy).
+    tolerance : float
+        Stop when an iteration moves no vertex by more than ``tolerance`` × D.
+    max_iterations : int
+    normals : "fitted" | "averaged"
+        Vertex normal behind H.
+    threads : int
+        0: all cores. The result has the same bits for every number of threads.
+    progress : callable(fraction, stage) -> None | bool
+        Called between steps; returning False cancels.
+
+    Returns
+    -------
+    FairResult
+
+    Raises
+    ------
+    MeshError
+        The input can't be faired; ``code`` and ``elements`` say why and where.
+    ValueError
+        A shape or option is wrong; the message names the argument and what is accepted.
+    Cancelled
+        ``progress`` returned False.
+    SolverError
+        The numerics broke down.
+    """
+    points = _arguments.floats("vertices", vertices)
+    count = points.shape[0]
+    faces = _arguments.integers("triangles", triangles, 3)
+    fixed_list = None if fixed is None else _arguments.integers("fixed", fixed, None)
+    if fixed_normals is not None and fixed_list is None:
+        raise ValueError("fixed_normals: needs `fixed`, whose order it follows")
+    given_normals = (
+        None
+        if fixed_normals is None or fixed_list is None
+        else _arguments.floats("fixed_normals", fixed_normals, fixed_list.shape[0])
+    )
+    m0 = None if reference is None else _arguments.floats("reference", reference, count)
+    edges = _neighbour_edges(neighbours, count)
+    _arguments.choice("method", method, METHODS)
+    _arguments.whole("levels", levels, 0, 1)
+    _arguments.whole("threads", threads, 0)
+    if load != 0.0:
+        raise ValueError("load: needs equation 'constant', which this version does not have; accepted is 0")
+    if progress is not None and not callable(progress):
+        raise ValueError(f"progress: a callable(fraction, stage) or None is needed, not {progress!r}")
+    options = _core.Options(
+        equation=_arguments.choice("equation", equation, EQUATIONS),
+        inner_fairness=_arguments.choice("inner_fairness", inner_fairness, INNER_FAIRNESS),
+        normals=_arguments.choice("normals", normals, NORMALS),
+        tolerance=_arguments.positive("tolerance", tolerance),
+        max_iterations=_arguments.whole("max_iterations", max_iterations, 1),
+    )
+    return FairResult(
+        **_core.fair(points, faces, fixed_list, given_normals, m0, edges, options, progress)
+    )
+
+
+def _neighbour_edges(neighbours: npt.ArrayLike | None, count: int) -> IntArray | None:
+    if neighbours is None:
+        return None
+    edges = _arguments.integers("neighbours", neighbours, 2)
+    return _arguments.indices_within("neighbours", edges, count)

@@ -1,0 +1,103 @@
+"""What can be measured on a mesh."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from fairing import _arguments, _core
+from fairing._fair import NORMALS
+from fairing._types import FloatArray, IntArray
+
+
+def mean_curvature(
+    vertices: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    *,
+    fixed: npt.ArrayLike | None = None,
+    fixed_normals: npt.ArrayLike | None = None,
+    normals: str = "fitted",
+) -> FloatArray:
+    """(n,) H at each vertex by the fit of §6, −1/R on a sphere of radius R with outward normals.
+
+    Curves of ``fixed`` vertices are cut and get the mean of their sides. Without ``fixed_normals`` the
+    normals of fixed and border vertices are fitted to their own side. Zero at vertices without triangles.
+    Errors as in :func:`fairing.fair`.
+    """
+    points = _arguments.floats("vertices", vertices)
+    faces = _arguments.integers("triangles", triangles, 3)
+    held = None if fixed is None else _arguments.integers("fixed", fixed, None)
+    if fixed_normals is not None and held is None:
+        raise ValueError("fixed_normals: needs `fixed`, whose order it follows")
+    given = (
+        None
+        if fixed_normals is None or held is None
+        else _arguments.floats("fixed_normals", fixed_normals, held.shape[0])
+    )
+    kind = _arguments.choice("normals", normals, NORMALS)
+    return _core.mean_curvature(points, faces, held, given, kind)
+
+
+def vertex_normals(
+    vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, normals: str = "fitted"
+) -> FloatArray:
+    """(n, 3) unit normals on the side from which the triangles are counter-clockwise.
+
+    "fitted": consistent with the curvature fit; "averaged": normalised sum of cross products (§6). Zero at
+    vertices without triangles.
+    """
+    points = _arguments.floats("vertices", vertices)
+    faces = _arguments.integers("triangles", triangles, 3)
+    return _core.vertex_normals(points, faces, _arguments.choice("normals", normals, NORMALS))
+
+
+def cotan_laplacian(
+    vertices: npt.ArrayLike, triangles: npt.ArrayLike
+) -> tuple[IntArray, IntArray, FloatArray]:
+    """(rows, columns, values) of S for all vertices (§5, eq. 6, 7).
+
+    S_ij = −(cot α + cot β), without ½; rows sum to zero; positive semidefinite.
+    """
+    points = _arguments.floats("vertices", vertices)
+    faces = _arguments.integers("triangles", triangles, 3)
+    _arguments.indices_within("triangles", faces, points.shape[0])
+    return _core.cotan_laplacian(points, faces)
+
+
+def boundary_loops(triangles: npt.ArrayLike) -> list[IntArray]:
+    """Closed loops of border vertices, each with the mesh on its left, starting at its smallest vertex."""
+    faces = _arguments.integers("triangles", triangles, 3)
+    if faces.size and faces.min() < 0:
+        _arguments.indices_within("triangles", faces, int(faces.max()) + 1)
+    return _core.boundary_loops(faces)
+
+
+def conformal_distortion(
+    reference: npt.ArrayLike, vertices: npt.ArrayLike, triangles: npt.ArrayLike
+) -> FloatArray:
+    """(m,) ratio ≥ 1 of the singular values of each triangle's map from ``reference`` to ``vertices``.
+
+    1: angles are kept; infinite where a triangle is degenerate on one side.
+    """
+    points = _arguments.floats("vertices", vertices)
+    m0 = _arguments.floats("reference", reference, points.shape[0])
+    faces = _arguments.integers("triangles", triangles, 3)
+    _arguments.indices_within("triangles", faces, points.shape[0])
+    return _core.conformal_distortion(m0, points, faces)
+
+
+def surrounding_normals(
+    vertices: npt.ArrayLike, triangles: npt.ArrayLike, at: npt.ArrayLike
+) -> tuple[FloatArray, npt.NDArray[np.bool_]]:
+    """Normals at the vertices ``at`` of the surface that ``triangles`` alone form.
+
+    Made for the outline of a patch: ``triangles`` are those outside it. A polynomial is fitted to the nearest
+    of their vertices, a few rings wide. Returns ((k, 3) unit normals, (k,) bool); where the second is False
+    there were too few points and the normal is the average of the adjacent triangles', zero without any.
+    """
+    points = _arguments.floats("vertices", vertices)
+    faces = _arguments.integers("triangles", triangles, 3)
+    _arguments.indices_within("triangles", faces, points.shape[0])
+    where = _arguments.integers("at", at, None)
+    _arguments.indices_within("at", where, points.shape[0])
+    return _core.surrounding_normals(points, faces, where)

@@ -1,0 +1,89 @@
+"""Results, warnings and errors of the package."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int32]
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnostic:
+    """A warning, or the reason of a :class:`MeshError`.
+
+    ``elements`` are indices into the caller's vertices or triangles, as ``kind`` says; edges are given by
+    their two vertices, one after the other.
+    """
+
+    code: str
+    message: str
+    elements: IntArray
+    kind: Literal["vertex", "triangle"]
+
+    def __str__(self) -> str:
+        return f"{self.code}: {self.message}"
+
+
+class MeshError(ValueError):
+    """Input that can't be faired. ``code`` and ``elements`` say why and where (see `Diagnostic`)."""
+
+    def __init__(self, diagnostic: Diagnostic) -> None:
+        super().__init__(str(diagnostic))
+        self.diagnostic = diagnostic
+
+    @property
+    def code(self) -> str:
+        return self.diagnostic.code
+
+    @property
+    def elements(self) -> IntArray:
+        return self.diagnostic.elements
+
+    @property
+    def kind(self) -> str:
+        return self.diagnostic.kind
+
+
+class SolverError(RuntimeError):
+    """The numerics broke down; nothing was changed."""
+
+
+class Cancelled(RuntimeError):
+    """The progress callback returned False; nothing was changed."""
+
+
+@dataclass(frozen=True, eq=False)
+class FairResult:
+    """What :func:`fairing.fair` gives back. All arrays are read-only.
+
+    D is twice the largest distance of a component's fixed vertices from their centroid; where there are
+    several components, the worst of each figure is given.
+    """
+
+    vertices: FloatArray
+    """(n, 3) positions; vertices that are not free keep their bits."""
+    fixed: IntArray
+    """(k',) all fixed vertices: those given, in their order, then the other border vertices."""
+    mean_curvature: FloatArray
+    """(n,) H, in length⁻¹: −1/R on a sphere of radius R with outward normals (eq. 8)."""
+    boundary_angle: FloatArray
+    """(k',) degrees between prescribed and obtained normals, in the order of ``fixed``."""
+    converged: bool
+    polished: bool
+    """The discrete equation holds on the connectivity given."""
+    termination: Literal["converged", "iteration_limit", "stalled"]
+    iterations: int
+    residual: float
+    """Largest |Δ_B H| D³ at a free vertex (|H| D for ``equation="minimal"``)."""
+    initial_residual: float
+    """The same for the fill that the solve starts from."""
+    levels: tuple[int, ...]
+    """Vertex counts of the levels, coarse to fine."""
+    seconds: dict[str, float]
+    """Wall-clock time of each stage and in ``"total"``."""
+    warnings: tuple[Diagnostic, ...]

@@ -1,0 +1,26 @@
+// Anderson acceleration of a fixed-point iteration x ← x + f(x).
+#pragma once
+
+#include <Eigen/Core>
+
+namespace fairing {
+
+// Keeps the last `depth` differences; type II with least squares by QR (Walker & Ni 2011).
+class Anderson {
+public:
+    Anderson(Eigen::Index size, int depth);
+
+    // The accelerated step from x, given the plain step f(x).
+    Eigen::VectorXd step(const Eigen::VectorXd& x, const Eigen::VectorXd& f);
+    void reset() { count_ = 0; }
+
+private:
+    int depth_;
+    int count_ = 0;  // calls since the last reset
+    Eigen::MatrixXd dx_;
+    Eigen::MatrixXd df_;
+    Eigen::VectorXd last_x_;
+    Eigen::VectorXd last_f_;
+};
+
+}  // namespace fairing

@@ -1,0 +1,22 @@
+// The surface that a solve starts from; it depends on connectivity and boundary data only.
+#pragma once
+
+#include "geometry/face_geometry.h"
+#include "solver/normal_operator.h"
+
+namespace fairing {
+
+// S and M of a mesh whose triangles are all equilateral (edge weight 2/√3, half of it on the border).
+Stiffness uniform_stiffness(const Patch& patch);
+
+// Clamped bi-Laplacian membranes over the outline: linear in the conormals, whose weight sigma decides how far the
+// surface bulges. positions(sigma) = flat + sigma · bulge, free vertices only.
+struct Fill {
+    Points flat;
+    Points bulge;
+};
+
+// `op` is left holding the uniform operator's factorisation.
+Fill clamped_fill(const Patch& patch, const Points& fixed_points, const Points& conormals, BiharmonicOperator& op);
+
+}  // namespace fairing

@@ -1,0 +1,13 @@
+// The fast solver on one level: fill, mixed-FEM globalisation, accelerated K-preconditioned iteration.
+#pragma once
+
+#include "solver/problem.h"
+
+namespace fairing {
+
+// Solves the outer equation from the boundary data alone; the caller's interior is not looked at. Deterministic.
+// The positions with the lowest residual come back, converged or not.
+// Throws SolverError when a factorisation breaks down at the start, Cancelled.
+Solution solve_global(const Problem& problem, const Progress& progress);
+
+}  // namespace fairing

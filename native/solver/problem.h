@@ -1,0 +1,46 @@
+// What a solver is given for one component, and what it gives back.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "base/progress.h"
+#include "fairness/inner_weights.h"
+#include "geometry/vertex_normal.h"
+
+namespace fairing {
+
+enum class Equation {
+    harmonic,  // Δ_B H = 0 with G1 boundary data
+    minimal,   // H = 0 with G0 boundary data
+};
+
+enum class Termination { converged, iteration_limit, stalled };
+
+struct SolverOptions {
+    Equation equation = Equation::harmonic;
+    NormalKind normals = NormalKind::fitted;
+    double tolerance = 1e-6;  // of the largest move in an iteration, in units of D
+    int max_iterations = 200;
+};
+
+// One component in units of D: translated and scaled so that D = 1.
+struct Problem {
+    const Patch& patch;
+    Points fixed_points;   // 3 × fixed count
+    Points fixed_normals;  // 3 × fixed count, unit; ignored at pins
+    InnerWeights weights;
+    SolverOptions options;
+};
+
+struct Solution {
+    Points points;  // 3 × local vertices
+    VectorX mean_curvature;
+    Termination termination = Termination::stalled;
+    int iterations = 0;
+    double residual = 0.0;          // largest |Δ_B H| (|H| for minimal) at free vertices
+    double initial_residual = 0.0;  // of the fill
+    std::map<std::string, double> seconds;
+};
+
+}  // namespace fairing

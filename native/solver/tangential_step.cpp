@@ -1,0 +1,78 @@
+#include "solver/tangential_step.h"
+
+namespace fairing {
+
+namespace {
+
+void project_across(Points& field, const Points& normals) {
+    for (Eigen::Index i = 0; i < field.cols(); ++i) {
+        field.col(i) -= normals.col(i).dot(field.col(i)) * normals.col(i);
+    }
+}
+
+double inner(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
+
+}  // namespace
+
+TangentialStep::TangentialStep(const Patch& patch, const InnerWeights& weights, const Points& fixed_points)
+    : free_count_(patch.free_count), pull_(Points::Zero(3, patch.free_count)) {
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(4 * weights.size());
+    const auto add_row = [&](int i, int j, double weight) {
+        if (!patch.is_free(i)) return;
+        entries.emplace_back(i, i, weight);
+        if (patch.is_free(j)) {
+            entries.emplace_back(i, j, -weight);
+        } else {
+            pull_.col(i) += weight * fixed_points.col(j - free_count_);
+        }
+    };
+    for (const WeightedEdge& edge : weights) {
+        add_row(edge.i, edge.j, edge.weight);
+        add_row(edge.j, edge.i, edge.weight);
+    }
+    laplacian_.resize(free_count_, free_count_);
+    laplacian_.setFromTriplets(entries.begin(), entries.end());
+    factor_.factorise(laplacian_, "the inner-fairness weights");
+}
+
+Points TangentialStep::harmonic_positions() const {
+    return factor_.solve(Eigen::MatrixXd(pull_.transpose())).transpose();
+}
+
+Points TangentialStep::gradient(const Points& points) const {
+    return (laplacian_ * points.leftCols(free_count_).transpose()).transpose() - pull_;
+}
+
+Points TangentialStep::precondition(const Points& field, const Points& normals) const {
+    Points result = factor_.solve(Eigen::MatrixXd(field.transpose())).transpose();
+    project_across(result, normals);
+    return result;
+}
+
+Points TangentialStep::displacement(const Points& points, const Points& normals, int max_cycles) const {
+    constexpr double relative_tolerance = 0.05;
+    Points d = Points::Zero(3, free_count_);
+    Points r = -gradient(points);
+    project_across(r, normals);
+    Points z = precondition(r, normals);
+    Points p = z;
+    double rz = inner(r, z);
+    const double target = relative_tolerance * relative_tolerance * rz;
+    for (int cycle = 0; cycle < max_cycles && rz > target; ++cycle) {
+        Points Ap = (laplacian_ * p.transpose()).transpose();
+        project_across(Ap, normals);
+        const double curvature = inner(p, Ap);
+        if (!(curvature > 0.0)) break;
+        const double alpha = rz / curvature;
+        d += alpha * p;
+        r -= alpha * Ap;
+        z = precondition(r, normals);
+        const double next = inner(r, z);
+        p = z + (next / rz) * p;
+        rz = next;
+    }
+    return d;
+}
+
+}  // namespace fairing
