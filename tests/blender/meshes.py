@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from itertools import product
 from typing import Any
 
 import bmesh
@@ -48,15 +49,21 @@ def add(points: Any, faces: Sequence[Sequence[int]], name: str = "Patch") -> bpy
     return obj
 
 
-def sphere(segments: int = 48, centre: Sequence[float] = (0.0, 0.0, 0.0)) -> bpy.types.Object:
-    """Add a unit sphere of quads with triangles at the poles and a rim of vertices at z = 0."""
-    bm = bmesh.new()
-    bmesh.ops.create_uvsphere(bm, u_segments=segments, v_segments=segments // 2, radius=1.0)
-    points = np.array([v.co for v in bm.verts])
-    points /= np.linalg.norm(points, axis=1, keepdims=True)
-    faces = [[v.index for v in face.verts] for face in bm.faces]
-    bm.free()
-    return add(points + np.array(centre), faces, "Sphere")
+def sphere(rim: int = 48) -> bpy.types.Object:
+    """Add a unit sphere of quads, a blown-up cube, with `rim` (a multiple of 8) edges at z = 0."""
+    size = rim // 4
+    steps = np.tan(np.linspace(-0.25, 0.25, size + 1) * np.pi)
+    numbers: dict[tuple[float, ...], int] = {}
+    faces = []
+    for axis, side in product(range(3), (-1.0, 1.0)):
+        for i, j in product(range(size), repeat=2):
+            face = []
+            for u, v in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)):
+                point = np.roll([side, steps[u], steps[v]], axis)
+                key = tuple(np.round(point / np.linalg.norm(point), 9) + 0.0)
+                face.append(numbers.setdefault(key, len(numbers)))
+            faces.append(face if side > 0.0 else face[::-1])
+    return add(list(numbers), faces, "Sphere")
 
 
 def grid_points(size: int = 8) -> Floats:

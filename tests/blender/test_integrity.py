@@ -114,14 +114,16 @@ def add_nan(obj: bpy.types.Object) -> None:
     meshes.move(obj, points)
 
 
-def add_fin(obj: bpy.types.Object) -> None:
-    """Raise a third face on an edge in the middle of the selection."""
+def add_tent(obj: bpy.types.Object) -> None:
+    """Raise a closed tent on an edge in the middle of the selection: four faces meet there."""
     bm = bmesh.new()
     bm.from_mesh(obj.data)
     bm.verts.ensure_lookup_table()
     edge = min(bm.edges, key=lambda e: sum(v.co.xy.length for v in e.verts))
-    tip = bm.verts.new((0.0, 0.0, 1.0))
-    bm.faces.new((*edge.verts, tip))
+    a, b = edge.verts
+    tips = [bm.verts.new((0.0, y, 1.0)) for y in (-0.1, 0.1)]
+    for face in ((a, b, tips[0]), (b, a, tips[1]), (a, tips[0], tips[1]), (b, tips[1], tips[0])):
+        bm.faces.new(face)
     bm.to_mesh(obj.data)
     bm.free()
 
@@ -179,12 +181,12 @@ def test_mesh_error_selects_its_vertices() -> None:
     assert selected == np.flatnonzero(np.isnan(points).any(axis=1)).tolist()
 
 
-def test_edge_with_three_faces() -> None:
+def test_edge_with_four_faces() -> None:
     obj, _ = domed_grid()
-    add_fin(obj)
+    add_tent(obj)
     faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7)
     before = in_edit_mode_once(obj, faces)
-    with pytest.raises(RuntimeError):
+    with pytest.raises(RuntimeError, match="NONMANIFOLD_EDGE"):
         meshes.fair(obj, faces)
     after = meshes.contents(obj)
     assert after["POINT position"] == before["POINT position"]
