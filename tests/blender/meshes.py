@@ -80,6 +80,15 @@ def grid(size: int = 8) -> bpy.types.Object:
     return add(grid_points(size), faces, "Grid")
 
 
+def domed_grid() -> tuple[bpy.types.Object, Mask]:
+    """Add a grid with a bumpy surface; return it and a selection away from the border."""
+    obj = grid()
+    points = positions(obj)
+    points[:, 2] = 0.2 * np.cos(2.0 * points[:, 0]) + 0.1 * np.sin(9.0 * points[:, 1])
+    move(obj, points)
+    return obj, faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7)
+
+
 def positions(obj: bpy.types.Object) -> Floats:
     """Return the (n, 3) positions of a mesh in object mode."""
     flat = np.empty(3 * len(obj.data.vertices), dtype=np.float32)
@@ -181,3 +190,28 @@ def _bytes(items: Any, name: str, width: int, dtype: Any) -> bytes:
     values = np.empty(len(items) * width, dtype=dtype)
     items.foreach_get(name, values)
     return values.tobytes()
+
+
+def in_edit_mode_once(obj: bpy.types.Object, faces: Mask) -> dict[str, bytes]:
+    """Return the contents after selecting and a visit to edit mode, which may add layers."""
+    select(obj, faces)
+    edit(obj)
+    leave()
+    return contents(obj)
+
+
+def moved(before: dict[str, bytes], after: dict[str, bytes], name: str = "POINT position") -> Any:
+    """Return which vertices changed a bit, asserting that no other layer did."""
+    assert before.keys() == after.keys()
+    assert [key for key in before if key != name and before[key] != after[key]] == []
+    old, new = (np.frombuffer(c[name], np.uint32).reshape(-1, 3) for c in (before, after))
+    return (old != new).any(axis=1)
+
+
+def contents_in_edit_mode() -> dict[str, bytes]:
+    """Undo replaces objects: look the grid up again, and visit object mode to read it."""
+    assert bpy.context.mode == "EDIT_MESH"
+    leave()
+    found = contents(bpy.data.objects["Grid"])
+    bpy.ops.object.mode_set(mode="EDIT")
+    return found

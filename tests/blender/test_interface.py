@@ -11,7 +11,6 @@ import bpy
 import meshes
 import numpy as np
 import pytest
-from test_integrity import domed_grid, in_edit_mode_once
 
 ID = "bl_ext.user_default.intrinsic_fairing"
 
@@ -94,10 +93,10 @@ def test_minimal_surface() -> None:
 def test_fair_mesh_is_the_operator() -> None:
     from bl_ext.user_default.intrinsic_fairing import fair_mesh
 
-    obj, faces = domed_grid()
+    obj, faces = meshes.domed_grid()
     obj.scale = (1.0, 2.0, 1.0)
     meshes.fair(obj, faces)
-    scripted, _ = domed_grid()
+    scripted, _ = meshes.domed_grid()
     indices = np.flatnonzero(faces)
     result = fair_mesh(scripted.data, indices, matrix=obj.matrix_world)
     assert meshes.positions(scripted).tobytes() == meshes.positions(obj).tobytes()
@@ -110,10 +109,10 @@ def test_fair_mesh_is_the_operator() -> None:
 def test_fair_mesh_keeps_every_other_bit() -> None:
     from bl_ext.user_default.intrinsic_fairing import fair_mesh
 
-    obj, faces = domed_grid()
+    obj, faces = meshes.domed_grid()
     for name in ("Basis", "Smile"):
         obj.shape_key_add(name=name)
-    before = in_edit_mode_once(obj, faces)
+    before = meshes.in_edit_mode_once(obj, faces)
     fair_mesh(obj.data, np.flatnonzero(faces))
     after = meshes.contents(obj)
     free = meshes.free_vertices(obj, faces)
@@ -131,7 +130,7 @@ def test_fair_mesh_keeps_every_other_bit() -> None:
 def test_fair_mesh_refuses() -> None:
     from bl_ext.user_default.intrinsic_fairing import fair_mesh
 
-    obj, faces = domed_grid()
+    obj, faces = meshes.domed_grid()
     indices = np.flatnonzero(faces)
     before = meshes.contents(obj)
     with pytest.raises(IndexError):
@@ -165,7 +164,7 @@ def command(*arguments: str) -> int:
 
 
 def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    obj, faces = domed_grid()
+    obj, faces = meshes.domed_grid()
     inside = {v for i in np.flatnonzero(faces) for v in obj.data.polygons[i].vertices}
     obj.vertex_groups.new(name="Region").add(sorted(inside), 1.0, "REPLACE")
     output = tmp_path / "fair.blend"
@@ -191,7 +190,7 @@ def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_command_refuses(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    domed_grid()
+    meshes.domed_grid()
     output = tmp_path / "fair.blend"
     assert command("--object", "Nobody", "--output", str(output)) == 2
     assert "Nobody" in capsys.readouterr().err

@@ -1,0 +1,128 @@
+"""What is refused leaves no trace and says where; nothing to do is no error."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bmesh
+import bpy
+import meshes
+import numpy as np
+import pytest
+
+
+def add_nan(obj: bpy.types.Object) -> None:
+    points = meshes.positions(obj)
+    points[np.abs(points[:, :2]).max(axis=1).argmin()] = np.nan
+    meshes.move(obj, points)
+
+
+def add_tent(obj: bpy.types.Object) -> None:
+    """Raise a closed tent on an edge in the middle of the selection: four faces meet there."""
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    edge = min(bm.edges, key=lambda e: sum(v.co.xy.length for v in e.verts))
+    a, b = edge.verts
+    tips = [bm.verts.new((0.0, y, 1.0)) for y in (-0.1, 0.1)]
+    for face in ((a, b, tips[0]), (b, a, tips[1]), (a, tips[0], tips[1]), (b, tips[1], tips[0])):
+        bm.faces.new(face)
+    bm.to_mesh(obj.data)
+    bm.free()
+
+
+def flatten(obj: bpy.types.Object) -> None:
+    obj.scale = (1.0, 0.0, 1.0)
+
+
+def nothing(_obj: bpy.types.Object) -> None:
+    pass
+
+
+REFUSED = [
+    (add_nan, {}, "finite"),
+    (flatten, {}, "scale"),
+    (nothing, {"pin_group": "Missing"}, "Missing"),
+    (nothing, {"method": "PAPER"}, "method"),
+    (nothing, {"equation": "CONSTANT", "bulge": 1.0}, "equation"),
+]
+
+
+@pytest.mark.parametrize(("spoil", "properties", "says"), REFUSED)
+def test_refused_runs_leave_no_trace(spoil: Any, properties: Any, says: str) -> None:
+    obj, faces = meshes.domed_grid()
+    spoil(obj)
+    before = meshes.in_edit_mode_once(obj, faces)
+    with pytest.raises(RuntimeError, match=says):
+        meshes.fair(obj, faces, **properties)
+    after = meshes.contents(obj)
+    assert [k for k in before if "select" not in k and before[k] != after[k]] == []
+
+
+def test_refused_run_adds_no_undo_step() -> None:
+    obj, faces = meshes.domed_grid()
+    original = meshes.positions(obj)
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    bpy.ops.ed.undo_push(message="first")
+    bpy.ops.transform.translate(value=(0.0, 0.0, 1.0))
+    bpy.ops.ed.undo_push(message="second")
+    with pytest.raises(RuntimeError):
+        meshes.run(method="PAPER")
+    bpy.ops.ed.undo()
+    meshes.contents_in_edit_mode()
+    np.testing.assert_array_equal(meshes.positions(bpy.data.objects["Grid"]), original)
+
+
+def test_mesh_error_selects_its_vertices() -> None:
+    obj, faces = meshes.domed_grid()
+    add_nan(obj)
+    points = meshes.positions(obj)
+    with pytest.raises(RuntimeError):
+        meshes.fair(obj, faces)
+    selected = [v.index for v in obj.data.vertices if v.select]
+    assert selected == np.flatnonzero(np.isnan(points).any(axis=1)).tolist()
+
+
+def test_edge_with_four_faces() -> None:
+    obj, _ = meshes.domed_grid()
+    add_tent(obj)
+    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7)
+    before = meshes.in_edit_mode_once(obj, faces)
+    with pytest.raises(RuntimeError, match="NONMANIFOLD_EDGE"):
+        meshes.fair(obj, faces)
+    after = meshes.contents(obj)
+    assert after["POINT position"] == before["POINT position"]
+    selected = [v.index for v in obj.data.vertices if v.select]
+    assert len(selected) == 2
+
+
+def test_nothing_selected_is_an_info() -> None:
+    obj, faces = meshes.domed_grid()
+    before = meshes.in_edit_mode_once(obj, np.zeros_like(faces))
+    assert meshes.fair(obj, np.zeros_like(faces)) == {"CANCELLED"}
+    one = np.zeros_like(faces)
+    one[0] = True
+    assert meshes.fair(obj, one) == {"CANCELLED"}
+    assert meshes.contents(obj)["POINT position"] == before["POINT position"]
+
+
+def test_locked_shape_key_is_refused() -> None:
+    obj, faces = meshes.domed_grid()
+    obj.shape_key_add(name="Basis").lock_shape = True
+    with pytest.raises(RuntimeError, match="locked"):
+        meshes.fair(obj, faces)
+
+
+def test_one_refused_object_leaves_all_alone() -> None:
+    first, faces = meshes.domed_grid()
+    second, _ = meshes.domed_grid()
+    add_nan(second)
+    before = meshes.positions(first)
+    for obj in (first, second):
+        meshes.select(obj, faces)
+    meshes.edit(first, second)
+    with pytest.raises(RuntimeError, match=second.name):
+        meshes.run()
+    meshes.leave()
+    assert meshes.positions(first).tobytes() == before.tobytes()
