@@ -91,12 +91,24 @@ def fixed_out_of_range() -> Case:
 
 
 def edge_of_three() -> Case:
-    """A fin stands on an edge between free vertices."""
+    """A bubble stands on a triangle between free vertices: three edges of three triangles."""
+    patch = _base()
+    inside = patch.triangles[np.isin(patch.triangles, patch.free).all(axis=1)][0]
+    vertices = np.vstack([patch.vertices, 1.5 * patch.vertices[[inside[0]]]])
+    top = len(patch.vertices)
+    bubble = [[inside[k], inside[(k + 1) % 3], top] for k in range(3)]
+    triangles = np.vstack([patch.triangles, bubble])
+    return Case(vertices, triangles, "NONMANIFOLD_EDGE", tuple(int(v) for v in inside))
+
+
+def fin() -> Case:
+    """A single triangle stands on an edge in the middle of the patch, whose outline is given."""
     patch = _base()
     a, b = _inner_edge(patch)
     vertices = np.vstack([patch.vertices, 2 * patch.vertices[[a]]])
     triangles = np.vstack([patch.triangles, [[a, b, len(patch.vertices)]]])
-    return Case(vertices, triangles, "NONMANIFOLD_EDGE", (a, b))
+    options = {"fixed": patch.fixed, "fixed_normals": patch.fixed_normals}
+    return Case(vertices, triangles, "NONMANIFOLD_EDGE", (a, b), options)
 
 
 def bow_tie() -> Case:

@@ -94,6 +94,14 @@ def valences(triangles: IntArray, count: int) -> IntArray:
     return np.bincount(edges(triangles).ravel(), minlength=count)
 
 
+def beyond_rings(triangles: IntArray, start: IntArray, rings: int) -> NDArray[np.bool_]:
+    """Mask of the vertices further than this many rings from the vertices `start`."""
+    near = np.isin(np.arange(int(triangles.max()) + 1), start)
+    for _ in range(rings):
+        near[triangles[near[triangles].any(axis=1)].ravel()] = True
+    return ~near
+
+
 def border_edges(triangles: IntArray) -> IntArray:
     """Directed edges of exactly one triangle, (b, 2)."""
     directed = directed_edges(triangles)

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Literal
 
 import numpy as np
@@ -164,6 +164,8 @@ def plane(
 FAMILIES: dict[str, Callable[..., Patch]] = {
     "hemisphere": cap,
     "cylinder": cylinder,
+    "short_cylinder": partial(cylinder, length=1.0),
+    "cylinder_patch": partial(cylinder, shape="rectangle"),
     "catenoid": catenoid,
     "unduloid": unduloid,
     "linear_flux": linear_flux,

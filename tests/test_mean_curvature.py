@@ -9,7 +9,6 @@ import pytest
 import measures
 import shapes
 from curves import FloatArray
-from meshing import IntArray
 from shapes import Patch, Style
 
 STYLES = {
@@ -27,10 +26,13 @@ def curvature(patch: Patch, **options: str) -> FloatArray:
     )  # fmt: skip
 
 
-def rms_error(patch: Patch, **options: str) -> float:
-    """Over the free vertices, relative to the largest exact curvature."""
-    error = (curvature(patch, **options) - patch.mean_curvature)[patch.free]
-    return float(np.sqrt((error**2).mean()) / np.abs(patch.mean_curvature).max())
+def typical_error(patch: Patch, **options: str) -> float:
+    """Exceeded at a tenth of the free vertices, relative to the largest exact curvature.
+
+    Not the maximum: a few rings of three or four slivers have errors that do not shrink.
+    """
+    error = np.abs(curvature(patch, **options) - patch.mean_curvature)[patch.free]
+    return float(np.quantile(error, 0.9) / np.abs(patch.mean_curvature).max())
 
 
 @pytest.mark.parametrize("style", STYLES)
@@ -63,21 +65,24 @@ def test_scales_with_the_inverse_length() -> None:
     assert np.abs(1e3 * larger - curvature(patch)).max() < 1e-9
 
 
-@pytest.mark.parametrize("style", ["jittered", "flipped", "random"])
+@pytest.mark.parametrize("style", STYLES)
 @pytest.mark.parametrize("name", ["cylinder", "unduloid", "linear_flux", "torus", "clothoid"])
 def test_error_falls_with_the_edge_length(name: str, style: str) -> None:
-    """First order in the worst case (one-ring fit); averaged normals: order 0."""
+    """First order, second where H is constant along a ruling; averaged normals: order 0."""
     coarse, fine = (getattr(shapes, name)(n, STYLES[style]) for n in (500, 4000))
-    errors = rms_error(coarse), rms_error(fine)
-    assert measures.observed_order((len(coarse.free), len(fine.free)), errors) > 0.7
+    errors = typical_error(coarse), typical_error(fine)
+    order = measures.observed_order((len(coarse.free), len(fine.free)), errors)
+    assert order > (1.6 if name == "cylinder" else 0.8)
+    assert errors[1] < 0.02
 
 
-def test_averaged_normals_do_not_converge() -> None:
-    """Why the fitted ones are the default: 30 times the error at 4k, and no better than at 500."""
-    coarse, fine = shapes.cylinder(500), shapes.cylinder(4000)
-    averaged = rms_error(coarse, normals="averaged"), rms_error(fine, normals="averaged")
-    assert averaged[1] > 0.6 * averaged[0]
-    assert averaged[1] > 5 * rms_error(fine)
+@pytest.mark.parametrize("name", ["cylinder", "torus", "clothoid"])
+def test_averaged_normals_do_not_converge(name: str) -> None:
+    """Why the fitted ones are the default: no better at 4k than at 500, 20 times worse."""
+    coarse, fine = getattr(shapes, name)(500), getattr(shapes, name)(4000)
+    averaged = [typical_error(patch, normals="averaged") for patch in (coarse, fine)]
+    assert averaged[1] > 0.8 * averaged[0]
+    assert averaged[1] > 10 * typical_error(fine)
 
 
 def test_border_is_fixed_by_default() -> None:
@@ -85,14 +90,5 @@ def test_border_is_fixed_by_default() -> None:
     patch = shapes.cap(500)
     alone = fairing.mean_curvature(patch.vertices, patch.triangles)
     assert alone.shape == (len(patch.vertices),)
-    away = np.setdiff1d(patch.free, rings_from(patch, 2))
+    away = measures.beyond_rings(patch.triangles, patch.fixed, 2)
     assert np.abs(alone[away] + 1).max() < 1e-7
-
-
-def rings_from(patch: Patch, count: int) -> IntArray:
-    """The fixed vertices and this many rings of neighbours."""
-    near = np.isin(np.arange(len(patch.vertices)), patch.fixed)
-    for _ in range(count):
-        touched = patch.triangles[near[patch.triangles].any(axis=1)]
-        near[touched.ravel()] = True
-    return np.flatnonzero(near)

@@ -111,7 +111,7 @@ def test_clothoid_has_a_linear_curvature() -> None:
 @pytest.mark.parametrize("style", STYLES)
 @pytest.mark.parametrize("family", shapes.FAMILIES)
 def test_meshes_are_manifold_oriented_and_exact(family: str, style: str) -> None:
-    if style == "grid" and family not in ("cylinder", "catenoid", "unduloid", "linear_flux"):
+    if style == "grid" and family in ("hemisphere", "clothoid", "plane"):
         pytest.skip("grids are made on tubes and rectangles")
     patch = shapes.FAMILIES[family](500, STYLES[style])
     assert measures.is_oriented_manifold(patch.triangles)

@@ -24,13 +24,15 @@ def angles(one: FloatArray, other: FloatArray) -> FloatArray:
     return np.asarray(np.degrees(np.arccos(np.clip((one * other).sum(axis=1), -1, 1))))
 
 
-@pytest.mark.parametrize(("n_free", "degrees"), [(200, 0.3), (500, 0.1), (2000, 0.03)])
+@pytest.mark.parametrize(("n_free", "degrees"), [(200, 1.2), (500, 0.3), (2000, 0.06)])
 def test_rim_of_a_hemisphere(n_free: int, degrees: float) -> None:
-    """One-sided averages are 8 to 3 degrees off on such rims of 30 to 100 edges."""
+    """Rims of 34, 52 and 104 edges; one-sided averages are 6 to 2 degrees off."""
     vertices, triangles, equator = outside_of_a_hemisphere(n_free)
     normals, fitted = fairing.surrounding_normals(vertices, triangles, equator)
     assert fitted.all()
     assert angles(normals, vertices[equator]).max() < degrees
+    averaged = fairing.vertex_normals(vertices, triangles, normals="averaged")[equator]
+    assert angles(averaged, vertices[equator]).max() > 4 * degrees
 
 
 def test_other_families() -> None:
