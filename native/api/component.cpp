@@ -62,8 +62,8 @@ void warn_of_flips(const Patch& patch, const Points& points, Diagnostics& warnin
     }
     if (flipped.empty()) return;
     warnings.push_back({Code::flipped_triangles,
-                        std::to_string(flipped.size()) + " triangles of the result are turned over",
-                        std::move(flipped), ElementKind::triangle});
+                        std::to_string(flipped.size()) + " triangles of the result are turned over", std::move(flipped),
+                        ElementKind::triangle});
 }
 
 void warn_of_sharp_outline(const Patch& patch, const Points& prescribed, Diagnostics& warnings) {
@@ -88,7 +88,8 @@ void warn_of_sharp_outline(const Patch& patch, const Points& prescribed, Diagnos
 
 Points gather(const Points& points, std::span<const int> vertices) {
     Points result(3, static_cast<Eigen::Index>(vertices.size()));
-    for (std::size_t k = 0; k < vertices.size(); ++k) result.col(static_cast<Eigen::Index>(k)) = points.col(vertices[k]);
+    for (std::size_t k = 0; k < vertices.size(); ++k)
+        result.col(static_cast<Eigen::Index>(k)) = points.col(vertices[k]);
     return result;
 }
 

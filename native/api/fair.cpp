@@ -1,11 +1,11 @@
 #include "api/fair.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "api/component.h"
 #include "api/measure.h"
+#include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
 #include "solver/global_solver.h"
 
@@ -15,21 +15,12 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-class Stopwatch {
-public:
-    [[nodiscard]] double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 // Leaves out components without fixed vertices; refuses when nothing is left.
 std::vector<Patch> solvable_patches(const CheckedMesh& mesh, Diagnostics& warnings) {
     std::vector<Patch> patches = make_patches(mesh.cut, mesh.roles);
     if (patches.empty()) {
-        throw MeshError({Code::no_free_vertices, "there is no vertex that may move: all are fixed or on the border", {}});
+        throw MeshError(
+            {Code::no_free_vertices, "there is no vertex that may move: all are fixed or on the border", {}});
     }
     Indices closed;
     std::erase_if(patches, [&](const Patch& patch) {
@@ -100,10 +91,11 @@ private:
         if (solution.termination != Termination::converged) {
             result_.converged = false;
             if (result_.termination != Termination::stalled) result_.termination = solution.termination;
-            result_.warnings.push_back({Code::not_converged,
-                                        "a component of " + std::to_string(patch.free_count) +
-                                            " free vertices did not converge; its positions are the best that were found",
-                                        Indices(free_vertices(patch).begin(), free_vertices(patch).end())});
+            result_.warnings.push_back(
+                {Code::not_converged,
+                 "a component of " + std::to_string(patch.free_count) +
+                     " free vertices did not converge; its positions are the best that were found",
+                 Indices(free_vertices(patch).begin(), free_vertices(patch).end())});
         }
         const bool has_normals = options_.solver.equation != Equation::minimal;
         const Points prescribed = has_normals ? problem.fixed_normals : one_sided_normals(patch, solution.points);

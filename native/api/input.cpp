@@ -64,11 +64,12 @@ Indices all_fixed(const MeshInput& input, const VertexRoles& roles, Diagnostics&
     }
     fixed.insert(fixed.end(), added.begin(), added.end());
     if (input.fixed && !added.empty()) {
-        warnings.push_back({Code::open_border_in_selection,
-                            std::to_string(added.size()) +
-                                " vertices on an open border were not given as fixed and stay where they are; where this is a "
-                                "seam of doubled vertices, use Merge by Distance first",
-                            std::move(added)});
+        warnings.push_back(
+            {Code::open_border_in_selection,
+             std::to_string(added.size()) +
+                 " vertices on an open border were not given as fixed and stay where they are; where this is a "
+                 "seam of doubled vertices, use Merge by Distance first",
+             std::move(added)});
     }
     return fixed;
 }
@@ -98,8 +99,8 @@ void copy_given_normals(const MeshInput& input, CheckedMesh& mesh) {
         const Vector3 n = input.fixed_normals->col(static_cast<Eigen::Index>(k));
         const double length = n.stableNorm();
         if (!n.allFinite()) {
-            throw MeshError({Code::nonfinite,
-                             "the normal prescribed at vertex " + std::to_string(v) + " is NaN or infinite", {v}});
+            throw MeshError(
+                {Code::nonfinite, "the normal prescribed at vertex " + std::to_string(v) + " is NaN or infinite", {v}});
         }
         if (!(length > 0.0)) {
             throw std::invalid_argument("fixed_normals: row " + std::to_string(k) + " (vertex " + std::to_string(v) +
@@ -120,7 +121,8 @@ void warn_of_normals(const MeshInput& input, CheckedMesh& mesh) {
     Indices pins;
     for (std::size_t k = 0; k < input.fixed->size(); ++k) {
         const int v = (*input.fixed)[k];
-        if (mesh.roles.pin[at(v)] && input.fixed_normals->col(static_cast<Eigen::Index>(k)).norm() > 0.0) pins.push_back(v);
+        if (mesh.roles.pin[at(v)] && input.fixed_normals->col(static_cast<Eigen::Index>(k)).norm() > 0.0)
+            pins.push_back(v);
     }
     if (pins.empty()) return;
     mesh.warnings.push_back({Code::pin_normal_ignored,

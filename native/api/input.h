@@ -17,8 +17,8 @@ struct MeshInput {
 // The mesh after all checks. Border vertices are fixed, given or not.
 struct CheckedMesh {
     VertexRoles roles;
-    Indices fixed;         // given order first, then the border vertices that were not given, ascending
-    Points normals;        // 3 × vertices: prescribed unit normals at fixed vertices, zero elsewhere
+    Indices fixed;   // given order first, then the border vertices that were not given, ascending
+    Points normals;  // 3 × vertices: prescribed unit normals at fixed vertices, zero elsewhere
     CutMesh cut;
     Diagnostics warnings;
 };

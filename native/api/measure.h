@@ -25,8 +25,8 @@ struct MatrixEntries {
 };
 MatrixEntries cotan_laplacian(const Points& points, const Triangles& triangles);
 
-// Ratio ≥ 1 of the singular values of the affine map of each triangle from the reference to the points; infinite where one of
-// them is degenerate.
+// Ratio ≥ 1 of the singular values of the affine map of each triangle from the reference to the points; infinite where
+// one of them is degenerate.
 VectorX conformal_distortion(const Points& reference, const Points& points, const Triangles& triangles);
 
 }  // namespace fairing

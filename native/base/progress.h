@@ -20,6 +20,8 @@ public:
     // Reports and throws Cancelled when the callback says so.
     void report(double fraction, std::string_view stage) const;
     [[nodiscard]] Progress range(double begin, double end) const;
+    // For work inside a step: asks whether to stop, without moving the fraction.
+    [[nodiscard]] Progress here() const;
 
 private:
     struct Shared;

@@ -8,9 +8,7 @@ namespace fairing::bindings {
 
 namespace {
 
-NormalKind to_kind(const std::string& name) {
-    return name == "averaged" ? NormalKind::averaged : NormalKind::fitted;
-}
+NormalKind to_kind(const std::string& name) { return name == "averaged" ? NormalKind::averaged : NormalKind::fitted; }
 
 py::array mean_curvature_array(const DoubleArray& vertices, const IntArray& triangles,
                                const std::optional<IntArray>& fixed, const std::optional<DoubleArray>& fixed_normals,
@@ -26,7 +24,8 @@ py::array vertex_normals_array(const DoubleArray& vertices, const IntArray& tria
 
 py::tuple cotan_laplacian_arrays(const DoubleArray& vertices, const IntArray& triangles) {
     const MatrixEntries entries = cotan_laplacian(to_points(vertices), to_triangles(triangles));
-    const VectorX values = Eigen::Map<const VectorX>(entries.values.data(), static_cast<Eigen::Index>(entries.values.size()));
+    const VectorX values =
+        Eigen::Map<const VectorX>(entries.values.data(), static_cast<Eigen::Index>(entries.values.size()));
     return py::make_tuple(from_indices(entries.rows), from_indices(entries.columns), from_vector(values));
 }
 
@@ -44,8 +43,7 @@ py::array conformal_distortion_array(const DoubleArray& reference, const DoubleA
 }
 
 py::tuple surrounding_normal_arrays(const DoubleArray& vertices, const IntArray& triangles, const IntArray& at) {
-    const SurroundingNormals result =
-        surrounding_normals(to_points(vertices), to_triangles(triangles), to_indices(at));
+    const SurroundingNormals result = surrounding_normals(to_points(vertices), to_triangles(triangles), to_indices(at));
     py::array_t<bool> fitted(static_cast<py::ssize_t>(result.fitted.size()));
     for (std::size_t k = 0; k < result.fitted.size(); ++k) {
         fitted.mutable_at(static_cast<py::ssize_t>(k)) = result.fitted[k] != 0;

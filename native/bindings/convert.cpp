@@ -18,13 +18,9 @@ void raise_mesh_error(const MeshError& error) {
 
 }  // namespace
 
-Points to_points(const DoubleArray& array) {
-    return Eigen::Map<const Points>(array.data(), 3, array.shape(0));
-}
+Points to_points(const DoubleArray& array) { return Eigen::Map<const Points>(array.data(), 3, array.shape(0)); }
 
-Triangles to_triangles(const IntArray& array) {
-    return Eigen::Map<const Triangles>(array.data(), 3, array.shape(0));
-}
+Triangles to_triangles(const IntArray& array) { return Eigen::Map<const Triangles>(array.data(), 3, array.shape(0)); }
 
 Indices to_indices(const IntArray& array) { return {array.data(), array.data() + array.size()}; }
 

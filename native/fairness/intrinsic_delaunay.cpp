@@ -91,8 +91,10 @@ bool IntrinsicTriangulation::flip(int h) {
     const int bottom = tail_[at(g2)];
     const std::array outer_length{length_[at(h1)], length_[at(h2)], length_[at(g1)], length_[at(g2)]};
     const std::array outer_twin{twin_[at(h1)], twin_[at(h2)], twin_[at(g1)], twin_[at(g2)]};
-    place_triangle(t, {top, start, bottom}, {outer_length[1], outer_length[2], diagonal}, {outer_twin[1], outer_twin[2], none});
-    place_triangle(u, {bottom, end, top}, {outer_length[3], outer_length[0], diagonal}, {outer_twin[3], outer_twin[0], none});
+    place_triangle(t, {top, start, bottom}, {outer_length[1], outer_length[2], diagonal},
+                   {outer_twin[1], outer_twin[2], none});
+    place_triangle(u, {bottom, end, top}, {outer_length[3], outer_length[0], diagonal},
+                   {outer_twin[3], outer_twin[0], none});
     twin_[at(3 * t + 2)] = 3 * u + 2;
     twin_[at(3 * u + 2)] = 3 * t + 2;
     return true;

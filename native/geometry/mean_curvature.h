@@ -13,7 +13,7 @@ struct CurvatureFit {
     double x0 = 0.0;
     double x1 = 0.0;
     double x2 = 0.0;
-    [[nodiscard]] double mean() const { return 0.5 * (x0 + x2); }                 // eq. 10
+    [[nodiscard]] double mean() const { return 0.5 * (x0 + x2); }  // eq. 10
     [[nodiscard]] double gaussian() const { return x0 * x2 - 0.25 * x1 * x1; }
 };
 
@@ -23,6 +23,7 @@ struct CurvatureFit {
 CurvatureFit fit_curvature(const Vector3& centre, std::span<const Vector3> points, const Vector3& normal);
 
 // H at all vertices of a patch, from the neighbours and a virtual point between every two of them.
-VectorX patch_mean_curvature(const Patch& patch, const Points& points, const FaceGeometry& faces, const Points& normals);
+VectorX patch_mean_curvature(const Patch& patch, const Points& points, const FaceGeometry& faces,
+                             const Points& normals);
 
 }  // namespace fairing

@@ -40,9 +40,8 @@ EdgeTable make_edges(const Triangles& triangles, int vertex_count) {
     for (int low = 0; low < vertex_count; ++low) {
         const auto first = entries.begin() + bucket_begin[static_cast<std::size_t>(low)];
         const auto last = entries.begin() + bucket_begin[static_cast<std::size_t>(low) + 1];
-        std::sort(first, last, [](const Entry& a, const Entry& b) {
-            return a.high != b.high ? a.high < b.high : a.side < b.side;
-        });
+        std::sort(first, last,
+                  [](const Entry& a, const Entry& b) { return a.high != b.high ? a.high < b.high : a.side < b.side; });
         for (auto entry = first; entry != last; ++entry) {
             if (entry == first || entry->high != (entry - 1)->high) {
                 table.begin.push_back(static_cast<int>(table.sides.size()));

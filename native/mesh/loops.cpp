@@ -30,8 +30,8 @@ std::vector<Indices> boundary_loops(const Triangles& input, int vertex_count) {
     Diagnostics ignored;
     Indices kept;
     const Triangles triangles = drop_collapsed_triangles(input, kept, ignored);
-    const VertexRoles roles = classify_vertices(make_edges(triangles, vertex_count),
-                                                std::vector<char>(at(vertex_count), 0));
+    const VertexRoles roles =
+        classify_vertices(make_edges(triangles, vertex_count), std::vector<char>(at(vertex_count), 0));
     VertexRoles none_fixed = roles;
     const CutMesh mesh = cut_mesh(triangles, kept, none_fixed, ignored);
     const EdgeTable edges = make_edges(mesh.triangles, static_cast<int>(mesh.input_vertex.size()));

@@ -36,14 +36,15 @@ RingView Patch::ring(int vertex) const {
 // Free vertices first, each group in the order of the input, so that neighbours in the input stay close in memory.
 void Patch::number_vertices(const CutMesh& cut, const Indices& piece_triangles, const VertexRoles& roles) {
     Indices vertices;
-    for (int t : piece_triangles) vertices.insert(vertices.end(), cut.triangles.col(t).begin(), cut.triangles.col(t).end());
+    for (int t : piece_triangles)
+        vertices.insert(vertices.end(), cut.triangles.col(t).begin(), cut.triangles.col(t).end());
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     const auto input = [&](int v) { return cut.input_vertex[at(v)]; };
     std::sort(vertices.begin(), vertices.end(),
               [&](int a, int b) { return input(a) != input(b) ? input(a) < input(b) : a < b; });
-    const auto first_fixed = std::stable_partition(vertices.begin(), vertices.end(),
-                                                   [&](int v) { return !roles.fixed[at(input(v))]; });
+    const auto first_fixed =
+        std::stable_partition(vertices.begin(), vertices.end(), [&](int v) { return !roles.fixed[at(input(v))]; });
     free_count = static_cast<int>(first_fixed - vertices.begin());
 
     Indices local(cut.input_vertex.size(), none);

@@ -30,14 +30,14 @@ public:
     [[nodiscard]] RingView ring(int vertex) const;
 
     int free_count = 0;
-    Indices to_input;           // local vertex → input vertex
-    Indices input_triangle;     // local triangle → input triangle
-    std::vector<char> pin;      // per local vertex: fixed position, no prescribed normal
-    Triangles triangles;        // local, consistently wound
-    Triangles triangle_edges;   // edge opposite to corner k of each triangle
+    Indices to_input;          // local vertex → input vertex
+    Indices input_triangle;    // local triangle → input triangle
+    std::vector<char> pin;     // per local vertex: fixed position, no prescribed normal
+    Triangles triangles;       // local, consistently wound
+    Triangles triangle_edges;  // edge opposite to corner k of each triangle
     std::vector<std::array<int, 2>> edge_ends;
     std::vector<std::array<int, 2>> edge_triangles;  // second entry `none` on the border
-    SurfaceMesh mesh;           // the same connectivity; vertex, edge and face indices agree with the arrays
+    SurfaceMesh mesh;  // the same connectivity; vertex, edge and face indices agree with the arrays
 
 private:
     void number_vertices(const CutMesh& cut, const Indices& piece_triangles, const VertexRoles& roles);

@@ -44,7 +44,8 @@ void keep_lone_edges(const EdgeTable& edges, const VertexRoles& roles, std::vect
     for (int e = 0; e < edges.size(); ++e) {
         const auto [a, b] = edges.ends[at(e)];
         const bool inside = !roles.border[at(a)] && !roles.border[at(b)];
-        if (cut[at(e)] && inside && degree[at(a)] == 1 && degree[at(b)] == 1 && edges.side_count(e) == 2) cut[at(e)] = 0;
+        if (cut[at(e)] && inside && degree[at(a)] == 1 && degree[at(b)] == 1 && edges.side_count(e) == 2)
+            cut[at(e)] = 0;
     }
 }
 
@@ -126,8 +127,8 @@ void check_orientable(const Triangles& triangles, const Indices& input_triangle,
     }
     if (offenders.empty()) return;
     throw MeshError({Code::not_orientable,
-                     "the mesh has a single side (a Möbius strip) through triangle " + std::to_string(offenders.front()) +
-                         ": cut it open, or fair a part that has two sides",
+                     "the mesh has a single side (a Möbius strip) through triangle " +
+                         std::to_string(offenders.front()) + ": cut it open, or fair a part that has two sides",
                      std::move(offenders), ElementKind::triangle});
 }
 
@@ -224,8 +225,8 @@ std::vector<char> find_cut_edges(const Triangles& triangles, const EdgeTable& ed
         check_edge_is_manifold(edges, e, roles, offenders);
         if (!is_between_fixed(edges, e, roles) || edges.side_count(e) < 2) continue;
         const bool many = edges.side_count(e) > 2;
-        const bool beside_free = has_free_corner(triangles, edges.side(e, 0), roles) ||
-                                 has_free_corner(triangles, edges.side(e, 1), roles);
+        const bool beside_free =
+            has_free_corner(triangles, edges.side(e, 0), roles) || has_free_corner(triangles, edges.side(e, 1), roles);
         cut[at(e)] = many || (beside_free && !is_corner_chord(triangles, edges, e, roles));
     }
     if (!offenders.empty()) {

@@ -16,10 +16,10 @@ struct VertexRoles {
 
 // The mesh cut open along curves of fixed vertices. A fixed vertex has one copy for each side of the curves through it.
 struct CutMesh {
-    Triangles triangles;     // of cut vertices, consistently wound within a piece
-    Indices input_vertex;    // cut vertex → input vertex
-    Indices input_triangle;  // triangle → input triangle
-    Indices piece;           // triangle → piece, numbered by the lowest triangle
+    Triangles triangles;        // of cut vertices, consistently wound within a piece
+    Indices input_vertex;       // cut vertex → input vertex
+    Indices input_triangle;     // triangle → input triangle
+    Indices piece;              // triangle → piece, numbered by the lowest triangle
     std::vector<char> flipped;  // triangle: stored the other way round than the caller's
     int piece_count = 0;
 };

@@ -28,9 +28,10 @@ Points weighted_rows(const Patch& patch, const Stiffness& stiffness, const Point
 
 }  // namespace
 
-Fill clamped_fill(const Patch& patch, const Points& fixed_points, const Points& conormals, BiharmonicOperator& op) {
+Fill clamped_fill(const Patch& patch, const Points& fixed_points, const Points& conormals, NormalOperator& op,
+                  const Progress& progress) {
     const Stiffness stiffness = uniform_stiffness(patch);
-    op.update(stiffness);
+    op.update(stiffness, progress);
     Points boundary = Points::Zero(3, patch.vertex_count());
     boundary.rightCols(fixed_points.cols()) = fixed_points;
     const Points from_positions =

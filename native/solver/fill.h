@@ -16,7 +16,8 @@ struct Fill {
     Points bulge;
 };
 
-// `op` is left holding the uniform operator's factorisation.
-Fill clamped_fill(const Patch& patch, const Points& fixed_points, const Points& conormals, BiharmonicOperator& op);
+// `op`: biharmonic; it is left holding the uniform operator's factorisation.
+Fill clamped_fill(const Patch& patch, const Points& fixed_points, const Points& conormals, NormalOperator& op,
+                  const Progress& progress);
 
 }  // namespace fairing

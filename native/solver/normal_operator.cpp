@@ -78,7 +78,7 @@ void BiharmonicOperator::build_pattern() {
     });
 }
 
-void BiharmonicOperator::update(const Stiffness& stiffness) {
+void BiharmonicOperator::update(const Stiffness& stiffness, const Progress& progress) {
     matrix_.coeffs().setZero();
     double* values = matrix_.valuePtr();
     auto slot = slots_.begin();
@@ -86,19 +86,18 @@ void BiharmonicOperator::update(const Stiffness& stiffness) {
     for_each_column([&](int k, const std::vector<ColumnEntry>& column) {
         entries.clear();
         for (const ColumnEntry& entry : column) {
-            entries.push_back(entry.spoke == none ? diagonal_weight(patch_, stiffness, k) : -stiffness.weights[entry.spoke]);
+            entries.push_back(entry.spoke == none ? diagonal_weight(patch_, stiffness, k)
+                                                  : -stiffness.weights[entry.spoke]);
         }
         const double scale = 0.25 / stiffness.mass[k];
         for (std::size_t a = 0; a < entries.size(); ++a) {
             for (std::size_t b = a; b < entries.size(); ++b) values[*slot++] += scale * entries[a] * entries[b];
         }
     });
-    factor_.factorise(matrix_, "the fairness operator");
+    factor_.factorise(matrix_, "the fairness operator", progress);
 }
 
-LaplaceOperator::LaplaceOperator(const Patch& patch) : patch_(patch) {}
-
-void LaplaceOperator::update(const Stiffness& stiffness) {
+void LaplaceOperator::update(const Stiffness& stiffness, const Progress& progress) {
     std::vector<Eigen::Triplet<double>> entries;
     for (int i = 0; i < patch_.free_count; ++i) {
         entries.emplace_back(i, i, diagonal_weight(patch_, stiffness, i));
@@ -111,7 +110,7 @@ void LaplaceOperator::update(const Stiffness& stiffness) {
     }
     SparseMatrix matrix(patch_.free_count, patch_.free_count);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    factor_.factorise(matrix, "the Laplace–Beltrami operator");
+    factor_.factorise(matrix, "the Laplace–Beltrami operator", progress);
 }
 
 }  // namespace fairing

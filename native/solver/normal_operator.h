@@ -2,23 +2,29 @@
 #pragma once
 
 #include "geometry/face_geometry.h"
-#include "solver/sparse_cholesky.h"
+#include "linear/sparse_cholesky.h"
 
 namespace fairing {
 
-// K = S_I (4M)⁻¹ S_Iᵀ over the free vertices, S_I the rows of the free vertices and all columns: symmetric positive
-// definite, close to minus the derivative of S_I H by a displacement along the normals (METHOD §5, §7.2).
-class BiharmonicOperator {
+// The choice of operator follows the equation; both are symmetric positive definite.
+class NormalOperator {
+public:
+    virtual ~NormalOperator() = default;
+    // Assembles the operator for a surface and factorises it.
+    virtual void update(const Stiffness& stiffness, const Progress& progress) = 0;
+    // The operator's inverse applied to one or more columns (free count × k).
+    [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const { return factor_.solve(rhs); }
+
+protected:
+    SparseCholesky factor_;
+};
+
+// K = S_I (4M)⁻¹ S_Iᵀ over the free vertices, S_I the rows of the free vertices and all columns: close to minus the
+// derivative of S_I H by a displacement along the normals (paper §5, §7.2).
+class BiharmonicOperator : public NormalOperator {
 public:
     explicit BiharmonicOperator(const Patch& patch);
-
-    // Assembles K into its fixed pattern and factorises it.
-    void update(const Stiffness& stiffness);
-    // K⁻¹ of one or more columns (free count × k).
-    template <typename Rhs>
-    [[nodiscard]] Rhs solve(const Rhs& rhs) const {
-        return factor_.solve(rhs);
-    }
+    void update(const Stiffness& stiffness, const Progress& progress) override;
 
 private:
     template <typename Visit>
@@ -28,22 +34,16 @@ private:
     const Patch& patch_;
     SparseMatrix matrix_;
     Indices slots_;  // where each product of two entries of a column of S_I is added, in the order of the assembly
-    SparseCholesky factor_;
 };
 
-// S restricted to the free vertices: −(derivative of 4 M H) by a displacement along the normals.
-class LaplaceOperator {
+// S restricted to the free vertices: minus the derivative of 4 M H by a displacement along the normals.
+class LaplaceOperator : public NormalOperator {
 public:
-    explicit LaplaceOperator(const Patch& patch);
-    void update(const Stiffness& stiffness);
-    template <typename Rhs>
-    [[nodiscard]] Rhs solve(const Rhs& rhs) const {
-        return factor_.solve(rhs);
-    }
+    explicit LaplaceOperator(const Patch& patch) : patch_(patch) {}
+    void update(const Stiffness& stiffness, const Progress& progress) override;
 
 private:
     const Patch& patch_;
-    SparseCholesky factor_;
 };
 
 }  // namespace fairing

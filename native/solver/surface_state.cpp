@@ -1,5 +1,7 @@
 #include "solver/surface_state.h"
 
+#include <cmath>
+
 #include "geometry/mean_curvature.h"
 #include "geometry/surface_fit.h"
 
@@ -12,12 +14,13 @@ void SurfaceState::measure_faces(const Patch& patch) {
 
 void SurfaceState::measure_curvature(const Problem& problem) {
     // Without prescribed normals (G0) the outline's come from the surface itself.
-    const Points boundary = problem.options.equation == Equation::minimal
-                                ? one_sided_normals(problem.patch, points)
-                                : problem.fixed_normals;
+    const Points boundary = problem.options.equation == Equation::minimal ? one_sided_normals(problem.patch, points)
+                                                                          : problem.fixed_normals;
     normals = vertex_normals(problem.patch, points, faces, boundary, problem.options.normals);
     mean_curvature = patch_mean_curvature(problem.patch, points, faces, normals);
 }
+
+double largest_length(const Points& field) { return std::sqrt(field.colwise().squaredNorm().maxCoeff()); }
 
 VectorX outer_residual(const Problem& problem, const SurfaceState& state) {
     const int count = problem.patch.free_count;

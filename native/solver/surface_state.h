@@ -18,6 +18,9 @@ struct SurfaceState {
     void measure_curvature(const Problem& problem);
 };
 
+// Largest length of a column.
+double largest_length(const Points& field);
+
 // r_i of the outer equation at the free vertices: (S H)_i, or 4 M_i H_i for minimal surfaces.
 VectorX outer_residual(const Problem& problem, const SurfaceState& state);
 

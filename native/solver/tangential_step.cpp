@@ -14,7 +14,8 @@ double inner(const Points& a, const Points& b) { return a.cwiseProduct(b).sum();
 
 }  // namespace
 
-TangentialStep::TangentialStep(const Patch& patch, const InnerWeights& weights, const Points& fixed_points)
+TangentialStep::TangentialStep(const Patch& patch, const InnerWeights& weights, const Points& fixed_points,
+                               const Progress& progress)
     : free_count_(patch.free_count), pull_(Points::Zero(3, patch.free_count)) {
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(4 * weights.size());
@@ -33,7 +34,7 @@ TangentialStep::TangentialStep(const Patch& patch, const InnerWeights& weights, 
     }
     laplacian_.resize(free_count_, free_count_);
     laplacian_.setFromTriplets(entries.begin(), entries.end());
-    factor_.factorise(laplacian_, "the inner-fairness weights");
+    factor_.factorise(laplacian_.triangularView<Eigen::Lower>(), "the inner-fairness weights", progress);
 }
 
 Points TangentialStep::harmonic_positions() const {

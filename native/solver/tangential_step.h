@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fairness/inner_weights.h"
-#include "solver/sparse_cholesky.h"
+#include "linear/sparse_cholesky.h"
 
 namespace fairing {
 
@@ -10,7 +10,8 @@ namespace fairing {
 class TangentialStep {
 public:
     // `fixed_points`: 3 × fixed count. The λ-Laplacian L is constant and factorised here, once.
-    TangentialStep(const Patch& patch, const InnerWeights& weights, const Points& fixed_points);
+    TangentialStep(const Patch& patch, const InnerWeights& weights, const Points& fixed_points,
+                   const Progress& progress);
 
     // The positions with Σ_j λ_ij (x_i − x_j) = 0 in all three coordinates: the discrete harmonic map of the outline.
     [[nodiscard]] Points harmonic_positions() const;

@@ -1,4 +1,4 @@
-#include "solver/anderson.h"
+#include "linear/anderson.h"
 
 #include <algorithm>
 

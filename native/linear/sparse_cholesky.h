@@ -1,0 +1,43 @@
+// Sparse Cholesky factorisation with a fixed pattern and changing values: multifrontal over supernodes, so that nearly
+// all work is done by dense kernels, and interruptible between any two of them.
+#pragma once
+
+#include "base/progress.h"
+#include "linear/elimination.h"
+
+namespace fairing {
+
+class SparseCholesky {
+public:
+    // Factorises a symmetric positive definite matrix given by its lower triangle (diagonal included). The ordering is
+    // found at the first call and kept: the pattern must stay the same. Throws SolverError, naming `what`, when the
+    // matrix is not positive definite; Cancelled when `progress` says so (the factor is then unusable until the next
+    // call).
+    void factorise(const SparseMatrix& lower, const char* what, const Progress& progress);
+
+    // Solves for one or several right-hand sides (n × k).
+    [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
+
+    // Entries of the factor, explicit zeros included.
+    [[nodiscard]] std::size_t entry_count() const { return panels_.size(); }
+
+private:
+    void set_up(const SparseMatrix& lower);
+    void scatter(const SparseMatrix& lower);
+    void add_child(int child, int parent, Eigen::MatrixXd& parent_update);
+    bool eliminate(int supernode);
+    [[nodiscard]] Eigen::Map<Eigen::MatrixXd> panel(int supernode);
+    [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> panel(int supernode) const;
+
+    Elimination elimination_;
+    std::vector<std::size_t> panel_begin_;  // dense row_count × column_count blocks
+    std::vector<double> panels_;
+    std::vector<std::size_t> entry_slot_;  // entry of the matrix → place in panels_
+    Indices children_begin_;
+    Indices children_;
+    std::vector<Eigen::MatrixXd> updates_;  // Schur complement that a supernode passes on, freed when taken
+    Indices local_row_;                     // scratch: row of the factor → row of the current front
+    bool analysed_ = false;
+};
+
+}  // namespace fairing

@@ -1,0 +1,139 @@
+#include "solver/accelerated_iteration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "linear/anderson.h"
+#include "solver/surface_state.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr int history_depth = 6;
+constexpr double largest_step = 0.1;  // units of D
+// The residual may grow for a while: near clusters of valence 3 only the history tames a growing mode of the plain
+// map. Far above the best it is hopeless.
+constexpr double hopeless_growth = 1e4;
+constexpr int patience = 40;  // iterations without progress in residual or step
+constexpr double slow = 0.5;  // contraction over `refresh_after` iterations that asks for a new factor
+constexpr int refresh_after = 6;
+
+class AcceleratedIteration {
+public:
+    AcceleratedIteration(const Problem& problem, Workspace& work, const Points& start, const Progress& progress)
+        : problem_(problem),
+          patch_(problem.patch),
+          work_(work),
+          progress_(progress),
+          anderson_(3L * problem.patch.free_count, history_depth) {
+        state_.points = start;
+    }
+
+    Solution run() {
+        const int most = problem_.options.max_iterations;
+        solution_.termination = Termination::iteration_limit;
+        for (int k = 0; k < most; ++k) {
+            report(k);
+            if (!measure()) break;
+            const Points d = plain_step(k);
+            const double largest = largest_length(d);
+            solution_.iterations = k + 1;
+            if (largest <= problem_.options.tolerance) {
+                solution_.termination = Termination::converged;
+                keep();
+                break;
+            }
+            if (hopeless(largest, k)) {
+                solution_.termination = Termination::stalled;
+                break;
+            }
+            accelerate(d);
+        }
+        return std::move(solution_);
+    }
+
+private:
+    void report(int k) {
+        // Steps shrink geometrically: the share of the decades down to the tolerance that is done.
+        const double decades = std::log10(std::max(1e-2 / problem_.options.tolerance, 10.0));
+        const double done = last_step_ > 0.0 ? std::log10(std::max(1e-2 / last_step_, 1.0)) / decades : 0.0;
+        progress_.report(std::max(done, static_cast<double>(k) / problem_.options.max_iterations), "iteration");
+    }
+
+    // False where the surface is no longer finite.
+    bool measure() {
+        state_.measure_faces(patch_);
+        state_.measure_curvature(problem_);
+        outer_ = outer_residual(problem_, state_);
+        residual_ = largest_residual(problem_, state_, outer_);
+        if (!std::isfinite(residual_)) {
+            solution_.termination = Termination::stalled;
+            return false;
+        }
+        if (residual_ < best_residual_) keep();
+        return true;
+    }
+
+    void keep() {
+        best_residual_ = residual_;
+        solution_.points = state_.points;
+        solution_.mean_curvature = state_.mean_curvature;
+        solution_.residual = residual_;
+    }
+
+    Points plain_step(int k) {
+        if (k == 0 || k - refreshed_at_ >= refresh_after) {
+            if (k == 0 || last_step_ > slow * step_at_refresh_)
+                work_.normal->update(state_.stiffness, progress_.here());
+            refreshed_at_ = k;
+            step_at_refresh_ = k == 0 ? std::numeric_limits<double>::infinity() : last_step_;
+        }
+        const VectorX u = work_.normal->solve(outer_);
+        Points d = state_.normals.leftCols(patch_.free_count).array().rowwise() * u.transpose().array();
+        d += work_.tangential.displacement(state_.points, state_.normals);
+        return d;
+    }
+
+    bool hopeless(double largest, int k) {
+        last_step_ = largest;
+        if (largest < 0.9 * least_step_ || k == 0) {
+            least_step_ = std::min(least_step_, largest);
+            least_step_at_ = k;
+        }
+        return !std::isfinite(largest) || residual_ > hopeless_growth * best_residual_ || k - least_step_at_ > patience;
+    }
+
+    void accelerate(const Points& d) {
+        Eigen::Map<VectorX> x(state_.points.data(), 3L * patch_.free_count);
+        VectorX step = anderson_.step(x, Eigen::Map<const VectorX>(d.data(), d.size()));
+        const double largest = largest_length(Eigen::Map<const Points>(step.data(), 3, patch_.free_count));
+        if (largest > largest_step) step *= largest_step / largest;
+        x += step;
+    }
+
+    const Problem& problem_;
+    const Patch& patch_;
+    Workspace& work_;
+    const Progress& progress_;
+    Anderson anderson_;
+    SurfaceState state_;
+    VectorX outer_;
+    double residual_ = 0.0;
+    double best_residual_ = std::numeric_limits<double>::infinity();
+    double last_step_ = 0.0;
+    double step_at_refresh_ = 0.0;
+    int refreshed_at_ = 0;
+    double least_step_ = std::numeric_limits<double>::infinity();
+    int least_step_at_ = 0;
+    Solution solution_;
+};
+
+}  // namespace
+
+Solution iterate(const Problem& problem, Workspace& work, const Points& start, const Progress& progress) {
+    return AcceleratedIteration(problem, work, start, progress).run();
+}
+
+}  // namespace fairing

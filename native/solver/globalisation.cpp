@@ -1,0 +1,173 @@
+#include "solver/globalisation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "solver/fill.h"
+#include "solver/surface_state.h"
+#include "solver/willmore.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr double largest_step = 0.25;       // units of D
+constexpr double normal_stage_done = 2e-2;  // largest step at which the tangential one joins in
+constexpr double globalised = 2e-3;         // largest step at which the accurate iteration takes over
+constexpr double tolerated_rise = 1.02;     // of the energy in a fixed-point step
+constexpr int most_fixed_point_steps = 12;
+constexpr int most_descent_steps = 40;
+constexpr double descended = 5e-3;
+constexpr double armijo = 1e-4;
+
+Points along_normals(const Points& normals, const VectorX& lengths) {
+    return normals.leftCols(lengths.size()).array().rowwise() * lengths.transpose().array();
+}
+
+class Globalisation {
+public:
+    Globalisation(const Problem& problem, Workspace& work, const Points& start, const Progress& progress)
+        : problem_(problem),
+          patch_(problem.patch),
+          work_(work),
+          progress_(progress),
+          conormals_(conormals(problem.patch, problem.fixed_points, problem.fixed_normals)) {
+        state_.points = start;
+        measure();
+        keep();
+    }
+
+    Points run() {
+        const bool quick = fixed_point_steps(false, normal_stage_done) && fixed_point_steps(true, globalised);
+        if (!quick) {
+            restore();
+            descend();
+            if (!fixed_point_steps(true, globalised)) restore();
+        }
+        return state_.points;
+    }
+
+private:
+    void measure() {
+        state_.measure_faces(patch_);
+        state_.normals = max_normals(patch_, state_.points, problem_.fixed_normals);
+        curvature_vectors_ = mixed_curvature_vectors(patch_, state_.stiffness, state_.points, conormals_);
+        energy_ = willmore_energy(curvature_vectors_, state_.stiffness);
+    }
+
+    void keep() {
+        best_energy_ = energy_;
+        best_points_ = state_.points;
+    }
+
+    void restore() {
+        state_.points = best_points_;
+        measure();
+    }
+
+    void report(int step, int most) const { progress_.report(static_cast<double>(step) / most, "globalisation"); }
+
+    // False where the energy rises or is no longer finite.
+    bool fixed_point_steps(bool tangential, double threshold) {
+        for (int k = 0; k < most_fixed_point_steps; ++k) {
+            report(k, most_fixed_point_steps);
+            state_.mean_curvature = mixed_mean_curvature(curvature_vectors_, state_.stiffness, state_.normals);
+            work_.normal->update(state_.stiffness, progress_.here());
+            Points d = along_normals(state_.normals, work_.normal->solve(outer_residual(problem_, state_)));
+            if (tangential) d += work_.tangential.displacement(state_.points, state_.normals);
+            const double largest = largest_length(d);
+            state_.points.leftCols(patch_.free_count) += std::min(1.0, largest_step / largest) * d;
+            measure();
+            if (!(energy_ < tolerated_rise * best_energy_)) return false;
+            if (energy_ < best_energy_) keep();
+            if (largest < threshold) return true;
+        }
+        return false;
+    }
+
+    // Willmore descent along u = −(½ S_I M⁻¹ S_Iᵀ)⁻¹ ⟨∇E, n⟩ with the vertices kept even in between.
+    void descend() {
+        for (int k = 0; k < most_descent_steps; ++k) {
+            report(k, most_descent_steps);
+            const Points gradient = willmore_gradient(patch_, state_.stiffness, state_.points, curvature_vectors_);
+            const VectorX slope =
+                gradient.cwiseProduct(state_.normals.leftCols(patch_.free_count)).colwise().sum().transpose();
+            work_.normal->update(state_.stiffness, progress_.here());
+            const VectorX u = -0.5 * work_.normal->solve(slope);
+            const double largest = u.cwiseAbs().maxCoeff();
+            const bool moved =
+                line_search(along_normals(state_.normals, u), slope.dot(u), std::min(1.0, largest_step / largest));
+            if (!moved || largest < descended) return;
+            even_out();
+        }
+    }
+
+    bool line_search(const Points& direction, double slope, double step) {
+        const Points origin = state_.points;
+        const double start = energy_;
+        for (int halving = 0; halving < 12; ++halving, step *= 0.5) {
+            state_.points = origin;
+            state_.points.leftCols(patch_.free_count) += step * direction;
+            measure();
+            if (energy_ <= start + armijo * step * slope) {
+                keep();
+                return true;
+            }
+        }
+        restore();
+        return false;
+    }
+
+    void even_out() {
+        Points d = work_.tangential.displacement(state_.points, state_.normals);
+        const double largest = largest_length(d);
+        if (!(largest > 0.0)) return;
+        state_.points.leftCols(patch_.free_count) += std::min(1.0, 0.1 / largest) * d;
+        measure();
+        keep();
+    }
+
+    const Problem& problem_;
+    const Patch& patch_;
+    Workspace& work_;
+    const Progress& progress_;
+    Points conormals_;
+    SurfaceState state_;
+    Points curvature_vectors_;
+    double energy_ = 0.0;
+    double best_energy_ = 0.0;
+    Points best_points_;
+};
+
+}  // namespace
+
+Points globalise(const Problem& problem, Workspace& work, const Points& start, const Progress& progress) {
+    return Globalisation(problem, work, start, progress).run();
+}
+
+Points best_fill(const Problem& problem, Workspace& work, const Progress& progress) {
+    const Patch& patch = problem.patch;
+    const Points boundary = conormals(patch, problem.fixed_points, problem.fixed_normals);
+    const Fill fill = clamped_fill(patch, problem.fixed_points, boundary, *work.normal, progress);
+    SurfaceState state;
+    state.points.resize(3, patch.vertex_count());
+    state.points.rightCols(problem.fixed_points.cols()) = problem.fixed_points;
+    Points best;
+    double least = std::numeric_limits<double>::infinity();
+    // Bulges of the linear fill: a strongly curved surface needs more than the linear theory's 1.
+    for (const double sigma : {1.0, 1.5, 2.2, 3.2, 4.5}) {
+        state.points.leftCols(patch.free_count) = fill.flat + sigma * fill.bulge;
+        state.measure_faces(patch);
+        const double energy =
+            willmore_energy(mixed_curvature_vectors(patch, state.stiffness, state.points, boundary), state.stiffness);
+        if (energy < least) {
+            least = energy;
+            best = state.points;
+        }
+    }
+    return best;
+}
+
+}  // namespace fairing
