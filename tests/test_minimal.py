@@ -17,7 +17,7 @@ def minimal(patch: shapes.Patch) -> fairing.FairResult:
     )  # fmt: skip
 
 
-@pytest.mark.parametrize(("n_free", "goal"), [(1000, 2e-4), (4000, 5e-5)])
+@pytest.mark.parametrize(("n_free", "goal"), [(1000, 2e-5), (4000, 4e-6)])
 def test_catenoid_from_positions_only(n_free: int, goal: float) -> None:
     patch = shapes.catenoid(n_free)
     result = minimal(patch)
@@ -29,7 +29,7 @@ def test_error_falls_with_the_edge_length() -> None:
     patches = shapes.catenoid(500), shapes.catenoid(2000)
     errors = [patch.error(minimal(patch).vertices) for patch in patches]
     counts = len(patches[0].free), len(patches[1].free)
-    assert measures.observed_order(counts, (errors[0], errors[1])) >= 1.2
+    assert measures.observed_order(counts, (errors[0], errors[1])) >= 1.5
 
 
 def test_mean_curvature_vanishes() -> None:
