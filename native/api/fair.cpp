@@ -108,7 +108,9 @@ private:
     }
 
     void finish() {
-        result_.mean_curvature = measure_mean_curvature(mesh_, result_.vertices, options_.solver.normals);
+        const auto boundary =
+            options_.solver.equation == Equation::minimal ? BoundaryNormals::one_sided : BoundaryNormals::prescribed;
+        result_.mean_curvature = mean_curvature(mesh_, result_.vertices, options_.solver.normals, boundary);
         result_.boundary_angle.resize(static_cast<Eigen::Index>(result_.fixed.size()));
         for (std::size_t k = 0; k < result_.fixed.size(); ++k) {
             result_.boundary_angle[static_cast<Eigen::Index>(k)] = side_angles_[at(result_.fixed[k])];

@@ -131,6 +131,23 @@ void warn_of_normals(const MeshInput& input, CheckedMesh& mesh) {
                              std::move(pins)});
 }
 
+// Normals that point to the side from which the triangles given are clockwise. A strongly curved surface over a flat
+// interior may differ by more than a right angle (a cap of 140°), so only nearly opposite ones count.
+void warn_of_opposed_normals(const CheckedMesh& mesh, const Points& averaged, Diagnostics& warnings) {
+    constexpr double cos_of_opposed = -0.8;
+    Indices opposed;
+    for (int v : mesh.fixed) {
+        if (mesh.normals.col(v).dot(averaged.col(v)) < cos_of_opposed) opposed.push_back(v);
+    }
+    if (opposed.empty()) return;
+    warnings.push_back(
+        {Code::normals_oppose_winding,
+         std::to_string(opposed.size()) +
+             " prescribed normals point against the winding of their triangles: turn them round, or flip the "
+             "triangles",
+         std::move(opposed)});
+}
+
 void warn_of_flat_triangles(const MeshInput& input, const CutMesh& mesh, Diagnostics& warnings) {
     Indices offenders;
     for (int t : mesh.input_triangle) {
@@ -161,7 +178,11 @@ CheckedMesh check_mesh(const MeshInput& input) {
     for (int v = 0; v < mesh.normals.cols(); ++v) {
         if (!mesh.roles.fixed[at(v)]) mesh.normals.col(v).setZero();
     }
-    if (input.fixed_normals) copy_given_normals(input, mesh);
+    if (input.fixed_normals) {
+        const Points averaged = mesh.normals;
+        copy_given_normals(input, mesh);
+        warn_of_opposed_normals(mesh, averaged, mesh.warnings);
+    }
     warn_of_normals(input, mesh);
     return mesh;
 }

@@ -36,18 +36,21 @@ Eigen::Matrix2d planar_edges(const Points& points, const Eigen::Vector3i& triang
 }
 
 // Fixed vertices whose normals nobody prescribed get the fit to their own side.
-Points normals_at_fixed(const Patch& patch, const Points& local, const CheckedMesh& mesh, bool prescribed) {
-    return prescribed ? gather(mesh.normals, fixed_vertices(patch)) : one_sided_normals(patch, local);
+Points normals_at_fixed(const Patch& patch, const Points& local, const CheckedMesh& mesh, BoundaryNormals boundary) {
+    return boundary == BoundaryNormals::prescribed ? gather(mesh.normals, fixed_vertices(patch))
+                                                   : one_sided_normals(patch, local);
 }
 
-VectorX mean_over_sides(const CheckedMesh& mesh, const Points& points, NormalKind kind, bool prescribed) {
+}  // namespace
+
+VectorX mean_curvature(const CheckedMesh& mesh, const Points& points, NormalKind kind, BoundaryNormals boundary) {
     VectorX sum = VectorX::Zero(points.cols());
     VectorX sides = VectorX::Zero(points.cols());
     for_each_piece(mesh, points, [&](const Patch& patch, const Points& local) {
         FaceGeometry faces;
         faces.update(local, patch.triangles);
-        const Points boundary = normals_at_fixed(patch, local, mesh, prescribed);
-        const Points normals = vertex_normals(patch, local, faces, boundary, kind);
+        const Points at_fixed = normals_at_fixed(patch, local, mesh, boundary);
+        const Points normals = vertex_normals(patch, local, faces, at_fixed, kind);
         const VectorX H = patch_mean_curvature(patch, local, faces, normals);
         for (int v = 0; v < patch.vertex_count(); ++v) {
             sum[patch.to_input[at(v)]] += H[v];
@@ -57,14 +60,9 @@ VectorX mean_over_sides(const CheckedMesh& mesh, const Points& points, NormalKin
     return sum.cwiseQuotient(sides.cwiseMax(1.0));
 }
 
-}  // namespace
-
-VectorX measure_mean_curvature(const CheckedMesh& mesh, const Points& points, NormalKind kind) {
-    return mean_over_sides(mesh, points, kind, true);
-}
-
 VectorX mean_curvature(const MeshInput& input, NormalKind kind) {
-    return mean_over_sides(check_mesh(input), input.vertices, kind, input.fixed_normals.has_value());
+    const auto boundary = input.fixed_normals ? BoundaryNormals::prescribed : BoundaryNormals::one_sided;
+    return mean_curvature(check_mesh(input), input.vertices, kind, boundary);
 }
 
 Points vertex_normals(const MeshInput& input, NormalKind kind) {

@@ -6,9 +6,12 @@
 
 namespace fairing {
 
-// H at each vertex of a checked mesh (prescribed normals at its fixed vertices): the mean of the sides on cut curves,
-// zero at vertices without triangles. Positions may differ from those that were checked.
-VectorX measure_mean_curvature(const CheckedMesh& mesh, const Points& points, NormalKind kind);
+// Where the normals of fixed vertices come from: prescribed ones of the checked mesh, or fits to their own side.
+enum class BoundaryNormals { prescribed, one_sided };
+
+// H at each vertex of a checked mesh: the mean of the sides on cut curves, zero at vertices without triangles.
+// Positions may differ from those that were checked.
+VectorX mean_curvature(const CheckedMesh& mesh, const Points& points, NormalKind kind, BoundaryNormals boundary);
 
 // H of a mesh; normals of fixed vertices that are not prescribed are one-sided fits.
 VectorX mean_curvature(const MeshInput& input, NormalKind kind);

@@ -32,8 +32,7 @@ std::vector<Indices> boundary_loops(const Triangles& input, int vertex_count) {
     const Triangles triangles = drop_collapsed_triangles(input, kept, ignored);
     const VertexRoles roles =
         classify_vertices(make_edges(triangles, vertex_count), std::vector<char>(at(vertex_count), 0));
-    VertexRoles none_fixed = roles;
-    const CutMesh mesh = cut_mesh(triangles, kept, none_fixed, ignored);
+    const CutMesh mesh = cut_mesh(triangles, kept, roles, ignored);
     const EdgeTable edges = make_edges(mesh.triangles, static_cast<int>(mesh.input_vertex.size()));
 
     std::vector<char> visited(edges.edge_of_side.size(), 0);

@@ -30,7 +30,9 @@ bool is_corner_chord(const Triangles& triangles, const EdgeTable& edges, int edg
 }
 
 void check_edge_is_manifold(const EdgeTable& edges, int edge, const VertexRoles& roles, Indices& offenders) {
-    if (edges.side_count(edge) <= 2 || is_between_fixed(edges, edge, roles)) return;
+    // The foot of a fin lies on the fin's own border, which must not excuse it.
+    const auto [a, b] = edges.ends[at(edge)];
+    if (edges.side_count(edge) <= 2 || (roles.given[at(a)] && roles.given[at(b)])) return;
     offenders.insert(offenders.end(), edges.ends[at(edge)].begin(), edges.ends[at(edge)].end());
 }
 
@@ -202,7 +204,7 @@ Triangles drop_collapsed_triangles(const Triangles& triangles, Indices& kept, Di
 
 VertexRoles classify_vertices(const EdgeTable& edges, const std::vector<char>& given_fixed) {
     const std::size_t count = given_fixed.size();
-    VertexRoles roles{given_fixed, std::vector<char>(count, 0), {}, std::vector<char>(count, 0)};
+    VertexRoles roles{given_fixed, given_fixed, std::vector<char>(count, 0), {}, std::vector<char>(count, 0)};
     for (int e = 0; e < edges.size(); ++e) {
         for (int v : edges.ends[at(e)]) {
             roles.used[at(v)] = 1;

@@ -8,6 +8,7 @@ namespace fairing {
 
 // What the caller's vertices are.
 struct VertexRoles {
+    std::vector<char> given;   // fixed by the caller
     std::vector<char> fixed;   // keeps its position: given, or on the mesh border
     std::vector<char> border;  // on an edge with a single triangle
     std::vector<char> pin;     // fixed, but none of its neighbours is: position only
@@ -32,7 +33,7 @@ VertexRoles classify_vertices(const EdgeTable& edges, const std::vector<char>& g
 // The edges at which the mesh is cut open. Both ends of such an edge are fixed, and there is a free vertex beside it
 // or more than two triangles meet there. Two kinds of edges between fixed vertices are left whole: the chord that
 // only cuts a corner off the mesh border, and a lone edge inside, which has nothing to open.
-// Throws NONMANIFOLD_EDGE where more than two triangles meet at an edge with a free end.
+// Throws NONMANIFOLD_EDGE where more than two triangles meet at an edge whose ends the caller has not both fixed.
 std::vector<char> find_cut_edges(const Triangles& triangles, const EdgeTable& edges, const VertexRoles& roles);
 
 // Cuts, orients (the majority of triangles wins in each piece and across its curves, with a warning), numbers pieces.
