@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-import fairing
 import numpy as np
 
-from .region import Floats, Ints, Mask, MeshArrays, Patch
+import fairing
+
+from .arrays import Floats, Ints, Mask
+from .region import MeshArrays, Patch
 
 RINGS = 4  # of outside faces handed to the engine's fit, which uses the nearest of them
 
@@ -17,24 +19,25 @@ def unit(vectors: Floats) -> Floats:
     return units
 
 
-def _sum_at_vertices(vertices: Ints, vectors: Floats, count: int) -> Floats:
-    columns = [np.bincount(vertices, weights=column, minlength=count) for column in vectors.T]
+def _sum_at(places: Ints, vectors: Floats, count: int) -> Floats:
+    columns = [np.bincount(places, weights=column, minlength=count) for column in vectors.T]
     return np.stack(columns, axis=1)
 
 
-def average_normals(positions: Floats, triangles: Ints) -> Floats:
-    """Return (n, 3): the normalised mean of the unit normals of the triangles at each vertex."""
-    a, b, c = (positions[column] for column in triangles.T)
-    normals = unit(np.cross(b - a, c - a))
+def average_normals(mesh: MeshArrays) -> Floats:
+    """Return (n, 3): the normalised mean of the unit normals of the faces at each vertex."""
+    a, b, c = (mesh.positions[column] for column in mesh.triangles.T)
+    sums = _sum_at(mesh.triangle_faces, np.cross(b - a, c - a), len(mesh.in_patch))
+    normals = unit(sums)
     normals[~np.isfinite(normals).all(axis=1)] = 0.0
-    return unit(_sum_at_vertices(triangles.ravel(), normals.repeat(3, axis=0), len(positions)))
+    return unit(_sum_at(mesh.corner_vertices, normals[mesh.corner_faces], len(mesh.positions)))
 
 
 def custom_normals(mesh: MeshArrays) -> Floats:
     """Return (n, 3): the normalised mean of each vertex's corner normals."""
     if mesh.corner_normals is None:
         raise ValueError("boundary_normals: the mesh was read without its corner normals")
-    return unit(_sum_at_vertices(mesh.corner_vertices, mesh.corner_normals, len(mesh.positions)))
+    return unit(_sum_at(mesh.corner_vertices, mesh.corner_normals, len(mesh.positions)))
 
 
 def _nearby(triangles: Ints, start: Mask) -> Ints:
@@ -54,7 +57,7 @@ def surrounding_normals(mesh: MeshArrays, fixed: Ints) -> tuple[Floats, Mask]:
     Returns ((k, 3) unit normals, (k,) mask of those that have faces outside). The others take
     the average of all their faces.
     """
-    normals = average_normals(mesh.positions, mesh.triangles)[fixed]
+    normals = average_normals(mesh)[fixed]
     usable = np.isfinite(mesh.positions).all(axis=1)
     outside = mesh.triangles[~mesh.in_patch[mesh.triangle_faces]]
     outside = outside[usable[outside].all(axis=1)]
@@ -88,7 +91,7 @@ def prescribed_normals(
     if source == "CUSTOM":
         return custom_normals(mesh)[fixed], ()
     if source == "AVERAGE":
-        return average_normals(mesh.positions, mesh.triangles)[fixed], ()
+        return average_normals(mesh)[fixed], ()
     normals, found = surrounding_normals(mesh, fixed)
     alone = int(np.count_nonzero(~found & ~mesh.pinned[fixed]))
     if alone == 0:

@@ -8,8 +8,9 @@ import sys
 from typing import Any
 
 import bpy
-import fairing
 import numpy as np
+
+import fairing
 
 from .fair_mesh import fair_faces
 from .options import FairOptions, option_names

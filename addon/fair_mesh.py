@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from typing import Any
 
 import bpy
-import fairing
 import numpy as np
+
+import fairing
 
 from . import mesh_io
 from .options import FairOptions

@@ -10,8 +10,9 @@ import bmesh
 import bpy
 import numpy as np
 
+from .arrays import Floats, Ints, Mask
 from .options import FairOptions
-from .region import Floats, Ints, Mask, MeshArrays
+from .region import MeshArrays
 
 # Read and written as float32, which is what Blender stores; doubles in between.
 

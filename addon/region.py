@@ -5,11 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Mask = NDArray[np.bool_]
+from .arrays import Floats, Ints, Mask
+from .triangulation import split_quads, zigzag
 
 
 @dataclass(frozen=True)
@@ -26,6 +24,7 @@ class MeshArrays:
     in_patch: Mask  # (f,) selected and visible
     pinned: Mask  # (n,)
     corner_normals: Floats | None = None  # (c, 3), where they were asked for
+    mirrored: bool = False  # the corners go clockwise, seen from outside
 
     def transformed(self, matrix: Floats) -> MeshArrays:
         """Return the mesh under a 4×4 affine map, wound so that outside stays outside.
@@ -42,6 +41,7 @@ class MeshArrays:
             positions=self.positions @ linear.T + matrix[:3, 3],
             triangles=self.triangles[:, ::-1] if mirrored else self.triangles,
             corner_normals=None if normals is None else normals @ np.linalg.inv(linear),
+            mirrored=self.mirrored != mirrored,
         )
 
 
@@ -82,8 +82,11 @@ def free_vertices(mesh: MeshArrays) -> Mask:
     return inside & ~outside & ~open_border & ~mesh.pinned
 
 
-def make_patch(mesh: MeshArrays) -> Patch:
-    """Cut the selected visible faces out of the mesh."""
+def make_patch(mesh: MeshArrays, even: bool = True) -> Patch:
+    """Cut the selected visible faces out of the mesh.
+
+    even: split quads and n-gons by connectivity (see triangulation), not by present shape.
+    """
     inside = vertices_of(mesh, mesh.in_patch)
     vertices = np.flatnonzero(inside)
     number = np.full(len(inside), -1, dtype=np.int64)
@@ -92,7 +95,7 @@ def make_patch(mesh: MeshArrays) -> Patch:
     uses = _edge_uses(mesh, mesh.in_patch[mesh.corner_faces])
     return Patch(
         vertices=vertices,
-        triangles=number[mesh.triangles[mesh.in_patch[mesh.triangle_faces]]],
+        triangles=number[_triangles(mesh, free, even)],
         free=number[free],
         fixed=number[inside & ~free],
         outline=number[_ends(mesh, uses == 1)],
@@ -100,9 +103,42 @@ def make_patch(mesh: MeshArrays) -> Patch:
     )
 
 
+def _triangles(mesh: MeshArrays, free: Mask, even: bool) -> Ints:
+    """Return the triangles of the patch, as vertices of the mesh."""
+    sizes = face_sizes(mesh) * even
+    by_shape = mesh.in_patch.copy()  # faces that stay split as they are
+    pieces = []
+    for size in np.unique(sizes[mesh.in_patch & (sizes > 4)]):
+        faces, polygons = _polygons(mesh, mesh.in_patch & (sizes == size))
+        movable = free[polygons].all(axis=1)  # the shape of the others counts
+        by_shape[faces[movable]] = False
+        pieces.append(zigzag(polygons[movable]))
+    faces, quads = _polygons(mesh, mesh.in_patch & (sizes == 4))
+    movable = free[quads].any(axis=1)
+    by_shape[faces[movable]] = False
+    pieces.append(mesh.triangles[by_shape[mesh.triangle_faces]])
+    others = np.concatenate(pieces)
+    return np.concatenate([others, split_quads(quads[movable], others, free)])
+
+
+def _polygons(mesh: MeshArrays, faces: Mask) -> tuple[Ints, Ints]:
+    """Return the chosen faces (k,) and their vertices (k, n), counter-clockwise from outside.
+
+    All of them must have the same number n of corners.
+    """
+    chosen = np.flatnonzero(faces)
+    size = np.count_nonzero(mesh.corner_faces == chosen[0]) if len(chosen) else 4
+    polygons = mesh.corner_vertices[faces[mesh.corner_faces]].reshape(-1, size)
+    return chosen, polygons[:, ::-1] if mesh.mirrored else polygons
+
+
+def face_sizes(mesh: MeshArrays) -> Ints:
+    """Return (f,): the corners of each face."""
+    return np.bincount(mesh.corner_faces, minlength=len(mesh.in_patch)).astype(np.int64)
+
+
 def _all_triangles(mesh: MeshArrays) -> bool:
-    corners = np.bincount(mesh.corner_faces, minlength=len(mesh.in_patch))
-    return bool((corners[mesh.in_patch] == 3).all())
+    return bool((face_sizes(mesh)[mesh.in_patch] == 3).all())
 
 
 def island_count(patch: Patch) -> int:

@@ -6,12 +6,14 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
-import fairing
 import numpy as np
 
+import fairing
+
+from .arrays import Floats, Ints
 from .boundary import prescribed_normals
 from .options import FairOptions
-from .region import Floats, Ints, MeshArrays, Patch, island_count, make_patch, outline_radius
+from .region import MeshArrays, Patch, island_count, make_patch, outline_radius
 
 Progress = Callable[[float, str], "bool | None"]
 
@@ -37,7 +39,8 @@ def fair_arrays(
     # What is not finite outside the patch is none of our business, and the engine looks inside.
     with np.errstate(invalid="ignore", over="ignore"):
         world = mesh.transformed(matrix)
-        patch = make_patch(world)
+        # Conformal weights belong to the present shape, and so do its triangles.
+        patch = make_patch(world, even=options.inner_fairness != "CONFORMAL")
         normals, warnings = prescribed_normals(world, patch, options.boundary_normals)
     with _mesh_indices(patch):
         result = fairing.fair(

@@ -10,9 +10,10 @@ if "BLENDER_USER_RESOURCES" not in os.environ:  # before bpy looks for it
     os.environ["BLENDER_USER_RESOURCES"] = tempfile.mkdtemp(prefix="fairing-demo-")
 
 import bpy
+import numpy as np
+
 import demo_pictures as pictures
 import demo_scenes as scenes
-import numpy as np
 
 
 def install(package: Path) -> None:

@@ -149,9 +149,9 @@ def test_average_normals() -> None:
     obj = meshes.sphere()
     upper = upper_half(obj)
     meshes.fair(obj, upper, boundary_normals="AVERAGE")
-    # Both sides of the rim are as they should be, so that by symmetry their average is exact;
-    # what remains is the tolerance, 1e-6 of the diameter, and float32.
-    assert off_sphere(meshes.positions(obj)) < 1e-5
+    # Both sides of the rim are as they should be, so that their average does not lean up or down.
+    # Along the rim it turns by the difference of neighbouring faces, a tenth of the other error.
+    assert off_sphere(meshes.positions(obj)) < 0.1 * BOUND[48]
 
 
 def test_custom_normals() -> None:
