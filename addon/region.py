@@ -93,17 +93,18 @@ def make_patch(mesh: MeshArrays, even: bool = True) -> Patch:
     number[vertices] = np.arange(len(vertices))
     free = free_vertices(mesh)
     uses = _edge_uses(mesh, mesh.in_patch[mesh.corner_faces])
+    edges = mesh.edges[uses > 0]
     return Patch(
         vertices=vertices,
-        triangles=number[_triangles(mesh, free, even)],
+        triangles=number[_triangles(mesh, edges, free, even)],
         free=number[free],
         fixed=number[inside & ~free],
         outline=number[_ends(mesh, uses == 1)],
-        neighbours=None if _all_triangles(mesh) else number[mesh.edges[uses > 0]],
+        neighbours=None if _all_triangles(mesh) else number[edges],
     )
 
 
-def _triangles(mesh: MeshArrays, free: Mask, even: bool) -> Ints:
+def _triangles(mesh: MeshArrays, edges: Ints, free: Mask, even: bool) -> Ints:
     """Return the triangles of the patch, as vertices of the mesh."""
     sizes = face_sizes(mesh) * even
     by_shape = mesh.in_patch.copy()  # faces that stay split as they are
@@ -117,8 +118,7 @@ def _triangles(mesh: MeshArrays, free: Mask, even: bool) -> Ints:
     movable = free[quads].any(axis=1)
     by_shape[faces[movable]] = False
     pieces.append(mesh.triangles[by_shape[mesh.triangle_faces]])
-    others = np.concatenate(pieces)
-    return np.concatenate([others, split_quads(quads[movable], others, free)])
+    return np.concatenate([*pieces, split_quads(quads[movable], edges, free)])
 
 
 def _polygons(mesh: MeshArrays, faces: Mask) -> tuple[Ints, Ints]:

@@ -25,13 +25,13 @@ def zigzag(polygons: Ints) -> Ints:
     return triangles
 
 
-def split_quads(quads: Ints, others: Ints, free: Mask) -> Ints:
+def split_quads(quads: Ints, edges: Ints, free: Mask) -> Ints:
     """Return the (2q, 3) triangles of the `quads` (q, 4), wound alike.
 
-    others: (m, 3) triangles around them; free: (n,) mask of the vertices. Vertices are numbers
-    below n. The same connectivity gives the same diagonals, whatever the positions.
+    edges: (e, 2) all edges of the patch, without diagonals; free: (n,) mask of the vertices, which
+    are numbers below n. The same connectivity gives the same diagonals, whatever the positions.
     """
-    excess = _edge_counts(quads, others, len(free)) - np.where(free, INSIDE, OUTLINE)
+    excess = np.bincount(edges.ravel(), minlength=len(free)) - np.where(free, INSIDE, OUTLINE)
     turned = np.zeros(len(quads), dtype=bool)  # False: diagonal from corner 0 to 2
     np.add.at(excess, quads[:, ::2], 1)
     while True:
@@ -46,14 +46,6 @@ def split_quads(quads: Ints, others: Ints, free: Mask) -> Ints:
     a, b, c, d = np.where(turned[:, None], np.roll(quads, -1, axis=1), quads).T
     triangles: Ints = np.stack([a, b, c, a, c, d], axis=1).reshape(-1, 3)
     return triangles
-
-
-def _edge_counts(quads: Ints, others: Ints, count: int) -> Ints:
-    """Return (n,): the edges at each vertex, diagonals of the quads left out."""
-    pairs = [np.stack([faces, np.roll(faces, -1, axis=1)], axis=2) for faces in (quads, others)]
-    edges = np.concatenate([pair.reshape(-1, 2) for pair in pairs])
-    edges = np.unique(np.sort(edges, axis=1), axis=0)
-    return np.bincount(edges.ravel(), minlength=count).astype(np.int64)
 
 
 def _gains(quads: Ints, excess: Ints, free: Mask) -> Ints:
