@@ -45,7 +45,6 @@ def test_refused_meshes(name: str) -> None:
     assert case.elements is None or set(case.elements) <= set(np.ravel(caught.value.elements))
 
 
-@pytest.mark.xfail(strict=True, reason="the foot of a fin counts as border, so it is fixed")
 def test_a_fin_inside_the_patch_is_refused() -> None:
     """Only at the outline may a fin stand; elsewhere it would pin the surface unasked."""
     case = bad_inputs.fin()

@@ -1,0 +1,35 @@
+// Small meshes for the unit tests.
+#pragma once
+
+#include <cmath>
+#include <functional>
+
+#include "mesh/patch.h"
+
+namespace fairing::test {
+
+struct Mesh {
+    Points points;
+    Triangles triangles;
+};
+
+// (n + 1)² vertices over the unit square, split along alternating diagonals; inner ones moved by `jitter` of the
+// spacing.
+Mesh grid(int n, double jitter, const std::function<Vector3(double, double)>& surface, bool alternate = true);
+
+// The square itself.
+Vector3 flat(double u, double v);
+// Part of the unit sphere around (0, 0, 1), normals outward.
+Vector3 sphere(double u, double v);
+
+// The only patch of a mesh whose border is fixed.
+struct Single {
+    VertexRoles roles;
+    CutMesh cut;
+    std::vector<Patch> patches;
+    Points points;  // local
+    [[nodiscard]] const Patch& patch() const { return patches.front(); }
+};
+Single single_patch(const Mesh& mesh);
+
+}  // namespace fairing::test

@@ -1,0 +1,122 @@
+#include <doctest/doctest.h>
+
+#include <numbers>
+
+#include "geometry/mean_curvature.h"
+#include "geometry/surface_fit.h"
+#include "geometry/vertex_normal.h"
+
+using namespace fairing;
+
+namespace {
+
+// Six uneven directions around a point of z = f(x, y), f and its gradient zero at the origin.
+std::vector<Vector3> ring(double size, const std::function<double(double, double)>& height) {
+    std::vector<Vector3> points;
+    const double angles[] = {0.1, 1.0, 2.2, 3.3, 4.1, 5.4};
+    const double lengths[] = {1.0, 0.8, 1.3, 0.9, 1.1, 0.7};
+    for (int k = 0; k < 6; ++k) {
+        const double x = size * lengths[k] * std::cos(angles[k]);
+        const double y = size * lengths[k] * std::sin(angles[k]);
+        points.emplace_back(x, y, height(x, y));
+    }
+    return points;
+}
+
+double sphere_below(double x, double y) { return std::sqrt(1.0 - x * x - y * y) - 1.0; }
+
+}  // namespace
+
+TEST_CASE("all normals agree on a plane, whatever the ring") {
+    const auto points = ring(1.0, [](double, double) { return 0.0; });
+    const OneRing one_ring{Vector3::Zero(), points, true};
+    CHECK((averaged_normal(one_ring) - Vector3::UnitZ()).norm() < 1e-15);
+    CHECK((max_normal(one_ring) - Vector3::UnitZ()).norm() < 1e-15);
+    CHECK((fitted_normal(Vector3::Zero(), points, Vector3::UnitZ()) - Vector3::UnitZ()).norm() < 1e-15);
+}
+
+TEST_CASE("Max's normal and H are exact on spheres, the averaged normal is not") {
+    const auto points = ring(0.3, sphere_below);
+    const OneRing one_ring{Vector3::Zero(), points, true};
+    CHECK((max_normal(one_ring) - Vector3::UnitZ()).norm() < 1e-14);
+    CHECK((averaged_normal(one_ring) - Vector3::UnitZ()).norm() > 1e-3);
+    // The regularisation of the fit is 1e-9 of the trace.
+    CHECK(fit_curvature(Vector3::Zero(), points, Vector3::UnitZ()).mean() == doctest::Approx(-1.0).epsilon(1e-8));
+    CHECK(fit_curvature(Vector3::Zero(), points, Vector3::UnitZ()).gaussian() == doctest::Approx(1.0).epsilon(1e-8));
+}
+
+TEST_CASE("the fitted normal is two orders more accurate than Max's on a cylinder") {
+    const auto points = ring(0.2, [](double x, double) { return std::sqrt(1.0 - x * x) - 1.0; });
+    const Vector3 start = max_normal({Vector3::Zero(), points, true});
+    const double error_max = (start - Vector3::UnitZ()).norm();
+    const double error_fitted = (fitted_normal(Vector3::Zero(), points, start) - Vector3::UnitZ()).norm();
+    CHECK(error_max > 1e-3);
+    CHECK(error_fitted < 0.02 * error_max);
+}
+
+TEST_CASE("the fit's curvatures are those of a paraboloid") {
+    // z = (a x² + 2 b x y + c y²)/2: κ along t is a tx² + 2 b tx ty + c ty², up to O(h²).
+    const double a = 0.7;
+    const double b = -0.3;
+    const double c = -0.2;
+    const auto points = ring(1e-3, [&](double x, double y) { return 0.5 * (a * x * x + 2.0 * b * x * y + c * y * y); });
+    const CurvatureFit fit = fit_curvature(Vector3::Zero(), points, Vector3::UnitZ());
+    CHECK(fit.mean() == doctest::Approx(0.5 * (a + c)).epsilon(1e-5));
+    CHECK(fit.gaussian() == doctest::Approx(a * c - b * b).epsilon(1e-5));
+}
+
+TEST_CASE("the curvature fit is finite whatever it is given") {
+    const std::vector<std::vector<Vector3>> rings = {{},
+                                                     {Vector3::Zero()},
+                                                     {Vector3::UnitZ(), -Vector3::UnitZ()},
+                                                     {Vector3::UnitX(), Vector3::UnitX()},
+                                                     {1e-200 * Vector3::UnitX(), Vector3::UnitY()}};
+    for (const auto& points : rings) {
+        CHECK(std::isfinite(fit_curvature(Vector3::Zero(), points, Vector3::UnitZ()).mean()));
+        CHECK(fitted_normal(Vector3::Zero(), points, Vector3::UnitZ()).allFinite());
+    }
+}
+
+TEST_CASE("the fitted normal fades back to its start continuously") {
+    // A ring that tilts more and more against the start normal passes through the whole fade without a jump.
+    Vector3 last = Vector3::Zero();
+    double largest_jump = 0.0;
+    constexpr int steps = 4000;
+    for (int k = 0; k <= steps; ++k) {
+        const double tilt = 4.0 * k / steps;
+        auto points = ring(1.0, [](double, double) { return 0.0; });
+        for (Vector3& p : points) p.z() = tilt * p.x();
+        const Vector3 normal = fitted_normal(Vector3::Zero(), points, Vector3::UnitZ());
+        if (k > 0) largest_jump = std::max(largest_jump, (normal - last).norm());
+        last = normal;
+    }
+    CHECK(largest_jump < 0.01);
+    CHECK((last - Vector3::UnitZ()).norm() < 1e-12);  // far beyond the fade: the start itself
+}
+
+TEST_CASE("a surface fit from one side finds the normal of a sphere to third order") {
+    const auto error = [](double size) {
+        std::vector<Vector3> points;
+        for (int i = 0; i < 6; ++i) {
+            for (int j = 0; j < 5; ++j) {
+                if (i == 0 && j == 2) continue;
+                const double x = size * i / 6.0;  // x ≥ 0 only
+                const double y = size * (j - 2) / 5.0;
+                points.emplace_back(x, y, sphere_below(x, y));
+            }
+        }
+        const Vector3 start = Vector3(-0.1, 0.05, 1.0).normalized();
+        const auto normal = surface_fit_normal(Vector3::Zero(), points, start);
+        REQUIRE(normal.has_value());
+        return (*normal - Vector3::UnitZ()).norm();
+    };
+    CHECK(error(0.2) < 1e-4);
+    CHECK(error(0.4) / error(0.2) > 6.0);
+}
+
+TEST_CASE("a surface fit needs points that determine it") {
+    std::vector<Vector3> line;
+    for (int k = 1; k < 20; ++k) line.emplace_back(0.1 * k, 0.0, 0.0);
+    CHECK_FALSE(surface_fit_normal(Vector3::Zero(), line, Vector3::UnitZ()).has_value());
+    CHECK_FALSE(surface_fit_normal(Vector3::Zero(), std::span(line).first(3), Vector3::UnitZ()).has_value());
+}

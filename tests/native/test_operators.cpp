@@ -1,0 +1,66 @@
+#include <doctest/doctest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "meshes.h"
+#include "solver/normal_operator.h"
+
+using namespace fairing;
+
+namespace {
+
+Stiffness stiffness_of(const test::Single& single) {
+    FaceGeometry faces;
+    faces.update(single.points, single.patch().triangles);
+    Stiffness stiffness;
+    stiffness.update(faces, single.patch());
+    return stiffness;
+}
+
+// S, all vertices, dense.
+Eigen::MatrixXd dense(const Patch& patch, const Stiffness& stiffness) {
+    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(patch.vertex_count(), patch.vertex_count());
+    return stiffness.apply(patch, identity, patch.vertex_count()).transpose();
+}
+
+}  // namespace
+
+TEST_CASE("S has constants and, on a plane, linear functions in its kernel; masses add up to the area") {
+    const test::Single single = test::single_patch(test::grid(7, 0.3, test::flat));
+    const Stiffness stiffness = stiffness_of(single);
+    const Points Sx = stiffness.apply(single.patch(), single.points, single.patch().free_count);
+    CHECK(Sx.cwiseAbs().maxCoeff() < 1e-13);
+    CHECK(stiffness.mass.sum() == doctest::Approx(1.0));
+}
+
+TEST_CASE("S is symmetric and positive semidefinite") {
+    const test::Single single = test::single_patch(test::grid(5, 0.3, test::sphere));
+    const Eigen::MatrixXd S = dense(single.patch(), stiffness_of(single));
+    CHECK((S - S.transpose()).norm() < 1e-13);
+    const VectorX eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(S).eigenvalues();
+    CHECK(eigenvalues[0] == doctest::Approx(0.0).epsilon(1e-12));
+    CHECK(eigenvalues[1] > 1e-3);
+}
+
+TEST_CASE("the biharmonic operator inverts S_I (4M)⁻¹ S_Iᵀ") {
+    const test::Single single = test::single_patch(test::grid(6, 0.3, test::sphere));
+    const Patch& patch = single.patch();
+    const Stiffness stiffness = stiffness_of(single);
+    const Eigen::MatrixXd SI = dense(patch, stiffness).topRows(patch.free_count);
+    const Eigen::MatrixXd K = SI * (4.0 * stiffness.mass).cwiseInverse().asDiagonal() * SI.transpose();
+    BiharmonicOperator op(patch);
+    op.update(stiffness, Progress());
+    const VectorX rhs = VectorX::LinSpaced(patch.free_count, -1.0, 1.0);
+    CHECK((K * op.solve(rhs) - rhs).norm() < 1e-10 * rhs.norm());
+}
+
+TEST_CASE("the Laplace operator inverts S_II") {
+    const test::Single single = test::single_patch(test::grid(6, 0.3, test::sphere));
+    const Patch& patch = single.patch();
+    const Stiffness stiffness = stiffness_of(single);
+    const Eigen::MatrixXd SII = dense(patch, stiffness).topLeftCorner(patch.free_count, patch.free_count);
+    LaplaceOperator op(patch);
+    op.update(stiffness, Progress());
+    const VectorX rhs = VectorX::LinSpaced(patch.free_count, -1.0, 1.0);
+    CHECK((SII * op.solve(rhs) - rhs).norm() < 1e-12 * rhs.norm());
+}
