@@ -23,13 +23,13 @@ def install(package: Path) -> None:
     )
 
 
-def fair(obj: bpy.types.Object, faces: Any) -> dict[str, float]:
+def fair(obj: bpy.types.Object, faces: Any) -> dict[str, Any]:
     """Run the operator on the faces and return what its report says."""
     scenes.select(obj, faces)
     bpy.ops.mesh.fair_region("EXEC_DEFAULT")
     bpy.ops.object.mode_set(mode="OBJECT")
     report = bpy.context.window_manager.fairing_report
-    names = ("free_vertices", "seconds", "residual", "boundary_angle")
+    names = ("free_vertices", "seconds", "residual", "boundary_angle", "converged")
     return {name: getattr(report, name) for name in names}
 
 
@@ -42,7 +42,7 @@ def take_pictures(out: Path, stem: str) -> list[Path]:
     return paths
 
 
-def before_and_after(out: Path, name: str, obj: bpy.types.Object, faces: Any) -> dict[str, float]:
+def before_and_after(out: Path, name: str, obj: bpy.types.Object, faces: Any) -> dict[str, Any]:
     """Picture, fair, picture; joins the four pictures into `name`.png."""
     pictures.tint(obj.data, faces)
     before = take_pictures(out, f"{name}_before")
@@ -52,14 +52,14 @@ def before_and_after(out: Path, name: str, obj: bpy.types.Object, faces: Any) ->
     return figures
 
 
-def ear(out: Path) -> dict[str, float]:
+def ear(out: Path) -> dict[str, Any]:
     """Remove the ear by fairing."""
     monkey = scenes.suzanne()
-    pictures.add_camera((0.3, 0.0, 0.0), (1.0, -0.75, 0.25), 2.9)
+    pictures.add_camera((0.2, 0.0, 0.0), (1.0, -0.45, 0.2), 2.8)
     return before_and_after(out, "suzanne_ear", monkey, scenes.ear_faces(monkey.data))
 
 
-def hemisphere(out: Path) -> dict[str, float]:
+def hemisphere(out: Path) -> dict[str, Any]:
     """Restore the spoilt half of a sphere and measure how far it is off."""
     sphere, upper = scenes.spoilt_sphere()
     pictures.add_camera((0.0, 0.0, 0.0), (1.0, -1.0, 0.7), 2.4)
@@ -68,22 +68,28 @@ def hemisphere(out: Path) -> dict[str, float]:
     return {**figures, "deviation": float(np.abs(radii - 1.0).max())}
 
 
-def print_table(rows: dict[str, dict[str, float]]) -> None:
+COLUMNS = (
+    ("free vertices", "free_vertices", "{:d}"),
+    ("seconds", "seconds", "{:.3f}"),
+    ("converged", "converged", "{}"),
+    ("residual", "residual", "{:.1e}"),
+    ("largest boundary angle", "boundary_angle", "{:.2f}°"),
+    ("off the exact sphere", "deviation", "{:.1e} R"),
+)
+
+
+def print_table(rows: dict[str, dict[str, Any]]) -> None:
     """Print one line per model."""
-    print(
-        f"\n{'':14}{'free vertices':>14}{'seconds':>9}{'residual':>10}"
-        f"{'largest boundary angle':>24}{'off the exact sphere':>22}"
-    )
+    print("\n" + " " * 14 + "".join(f"{title:>{len(title) + 3}}" for title, _, _ in COLUMNS))
     for name, row in rows.items():
-        deviation = f"{row['deviation']:.1e} R" if "deviation" in row else "-"
-        print(
-            f"{name:14}{row['free_vertices']:14}{row['seconds']:9.3f}{row['residual']:10.1e}"
-            f"{row['boundary_angle']:22.3f} °{deviation:>22}"
-        )
+        cells = [form.format(row[key]) if key in row else "-" for _, key, form in COLUMNS]
+        widths = [len(title) + 3 for title, _, _ in COLUMNS]
+        cells = [f"{cell:>{width}}" for cell, width in zip(cells, widths, strict=True)]
+        print(f"{name:14}" + "".join(cells))
 
 
-def main() -> None:
-    """Usage: demo.py ZIP OUTPUT_FOLDER."""
+def main() -> int:
+    """Usage: demo.py ZIP OUTPUT_FOLDER. Returns 1 where a model did not converge."""
     package, out = Path(sys.argv[1]), Path(sys.argv[2])
     out.mkdir(parents=True, exist_ok=True)
     rows = {}
@@ -94,7 +100,8 @@ def main() -> None:
         rows[name] = run(out)
     print_table(rows)
     print(f"\nPictures (before, after; shaded, reflection stripes) and .blend files: {out}")
+    return 0 if all(row["converged"] for row in rows.values()) else 1
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

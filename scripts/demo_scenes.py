@@ -63,7 +63,7 @@ def _distances(mesh: bpy.types.Mesh, faces: Mask) -> Floats:
     return distance
 
 
-def ear_faces(mesh: bpy.types.Mesh, margin: float = 0.28) -> Mask:
+def ear_faces(mesh: bpy.types.Mesh, margin: float = 0.35) -> Mask:
     """Select Suzanne's ear on the +x side, outlined on the head around its root.
 
     A plane x = c cuts the ear off for c large; as c shrinks, the piece around the tip suddenly
