@@ -5,9 +5,8 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import Any
 
-import fairing
-
 import blend
+import fairing
 import shapes
 from shapes import Patch, Style
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import fairing
 import numpy as np
 import pytest
 
 import bad_inputs
 import blend
+import fairing
 import measures
 import shapes
 from meshing import IntArray

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import fairing
 import numpy as np
 import pytest
 
+import fairing
 import shapes
 
 PATCH = shapes.catenoid(500)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import fairing
 import numpy as np
 
+import fairing
 import shapes
 from solving import fair_patch
 

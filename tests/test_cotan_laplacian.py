@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import fairing
 import numpy as np
 import pytest
 from scipy.sparse import coo_array, csr_array
 
+import fairing
 import shapes
 from curves import FloatArray
 from meshing import IntArray

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-import fairing
 import numpy as np
 import pytest
 
 import bad_inputs
+import fairing
 import shapes
 from bad_inputs import Case
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import fairing
 import numpy as np
 
 import bad_inputs
+import fairing
 import shapes
 from curves import FloatArray
 from meshing import IntArray

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import fairing
 import numpy as np
 import pytest
 
+import fairing
 import measures
 import shapes
 from curves import FloatArray

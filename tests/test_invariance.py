@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Literal
 
-import fairing
 import numpy as np
 import pytest
 
+import fairing
 import shapes
 from curves import FloatArray
 from shapes import Patch

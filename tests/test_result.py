@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 
-import fairing
 import numpy as np
 import pytest
 
+import fairing
 import shapes
 from solving import codes, fair_patch, solved
 

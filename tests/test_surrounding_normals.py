@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import fairing
 import numpy as np
 import pytest
 
 import bad_inputs
+import fairing
 import shapes
 from curves import FloatArray
 from meshing import IntArray, face_normals
