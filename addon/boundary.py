@@ -71,18 +71,14 @@ def surrounding_normals(mesh: MeshArrays, fixed: Ints) -> tuple[Floats, Mask]:
     near = _nearby(outside, start)
     used, triangles = np.unique(near, return_inverse=True)
     at = np.searchsorted(used, fixed[found])
-    fitted, _ = fairing.surrounding_normals(
-        mesh.positions[used], triangles.reshape(-1, 3).astype(np.int64), at
-    )
+    fitted, _ = fairing.surrounding_normals(mesh.positions[used], triangles.reshape(-1, 3).astype(np.int64), at)
     # A zero normal is one that even the average of the outside faces leaves open.
     decided = np.linalg.norm(fitted, axis=1) > 0.5
     normals[np.flatnonzero(found)[decided]] = fitted[decided]
     return normals, found
 
 
-def prescribed_normals(
-    mesh: MeshArrays, patch: Patch, source: str
-) -> tuple[Floats, tuple[str, ...]]:
+def prescribed_normals(mesh: MeshArrays, patch: Patch, source: str) -> tuple[Floats, tuple[str, ...]]:
     """Return ((k, 3) unit normals in the order of `patch.fixed`, warnings).
 
     source: one of options.BOUNDARY_NORMALS.

@@ -27,8 +27,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--object", required=True, help="name of the mesh object")
     parser.add_argument(
         "--vertex-group",
-        help="fair the faces inside this vertex group; "
-        "default: the faces that are selected in the file",
+        help="fair the faces inside this vertex group; default: the faces that are selected in the file",
     )
     parser.add_argument("--output", required=True, help="the .blend file to write")
     parser.add_argument("--report", choices=("text", "json"), default="text")

@@ -78,9 +78,7 @@ def _group_index(obj: bpy.types.Object | None, name: str) -> int | None:
     return int(obj.vertex_groups[name].index)
 
 
-def _arrays(
-    mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: FairOptions
-) -> MeshArrays:
+def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: FairOptions) -> MeshArrays:
     mesh.calc_loop_triangles()
     sizes = _indices(mesh.polygons, "loop_total")
     corner_vertices = _indices(mesh.loops, "vertex_index")

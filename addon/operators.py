@@ -112,9 +112,7 @@ def fair_selections(context: bpy.types.Context, options: FairOptions, progress: 
     return done
 
 
-def _fair_selection(
-    obj: bpy.types.Object, options: FairOptions, progress: Progress
-) -> Fairing | None:
+def _fair_selection(obj: bpy.types.Object, options: FairOptions, progress: Progress) -> Fairing | None:
     key = obj.active_shape_key
     if key is not None and key.lock_shape:
         raise ValueError(f"The active shape key {key.name!r} is locked")

@@ -88,9 +88,7 @@ class FairProperties:
     max_iterations: IntProperty(
         name="Iterations", description="Give up after this many steps", default=200, min=1
     )
-    pin_group: StringProperty(
-        name="Pin Group", description="Vertices of this vertex group stay where they are"
-    )
+    pin_group: StringProperty(name="Pin Group", description="Vertices of this vertex group stay where they are")
     pin_edges: EnumProperty(
         name="Pin Edges",
         description="Marked edges whose vertices stay where they are",

@@ -169,9 +169,7 @@ def report() -> Any:
 
 def contents(obj: bpy.types.Object) -> dict[str, bytes]:
     """Return every attribute, weight and shape key of a mesh in object mode as bytes."""
-    data = {
-        f"{a.domain} {a.name}": _bytes(a.data, *LAYOUT[a.data_type]) for a in obj.data.attributes
-    }
+    data = {f"{a.domain} {a.name}": _bytes(a.data, *LAYOUT[a.data_type]) for a in obj.data.attributes}
     sizes = np.empty(len(obj.data.polygons), dtype=np.int32)
     obj.data.polygons.foreach_get("loop_total", sizes)
     data["sizes"] = sizes.tobytes()

@@ -82,8 +82,7 @@ def test_hidden_faces_stay() -> None:
     assert meshes.run() == {"FINISHED"}
     meshes.leave()
     old, new = (
-        np.frombuffer(c["POINT position"], np.uint32).reshape(-1, 3)
-        for c in (before, meshes.contents(obj))
+        np.frombuffer(c["POINT position"], np.uint32).reshape(-1, 3) for c in (before, meshes.contents(obj))
     )
     changed = (old != new).any(axis=1)
     expected = meshes.free_vertices(obj, faces & ~hidden)
@@ -98,9 +97,7 @@ def test_shape_keys(active: int) -> None:
         obj.shape_key_add(name=name)
     points = meshes.positions(obj)
     keys = obj.data.shape_keys.key_blocks
-    keys["Smile"].data.foreach_set(
-        "co", (points + np.array([0.0, 0.0, 0.25])).astype(np.float32).ravel()
-    )
+    keys["Smile"].data.foreach_set("co", (points + np.array([0.0, 0.0, 0.25])).astype(np.float32).ravel())
     obj.active_shape_key_index = active
     before = meshes.in_edit_mode_once(obj, faces)
     meshes.fair(obj, faces)

@@ -119,9 +119,7 @@ def test_fair_mesh_keeps_every_other_bit() -> None:
     for name in ("POINT position", "key Basis", "key Smile"):
         old, new = (np.frombuffer(c[name], np.uint32).reshape(-1, 3) for c in (before, after))
         np.testing.assert_array_equal((old != new).any(axis=1), free)
-    assert [
-        k for k in before if k.startswith((".", "CORNER", "EDGE", "FACE")) and before[k] != after[k]
-    ] == []
+    assert [k for k in before if k.startswith((".", "CORNER", "EDGE", "FACE")) and before[k] != after[k]] == []
     meshes.edit(obj)  # the positions survive edit mode, keys and all
     meshes.leave()
     assert meshes.contents(obj)["POINT position"] == after["POINT position"]

@@ -62,9 +62,7 @@ def test_result_does_not_depend_on_the_interior() -> None:
     np.testing.assert_allclose(results[0], results[1], atol=1e-5)
 
 
-@pytest.mark.parametrize(
-    "scale", [(1.0, 1.0, 1.0), (3.0, 0.5, 1.5), (-1.0, 1.0, 1.0), (-2.0, -3.0, -0.4)]
-)
+@pytest.mark.parametrize("scale", [(1.0, 1.0, 1.0), (3.0, 0.5, 1.5), (-1.0, 1.0, 1.0), (-2.0, -3.0, -0.4)])
 def test_fair_in_world_space(scale: tuple[float, float, float]) -> None:
     obj = meshes.sphere()
     upper = upper_half(obj)
