@@ -127,9 +127,7 @@ def moebius_strip() -> Case:
     angle = np.repeat(2 * np.pi * np.arange(rows) / rows, columns)
     across = np.tile(np.linspace(-0.4, 0.4, columns), rows)
     radius = 1 + across * np.cos(angle / 2)
-    vertices = np.column_stack(
-        [radius * np.cos(angle), radius * np.sin(angle), across * np.sin(angle / 2)]
-    )
+    vertices = np.column_stack([radius * np.cos(angle), radius * np.sin(angle), across * np.sin(angle / 2)])
     i, j = (k.ravel() for k in np.meshgrid(np.arange(rows), np.arange(columns - 1), indexing="ij"))
     a, d = i * columns + j, i * columns + j + 1
     last = i == rows - 1
@@ -221,9 +219,7 @@ def island_without_border() -> Case:
     count = len(patch.vertices)
     options = {"fixed": patch.fixed, "fixed_normals": patch.fixed_normals}
     everything = np.vstack([patch.vertices, vertices + np.array([3.0, 0.0, 0.0])])
-    return Case(
-        everything, np.vstack([patch.triangles, triangles + count]), "NO_BOUNDARY", None, options
-    )
+    return Case(everything, np.vstack([patch.triangles, triangles + count]), "NO_BOUNDARY", None, options)
 
 
 CASES: dict[str, Callable[[], Case]] = {

@@ -99,9 +99,7 @@ def _sheet(outline: FloatArray, h: float, jitter: float, rng: np.random.Generato
     rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
     shaken = lattice + jitter * (rng.random(lattice.shape) - 0.5)
     points = h * (shaken + rng.random(2)) @ rotation.T
-    refined = np.vstack(
-        [outline + s * (np.roll(outline, -1, 0) - outline) for s in (0, 0.33, 0.67)]
-    )
+    refined = np.vstack([outline + s * (np.roll(outline, -1, 0) - outline) for s in (0, 0.33, 0.67)])
     clear = cKDTree(refined).query(points)[0] > 0.6 * h
     points = points[clear]
     points = points[_inside(outline, points)]
@@ -148,9 +146,7 @@ def _blend(h: float, jitter: float, seed: int, reach: float) -> Blend:
     return _glued(flat, upper, lower, (corners, len(sheets[0]), len(sheets[1])), reach)
 
 
-def _glued(
-    flat: Outline, upper: IntArray, lower: IntArray, sizes: tuple[int, int, int], reach: float
-) -> Blend:
+def _glued(flat: Outline, upper: IntArray, lower: IntArray, sizes: tuple[int, int, int], reach: float) -> Blend:
     """Both sheets in one mesh: the sides are shared, the open rim points exist twice."""
     corners, above, below = sizes
     doubled = np.flatnonzero((flat.rim >= 0) & (np.abs(flat.across) < 1 - 1e-9))

@@ -163,9 +163,7 @@ def delaunay_profile(start: float, stop: float, neck: float, bulge: float) -> Od
     r sin(angle) − H r² is conserved, so H = 1/(neck + bulge), for the normal left of the profile.
     """
     mean = 1.0 / (neck + bulge)
-    return OdeCurve(
-        start, stop, (neck, 0.0, np.pi / 2), lambda _, q: 2 * mean - np.sin(q[2]) / q[0]
-    )
+    return OdeCurve(start, stop, (neck, 0.0, np.pi / 2), lambda _, q: 2 * mean - np.sin(q[2]) / q[0])
 
 
 def linear_flux_profile(start: float, stop: float, flux: float, mean: float = 0.5) -> OdeCurve:

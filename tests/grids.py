@@ -78,9 +78,7 @@ def _shaken(
     return moved
 
 
-def _unfolded(
-    domain: Domain, st: FloatArray, offset: FloatArray, triangles: IntArray
-) -> FloatArray:
+def _unfolded(domain: Domain, st: FloatArray, offset: FloatArray, triangles: IntArray) -> FloatArray:
     """Points st + offset (k, 2), offsets halved at the corners of triangles that turn over."""
     for _ in range(10):
         corner = domain.space(st + offset)[triangles]

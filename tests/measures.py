@@ -105,9 +105,7 @@ def beyond_rings(triangles: IntArray, start: IntArray, rings: int) -> NDArray[np
 def border_edges(triangles: IntArray) -> IntArray:
     """Directed edges of exactly one triangle, (b, 2)."""
     directed = directed_edges(triangles)
-    _, inverse, uses = np.unique(
-        np.sort(directed, axis=1), axis=0, return_inverse=True, return_counts=True
-    )
+    _, inverse, uses = np.unique(np.sort(directed, axis=1), axis=0, return_inverse=True, return_counts=True)
     return np.asarray(directed[uses[inverse.ravel()] == 1])
 
 
@@ -137,9 +135,7 @@ def _single_fans(triangles: IntArray) -> bool:
     place = np.searchsorted(forward[order], backward)
     place = np.minimum(place, len(order) - 1)
     match = forward[order][place] == backward
-    graph = coo_array(
-        (np.ones(match.sum()), (corner[match], order[place[match]])), shape=(len(corner),) * 2
-    )
+    graph = coo_array((np.ones(match.sum()), (corner[match], order[place[match]])), shape=(len(corner),) * 2)
     return int(connected_components(graph)[0]) == len(np.unique(vertex))
 
 

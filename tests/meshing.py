@@ -125,9 +125,7 @@ def _agreement(points: FloatArray, normals: FloatArray, triangles: IntArray) -> 
     """Scaled cosine between each triangle's normal and the surface normal, (m,)."""
     cross = face_normals(points, triangles)
     mean = normals[triangles].mean(axis=1)
-    return np.asarray(
-        (cross * mean).sum(axis=1) / np.maximum((cross**2).sum(axis=1), 1e-300) ** 0.5
-    )
+    return np.asarray((cross * mean).sum(axis=1) / np.maximum((cross**2).sum(axis=1), 1e-300) ** 0.5)
 
 
 def edge_pairs(triangles: IntArray) -> tuple[IntArray, IntArray, IntArray]:

@@ -85,25 +85,19 @@ def _patch(domain: Domain, n_free: int, style: Style | None) -> Patch:
     )  # fmt: skip
 
 
-def cap(
-    n_free: int, style: Style | None = None, *, half_angle: float = 90.0, radius: float = 1.0
-) -> Patch:
+def cap(n_free: int, style: Style | None = None, *, half_angle: float = 90.0, radius: float = 1.0) -> Patch:
     """Spherical cap about the north pole, outward normals; 90° is the hemisphere, up to 160°."""
     arc = curves.Arc(0.0, radius * np.radians(half_angle), -radius)
     return _patch(Domain(Sphere(arc), "disc"), n_free, style)
 
 
-def _revolved(
-    curve: curves.Curve, shape: Shape, n_free: int, style: Style | None, opening: float
-) -> Patch:
+def _revolved(curve: curves.Curve, shape: Shape, n_free: int, style: Style | None, opening: float) -> Patch:
     """All the way round, or an opening (radians) of a rectangle or oval; outward normals."""
     high = 2 * np.pi if shape == "tube" else opening
     return _patch(Domain(Revolution(curve, -1), shape, 0.0, high), n_free, style)
 
 
-def cylinder(
-    n_free: int, style: Style | None = None, *, shape: Shape = "tube", length: float = 2.0
-) -> Patch:
+def cylinder(n_free: int, style: Style | None = None, *, shape: Shape = "tube", length: float = 2.0) -> Patch:
     """Cylinder of radius 1 and the given length, H = −1/2; as a patch it opens by 2 radians."""
     line = curves.Line(-0.5 * length, 0.5 * length, 1.0)
     return _revolved(line, shape, n_free, style, 2.0)
@@ -153,9 +147,7 @@ def clothoid(
     return _patch(Domain(surface, shape, 0.0, height), n_free, style)
 
 
-def plane(
-    n_free: int, style: Style | None = None, *, shape: Literal["rectangle", "oval"] = "oval"
-) -> Patch:
+def plane(n_free: int, style: Style | None = None, *, shape: Literal["rectangle", "oval"] = "oval") -> Patch:
     """A flat patch, H = 0."""
     surface = Extrusion(curves.Line(-1.0, 1.0), 1)
     return _patch(Domain(surface, shape, 0.0, 1.6), n_free, style)

@@ -23,9 +23,7 @@ def fair_patch(patch: Patch, **options: Any) -> fairing.FairResult:
 
 
 @lru_cache(maxsize=64)
-def solved(
-    family: str, n_free: int, style: Style | None = None
-) -> tuple[Patch, fairing.FairResult]:
+def solved(family: str, n_free: int, style: Style | None = None) -> tuple[Patch, fairing.FairResult]:
     """A patch of the family and its fair surface with uniform inner fairness."""
     patch = shapes.FAMILIES[family](n_free, style or Style())
     return patch, fair_patch(patch)

@@ -17,17 +17,13 @@ def check(triangles: IntArray, count: int) -> None:
     loops = fairing.boundary_loops(triangles)
     assert len(loops) == count
     border = {tuple(edge) for edge in measures.border_edges(triangles).tolist()}
-    steps = [
-        (int(a), int(b)) for loop in loops for a, b in zip(loop, np.roll(loop, -1), strict=True)
-    ]
+    steps = [(int(a), int(b)) for loop in loops for a, b in zip(loop, np.roll(loop, -1), strict=True)]
     assert len(steps) == len(set(steps)) == len(border)
     assert set(steps) == border
     assert all(loop[0] == loop.min() for loop in loops)
 
 
-@pytest.mark.parametrize(
-    ("name", "count"), [("cap", 1), ("cylinder", 2), ("plane", 1), ("torus", 1)]
-)
+@pytest.mark.parametrize(("name", "count"), [("cap", 1), ("cylinder", 2), ("plane", 1), ("torus", 1)])
 def test_loops_of_patches(name: str, count: int) -> None:
     check(getattr(shapes, name)(200).triangles, count)
 

@@ -100,9 +100,7 @@ def test_vertices_without_triangles_may_be_anything() -> None:
         ("levels", -1, ["0", "1"]),
     ],
 )
-def test_unknown_and_later_options_list_what_is_accepted(
-    option: str, value: Any, accepted: list[str]
-) -> None:
+def test_unknown_and_later_options_list_what_is_accepted(option: str, value: Any, accepted: list[str]) -> None:
     with pytest.raises(ValueError, match=option) as caught:
         fair(**{option: value})
     assert all(word in str(caught.value) for word in accepted)

@@ -54,9 +54,7 @@ def test_error_falls_with_the_edge_length(family: str) -> None:
     assert measures.observed_order((len(coarse.free), len(fine.free)), errors) >= 1.5
 
 
-@pytest.mark.parametrize(
-    "family", ["hemisphere", "cylinder", "catenoid", "clothoid", "linear_flux"]
-)
+@pytest.mark.parametrize("family", ["hemisphere", "cylinder", "catenoid", "clothoid", "linear_flux"])
 def test_boundary_normals_are_met(family: str) -> None:
     patch, result = solved(family, 4000)
     assert result.boundary_angle.shape == patch.fixed.shape

@@ -56,9 +56,7 @@ def test_sphere_from_its_equator() -> None:
     """
     vertices, triangles, equator = bad_inputs.closed_ball(500)
     start = shapes.membrane(vertices, triangles, equator)
-    result = fairing.fair(
-        start, triangles, fixed=equator, fixed_normals=vertices[equator], tolerance=1e-10
-    )
+    result = fairing.fair(start, triangles, fixed=equator, fixed_normals=vertices[equator], tolerance=1e-10)
     assert result.converged
     assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 2e-6
     assert np.abs(result.mean_curvature + 1).max() < 1e-4
@@ -71,9 +69,7 @@ def test_each_side_of_a_circle_has_its_own_curvature() -> None:
     fixed = np.concatenate([capsule.rim, capsule.circle])
     normals = capsule.vertices[fixed] * np.array([1.0, 1.0, 0.0])
     start = shapes.membrane(capsule.vertices, capsule.triangles, fixed)
-    result = fairing.fair(
-        start, capsule.triangles, fixed=fixed, fixed_normals=normals, tolerance=1e-10
-    )
+    result = fairing.fair(start, capsule.triangles, fixed=fixed, fixed_normals=normals, tolerance=1e-10)
     assert result.converged
     sphere = np.linalg.norm(result.vertices[capsule.above], axis=1)
     cylinder = np.linalg.norm(result.vertices[capsule.below, :2], axis=1)
@@ -107,9 +103,7 @@ def test_pins_hold_their_position_without_a_dent() -> None:
     pins = patch.free[[3, 200]]
     fixed = np.concatenate([patch.fixed, pins])
     normals = np.vstack([patch.fixed_normals, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]])
-    result = fairing.fair(
-        patch.vertices, patch.triangles, fixed=fixed, fixed_normals=normals, tolerance=1e-10
-    )
+    result = fairing.fair(patch.vertices, patch.triangles, fixed=fixed, fixed_normals=normals, tolerance=1e-10)
     assert np.array_equal(result.vertices[pins], patch.vertices[pins])
     assert patch.error(result.vertices) < 1e-5
     warning = next(w for w in result.warnings if w.code == "PIN_NORMAL_IGNORED")

@@ -20,9 +20,7 @@ D = PATCH.diameter
 def fair(
     vertices: FloatArray = START, normals: FloatArray = PATCH.fixed_normals, patch: Patch = PATCH
 ) -> fairing.FairResult:
-    return fairing.fair(
-        vertices, patch.triangles, fixed=patch.fixed, fixed_normals=normals, tolerance=1e-12
-    )
+    return fairing.fair(vertices, patch.triangles, fixed=patch.fixed, fixed_normals=normals, tolerance=1e-12)
 
 
 @pytest.fixture(scope="module")

@@ -27,9 +27,7 @@ PAIRS = [
 
 
 @pytest.mark.parametrize(("one", "other"), PAIRS)
-def test_two_meshes_of_the_blend_agree(
-    one: tuple[float, int, int], other: tuple[float, int, int]
-) -> None:
+def test_two_meshes_of_the_blend_agree(one: tuple[float, int, int], other: tuple[float, int, int]) -> None:
     """0.3 % of D is the goal. The best linear fairing differs by 15 %; membranes by 1 %."""
     first, first_vertices, first_converged = faired(*one)
     second, second_vertices, second_converged = faired(*other)
@@ -45,7 +43,5 @@ def test_blend_is_symmetric() -> None:
     """The surface, not the mesh, has the plane of the axes as a mirror."""
     patch, vertices, _ = faired(0.6, 2, 4000)
     mirrored = vertices * np.array([1.0, 1.0, -1.0])
-    distance = measures.two_sided_distance(
-        (vertices, patch.triangles), (mirrored, patch.triangles[:, ::-1])
-    )
+    distance = measures.two_sided_distance((vertices, patch.triangles), (mirrored, patch.triangles[:, ::-1]))
     assert distance <= 0.003 * patch.diameter

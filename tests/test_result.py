@@ -15,9 +15,7 @@ from solving import codes, fair_patch, solved
 def test_fixed_vertices_keep_their_bits_and_given_order() -> None:
     patch = shapes.catenoid(300)
     order = np.random.default_rng(0).permutation(patch.fixed)
-    result = fairing.fair(
-        patch.vertices, patch.triangles, fixed=order, fixed_normals=patch.normals[order]
-    )
+    result = fairing.fair(patch.vertices, patch.triangles, fixed=order, fixed_normals=patch.normals[order])
     assert np.array_equal(result.fixed, order)
     assert np.array_equal(result.vertices[order], patch.vertices[order])
 

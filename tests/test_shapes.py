@@ -207,9 +207,7 @@ def test_two_sided_distance_of_parallel_and_shifted_planes() -> None:
     same = (flat.vertices, flat.triangles)
     assert measures.two_sided_distance(same, (moved, flat.triangles)) == pytest.approx(0.01)
     wider = flat.vertices * np.array([1.0, 1.0, 1.1])
-    assert measures.two_sided_distance(same, (wider, flat.triangles)) == pytest.approx(
-        0.16, rel=0.05
-    )
+    assert measures.two_sided_distance(same, (wider, flat.triangles)) == pytest.approx(0.16, rel=0.05)
 
 
 def test_observed_order() -> None:

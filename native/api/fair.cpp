@@ -7,7 +7,7 @@
 #include "api/measure.h"
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
-#include "solver/global_solver.h"
+#include "proxy/global_method.h"
 
 namespace fairing {
 
@@ -85,6 +85,7 @@ private:
         result_.residual = std::max(result_.residual, solution.residual);
         result_.initial_residual = std::max(result_.initial_residual, solution.initial_residual);
         result_.iterations = std::max(result_.iterations, solution.iterations);
+        result_.polished = result_.polished && solution.polished;
         result_.levels.resize(1, 0);
         result_.levels[0] += patch.vertex_count();
         for (const auto& [stage, seconds] : solution.seconds) result_.seconds[stage] += seconds;

@@ -19,6 +19,7 @@ struct FairResult {
     VectorX mean_curvature;  // eq. 8: −1/R on a sphere with outward normals; the mean of the sides on cut curves
     VectorX boundary_angle;  // degrees, in the order of `fixed`
     bool converged = true;
+    bool polished = true;
     Termination termination = Termination::converged;
     int iterations = 0;
     double residual = 0.0;

@@ -131,15 +131,17 @@ void warn_of_normals(const MeshInput& input, CheckedMesh& mesh) {
                              std::move(pins)});
 }
 
-// Normals that point to the side from which the triangles given are clockwise. A strongly curved surface over a flat
-// interior may differ by more than a right angle (a cap of 140°), so only nearly opposite ones count.
+// Normals that point to the side from which the triangles given are clockwise. The interior given may be noise, and a
+// strongly curved surface over a flat one may differ by more than a right angle (a cap of 140°): only many that are
+// nearly opposite count.
 void warn_of_opposed_normals(const CheckedMesh& mesh, const Points& averaged, Diagnostics& warnings) {
     constexpr double cos_of_opposed = -0.8;
+    constexpr double least_share = 1.0 / 3.0;
     Indices opposed;
     for (int v : mesh.fixed) {
         if (mesh.normals.col(v).dot(averaged.col(v)) < cos_of_opposed) opposed.push_back(v);
     }
-    if (opposed.empty()) return;
+    if (static_cast<double>(opposed.size()) <= least_share * static_cast<double>(mesh.fixed.size())) return;
     warnings.push_back(
         {Code::normals_oppose_winding,
          std::to_string(opposed.size()) +

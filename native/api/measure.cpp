@@ -20,7 +20,7 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 template <typename Visit>
 void for_each_piece(const CheckedMesh& mesh, const Points& points, Visit visit) {
     for (const Indices& piece : triangles_of_pieces(mesh.cut)) {
-        const Patch patch(mesh.cut, piece, mesh.roles);
+        const Patch patch = make_patch(mesh.cut, piece, mesh.roles);
         visit(patch, gather(points, patch.to_input));
     }
 }

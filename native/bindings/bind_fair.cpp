@@ -52,7 +52,7 @@ py::dict to_dict(const FairResult& result) {
     dict["mean_curvature"] = from_vector(result.mean_curvature);
     dict["boundary_angle"] = from_vector(result.boundary_angle);
     dict["converged"] = result.converged;
-    dict["polished"] = result.converged;
+    dict["polished"] = result.polished;
     dict["termination"] = termination_name(result.termination);
     dict["iterations"] = result.iterations;
     dict["residual"] = result.residual;

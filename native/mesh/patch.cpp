@@ -16,10 +16,39 @@ bool has_free_vertex(const CutMesh& mesh, const Indices& piece_triangles, const 
     });
 }
 
+// Free vertices first, each group in the order of the input, so that neighbours in the input stay close in memory.
+PatchMembers number_vertices(const CutMesh& cut, const Indices& piece_triangles, const VertexRoles& roles) {
+    PatchMembers members;
+    Indices vertices;
+    for (int t : piece_triangles)
+        vertices.insert(vertices.end(), cut.triangles.col(t).begin(), cut.triangles.col(t).end());
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    const auto input = [&](int v) { return cut.input_vertex[at(v)]; };
+    std::sort(vertices.begin(), vertices.end(),
+              [&](int a, int b) { return input(a) != input(b) ? input(a) < input(b) : a < b; });
+    const auto first_fixed =
+        std::stable_partition(vertices.begin(), vertices.end(), [&](int v) { return !roles.fixed[at(input(v))]; });
+    members.free_count = static_cast<int>(first_fixed - vertices.begin());
+
+    Indices local(cut.input_vertex.size(), none);
+    for (int v : vertices) {
+        local[at(v)] = static_cast<int>(members.to_input.size());
+        members.to_input.push_back(input(v));
+        members.pin.push_back(roles.pin[at(input(v))]);
+    }
+    members.triangles.resize(3, static_cast<Eigen::Index>(piece_triangles.size()));
+    for (std::size_t k = 0; k < piece_triangles.size(); ++k) {
+        const int t = piece_triangles[k];
+        members.input_triangle.push_back(cut.input_triangle[at(t)]);
+        for (int c = 0; c < 3; ++c) members.triangles(c, static_cast<Eigen::Index>(k)) = local[at(cut.triangles(c, t))];
+    }
+    return members;
+}
+
 }  // namespace
 
-Patch::Patch(const CutMesh& cut, const Indices& piece_triangles, const VertexRoles& roles) {
-    number_vertices(cut, piece_triangles, roles);
+Patch::Patch(PatchMembers members) : PatchMembers(std::move(members)) {
     build_mesh();
     flatten_edges();
     flatten_rings();
@@ -31,34 +60,6 @@ RingView Patch::ring(int vertex) const {
         return std::span<const int>(items.data() + first, at(begin[at(vertex) + 1]) - first);
     };
     return {view(ring_begin_, ring_vertices_), view(ring_begin_, ring_spokes_), view(rim_begin_, ring_rim_)};
-}
-
-// Free vertices first, each group in the order of the input, so that neighbours in the input stay close in memory.
-void Patch::number_vertices(const CutMesh& cut, const Indices& piece_triangles, const VertexRoles& roles) {
-    Indices vertices;
-    for (int t : piece_triangles)
-        vertices.insert(vertices.end(), cut.triangles.col(t).begin(), cut.triangles.col(t).end());
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    const auto input = [&](int v) { return cut.input_vertex[at(v)]; };
-    std::sort(vertices.begin(), vertices.end(),
-              [&](int a, int b) { return input(a) != input(b) ? input(a) < input(b) : a < b; });
-    const auto first_fixed =
-        std::stable_partition(vertices.begin(), vertices.end(), [&](int v) { return !roles.fixed[at(input(v))]; });
-    free_count = static_cast<int>(first_fixed - vertices.begin());
-
-    Indices local(cut.input_vertex.size(), none);
-    for (int v : vertices) {
-        local[at(v)] = static_cast<int>(to_input.size());
-        to_input.push_back(input(v));
-        pin.push_back(roles.pin[at(input(v))]);
-    }
-    triangles.resize(3, static_cast<Eigen::Index>(piece_triangles.size()));
-    for (std::size_t k = 0; k < piece_triangles.size(); ++k) {
-        const int t = piece_triangles[k];
-        input_triangle.push_back(cut.input_triangle[at(t)]);
-        for (int c = 0; c < 3; ++c) triangles(c, static_cast<Eigen::Index>(k)) = local[at(cut.triangles(c, t))];
-    }
 }
 
 void Patch::build_mesh() {
@@ -129,10 +130,14 @@ std::vector<Indices> triangles_of_pieces(const CutMesh& mesh) {
     return pieces;
 }
 
+Patch make_patch(const CutMesh& cut, const Indices& piece_triangles, const VertexRoles& roles) {
+    return Patch(number_vertices(cut, piece_triangles, roles));
+}
+
 std::vector<Patch> make_patches(const CutMesh& mesh, const VertexRoles& roles) {
     std::vector<Patch> patches;
     for (const Indices& piece : triangles_of_pieces(mesh)) {
-        if (has_free_vertex(mesh, piece, roles)) patches.emplace_back(mesh, piece, roles);
+        if (has_free_vertex(mesh, piece, roles)) patches.push_back(make_patch(mesh, piece, roles));
     }
     return patches;
 }

@@ -18,10 +18,20 @@ struct RingView {
     [[nodiscard]] std::size_t valence() const { return vertices.size(); }
 };
 
-// Topology of a patch. Local vertices 0 … free_count − 1 are free, the others fixed.
-class Patch {
+// What a patch is made of. Local vertices 0 … free_count − 1 are free, the others fixed.
+struct PatchMembers {
+    int free_count = 0;
+    Indices to_input;        // local vertex → input vertex
+    Indices input_triangle;  // local triangle → input triangle
+    std::vector<char> pin;   // per local vertex: fixed position, no prescribed normal
+    Triangles triangles;     // local, consistently wound
+};
+
+// Topology of a patch.
+class Patch : public PatchMembers {
 public:
-    Patch(const CutMesh& cut, const Indices& piece_triangles, const VertexRoles& roles);
+    // Precondition: a manifold with consistent windings.
+    explicit Patch(PatchMembers members);
 
     [[nodiscard]] int vertex_count() const { return static_cast<int>(to_input.size()); }
     [[nodiscard]] int edge_count() const { return static_cast<int>(edge_ends.size()); }
@@ -29,18 +39,12 @@ public:
     [[nodiscard]] bool is_free(int vertex) const { return vertex < free_count; }
     [[nodiscard]] RingView ring(int vertex) const;
 
-    int free_count = 0;
-    Indices to_input;          // local vertex → input vertex
-    Indices input_triangle;    // local triangle → input triangle
-    std::vector<char> pin;     // per local vertex: fixed position, no prescribed normal
-    Triangles triangles;       // local, consistently wound
     Triangles triangle_edges;  // edge opposite to corner k of each triangle
     std::vector<std::array<int, 2>> edge_ends;
     std::vector<std::array<int, 2>> edge_triangles;  // second entry `none` on the border
     SurfaceMesh mesh;  // the same connectivity; vertex, edge and face indices agree with the arrays
 
 private:
-    void number_vertices(const CutMesh& cut, const Indices& piece_triangles, const VertexRoles& roles);
     void build_mesh();
     void flatten_edges();
     void flatten_rings();
@@ -51,6 +55,9 @@ private:
     Indices rim_begin_;
     Indices ring_rim_;
 };
+
+// One piece of a cut mesh.
+Patch make_patch(const CutMesh& cut, const Indices& piece_triangles, const VertexRoles& roles);
 
 // The patches that have free vertices, in the order of their lowest triangle.
 std::vector<Patch> make_patches(const CutMesh& mesh, const VertexRoles& roles);

@@ -6,6 +6,7 @@
 
 #include "linear/anderson.h"
 #include "solver/surface_state.h"
+#include "solver/willmore.h"
 
 namespace fairing {
 
@@ -27,6 +28,7 @@ public:
           patch_(problem.patch),
           work_(work),
           progress_(progress),
+          conormals_(conormals(problem.patch, problem.fixed_points, problem.fixed_normals)),
           anderson_(3L * problem.patch.free_count, history_depth) {
         state_.points = start;
     }
@@ -72,8 +74,17 @@ private:
             solution_.termination = Termination::stalled;
             return false;
         }
-        if (residual_ < best_residual_) keep();
+        if (residual_ < best_residual_ && !exploded()) keep();
         return true;
+    }
+
+    // An iterate that diverged may have a small residual by accident; its energy gives it away.
+    bool exploded() {
+        if (problem_.options.equation == Equation::minimal) return false;
+        const double energy = willmore_energy(
+            mixed_curvature_vectors(patch_, state_.stiffness, state_.points, conormals_), state_.stiffness);
+        if (start_energy_ < 0.0) start_energy_ = energy;
+        return energy > 2.0 * start_energy_ + 2.0;
     }
 
     void keep() {
@@ -117,10 +128,12 @@ private:
     const Patch& patch_;
     Workspace& work_;
     const Progress& progress_;
+    Points conormals_;
     Anderson anderson_;
     SurfaceState state_;
     VectorX outer_;
     double residual_ = 0.0;
+    double start_energy_ = -1.0;  // not known yet
     double best_residual_ = std::numeric_limits<double>::infinity();
     double last_step_ = 0.0;
     double step_at_refresh_ = 0.0;

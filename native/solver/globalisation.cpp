@@ -13,9 +13,8 @@ namespace fairing {
 
 namespace {
 
-constexpr double largest_step = 0.25;       // units of D
-constexpr double normal_stage_done = 2e-2;  // largest step at which the tangential one joins in
-constexpr double globalised = 2e-3;         // largest step at which the accurate iteration takes over
+constexpr double largest_step = 0.25;  // units of D
+constexpr double globalised = 2e-3;    // largest step at which the accurate iteration takes over
 // A fixed-point step may raise the energy for a while: tangential moves leave the surface to second order.
 constexpr double tolerated_factor = 2.0;
 constexpr double tolerated_rise = 2.0;  // a hemisphere has 8 π
@@ -42,13 +41,14 @@ public:
     }
 
     Points run() {
-        const bool quick = fixed_point_steps(false, normal_stage_done) && fixed_point_steps(true, globalised);
-        if (!quick) {
-            restore();
-            descend();
-            if (!fixed_point_steps(true, globalised)) restore();
-        }
+        descend();
+        if (!fixed_point_steps()) restore();
         return state_.points;
+    }
+
+    DescentStep descent_step() {
+        const double length = descend_once();
+        return {state_.points, length, energy_};
     }
 
 private:
@@ -72,38 +72,42 @@ private:
     void report(int step, int most) const { progress_.report(static_cast<double>(step) / most, "globalisation"); }
 
     // False where the energy rises or is no longer finite.
-    bool fixed_point_steps(bool tangential, double threshold) {
+    bool fixed_point_steps() {
         for (int k = 0; k < most_fixed_point_steps; ++k) {
             report(k, most_fixed_point_steps);
             state_.mean_curvature = mixed_mean_curvature(curvature_vectors_, state_.stiffness, state_.normals);
             work_.normal->update(state_.stiffness, progress_.here());
             Points d = along_normals(state_.normals, work_.normal->solve(outer_residual(problem_, state_)));
-            if (tangential) d += work_.tangential.displacement(state_.points, state_.normals);
+            d += work_.tangential.displacement(state_.points, state_.normals);
             const double largest = largest_length(d);
             state_.points.leftCols(patch_.free_count) += std::min(1.0, largest_step / largest) * d;
             measure();
             if (!(energy_ < tolerated_factor * best_energy_ + tolerated_rise)) return false;
             if (energy_ < best_energy_) keep();
-            if (largest < threshold) return true;
+            if (largest < globalised) return true;
         }
         return false;
     }
 
-    // Willmore descent along u = −(½ S_I M⁻¹ S_Iᵀ)⁻¹ ⟨∇E, n⟩ with the vertices kept even in between.
+    // Willmore descent with the vertices kept even in between.
     void descend() {
         for (int k = 0; k < most_descent_steps; ++k) {
             report(k, most_descent_steps);
-            const Points gradient = willmore_gradient(patch_, state_.stiffness, state_.points, curvature_vectors_);
-            const VectorX slope =
-                gradient.cwiseProduct(state_.normals.leftCols(patch_.free_count)).colwise().sum().transpose();
-            work_.normal->update(state_.stiffness, progress_.here());
-            const VectorX u = -0.5 * work_.normal->solve(slope);
-            const double largest = u.cwiseAbs().maxCoeff();
-            const bool moved =
-                line_search(along_normals(state_.normals, u), slope.dot(u), std::min(1.0, largest_step / largest));
-            if (!moved || largest < descended) return;
+            if (descend_once() < descended) return;
             even_out();
         }
+    }
+
+    // Largest displacement before the line search; 0 when no step lowers the energy.
+    double descend_once() {
+        const Points gradient = willmore_gradient(patch_, state_.stiffness, state_.points, curvature_vectors_);
+        const VectorX slope =
+            gradient.cwiseProduct(state_.normals.leftCols(patch_.free_count)).colwise().sum().transpose();
+        work_.normal->update(state_.stiffness, progress_.here());
+        const VectorX u = -0.5 * work_.normal->solve(slope);
+        const double largest = u.cwiseAbs().maxCoeff();
+        const double first = std::min(1.0, largest_step / largest);
+        return line_search(along_normals(state_.normals, u), slope.dot(u), first) ? largest : 0.0;
     }
 
     bool line_search(const Points& direction, double slope, double step) {
@@ -147,6 +151,10 @@ private:
 
 Points globalise(const Problem& problem, Workspace& work, const Points& start, const Progress& progress) {
     return Globalisation(problem, work, start, progress).run();
+}
+
+DescentStep descent_step(const Problem& problem, Workspace& work, const Points& start, const Progress& progress) {
+    return Globalisation(problem, work, start, progress).descent_step();
 }
 
 Points best_fill(const Problem& problem, Workspace& work, const Progress& progress) {

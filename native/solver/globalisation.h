@@ -15,10 +15,17 @@ struct Workspace {
     TangentialStep tangential;
 };
 
-// Positions of all vertices. First fixed-point steps H_mixed ← harmonic: along the normals, then within the surface
-// too. Where the Willmore energy rises, a line search along its preconditioned gradient takes over. Never returns a
-// surface with more energy than the start's. `start`: 3 × local vertices.
+// Positions of all vertices: Willmore descent, then fixed-point steps of mixed finite elements (H_mixed ← harmonic, and
+// within the surface). Never more energy than the start has. `start`: 3 × local vertices.
 Points globalise(const Problem& problem, Workspace& work, const Points& start, const Progress& progress);
+
+// One step of Willmore descent along u = −(½ S_I M⁻¹ S_Iᵀ)⁻¹ ⟨∇E, n⟩ with a line search.
+struct DescentStep {
+    Points points;  // 3 × local vertices
+    double length;  // largest |u| before the line search, units of D; 0 when no step lowers the energy
+    double energy;
+};
+DescentStep descent_step(const Problem& problem, Workspace& work, const Points& start, const Progress& progress);
 
 // Fill of the outline that has the least Willmore energy of a few bulges (3 × local vertices).
 Points best_fill(const Problem& problem, Workspace& work, const Progress& progress);

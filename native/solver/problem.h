@@ -37,6 +37,7 @@ struct Solution {
     Points points;  // 3 × local vertices
     VectorX mean_curvature;
     Termination termination = Termination::stalled;
+    bool polished = true;  // the equation holds on the patch's own connectivity
     int iterations = 0;
     double residual = 0.0;          // largest |Δ_B H| (|H| for minimal) at free vertices
     double initial_residual = 0.0;  // of the fill

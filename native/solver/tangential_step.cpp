@@ -41,6 +41,11 @@ Points TangentialStep::harmonic_positions() const {
     return factor_.solve(Eigen::MatrixXd(pull_.transpose())).transpose();
 }
 
+double TangentialStep::energy(const Points& points) const {
+    const auto free = points.leftCols(free_count_);
+    return 0.5 * inner(free, gradient(points)) - 0.5 * inner(free, pull_);
+}
+
 Points TangentialStep::gradient(const Points& points) const {
     return (laplacian_ * points.leftCols(free_count_).transpose()).transpose() - pull_;
 }

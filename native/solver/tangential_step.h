@@ -16,6 +16,9 @@ public:
     // The positions with Σ_j λ_ij (x_i − x_j) = 0 in all three coordinates: the discrete harmonic map of the outline.
     [[nodiscard]] Points harmonic_positions() const;
 
+    // ½ Σ λ_ij |x_i − x_j|² up to a constant of the fixed vertices.
+    [[nodiscard]] double energy(const Points& points) const;
+
     // d with P L P d = −P L x, P the projection across the unit normals: conjugate gradients preconditioned by
     // P L⁻¹ P, stopped at a relative residual of 0.05 or after `max_cycles`.
     [[nodiscard]] Points displacement(const Points& points, const Points& normals, int max_cycles = 10) const;

@@ -121,9 +121,7 @@ def fair(
         tolerance=_arguments.positive("tolerance", tolerance),
         max_iterations=_arguments.whole("max_iterations", max_iterations, 1),
     )
-    return FairResult(
-        **_core.fair(points, faces, fixed_list, given_normals, m0, edges, options, progress)
-    )
+    return FairResult(**_core.fair(points, faces, fixed_list, given_normals, m0, edges, options, progress))
 
 
 def _neighbour_edges(neighbours: npt.ArrayLike | None, count: int) -> IntArray | None:

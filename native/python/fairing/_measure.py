@@ -38,9 +38,7 @@ def mean_curvature(
     return _core.mean_curvature(points, faces, held, given, kind)
 
 
-def vertex_normals(
-    vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, normals: str = "fitted"
-) -> FloatArray:
+def vertex_normals(vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, normals: str = "fitted") -> FloatArray:
     """(n, 3) unit normals on the side from which the triangles are counter-clockwise.
 
     "fitted": consistent with the curvature fit; "averaged": normalised sum of cross products (§6). Zero at
@@ -51,9 +49,7 @@ def vertex_normals(
     return _core.vertex_normals(points, faces, _arguments.choice("normals", normals, NORMALS))
 
 
-def cotan_laplacian(
-    vertices: npt.ArrayLike, triangles: npt.ArrayLike
-) -> tuple[IntArray, IntArray, FloatArray]:
+def cotan_laplacian(vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> tuple[IntArray, IntArray, FloatArray]:
     """(rows, columns, values) of S for all vertices (§5, eq. 6, 7).
 
     S_ij = −(cot α + cot β), without ½; rows sum to zero; positive semidefinite.

@@ -1,6 +1,7 @@
-#include "solver/global_solver.h"
+#include "proxy/global_method.h"
 
 #include "base/stopwatch.h"
+#include "proxy/proxy_solver.h"
 #include "solver/accelerated_iteration.h"
 #include "solver/globalisation.h"
 #include "solver/minimal_start.h"
@@ -25,21 +26,14 @@ struct Start {
     double fill_seconds = 0.0;
 };
 
-Start start_harmonic(const Problem& problem, Workspace& work, const Progress& progress) {
-    const Stopwatch watch;
-    Start start{best_fill(problem, work, progress.range(0.0, 0.2))};
-    start.initial_residual = residual_of(problem, start.points);
-    start.fill_seconds = watch.seconds();
-    start.points = globalise(problem, work, start.points, progress.range(0.2, 1.0));
-    return start;
-}
-
-Start start_minimal(const Problem& problem, Workspace& work, const Progress& progress) {
+// The membrane depends on the outline's positions alone; the normals come in with the Willmore descent.
+Start make_start(const Problem& problem, Workspace& work, const Progress& progress) {
     const Stopwatch watch;
     Start start{membrane(problem, work)};
     start.initial_residual = residual_of(problem, start.points);
     start.fill_seconds = watch.seconds();
-    start.points = descend_area(problem, work, start.points, progress);
+    start.points = problem.options.equation == Equation::minimal ? descend_area(problem, work, start.points, progress)
+                                                                 : globalise(problem, work, start.points, progress);
     return start;
 }
 
@@ -54,15 +48,18 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
     Stopwatch watch;
     Workspace work{make_normal_operator(problem),
                    TangentialStep(problem.patch, problem.weights, problem.fixed_points, progress.range(0.0, 0.05))};
-    const Progress starting = progress.range(0.05, 0.6);
-    const Start start = problem.options.equation == Equation::minimal ? start_minimal(problem, work, starting)
-                                                                      : start_harmonic(problem, work, starting);
+    const Start start = make_start(problem, work, progress.range(0.05, 0.5));
     const double start_seconds = watch.lap();
-    Solution solution = iterate(problem, work, start.points, progress.range(0.6, 1.0));
+    Solution solution = iterate(problem, work, start.points, progress.range(0.5, 0.6));
+    const double iteration_seconds = watch.lap();
+    if (solution.termination != Termination::converged && problem.options.equation != Equation::minimal) {
+        if (auto on_proxy = solve_on_proxy(problem, progress.range(0.6, 1.0))) solution = std::move(*on_proxy);
+    }
     solution.initial_residual = start.initial_residual;
     solution.seconds = {{"fill", start.fill_seconds},
                         {"globalisation", start_seconds - start.fill_seconds},
-                        {"iteration", watch.lap()}};
+                        {"iteration", iteration_seconds},
+                        {"proxy", watch.lap()}};
     return solution;
 }
 

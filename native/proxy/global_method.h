@@ -1,4 +1,4 @@
-// The fast solver on one level: fill, mixed-FEM globalisation, accelerated K-preconditioned iteration.
+// method="global": directly on the user's mesh where it carries the equation, on a proxy where it doesn't.
 #pragma once
 
 #include "solver/problem.h"

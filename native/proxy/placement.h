@@ -1,0 +1,26 @@
+// Places the user's vertices on a solved surface by their inner fairness.
+#pragma once
+
+#include "proxy/proxy_mesh.h"
+#include "proxy/target_surface.h"
+#include "solver/problem.h"
+#include "solver/tangential_step.h"
+
+namespace fairing {
+
+struct Placement {
+    std::vector<SurfacePoint> where;  // free vertices of the problem's patch
+    Points points;                    // 3 × local vertices
+    double last_step = 0.0;           // units of D
+};
+
+// First guess: removed vertices come back in reverse order, each at the mean of the ring that it left; the others are
+// vertices of the target. `number` maps a vertex of the proxy mesh to a local vertex of the target's patch.
+Placement first_placement(const Problem& problem, const std::vector<RemovedVertex>& removed, const Indices& number,
+                          const TargetSurface& target);
+
+// Minimises Σ λ_ij |x_i − x_j|² on the surface: tangential conjugate gradient steps, each followed by a walk back to
+// the surface, shortened until the sum no longer grows.
+void relax(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target, Placement& placement);
+
+}  // namespace fairing

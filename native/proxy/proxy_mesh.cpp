@@ -1,0 +1,265 @@
+#include "proxy/proxy_mesh.h"
+
+#include <algorithm>
+#include <limits>
+#include <queue>
+
+#include <Eigen/Geometry>
+
+#include "geometry/vertex_normal.h"
+
+namespace fairing {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+constexpr double delaunay_slack = -1e-9;
+constexpr double cos_of_fold = 0.5;  // a flip may not bend the surface more than this, or further than it is bent
+constexpr unsigned highest_valence = 9;
+constexpr double cos_of_turned = 0.2;  // normals of a triangle before and after a collapse
+constexpr double worst_shape = 0.25;   // of 1 (equilateral), unless it was worse before
+
+Vector3 cross_product(const Vector3& a, const Vector3& b, const Vector3& c) { return (b - a).cross(c - a); }
+
+// 1 for an equilateral triangle, 0 for a degenerate one.
+double shape(const Vector3& a, const Vector3& b, const Vector3& c) {
+    const double squared = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
+    return squared > 0.0 ? 2.0 * std::sqrt(3.0) * cross_product(a, b, c).norm() / squared : 0.0;
+}
+
+struct QueuedEdge {
+    double length;
+    int halfedge;
+    bool operator>(const QueuedEdge& other) const {
+        return length != other.length ? length > other.length : halfedge > other.halfedge;
+    }
+};
+
+using ShortestFirst = std::priority_queue<QueuedEdge, std::vector<QueuedEdge>, std::greater<>>;
+
+}  // namespace
+
+ProxyMesh::ProxyMesh(const Patch& patch, const Points& points)
+    : mesh_(patch.mesh), fixed_(at(patch.vertex_count()), 1), pin_(patch.pin), free_count_(patch.free_count) {
+    std::fill(fixed_.begin(), fixed_.begin() + patch.free_count, 0);
+    mesh_.request_vertex_status();
+    mesh_.request_edge_status();
+    mesh_.request_face_status();
+    mesh_.request_halfedge_status();
+    for (int v = 0; v < patch.vertex_count(); ++v) mesh_.set_point(mesh_.vertex_handle(unsigned(v)), points.col(v));
+}
+
+double ProxyMesh::cotangent_opposite(Halfedge h) const {
+    const Vector3 apex = point(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)));
+    const Vector3 a = point(mesh_.from_vertex_handle(h)) - apex;
+    const Vector3 b = point(mesh_.to_vertex_handle(h)) - apex;
+    const double sine = a.cross(b).norm();
+    return a.dot(b) / std::max(sine, 1e-14 * (a.squaredNorm() + b.squaredNorm()) + 1e-300);
+}
+
+bool ProxyMesh::should_flip(Edge e) const {
+    if (mesh_.is_boundary(e)) return false;
+    const Halfedge h = mesh_.halfedge_handle(e, 0);
+    const Halfedge g = mesh_.halfedge_handle(e, 1);
+    if (!(cotangent_opposite(h) + cotangent_opposite(g) < delaunay_slack)) return false;
+    const Vertex above = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h));
+    const Vertex below = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(g));
+    if ((fixed(above) && fixed(below)) || !mesh_.is_flip_ok(e)) return false;
+    const Vector3 a = point(mesh_.from_vertex_handle(h));
+    const Vector3 b = point(mesh_.to_vertex_handle(h));
+    const Vector3 c = point(above);
+    const Vector3 d = point(below);
+    const auto bend = [](const Vector3& n, const Vector3& m) { return n.dot(m) / (n.norm() * m.norm() + 1e-300); };
+    const double before = bend(cross_product(a, b, c), cross_product(b, a, d));
+    const double after = bend(cross_product(c, d, b), cross_product(d, c, a));
+    return after >= cos_of_fold || after >= before;
+}
+
+int ProxyMesh::flip_round() {
+    int flips = 0;
+    for (const Edge e : mesh_.edges()) {
+        if (!should_flip(e)) continue;
+        mesh_.flip(e);
+        ++flips;
+    }
+    return flips;
+}
+
+void ProxyMesh::smooth() {
+    std::vector<Vector3> moved(mesh_.n_vertices());
+    std::vector<Vector3> ring;
+    for (const Vertex v : mesh_.vertices()) {
+        if (fixed(v)) continue;
+        ring.clear();
+        for (const Vertex neighbour : mesh_.vv_ccw_range(v)) ring.push_back(point(neighbour));
+        const OneRing one_ring{point(v), ring, true};
+        const Vector3 normal = max_normal(one_ring);
+        Vector3 mean = Vector3::Zero();
+        for (const Vector3& p : ring) mean += p;
+        const Vector3 pull = mean / static_cast<double>(ring.size()) - one_ring.centre;
+        moved[at(v.idx())] = one_ring.centre + 0.5 * (pull - pull.dot(normal) * normal);
+    }
+    for (const Vertex v : mesh_.vertices()) {
+        if (!fixed(v)) mesh_.set_point(v, moved[at(v.idx())]);
+    }
+}
+
+void ProxyMesh::remesh(int rounds, int sweeps) {
+    for (int k = 0; k < rounds && flip_round() > 0; ++k) continue;
+    for (int k = 0; k < sweeps; ++k) smooth();
+}
+
+// Whether the vertex at the start of h may move into its end.
+bool ProxyMesh::may_collapse(Halfedge h) {
+    const Vertex gone = mesh_.from_vertex_handle(h);
+    const Vertex kept = mesh_.to_vertex_handle(h);
+    if (fixed(gone) || !mesh_.is_collapse_ok(h)) return false;
+    if (mesh_.valence(gone) + mesh_.valence(kept) > highest_valence + 4) return false;
+    if (!fixed(kept)) return keeps_shape(h);
+    // Two fixed vertices must not become neighbours across the patch.
+    for (const Vertex other : mesh_.vv_range(gone)) {
+        if (other != kept && fixed(other) && !mesh_.find_halfedge(kept, other).is_valid()) return false;
+    }
+    return keeps_shape(h);
+}
+
+bool ProxyMesh::keeps_shape(Halfedge h) const {
+    const Vertex gone = mesh_.from_vertex_handle(h);
+    const Vertex kept = mesh_.to_vertex_handle(h);
+    double before = 1.0;
+    double after = 1.0;
+    for (const Halfedge spoke : mesh_.voh_range(gone)) {
+        const Vertex b = mesh_.to_vertex_handle(spoke);
+        const Vertex c = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(spoke));
+        before = std::min(before, shape(point(gone), point(b), point(c)));
+        if (b == kept || c == kept) continue;
+        after = std::min(after, shape(point(kept), point(b), point(c)));
+        const Vector3 old_normal = cross_product(point(gone), point(b), point(c));
+        const Vector3 new_normal = cross_product(point(kept), point(b), point(c));
+        if (old_normal.dot(new_normal) < cos_of_turned * old_normal.norm() * new_normal.norm()) return false;
+    }
+    return after >= worst_shape || after >= before;
+}
+
+std::vector<RemovedVertex> ProxyMesh::coarsen(int free_target) {
+    ShortestFirst queue;
+    const auto length = [&](Halfedge h) {
+        return (point(mesh_.from_vertex_handle(h)) - point(mesh_.to_vertex_handle(h))).norm();
+    };
+    const auto push = [&](Halfedge h) {
+        if (!fixed(mesh_.from_vertex_handle(h))) queue.push({length(h), h.idx()});
+    };
+    for (const Halfedge h : mesh_.halfedges()) push(h);
+    std::vector<RemovedVertex> removed;
+    while (free_count_ > free_target && !queue.empty()) {
+        const QueuedEdge candidate = queue.top();
+        queue.pop();
+        const Halfedge h(candidate.halfedge);
+        if (mesh_.status(h).deleted() || length(h) != candidate.length || !may_collapse(h)) continue;
+        const Vertex gone = mesh_.from_vertex_handle(h);
+        const Vertex kept = mesh_.to_vertex_handle(h);
+        RemovedVertex entry{gone.idx(), {}};
+        for (const Vertex other : mesh_.vv_range(gone)) entry.ring.push_back(other.idx());
+        removed.push_back(std::move(entry));
+        mesh_.collapse(h);
+        --free_count_;
+        for (const Halfedge spoke : mesh_.voh_range(kept)) {
+            push(spoke);
+            push(mesh_.opposite_halfedge_handle(spoke));
+        }
+    }
+    return removed;
+}
+
+std::vector<double> ProxyMesh::target_lengths(double growth) const {
+    std::vector<double> target(mesh_.n_vertices(), std::numeric_limits<double>::infinity());
+    using Entry = std::pair<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    for (const Edge e : mesh_.edges()) {
+        if (!mesh_.is_boundary(e)) continue;
+        const double length = mesh_.calc_edge_length(e);
+        for (const Vertex v : {mesh_.to_vertex_handle(mesh_.halfedge_handle(e, 0)),
+                               mesh_.to_vertex_handle(mesh_.halfedge_handle(e, 1))}) {
+            if (length < target[at(v.idx())]) queue.push({target[at(v.idx())] = length, v.idx()});
+        }
+    }
+    while (!queue.empty()) {
+        const auto [length, v] = queue.top();
+        queue.pop();
+        if (length > target[at(v)]) continue;
+        for (const Halfedge h : mesh_.voh_range(mesh_.vertex_handle(unsigned(v)))) {
+            const int other = mesh_.to_vertex_handle(h).idx();
+            const double reached = length + growth * mesh_.calc_edge_length(h);
+            if (reached < target[at(other)]) queue.push({target[at(other)] = reached, other});
+        }
+    }
+    return target;
+}
+
+void ProxyMesh::refine(double growth, int free_limit) {
+    constexpr int most_rounds = 12;
+    constexpr double split_above = 4.0 / 3.0;
+    for (int round = 0; round < most_rounds; ++round) {
+        const std::vector<double> target = target_lengths(growth);
+        std::vector<std::pair<double, int>> long_edges;
+        for (const Edge e : mesh_.edges()) {
+            if (mesh_.is_boundary(e)) continue;
+            const Halfedge h = mesh_.halfedge_handle(e, 0);
+            const double wanted =
+                0.5 * (target[at(mesh_.from_vertex_handle(h).idx())] + target[at(mesh_.to_vertex_handle(h).idx())]);
+            const double excess = mesh_.calc_edge_length(e) / wanted;
+            if (excess > split_above) long_edges.emplace_back(-excess, e.idx());
+        }
+        std::sort(long_edges.begin(), long_edges.end());
+        for (const auto& [excess, index] : long_edges) {
+            if (free_count_ >= free_limit) return;
+            const Edge e(index);
+            const Vertex middle = mesh_.add_vertex(mesh_.calc_edge_midpoint(e));
+            mesh_.split(e, middle);
+            fixed_.push_back(0);
+            pin_.push_back(0);
+            ++free_count_;
+        }
+        remesh(5, 3);
+        if (long_edges.empty()) return;
+    }
+}
+
+ProxyMesh::Snapshot ProxyMesh::snapshot() const {
+    PatchMembers members;
+    members.free_count = free_count_;
+    Indices local(mesh_.n_vertices(), none);
+    for (const bool wanted_fixed : {false, true}) {
+        for (const Vertex v : mesh_.vertices()) {
+            if (fixed(v) != wanted_fixed) continue;
+            local[at(v.idx())] = static_cast<int>(members.to_input.size());
+            members.to_input.push_back(v.idx());
+            members.pin.push_back(pin_[at(v.idx())]);
+        }
+    }
+    std::vector<Eigen::Vector3i> triangles;
+    for (const SurfaceMesh::FaceHandle f : mesh_.faces()) {
+        Eigen::Vector3i corners;
+        int k = 0;
+        for (const Vertex v : mesh_.fv_ccw_range(f)) corners[k++] = local[at(v.idx())];
+        members.input_triangle.push_back(f.idx());
+        triangles.push_back(corners);
+    }
+    members.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        members.triangles.col(static_cast<Eigen::Index>(t)) = triangles[t];
+    Points points(3, static_cast<Eigen::Index>(members.to_input.size()));
+    for (Eigen::Index v = 0; v < points.cols(); ++v) {
+        points.col(v) = mesh_.point(mesh_.vertex_handle(unsigned(members.to_input[static_cast<std::size_t>(v)])));
+    }
+    return {Patch(std::move(members)), std::move(points)};
+}
+
+void ProxyMesh::read_back(const Patch& patch, const Points& points) {
+    for (int v = 0; v < patch.free_count; ++v) {
+        mesh_.set_point(mesh_.vertex_handle(unsigned(patch.to_input[at(v)])), points.col(v));
+    }
+}
+
+}  // namespace fairing

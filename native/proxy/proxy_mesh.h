@@ -1,0 +1,64 @@
+// The engine's own mesh of a patch: the same outline, an interior of its own, well-shaped whatever it came from.
+#pragma once
+
+#include "mesh/patch.h"
+
+namespace fairing {
+
+// A vertex that was taken out by a collapse, with the ring that it left behind.
+struct RemovedVertex {
+    int vertex;
+    Indices ring;
+};
+
+// Vertices keep their number through all changes: those of the patch it was made from first, then vertices that were
+// inserted. Fixed vertices and border edges never change. Deterministic.
+class ProxyMesh {
+public:
+    // `points`: 3 × vertices of the patch.
+    ProxyMesh(const Patch& patch, const Points& points);
+
+    // Up to `rounds` of flips towards Delaunay (cot α + cot β ≥ 0) that neither fold the surface nor join two fixed
+    // vertices, then `sweeps` half-steps of tangential uniform smoothing of the free vertices.
+    void remesh(int rounds, int sweeps);
+
+    // Half-edge collapses of free vertices, shortest edge first, topology-safe, until `free_target` are left or no
+    // admissible one is. The removed vertices in their order.
+    std::vector<RemovedVertex> coarsen(int free_target);
+
+    // Splits edges longer than 4/3 of the local length, which grows from the outline's own spacing by `growth` per
+    // distance, until none is left or there are `free_limit` free vertices.
+    void refine(double growth, int free_limit);
+
+    // A patch of the present connectivity with the numbers of its vertices; read_back takes its positions.
+    struct Snapshot {
+        Patch patch;  // to_input holds the vertex numbers of this mesh
+        Points points;
+    };
+    [[nodiscard]] Snapshot snapshot() const;
+    void read_back(const Patch& patch, const Points& points);
+
+    [[nodiscard]] int free_count() const { return free_count_; }
+
+private:
+    using Vertex = SurfaceMesh::VertexHandle;
+    using Halfedge = SurfaceMesh::HalfedgeHandle;
+    using Edge = SurfaceMesh::EdgeHandle;
+
+    [[nodiscard]] bool fixed(Vertex v) const { return fixed_[static_cast<std::size_t>(v.idx())] != 0; }
+    [[nodiscard]] Vector3 point(Vertex v) const { return mesh_.point(v); }
+    [[nodiscard]] double cotangent_opposite(Halfedge h) const;
+    [[nodiscard]] bool should_flip(Edge e) const;
+    int flip_round();
+    void smooth();
+    [[nodiscard]] bool may_collapse(Halfedge h);
+    [[nodiscard]] bool keeps_shape(Halfedge h) const;
+    [[nodiscard]] std::vector<double> target_lengths(double growth) const;
+
+    SurfaceMesh mesh_;
+    std::vector<char> fixed_;
+    std::vector<char> pin_;
+    int free_count_;
+};
+
+}  // namespace fairing

@@ -1,0 +1,14 @@
+// Solves on a mesh of the engine's own, then places the user's vertices on that surface.
+#pragma once
+
+#include "solver/problem.h"
+
+namespace fairing {
+
+// The robust way for connectivity that can't carry the equation: a coarse proxy from the fill, Willmore descent with
+// flips and smoothing in between, the accurate iteration there and on a refined proxy, placement of the user's
+// vertices by their inner fairness, polish on the user's own mesh where it is an improvement.
+// A proxy that fails makes room for the next finer one; nothing when all fail.
+std::optional<Solution> solve_on_proxy(const Problem& problem, const Progress& progress);
+
+}  // namespace fairing

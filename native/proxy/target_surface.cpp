@@ -1,0 +1,125 @@
+#include "proxy/target_surface.h"
+
+#include <algorithm>
+#include <array>
+
+#include <Eigen/Geometry>
+
+namespace fairing {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+// Barycentric coordinates of the foot of the perpendicular on the plane of a, b, c; may be negative.
+Vector3 plane_weights(const Vector3& p, const Vector3& a, const Vector3& b, const Vector3& c) {
+    const Vector3 n = (b - a).cross(c - a);
+    const double squared = n.squaredNorm();
+    if (!(squared > 0.0)) return Vector3::Constant(1.0 / 3.0);
+    const double u = n.dot((c - b).cross(p - b)) / squared;
+    const double v = n.dot((a - c).cross(p - c)) / squared;
+    return {u, v, 1.0 - u - v};
+}
+
+// Nearest point of a segment as the weight of its end.
+double segment_weight(const Vector3& p, const Vector3& a, const Vector3& b) {
+    const double squared = (b - a).squaredNorm();
+    return squared > 0.0 ? std::clamp((p - a).dot(b - a) / squared, 0.0, 1.0) : 0.0;
+}
+
+// Nearest point of the border of a triangle.
+Vector3 border_weights(const Vector3& p, const std::array<Vector3, 3>& corners) {
+    Vector3 best(1.0, 0.0, 0.0);
+    double least = (p - corners[0]).squaredNorm();
+    for (int k = 0; k < 3; ++k) {
+        const int l = (k + 1) % 3;
+        const double s = segment_weight(p, corners[at(k)], corners[at(l)]);
+        const double distance = (p - (1.0 - s) * corners[at(k)] - s * corners[at(l)]).squaredNorm();
+        if (distance >= least) continue;
+        least = distance;
+        best.setZero();
+        best[k] = 1.0 - s;
+        best[l] = s;
+    }
+    return best;
+}
+
+}  // namespace
+
+TargetSurface::TargetSurface(const Patch& patch, const Points& points, const Points& normals)
+    : patch_(patch), points_(points), normals_(normals), triangle_of_vertex_(at(patch.vertex_count()), 0) {
+    for (int t = 0; t < patch.triangle_count(); ++t) {
+        for (int v : patch.triangles.col(t)) triangle_of_vertex_[at(v)] = t;
+    }
+}
+
+SurfacePoint TargetSurface::project(const Vector3& position, int start) const {
+    constexpr int longest_walk = 500;
+    int triangle = start;
+    int previous = none;
+    for (int step = 0; step < longest_walk; ++step) {
+        const auto corners = patch_.triangles.col(triangle);
+        const std::array<Vector3, 3> points{points_.col(corners[0]), points_.col(corners[1]), points_.col(corners[2])};
+        const Vector3 weights = plane_weights(position, points[0], points[1], points[2]);
+        int outside = 0;
+        if (weights.minCoeff(&outside) >= 0.0) return {triangle, weights};
+        const auto [left, right] = patch_.edge_triangles[at(patch_.triangle_edges(outside, triangle))];
+        const int next = left == triangle ? right : left;
+        if (next == none || next == previous) return {triangle, border_weights(position, points)};
+        previous = triangle;
+        triangle = next;
+    }
+    const auto corners = patch_.triangles.col(triangle);
+    return {triangle,
+            border_weights(position, {points_.col(corners[0]), points_.col(corners[1]), points_.col(corners[2])})};
+}
+
+Vector3 TargetSurface::position(const SurfacePoint& where) const {
+    const auto corners = patch_.triangles.col(where.triangle);
+    std::array<Vector3, 3> p;
+    std::array<Vector3, 3> n;
+    for (int k = 0; k < 3; ++k) {
+        p[at(k)] = points_.col(corners[k]);
+        n[at(k)] = normals_.col(corners[k]);
+    }
+    // Control point a third of the way from corner i to corner j, on the tangent plane at i.
+    const auto third = [&](int i, int j) {
+        return Vector3((2.0 * p[at(i)] + p[at(j)] - (p[at(j)] - p[at(i)]).dot(n[at(i)]) * n[at(i)]) / 3.0);
+    };
+    Vector3 edge_mean = Vector3::Zero();
+    Vector3 sum = Vector3::Zero();
+    for (int i = 0; i < 3; ++i) {
+        const double w = where.weights[i];
+        sum += w * w * w * p[at(i)];
+        for (int j = 0; j < 3; ++j) {
+            if (i == j) continue;
+            const Vector3 control = third(i, j);
+            edge_mean += control / 6.0;
+            sum += 3.0 * w * w * where.weights[j] * control;
+        }
+    }
+    const Vector3 corner_mean = (p[0] + p[1] + p[2]) / 3.0;
+    return sum + 6.0 * where.weights.prod() * (1.5 * edge_mean - 0.5 * corner_mean);
+}
+
+Vector3 TargetSurface::normal(const SurfacePoint& where) const {
+    Vector3 sum = Vector3::Zero();
+    for (int k = 0; k < 3; ++k) sum += where.weights[k] * normals_.col(patch_.triangles(k, where.triangle));
+    return sum.normalized();
+}
+
+double TargetSurface::interpolate(const VectorX& values, const SurfacePoint& where) const {
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) sum += where.weights[k] * values[patch_.triangles(k, where.triangle)];
+    return sum;
+}
+
+SurfacePoint TargetSurface::at_vertex(int vertex) const {
+    SurfacePoint where{triangle_of_vertex_[at(vertex)], Vector3::Zero()};
+    for (int k = 0; k < 3; ++k) {
+        if (patch_.triangles(k, where.triangle) == vertex) where.weights[k] = 1.0;
+    }
+    return where;
+}
+
+}  // namespace fairing

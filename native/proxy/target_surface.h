@@ -1,0 +1,38 @@
+// A solved mesh as a smooth surface that other vertices can be placed on.
+#pragma once
+
+#include "mesh/patch.h"
+
+namespace fairing {
+
+// Where a point lies on a triangle mesh.
+struct SurfacePoint {
+    int triangle = 0;
+    Vector3 weights = Vector3(1.0, 0.0, 0.0);  // barycentric, ≥ 0
+};
+
+// Curved PN triangles (Vlachos et al. 2001) over a patch with unit normals at its vertices.
+class TargetSurface {
+public:
+    // The arguments must outlive the surface. Columns: local vertices of the patch.
+    TargetSurface(const Patch& patch, const Points& points, const Points& normals);
+
+    // The point of the mesh near `position` that a walk from `start` reaches: across edges towards the foot of the
+    // perpendicular, never over the border. Local: a surface that comes close to itself confuses it not.
+    [[nodiscard]] SurfacePoint project(const Vector3& position, int start) const;
+
+    [[nodiscard]] Vector3 position(const SurfacePoint& where) const;
+    [[nodiscard]] Vector3 normal(const SurfacePoint& where) const;
+    // Linear interpolation of a value per vertex.
+    [[nodiscard]] double interpolate(const VectorX& values, const SurfacePoint& where) const;
+    // A vertex as a point of one of its triangles.
+    [[nodiscard]] SurfacePoint at_vertex(int vertex) const;
+
+private:
+    const Patch& patch_;
+    const Points& points_;
+    const Points& normals_;
+    Indices triangle_of_vertex_;
+};
+
+}  // namespace fairing
