@@ -73,8 +73,9 @@ private:
             throw MeshError({Code::no_boundary, "a component is held in a single point: fix more of its vertices",
                              Indices(fixed_vertices(patch).begin(), fixed_vertices(patch).end())});
         }
-        const Problem problem{patch, unit.to_unit(fixed_points), gather(mesh_.normals, fixed_vertices(patch)),
-                              make_inner_weights(patch, reference_, options_), options_.solver};
+        Problem problem{patch, unit.to_unit(fixed_points), gather(mesh_.normals, fixed_vertices(patch)),
+                        make_inner_weights(patch, reference_, options_), options_.solver};
+        problem.options.load *= std::pow(unit.diameter, 3);
         const Solution solution = solve_global(problem, progress);
         const Points points = unit.from_unit(solution.points);
         for (int v = 0; v < patch.free_count; ++v) result_.vertices.col(patch.to_input[at(v)]) = points.col(v);

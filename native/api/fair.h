@@ -7,7 +7,7 @@
 namespace fairing {
 
 struct FairOptions {
-    SolverOptions solver;
+    SolverOptions solver;  // the load in units of length⁻³
     InnerFairness inner_fairness = InnerFairness::uniform;
     // Edges (input vertices) that uniform weights use instead of the triangles' own.
     std::optional<std::vector<std::array<int, 2>>> neighbours;

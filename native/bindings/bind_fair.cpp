@@ -67,14 +67,22 @@ struct Options {
     std::string equation;
     std::string inner_fairness;
     std::string normals;
+    double load;
     double tolerance;
     int max_iterations;
 };
 
 // The names have been checked by the package.
+Equation to_equation(const std::string& name) {
+    if (name == "constant") return Equation::constant;
+    if (name == "minimal_energy") return Equation::minimal_energy;
+    return name == "minimal" ? Equation::minimal : Equation::harmonic;
+}
+
 FairOptions to_fair_options(const Options& options, const std::optional<IntArray>& neighbours) {
     FairOptions result;
-    result.solver.equation = options.equation == "minimal" ? Equation::minimal : Equation::harmonic;
+    result.solver.equation = to_equation(options.equation);
+    result.solver.load = options.load;
     result.solver.normals = options.normals == "averaged" ? NormalKind::averaged : NormalKind::fitted;
     result.solver.tolerance = options.tolerance;
     result.solver.max_iterations = options.max_iterations;
@@ -110,8 +118,9 @@ py::dict fair_arrays(const DoubleArray& vertices, const IntArray& triangles, con
 
 void bind_fair(py::module_& module) {
     py::class_<Options>(module, "Options")
-        .def(py::init<std::string, std::string, std::string, double, int>(), py::kw_only(), py::arg("equation"),
-             py::arg("inner_fairness"), py::arg("normals"), py::arg("tolerance"), py::arg("max_iterations"));
+        .def(py::init<std::string, std::string, std::string, double, double, int>(), py::kw_only(), py::arg("equation"),
+             py::arg("inner_fairness"), py::arg("normals"), py::arg("load"), py::arg("tolerance"),
+             py::arg("max_iterations"));
     module.def("fair", &fair_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("fixed_normals"), py::arg("reference"), py::arg("neighbours"), py::arg("options"),
                py::arg("progress"));

@@ -27,17 +27,19 @@ CurvatureFit fit_curvature(const Vector3& centre, std::span<const Vector3> point
     return {x[0], x[1], x[2]};
 }
 
-VectorX patch_mean_curvature(const Patch& patch, const Points& points, const FaceGeometry& faces,
-                             const Points& normals) {
+PatchCurvature patch_curvature(const Patch& patch, const Points& points, const FaceGeometry& faces,
+                               const Points& normals) {
     const Points virtual_points = edge_virtual_points(patch, points, faces, normals);
     OneRingBuffer buffer;
-    VectorX H(patch.vertex_count());
+    PatchCurvature curvature{VectorX(patch.vertex_count()), VectorX(patch.vertex_count())};
     for (int i = 0; i < patch.vertex_count(); ++i) {
         buffer.gather(patch, points, i);
         const auto all = buffer.with_virtual(patch, virtual_points, i);
-        H[i] = fit_curvature(points.col(i), all, normals.col(i)).mean();
+        const CurvatureFit fit = fit_curvature(points.col(i), all, normals.col(i));
+        curvature.mean[i] = fit.mean();
+        curvature.gaussian[i] = fit.gaussian();
     }
-    return H;
+    return curvature;
 }
 
 }  // namespace fairing

@@ -22,8 +22,14 @@ struct CurvatureFit {
 // carry no direction and are left out. Regularised by 1e-9 of the trace: finite for any input.
 CurvatureFit fit_curvature(const Vector3& centre, std::span<const Vector3> points, const Vector3& normal);
 
-// H at all vertices of a patch, from the neighbours and a virtual point between every two of them.
-VectorX patch_mean_curvature(const Patch& patch, const Points& points, const FaceGeometry& faces,
-                             const Points& normals);
+// H and K at all vertices of a patch.
+struct PatchCurvature {
+    VectorX mean;
+    VectorX gaussian;
+};
+
+// From the neighbours and a virtual point between every two of them.
+PatchCurvature patch_curvature(const Patch& patch, const Points& points, const FaceGeometry& faces,
+                               const Points& normals);
 
 }  // namespace fairing

@@ -2,7 +2,7 @@
 
 #include "base/stopwatch.h"
 #include "proxy/proxy_solver.h"
-#include "solver/accelerated_iteration.h"
+#include "solver/continuation.h"
 #include "solver/globalisation.h"
 #include "solver/minimal_start.h"
 #include "solver/surface_state.h"
@@ -50,7 +50,7 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
                    TangentialStep(problem.patch, problem.weights, problem.fixed_points, progress.range(0.0, 0.05))};
     const Start start = make_start(problem, work, progress.range(0.05, 0.5));
     const double start_seconds = watch.lap();
-    Solution solution = iterate(problem, work, start.points, progress.range(0.5, 0.6));
+    Solution solution = solve_equation(problem, work, start.points, progress.range(0.5, 0.6));
     const double iteration_seconds = watch.lap();
     if (solution.termination != Termination::converged && problem.options.equation != Equation::minimal) {
         if (auto on_proxy = solve_on_proxy(problem, progress.range(0.6, 1.0))) solution = std::move(*on_proxy);

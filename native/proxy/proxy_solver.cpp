@@ -5,7 +5,7 @@
 
 #include "proxy/placement.h"
 #include "proxy/proxy_mesh.h"
-#include "solver/accelerated_iteration.h"
+#include "solver/continuation.h"
 #include "solver/surface_state.h"
 
 namespace fairing {
@@ -14,10 +14,18 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
+constexpr double coarse_tolerance = 1e-6;  // units of D
+
 // A problem on the proxy's own connectivity: uniform weights, the same boundary data.
-Problem proxy_problem(const Problem& problem, const Patch& patch, double tolerance) {
-    Problem result{patch, problem.fixed_points, problem.fixed_normals, uniform_weights(patch), problem.options};
-    result.options.tolerance = tolerance;
+Problem proxy_problem(const Problem& problem, const Patch& patch) {
+    return {patch, problem.fixed_points, problem.fixed_normals, uniform_weights(patch), problem.options};
+}
+
+// Only a start is wanted from the coarse proxy: the harmonic surface, whatever the equation.
+Problem coarse_problem(const Problem& problem, const Patch& patch) {
+    Problem result = proxy_problem(problem, patch);
+    result.options.equation = Equation::harmonic;
+    result.options.tolerance = coarse_tolerance;
     return result;
 }
 
@@ -60,7 +68,7 @@ private:
         constexpr int rounds = 2;
         for (int k = 0; k < rounds; ++k) {
             const auto snapshot = mesh.snapshot();
-            const Problem problem = proxy_problem(problem_, snapshot.patch, coarse_tolerance);
+            const Problem problem = coarse_problem(problem_, snapshot.patch);
             Workspace work = make_workspace(problem, progress_);
             mesh.read_back(snapshot.patch, best_fill(problem, work, progress_.here()));
             mesh.remesh(3, 3);
@@ -71,7 +79,7 @@ private:
         refill(mesh);
         descend(mesh);
         const auto snapshot = mesh.snapshot();
-        const Problem problem = proxy_problem(problem_, snapshot.patch, coarse_tolerance);
+        const Problem problem = coarse_problem(problem_, snapshot.patch);
         Workspace work = make_workspace(problem, progress_);
         const Points start = globalise(problem, work, snapshot.points, progress_.here());
         const Solution solution = iterate(problem, work, start, progress_.here());
@@ -86,7 +94,7 @@ private:
         for (int k = 0; k < most_steps; ++k) {
             progress_.report(0.4 * k / most_steps, "descent");
             const auto snapshot = mesh.snapshot();
-            const Problem problem = proxy_problem(problem_, snapshot.patch, coarse_tolerance);
+            const Problem problem = coarse_problem(problem_, snapshot.patch);
             Workspace work = make_workspace(problem, progress_);
             const DescentStep step = descent_step(problem, work, snapshot.points, progress_.here());
             mesh.read_back(snapshot.patch, step.points);
@@ -99,10 +107,10 @@ private:
         constexpr double growth = 0.15;
         mesh.refine(growth, std::max(2 * problem_.patch.free_count, 2000));
         auto snapshot = mesh.snapshot();
-        const Problem problem = proxy_problem(problem_, snapshot.patch, problem_.options.tolerance);
+        const Problem problem = proxy_problem(problem_, snapshot.patch);
         Workspace work = make_workspace(problem, progress_);
         const Points start = globalise(problem, work, snapshot.points, progress_.range(0.4, 0.5));
-        Solution solution = iterate(problem, work, start, progress_.range(0.5, 0.8));
+        Solution solution = solve_equation(problem, work, start, progress_.range(0.5, 0.8));
         if (solution.termination != Termination::converged) return std::nullopt;
         SurfaceState state;
         state.points = solution.points;
@@ -145,8 +153,6 @@ private:
         return placed;
     }
 
-    static constexpr double coarse_tolerance = 1e-6;
-
     const Problem& problem_;
     const Progress& progress_;
     std::vector<RemovedVertex> removed_;
@@ -155,7 +161,7 @@ private:
 }  // namespace
 
 std::optional<Solution> solve_on_proxy(const Problem& problem, const Progress& progress) {
-    const Problem uniform = proxy_problem(problem, problem.patch, problem.options.tolerance);
+    const Problem uniform = proxy_problem(problem, problem.patch);
     Workspace work = make_workspace(uniform, progress);
     const Points fill = best_fill(uniform, work, progress.here());
     return ProxySolve(problem, progress).run(fill);

@@ -17,6 +17,9 @@ constexpr double largest_step = 0.1;  // units of D
 // The residual may grow for a while: near clusters of valence 3 only the history tames a growing mode of the plain
 // map. Far above the best it is hopeless.
 constexpr double hopeless_growth = 1e4;
+// Of the Willmore energy; a whole sphere has 16 π.
+constexpr double explosion_factor = 4.0;
+constexpr double explosion_rise = 60.0;
 constexpr int patience = 40;  // iterations without progress in residual or step
 constexpr double slow = 0.5;  // contraction over `refresh_after` iterations that asks for a new factor
 constexpr int refresh_after = 6;
@@ -84,7 +87,7 @@ private:
         const double energy = willmore_energy(
             mixed_curvature_vectors(patch_, state_.stiffness, state_.points, conormals_), state_.stiffness);
         if (start_energy_ < 0.0) start_energy_ = energy;
-        return energy > 2.0 * start_energy_ + 2.0;
+        return energy > explosion_factor * start_energy_ + explosion_rise;
     }
 
     void keep() {

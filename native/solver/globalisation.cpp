@@ -77,7 +77,7 @@ private:
             report(k, most_fixed_point_steps);
             state_.mean_curvature = mixed_mean_curvature(curvature_vectors_, state_.stiffness, state_.normals);
             work_.normal->update(state_.stiffness, progress_.here());
-            Points d = along_normals(state_.normals, work_.normal->solve(outer_residual(problem_, state_)));
+            Points d = along_normals(state_.normals, work_.normal->solve(harmonic_residual(problem_, state_)));
             d += work_.tangential.displacement(state_.points, state_.normals);
             const double largest = largest_length(d);
             state_.points.leftCols(patch_.free_count) += std::min(1.0, largest_step / largest) * d;

@@ -11,14 +11,17 @@
 namespace fairing {
 
 enum class Equation {
-    harmonic,  // Δ_B H = 0 with G1 boundary data
-    minimal,   // H = 0 with G0 boundary data
+    harmonic,        // Δ_B H = 0 with G1 boundary data
+    constant,        // Δ_B H = load
+    minimal_energy,  // Δ_B H = −2 H (H² − K): least ∫ κ₁² + κ₂²
+    minimal,         // H = 0 with G0 boundary data
 };
 
 enum class Termination { converged, iteration_limit, stalled };
 
 struct SolverOptions {
     Equation equation = Equation::harmonic;
+    double load = 0.0;  // of the constant equation, in units of D⁻³
     NormalKind normals = NormalKind::fitted;
     double tolerance = 1e-6;  // of the largest move in an iteration, in units of D
     int max_iterations = 200;

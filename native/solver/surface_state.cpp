@@ -17,18 +17,32 @@ void SurfaceState::measure_curvature(const Problem& problem) {
     const Points boundary = problem.options.equation == Equation::minimal ? one_sided_normals(problem.patch, points)
                                                                           : problem.fixed_normals;
     normals = vertex_normals(problem.patch, points, faces, boundary, problem.options.normals);
-    mean_curvature = patch_mean_curvature(problem.patch, points, faces, normals);
+    PatchCurvature curvature = patch_curvature(problem.patch, points, faces, normals);
+    mean_curvature = std::move(curvature.mean);
+    gaussian_curvature = std::move(curvature.gaussian);
 }
 
 double largest_length(const Points& field) { return std::sqrt(field.colwise().squaredNorm().maxCoeff()); }
 
+VectorX harmonic_residual(const Problem& problem, const SurfaceState& state) {
+    const Eigen::RowVectorXd H = state.mean_curvature.transpose();
+    return state.stiffness.apply(problem.patch, H, problem.patch.free_count).transpose();
+}
+
 VectorX outer_residual(const Problem& problem, const SurfaceState& state) {
     const int count = problem.patch.free_count;
-    if (problem.options.equation == Equation::minimal) {
-        return 4.0 * state.stiffness.mass.head(count).cwiseProduct(state.mean_curvature.head(count));
+    const auto mass = state.stiffness.mass.head(count).array();
+    const auto H = state.mean_curvature.head(count).array();
+    switch (problem.options.equation) {
+        case Equation::harmonic: break;
+        case Equation::minimal: return 4.0 * mass * H;
+        case Equation::constant: return harmonic_residual(problem, state).array() + 2.0 * mass * problem.options.load;
+        case Equation::minimal_energy: {
+            const auto K = state.gaussian_curvature.head(count).array();
+            return harmonic_residual(problem, state).array() - 4.0 * mass * H * (H.square() - K);
+        }
     }
-    const Eigen::RowVectorXd H = state.mean_curvature.transpose();
-    return state.stiffness.apply(problem.patch, H, count).transpose();
+    return harmonic_residual(problem, state);
 }
 
 double largest_residual(const Problem& problem, const SurfaceState& state, const VectorX& residual) {

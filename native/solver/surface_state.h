@@ -11,6 +11,7 @@ struct SurfaceState {
     Stiffness stiffness;
     Points normals;
     VectorX mean_curvature;
+    VectorX gaussian_curvature;
 
     // Faces and stiffness of the present points.
     void measure_faces(const Patch& patch);
@@ -21,10 +22,14 @@ struct SurfaceState {
 // Largest length of a column.
 double largest_length(const Points& field);
 
-// r_i of the outer equation at the free vertices: (S H)_i, or 4 M_i H_i for minimal surfaces.
+// (S H)_i at the free vertices, minus 2 M_i (Δ_B H)_i.
+VectorX harmonic_residual(const Problem& problem, const SurfaceState& state);
+
+// r_i of the outer equation at the free vertices: 2 M_i (f − Δ_B H)_i with f = 0, the load, or −2 H (H² − K); 4 M_i H_i
+// for minimal surfaces.
 VectorX outer_residual(const Problem& problem, const SurfaceState& state);
 
-// Largest |Δ_B H_i| = |r_i| / 2 M_i (eq. 5), or |H_i| = |r_i| / 4 M_i.
+// Largest |Δ_B H − f| = |r_i| / 2 M_i (eq. 5), or |H| = |r_i| / 4 M_i.
 double largest_residual(const Problem& problem, const SurfaceState& state, const VectorX& residual);
 
 }  // namespace fairing

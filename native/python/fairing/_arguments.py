@@ -65,11 +65,18 @@ def choice(name: str, value: Any, accepted: Sequence[str]) -> str:
     return value
 
 
+def finite(name: str, value: Any) -> float:
+    """A finite number."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.floating, np.integer)):
+        raise ValueError(f"{name}: a finite number is needed, not {value!r}")
+    if not math.isfinite(value):
+        raise ValueError(f"{name}: a finite number is needed, not {value!r}")
+    return float(value)
+
+
 def positive(name: str, value: Any) -> float:
     """A finite number above zero."""
-    if isinstance(value, bool) or not isinstance(value, (int, float, np.floating, np.integer)):
-        raise ValueError(f"{name}: a positive number is needed, not {value!r}")
-    if not (math.isfinite(value) and value > 0):
+    if finite(name, value) <= 0:
         raise ValueError(f"{name}: a positive number is needed, not {value!r}")
     return float(value)
 

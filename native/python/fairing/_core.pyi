@@ -13,6 +13,7 @@ class Options:
         equation: str,
         inner_fairness: str,
         normals: str,
+        load: float,
         tolerance: float,
         max_iterations: int,
     ) -> None: ...

@@ -12,7 +12,7 @@ from fairing._types import FairResult, IntArray
 
 Progress = Callable[[float, str], "bool | None"]
 
-EQUATIONS = ("harmonic", "minimal")
+EQUATIONS = ("harmonic", "constant", "minimal_energy", "minimal")
 INNER_FAIRNESS = ("uniform", "conformal")
 METHODS = ("global",)
 NORMALS = ("fitted", "averaged")
@@ -58,10 +58,11 @@ def fair(
         of the adjacent triangle normals (§7.5), which makes the result depend on the interior.
     reference : (n, 3) float
         The original mesh M0 of the conformal weights; default: ``vertices``.
-    equation : "harmonic" | "minimal"
-        Δ_B H = 0 with tangent planes met (G1), or H = 0 with positions met only (G0).
+    equation : "harmonic" | "constant" | "minimal_energy" | "minimal"
+        Δ_B H = 0, Δ_B H = ``load``, Δ_B H = −2H(H² − K) (least ∫ κ₁² + κ₂²), all with tangent planes met
+        (G1), or H = 0 with positions met only (G0). See §7.5.
     load : float
-        Belongs to an equation that this version does not have; must be 0.
+        For "constant", in units of length⁻³; positive bulges along the normals.
     inner_fairness : "uniform" | "conformal"
         How vertices sit within the surface (§7.3).
     neighbours : (e, 2) int
@@ -110,14 +111,15 @@ def fair(
     _arguments.choice("method", method, METHODS)
     _arguments.whole("levels", levels, 0, 1)
     _arguments.whole("threads", threads, 0)
-    if load != 0.0:
-        raise ValueError("load: needs equation 'constant', which this version does not have; accepted is 0")
+    if load != 0.0 and equation != "constant":
+        raise ValueError(f"load: only equation 'constant' has one, not {equation!r}; accepted is 0")
     if progress is not None and not callable(progress):
         raise ValueError(f"progress: a callable(fraction, stage) or None is needed, not {progress!r}")
     options = _core.Options(
         equation=_arguments.choice("equation", equation, EQUATIONS),
         inner_fairness=_arguments.choice("inner_fairness", inner_fairness, INNER_FAIRNESS),
         normals=_arguments.choice("normals", normals, NORMALS),
+        load=_arguments.finite("load", load),
         tolerance=_arguments.positive("tolerance", tolerance),
         max_iterations=_arguments.whole("max_iterations", max_iterations, 1),
     )
