@@ -44,7 +44,6 @@ REFUSED = [
     (flatten, {}, "scale"),
     (nothing, {"pin_group": "Missing"}, "Missing"),
     (nothing, {"method": "PAPER"}, "method"),
-    (nothing, {"equation": "CONSTANT", "bulge": 1.0}, "equation"),
 ]
 
 
