@@ -77,6 +77,7 @@ private:
                         make_inner_weights(patch, reference_, options_), options_.solver};
         problem.options.load *= std::pow(unit.diameter, 3);
         const Solution solution = solve_global(problem, progress);
+        if (!solution.points.allFinite()) throw SolverError("the solution is not finite; nothing was changed");
         const Points points = unit.from_unit(solution.points);
         for (int v = 0; v < patch.free_count; ++v) result_.vertices.col(patch.to_input[at(v)]) = points.col(v);
         record(patch, problem, solution);

@@ -1,11 +1,8 @@
 #include "linear/sparse_cholesky.h"
 
 #include <algorithm>
-#include <string>
 
 #include <Eigen/Cholesky>
-
-#include "base/errors.h"
 
 namespace fairing {
 
@@ -114,7 +111,7 @@ bool SparseCholesky::eliminate(int s) {
     return true;
 }
 
-void SparseCholesky::factorise(const SparseMatrix& lower, const char* what, const Progress& progress) {
+bool SparseCholesky::factorise(const SparseMatrix& lower, const char* what, const Progress& progress) {
     progress.report(0.0, what);
     if (!analysed_) set_up(lower);
     scatter(lower);
@@ -123,9 +120,7 @@ void SparseCholesky::factorise(const SparseMatrix& lower, const char* what, cons
     double operations = 0.0;
     const Supernodes& nodes = elimination_.supernodes;
     for (int s = 0; s < nodes.size(); ++s) {
-        if (!eliminate(s)) {
-            throw SolverError(std::string("the factorisation of ") + what + " broke down: not positive definite");
-        }
+        if (!eliminate(s)) return false;
         const double rows = nodes.row_count(s);
         operations += rows * rows * nodes.column_count(s);
         if (operations > operations_between_reports) {
@@ -133,6 +128,7 @@ void SparseCholesky::factorise(const SparseMatrix& lower, const char* what, cons
             progress.report(static_cast<double>(panel_begin_[at(s)]) / static_cast<double>(panels_.size()), what);
         }
     }
+    return true;
 }
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& rhs) const {

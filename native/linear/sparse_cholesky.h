@@ -9,11 +9,10 @@ namespace fairing {
 
 class SparseCholesky {
 public:
-    // Factorises a symmetric positive definite matrix given by its lower triangle (diagonal included). The ordering is
-    // found at the first call and kept: the pattern must stay the same. Throws SolverError, naming `what`, when the
-    // matrix is not positive definite; Cancelled when `progress` says so (the factor is then unusable until the next
-    // call).
-    void factorise(const SparseMatrix& lower, const char* what, const Progress& progress);
+    // Factorises a symmetric matrix given by its lower triangle (diagonal included). The ordering is found at the first
+    // call and kept: the pattern must stay the same. False where the matrix is not positive definite; the factor is
+    // then unusable until the next call, as it is after Cancelled. `what` names the stage for `progress`.
+    [[nodiscard]] bool factorise(const SparseMatrix& lower, const char* what, const Progress& progress);
 
     // Solves for one or several right-hand sides (n × k).
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;

@@ -39,10 +39,17 @@ public:
     Solution run() {
         const int most = problem_.options.max_iterations;
         solution_.termination = Termination::iteration_limit;
+        solution_.points = state_.points;
+        solution_.mean_curvature = VectorX::Zero(patch_.vertex_count());
+        solution_.residual = std::numeric_limits<double>::max();
         for (int k = 0; k < most; ++k) {
             report(k);
             if (!measure()) break;
-            const Points d = plain_step(k);
+            if (!refresh_operator(k)) {
+                solution_.termination = Termination::stalled;
+                break;
+            }
+            const Points d = plain_step();
             const double largest = largest_length(d);
             solution_.iterations = k + 1;
             if (largest <= problem_.options.tolerance) {
@@ -97,13 +104,16 @@ private:
         solution_.residual = residual_;
     }
 
-    Points plain_step(int k) {
-        if (k == 0 || k - refreshed_at_ >= refresh_after) {
-            if (k == 0 || last_step_ > slow * step_at_refresh_)
-                work_.normal->update(state_.stiffness, progress_.here());
-            refreshed_at_ = k;
-            step_at_refresh_ = k == 0 ? std::numeric_limits<double>::infinity() : last_step_;
-        }
+    // A new factor at the start and where the steps hardly shrink; false where the surface has none.
+    bool refresh_operator(int k) {
+        if (k > 0 && k - refreshed_at_ < refresh_after) return true;
+        const bool wanted = k == 0 || last_step_ > slow * step_at_refresh_;
+        refreshed_at_ = k;
+        step_at_refresh_ = k == 0 ? std::numeric_limits<double>::infinity() : last_step_;
+        return !wanted || work_.normal->update(state_.stiffness, progress_.here());
+    }
+
+    Points plain_step() {
         const VectorX u = work_.normal->solve(outer_);
         Points d = state_.normals.leftCols(patch_.free_count).array().rowwise() * u.transpose().array();
         d += work_.tangential.displacement(state_.points, state_.normals);

@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "base/errors.h"
+
 namespace fairing {
 
 Stiffness uniform_stiffness(const Patch& patch) {
@@ -31,7 +33,7 @@ Points weighted_rows(const Patch& patch, const Stiffness& stiffness, const Point
 Fill clamped_fill(const Patch& patch, const Points& fixed_points, const Points& conormals, NormalOperator& op,
                   const Progress& progress) {
     const Stiffness stiffness = uniform_stiffness(patch);
-    op.update(stiffness, progress);
+    if (!op.update(stiffness, progress)) throw SolverError("the uniform fairness operator is not positive definite");
     Points boundary = Points::Zero(3, patch.vertex_count());
     boundary.rightCols(fixed_points.cols()) = fixed_points;
     const Points from_positions =

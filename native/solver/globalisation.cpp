@@ -76,7 +76,7 @@ private:
         for (int k = 0; k < most_fixed_point_steps; ++k) {
             report(k, most_fixed_point_steps);
             state_.mean_curvature = mixed_mean_curvature(curvature_vectors_, state_.stiffness, state_.normals);
-            work_.normal->update(state_.stiffness, progress_.here());
+            if (!work_.normal->update(state_.stiffness, progress_.here())) return false;
             Points d = along_normals(state_.normals, work_.normal->solve(harmonic_residual(problem_, state_)));
             d += work_.tangential.displacement(state_.points, state_.normals);
             const double largest = largest_length(d);
@@ -103,7 +103,7 @@ private:
         const Points gradient = willmore_gradient(patch_, state_.stiffness, state_.points, curvature_vectors_);
         const VectorX slope =
             gradient.cwiseProduct(state_.normals.leftCols(patch_.free_count)).colwise().sum().transpose();
-        work_.normal->update(state_.stiffness, progress_.here());
+        if (!work_.normal->update(state_.stiffness, progress_.here())) return 0.0;
         const VectorX u = -0.5 * work_.normal->solve(slope);
         const double largest = u.cwiseAbs().maxCoeff();
         const double first = std::min(1.0, largest_step / largest);

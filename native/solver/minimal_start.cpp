@@ -19,7 +19,7 @@ Points descend_area(const Problem& problem, Workspace& work, const Points& start
     for (int k = 0; k < most_steps; ++k) {
         progress.report(static_cast<double>(k) / most_steps, "minimal start");
         state.measure_faces(patch);
-        work.normal->update(state.stiffness, progress.here());
+        if (!work.normal->update(state.stiffness, progress.here())) break;
         const Points gradient = state.stiffness.apply(patch, state.points, patch.free_count);
         const Points d = -work.normal->solve(gradient.transpose()).transpose();
         if (!d.allFinite()) break;

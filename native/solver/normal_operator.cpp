@@ -78,7 +78,7 @@ void BiharmonicOperator::build_pattern() {
     });
 }
 
-void BiharmonicOperator::update(const Stiffness& stiffness, const Progress& progress) {
+bool BiharmonicOperator::update(const Stiffness& stiffness, const Progress& progress) {
     matrix_.coeffs().setZero();
     double* values = matrix_.valuePtr();
     auto slot = slots_.begin();
@@ -94,10 +94,10 @@ void BiharmonicOperator::update(const Stiffness& stiffness, const Progress& prog
             for (std::size_t b = a; b < entries.size(); ++b) values[*slot++] += scale * entries[a] * entries[b];
         }
     });
-    factor_.factorise(matrix_, "the fairness operator", progress);
+    return factor_.factorise(matrix_, "the fairness operator", progress);
 }
 
-void LaplaceOperator::update(const Stiffness& stiffness, const Progress& progress) {
+bool LaplaceOperator::update(const Stiffness& stiffness, const Progress& progress) {
     std::vector<Eigen::Triplet<double>> entries;
     for (int i = 0; i < patch_.free_count; ++i) {
         entries.emplace_back(i, i, diagonal_weight(patch_, stiffness, i));
@@ -110,7 +110,7 @@ void LaplaceOperator::update(const Stiffness& stiffness, const Progress& progres
     }
     SparseMatrix matrix(patch_.free_count, patch_.free_count);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    factor_.factorise(matrix, "the Laplace–Beltrami operator", progress);
+    return factor_.factorise(matrix, "the Laplace–Beltrami operator", progress);
 }
 
 }  // namespace fairing

@@ -10,8 +10,9 @@ namespace fairing {
 class NormalOperator {
 public:
     virtual ~NormalOperator() = default;
-    // Assembles the operator for a surface and factorises it.
-    virtual void update(const Stiffness& stiffness, const Progress& progress) = 0;
+    // Assembles the operator for a surface and factorises it. False where it is not positive definite (a surface that
+    // has degenerated); solve may not be called then.
+    [[nodiscard]] virtual bool update(const Stiffness& stiffness, const Progress& progress) = 0;
     // The operator's inverse applied to one or more columns (free count × k).
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const { return factor_.solve(rhs); }
 
@@ -24,7 +25,7 @@ protected:
 class BiharmonicOperator : public NormalOperator {
 public:
     explicit BiharmonicOperator(const Patch& patch);
-    void update(const Stiffness& stiffness, const Progress& progress) override;
+    [[nodiscard]] bool update(const Stiffness& stiffness, const Progress& progress) override;
 
 private:
     template <typename Visit>
@@ -40,7 +41,7 @@ private:
 class LaplaceOperator : public NormalOperator {
 public:
     explicit LaplaceOperator(const Patch& patch) : patch_(patch) {}
-    void update(const Stiffness& stiffness, const Progress& progress) override;
+    [[nodiscard]] bool update(const Stiffness& stiffness, const Progress& progress) override;
 
 private:
     const Patch& patch_;

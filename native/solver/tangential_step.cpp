@@ -1,5 +1,7 @@
 #include "solver/tangential_step.h"
 
+#include "base/errors.h"
+
 namespace fairing {
 
 namespace {
@@ -34,7 +36,9 @@ TangentialStep::TangentialStep(const Patch& patch, const InnerWeights& weights, 
     }
     laplacian_.resize(free_count_, free_count_);
     laplacian_.setFromTriplets(entries.begin(), entries.end());
-    factor_.factorise(laplacian_.triangularView<Eigen::Lower>(), "the inner-fairness weights", progress);
+    if (!factor_.factorise(laplacian_.triangularView<Eigen::Lower>(), "the inner-fairness weights", progress)) {
+        throw SolverError("the inner-fairness weights give no positive definite matrix");
+    }
 }
 
 Points TangentialStep::harmonic_positions() const {

@@ -38,7 +38,7 @@ TEST_CASE("the factor solves random systems, connected or not, and keeps its ord
             SparseMatrix lower = random_matrix(n, blocks, static_cast<unsigned>(n + blocks));
             SparseCholesky factor;
             for (int round = 0; round < 2; ++round) {
-                factor.factorise(lower, "a test matrix", Progress());
+                REQUIRE(factor.factorise(lower, "a test matrix", Progress()));
                 const Eigen::MatrixXd full = Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
                 const Eigen::MatrixXd rhs = Eigen::MatrixXd::Random(n, 3);
                 CHECK((full * factor.solve(rhs) - rhs).norm() < 1e-11 * rhs.norm());
@@ -48,19 +48,20 @@ TEST_CASE("the factor solves random systems, connected or not, and keeps its ord
     }
 }
 
-TEST_CASE("an indefinite matrix is refused by name") {
+TEST_CASE("an indefinite matrix is refused") {
     SparseMatrix lower = random_matrix(50, 1, 7);
     lower.coeffRef(20, 20) = -1.0;
     SparseCholesky factor;
-    CHECK_THROWS_WITH_AS(factor.factorise(lower, "the operator", Progress()), doctest::Contains("the operator"),
-                         SolverError);
+    CHECK_FALSE(factor.factorise(lower, "the operator", Progress()));
 }
 
 TEST_CASE("a factorisation can be cancelled and done again") {
     SparseCholesky factor;
     const SparseMatrix lower = random_matrix(200, 1, 3);
-    CHECK_THROWS_AS(factor.factorise(lower, "x", Progress([](double, std::string_view) { return false; })), Cancelled);
-    factor.factorise(lower, "x", Progress());
+    CHECK_THROWS_AS(
+        static_cast<void>(factor.factorise(lower, "x", Progress([](double, std::string_view) { return false; }))),
+        Cancelled);
+    REQUIRE(factor.factorise(lower, "x", Progress()));
     const VectorX rhs = VectorX::Ones(200);
     CHECK((lower.selfadjointView<Eigen::Lower>() * factor.solve(rhs) - rhs).norm() < 1e-10);
 }
