@@ -62,6 +62,19 @@ RingView Patch::ring(int vertex) const {
     return {view(ring_begin_, ring_vertices_), view(ring_begin_, ring_spokes_), view(rim_begin_, ring_rim_)};
 }
 
+int Patch::loop_count() const {
+    std::vector<char> seen(mesh.n_halfedges(), 0);
+    int loops = 0;
+    for (const SurfaceMesh::HalfedgeHandle start : mesh.halfedges()) {
+        if (!mesh.is_boundary(start) || seen[at(start.idx())]) continue;
+        ++loops;
+        for (SurfaceMesh::HalfedgeHandle h = start; !seen[at(h.idx())]; h = mesh.next_halfedge_handle(h)) {
+            seen[at(h.idx())] = 1;
+        }
+    }
+    return loops;
+}
+
 void Patch::build_mesh() {
     const auto vertices = to_input.size();
     mesh.reserve(vertices, vertices + at(triangle_count()) + 64, at(triangle_count()));

@@ -1,10 +1,12 @@
 #include "proxy/global_method.h"
 
 #include "base/stopwatch.h"
+#include "proxy/placement.h"
 #include "proxy/proxy_solver.h"
 #include "solver/continuation.h"
 #include "solver/globalisation.h"
 #include "solver/minimal_start.h"
+#include "solver/normal_fill.h"
 #include "solver/surface_state.h"
 
 namespace fairing {
@@ -17,6 +19,34 @@ double residual_of(const Problem& problem, const Points& points) {
     state.measure_faces(problem.patch);
     state.measure_curvature(problem);
     return largest_residual(problem, state, outer_residual(problem, state));
+}
+
+// Σ w_ij (H_i − H_j)² over the edges, about ∫ |∇H|²; clipped weights, for it to be a measure on any mesh.
+double variation(const Problem& problem, const Points& points) {
+    SurfaceState state;
+    state.points = points;
+    state.measure_faces(problem.patch);
+    state.measure_curvature(problem);
+    double sum = 0.0;
+    for (int e = 0; e < problem.patch.edge_count(); ++e) {
+        const auto [i, j] = problem.patch.edge_ends[static_cast<std::size_t>(e)];
+        const double difference = state.mean_curvature[i] - state.mean_curvature[j];
+        sum += std::max(state.stiffness.weights[e], 0.0) * difference * difference;
+    }
+    return sum;
+}
+
+// The vertices of a surface, placed on it by their inner fairness.
+Points settle(const Problem& problem, const Workspace& work, const Points& points) {
+    SurfaceState state;
+    state.points = points;
+    state.measure_faces(problem.patch);
+    state.measure_curvature(problem);
+    const TargetSurface target(problem.patch, points, state.normals);
+    Placement placement{{}, points};
+    for (int v = 0; v < problem.patch.free_count; ++v) placement.where.push_back(target.at_vertex(v));
+    relax(problem, work.tangential, target, placement);
+    return placement.points;
 }
 
 // The start of the accurate iteration and what is reported about it.
@@ -32,8 +62,18 @@ Start make_start(const Problem& problem, Workspace& work, const Progress& progre
     Start start{membrane(problem, work)};
     start.initial_residual = residual_of(problem, start.points);
     start.fill_seconds = watch.seconds();
-    start.points = problem.options.equation == Equation::minimal ? descend_area(problem, work, start.points, progress)
-                                                                 : globalise(problem, work, start.points, progress);
+    if (problem.options.equation == Equation::minimal) {
+        start.points = descend_area(problem, work, start.points, progress);
+        return start;
+    }
+    start.points = globalise(problem, work, start.points, progress);
+    if (problem.patch.loop_count() < 2) return start;
+    // Between loops the G1 data may admit several surfaces (a pipe longer than 2 π r): the one whose mean curvature
+    // varies least is wanted, so the start that varies least goes first.
+    const auto along_normals = normal_fill(problem, work.tangential, progress.here());
+    if (along_normals && variation(problem, *along_normals) < variation(problem, start.points)) {
+        start.points = settle(problem, work, *along_normals);
+    }
     return start;
 }
 

@@ -18,8 +18,9 @@ double inner(const Points& a, const Points& b) { return a.cwiseProduct(b).sum();
 
 TangentialStep::TangentialStep(const Patch& patch, const InnerWeights& weights, const Points& fixed_points,
                                const Progress& progress)
-    : free_count_(patch.free_count), pull_(Points::Zero(3, patch.free_count)) {
+    : free_count_(patch.free_count) {
     std::vector<Eigen::Triplet<double>> entries;
+    std::vector<Eigen::Triplet<double>> couplings;
     entries.reserve(4 * weights.size());
     const auto add_row = [&](int i, int j, double weight) {
         if (!patch.is_free(i)) return;
@@ -27,18 +28,25 @@ TangentialStep::TangentialStep(const Patch& patch, const InnerWeights& weights, 
         if (patch.is_free(j)) {
             entries.emplace_back(i, j, -weight);
         } else {
-            pull_.col(i) += weight * fixed_points.col(j - free_count_);
+            couplings.emplace_back(i, j - free_count_, weight);
         }
     };
     for (const WeightedEdge& edge : weights) {
         add_row(edge.i, edge.j, edge.weight);
         add_row(edge.j, edge.i, edge.weight);
     }
+    coupling_.resize(free_count_, fixed_points.cols());
+    coupling_.setFromTriplets(couplings.begin(), couplings.end());
+    pull_ = (coupling_ * fixed_points.transpose()).transpose();
     laplacian_.resize(free_count_, free_count_);
     laplacian_.setFromTriplets(entries.begin(), entries.end());
     if (!factor_.factorise(laplacian_.triangularView<Eigen::Lower>(), "the inner-fairness weights", progress)) {
         throw SolverError("the inner-fairness weights give no positive definite matrix");
     }
+}
+
+Points TangentialStep::harmonic_extension(const Points& fixed_values) const {
+    return factor_.solve(coupling_ * fixed_values.transpose()).transpose();
 }
 
 Points TangentialStep::harmonic_positions() const {

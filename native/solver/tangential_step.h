@@ -16,6 +16,10 @@ public:
     // The positions with Σ_j λ_ij (x_i − x_j) = 0 in all three coordinates: the discrete harmonic map of the outline.
     [[nodiscard]] Points harmonic_positions() const;
 
+    // The free vertices' values of a field that is balanced by λ and has the given values (3 × fixed count) at the
+    // fixed ones.
+    [[nodiscard]] Points harmonic_extension(const Points& fixed_values) const;
+
     // ½ Σ λ_ij |x_i − x_j|² up to a constant of the fixed vertices.
     [[nodiscard]] double energy(const Points& points) const;
 
@@ -29,6 +33,7 @@ private:
 
     int free_count_;
     SparseMatrix laplacian_;  // both triangles
+    SparseMatrix coupling_;   // λ_ij of free i and fixed j
     Points pull_;             // Σ λ_ij x_j over fixed neighbours j
     SparseCholesky factor_;
 };
