@@ -49,6 +49,8 @@ public:
         result_.vertices = input_.vertices;
         result_.fixed = mesh_.fixed;
         side_angles_.assign(at(static_cast<int>(input_.vertices.cols())), 0.0);
+        solved_curvature_.setZero(input_.vertices.cols());
+        solved_sides_.setZero(input_.vertices.cols());
         const std::vector<Patch> patches = solvable_patches(mesh_, result_.warnings);
         result_.seconds["topology"] = watch.seconds();
         double done = 0.0;
@@ -80,6 +82,10 @@ private:
         if (!solution.points.allFinite()) throw SolverError("the solution is not finite; nothing was changed");
         const Points points = unit.from_unit(solution.points);
         for (int v = 0; v < patch.free_count; ++v) result_.vertices.col(patch.to_input[at(v)]) = points.col(v);
+        for (int v = 0; v < patch.vertex_count(); ++v) {
+            solved_curvature_[patch.to_input[at(v)]] += solution.mean_curvature[v] / unit.diameter;
+            solved_sides_[patch.to_input[at(v)]] += 1.0;
+        }
         record(patch, problem, solution);
     }
 
@@ -111,9 +117,13 @@ private:
     }
 
     void finish() {
-        const auto boundary =
-            options_.solver.equation == Equation::minimal ? BoundaryNormals::one_sided : BoundaryNormals::prescribed;
+        // Pieces without free vertices are measured; the others' H is the solver's, which may be that of its own mesh.
+        const auto boundary = options_.solver.equation == Equation::minimal ? BoundaryNormals::one_sided
+                                                                            : BoundaryNormals::prescribed;
         result_.mean_curvature = mean_curvature(mesh_, result_.vertices, options_.solver.normals, boundary);
+        for (int v = 0; v < solved_sides_.size(); ++v) {
+            if (solved_sides_[v] > 0.0) result_.mean_curvature[v] = solved_curvature_[v] / solved_sides_[v];
+        }
         result_.boundary_angle.resize(static_cast<Eigen::Index>(result_.fixed.size()));
         for (std::size_t k = 0; k < result_.fixed.size(); ++k) {
             result_.boundary_angle[static_cast<Eigen::Index>(k)] = side_angles_[at(result_.fixed[k])];
@@ -126,6 +136,8 @@ private:
     CheckedMesh mesh_;
     FairResult result_;
     std::vector<double> side_angles_;  // per input vertex, the larger of its sides
+    VectorX solved_curvature_;         // per input vertex, summed over the sides that were solved
+    VectorX solved_sides_;
 };
 
 }  // namespace

@@ -93,7 +93,7 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
     Solution solution = solve_equation(problem, work, start.points, progress.range(0.5, 0.6));
     const double iteration_seconds = watch.lap();
     if (solution.termination != Termination::converged && problem.options.equation != Equation::minimal) {
-        if (auto on_proxy = solve_on_proxy(problem, progress.range(0.6, 1.0))) solution = std::move(*on_proxy);
+        solution = solve_on_proxy(problem, progress.range(0.6, 1.0));
     }
     solution.initial_residual = start.initial_residual;
     solution.seconds = {{"fill", start.fill_seconds},

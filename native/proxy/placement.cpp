@@ -26,34 +26,32 @@ Points normals_at(const Placement& placement, const TargetSurface& target) {
 
 }  // namespace
 
-Placement first_placement(const Problem& problem, const std::vector<RemovedVertex>& removed, const Indices& number,
+Placement first_placement(const Problem& problem, const ProxyMesh& mesh, const ProxyMesh::Snapshot& snapshot,
                           const TargetSurface& target) {
     const Patch& patch = problem.patch;
+    // Of every vertex that the proxy mesh ever had; known where the triangle is.
+    Points points(3, mesh.number_count());
+    std::vector<SurfacePoint> where(at(mesh.number_count()), SurfacePoint{none, Vector3::Zero()});
+    const auto put_number = [&](int number, const SurfacePoint& place) {
+        where[at(number)] = place;
+        points.col(number) = target.position(place);
+    };
+    for (int v = 0; v < snapshot.patch.vertex_count(); ++v)
+        put_number(snapshot.patch.to_input[at(v)], target.at_vertex(v));
+    for (auto entry = mesh.removed().rbegin(); entry != mesh.removed().rend(); ++entry) {
+        Vector3 mean = Vector3::Zero();
+        for (int v : entry->ring) mean += points.col(v) / static_cast<double>(entry->ring.size());
+        // Walk from the neighbour that is nearest to the mean.
+        const int nearest = *std::min_element(entry->ring.begin(), entry->ring.end(), [&](int a, int b) {
+            return (points.col(a) - mean).squaredNorm() < (points.col(b) - mean).squaredNorm();
+        });
+        put_number(entry->vertex, target.project(mean, where[at(nearest)].triangle));
+    }
     Placement placement;
-    placement.where.resize(at(patch.free_count));
     placement.points.resize(3, patch.vertex_count());
     placement.points.rightCols(problem.fixed_points.cols()) = problem.fixed_points;
-    Indices triangle(at(patch.vertex_count()), none);  // where a vertex that is placed already lies
-    for (int v = 0; v < patch.vertex_count(); ++v) {
-        if (number[at(v)] == none) continue;
-        const SurfacePoint where = target.at_vertex(number[at(v)]);
-        triangle[at(v)] = where.triangle;
-        if (patch.is_free(v)) put(placement, v, target, where);
-    }
-    for (auto entry = removed.rbegin(); entry != removed.rend(); ++entry) {
-        Vector3 mean = Vector3::Zero();
-        for (int v : entry->ring) mean += placement.points.col(v) / static_cast<double>(entry->ring.size());
-        // Walk from the neighbour that is nearest to the mean.
-        int nearest = entry->ring.front();
-        for (int v : entry->ring) {
-            if ((placement.points.col(v) - mean).squaredNorm() < (placement.points.col(nearest) - mean).squaredNorm()) {
-                nearest = v;
-            }
-        }
-        const SurfacePoint where = target.project(mean, triangle[at(nearest)]);
-        triangle[at(entry->vertex)] = where.triangle;
-        put(placement, entry->vertex, target, where);
-    }
+    placement.where.resize(at(patch.free_count));
+    for (int v = 0; v < patch.free_count; ++v) put(placement, v, target, where[at(v)]);
     return placement;
 }
 

@@ -15,8 +15,8 @@ struct Placement {
 };
 
 // First guess: removed vertices come back in reverse order, each at the mean of the ring that it left; the others are
-// vertices of the target. `number` maps a vertex of the proxy mesh to a local vertex of the target's patch.
-Placement first_placement(const Problem& problem, const std::vector<RemovedVertex>& removed, const Indices& number,
+// vertices of the target, whose patch is the last snapshot of the proxy mesh.
+Placement first_placement(const Problem& problem, const ProxyMesh& mesh, const ProxyMesh::Snapshot& snapshot,
                           const TargetSurface& target);
 
 // Minimises Σ λ_ij |x_i − x_j|² on the surface: tangential conjugate gradient steps, each followed by a walk back to

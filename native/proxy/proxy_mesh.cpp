@@ -1,7 +1,6 @@
 #include "proxy/proxy_mesh.h"
 
 #include <algorithm>
-#include <limits>
 #include <queue>
 
 #include <Eigen/Geometry>
@@ -17,8 +16,10 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 constexpr double delaunay_slack = -1e-9;
 constexpr double cos_of_fold = 0.5;  // a flip may not bend the surface more than this, or further than it is bent
 constexpr unsigned highest_valence = 9;
-constexpr double cos_of_turned = 0.2;  // normals of a triangle before and after a collapse
-constexpr double worst_shape = 0.25;   // of 1 (equilateral), unless it was worse before
+constexpr double cos_of_turned = 0.2;   // normals of a triangle before and after a collapse
+constexpr double collapse_below = 0.7;  // of the local length
+constexpr double split_above = 4.0 / 3.0;
+constexpr double worst_shape = 0.25;  // of 1 (equilateral), unless it was worse before
 
 Vector3 cross_product(const Vector3& a, const Vector3& b, const Vector3& c) { return (b - a).cross(c - a); }
 
@@ -116,12 +117,12 @@ bool ProxyMesh::may_collapse(Halfedge h) {
     const Vertex kept = mesh_.to_vertex_handle(h);
     if (fixed(gone) || !mesh_.is_collapse_ok(h)) return false;
     if (mesh_.valence(gone) + mesh_.valence(kept) > highest_valence + 4) return false;
-    if (!fixed(kept)) return keeps_shape(h);
     // Two fixed vertices must not become neighbours across the patch.
     for (const Vertex other : mesh_.vv_range(gone)) {
+        if (!fixed(kept)) break;
         if (other != kept && fixed(other) && !mesh_.find_halfedge(kept, other).is_valid()) return false;
     }
-    return keeps_shape(h);
+    return true;
 }
 
 bool ProxyMesh::keeps_shape(Halfedge h) const {
@@ -142,38 +143,46 @@ bool ProxyMesh::keeps_shape(Halfedge h) const {
     return after >= worst_shape || after >= before;
 }
 
-std::vector<RemovedVertex> ProxyMesh::coarsen(int free_target) {
+double ProxyMesh::relative_length(Halfedge h, const std::vector<double>& target) const {
+    const double wanted =
+        0.5 * (target[at(mesh_.from_vertex_handle(h).idx())] + target[at(mesh_.to_vertex_handle(h).idx())]);
+    return mesh_.calc_edge_length(h) / wanted;
+}
+
+void ProxyMesh::collapse(Halfedge h) {
+    RemovedVertex entry{mesh_.from_vertex_handle(h).idx(), {}};
+    for (const Vertex other : mesh_.vv_range(mesh_.from_vertex_handle(h))) entry.ring.push_back(other.idx());
+    removed_.push_back(std::move(entry));
+    mesh_.collapse(h);
+    --free_count_;
+}
+
+// Shortest first.
+int ProxyMesh::collapse_short(const std::vector<double>& target, bool keep_shapes) {
     ShortestFirst queue;
-    const auto length = [&](Halfedge h) {
-        return (point(mesh_.from_vertex_handle(h)) - point(mesh_.to_vertex_handle(h))).norm();
-    };
     const auto push = [&](Halfedge h) {
-        if (!fixed(mesh_.from_vertex_handle(h))) queue.push({length(h), h.idx()});
+        const double length = relative_length(h, target);
+        if (!fixed(mesh_.from_vertex_handle(h)) && length < collapse_below) queue.push({length, h.idx()});
     };
     for (const Halfedge h : mesh_.halfedges()) push(h);
-    std::vector<RemovedVertex> removed;
-    while (free_count_ > free_target && !queue.empty()) {
-        const QueuedEdge candidate = queue.top();
-        queue.pop();
-        const Halfedge h(candidate.halfedge);
-        if (mesh_.status(h).deleted() || length(h) != candidate.length || !may_collapse(h)) continue;
-        const Vertex gone = mesh_.from_vertex_handle(h);
+    int collapses = 0;
+    for (; !queue.empty() && free_count_ > 1; queue.pop()) {
+        const Halfedge h(queue.top().halfedge);
+        if (mesh_.status(h).deleted() || relative_length(h, target) != queue.top().length || !may_collapse(h)) continue;
+        if (keep_shapes && !keeps_shape(h)) continue;
         const Vertex kept = mesh_.to_vertex_handle(h);
-        RemovedVertex entry{gone.idx(), {}};
-        for (const Vertex other : mesh_.vv_range(gone)) entry.ring.push_back(other.idx());
-        removed.push_back(std::move(entry));
-        mesh_.collapse(h);
-        --free_count_;
+        collapse(h);
+        ++collapses;
         for (const Halfedge spoke : mesh_.voh_range(kept)) {
             push(spoke);
             push(mesh_.opposite_halfedge_handle(spoke));
         }
     }
-    return removed;
+    return collapses;
 }
 
-std::vector<double> ProxyMesh::target_lengths(double growth) const {
-    std::vector<double> target(mesh_.n_vertices(), std::numeric_limits<double>::infinity());
+std::vector<double> ProxyMesh::target_lengths(const Sizing& sizing) const {
+    std::vector<double> target(mesh_.n_vertices(), sizing.longest);
     using Entry = std::pair<double, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     for (const Edge e : mesh_.edges()) {
@@ -190,39 +199,45 @@ std::vector<double> ProxyMesh::target_lengths(double growth) const {
         if (length > target[at(v)]) continue;
         for (const Halfedge h : mesh_.voh_range(mesh_.vertex_handle(unsigned(v)))) {
             const int other = mesh_.to_vertex_handle(h).idx();
-            const double reached = length + growth * mesh_.calc_edge_length(h);
+            const double reached = length + sizing.growth * mesh_.calc_edge_length(h);
             if (reached < target[at(other)]) queue.push({target[at(other)] = reached, other});
         }
     }
     return target;
 }
 
-void ProxyMesh::refine(double growth, int free_limit) {
+// Longest first.
+int ProxyMesh::split_long(const std::vector<double>& target, int free_limit) {
+    std::vector<std::pair<double, int>> long_edges;
+    for (const Edge e : mesh_.edges()) {
+        const double length = relative_length(mesh_.halfedge_handle(e, 0), target);
+        if (!mesh_.is_boundary(e) && length > split_above) long_edges.emplace_back(-length, e.idx());
+    }
+    std::sort(long_edges.begin(), long_edges.end());
+    int splits = 0;
+    for (const auto& [length, index] : long_edges) {
+        if (free_count_ >= free_limit) break;
+        const Edge e(index);
+        const Vertex middle = mesh_.add_vertex(mesh_.calc_edge_midpoint(e));
+        mesh_.split(e, middle);
+        fixed_.push_back(0);
+        pin_.push_back(0);
+        ++free_count_;
+        ++splits;
+    }
+    return splits;
+}
+
+void ProxyMesh::adapt(const Sizing& sizing) {
     constexpr int most_rounds = 12;
-    constexpr double split_above = 4.0 / 3.0;
+    constexpr int shapeless_rounds = 2;  // a crumpled start has no shapes worth keeping
     for (int round = 0; round < most_rounds; ++round) {
-        const std::vector<double> target = target_lengths(growth);
-        std::vector<std::pair<double, int>> long_edges;
-        for (const Edge e : mesh_.edges()) {
-            if (mesh_.is_boundary(e)) continue;
-            const Halfedge h = mesh_.halfedge_handle(e, 0);
-            const double wanted =
-                0.5 * (target[at(mesh_.from_vertex_handle(h).idx())] + target[at(mesh_.to_vertex_handle(h).idx())]);
-            const double excess = mesh_.calc_edge_length(e) / wanted;
-            if (excess > split_above) long_edges.emplace_back(-excess, e.idx());
-        }
-        std::sort(long_edges.begin(), long_edges.end());
-        for (const auto& [excess, index] : long_edges) {
-            if (free_count_ >= free_limit) return;
-            const Edge e(index);
-            const Vertex middle = mesh_.add_vertex(mesh_.calc_edge_midpoint(e));
-            mesh_.split(e, middle);
-            fixed_.push_back(0);
-            pin_.push_back(0);
-            ++free_count_;
-        }
+        const std::vector<double> target = target_lengths(sizing);
+        int changes = collapse_short(target, round >= shapeless_rounds || removed_.empty());
+        if (round < shapeless_rounds) changes += collapse_short(target, false);
+        changes += split_long(target_lengths(sizing), sizing.free_limit);
         remesh(5, 3);
-        if (long_edges.empty()) return;
+        if (changes <= free_count_ / 100) return;
     }
 }
 

@@ -11,6 +11,14 @@ struct RemovedVertex {
     Indices ring;
 };
 
+// Edge lengths of the interior: the outline's own spacing there, from there on growing by `growth` per distance up to
+// `longest`. No edge is split beyond `free_limit` free vertices.
+struct Sizing {
+    double growth;
+    double longest;
+    int free_limit;
+};
+
 // Vertices keep their number through all changes: those of the patch it was made from first, then vertices that were
 // inserted. Fixed vertices and border edges never change. Deterministic.
 class ProxyMesh {
@@ -22,13 +30,15 @@ public:
     // vertices, then `sweeps` half-steps of tangential uniform smoothing of the free vertices.
     void remesh(int rounds, int sweeps);
 
-    // Half-edge collapses of free vertices, shortest edge first, topology-safe, until `free_target` are left or no
-    // admissible one is. The removed vertices in their order.
-    std::vector<RemovedVertex> coarsen(int free_target);
+    // Brings edges towards the local length: half-edge collapses of free vertices where they are shorter than 0.7 of
+    // it, splits where they are longer than 4/3, flips and smoothing in between, until little changes. Topology-safe.
+    void adapt(const Sizing& sizing);
 
-    // Splits edges longer than 4/3 of the local length, which grows from the outline's own spacing by `growth` per
-    // distance, until none is left or there are `free_limit` free vertices.
-    void refine(double growth, int free_limit);
+    // The vertices that collapses took out, in their order.
+    [[nodiscard]] const std::vector<RemovedVertex>& removed() const { return removed_; }
+
+    // Vertex numbers that were ever given out.
+    [[nodiscard]] int number_count() const { return static_cast<int>(fixed_.size()); }
 
     // A patch of the present connectivity with the numbers of its vertices; read_back takes its positions.
     struct Snapshot {
@@ -51,14 +61,19 @@ private:
     [[nodiscard]] bool should_flip(Edge e) const;
     int flip_round();
     void smooth();
+    int collapse_short(const std::vector<double>& target, bool keep_shapes);
+    int split_long(const std::vector<double>& target, int free_limit);
+    [[nodiscard]] double relative_length(Halfedge h, const std::vector<double>& target) const;
     [[nodiscard]] bool may_collapse(Halfedge h);
+    void collapse(Halfedge h);
     [[nodiscard]] bool keeps_shape(Halfedge h) const;
-    [[nodiscard]] std::vector<double> target_lengths(double growth) const;
+    [[nodiscard]] std::vector<double> target_lengths(const Sizing& sizing) const;
 
     SurfaceMesh mesh_;
     std::vector<char> fixed_;
     std::vector<char> pin_;
     int free_count_;
+    std::vector<RemovedVertex> removed_;
 };
 
 }  // namespace fairing

@@ -6,7 +6,9 @@
 #include "proxy/placement.h"
 #include "proxy/proxy_mesh.h"
 #include "solver/continuation.h"
+#include "solver/minimal_start.h"
 #include "solver/surface_state.h"
+#include "solver/willmore.h"
 
 namespace fairing {
 
@@ -15,6 +17,10 @@ namespace {
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 constexpr double coarse_tolerance = 1e-6;  // units of D
+constexpr double finest_growth = 0.15;     // of edge lengths per distance from the outline
+constexpr double longest_coarse = 0.15;    // units of D
+constexpr double longest_fine = 0.03;
+constexpr int free_limit = 20000;
 
 // A problem on the proxy's own connectivity: uniform weights, the same boundary data.
 Problem proxy_problem(const Problem& problem, const Patch& patch) {
@@ -39,53 +45,47 @@ struct SolvedProxy {
     ProxyMesh::Snapshot mesh;
     Solution solution;
     Points normals;
+    double energy;  // Willmore
+
+    [[nodiscard]] bool converged() const { return solution.termination == Termination::converged; }
 };
 
 class ProxySolve {
 public:
     ProxySolve(const Problem& problem, const Progress& progress) : problem_(problem), progress_(progress) {}
 
-    std::optional<Solution> run(const Points& fill) {
-        const int outline = static_cast<int>(problem_.fixed_points.cols());
-        for (const int size : {300, 700, 1500}) {
-            const int target = std::max(size, outline);
-            ProxyMesh mesh(problem_.patch, fill);
-            mesh.remesh(5, 5);
-            removed_ = mesh.coarsen(target);
-            mesh.remesh(5, 5);
-            if (solve_coarse(mesh)) {
-                auto fine = solve_fine(mesh);
-                if (fine) return place(*fine);
-            }
-            if (target >= problem_.patch.free_count) break;
+    Solution run(const Points& start) {
+        std::optional<Attempt> least_bent;
+        // Lengths that grow slowly need more vertices but resolve more.
+        for (const double growth : {0.5, 0.25, 0.12}) {
+            Attempt attempt{ProxyMesh(problem_.patch, start), {}};
+            attempt.mesh.adapt({growth, longest_coarse, free_limit});
+            solve_coarse(attempt.mesh, growth);
+            attempt.proxy.emplace(solve_fine(attempt.mesh, growth));
+            if (attempt.proxy->converged()) return place(attempt);
+            if (!least_bent || attempt.proxy->energy < least_bent->proxy->energy)
+                least_bent.emplace(std::move(attempt));
         }
-        return std::nullopt;
+        return place(*least_bent);
     }
 
 private:
-    // Flips depend on the surface and the fill on the connectivity: a few rounds of both.
-    void refill(ProxyMesh& mesh) {
-        constexpr int rounds = 2;
-        for (int k = 0; k < rounds; ++k) {
-            const auto snapshot = mesh.snapshot();
-            const Problem problem = coarse_problem(problem_, snapshot.patch);
-            Workspace work = make_workspace(problem, progress_);
-            mesh.read_back(snapshot.patch, best_fill(problem, work, progress_.here()));
-            mesh.remesh(3, 3);
-        }
-    }
+    struct Attempt {
+        ProxyMesh mesh;
+        std::optional<SolvedProxy> proxy;
+    };
 
-    bool solve_coarse(ProxyMesh& mesh) {
-        refill(mesh);
+    // A start for the fine proxy: the harmonic surface where the iteration finds it, the least bent one otherwise.
+    void solve_coarse(ProxyMesh& mesh, double growth) {
         descend(mesh);
+        mesh.adapt({growth, longest_coarse, free_limit});
         const auto snapshot = mesh.snapshot();
         const Problem problem = coarse_problem(problem_, snapshot.patch);
         Workspace work = make_workspace(problem, progress_);
         const Points start = globalise(problem, work, snapshot.points, progress_.here());
         const Solution solution = iterate(problem, work, start, progress_.here());
-        if (solution.termination != Termination::converged) return false;
-        mesh.read_back(snapshot.patch, solution.points);
-        return true;
+        const bool converged = solution.termination == Termination::converged;
+        mesh.read_back(snapshot.patch, converged ? solution.points : start);
     }
 
     void descend(ProxyMesh& mesh) {
@@ -103,30 +103,30 @@ private:
         }
     }
 
-    std::optional<SolvedProxy> solve_fine(ProxyMesh& mesh) {
-        constexpr double growth = 0.15;
-        mesh.refine(growth, std::max(2 * problem_.patch.free_count, 2000));
+    // Not converged: the least bent surface of the fine proxy instead of the iteration's last one.
+    SolvedProxy solve_fine(ProxyMesh& mesh, double growth) {
+        mesh.adapt({std::min(growth, finest_growth), longest_fine, free_limit});
         auto snapshot = mesh.snapshot();
         const Problem problem = proxy_problem(problem_, snapshot.patch);
         Workspace work = make_workspace(problem, progress_);
         const Points start = globalise(problem, work, snapshot.points, progress_.range(0.4, 0.5));
         Solution solution = solve_equation(problem, work, start, progress_.range(0.5, 0.8));
-        if (solution.termination != Termination::converged) return std::nullopt;
         SurfaceState state;
-        state.points = solution.points;
+        state.points = solution.termination == Termination::converged ? solution.points : start;
         state.measure_faces(problem.patch);
         state.measure_curvature(problem);
-        return SolvedProxy{{std::move(snapshot.patch), solution.points}, std::move(solution), state.normals};
+        solution.mean_curvature = state.mean_curvature;
+        solution.residual = largest_residual(problem, state, outer_residual(problem, state));
+        const Points c = conormals(problem.patch, problem.fixed_points, problem.fixed_normals);
+        const double energy =
+            willmore_energy(mixed_curvature_vectors(problem.patch, state.stiffness, state.points, c), state.stiffness);
+        return {{std::move(snapshot.patch), state.points}, std::move(solution), state.normals, energy};
     }
 
-    Solution place(const SolvedProxy& proxy) {
+    Solution place(const Attempt& attempt) {
+        const SolvedProxy& proxy = *attempt.proxy;
         const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
-        Indices number(at(problem_.patch.vertex_count()), none);
-        for (int v = 0; v < proxy.mesh.patch.vertex_count(); ++v) {
-            const int input = proxy.mesh.patch.to_input[at(v)];
-            if (input < problem_.patch.vertex_count()) number[at(input)] = v;
-        }
-        Placement placement = first_placement(problem_, removed_, number, target);
+        Placement placement = first_placement(problem_, attempt.mesh, proxy.mesh, target);
         Workspace work = make_workspace(problem_, progress_);
         relax(problem_, work.tangential, target, placement);
         return polish(proxy, target, placement, work);
@@ -136,10 +136,12 @@ private:
     Solution polish(const SolvedProxy& proxy, const TargetSurface& target, const Placement& placement,
                     Workspace& work) {
         constexpr double farthest = 0.05;  // units of D
-        Solution polished = iterate(problem_, work, placement.points, progress_.range(0.8, 1.0));
-        if (polished.termination == Termination::converged &&
-            largest_length(polished.points - placement.points) < farthest) {
-            return polished;
+        if (proxy.converged()) {
+            Solution polished = iterate(problem_, work, placement.points, progress_.range(0.8, 1.0));
+            if (polished.termination == Termination::converged &&
+                largest_length(polished.points - placement.points) < farthest) {
+                return polished;
+            }
         }
         Solution placed = proxy.solution;
         placed.polished = false;
@@ -155,16 +157,14 @@ private:
 
     const Problem& problem_;
     const Progress& progress_;
-    std::vector<RemovedVertex> removed_;
 };
 
 }  // namespace
 
-std::optional<Solution> solve_on_proxy(const Problem& problem, const Progress& progress) {
+Solution solve_on_proxy(const Problem& problem, const Progress& progress) {
     const Problem uniform = proxy_problem(problem, problem.patch);
-    Workspace work = make_workspace(uniform, progress);
-    const Points fill = best_fill(uniform, work, progress.here());
-    return ProxySolve(problem, progress).run(fill);
+    const Workspace work = make_workspace(uniform, progress);
+    return ProxySolve(problem, progress).run(membrane(uniform, work));
 }
 
 }  // namespace fairing

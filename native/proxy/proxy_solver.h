@@ -5,10 +5,11 @@
 
 namespace fairing {
 
-// The robust way for connectivity that can't carry the equation: a coarse proxy from the fill, Willmore descent with
-// flips and smoothing in between, the accurate iteration there and on a refined proxy, placement of the user's
+// The robust way for connectivity that can't carry the equation: a coarse proxy from the membrane, Willmore descent
+// with flips and smoothing in between, the accurate iteration there and on a refined proxy, placement of the user's
 // vertices by their inner fairness, polish on the user's own mesh where it is an improvement.
-// A proxy that fails makes room for the next finer one; nothing when all fail.
-std::optional<Solution> solve_on_proxy(const Problem& problem, const Progress& progress);
+// A proxy that fails makes room for the next finer one. When all fail, the least bent of their surfaces comes back
+// with the vertices placed on it, and says that it did not converge.
+Solution solve_on_proxy(const Problem& problem, const Progress& progress);
 
 }  // namespace fairing
