@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from solving import codes
 
 import fairing
 import shapes
 from curves import FloatArray
+from solving import codes
 
 
 def finger(around: int, layers: int) -> tuple[FloatArray, shapes.IntArray, FloatArray]:
