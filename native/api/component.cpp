@@ -6,8 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include "geometry/surface_fit.h"
-
 namespace fairing {
 
 namespace {
@@ -111,8 +109,7 @@ InnerWeights make_inner_weights(const Patch& patch, const Points& reference, con
     return options.neighbours ? uniform_weights(local_edges(patch, *options.neighbours)) : uniform_weights(patch);
 }
 
-VectorX boundary_angles(const Patch& patch, const Points& points, const Points& prescribed) {
-    const Points actual = one_sided_normals(patch, points);
+VectorX boundary_angles(const Patch& patch, const Points& actual, const Points& prescribed) {
     VectorX angles = VectorX::Zero(prescribed.cols());
     for (int k = 0; k < prescribed.cols(); ++k) {
         const int v = patch.free_count + k;

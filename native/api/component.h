@@ -26,9 +26,9 @@ std::span<const int> fixed_vertices(const Patch& patch);
 // λ of one patch, from its own edges, from `neighbours` or from the reference.
 InnerWeights make_inner_weights(const Patch& patch, const Points& reference, const FairOptions& options);
 
-// Degrees between the prescribed normals (3 × fixed count, local order) and those of the patch's own side;
-// zero at pins and where no free vertex is adjacent.
-VectorX boundary_angles(const Patch& patch, const Points& points, const Points& prescribed);
+// Degrees between the prescribed normals and the surface's own (3 × fixed count, local order); zero at pins and where
+// no free vertex is adjacent.
+VectorX boundary_angles(const Patch& patch, const Points& actual, const Points& prescribed);
 
 // Warnings about a solved patch: flipped triangles and an outline that turns more than 20° from vertex to vertex.
 void diagnose(const Patch& patch, const Points& points, const Points& prescribed, Diagnostics& warnings);

@@ -6,7 +6,6 @@
 #include "api/component.h"
 #include "api/measure.h"
 #include "base/stopwatch.h"
-#include "geometry/surface_fit.h"
 #include "proxy/global_method.h"
 
 namespace fairing {
@@ -107,8 +106,8 @@ private:
                  Indices(free_vertices(patch).begin(), free_vertices(patch).end())});
         }
         const bool has_normals = options_.solver.equation != Equation::minimal;
-        const Points prescribed = has_normals ? problem.fixed_normals : one_sided_normals(patch, solution.points);
-        const VectorX angles = boundary_angles(patch, solution.points, prescribed);
+        const Points& prescribed = has_normals ? problem.fixed_normals : solution.boundary_normals;
+        const VectorX angles = boundary_angles(patch, solution.boundary_normals, prescribed);
         for (int k = 0; k < angles.size(); ++k) {
             double& angle = side_angles_[at(fixed_vertices(patch)[at(k)])];
             angle = std::max(angle, angles[k]);
@@ -118,8 +117,8 @@ private:
 
     void finish() {
         // Pieces without free vertices are measured; the others' H is the solver's, which may be that of its own mesh.
-        const auto boundary = options_.solver.equation == Equation::minimal ? BoundaryNormals::one_sided
-                                                                            : BoundaryNormals::prescribed;
+        const auto boundary =
+            options_.solver.equation == Equation::minimal ? BoundaryNormals::one_sided : BoundaryNormals::prescribed;
         result_.mean_curvature = mean_curvature(mesh_, result_.vertices, options_.solver.normals, boundary);
         for (int v = 0; v < solved_sides_.size(); ++v) {
             if (solved_sides_[v] > 0.0) result_.mean_curvature[v] = solved_curvature_[v] / solved_sides_[v];

@@ -1,6 +1,7 @@
 #include "proxy/global_method.h"
 
 #include "base/stopwatch.h"
+#include "geometry/surface_fit.h"
 #include "proxy/placement.h"
 #include "proxy/proxy_solver.h"
 #include "solver/continuation.h"
@@ -92,9 +93,14 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
     const double start_seconds = watch.lap();
     Solution solution = solve_equation(problem, work, start.points, progress.range(0.5, 0.6));
     const double iteration_seconds = watch.lap();
-    if (solution.termination != Termination::converged && problem.options.equation != Equation::minimal) {
-        solution = solve_on_proxy(problem, progress.range(0.6, 1.0));
+    if (problem.options.equation != Equation::minimal) {
+        const bool converged = solution.termination == Termination::converged;
+        if (!converged || has_poor_triangles(problem.patch, solution.points)) {
+            Solution on_proxy = solve_on_proxy(problem, progress.range(0.6, 1.0));
+            if (!converged || on_proxy.termination == Termination::converged) solution = std::move(on_proxy);
+        }
     }
+    if (solution.polished) solution.boundary_normals = one_sided_normals(problem.patch, solution.points);
     solution.initial_residual = start.initial_residual;
     solution.seconds = {{"fill", start.fill_seconds},
                         {"globalisation", start_seconds - start.fill_seconds},

@@ -23,12 +23,6 @@ constexpr double worst_shape = 0.25;  // of 1 (equilateral), unless it was worse
 
 Vector3 cross_product(const Vector3& a, const Vector3& b, const Vector3& c) { return (b - a).cross(c - a); }
 
-// 1 for an equilateral triangle, 0 for a degenerate one.
-double shape(const Vector3& a, const Vector3& b, const Vector3& c) {
-    const double squared = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
-    return squared > 0.0 ? 2.0 * std::sqrt(3.0) * cross_product(a, b, c).norm() / squared : 0.0;
-}
-
 struct QueuedEdge {
     double length;
     int halfedge;
@@ -40,6 +34,11 @@ struct QueuedEdge {
 using ShortestFirst = std::priority_queue<QueuedEdge, std::vector<QueuedEdge>, std::greater<>>;
 
 }  // namespace
+
+double triangle_shape(const Vector3& a, const Vector3& b, const Vector3& c) {
+    const double squared = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
+    return squared > 0.0 ? 2.0 * std::sqrt(3.0) * cross_product(a, b, c).norm() / squared : 0.0;
+}
 
 ProxyMesh::ProxyMesh(const Patch& patch, const Points& points)
     : mesh_(patch.mesh), fixed_(at(patch.vertex_count()), 1), pin_(patch.pin), free_count_(patch.free_count) {
@@ -133,9 +132,9 @@ bool ProxyMesh::keeps_shape(Halfedge h) const {
     for (const Halfedge spoke : mesh_.voh_range(gone)) {
         const Vertex b = mesh_.to_vertex_handle(spoke);
         const Vertex c = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(spoke));
-        before = std::min(before, shape(point(gone), point(b), point(c)));
+        before = std::min(before, triangle_shape(point(gone), point(b), point(c)));
         if (b == kept || c == kept) continue;
-        after = std::min(after, shape(point(kept), point(b), point(c)));
+        after = std::min(after, triangle_shape(point(kept), point(b), point(c)));
         const Vector3 old_normal = cross_product(point(gone), point(b), point(c));
         const Vector3 new_normal = cross_product(point(kept), point(b), point(c));
         if (old_normal.dot(new_normal) < cos_of_turned * old_normal.norm() * new_normal.norm()) return false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/surface_fit.h"
 #include "proxy/placement.h"
 #include "proxy/proxy_mesh.h"
 #include "solver/continuation.h"
@@ -132,20 +133,24 @@ private:
         return polish(proxy, target, placement, work);
     }
 
-    // The discrete equation on the user's own mesh, where it converges near the surface.
+    // The discrete equation on the user's own mesh, where it converges near the surface. On badly shaped triangles
+    // its curvature is worse than that of the proxy, so there it must agree with the proxy's surface.
     Solution polish(const SolvedProxy& proxy, const TargetSurface& target, const Placement& placement,
                     Workspace& work) {
         constexpr double farthest = 0.05;  // units of D
+        constexpr double farthest_on_poor_triangles = 2e-4;
         if (proxy.converged()) {
             Solution polished = iterate(problem_, work, placement.points, progress_.range(0.8, 1.0));
+            const bool poor = has_poor_triangles(problem_.patch, placement.points);
             if (polished.termination == Termination::converged &&
-                largest_length(polished.points - placement.points) < farthest) {
+                largest_length(polished.points - placement.points) < (poor ? farthest_on_poor_triangles : farthest)) {
                 return polished;
             }
         }
         Solution placed = proxy.solution;
         placed.polished = false;
         placed.points = placement.points;
+        placed.boundary_normals = one_sided_normals(proxy.mesh.patch, proxy.mesh.points);
         placed.mean_curvature.resize(problem_.patch.vertex_count());
         for (int v = 0; v < problem_.patch.free_count; ++v) {
             placed.mean_curvature[v] = target.interpolate(proxy.solution.mean_curvature, placement.where[at(v)]);
@@ -160,6 +165,17 @@ private:
 };
 
 }  // namespace
+
+bool has_poor_triangles(const Patch& patch, const Points& points) {
+    constexpr double poor_shape = 0.25;  // a right triangle of 7 : 1
+    constexpr double tolerated_share = 0.1;
+    int poor = 0;
+    for (const auto triangle : patch.triangles.colwise()) {
+        if (triangle_shape(points.col(triangle[0]), points.col(triangle[1]), points.col(triangle[2])) < poor_shape)
+            ++poor;
+    }
+    return poor > tolerated_share * patch.triangle_count();
+}
 
 Solution solve_on_proxy(const Problem& problem, const Progress& progress) {
     const Problem uniform = proxy_problem(problem, problem.patch);

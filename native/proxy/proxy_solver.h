@@ -12,4 +12,8 @@ namespace fairing {
 // with the vertices placed on it, and says that it did not converge.
 Solution solve_on_proxy(const Problem& problem, const Progress& progress);
 
+// Whether more than a tenth of the triangles are so flat that the discrete equation on them can't be trusted even where
+// it converges. `points`: 3 × local vertices.
+bool has_poor_triangles(const Patch& patch, const Points& points);
+
 }  // namespace fairing

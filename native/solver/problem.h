@@ -39,6 +39,7 @@ struct Problem {
 struct Solution {
     Points points;  // 3 × local vertices
     VectorX mean_curvature;
+    Points boundary_normals;  // of the surface at the fixed vertices, fitted to the side of the patch; 3 × fixed count
     Termination termination = Termination::stalled;
     bool polished = true;  // the equation holds on the patch's own connectivity
     int iterations = 0;
