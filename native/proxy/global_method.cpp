@@ -14,6 +14,10 @@ namespace fairing {
 
 namespace {
 
+// Large moves wrinkle a fine mesh, and a coarse proxy makes them for less: beyond this many free vertices it goes first
+// (measured on hemispheres: 1.2 times slower at 20k, 1.4 times faster at 40k; at 100k only the proxy gets there).
+constexpr int direct_limit = 25000;
+
 double residual_of(const Problem& problem, const Points& points) {
     SurfaceState state;
     state.points = points;
@@ -83,30 +87,37 @@ std::unique_ptr<NormalOperator> make_normal_operator(const Problem& problem) {
     return std::make_unique<BiharmonicOperator>(problem.patch);
 }
 
-}  // namespace
-
-Solution solve_global(const Problem& problem, const Progress& progress) {
+// The solve on the user's mesh alone, from the membrane.
+Solution solve_directly(const Problem& problem, const Progress& progress) {
     Stopwatch watch;
     Workspace work{make_normal_operator(problem),
                    TangentialStep(problem.patch, problem.weights, problem.fixed_points, progress.range(0.0, 0.05))};
-    const Start start = make_start(problem, work, progress.range(0.05, 0.5));
+    const Start start = make_start(problem, work, progress.range(0.05, 0.6));
     const double start_seconds = watch.lap();
-    Solution solution = solve_equation(problem, work, start.points, progress.range(0.5, 0.6));
-    const double iteration_seconds = watch.lap();
-    if (problem.options.equation != Equation::minimal) {
-        const bool converged = solution.termination == Termination::converged;
-        if (!converged || has_poor_triangles(problem.patch, solution.points)) {
-            Solution on_proxy = solve_on_proxy(problem, progress.range(0.6, 1.0));
-            if (!converged || on_proxy.termination == Termination::converged) solution = std::move(on_proxy);
-        }
-    }
-    if (solution.polished) solution.boundary_normals = one_sided_normals(problem.patch, solution.points);
+    Solution solution = solve_equation(problem, work, start.points, progress.range(0.6, 1.0));
+    solution.boundary_normals = one_sided_normals(problem.patch, solution.points);
     solution.initial_residual = start.initial_residual;
     solution.seconds = {{"fill", start.fill_seconds},
                         {"globalisation", start_seconds - start.fill_seconds},
-                        {"iteration", iteration_seconds},
-                        {"proxy", watch.lap()}};
+                        {"iteration", watch.lap()}};
     return solution;
+}
+
+}  // namespace
+
+Solution solve_global(const Problem& problem, const Progress& progress) {
+    if (problem.options.equation == Equation::minimal) return solve_directly(problem, progress);
+    if (problem.patch.free_count > direct_limit) {
+        Solution on_proxy = solve_on_proxy(problem, progress);
+        if (on_proxy.termination == Termination::converged) return on_proxy;
+        Solution direct = solve_directly(problem, progress);
+        return direct.termination == Termination::converged ? std::move(direct) : std::move(on_proxy);
+    }
+    Solution direct = solve_directly(problem, progress.range(0.0, 0.5));
+    const bool converged = direct.termination == Termination::converged;
+    if (converged && !has_poor_triangles(problem.patch, direct.points)) return direct;
+    Solution on_proxy = solve_on_proxy(problem, progress.range(0.5, 1.0));
+    return converged && on_proxy.termination != Termination::converged ? std::move(direct) : std::move(on_proxy);
 }
 
 }  // namespace fairing

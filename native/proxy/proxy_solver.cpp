@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
 #include "proxy/placement.h"
 #include "proxy/proxy_mesh.h"
@@ -144,6 +145,7 @@ private:
             const bool poor = has_poor_triangles(problem_.patch, placement.points);
             if (polished.termination == Termination::converged &&
                 largest_length(polished.points - placement.points) < (poor ? farthest_on_poor_triangles : farthest)) {
+                polished.boundary_normals = one_sided_normals(problem_.patch, polished.points);
                 return polished;
             }
         }
@@ -178,9 +180,18 @@ bool has_poor_triangles(const Patch& patch, const Points& points) {
 }
 
 Solution solve_on_proxy(const Problem& problem, const Progress& progress) {
+    Stopwatch watch;
     const Problem uniform = proxy_problem(problem, problem.patch);
     const Workspace work = make_workspace(uniform, progress);
-    return ProxySolve(problem, progress).run(membrane(uniform, work));
+    SurfaceState start;
+    start.points = membrane(uniform, work);
+    start.measure_faces(problem.patch);
+    start.measure_curvature(problem);
+    const double fill_seconds = watch.lap();
+    Solution solution = ProxySolve(problem, progress).run(start.points);
+    solution.initial_residual = largest_residual(problem, start, outer_residual(problem, start));
+    solution.seconds = {{"fill", fill_seconds}, {"proxy", watch.lap()}};
+    return solution;
 }
 
 }  // namespace fairing
