@@ -26,6 +26,9 @@ std::span<const int> fixed_vertices(const Patch& patch);
 // λ of one patch, from its own edges, from `neighbours` or from the reference.
 InnerWeights make_inner_weights(const Patch& patch, const Points& reference, const FairOptions& options);
 
+// The same as directed rows, for every kind of inner fairness. `reference`: 3 × local vertices.
+RowWeights make_row_weights(const Patch& patch, const Points& reference, const FairOptions& options);
+
 // Degrees between the prescribed normals (3 × fixed count, local order) and those of the patch's own side;
 // zero at pins and where no free vertex is adjacent.
 VectorX boundary_angles(const Patch& patch, const Points& points, const Points& prescribed);

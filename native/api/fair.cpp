@@ -73,20 +73,39 @@ private:
             throw MeshError({Code::no_boundary, "a component is held in a single point: fix more of its vertices",
                              Indices(fixed_vertices(patch).begin(), fixed_vertices(patch).end())});
         }
-        const Problem problem{patch, unit.to_unit(fixed_points), gather(mesh_.normals, fixed_vertices(patch)),
-                              make_inner_weights(patch, reference_, options_), options_.solver};
-        const Solution solution = solve_global(problem, progress);
+        Problem problem{
+            patch, unit.to_unit(fixed_points), gather(mesh_.normals, fixed_vertices(patch)), {}, options_.solver};
+        problem.options.load *= std::pow(unit.diameter, 3);
+        const Solution solution = solve(problem, unit, progress);
         const Points points = unit.from_unit(solution.points);
         for (int v = 0; v < patch.free_count; ++v) result_.vertices.col(patch.to_input[at(v)]) = points.col(v);
         record(patch, problem, solution);
+    }
+
+    Solution solve(Problem& problem, const Normalisation& unit, const Progress& progress) const {
+        const Patch& patch = problem.patch;
+        if (options_.method == Method::paper) {
+            const Points reference = unit.to_unit(gather(reference_, patch.to_input));
+            return solve_paper({problem, options_.paper, options_.inner_fairness, reference,
+                                make_row_weights(patch, reference, options_)},
+                               progress);
+        }
+        problem.weights = make_inner_weights(patch, reference_, options_);
+        return solve_global(problem, progress);
+    }
+
+    // Level counts of several components are added up, counted from the finest level.
+    void add_levels(Indices counts) {
+        Indices& sum = result_.levels;
+        if (counts.size() > sum.size()) std::swap(counts, sum);
+        for (std::size_t k = 1; k <= counts.size(); ++k) sum[sum.size() - k] += counts[counts.size() - k];
     }
 
     void record(const Patch& patch, const Problem& problem, const Solution& solution) {
         result_.residual = std::max(result_.residual, solution.residual);
         result_.initial_residual = std::max(result_.initial_residual, solution.initial_residual);
         result_.iterations = std::max(result_.iterations, solution.iterations);
-        result_.levels.resize(1, 0);
-        result_.levels[0] += patch.vertex_count();
+        add_levels(solution.levels.empty() ? Indices{patch.vertex_count()} : solution.levels);
         for (const auto& [stage, seconds] : solution.seconds) result_.seconds[stage] += seconds;
         if (solution.termination != Termination::converged) {
             result_.converged = false;

@@ -11,14 +11,17 @@
 namespace fairing {
 
 enum class Equation {
-    harmonic,  // Δ_B H = 0 with G1 boundary data
-    minimal,   // H = 0 with G0 boundary data
+    harmonic,        // Δ_B H = 0 with G1 boundary data
+    constant,        // Δ_B H = load with G1 boundary data
+    minimal_energy,  // Δ_B H = −2 H (H² − K) with G1 boundary data
+    minimal,         // H = 0 with G0 boundary data
 };
 
 enum class Termination { converged, iteration_limit, stalled };
 
 struct SolverOptions {
     Equation equation = Equation::harmonic;
+    double load = 0.0;  // of `constant`, in units of 1/D³
     NormalKind normals = NormalKind::fitted;
     double tolerance = 1e-6;  // of the largest move in an iteration, in units of D
     int max_iterations = 200;
@@ -40,6 +43,7 @@ struct Solution {
     int iterations = 0;
     double residual = 0.0;          // largest |Δ_B H| (|H| for minimal) at free vertices
     double initial_residual = 0.0;  // of the fill
+    std::vector<int> levels;        // vertex counts, coarse to fine; empty: only the patch itself
     std::map<std::string, double> seconds;
 };
 

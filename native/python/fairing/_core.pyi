@@ -11,10 +11,25 @@ class Options:
         self,
         *,
         equation: str,
+        load: float,
         inner_fairness: str,
+        method: str,
         normals: str,
         tolerance: float,
         max_iterations: int,
+    ) -> None: ...
+
+class PaperChoices:
+    def __init__(
+        self,
+        *,
+        damping: float,
+        cg_steps: int,
+        h_sweeps: int,
+        epsilon: float,
+        virtual_points: str,
+        start: str,
+        levels: int,
     ) -> None: ...
 
 _Floats = npt.NDArray[np.float64]
@@ -27,7 +42,9 @@ def fair(
     fixed_normals: _Floats | None,
     reference: _Floats | None,
     neighbours: _Ints | None,
+    weights: _Floats | None,
     options: Options,
+    paper: PaperChoices,
     progress: Callable[[float, str], bool | None] | None,
 ) -> dict[str, Any]: ...
 def mean_curvature(
