@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 
 #include "paper/vertex_update.h"
@@ -10,14 +11,19 @@ namespace fairing {
 
 namespace {
 
-constexpr double hopeless_growth = 1e6;
+// Where vertices alternate between positions (§7.5), mostly next to an outline that is much finer than the mesh inside,
+// s is halved: when the residual has grown by this factor within so many updates, or the surface leaves all bounds.
+constexpr double growth_of_alternation = 2.0;
+constexpr std::size_t window = 20;
+constexpr double widest_surface = 8.0;  // units of D
+constexpr double smallest_damping = 0.02;
 // Updates without a residual lower than the lowest so far by a hundredth.
 constexpr int patience = 400;
 
 class FactorisedIteration {
 public:
     FactorisedIteration(const LevelProblem& level, const Points& start, const IterationLimits& limits)
-        : level_(level), limits_(limits), disks_(level.patch), equation_(level.patch) {
+        : level_(level), limits_(limits), damping_(level.paper.damping), disks_(level.patch), equation_(level.patch) {
         state_.points = start;
     }
 
@@ -25,7 +31,6 @@ public:
         for (int k = 0;; ++k) {
             report(k, progress);
             const double residual = measure();
-            if (k == 0) outcome_.initial_residual = residual;
             outcome_.iterations = k;
             keep_best(residual, k);
             if (residual <= limits_.epsilon) {
@@ -33,10 +38,11 @@ public:
                 break;
             }
             if (k == limits_.max_iterations) break;
-            if (!(residual < hopeless_growth * outcome_.residual) || k - improved_at_ > patience) {
+            if (damping_ < smallest_damping || k - improved_at_ > patience) {
                 outcome_.termination = Termination::stalled;
                 break;
             }
+            calm_alternation(residual);
             update_vertices(wanted_curvature(k));
         }
         return std::move(outcome_);
@@ -49,20 +55,40 @@ private:
         progress.report(std::max(gained / decades, static_cast<double>(k) / limits_.max_iterations), "iteration");
     }
 
+    // Infinite where the surface has left all bounds: there the residual, a third power of 1/length, means nothing.
     double measure() {
+        const double extent = state_.points.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+        if (!(extent < widest_surface)) return std::numeric_limits<double>::infinity();
         state_.measure(level_, disks_);
         equation_.assemble(state_.stiffness);
         return state_.residual(level_, equation_);
     }
 
     void keep_best(double residual, int k) {
-        if (k > 0 && !(residual < outcome_.residual)) return;
-        if (k == 0 || residual < 0.99 * mark_) {
+        if (k == 0) {
+            outcome_.initial_residual = residual;
+        } else if (!(residual < outcome_.residual)) {
+            return;
+        }
+        if (residual < 0.99 * mark_) {
             mark_ = residual;
             improved_at_ = k;
         }
         outcome_.residual = residual;
         outcome_.points = state_.points;
+    }
+
+    void calm_alternation(double residual) {
+        recent_.push_back(residual);
+        const bool escaped = !std::isfinite(residual);
+        const bool growing = recent_.size() > window && residual > growth_of_alternation * recent_.front();
+        if (recent_.size() > window) recent_.pop_front();
+        if (!escaped && !growing) return;
+        damping_ *= 0.5;
+        recent_.clear();
+        if (!escaped) return;
+        state_.points = outcome_.points;
+        measure();
     }
 
     // H̃: step I, local and global in turn, from the present curvature.
@@ -84,7 +110,7 @@ private:
         for (int i = 0; i < level_.patch.free_count; ++i) {
             const Disk disk = disks_[i];
             const Vector3 normal = disk_normal(disk, state_.points);
-            const VertexTarget target{level_.weights.mean(i, state_.points), wanted[i], level_.paper.damping,
+            const VertexTarget target{level_.weights.mean(i, state_.points), wanted[i], damping_,
                                       level_.completes(i, disk.valence())};
             state_.points.col(i) = updated_position(disk, state_.points, normal, target, curvature);
             state_.normals.col(i) = normal;
@@ -93,6 +119,8 @@ private:
 
     const LevelProblem& level_;
     const IterationLimits limits_;
+    double damping_;
+    std::deque<double> recent_;  // residuals since the damping was changed
     DiskTable disks_;
     CurvatureEquation equation_;
     LevelState state_;

@@ -1,36 +1,129 @@
 #include "paper/paper_solver.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+
 #include "base/stopwatch.h"
 #include "paper/factorised_iteration.h"
+#include "paper/prolongation.h"
 #include "paper/start.h"
 
 namespace fairing {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+class PaperSolver {
+public:
+    PaperSolver(const PaperProblem& pp, const Progress& progress)
+        : pp_(pp), problem_(pp.problem), patch_(pp.problem.patch), progress_(progress) {}
+
+    Solution run() {
+        Stopwatch watch;
+        hierarchy_ = build_hierarchy(patch_, pp_.reference, pp_.paper.levels);
+        solution_.seconds["hierarchy"] = watch.lap();
+        points_.setZero(3, patch_.vertex_count());
+        points_.rightCols(problem_.fixed_points.cols()) = problem_.fixed_points;
+        const ProlongationSetting setting{patch_,         problem_.fixed_normals, pp_.reference,
+                                          pp_.inner_fairness, problem_.options,   pp_.paper};
+        Prolongation prolongation(hierarchy_, setting);
+        for (int k = 0; k < hierarchy_.level_count(); ++k) {
+            const auto [begin, end] = share(k);
+            if (k > 0) prolongation.refine(k, points_, progress_.range(begin, begin + 0.1 * (end - begin)));
+            solution_.seconds["prolongation"] += watch.lap();
+            fair(k, progress_.range(begin + 0.1 * (end - begin), end));
+            watch.lap();
+        }
+        return std::move(solution_);
+    }
+
+private:
+    [[nodiscard]] const Patch& patch_of(int level) const {
+        return hierarchy_.is_finest(level) ? patch_ : hierarchy_.patches[at(level)];
+    }
+
+    // Part of the progress that belongs to a level: half of what is left for the coarser ones.
+    [[nodiscard]] std::pair<double, double> share(int level) const {
+        const int finer = hierarchy_.level_count() - 1 - level;
+        const double begin = level == 0 ? 0.0 : std::pow(0.5, finer + 1);
+        return {begin, std::pow(0.5, finer)};
+    }
+
+    [[nodiscard]] Indices numbers_of(int level) const {
+        if (!hierarchy_.is_finest(level)) return patch_of(level).to_input;
+        Indices all(at(patch_.vertex_count()));
+        std::iota(all.begin(), all.end(), 0);
+        return all;
+    }
+
+    [[nodiscard]] LevelProblem level_problem(int level, const Points& reference) const {
+        const bool finest = hierarchy_.is_finest(level);
+        const bool completed = pp_.paper.virtual_points == VirtualPoints::everywhere ||
+                               (pp_.paper.virtual_points == VirtualPoints::coarse && !finest);
+        return {patch_of(level), problem_.fixed_normals, problem_.options, pp_.paper,
+                finest ? pp_.weights : row_weights(patch_of(level), reference, pp_.inner_fairness), completed};
+    }
+
+    // The coarser the level, the cheaper an update: each level may take about as much time as the next finer one.
+    [[nodiscard]] IterationLimits limits_of(int level) const {
+        const double epsilon = pp_.paper.epsilon > 0.0 ? pp_.paper.epsilon : default_epsilon(problem_.options);
+        const int most = problem_.options.max_iterations;
+        const int finer = hierarchy_.level_count() - 1 - level;
+        return {epsilon, most * (1 << std::min(finer, 4))};
+    }
+
+    void fair(int level, const Progress& progress) {
+        Stopwatch watch;
+        const Patch& patch = patch_of(level);
+        const Indices numbers = numbers_of(level);
+        const Points reference = pp_.reference(Eigen::all, numbers);
+        const LevelProblem lp = level_problem(level, reference);
+        Points start = points_(Eigen::all, numbers);
+        if (level == 0) {
+            const Stiffness stiffness = start_stiffness(patch, pp_.inner_fairness, reference);
+            start = start_of_level(lp, stiffness, problem_.fixed_points, progress.range(0.0, 0.1));
+            solution_.seconds["start"] = watch.lap();
+        }
+        const IterationOutcome outcome = fair_level(lp, start, limits_of(level), progress.range(0.1, 1.0));
+        solution_.seconds[hierarchy_.is_finest(level) ? "iteration" : "coarse levels"] += watch.lap();
+        for (std::size_t v = 0; v < numbers.size(); ++v) {
+            points_.col(numbers[v]) = outcome.points.col(static_cast<Eigen::Index>(v));
+        }
+        record(level, outcome);
+        if (std::getenv("DBG")) std::fprintf(stderr, "level %d n %d it %d term %d res %g init %g max %g\n", level, patch.vertex_count(), outcome.iterations, int(outcome.termination), outcome.residual, outcome.initial_residual, outcome.points.cwiseAbs().maxCoeff());
+    }
+
+    void record(int level, const IterationOutcome& outcome) {
+        solution_.levels.push_back(patch_of(level).vertex_count());
+        if (level == 0) solution_.initial_residual = outcome.initial_residual;
+        if (!hierarchy_.is_finest(level)) return;
+        solution_.points = outcome.points;
+        solution_.termination = outcome.termination;
+        solution_.iterations = outcome.iterations;
+        solution_.residual = outcome.residual;
+    }
+
+    const PaperProblem& pp_;
+    const Problem& problem_;
+    const Patch& patch_;
+    const Progress& progress_;
+    Hierarchy hierarchy_;
+    Points points_;
+    Solution solution_;
+};
+
+}  // namespace
 
 double default_epsilon(const SolverOptions& options) {
     return (options.equation == Equation::minimal ? 20.0 : 500.0) * options.tolerance;
 }
 
-Solution solve_paper(const PaperProblem& pp, const Progress& progress) {
-    Stopwatch watch;
-    const Problem& problem = pp.problem;
-    const LevelProblem level{problem.patch,   problem.fixed_normals,
-                             problem.options, pp.paper,
-                             pp.weights,      pp.paper.virtual_points == VirtualPoints::everywhere};
-    const Stiffness stiffness = start_stiffness(problem.patch, pp.inner_fairness, pp.reference);
-    const Points start = start_of_level(level, stiffness, problem.fixed_points, progress.range(0.0, 0.1));
-    Solution solution;
-    solution.seconds["start"] = watch.lap();
-    const double epsilon = pp.paper.epsilon > 0.0 ? pp.paper.epsilon : default_epsilon(problem.options);
-    IterationOutcome outcome =
-        fair_level(level, start, {epsilon, problem.options.max_iterations}, progress.range(0.1, 1.0));
-    solution.points = std::move(outcome.points);
-    solution.termination = outcome.termination;
-    solution.iterations = outcome.iterations;
-    solution.residual = outcome.residual;
-    solution.initial_residual = outcome.initial_residual;
-    solution.levels = {problem.patch.vertex_count()};
-    solution.seconds["iteration"] = watch.lap();
-    return solution;
+Solution solve_paper(const PaperProblem& paper_problem, const Progress& progress) {
+    return PaperSolver(paper_problem, progress).run();
 }
 
 }  // namespace fairing
