@@ -15,15 +15,15 @@ namespace {
 // s is halved: when the residual has grown by this factor within so many updates, or the surface leaves all bounds.
 constexpr double growth_of_alternation = 2.0;
 constexpr std::size_t window = 20;
-constexpr double widest_surface = 8.0;  // units of D
+constexpr double widest_surface = 4.0;  // units of D
 constexpr double smallest_damping = 0.02;
-// Updates without a residual lower than the lowest so far by a hundredth.
-constexpr int patience = 400;
+// So many updates without a hundredth less of the residual count as alternation too.
+constexpr int patience = 40;
 
 class FactorisedIteration {
 public:
     FactorisedIteration(const LevelProblem& level, const Points& start, const IterationLimits& limits)
-        : level_(level), limits_(limits), damping_(level.paper.damping), disks_(level.patch), equation_(level.patch) {
+        : level_(level), start_(start), limits_(limits), damping_(level.paper.damping), disks_(level.patch), equation_(level.patch) {
         state_.points = start;
     }
 
@@ -38,11 +38,11 @@ public:
                 break;
             }
             if (k == limits_.max_iterations) break;
-            if (damping_ < smallest_damping || k - improved_at_ > patience) {
+            if (damping_ < smallest_damping) {
                 outcome_.termination = Termination::stalled;
                 break;
             }
-            calm_alternation(residual);
+            calm_alternation(residual, k);
             update_vertices(wanted_curvature(k));
         }
         return std::move(outcome_);
@@ -65,29 +65,34 @@ private:
     }
 
     void keep_best(double residual, int k) {
+        if (residual < 0.99 * mark_) {
+            mark_ = residual;
+            improved_at_ = k;
+        }
         if (k == 0) {
             outcome_.initial_residual = residual;
         } else if (!(residual < outcome_.residual)) {
             return;
         }
-        if (residual < 0.99 * mark_) {
-            mark_ = residual;
-            improved_at_ = k;
-        }
         outcome_.residual = residual;
         outcome_.points = state_.points;
     }
 
-    void calm_alternation(double residual) {
+    void calm_alternation(double residual, int k) {
         recent_.push_back(residual);
         const bool escaped = !std::isfinite(residual);
         const bool growing = recent_.size() > window && residual > growth_of_alternation * recent_.front();
         if (recent_.size() > window) recent_.pop_front();
-        if (!escaped && !growing) return;
+        if (!escaped && !growing && k - improved_at_ < patience) return;
         damping_ *= 0.5;
         recent_.clear();
+        mark_ = residual;
+        improved_at_ = k;
         if (!escaped) return;
-        state_.points = outcome_.points;
+        // Not from the lowest residual so far: it falls with the third power of the size of a surface that inflates.
+        state_.points = start_;
+        outcome_.points = start_;
+        outcome_.residual = outcome_.initial_residual;
         measure();
     }
 
@@ -118,6 +123,7 @@ private:
     }
 
     const LevelProblem& level_;
+    const Points& start_;
     const IterationLimits limits_;
     double damping_;
     std::deque<double> recent_;  // residuals since the damping was changed

@@ -24,7 +24,7 @@ public:
 
     Solution run() {
         Stopwatch watch;
-        hierarchy_ = build_hierarchy(patch_, pp_.reference, pp_.paper.levels);
+        build_levels();
         solution_.seconds["hierarchy"] = watch.lap();
         points_.setZero(3, patch_.vertex_count());
         points_.rightCols(problem_.fixed_points.cols()) = problem_.fixed_points;
@@ -44,6 +44,14 @@ public:
 private:
     [[nodiscard]] const Patch& patch_of(int level) const {
         return hierarchy_.is_finest(level) ? patch_ : hierarchy_.patches[at(level)];
+    }
+
+    // Uniform λ know nothing of M0: the interior given then leaves no trace in the result.
+    void build_levels() {
+        const bool by_reference = pp_.inner_fairness != InnerFairness::uniform;
+        const bool single = level_sizes(patch_.free_count, patch_.vertex_count() - patch_.free_count, pp_.paper.levels).size() < 2;
+        const Points positions = by_reference || single ? pp_.reference : neutral_surface(problem_, progress_.here());
+        hierarchy_ = build_hierarchy(patch_, positions, pp_.paper.levels);
     }
 
     // Part of the progress that belongs to a level: half of what is left for the coarser ones.
@@ -73,7 +81,8 @@ private:
         const double epsilon = pp_.paper.epsilon > 0.0 ? pp_.paper.epsilon : default_epsilon(problem_.options);
         const int most = problem_.options.max_iterations;
         const int finer = hierarchy_.level_count() - 1 - level;
-        return {epsilon, most * (1 << std::min(finer, 4))};
+        const double coarse_epsilon = hierarchy_.is_finest(level) ? epsilon : std::max(epsilon, 0.05);
+        return {coarse_epsilon, most * (1 << std::min(finer, 4))};
     }
 
     void fair(int level, const Progress& progress) {

@@ -1,5 +1,7 @@
 #include "paper/start.h"
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "solver/fill.h"
@@ -11,9 +13,29 @@ namespace fairing {
 
 namespace {
 
-std::unique_ptr<NormalOperator> make_operator(const LevelProblem& level) {
-    if (level.solver.equation == Equation::minimal) return std::make_unique<LaplaceOperator>(level.patch);
-    return std::make_unique<BiharmonicOperator>(level.patch);
+std::unique_ptr<NormalOperator> make_operator(const Problem& problem) {
+    if (problem.options.equation == Equation::minimal) return std::make_unique<LaplaceOperator>(problem.patch);
+    return std::make_unique<BiharmonicOperator>(problem.patch);
+}
+
+Workspace make_workspace(const Problem& problem, const Progress& progress) {
+    return {make_operator(problem), TangentialStep(problem.patch, problem.weights, problem.fixed_points, progress)};
+}
+
+// Mean square of log(edge length over the mean) and of log(relative area): 0 for a mesh of equal triangles.
+double unevenness(const Patch& patch, const Points& points) {
+    FaceGeometry faces;
+    faces.update(points, patch.triangles);
+    VectorX lengths(patch.edge_count());
+    for (int e = 0; e < patch.edge_count(); ++e) {
+        const auto [a, b] = patch.edge_ends[static_cast<std::size_t>(e)];
+        lengths[e] = (points.col(a) - points.col(b)).norm();
+    }
+    const auto spread = [](const VectorX& values) {
+        const double mean = std::max(values.mean(), 1e-300);
+        return (values / mean).cwiseMax(1e-6).array().log().square().mean();
+    };
+    return spread(lengths) + spread(faces.areas);
 }
 
 Points linear_start(const LevelProblem& level, const Stiffness& stiffness, const Points& fixed_points,
@@ -37,6 +59,26 @@ Stiffness start_stiffness(const Patch& patch, InnerFairness kind, const Points& 
     return stiffness;
 }
 
+Points neutral_surface(const Problem& problem, const Progress& progress) {
+    const Problem uniform{problem.patch, problem.fixed_points, problem.fixed_normals, uniform_weights(problem.patch),
+                          problem.options};
+    Workspace work = make_workspace(uniform, progress.here());
+    Points best = membrane(uniform, work);
+    if (problem.options.equation == Equation::minimal) return best;
+    double least = unevenness(problem.patch, best);
+    const Points boundary = conormals(problem.patch, problem.fixed_points, problem.fixed_normals);
+    const Fill fill = clamped_fill(problem.patch, problem.fixed_points, boundary, *work.normal, progress.here());
+    for (const double sigma : {0.0, 0.5, 1.0, 1.5, 2.2, 3.2}) {
+        Points points(3, problem.patch.vertex_count());
+        points << fill.flat + sigma * fill.bulge, problem.fixed_points;
+        const double value = unevenness(problem.patch, points);
+        if (!(value < least)) continue;
+        least = value;
+        best = points;
+    }
+    return best;
+}
+
 Points start_of_level(const LevelProblem& level, const Stiffness& stiffness, const Points& fixed_points,
                       const Progress& progress) {
     const bool minimal = level.solver.equation == Equation::minimal;
@@ -45,7 +87,7 @@ Points start_of_level(const LevelProblem& level, const Stiffness& stiffness, con
     SolverOptions options = level.solver;
     if (!minimal) options.equation = Equation::harmonic;  // the other equations are reached from its solution
     const Problem problem{level.patch, fixed_points, level.fixed_normals, uniform_weights(level.patch), options};
-    Workspace work{make_operator(level), TangentialStep(level.patch, problem.weights, fixed_points, progress.here())};
+    Workspace work = make_workspace(problem, progress.here());
     if (minimal) {
         const Points flat = membrane(problem, work);
         return improved ? descend_area(problem, work, flat, progress) : flat;

@@ -9,6 +9,10 @@ namespace fairing {
 // `reference`: positions of M0 at the patch's vertices.
 Stiffness start_stiffness(const Patch& patch, InnerFairness kind, const Points& reference);
 
+// A surface over the outline by which the hierarchy can judge edges and triangles without looking at the interior
+// given: of the membrane and the bilaplacian with several bulges, that with the most even triangles. Uniform λ.
+Points neutral_surface(const Problem& problem, const Progress& progress);
+
 // Positions of the level's vertices (3 × level vertices) from connectivity and boundary data alone.
 // linear: the clamped bilaplacian; improved: the bulge of it that has the least Willmore energy, made fair by mixed
 // finite elements; minimal surfaces: the membrane, without and with descent of its area.
