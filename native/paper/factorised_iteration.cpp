@@ -12,18 +12,26 @@ namespace fairing {
 namespace {
 
 // Where vertices alternate between positions (§7.5), mostly next to an outline that is much finer than the mesh inside,
-// s is halved: when the residual has grown by this factor within so many updates, or the surface leaves all bounds.
+// s is halved: when the residual has grown by this factor within so many updates, when it hardly falls any more, or
+// when the surface leaves all bounds.
 constexpr double growth_of_alternation = 2.0;
 constexpr std::size_t window = 20;
 constexpr double widest_surface = 4.0;  // units of D
-constexpr double smallest_damping = 0.02;
-// So many updates without a hundredth less of the residual count as alternation too.
-constexpr int patience = 40;
+constexpr double smallest_damping = 0.05;
+constexpr double hardly_falling = 0.97;  // lowest residual of a spell of updates over that of the spell before
+constexpr int spell = 30;
+// Updates without a hundredth less of the residual.
+constexpr int patience = 300;
 
 class FactorisedIteration {
 public:
     FactorisedIteration(const LevelProblem& level, const Points& start, const IterationLimits& limits)
-        : level_(level), start_(start), limits_(limits), damping_(level.paper.damping), disks_(level.patch), equation_(level.patch) {
+        : level_(level),
+          start_(start),
+          limits_(limits),
+          damping_(level.paper.damping),
+          disks_(level.patch),
+          equation_(level.patch) {
         state_.points = start;
     }
 
@@ -38,7 +46,7 @@ public:
                 break;
             }
             if (k == limits_.max_iterations) break;
-            if (damping_ < smallest_damping) {
+            if (k - improved_at_ > patience || damping_ < smallest_damping) {
                 outcome_.termination = Termination::stalled;
                 break;
             }
@@ -69,21 +77,33 @@ private:
             mark_ = residual;
             improved_at_ = k;
         }
+        // The way to the solution may lead through higher residuals: what counts is where it comes to rest.
+        const bool transient_over = k == limits_.max_iterations / 4 && std::isfinite(residual);
         if (k == 0) {
             outcome_.initial_residual = residual;
-        } else if (!(residual < outcome_.residual)) {
+        } else if (!transient_over && !(residual < outcome_.residual)) {
             return;
         }
         outcome_.residual = residual;
         outcome_.points = state_.points;
     }
 
+    [[nodiscard]] bool growing() const {
+        return recent_.size() > window && recent_.back() > growth_of_alternation * recent_[recent_.size() - 1 - window];
+    }
+
+    [[nodiscard]] bool resting() const {
+        if (recent_.size() < 2 * spell || 0.5 * damping_ < smallest_damping) return false;
+        const auto middle = recent_.end() - spell;
+        const double before = *std::min_element(middle - spell, middle);
+        return *std::min_element(middle, recent_.end()) > hardly_falling * before;
+    }
+
     void calm_alternation(double residual, int k) {
         recent_.push_back(residual);
+        if (recent_.size() > 2 * spell) recent_.pop_front();
         const bool escaped = !std::isfinite(residual);
-        const bool growing = recent_.size() > window && residual > growth_of_alternation * recent_.front();
-        if (recent_.size() > window) recent_.pop_front();
-        if (!escaped && !growing && k - improved_at_ < patience) return;
+        if (!escaped && !growing() && !resting()) return;
         damping_ *= 0.5;
         recent_.clear();
         mark_ = residual;

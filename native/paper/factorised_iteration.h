@@ -20,7 +20,8 @@ struct IterationOutcome {
 };
 
 // Alternates updates of the mesh with local and global H-updates until max |Δ_B H − f| ≤ ε. The positions with the
-// lowest residual come back. Asks `progress` once for each update; throws Cancelled.
+// lowest residual after the first quarter of the updates come back. Asks `progress` once for each update; throws
+// Cancelled.
 IterationOutcome fair_level(const LevelProblem& level, const Points& start, const IterationLimits& limits,
                             const Progress& progress);
 

@@ -14,9 +14,9 @@ struct Collapse {
 };
 
 struct Hierarchy {
-    std::vector<Collapse> collapses;    // in the order in which they were made, fine to coarse
-    std::vector<Patch> patches;         // coarse to fine, without the finest, which is the patch itself;
-                                        // their to_input counts the patch's own vertices
+    std::vector<Collapse> collapses;     // in the order in which they were made, fine to coarse
+    std::vector<Patch> patches;          // coarse to fine, without the finest, which is the patch itself;
+                                         // their to_input counts the patch's own vertices
     std::vector<std::size_t> collapsed;  // how many collapses each of them has seen; 0 for the finest, at the end
 
     [[nodiscard]] int level_count() const { return static_cast<int>(collapsed.size()); }
@@ -27,8 +27,8 @@ struct Hierarchy {
 // factor of four each. The coarsest has no fewer than there are fixed ones, which stay on every level.
 Indices level_sizes(int free_count, int fixed_count, int levels);
 
-// Collapses free vertices, shortest edges first, so that the smallest edge is as long as possible; vetoes triangles whose
-// inner circle is small against their longest edge, folds, and edges between fixed vertices. Topology is kept.
+// Collapses free vertices, shortest edges first, so that the smallest edge is as long as possible; vetoes triangles
+// whose inner circle is small against their longest edge, folds, and edges between fixed vertices. Topology is kept.
 // `positions`: M0, 3 × local vertices. The levels may be fewer or larger than asked where vetoes stop the collapses.
 Hierarchy build_hierarchy(const Patch& patch, const Points& positions, int levels);
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <optional>
 
 #include "base/stopwatch.h"
@@ -28,8 +26,8 @@ public:
         solution_.seconds["hierarchy"] = watch.lap();
         points_.setZero(3, patch_.vertex_count());
         points_.rightCols(problem_.fixed_points.cols()) = problem_.fixed_points;
-        const ProlongationSetting setting{patch_,         problem_.fixed_normals, pp_.reference,
-                                          pp_.inner_fairness, problem_.options,   pp_.paper};
+        const ProlongationSetting setting{
+            patch_, problem_.fixed_normals, pp_.reference, pp_.inner_fairness, problem_.options, pp_.paper};
         Prolongation prolongation(hierarchy_, setting);
         for (int k = 0; k < hierarchy_.level_count(); ++k) {
             const auto [begin, end] = share(k);
@@ -49,7 +47,8 @@ private:
     // Uniform λ know nothing of M0: the interior given then leaves no trace in the result.
     void build_levels() {
         const bool by_reference = pp_.inner_fairness != InnerFairness::uniform;
-        const bool single = level_sizes(patch_.free_count, patch_.vertex_count() - patch_.free_count, pp_.paper.levels).size() < 2;
+        const bool single =
+            level_sizes(patch_.free_count, patch_.vertex_count() - patch_.free_count, pp_.paper.levels).size() < 2;
         const Points positions = by_reference || single ? pp_.reference : neutral_surface(problem_, progress_.here());
         hierarchy_ = build_hierarchy(patch_, positions, pp_.paper.levels);
     }
@@ -72,8 +71,12 @@ private:
         const bool finest = hierarchy_.is_finest(level);
         const bool completed = pp_.paper.virtual_points == VirtualPoints::everywhere ||
                                (pp_.paper.virtual_points == VirtualPoints::coarse && !finest);
-        return {patch_of(level), problem_.fixed_normals, problem_.options, pp_.paper,
-                finest ? pp_.weights : row_weights(patch_of(level), reference, pp_.inner_fairness), completed};
+        return {patch_of(level),
+                problem_.fixed_normals,
+                problem_.options,
+                pp_.paper,
+                finest ? pp_.weights : row_weights(patch_of(level), reference, pp_.inner_fairness),
+                completed};
     }
 
     // The coarser the level, the cheaper an update: each level may take about as much time as the next finer one.
@@ -95,6 +98,7 @@ private:
         if (level == 0) {
             const Stiffness stiffness = start_stiffness(patch, pp_.inner_fairness, reference);
             start = start_of_level(lp, stiffness, problem_.fixed_points, progress.range(0.0, 0.1));
+            start = raise_load(lp, std::move(start), progress.here());
             solution_.seconds["start"] = watch.lap();
         }
         const IterationOutcome outcome = fair_level(lp, start, limits_of(level), progress.range(0.1, 1.0));
@@ -103,7 +107,21 @@ private:
             points_.col(numbers[v]) = outcome.points.col(static_cast<Eigen::Index>(v));
         }
         record(level, outcome);
-        if (std::getenv("DBG")) std::fprintf(stderr, "level %d n %d it %d term %d res %g init %g max %g\n", level, patch.vertex_count(), outcome.iterations, int(outcome.termination), outcome.residual, outcome.initial_residual, outcome.points.cwiseAbs().maxCoeff());
+    }
+
+    // The load of Δ_B H = load in steps, each from the last one's surface: its solutions lie far from the start.
+    [[nodiscard]] static Points raise_load(const LevelProblem& full, Points points, const Progress& progress) {
+        constexpr double largest_step = 15.0;  // units of 1/D³
+        constexpr int updates = 100;
+        if (full.solver.equation != Equation::constant) return points;
+        const int steps = std::min(20, static_cast<int>(std::ceil(std::abs(full.solver.load) / largest_step)));
+        for (int k = 0; k < steps; ++k) {
+            SolverOptions options = full.solver;
+            options.load *= static_cast<double>(k) / steps;
+            const LevelProblem level{full.patch, full.fixed_normals, options, full.paper, full.weights, full.completed};
+            points = fair_level(level, points, {1e-2 * largest_step, updates}, progress).points;
+        }
+        return points;
     }
 
     void record(int level, const IterationOutcome& outcome) {

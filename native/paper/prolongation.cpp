@@ -10,7 +10,7 @@ namespace fairing {
 
 namespace {
 
-constexpr int fairness_sweeps = 2;  // of step (2)
+constexpr int fairness_sweeps = 2;   // of step (2)
 constexpr int curvature_rounds = 2;  // of step (3)
 constexpr int curvature_sweeps = 3;  // of H in each of them
 
@@ -31,7 +31,8 @@ public:
         const int count = setting.patch.vertex_count();
         mesh_.reserve(at(count), 3 * at(count), 2 * at(count));
         for (int v = 0; v < count; ++v) mesh_.add_vertex(SurfaceMesh::Point::Zero());
-        for (const auto corners : coarsest.colwise()) mesh_.add_face(handle(corners[0]), handle(corners[1]), handle(corners[2]));
+        for (const auto corners : coarsest.colwise())
+            mesh_.add_face(handle(corners[0]), handle(corners[1]), handle(corners[2]));
         slot_.assign(at(count), none);
         normals_.setZero(3, count);
         normals_.rightCols(setting.fixed_normals.cols()) = setting.fixed_normals;

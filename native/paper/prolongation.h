@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "base/progress.h"
-#include "paper/level.h"
 #include "paper/hierarchy.h"
+#include "paper/level.h"
 
 namespace fairing {
 
