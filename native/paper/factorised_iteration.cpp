@@ -41,7 +41,7 @@ public:
             const double residual = measure();
             outcome_.iterations = k;
             keep_best(residual, k);
-            if (residual <= limits_.epsilon) {
+            if (residual <= limits_.epsilon && state_.unfairness(level_, disks_) <= limits_.unfairness) {
                 outcome_.termination = Termination::converged;
                 break;
             }
@@ -77,11 +77,9 @@ private:
             mark_ = residual;
             improved_at_ = k;
         }
-        // The way to the solution may lead through higher residuals: what counts is where it comes to rest.
-        const bool transient_over = k == limits_.max_iterations / 4 && std::isfinite(residual);
         if (k == 0) {
             outcome_.initial_residual = residual;
-        } else if (!transient_over && !(residual < outcome_.residual)) {
+        } else if (!(residual < outcome_.residual)) {
             return;
         }
         outcome_.residual = residual;

@@ -8,6 +8,7 @@ namespace fairing {
 
 struct IterationLimits {
     double epsilon;
+    double unfairness;  // of §7.3, see LevelState
     int max_iterations;
 };
 
@@ -19,8 +20,9 @@ struct IterationOutcome {
     double initial_residual = 0.0;
 };
 
-// Alternates updates of the mesh with local and global H-updates until max |Δ_B H − f| ≤ ε. The positions with the
-// lowest residual after the first quarter of the updates come back. Asks `progress` once for each update; throws
+// Alternates updates of the mesh with local and global H-updates until max |Δ_B H − f| ≤ ε and
+// inner fairness holds. The positions with the
+// lowest residual come back. Asks `progress` once for each update; throws
 // Cancelled.
 IterationOutcome fair_level(const LevelProblem& level, const Points& start, const IterationLimits& limits,
                             const Progress& progress);

@@ -1,5 +1,6 @@
 #include "paper/level.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -41,6 +42,19 @@ void LevelState::measure(const LevelProblem& level, const DiskTable& disks) {
 VectorX LevelState::right_hand_side(const LevelProblem& level) const {
     // Δ_B H = −(S H)/(2 M) (eq. 5).
     return -2.0 * stiffness.mass.head(level.patch.free_count).cwiseProduct(source);
+}
+
+double LevelState::unfairness(const LevelProblem& level, const DiskTable& disks) const {
+    double largest = 0.0;
+    for (int i = 0; i < level.patch.free_count; ++i) {
+        const Vector3 delta = level.weights.mean(i, points) - points.col(i);
+        const Vector3 across = delta - normals.col(i).dot(delta) * normals.col(i);
+        const Disk disk = disks[i];
+        double squared = 0.0;
+        for (int v : disk.neighbours) squared += (points.col(v) - points.col(i)).squaredNorm();
+        largest = std::max(largest, across.norm() * static_cast<double>(disk.valence()) / std::max(squared, 1e-300));
+    }
+    return largest;
 }
 
 double LevelState::residual(const LevelProblem& level, const CurvatureEquation& equation) const {

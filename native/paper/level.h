@@ -43,6 +43,9 @@ struct LevelState {
     void measure(const LevelProblem& level, const DiskTable& disks);
     // 2 M f with the sign of S H: the right-hand side of step I.
     [[nodiscard]] VectorX right_hand_side(const LevelProblem& level) const;
+    // max |P Δq|/ℓ² over the free vertices: how far inner fairness is off (§7.3), P the projection across the normal,
+    // ℓ² the mean squared distance of the neighbours; in units of 1/D.
+    [[nodiscard]] double unfairness(const LevelProblem& level, const DiskTable& disks) const;
     // max |Δ_B H − f| over the free vertices, |H| for minimal surfaces. Infinite where it is not a number.
     [[nodiscard]] double residual(const LevelProblem& level, const CurvatureEquation& equation) const;
 };

@@ -85,7 +85,7 @@ private:
         const int most = problem_.options.max_iterations;
         const int finer = hierarchy_.level_count() - 1 - level;
         const double coarse_epsilon = hierarchy_.is_finest(level) ? epsilon : std::max(epsilon, 0.05);
-        return {coarse_epsilon, most * (1 << std::min(finer, 4))};
+        return {coarse_epsilon, unfairness_limit(problem_.options, coarse_epsilon), most * (1 << std::min(finer, 4))};
     }
 
     void fair(int level, const Progress& progress) {
@@ -119,7 +119,7 @@ private:
             SolverOptions options = full.solver;
             options.load *= static_cast<double>(k) / steps;
             const LevelProblem level{full.patch, full.fixed_normals, options, full.paper, full.weights, full.completed};
-            points = fair_level(level, points, {1e-2 * largest_step, updates}, progress).points;
+            points = fair_level(level, points, {1e-2 * largest_step, 1.0, updates}, progress).points;
         }
         return points;
     }
@@ -147,6 +147,10 @@ private:
 
 double default_epsilon(const SolverOptions& options) {
     return (options.equation == Equation::minimal ? 20.0 : 500.0) * options.tolerance;
+}
+
+double unfairness_limit(const SolverOptions& options, double epsilon) {
+    return options.equation == Equation::minimal ? epsilon : 0.04 * epsilon;
 }
 
 Solution solve_paper(const PaperProblem& paper_problem, const Progress& progress) {
