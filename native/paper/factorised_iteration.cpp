@@ -29,7 +29,7 @@ public:
         : level_(level),
           start_(start),
           limits_(limits),
-          damping_(level.paper.damping),
+          damping_(limits.damping),
           disks_(level.patch),
           equation_(level.patch) {
         state_.points = start;
@@ -91,7 +91,7 @@ private:
     }
 
     [[nodiscard]] bool resting() const {
-        if (recent_.size() < 2 * spell || 0.5 * damping_ < smallest_damping) return false;
+        if (recent_.size() < 2 * spell || damping_ < limits_.damping) return false;
         const auto middle = recent_.end() - spell;
         const double before = *std::min_element(middle - spell, middle);
         return *std::min_element(middle, recent_.end()) > hardly_falling * before;

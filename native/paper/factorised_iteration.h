@@ -10,6 +10,7 @@ struct IterationLimits {
     double epsilon;
     double unfairness;  // of §7.3, see LevelState
     int max_iterations;
+    double damping;  // s to begin with; halved where vertices alternate
 };
 
 struct IterationOutcome {

@@ -13,7 +13,7 @@ enum class PaperStart {
 
 struct PaperOptions {
     double damping = 0.9;  // s of §7.5, in (0, 1]
-    int cg_steps = 20;     // n of the global H-update (§7.1)
+    int cg_steps = 60;     // n of the global H-update (§7.1)
     int h_sweeps = 1;      // Gauss–Seidel sweeps of the local H-update
     double epsilon = 0.0;  // stop at max |Δ_B H − f| D³ ≤ ε (|H| D for minimal surfaces); 0: from the tolerance
     VirtualPoints virtual_points = VirtualPoints::coarse;

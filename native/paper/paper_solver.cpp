@@ -79,13 +79,17 @@ private:
                 completed};
     }
 
-    // The coarser the level, the cheaper an update: each level may take about as much time as the next finer one.
+    // Coarse levels need not be more accurate than they differ from the next finer one. Their outline is much finer
+    // than they are inside, where larger s than about ½ makes vertices alternate.
     [[nodiscard]] IterationLimits limits_of(int level) const {
-        const double epsilon = pp_.paper.epsilon > 0.0 ? pp_.paper.epsilon : default_epsilon(problem_.options);
+        constexpr double coarse_epsilon = 1.0;
+        constexpr double coarse_damping = 0.55;
+        const bool finest = hierarchy_.is_finest(level);
+        const double wanted = pp_.paper.epsilon > 0.0 ? pp_.paper.epsilon : default_epsilon(problem_.options);
+        const double epsilon = finest ? wanted : std::max(wanted, coarse_epsilon);
         const int most = problem_.options.max_iterations;
-        const int finer = hierarchy_.level_count() - 1 - level;
-        const double coarse_epsilon = hierarchy_.is_finest(level) ? epsilon : std::max(epsilon, 0.05);
-        return {coarse_epsilon, unfairness_limit(problem_.options, coarse_epsilon), most * (1 << std::min(finer, 4))};
+        return {epsilon, unfairness_limit(problem_.options, epsilon), finest ? most : std::clamp(2 * most, 100, 400),
+                finest ? pp_.paper.damping : coarse_damping * pp_.paper.damping};
     }
 
     void fair(int level, const Progress& progress) {
@@ -119,7 +123,8 @@ private:
             SolverOptions options = full.solver;
             options.load *= static_cast<double>(k) / steps;
             const LevelProblem level{full.patch, full.fixed_normals, options, full.paper, full.weights, full.completed};
-            points = fair_level(level, points, {1e-2 * largest_step, 1.0, updates}, progress).points;
+            points = fair_level(level, points, {1e-2 * largest_step, 1.0, updates, 0.5 * full.paper.damping}, progress)
+                         .points;
         }
         return points;
     }

@@ -86,7 +86,7 @@ def fair(
     damping : float in (0, 1]
         "paper": s of §7.5, default 0.9.
     cg_steps : int
-        "paper": conjugate gradient steps of a global H-update (§7.1), default 20.
+        "paper": conjugate gradient steps of a global H-update (§7.1), default 60.
     sweeps : int
         "paper": Gauss–Seidel sweeps of a local H-update, default 1.
     epsilon : float

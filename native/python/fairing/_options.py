@@ -26,7 +26,7 @@ STARTS = ("improved", "linear")
 # What method "paper" does where the caller says nothing.
 PAPER_DEFAULTS: dict[str, Any] = {
     "damping": 0.9,
-    "cg_steps": 20,
+    "cg_steps": 60,
     "sweeps": 1,
     "epsilon": None,
     "virtual_points": "coarse",
