@@ -250,6 +250,6 @@ def all_cases() -> list[Case]:
     """In the order of Table 1; ear and face only where the head is."""
     cases = [cylinder_blend()]
     if HEAD.exists():
-        cases.append(head_patch("face", 4841, 2926, 256, 12.0))
+        cases.append(head_patch("face size, on the scalp", 10527, 2926, 256, 12.0))
         cases.append(head_patch("ear", 6893, 4665, 248, 21.0))
     return [*cases, tetrathing()]
