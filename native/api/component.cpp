@@ -21,13 +21,22 @@ bool touches_free(const Patch& patch, int vertex) {
     return std::any_of(ring.begin(), ring.end(), [&](int v) { return patch.is_free(v); });
 }
 
-// The caller's edges within one patch, in local numbers. A vertex on a cut has several copies at the same place, any
-// of which will do.
+// Input vertex → local vertex. A vertex on a cut has several copies at the same place, any of which will do.
+class LocalNumbers {
+public:
+    explicit LocalNumbers(const Patch& patch)
+        : local_(at(*std::max_element(patch.to_input.begin(), patch.to_input.end())) + 1, none) {
+        for (int v = 0; v < patch.vertex_count(); ++v) local_[at(patch.to_input[at(v)])] = v;
+    }
+    [[nodiscard]] int operator()(int input) const { return at(input) < local_.size() ? local_[at(input)] : none; }
+
+private:
+    Indices local_;
+};
+
+// The caller's edges within one patch, in local numbers.
 std::vector<std::array<int, 2>> local_edges(const Patch& patch, const std::vector<std::array<int, 2>>& edges) {
-    const int highest = *std::max_element(patch.to_input.begin(), patch.to_input.end());
-    Indices local(at(highest) + 1, none);
-    for (int v = 0; v < patch.vertex_count(); ++v) local[at(patch.to_input[at(v)])] = v;
-    const auto find = [&](int v) { return v <= highest ? local[at(v)] : none; };
+    const LocalNumbers find(patch);
     std::vector<std::array<int, 2>> result;
     std::vector<char> reached(at(patch.free_count), 0);
     for (const auto& [a, b] : edges) {
@@ -45,6 +54,14 @@ std::vector<std::array<int, 2>> local_edges(const Patch& patch, const std::vecto
                                     " has no edge to another vertex of its patch");
     }
     return result;
+}
+
+// λ = 1/|q_i − q_j| on the reference (3 × local vertices, units of D).
+void weigh_by_distance(InnerWeights& weights, const Points& reference) {
+    constexpr double shortest = 1e-12;
+    for (auto& [i, j, weight] : weights) {
+        weight = 1.0 / std::max((reference.col(i) - reference.col(j)).norm(), shortest);
+    }
 }
 
 void warn_of_flips(const Patch& patch, const Points& points, Diagnostics& warnings) {
@@ -103,10 +120,28 @@ std::span<const int> fixed_vertices(const Patch& patch) {
 }
 
 InnerWeights make_inner_weights(const Patch& patch, const Points& reference, const FairOptions& options) {
-    if (options.inner_fairness == InnerFairness::conformal) {
-        return conformal_weights(patch, gather(reference, patch.to_input));
+    if (options.inner_fairness == InnerFairness::conformal) return conformal_weights(patch, reference);
+    InnerWeights weights =
+        options.neighbours ? uniform_weights(local_edges(patch, *options.neighbours)) : uniform_weights(patch);
+    if (options.inner_fairness == InnerFairness::inverse_distance) weigh_by_distance(weights, reference);
+    return weights;
+}
+
+RowWeights make_row_weights(const Patch& patch, const Points& reference, const FairOptions& options) {
+    if (options.inner_fairness == InnerFairness::custom) {
+        const LocalNumbers find(patch);
+        std::vector<DirectedWeight> local;
+        for (const auto& [i, j, weight] : options.custom) {
+            if (find(i) != none && find(j) != none) local.push_back({find(i), find(j), weight});
+        }
+        return row_weights(patch, local, "inner_fairness");
     }
-    return options.neighbours ? uniform_weights(local_edges(patch, *options.neighbours)) : uniform_weights(patch);
+    const bool by_edges =
+        options.inner_fairness == InnerFairness::uniform || options.inner_fairness == InnerFairness::inverse_distance;
+    if (!options.neighbours || !by_edges) return row_weights(patch, reference, options.inner_fairness);
+    InnerWeights weights = uniform_weights(local_edges(patch, *options.neighbours));
+    if (options.inner_fairness == InnerFairness::inverse_distance) weigh_by_distance(weights, reference);
+    return row_weights(patch, weights, "neighbours");
 }
 
 VectorX boundary_angles(const Patch& patch, const Points& actual, const Points& prescribed) {

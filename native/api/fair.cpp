@@ -6,6 +6,7 @@
 #include "api/component.h"
 #include "api/measure.h"
 #include "base/stopwatch.h"
+#include "geometry/surface_fit.h"
 #include "proxy/global_method.h"
 
 namespace fairing {
@@ -74,18 +75,40 @@ private:
             throw MeshError({Code::no_boundary, "a component is held in a single point: fix more of its vertices",
                              Indices(fixed_vertices(patch).begin(), fixed_vertices(patch).end())});
         }
-        Problem problem{patch, unit.to_unit(fixed_points), gather(mesh_.normals, fixed_vertices(patch)),
-                        make_inner_weights(patch, reference_, options_), options_.solver};
+        Problem problem{
+            patch, unit.to_unit(fixed_points), gather(mesh_.normals, fixed_vertices(patch)), {}, options_.solver};
         problem.options.load *= std::pow(unit.diameter, 3);
-        const Solution solution = solve_global(problem, progress);
+        const Solution solution = solve(problem, unit, progress);
         if (!solution.points.allFinite()) throw SolverError("the solution is not finite; nothing was changed");
         const Points points = unit.from_unit(solution.points);
         for (int v = 0; v < patch.free_count; ++v) result_.vertices.col(patch.to_input[at(v)]) = points.col(v);
-        for (int v = 0; v < patch.vertex_count(); ++v) {
+        // The paper's method leaves H to be measured.
+        for (int v = 0; v < solution.mean_curvature.size(); ++v) {
             solved_curvature_[patch.to_input[at(v)]] += solution.mean_curvature[v] / unit.diameter;
             solved_sides_[patch.to_input[at(v)]] += 1.0;
         }
         record(patch, problem, solution);
+    }
+
+    Solution solve(Problem& problem, const Normalisation& unit, const Progress& progress) const {
+        const Patch& patch = problem.patch;
+        const Points reference = unit.to_unit(gather(reference_, patch.to_input));
+        if (options_.method == Method::paper) {
+            Solution solution = solve_paper({problem, options_.paper, options_.inner_fairness, reference,
+                                             make_row_weights(patch, reference, options_)},
+                                            progress);
+            solution.boundary_normals = one_sided_normals(patch, solution.points);
+            return solution;
+        }
+        problem.weights = make_inner_weights(patch, reference, options_);
+        return solve_global(problem, progress);
+    }
+
+    // Level counts of several components are added up, counted from the finest level.
+    void add_levels(Indices counts) {
+        Indices& sum = result_.levels;
+        if (counts.size() > sum.size()) std::swap(counts, sum);
+        for (std::size_t k = 1; k <= counts.size(); ++k) sum[sum.size() - k] += counts[counts.size() - k];
     }
 
     void record(const Patch& patch, const Problem& problem, const Solution& solution) {
@@ -93,8 +116,7 @@ private:
         result_.initial_residual = std::max(result_.initial_residual, solution.initial_residual);
         result_.iterations = std::max(result_.iterations, solution.iterations);
         result_.polished = result_.polished && solution.polished;
-        result_.levels.resize(1, 0);
-        result_.levels[0] += patch.vertex_count();
+        add_levels(solution.levels.empty() ? Indices{patch.vertex_count()} : solution.levels);
         for (const auto& [stage, seconds] : solution.seconds) result_.seconds[stage] += seconds;
         if (solution.termination != Termination::converged) {
             result_.converged = false;

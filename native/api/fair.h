@@ -2,15 +2,20 @@
 #pragma once
 
 #include "api/input.h"
-#include "solver/problem.h"
+#include "paper/paper_solver.h"
 
 namespace fairing {
 
+enum class Method { global, paper };
+
 struct FairOptions {
     SolverOptions solver;  // the load in units of length⁻³
+    Method method = Method::global;
+    PaperOptions paper;
     InnerFairness inner_fairness = InnerFairness::uniform;
     // Edges (input vertices) that uniform weights use instead of the triangles' own.
     std::optional<std::vector<std::array<int, 2>>> neighbours;
+    std::vector<DirectedWeight> custom;  // λ of input vertices, for InnerFairness::custom
 };
 
 struct FairResult {
@@ -29,7 +34,7 @@ struct FairResult {
     Diagnostics warnings;
 };
 
-// `reference`: M0 of the conformal weights; the input's vertices where it is left out.
+// `reference`: M0 of the inner-fairness weights; the input's vertices where it is left out.
 // Throws what check_mesh throws, NO_FREE_VERTICES, NO_BOUNDARY, SolverError and Cancelled; the input stays as it is.
 FairResult fair(const MeshInput& input, const std::optional<Points>& reference, const FairOptions& options,
                 const ProgressCallback& progress);

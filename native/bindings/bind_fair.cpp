@@ -65,11 +65,23 @@ py::dict to_dict(const FairResult& result) {
 
 struct Options {
     std::string equation;
-    std::string inner_fairness;
-    std::string normals;
     double load;
+    std::string inner_fairness;
+    std::string method;
+    std::string normals;
     double tolerance;
     int max_iterations;
+};
+
+// Options of method "paper".
+struct PaperChoices {
+    double damping;
+    int cg_steps;
+    int h_sweeps;
+    double epsilon;
+    std::string virtual_points;
+    std::string start;
+    int levels;
 };
 
 // The names have been checked by the package.
@@ -79,14 +91,31 @@ Equation to_equation(const std::string& name) {
     return name == "minimal" ? Equation::minimal : Equation::harmonic;
 }
 
+InnerFairness to_inner_fairness(const std::string& name) {
+    if (name == "conformal") return InnerFairness::conformal;
+    if (name == "inverse_distance") return InnerFairness::inverse_distance;
+    if (name == "shape_preserving") return InnerFairness::shape_preserving;
+    return name == "custom" ? InnerFairness::custom : InnerFairness::uniform;
+}
+
+PaperOptions to_paper_options(const PaperChoices& choices) {
+    PaperOptions result{choices.damping, choices.cg_steps, choices.h_sweeps, choices.epsilon};
+    if (choices.virtual_points == "sparse") result.virtual_points = VirtualPoints::sparse;
+    if (choices.virtual_points == "everywhere") result.virtual_points = VirtualPoints::everywhere;
+    result.start = choices.start == "linear" ? PaperStart::linear : PaperStart::improved;
+    result.levels = choices.levels;
+    return result;
+}
+
 FairOptions to_fair_options(const Options& options, const std::optional<IntArray>& neighbours) {
     FairOptions result;
     result.solver.equation = to_equation(options.equation);
     result.solver.load = options.load;
+    result.method = options.method == "paper" ? Method::paper : Method::global;
     result.solver.normals = options.normals == "averaged" ? NormalKind::averaged : NormalKind::fitted;
     result.solver.tolerance = options.tolerance;
     result.solver.max_iterations = options.max_iterations;
-    result.inner_fairness = options.inner_fairness == "conformal" ? InnerFairness::conformal : InnerFairness::uniform;
+    result.inner_fairness = to_inner_fairness(options.inner_fairness);
     if (neighbours) {
         const Indices flat = to_indices(*neighbours);
         auto& edges = result.neighbours.emplace();
@@ -95,13 +124,25 @@ FairOptions to_fair_options(const Options& options, const std::optional<IntArray
     return result;
 }
 
+// Rows (i, j, λ).
+std::vector<DirectedWeight> to_directed(const DoubleArray& rows) {
+    std::vector<DirectedWeight> result;
+    for (py::ssize_t k = 0; k < rows.shape(0); ++k) {
+        result.push_back({static_cast<int>(rows.at(k, 0)), static_cast<int>(rows.at(k, 1)), rows.at(k, 2)});
+    }
+    return result;
+}
+
 py::dict fair_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
                      const std::optional<DoubleArray>& fixed_normals, const std::optional<DoubleArray>& reference,
-                     const std::optional<IntArray>& neighbours, const Options& options, const py::object& callback) {
+                     const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
+                     const Options& options, const PaperChoices& paper, const py::object& callback) {
     const MeshInput input{to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices),
                           to_optional(fixed_normals, to_points)};
     const auto m0 = to_optional(reference, to_points);
-    const FairOptions fair_options = to_fair_options(options, neighbours);
+    FairOptions fair_options = to_fair_options(options, neighbours);
+    fair_options.paper = to_paper_options(paper);
+    if (weights) fair_options.custom = to_directed(*weights);
     PythonProgress progress(callback);
     FairResult result;
     try {
@@ -118,12 +159,16 @@ py::dict fair_arrays(const DoubleArray& vertices, const IntArray& triangles, con
 
 void bind_fair(py::module_& module) {
     py::class_<Options>(module, "Options")
-        .def(py::init<std::string, std::string, std::string, double, double, int>(), py::kw_only(), py::arg("equation"),
-             py::arg("inner_fairness"), py::arg("normals"), py::arg("load"), py::arg("tolerance"),
-             py::arg("max_iterations"));
+        .def(py::init<std::string, double, std::string, std::string, std::string, double, int>(), py::kw_only(),
+             py::arg("equation"), py::arg("load"), py::arg("inner_fairness"), py::arg("method"), py::arg("normals"),
+             py::arg("tolerance"), py::arg("max_iterations"));
+    py::class_<PaperChoices>(module, "PaperChoices")
+        .def(py::init<double, int, int, double, std::string, std::string, int>(), py::kw_only(), py::arg("damping"),
+             py::arg("cg_steps"), py::arg("h_sweeps"), py::arg("epsilon"), py::arg("virtual_points"), py::arg("start"),
+             py::arg("levels"));
     module.def("fair", &fair_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
-               py::arg("fixed_normals"), py::arg("reference"), py::arg("neighbours"), py::arg("options"),
-               py::arg("progress"));
+               py::arg("fixed_normals"), py::arg("reference"), py::arg("neighbours"), py::arg("weights"),
+               py::arg("options"), py::arg("paper"), py::arg("progress"));
 }
 
 }  // namespace fairing::bindings

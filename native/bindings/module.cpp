@@ -6,5 +6,6 @@ PYBIND11_MODULE(_core, module) {
     module.attr("__version__") = FAIRING_VERSION;
     fairing::bindings::register_errors();
     fairing::bindings::bind_fair(module);
+    fairing::bindings::bind_hierarchy(module);
     fairing::bindings::bind_measure(module);
 }

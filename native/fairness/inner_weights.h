@@ -7,7 +7,7 @@
 
 namespace fairing {
 
-enum class InnerFairness { uniform, conformal };
+enum class InnerFairness { uniform, conformal, inverse_distance, shape_preserving, custom };
 
 // λ of two local vertices, the same in both directions.
 struct WeightedEdge {

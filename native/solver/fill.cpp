@@ -32,7 +32,11 @@ Points weighted_rows(const Patch& patch, const Stiffness& stiffness, const Point
 
 Fill clamped_fill(const Patch& patch, const Points& fixed_points, const Points& conormals, NormalOperator& op,
                   const Progress& progress) {
-    const Stiffness stiffness = uniform_stiffness(patch);
+    return clamped_fill(patch, uniform_stiffness(patch), fixed_points, conormals, op, progress);
+}
+
+Fill clamped_fill(const Patch& patch, const Stiffness& stiffness, const Points& fixed_points, const Points& conormals,
+                  NormalOperator& op, const Progress& progress) {
     if (!op.update(stiffness, progress)) throw SolverError("the uniform fairness operator is not positive definite");
     Points boundary = Points::Zero(3, patch.vertex_count());
     boundary.rightCols(fixed_points.cols()) = fixed_points;

@@ -16,7 +16,10 @@ struct Fill {
     Points bulge;
 };
 
-// `op`: biharmonic; it is left holding the uniform operator's factorisation.
+// `op`: biharmonic; it is left holding the factorisation for `stiffness`.
+Fill clamped_fill(const Patch& patch, const Stiffness& stiffness, const Points& fixed_points, const Points& conormals,
+                  NormalOperator& op, const Progress& progress);
+// With the uniform stiffness.
 Fill clamped_fill(const Patch& patch, const Points& fixed_points, const Points& conormals, NormalOperator& op,
                   const Progress& progress);
 

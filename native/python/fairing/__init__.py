@@ -2,6 +2,7 @@
 
 from fairing._core import __version__
 from fairing._fair import fair
+from fairing._hierarchy import hierarchy
 from fairing._measure import (
     boundary_loops,
     conformal_distortion,
@@ -23,6 +24,7 @@ __all__ = [
     "conformal_distortion",
     "cotan_laplacian",
     "fair",
+    "hierarchy",
     "mean_curvature",
     "surrounding_normals",
     "vertex_normals",

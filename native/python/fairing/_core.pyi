@@ -11,11 +11,25 @@ class Options:
         self,
         *,
         equation: str,
-        inner_fairness: str,
-        normals: str,
         load: float,
+        inner_fairness: str,
+        method: str,
+        normals: str,
         tolerance: float,
         max_iterations: int,
+    ) -> None: ...
+
+class PaperChoices:
+    def __init__(
+        self,
+        *,
+        damping: float,
+        cg_steps: int,
+        h_sweeps: int,
+        epsilon: float,
+        virtual_points: str,
+        start: str,
+        levels: int,
     ) -> None: ...
 
 _Floats = npt.NDArray[np.float64]
@@ -28,7 +42,9 @@ def fair(
     fixed_normals: _Floats | None,
     reference: _Floats | None,
     neighbours: _Ints | None,
+    weights: _Floats | None,
     options: Options,
+    paper: PaperChoices,
     progress: Callable[[float, str], bool | None] | None,
 ) -> dict[str, Any]: ...
 def mean_curvature(
@@ -38,6 +54,9 @@ def mean_curvature(
     fixed_normals: _Floats | None,
     normals: str,
 ) -> _Floats: ...
+def hierarchy(
+    vertices: _Floats, triangles: _Ints, fixed: _Ints | None, levels: int
+) -> list[tuple[_Ints, _Ints]]: ...
 def vertex_normals(vertices: _Floats, triangles: _Ints, normals: str) -> _Floats: ...
 def cotan_laplacian(vertices: _Floats, triangles: _Ints) -> tuple[_Ints, _Ints, _Floats]: ...
 def boundary_loops(triangles: _Ints) -> list[_Ints]: ...

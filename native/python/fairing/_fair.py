@@ -7,15 +7,10 @@ from typing import Any
 
 import numpy.typing as npt
 
-from fairing import _arguments, _core
+from fairing import _arguments, _core, _options
 from fairing._types import FairResult, IntArray
 
 Progress = Callable[[float, str], "bool | None"]
-
-EQUATIONS = ("harmonic", "constant", "minimal_energy", "minimal")
-INNER_FAIRNESS = ("uniform", "conformal")
-METHODS = ("global",)
-NORMALS = ("fitted", "averaged")
 
 
 def fair(
@@ -36,6 +31,12 @@ def fair(
     normals: str = "fitted",
     threads: int = 0,
     progress: Progress | None = None,
+    damping: float | None = None,
+    cg_steps: int | None = None,
+    sweeps: int | None = None,
+    epsilon: float | None = None,
+    virtual_points: str | None = None,
+    start: str | None = None,
 ) -> FairResult:
     """Replace the free vertices of a mesh by the fairest surface with the given boundary data.
 
@@ -57,28 +58,45 @@ def fair(
         Normals at ``fixed``, on the side from which the triangles are counter-clockwise. Default: the average
         of the adjacent triangle normals (§7.5), which makes the result depend on the interior.
     reference : (n, 3) float
-        The original mesh M0 of the conformal weights; default: ``vertices``.
+        The original mesh M0 of all weights but the uniform ones; default: ``vertices``.
     equation : "harmonic" | "constant" | "minimal_energy" | "minimal"
-        Δ_B H = 0, Δ_B H = ``load``, Δ_B H = −2H(H² − K) (least ∫ κ₁² + κ₂²), all with tangent planes met
-        (G1), or H = 0 with positions met only (G0). See §7.5.
+        Δ_B H = 0, Δ_B H = ``load`` or Δ_B H = −2H(H² − K) with tangent planes met (G1), or H = 0 with positions
+        met only (G0). See §7.5.
     load : float
-        For "constant", in units of length⁻³; positive bulges along the normals.
-    inner_fairness : "uniform" | "conformal"
-        How vertices sit within the surface (§7.3).
+        Of "constant", in length⁻³; positive bulges along the normals.
+    inner_fairness : "uniform" | "conformal" | "inverse_distance" | "shape_preserving" | (e, 3) array
+        How vertices sit within the surface (§7.3); rows of the array: i, j, λ_ij ≥ 0, normalised for each i, one
+        at least for each free i. Method "global" has the first three.
     neighbours : (e, 2) int
-        Edges that uniform weights use instead of the triangles' own (for quads and n-gons).
-    method : "global"
-    levels : 0 | 1
-        1: no hierarchy; 0: the solver's choice (in this version no hierarchy).
+        Edges that uniform and inverse-distance weights use instead of the triangles' own (for quads and n-gons).
+    method : "global" | "paper"
+        The fast solver, or the factorised multigrid iteration of §7, step for step.
+    levels : int
+        "paper": levels of the hierarchy, 0: chosen, 1: none. "global": 0 or 1, no hierarchy.
     tolerance : float
-        Stop when an iteration moves no vertex by more than ``tolerance`` × D.
+        "global": stop when an iteration moves no vertex by more than ``tolerance`` × D. "paper": see ``epsilon``.
     max_iterations : int
+        "paper": updates of the finest mesh; coarser ones may take more.
     normals : "fitted" | "averaged"
-        Vertex normal behind H.
+        Vertex normal behind H. "paper" always averages.
     threads : int
         0: all cores. The result has the same bits for every number of threads.
     progress : callable(fraction, stage) -> None | bool
         Called between steps; returning False cancels.
+    damping : float in (0, 1]
+        "paper": s of §7.5, default 0.9.
+    cg_steps : int
+        "paper": conjugate gradient steps of a global H-update (§7.1), default 60.
+    sweeps : int
+        "paper": Gauss–Seidel sweeps of a local H-update, default 1.
+    epsilon : float
+        "paper": stop at max |Δ_B H − f| D³ ≤ ``epsilon`` (|H| D for "minimal"); default: what leaves changes of
+        about ``tolerance`` × D.
+    virtual_points : "sparse" | "coarse" | "everywhere"
+        "paper": which fits of H get virtual points (§6.2) besides valence 3 and 4 and fixed vertices: no others,
+        all on the coarse levels (default), all.
+    start : "improved" | "linear"
+        "paper": fill of the coarsest level: the linear bilaplacian, or made fair by mixed finite elements (default).
 
     Returns
     -------
@@ -108,22 +126,29 @@ def fair(
     )
     m0 = None if reference is None else _arguments.floats("reference", reference, count)
     edges = _neighbour_edges(neighbours, count)
-    _arguments.choice("method", method, METHODS)
-    _arguments.whole("levels", levels, 0, 1)
+    _arguments.choice("method", method, _options.METHODS)
     _arguments.whole("threads", threads, 0)
-    if load != 0.0 and equation != "constant":
-        raise ValueError(f"load: only equation 'constant' has one, not {equation!r}; accepted is 0")
     if progress is not None and not callable(progress):
         raise ValueError(f"progress: a callable(fraction, stage) or None is needed, not {progress!r}")
+    kind, weights = _options.inner_fairness(method, inner_fairness, count)
+    given = {
+        "damping": damping, "cg_steps": cg_steps, "sweeps": sweeps, "epsilon": epsilon,
+        "virtual_points": virtual_points, "start": start,
+    }  # fmt: skip
+    paper = _options.paper_choices(method, levels, given)
+    _arguments.choice("normals", normals, _options.NORMALS)
     options = _core.Options(
-        equation=_arguments.choice("equation", equation, EQUATIONS),
-        inner_fairness=_arguments.choice("inner_fairness", inner_fairness, INNER_FAIRNESS),
-        normals=_arguments.choice("normals", normals, NORMALS),
-        load=_arguments.finite("load", load),
+        equation=_arguments.choice("equation", equation, _options.EQUATIONS[method]),
+        load=_options.load_number(equation, load),
+        inner_fairness=kind,
+        method=method,
+        normals="averaged" if method == "paper" else normals,
         tolerance=_arguments.positive("tolerance", tolerance),
         max_iterations=_arguments.whole("max_iterations", max_iterations, 1),
     )
-    return FairResult(**_core.fair(points, faces, fixed_list, given_normals, m0, edges, options, progress))
+    return FairResult(
+        **_core.fair(points, faces, fixed_list, given_normals, m0, edges, weights, options, paper, progress)
+    )
 
 
 def _neighbour_edges(neighbours: npt.ArrayLike | None, count: int) -> IntArray | None:

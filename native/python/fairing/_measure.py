@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core
-from fairing._fair import NORMALS
+from fairing._options import NORMALS
 from fairing._types import FloatArray, IntArray
 
 

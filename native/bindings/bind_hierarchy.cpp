@@ -1,0 +1,37 @@
+#include "api/levels.h"
+#include "bindings/convert.h"
+#include "bindings/topics.h"
+
+namespace fairing::bindings {
+
+namespace {
+
+py::array from_triangles(const Triangles& triangles) {
+    py::array_t<int> array({triangles.cols(), Eigen::Index{3}}, triangles.data());
+    array.attr("flags").attr("writeable") = false;
+    return array;
+}
+
+py::list hierarchy_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
+                          int levels) {
+    const MeshInput input{to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices), {}};
+    std::vector<MeshLevel> result;
+    {
+        const py::gil_scoped_release released;
+        result = mesh_hierarchy(input, levels);
+    }
+    py::list list;
+    for (const MeshLevel& level : result) {
+        list.append(py::make_tuple(from_indices(level.vertices), from_triangles(level.triangles)));
+    }
+    return list;
+}
+
+}  // namespace
+
+void bind_hierarchy(py::module_& module) {
+    module.def("hierarchy", &hierarchy_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
+               py::arg("levels"));
+}
+
+}  // namespace fairing::bindings

@@ -1,0 +1,84 @@
+#include "fairness/row_weights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "fairness/ring_weights.h"
+#include "geometry/one_ring_buffer.h"
+
+namespace fairing {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+template <typename Entry>
+std::span<const Entry> row_of(const Indices& begin, const std::vector<Entry>& entries, int row) {
+    return std::span(entries).subspan(at(begin[at(row)]), at(begin[at(row) + 1] - begin[at(row)]));
+}
+
+void append(RowWeights& rows, int column, double value) {
+    rows.columns.push_back(column);
+    rows.values.push_back(value);
+}
+
+void close_row(RowWeights& rows) { rows.begin.push_back(static_cast<int>(rows.columns.size())); }
+
+}  // namespace
+
+std::span<const int> RowWeights::columns_of(int row) const { return row_of(begin, columns, row); }
+
+std::span<const double> RowWeights::values_of(int row) const { return row_of(begin, values, row); }
+
+Vector3 RowWeights::mean(int row, const Points& points) const {
+    Vector3 sum = Vector3::Zero();
+    for (int k = begin[at(row)]; k < begin[at(row) + 1]; ++k) sum += values[at(k)] * points.col(columns[at(k)]);
+    return sum;
+}
+
+RowWeights row_weights(const Patch& patch, const std::vector<DirectedWeight>& weights, const char* what) {
+    std::vector<std::vector<std::pair<int, double>>> rows(at(patch.free_count));
+    for (const DirectedWeight& entry : weights) {
+        if (patch.is_free(entry.i) && entry.i != entry.j) rows[at(entry.i)].emplace_back(entry.j, entry.weight);
+    }
+    RowWeights result;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        double sum = 0.0;
+        for (const auto& [j, weight] : rows[i]) sum += weight;
+        if (!(sum > 0.0) || !std::isfinite(sum)) {
+            throw std::invalid_argument(std::string(what) + ": vertex " + std::to_string(patch.to_input[i]) +
+                                        " is free and needs a row of weights with a positive sum");
+        }
+        for (const auto& [j, weight] : rows[i]) append(result, j, weight / sum);
+        close_row(result);
+    }
+    return result;
+}
+
+RowWeights row_weights(const Patch& patch, const InnerWeights& weights, const char* what) {
+    std::vector<DirectedWeight> directed;
+    directed.reserve(2 * weights.size());
+    for (const WeightedEdge& edge : weights) {
+        directed.push_back({edge.i, edge.j, edge.weight});
+        directed.push_back({edge.j, edge.i, edge.weight});
+    }
+    return row_weights(patch, directed, what);
+}
+
+RowWeights row_weights(const Patch& patch, const Points& reference, InnerFairness kind) {
+    if (kind == InnerFairness::conformal) return row_weights(patch, conformal_weights(patch, reference), "reference");
+    RowWeights result;
+    OneRingBuffer buffer;
+    std::vector<double> lambda;
+    for (int i = 0; i < patch.free_count; ++i) {
+        ring_weights(buffer.gather(patch, reference, i), kind, lambda);
+        const auto neighbours = patch.ring(i).vertices;
+        for (std::size_t k = 0; k < lambda.size(); ++k) append(result, neighbours[k], lambda[k]);
+        close_row(result);
+    }
+    return result;
+}
+
+}  // namespace fairing

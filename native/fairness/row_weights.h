@@ -1,0 +1,37 @@
+// Directed inner-fairness weights λ_ij, Σ_j λ_ij = 1 (paper §7.3).
+#pragma once
+
+#include <span>
+
+#include "fairness/inner_weights.h"
+
+namespace fairing {
+
+// One row for each free vertex of a patch. Non-negative: every target Σ λ_ij q_j is a convex combination.
+struct RowWeights {
+    Indices begin{0};
+    Indices columns;  // local vertices
+    std::vector<double> values;
+
+    [[nodiscard]] std::span<const int> columns_of(int row) const;
+    [[nodiscard]] std::span<const double> values_of(int row) const;
+    // Σ_j λ_ij q_j.
+    [[nodiscard]] Vector3 mean(int row, const Points& points) const;
+};
+
+// λ_ij of symmetric weights. Throws std::invalid_argument, naming `what`, where a row has no positive weight.
+RowWeights row_weights(const Patch& patch, const InnerWeights& weights, const char* what);
+
+// A directed weight; rows are normalised.
+struct DirectedWeight {
+    int i;
+    int j;
+    double weight;
+};
+// `weights`: local vertices; those of fixed i are left out. Throws as above.
+RowWeights row_weights(const Patch& patch, const std::vector<DirectedWeight>& weights, const char* what);
+
+// λ of all edges at each free vertex, by the rule of ring_weights.h on the positions of M0 (3 × local vertices).
+RowWeights row_weights(const Patch& patch, const Points& reference, InnerFairness kind);
+
+}  // namespace fairing

@@ -1,0 +1,24 @@
+// What the paper lets one choose.
+#pragma once
+
+#include "paper/disk_geometry.h"
+
+namespace fairing {
+
+// How the coarsest level is filled before its curvature means anything (end of §7.4).
+enum class PaperStart {
+    linear,   // bilaplacian with λ
+    improved  // the same, then made fair by mixed finite elements: for sparse and very irregular meshes
+};
+
+struct PaperOptions {
+    double damping = 0.9;  // s of §7.5, in (0, 1]
+    int cg_steps = 60;     // n of the global H-update (§7.1)
+    int h_sweeps = 1;      // Gauss–Seidel sweeps of the local H-update
+    double epsilon = 0.0;  // stop at max |Δ_B H − f| D³ ≤ ε (|H| D for minimal surfaces); 0: from the tolerance
+    VirtualPoints virtual_points = VirtualPoints::coarse;
+    PaperStart start = PaperStart::improved;
+    int levels = 0;  // 0: chosen
+};
+
+}  // namespace fairing

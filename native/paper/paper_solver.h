@@ -1,0 +1,28 @@
+// The construction of Schneider & Kobbelt 2001 (§7), step for step: hierarchy, start, factorised iteration.
+#pragma once
+
+#include "fairness/row_weights.h"
+#include "paper/options.h"
+#include "solver/problem.h"
+
+namespace fairing {
+
+// What the construction needs besides the solver's problem, whose own weights it does not look at.
+struct PaperProblem {
+    const Problem& problem;
+    PaperOptions paper;
+    InnerFairness inner_fairness;  // on the coarse levels; custom weights have no meaning there and count as uniform
+    Points reference;              // M0: 3 × local vertices
+    RowWeights weights;            // λ on the connectivity given
+};
+
+// ε that leaves changes of about the tolerance (in units of D), where the caller names none.
+double default_epsilon(const SolverOptions& options);
+// The inner-fairness limit that leaves changes of the same size as ε does.
+double unfairness_limit(const SolverOptions& options, double epsilon);
+
+// Solves the outer equation from the boundary data; the interior given shapes the hierarchy and λ alone.
+// Deterministic. Throws SolverError when the start breaks down, Cancelled.
+Solution solve_paper(const PaperProblem& paper_problem, const Progress& progress);
+
+}  // namespace fairing

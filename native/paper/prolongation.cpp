@@ -1,0 +1,235 @@
+#include "paper/prolongation.h"
+
+#include <algorithm>
+#include <array>
+
+#include "fairness/ring_weights.h"
+#include "paper/vertex_update.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr int fairness_sweeps = 2;   // of step (2)
+constexpr int curvature_rounds = 2;  // of step (3)
+constexpr int curvature_sweeps = 3;  // of H in each of them
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+double opposite_cotangent(const Vector3& apex, const Vector3& a, const Vector3& b) {
+    const Vector3 u = a - apex;
+    const Vector3 v = b - apex;
+    return u.dot(v) / std::max(u.cross(v).norm(), 1e-12 * std::max(u.squaredNorm(), v.squaredNorm()) + 1e-300);
+}
+
+}  // namespace
+
+// The half-edge mesh of the moment and the disks around the vertex inserted last.
+class Prolongation::Neighbourhood {
+public:
+    Neighbourhood(const ProlongationSetting& setting, const Triangles& coarsest) : setting_(setting) {
+        const int count = setting.patch.vertex_count();
+        mesh_.reserve(at(count), 3 * at(count), 2 * at(count));
+        for (int v = 0; v < count; ++v) mesh_.add_vertex(SurfaceMesh::Point::Zero());
+        for (const auto corners : coarsest.colwise())
+            mesh_.add_face(handle(corners[0]), handle(corners[1]), handle(corners[2]));
+        slot_.assign(at(count), none);
+        normals_.setZero(3, count);
+        normals_.rightCols(setting.fixed_normals.cols()) = setting.fixed_normals;
+        H_.setZero(count);
+    }
+
+    void insert(const Collapse& collapse, bool completed, Points& points) {
+        mesh_.vertex_split(handle(collapse.removed), handle(collapse.kept), handle(collapse.left),
+                           handle(collapse.right));
+        gather(collapse.removed);
+        points.col(collapse.removed) = weighted_mean(0, points);
+        for (int sweep = 0; sweep < fairness_sweeps; ++sweep) {
+            for_each_movable([&](std::size_t k) { points.col(stored_[k].centre) = weighted_mean(k, points); });
+        }
+        for (int round = 0; round < curvature_rounds; ++round) make_fair(completed, points);
+        for (std::size_t k = 0; k < stored_count_; ++k) slot_[at(stored_[k].centre)] = none;
+    }
+
+private:
+    struct StoredDisk {
+        int centre;
+        bool closed;
+        Indices neighbours;
+        Indices apexes;
+        std::vector<double> lambda;
+        std::vector<double> cotangents;  // cot α + cot β of the spokes
+        [[nodiscard]] Disk view() const { return {centre, neighbours, apexes, closed}; }
+    };
+
+    static SurfaceMesh::VertexHandle handle(int v) { return SurfaceMesh::VertexHandle(v); }
+
+    template <typename Action>
+    void for_each_movable(Action action) const {
+        for (std::size_t k = 0; k < inner_count_; ++k) {
+            if (setting_.patch.is_free(stored_[k].centre)) action(k);
+        }
+    }
+
+    // The disks of the vertex and its neighbours (the inner ones, with weights), then of the neighbours of those.
+    void gather(int vertex) {
+        stored_count_ = 0;
+        store(vertex);
+        for (std::size_t k = 0; k < stored_[0].neighbours.size(); ++k) store(stored_[0].neighbours[k]);
+        inner_count_ = stored_count_;
+        for (std::size_t k = 1; k < inner_count_; ++k) {
+            for (std::size_t j = 0; j < stored_[k].neighbours.size(); ++j) store(stored_[k].neighbours[j]);
+        }
+        for_each_movable([&](std::size_t k) { find_lambda(stored_[k]); });
+    }
+
+    void store(int vertex) {
+        if (slot_[at(vertex)] != none) return;
+        slot_[at(vertex)] = static_cast<int>(stored_count_);
+        if (stored_count_ == stored_.size()) stored_.emplace_back();
+        StoredDisk& disk = stored_[stored_count_++];
+        disk.centre = vertex;
+        disk.neighbours.clear();
+        disk.apexes.clear();
+        walk(disk);
+    }
+
+    // As Patch does it: counter-clockwise, on the border from the first border edge to the last.
+    void walk(StoredDisk& disk) const {
+        const auto next_ccw = [&](SurfaceMesh::HalfedgeHandle h) {
+            return mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(h));
+        };
+        SurfaceMesh::HalfedgeHandle first = mesh_.halfedge_handle(handle(disk.centre));
+        disk.closed = !mesh_.is_boundary(first);
+        if (!disk.closed) first = next_ccw(first);
+        SurfaceMesh::HalfedgeHandle h = first;
+        do {
+            disk.neighbours.push_back(mesh_.to_vertex_handle(h).idx());
+            disk.apexes.push_back(none);
+            if (mesh_.is_boundary(h)) break;
+            const auto beyond = mesh_.opposite_halfedge_handle(mesh_.next_halfedge_handle(h));
+            if (!mesh_.is_boundary(beyond)) {
+                disk.apexes.back() = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(beyond)).idx();
+            }
+            h = next_ccw(h);
+        } while (h != first);
+    }
+
+    void find_lambda(StoredDisk& disk) {
+        ring_.clear();
+        for (int v : disk.neighbours) ring_.emplace_back(setting_.reference.col(v));
+        ring_weights({setting_.reference.col(disk.centre), ring_, true}, setting_.inner_fairness, disk.lambda);
+    }
+
+    [[nodiscard]] Vector3 weighted_mean(std::size_t k, const Points& points) const {
+        Vector3 sum = Vector3::Zero();
+        const StoredDisk& disk = stored_[k];
+        for (std::size_t j = 0; j < disk.lambda.size(); ++j) sum += disk.lambda[j] * points.col(disk.neighbours[j]);
+        return sum;
+    }
+
+    // Step (3): one update of the construction on the 1-disk, with H held on the vertices around it.
+    void make_fair(bool completed, Points& points) {
+        measure(completed, points);
+        for (int sweep = 0; sweep < curvature_sweeps; ++sweep) {
+            for_each_movable([&](std::size_t k) { relax_curvature(k); });
+        }
+        DiskCurvature curvature(points, normals_);
+        for_each_movable([&](std::size_t k) {
+            const StoredDisk& disk = stored_[k];
+            const Vector3 normal = disk_normal(disk.view(), points);
+            const VertexTarget target{weighted_mean(k, points), H_[disk.centre], setting_.paper.damping,
+                                      completed || disk.neighbours.size() < 5};
+            points.col(disk.centre) = updated_position(disk.view(), points, normal, target, curvature);
+        });
+    }
+
+    [[nodiscard]] bool prescribed(int v) const {
+        return setting_.solver.equation != Equation::minimal && !setting_.patch.is_free(v) &&
+               !setting_.patch.pin[at(v)];
+    }
+
+    void measure(bool completed, const Points& points) {
+        for (std::size_t k = 0; k < stored_count_; ++k) {
+            const int v = stored_[k].centre;
+            if (!prescribed(v)) normals_.col(v) = disk_normal(stored_[k].view(), points);
+        }
+        DiskCurvature curvature(points, normals_);
+        for (std::size_t k = 0; k < stored_count_; ++k) {
+            const Disk disk = stored_[k].view();
+            const bool full = completed || disk.valence() < 5 || !setting_.patch.is_free(disk.centre);
+            H_[disk.centre] = curvature(disk, full).at.mean();
+        }
+        if (setting_.solver.equation == Equation::minimal) return;
+        for_each_movable([&](std::size_t k) { measure_cotangents(stored_[k], points); });
+    }
+
+    static void measure_cotangents(StoredDisk& disk, const Points& points) {
+        const std::size_t m = disk.neighbours.size();
+        disk.cotangents.assign(m, 0.0);
+        const Vector3 centre = points.col(disk.centre);
+        for (std::size_t k = 0; k < m; ++k) {
+            const std::size_t next = k + 1 < m ? k + 1 : 0;
+            const Vector3 a = points.col(disk.neighbours[k]);
+            const Vector3 b = points.col(disk.neighbours[next]);
+            disk.cotangents[next] += opposite_cotangent(a, centre, b);
+            disk.cotangents[k] += opposite_cotangent(b, centre, a);
+        }
+    }
+
+    // The homogeneous equation: right-hand sides are left to the fairing of the whole level.
+    void relax_curvature(std::size_t k) {
+        const StoredDisk& disk = stored_[k];
+        double sum = 0.0;
+        double diagonal = 0.0;
+        if (setting_.solver.equation != Equation::minimal) {
+            for (std::size_t j = 0; j < disk.cotangents.size(); ++j) {
+                sum += disk.cotangents[j] * H_[disk.neighbours[j]];
+                diagonal += disk.cotangents[j];
+            }
+        }
+        H_[disk.centre] = diagonal > 0.0 ? sum / diagonal : 0.0;
+    }
+
+    ProlongationSetting setting_;
+    SurfaceMesh mesh_;
+    Points normals_;
+    VectorX H_;
+    std::vector<StoredDisk> stored_;  // reused from vertex to vertex
+    std::size_t stored_count_ = 0;
+    std::size_t inner_count_ = 0;
+    Indices slot_;  // vertex → place in stored_
+    std::vector<Vector3> ring_;
+};
+
+namespace {
+
+// The coarsest connectivity in the patch's own vertices.
+Triangles coarsest_triangles(const Hierarchy& hierarchy, const Patch& patch) {
+    if (hierarchy.patches.empty()) return patch.triangles;
+    const Patch& coarsest = hierarchy.patches.front();
+    return coarsest.triangles.unaryExpr([&](int v) { return coarsest.to_input[at(v)]; });
+}
+
+}  // namespace
+
+Prolongation::Prolongation(const Hierarchy& hierarchy, const ProlongationSetting& setting)
+    : hierarchy_(hierarchy),
+      neighbourhood_(std::make_unique<Neighbourhood>(setting, coarsest_triangles(hierarchy, setting.patch))),
+      collapsed_(hierarchy.collapsed.front()),
+      paper_(setting.paper) {}
+
+Prolongation::~Prolongation() = default;
+
+void Prolongation::refine(int level, Points& points, const Progress& progress) {
+    const std::size_t target = hierarchy_.collapsed[at(level)];
+    const bool completed = paper_.virtual_points == VirtualPoints::everywhere ||
+                           (paper_.virtual_points == VirtualPoints::coarse && !hierarchy_.is_finest(level));
+    const auto total = static_cast<double>(collapsed_ - target);
+    for (std::size_t done = 0; collapsed_ > target; ++done) {
+        if (done % 256 == 0) progress.report(static_cast<double>(done) / total, "prolongation");
+        neighbourhood_->insert(hierarchy_.collapses[--collapsed_], completed, points);
+    }
+}
+
+}  // namespace fairing

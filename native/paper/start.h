@@ -1,0 +1,22 @@
+// The surface that the coarsest level starts from (end of §7.4).
+#pragma once
+
+#include "paper/level.h"
+
+namespace fairing {
+
+// S and M by which the linear bilaplacian is built: those of M0 for conformal λ, of equilateral triangles otherwise.
+// `reference`: positions of M0 at the patch's vertices.
+Stiffness start_stiffness(const Patch& patch, InnerFairness kind, const Points& reference);
+
+// A surface over the outline by which the hierarchy can judge edges and triangles without looking at the interior
+// given: of the membrane and the bilaplacian with several bulges, that with the most even triangles. Uniform λ.
+Points neutral_surface(const Problem& problem, const Progress& progress);
+
+// Positions of the level's vertices (3 × level vertices) from connectivity and boundary data alone.
+// linear: the clamped bilaplacian; improved: the bulge of it that has the least Willmore energy, made fair by mixed
+// finite elements; minimal surfaces: the membrane, without and with descent of its area.
+Points start_of_level(const LevelProblem& level, const Stiffness& stiffness, const Points& fixed_points,
+                      const Progress& progress);
+
+}  // namespace fairing

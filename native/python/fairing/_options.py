@@ -1,0 +1,83 @@
+"""Options of the two methods: which words and numbers each accepts."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from fairing import _arguments, _core
+from fairing._types import FloatArray
+
+METHODS = ("global", "paper")
+NORMALS = ("fitted", "averaged")
+EQUATIONS = {
+    "global": ("harmonic", "constant", "minimal_energy", "minimal"),
+    "paper": ("harmonic", "constant", "minimal_energy", "minimal"),
+}
+INNER_FAIRNESS = {
+    "global": ("uniform", "conformal", "inverse_distance"),
+    "paper": ("uniform", "conformal", "inverse_distance", "shape_preserving"),
+}
+VIRTUAL_POINTS = ("sparse", "coarse", "everywhere")
+STARTS = ("improved", "linear")
+
+# What method "paper" does where the caller says nothing.
+PAPER_DEFAULTS: dict[str, Any] = {
+    "damping": 0.9,
+    "cg_steps": 60,
+    "sweeps": 1,
+    "epsilon": None,
+    "virtual_points": "coarse",
+    "start": "improved",
+}
+
+
+def paper_choices(method: str, levels: int, given: dict[str, Any]) -> _core.PaperChoices:
+    """Checks the options that only "paper" has; ``given`` holds None for those left out."""
+    named = {name: value for name, value in given.items() if value is not None}
+    if method != "paper" and named:
+        name = next(iter(named))
+        raise ValueError(f"{name}: is an option of method 'paper'; method {method!r} does not accept it")
+    chosen = {**PAPER_DEFAULTS, **named}
+    damping = _arguments.positive("damping", chosen["damping"])
+    if damping > 1.0:
+        raise ValueError(f"damping: {damping} is not accepted; accepted is above 0 and up to 1")
+    epsilon = chosen["epsilon"]
+    return _core.PaperChoices(
+        damping=damping,
+        cg_steps=_arguments.whole("cg_steps", chosen["cg_steps"], 1),
+        h_sweeps=_arguments.whole("sweeps", chosen["sweeps"], 1),
+        epsilon=0.0 if epsilon is None else _arguments.positive("epsilon", epsilon),
+        virtual_points=_arguments.choice("virtual_points", chosen["virtual_points"], VIRTUAL_POINTS),
+        start=_arguments.choice("start", chosen["start"], STARTS),
+        levels=_arguments.whole("levels", levels, 0, None if method == "paper" else 1),
+    )
+
+
+def load_number(equation: str, load: Any) -> float:
+    """A finite load, which only equation "constant" may have."""
+    if isinstance(load, bool) or not isinstance(load, (int, float, np.floating, np.integer)):
+        raise ValueError(f"load: a number is needed, not {load!r}")
+    if not np.isfinite(load) or (load != 0.0 and equation != "constant"):
+        raise ValueError(
+            f"load: {load!r} is not accepted; accepted are 0 and, with equation 'constant', finite numbers"
+        )
+    return float(load)
+
+
+def inner_fairness(method: str, value: Any, count: int) -> tuple[str, FloatArray | None]:
+    """The word for the engine and, for "custom", the rows (i, j, λ)."""
+    if isinstance(value, str) or value is None or method != "paper":
+        return _arguments.choice("inner_fairness", value, INNER_FAIRNESS[method]), None
+    return "custom", _directed_weights(value, count)
+
+
+def _directed_weights(value: npt.ArrayLike, count: int) -> FloatArray:
+    rows = _arguments.floats("inner_fairness", value)
+    ends = rows[:, :2]
+    if not np.isfinite(rows).all() or (ends != np.floor(ends)).any() or (rows[:, 2] < 0).any():
+        raise ValueError("inner_fairness: rows of two vertex indices and a finite weight λ ≥ 0 are needed")
+    _arguments.indices_within("inner_fairness", ends.astype(np.int64), count)
+    return rows

@@ -1,0 +1,393 @@
+"""Each claim of Schneider & Kobbelt (2001) as one test of method "paper".
+
+The vertex normals are averaged (§6), so positions carry an error that refinement reduces only
+slowly: a thousandth of D on these meshes, which is what the thresholds say. Method "global" has
+none of it by default.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache, partial
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.sparse import diags_array
+from scipy.sparse.linalg import spsolve
+
+import blend
+import fairing
+import measures
+import shapes
+from curves import FloatArray
+from shapes import Patch, Style
+from test_fixed_curves import make_capsule
+
+MILD = Style(jitter=0.3)
+
+
+def fair(patch: Any, **options: Any) -> fairing.FairResult:
+    """From the outline alone; enough iterations to converge."""
+    settings: dict[str, Any] = {"method": "paper", "max_iterations": 2000, **options}
+    start = shapes.start_from_nothing(patch) if isinstance(patch, Patch) else patch.vertices
+    return fairing.fair(
+        settings.pop("vertices", start), patch.triangles,
+        fixed=patch.fixed, fixed_normals=patch.fixed_normals, **settings,
+    )  # fmt: skip
+
+
+@lru_cache(maxsize=32)
+def solved(family: str, n_free: int = 500) -> tuple[Patch, fairing.FairResult]:
+    # On a whole hemisphere the iteration needs more than 4000 updates.
+    cap = partial(shapes.cap, half_angle=60.0)
+    patch = (cap if family == "cap" else shapes.FAMILIES[family])(n_free, MILD)
+    return patch, fair(patch, tolerance=1e-7, max_iterations=4000)
+
+
+@lru_cache(maxsize=8)
+def faired_blend(n_free: int, jitter: float, seed: int) -> tuple[blend.Blend, fairing.FairResult]:
+    patch = blend.cylinder_blend(n_free, jitter=jitter, seed=seed)
+    return patch, fair(patch)
+
+
+def normals_at(result: fairing.FairResult, patch: Patch) -> FloatArray:
+    """Averaged normals, those that method "paper" uses."""
+    return fairing.vertex_normals(result.vertices, patch.triangles, normals="averaged")
+
+
+# §3: the surface
+
+
+@pytest.mark.parametrize(
+    ("family", "goal"),
+    [
+        ("cap", 2e-3),
+        ("cylinder", 1e-3),
+        ("unduloid", 1e-3),
+        ("catenoid", 5e-4),
+        ("linear_flux", 1e-3),
+        ("clothoid", 2e-4),
+    ],
+    ids=["spheres", "cylinders", "CMC surfaces", "minimal surfaces", "r H' = c", "clothoids"],
+)
+def test_surfaces_with_harmonic_curvature_are_reproduced(family: str, goal: float) -> None:
+    patch, result = solved(family)
+    assert result.converged
+    assert patch.error(result.vertices) < goal
+
+
+def test_a_plane_stays_flat() -> None:
+    patch, result = solved("plane")
+    assert result.converged
+    assert patch.error(result.vertices) < 1e-12
+
+
+@pytest.mark.parametrize("family", ["linear_flux", "clothoid"])
+def test_mean_curvature_has_its_extremes_on_the_boundary(family: str) -> None:
+    """The maximum principle of Δ_B H = 0; slack where cotangent weights are negative."""
+    patch, result = solved(family)
+    boundary, inside = result.mean_curvature[patch.fixed], result.mean_curvature[patch.free]
+    slack = 0.01 * (boundary.max() - boundary.min())
+    assert inside.max() <= boundary.max() + slack
+    assert inside.min() >= boundary.min() - slack
+
+
+def test_different_meshes_of_a_blend_give_the_same_surface() -> None:
+    """Figs. 1, 2: size, connectivity and distribution of vertices choose a mesh, not a shape."""
+    first, one = faired_blend(824, 0.0, 0)
+    second, other = faired_blend(700, 0.6, 3)
+    assert one.converged
+    assert other.converged
+    distance = measures.two_sided_distance((one.vertices, first.triangles), (other.vertices, second.triangles))
+    assert distance < 6e-3 * first.diameter
+
+
+def test_the_linear_bilaplacian_depends_on_the_mesh_far_more() -> None:
+    """Fig. 1: the same two meshes, faired linearly, differ twenty times as much in volume."""
+    (first, one), (second, other) = faired_blend(824, 0.0, 0), faired_blend(700, 0.6, 3)
+    ours = volume_gap((one.vertices, first.triangles), (other.vertices, second.triangles))
+    linear = [linear_bilaplacian(b) for b in (first, second)]
+    theirs = volume_gap((linear[0], first.triangles), (linear[1], second.triangles))
+    assert theirs > 20 * ours
+
+
+def linear_bilaplacian(patch: blend.Blend) -> FloatArray:
+    """Δ²q = 0 with uniform λ and positions met, Δq = 0 on the outline."""
+    count = len(patch.vertices)
+    matrix = shapes.uniform_laplacian(patch.triangles, count).tocsr()
+    scaled = diags_array(1.0 / matrix.diagonal()) @ matrix
+    free = np.setdiff1d(np.arange(count), patch.fixed)
+    squared = scaled[free][:, free] @ scaled[free]
+    result = patch.vertices.copy()
+    right = -(squared[:, patch.fixed] @ patch.vertices[patch.fixed])
+    result[free] = spsolve(squared[:, free].tocsc(), right)
+    return result
+
+
+def volume_gap(first: measures.Surface, second: measures.Surface) -> float:
+    return abs(measures.volume(*first) - measures.volume(*second))
+
+
+# §7.5: the boundary and other equations
+
+
+@pytest.mark.parametrize("family", ["cap", "cylinder", "catenoid", "clothoid"])
+def test_the_boundary_is_met_with_tangent_continuity(family: str) -> None:
+    """G1: the surface's own normals turn into the prescribed ones."""
+    _, result = solved(family)
+    assert result.boundary_angle.max() < 1.0
+
+
+def test_an_outline_that_is_not_smooth_takes_averaged_normals() -> None:
+    """Figs. 9, 10: without normals given, those of the adjacent triangles count."""
+    patch = shapes.cylinder(400, MILD, shape="rectangle")
+    result = fairing.fair(patch.vertices, patch.triangles, method="paper", max_iterations=2000)
+    assert {w.code for w in result.warnings} >= {"NORMALS_FROM_PATCH"}
+    assert np.isfinite(result.vertices).all()
+    assert patch.error(result.vertices) < 0.03
+
+
+def test_a_fixed_curve_inside_the_mesh_separates_two_patches() -> None:
+    """As the circles of the tetrathing do (Fig. 8): a sphere above, a cylinder below."""
+    capsule = make_capsule(300)
+    fixed = np.concatenate([capsule.rim, capsule.circle])
+    normals = capsule.vertices[fixed] * np.array([1.0, 1.0, 0.0])
+    result = fairing.fair(
+        capsule.vertices, capsule.triangles,
+        fixed=fixed, fixed_normals=normals, method="paper", max_iterations=1000,
+    )  # fmt: skip
+    assert np.abs(np.linalg.norm(result.vertices[capsule.above], axis=1) - 1).max() < 0.02
+    assert np.abs(np.linalg.norm(result.vertices[capsule.below, :2], axis=1) - 1).max() < 0.02
+
+
+def test_minimal_energy_surfaces_reproduce_spheres() -> None:
+    patch = shapes.cap(300, MILD, half_angle=60)
+    result = fair(patch, equation="minimal_energy")
+    assert result.converged
+    assert patch.error(result.vertices) < 3e-3
+
+
+def test_minimal_energy_surfaces_do_not_reproduce_cylinders() -> None:
+    patch = shapes.cylinder(400, MILD)
+    result = fair(patch, equation="minimal_energy")
+    assert result.converged
+    assert patch.error(result.vertices) > 5e-3
+
+
+def test_minimal_energy_surfaces_have_less_bending_energy() -> None:
+    """∫ κ₁² + κ₂² is ∫ 4H² up to a constant that the boundary's tangent planes fix."""
+    patch, harmonic = faired_blend(824, 0.0, 0)
+    least = fair(patch, equation="minimal_energy")
+    assert least.converged
+    assert bending(least, patch.triangles) < 0.99 * bending(harmonic, patch.triangles)
+
+
+def bending(result: fairing.FairResult, triangles: Any) -> float:
+    """∫ 4 H² dA."""
+    a, b, c = (result.vertices[triangles[:, k]] for k in range(3))
+    areas = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    squared = 4 * result.mean_curvature[triangles] ** 2
+    return float((areas * squared.mean(axis=1)).sum())
+
+
+def test_a_load_lifts_a_flat_disc_to_the_height_of_the_clamped_plate() -> None:
+    """Δ_B H = load; for small loads w = −(load/32)(a² − r²)², H being ½ Δw with outward normals."""
+    patch = shapes.cap(400, MILD, half_angle=0.01)
+    radius = 0.5 * patch.diameter
+    bulge = 0.1
+    result = fair(patch, equation="constant", load=8 * bulge / radius**3)
+    assert result.converged
+    height = (result.vertices[:, 2] - patch.vertices[:, 2].mean()).max()
+    assert height == pytest.approx(bulge * radius / 4, rel=0.05)
+
+
+def test_a_load_and_its_opposite_mirror_each_other() -> None:
+    patch = shapes.plane(300, MILD)
+    load = 4 / (0.5 * patch.diameter) ** 3
+    up, down = (fair(patch, equation="constant", load=sign * load) for sign in (1, -1))
+    axis = patch.normals[0]
+    assert up.converged
+    middle = 0.5 * (up.vertices + down.vertices)
+    assert np.abs((middle - patch.vertices) @ axis).max() < 1e-5
+    assert np.abs((up.vertices - patch.vertices) @ axis).max() > 0.05
+
+
+@pytest.mark.parametrize("bulge", [-3.0, 3.0])
+def test_a_load_without_a_solution_in_reach_is_said_to_be_one(bulge: float) -> None:
+    patch = shapes.cap(200, MILD)
+    result = fair(patch, equation="constant", load=8 * bulge, max_iterations=200)
+    assert np.isfinite(result.vertices).all()
+    assert result.converged or "NOT_CONVERGED" in {w.code for w in result.warnings}
+
+
+def test_minimal_surfaces_from_positions_alone() -> None:
+    patch = shapes.catenoid(400, MILD)
+    result = fair(patch, equation="minimal")
+    assert result.converged
+    assert patch.error(result.vertices) < 1e-3
+
+
+# §7.3: inner fairness
+
+
+@pytest.mark.parametrize("kind", ["uniform", "conformal", "inverse_distance", "shape_preserving"])
+def test_inner_fairness_moves_vertices_within_the_surface_only(kind: str) -> None:
+    patch, _ = solved("cylinder")
+    result = fair(patch, inner_fairness=kind, reference=patch.vertices)
+    assert result.converged
+    assert patch.error(result.vertices) < 3e-3
+
+
+def test_weighted_laplacians_are_parallel_to_the_normals() -> None:
+    """The inner-fairness condition itself, for uniform λ = 1/m."""
+    patch, result = solved("linear_flux")
+    matrix = shapes.uniform_laplacian(patch.triangles, len(patch.vertices)).tocsr()
+    delta = -(diags_array(1.0 / matrix.diagonal()) @ matrix) @ result.vertices
+    normals = normals_at(result, patch)
+    across = delta - (delta * normals).sum(axis=1)[:, None] * normals
+    assert np.linalg.norm(across[patch.free], axis=1).max() < 1e-5 * patch.diameter
+
+
+@pytest.mark.parametrize("kind", ["conformal", "shape_preserving"])
+def test_a_planar_mesh_is_left_where_it_is(kind: str) -> None:
+    patch = shapes.plane(200)
+    result = fair(patch, inner_fairness=kind, reference=patch.vertices, tolerance=1e-7)
+    assert np.abs(result.vertices - patch.vertices).max() < 1e-6 * patch.diameter
+
+
+def test_conformal_weights_keep_angles() -> None:
+    patch = shapes.cylinder(400)
+    kept, spoilt = (
+        fair(patch, inner_fairness=kind, reference=patch.vertices).vertices for kind in ("conformal", "uniform")
+    )
+    bent = [np.median(fairing.conformal_distortion(patch.vertices, v, patch.triangles)) for v in (kept, spoilt)]
+    assert bent[0] - 1 < 0.1 * (bent[1] - 1)
+
+
+def test_custom_weights_are_those_given() -> None:
+    """Rows 1/m given by hand: the same bits as uniform weights on one level."""
+    patch = shapes.cap(120)
+    ends = measures.edges(patch.triangles)
+    both = np.vstack([ends, ends[:, ::-1]])
+    rows = np.column_stack([both, np.ones(len(both))])
+    custom = fair(patch, inner_fairness=rows, levels=1, max_iterations=50)
+    uniform = fair(patch, levels=1, max_iterations=50)
+    assert np.abs(custom.vertices - uniform.vertices).max() < 1e-9
+
+
+# §7.1, 7.4: the construction
+
+
+def test_iteration_stops_at_epsilon() -> None:
+    patch = shapes.cylinder(300, MILD)
+    for epsilon in (1.0, 1e-3):
+        result = fair(patch, epsilon=epsilon)
+        assert result.converged
+        assert result.residual <= epsilon
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-5])
+def test_default_epsilon_leaves_changes_of_about_the_tolerance(tolerance: float) -> None:
+    for family in ("cylinder", "clothoid"):
+        patch = shapes.FAMILIES[family](300, MILD)
+        rough, fine = fair(patch, tolerance=tolerance), fair(patch, epsilon=1e-7)
+        assert np.abs(rough.vertices - fine.vertices).max() < 2 * tolerance * patch.diameter
+
+
+def test_the_number_of_levels_does_not_change_the_surface() -> None:
+    patch = shapes.clothoid(600, MILD)
+    results = [fair(patch, levels=levels, tolerance=1e-7) for levels in (1, 2, 3)]
+    assert [len(r.levels) for r in results] == [1, 2, 3]
+    for other in results[1:]:
+        assert other.converged
+        assert np.abs(other.vertices - results[0].vertices).max() < 2e-6 * patch.diameter
+
+
+@pytest.mark.parametrize("start", ["linear", "improved"])
+def test_both_starts_lead_to_the_same_surface(start: str) -> None:
+    patch, result = solved("clothoid")
+    other = fair(patch, start=start, tolerance=1e-7)
+    assert other.converged
+    assert np.abs(other.vertices - result.vertices).max() < 2e-6 * patch.diameter
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"damping": 0.6}, {"cg_steps": 60}, {"sweeps": 5}],
+    ids=["damping", "cg_steps", "sweeps"],
+)
+def test_what_the_paper_lets_one_choose_changes_the_way_only(options: dict[str, Any]) -> None:
+    patch, result = solved("clothoid")
+    other = fair(patch, tolerance=1e-7, **options)
+    assert other.converged
+    assert np.abs(other.vertices - result.vertices).max() < 2e-6 * patch.diameter
+
+
+def test_the_interior_given_leaves_no_trace() -> None:
+    patch = shapes.cap(300)
+    noise = np.random.default_rng(1).normal(scale=0.05, size=patch.vertices.shape)
+    noise[patch.fixed] = 0
+    one, other = (fair(patch, vertices=patch.vertices + sign * noise, max_iterations=20) for sign in (1, -1))
+    assert np.array_equal(one.vertices, other.vertices)
+
+
+def test_both_methods_solve_the_same_discrete_equation() -> None:
+    """Same normals, same virtual points, same λ: 1e-4 D is asked."""
+    patch = blend.cylinder_blend(824)
+    paper = fair(patch, virtual_points="everywhere")
+    fast = fair(patch, method="global", max_iterations=200, normals="averaged")
+    assert paper.converged
+    assert fast.converged
+    assert np.abs(paper.vertices - fast.vertices).max() < 1e-5 * patch.diameter
+
+
+def test_progress_can_cancel() -> None:
+    patch = shapes.cap(300)
+    seen: list[float] = []
+
+    def stop(fraction: float, stage: str) -> bool:
+        seen.append(fraction)
+        return len(seen) < 30
+
+    with pytest.raises(fairing.Cancelled):
+        fair(patch, progress=stop)
+    assert len(seen) == 30
+    assert seen == sorted(seen)
+
+
+# Options
+
+
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [
+        ("damping", 0.5), ("cg_steps", 5), ("sweeps", 2), ("epsilon", 1e-3),
+        ("virtual_points", "sparse"), ("start", "linear"),
+    ],
+)  # fmt: skip
+def test_options_of_the_paper_are_refused_by_the_global_method(option: str, value: Any) -> None:
+    with pytest.raises(ValueError, match=option):
+        fair(shapes.cap(60), method="global", max_iterations=5, **{option: value})
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "accepted"),
+    [
+        ("damping", 1.5, "up to 1"),
+        ("damping", 0.0, "positive"),
+        ("cg_steps", 0, "1 or more"),
+        ("epsilon", -1.0, "positive"),
+        ("virtual_points", "some", "'everywhere'"),
+        ("start", "none", "'linear'"),
+        ("equation", "quadratic", "'minimal_energy'"),
+        ("inner_fairness", "smooth", "'shape_preserving'"),
+        ("inner_fairness", np.array([[0, 1, -1.0]]), "λ ≥ 0"),
+        ("inner_fairness", np.array([[0, 1, 1.0]]), "needs a row"),
+        ("levels", -1, "0 or more"),
+        ("load", 1.0, "'constant'"),
+    ],
+)
+def test_wrong_options_say_what_is_accepted(option: str, value: Any, accepted: str) -> None:
+    with pytest.raises(ValueError, match=option) as caught:
+        fair(shapes.cap(60), **{option: value})
+    assert accepted in str(caught.value)
