@@ -47,9 +47,7 @@ class FairProperties:
         max=1.0,
         subtype="FACTOR",
     )
-    equation: EnumProperty(
-        name="Shape", description="The kind of fair surface", items=_EQUATIONS, default="HARMONIC"
-    )
+    equation: EnumProperty(name="Shape", description="The kind of fair surface", items=_EQUATIONS, default="HARMONIC")
     bulge: FloatProperty(
         name="Bulge",
         description="For the shape Bulge: 1 lifts a flat disc by a quarter of its radius",
@@ -85,9 +83,7 @@ class FairProperties:
         max=1e-2,
         precision=8,
     )
-    max_iterations: IntProperty(
-        name="Iterations", description="Give up after this many steps", default=200, min=1
-    )
+    max_iterations: IntProperty(name="Iterations", description="Give up after this many steps", default=200, min=1)
     pin_group: StringProperty(name="Pin Group", description="Vertices of this vertex group stay where they are")
     pin_edges: EnumProperty(
         name="Pin Edges",

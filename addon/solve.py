@@ -28,9 +28,7 @@ class Fairing:
     warnings: tuple[str, ...]
 
 
-def fair_arrays(
-    mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None = None
-) -> Fairing:
+def fair_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None = None) -> Fairing:
     """Fair the patch of `mesh` in the space that the 4×4 `matrix` leads to.
 
     Raises fairing.MeshError (its `elements` are vertices of `mesh` here), ValueError,

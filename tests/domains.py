@@ -177,9 +177,7 @@ def contains(domain: Domain, st: FloatArray) -> BoolArray:
     return np.asarray((np.abs(a) < 1) & ((np.abs(b) < 1) | domain.closed))
 
 
-def jittered(
-    domain: Domain, st: FloatArray, size: FloatArray, style: Style, rng: np.random.Generator
-) -> FloatArray:
+def jittered(domain: Domain, st: FloatArray, size: FloatArray, style: Style, rng: np.random.Generator) -> FloatArray:
     """Every point moved by up to ±jitter/2 edges along s and across it, on the exact surface."""
     offset = (rng.random((len(st), 2)) - 0.5) * max(style.jitter, 1e-6) * size[:, None]
     offset *= np.sqrt(style.aspect) ** np.array([1, -1])
@@ -224,9 +222,7 @@ def scattered(domain: Domain, style: Style, h: float, rng: np.random.Generator) 
     return np.asarray(st[thinned(domain.space(st), size)])
 
 
-def interior(
-    domain: Domain, style: Style, h: float, loops: list[FloatArray], rng: np.random.Generator
-) -> FloatArray:
+def interior(domain: Domain, style: Style, h: float, loops: list[FloatArray], rng: np.random.Generator) -> FloatArray:
     """Jittered points inside, none within about 0.4 edges of the outline."""
     if style.layout == "random":
         st = scattered(domain, style, h, rng)

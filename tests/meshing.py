@@ -140,9 +140,7 @@ def edge_pairs(triangles: IntArray) -> tuple[IntArray, IntArray, IntArray]:
     return ends[first], faces, np.column_stack([corners[first, 0], corners[second, 0]])
 
 
-def _flip_edges(
-    domain: Domain, st: FloatArray, triangles: IntArray, chosen: IntArray, quality: float
-) -> IntArray:
+def _flip_edges(domain: Domain, st: FloatArray, triangles: IntArray, chosen: IntArray, quality: float) -> IntArray:
     """Flip the chosen interior edges (rows of `edge_pairs`) where the outcome stays unfolded."""
     _, faces, opposite = edge_pairs(triangles)
     points, normals = domain.space(st), domain.surface.normal(st[:, 0], st[:, 1])
@@ -174,9 +172,7 @@ def _roundness(points: FloatArray, normals: FloatArray, triangles: IntArray) -> 
     return np.asarray(area * np.sign(_agreement(points, normals, triangles)) / longest)
 
 
-def _flipped(
-    domain: Domain, st: FloatArray, triangles: IntArray, style: Style, rng: np.random.Generator
-) -> IntArray:
+def _flipped(domain: Domain, st: FloatArray, triangles: IntArray, style: Style, rng: np.random.Generator) -> IntArray:
     if not style.flips:
         return triangles
     count = len(edge_pairs(triangles)[0])

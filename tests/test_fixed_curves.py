@@ -86,9 +86,7 @@ def test_a_side_does_not_feel_the_other() -> None:
     capsule = make_capsule(300)
     fixed = np.concatenate([capsule.rim, capsule.circle])
     normals = capsule.vertices[fixed] * np.array([1.0, 1.0, 0.0])
-    both = fairing.fair(
-        capsule.vertices, capsule.triangles, fixed=fixed, fixed_normals=normals, tolerance=1e-11
-    )
+    both = fairing.fair(capsule.vertices, capsule.triangles, fixed=fixed, fixed_normals=normals, tolerance=1e-11)
     cap = shapes.cap(300)
     alone = fairing.fair(
         cap.vertices, cap.triangles,

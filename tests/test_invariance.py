@@ -85,9 +85,7 @@ def test_renumbered_vertices_and_shuffled_triangles(control: fairing.FairResult)
 
 
 @pytest.mark.parametrize("kind", ["exact", "point", "noise"])
-def test_interior_does_not_matter(
-    control: fairing.FairResult, kind: Literal["exact", "point", "noise"]
-) -> None:
+def test_interior_does_not_matter(control: fairing.FairResult, kind: Literal["exact", "point", "noise"]) -> None:
     start = PATCH.vertices.copy()
     if kind == "point":
         start = shapes.start_from_nothing(PATCH, "point")

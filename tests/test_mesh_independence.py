@@ -33,9 +33,7 @@ def test_two_meshes_of_the_blend_agree(one: tuple[float, int, int], other: tuple
     second, second_vertices, second_converged = faired(*other)
     assert first_converged
     assert second_converged
-    distance = measures.two_sided_distance(
-        (first_vertices, first.triangles), (second_vertices, second.triangles)
-    )
+    distance = measures.two_sided_distance((first_vertices, first.triangles), (second_vertices, second.triangles))
     assert distance <= 0.003 * first.diameter
 
 

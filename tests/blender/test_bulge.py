@@ -26,11 +26,7 @@ def disc(size: float) -> tuple[bpy.types.Object, meshes.Mask]:
         return 1 + k * SECTORS + j % SECTORS
 
     fan = [[0, at(0, j), at(0, j + 1)] for j in range(SECTORS)]
-    quads = [
-        [at(k, j), at(k + 1, j), at(k + 1, j + 1), at(k, j + 1)]
-        for k in range(RINGS - 1)
-        for j in range(SECTORS)
-    ]
+    quads = [[at(k, j), at(k + 1, j), at(k + 1, j + 1), at(k, j + 1)] for k in range(RINGS - 1) for j in range(SECTORS)]
     obj = meshes.add(points, fan + quads, "Disc")
     return obj, meshes.faces_where(obj, lambda centre: centre.length < size)
 

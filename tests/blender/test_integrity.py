@@ -81,9 +81,7 @@ def test_hidden_faces_stay() -> None:
     meshes.edit(obj)
     assert meshes.run() == {"FINISHED"}
     meshes.leave()
-    old, new = (
-        np.frombuffer(c["POINT position"], np.uint32).reshape(-1, 3) for c in (before, meshes.contents(obj))
-    )
+    old, new = (np.frombuffer(c["POINT position"], np.uint32).reshape(-1, 3) for c in (before, meshes.contents(obj)))
     changed = (old != new).any(axis=1)
     expected = meshes.free_vertices(obj, faces & ~hidden)
     np.testing.assert_array_equal(changed, expected)

@@ -68,9 +68,7 @@ def boundary_loops(triangles: npt.ArrayLike) -> list[IntArray]:
     return _core.boundary_loops(faces)
 
 
-def conformal_distortion(
-    reference: npt.ArrayLike, vertices: npt.ArrayLike, triangles: npt.ArrayLike
-) -> FloatArray:
+def conformal_distortion(reference: npt.ArrayLike, vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> FloatArray:
     """(m,) ratio ≥ 1 of the singular values of each triangle's map from ``reference`` to ``vertices``.
 
     1: angles are kept; infinite where a triangle is degenerate on one side.
