@@ -115,7 +115,7 @@ private:
         result_.residual = std::max(result_.residual, solution.residual);
         result_.initial_residual = std::max(result_.initial_residual, solution.initial_residual);
         result_.iterations = std::max(result_.iterations, solution.iterations);
-        result_.polished = result_.polished && solution.polished;
+        result_.polished = result_.polished && solution.polished && solution.termination == Termination::converged;
         add_levels(solution.levels.empty() ? Indices{patch.vertex_count()} : solution.levels);
         for (const auto& [stage, seconds] : solution.seconds) result_.seconds[stage] += seconds;
         if (solution.termination != Termination::converged) {

@@ -103,6 +103,14 @@ Solution solve_directly(const Problem& problem, const Progress& progress) {
     return solution;
 }
 
+// The converged one; where neither has converged, the one with the smaller residual.
+Solution better_of(Solution direct, Solution on_proxy) {
+    const bool direct_converged = direct.termination == Termination::converged;
+    const bool proxy_converged = on_proxy.termination == Termination::converged;
+    if (direct_converged != proxy_converged) return direct_converged ? direct : on_proxy;
+    return direct_converged || on_proxy.residual < direct.residual ? on_proxy : direct;
+}
+
 }  // namespace
 
 Solution solve_global(const Problem& problem, const Progress& progress) {
@@ -110,14 +118,12 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
     if (problem.patch.free_count > direct_limit) {
         Solution on_proxy = solve_on_proxy(problem, progress);
         if (on_proxy.termination == Termination::converged) return on_proxy;
-        Solution direct = solve_directly(problem, progress);
-        return direct.termination == Termination::converged ? std::move(direct) : std::move(on_proxy);
+        return better_of(solve_directly(problem, progress), std::move(on_proxy));
     }
     Solution direct = solve_directly(problem, progress.range(0.0, 0.5));
     const bool converged = direct.termination == Termination::converged;
     if (converged && !has_poor_triangles(problem.patch, direct.points)) return direct;
-    Solution on_proxy = solve_on_proxy(problem, progress.range(0.5, 1.0));
-    return converged && on_proxy.termination != Termination::converged ? std::move(direct) : std::move(on_proxy);
+    return better_of(std::move(direct), solve_on_proxy(problem, progress.range(0.5, 1.0)));
 }
 
 }  // namespace fairing
