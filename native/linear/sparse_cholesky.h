@@ -17,9 +17,6 @@ public:
     // Solves for one or several right-hand sides (n × k).
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
 
-    // Entries of the factor, explicit zeros included.
-    [[nodiscard]] std::size_t entry_count() const { return panels_.size(); }
-
 private:
     void set_up(const SparseMatrix& lower);
     void scatter(const SparseMatrix& lower);

@@ -19,19 +19,13 @@ namespace {
 constexpr int direct_limit = 25000;
 
 double residual_of(const Problem& problem, const Points& points) {
-    SurfaceState state;
-    state.points = points;
-    state.measure_faces(problem.patch);
-    state.measure_curvature(problem);
+    const SurfaceState state = measured_surface(problem, points);
     return largest_residual(problem, state, outer_residual(problem, state));
 }
 
 // Σ w_ij (H_i − H_j)² over the edges, about ∫ |∇H|²; clipped weights, for it to be a measure on any mesh.
 double variation(const Problem& problem, const Points& points) {
-    SurfaceState state;
-    state.points = points;
-    state.measure_faces(problem.patch);
-    state.measure_curvature(problem);
+    const SurfaceState state = measured_surface(problem, points);
     double sum = 0.0;
     for (int e = 0; e < problem.patch.edge_count(); ++e) {
         const auto [i, j] = problem.patch.edge_ends[static_cast<std::size_t>(e)];
@@ -43,10 +37,7 @@ double variation(const Problem& problem, const Points& points) {
 
 // The vertices of a surface, placed on it by their inner fairness.
 Points settle(const Problem& problem, const Workspace& work, const Points& points) {
-    SurfaceState state;
-    state.points = points;
-    state.measure_faces(problem.patch);
-    state.measure_curvature(problem);
+    const SurfaceState state = measured_surface(problem, points);
     const TargetSurface target(problem.patch, points, state.normals);
     Placement placement{{}, points};
     for (int v = 0; v < problem.patch.free_count; ++v) placement.where.push_back(target.at_vertex(v));

@@ -113,10 +113,8 @@ private:
         Workspace work = make_workspace(problem, progress_);
         const Points start = globalise(problem, work, snapshot.points, progress_.range(0.4, 0.5));
         Solution solution = solve_equation(problem, work, start, progress_.range(0.5, 0.8));
-        SurfaceState state;
-        state.points = solution.termination == Termination::converged ? solution.points : start;
-        state.measure_faces(problem.patch);
-        state.measure_curvature(problem);
+        const bool converged = solution.termination == Termination::converged;
+        const SurfaceState state = measured_surface(problem, converged ? solution.points : start);
         solution.mean_curvature = state.mean_curvature;
         solution.residual = largest_residual(problem, state, outer_residual(problem, state));
         const Points c = conormals(problem.patch, problem.fixed_points, problem.fixed_normals);
@@ -183,10 +181,7 @@ Solution solve_on_proxy(const Problem& problem, const Progress& progress) {
     Stopwatch watch;
     const Problem uniform = proxy_problem(problem, problem.patch);
     const Workspace work = make_workspace(uniform, progress);
-    SurfaceState start;
-    start.points = membrane(uniform, work);
-    start.measure_faces(problem.patch);
-    start.measure_curvature(problem);
+    const SurfaceState start = measured_surface(problem, membrane(uniform, work));
     const double fill_seconds = watch.lap();
     Solution solution = ProxySolve(problem, progress).run(start.points);
     solution.initial_residual = largest_residual(problem, start, outer_residual(problem, start));

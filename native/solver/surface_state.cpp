@@ -22,6 +22,14 @@ void SurfaceState::measure_curvature(const Problem& problem) {
     gaussian_curvature = std::move(curvature.gaussian);
 }
 
+SurfaceState measured_surface(const Problem& problem, const Points& points) {
+    SurfaceState state;
+    state.points = points;
+    state.measure_faces(problem.patch);
+    state.measure_curvature(problem);
+    return state;
+}
+
 double largest_length(const Points& field) { return std::sqrt(field.colwise().squaredNorm().maxCoeff()); }
 
 VectorX harmonic_residual(const Problem& problem, const SurfaceState& state) {

@@ -19,6 +19,9 @@ struct SurfaceState {
     void measure_curvature(const Problem& problem);
 };
 
+// A surface with all of the above measured.
+SurfaceState measured_surface(const Problem& problem, const Points& points);
+
 // Largest length of a column.
 double largest_length(const Points& field);
 

@@ -46,6 +46,18 @@ def _index_range(name: str, row: int) -> MeshError:
     return MeshError(Diagnostic("INDEX_RANGE", text, np.array([row], dtype=np.int32), "triangle"))
 
 
+def boundary(
+    fixed: npt.ArrayLike | None, fixed_normals: npt.ArrayLike | None
+) -> tuple[IntArray | None, FloatArray | None]:
+    """``fixed`` as (k,) and ``fixed_normals`` as (k, 3), each None where it was left out."""
+    held = None if fixed is None else integers("fixed", fixed, None)
+    if fixed_normals is None:
+        return held, None
+    if held is None:
+        raise ValueError("fixed_normals: needs `fixed`, whose order it follows")
+    return held, floats("fixed_normals", fixed_normals, held.shape[0])
+
+
 def indices_within(name: str, array: IntArray, count: int) -> IntArray:
     """The array itself, or MeshError INDEX_RANGE where an index is outside 0 … count − 1."""
     bad = np.flatnonzero((array < 0) | (array >= count))

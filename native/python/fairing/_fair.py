@@ -116,14 +116,7 @@ def fair(
     points = _arguments.floats("vertices", vertices)
     count = points.shape[0]
     faces = _arguments.integers("triangles", triangles, 3)
-    fixed_list = None if fixed is None else _arguments.integers("fixed", fixed, None)
-    if fixed_normals is not None and fixed_list is None:
-        raise ValueError("fixed_normals: needs `fixed`, whose order it follows")
-    given_normals = (
-        None
-        if fixed_normals is None or fixed_list is None
-        else _arguments.floats("fixed_normals", fixed_normals, fixed_list.shape[0])
-    )
+    fixed_list, given_normals = _arguments.boundary(fixed, fixed_normals)
     m0 = None if reference is None else _arguments.floats("reference", reference, count)
     edges = _neighbour_edges(neighbours, count)
     _arguments.choice("method", method, _options.METHODS)

@@ -26,14 +26,7 @@ def mean_curvature(
     """
     points = _arguments.floats("vertices", vertices)
     faces = _arguments.integers("triangles", triangles, 3)
-    held = None if fixed is None else _arguments.integers("fixed", fixed, None)
-    if fixed_normals is not None and held is None:
-        raise ValueError("fixed_normals: needs `fixed`, whose order it follows")
-    given = (
-        None
-        if fixed_normals is None or held is None
-        else _arguments.floats("fixed_normals", fixed_normals, held.shape[0])
-    )
+    held, given = _arguments.boundary(fixed, fixed_normals)
     kind = _arguments.choice("normals", normals, NORMALS)
     return _core.mean_curvature(points, faces, held, given, kind)
 
