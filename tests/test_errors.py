@@ -90,8 +90,8 @@ def test_vertices_without_triangles_may_be_anything() -> None:
     [
         ("method", "fast", ["global", "paper"]),
         ("equation", "biharmonic", ["harmonic", "constant", "minimal_energy", "minimal"]),
-        ("inner_fairness", "shape_preserving", ["uniform", "conformal", "inverse_distance"]),
-        ("inner_fairness", np.array([[0, 1, 1.0]]), ["uniform", "conformal", "inverse_distance"]),
+        ("inner_fairness", "smooth", ["uniform", "conformal", "inverse_distance", "shape_preserving"]),
+        ("inner_fairness", None, ["uniform", "conformal", "inverse_distance", "shape_preserving"]),
         ("normals", "smooth", ["fitted", "averaged"]),
         ("levels", 2, ["0", "1"]),
         ("levels", -1, ["0", "1"]),

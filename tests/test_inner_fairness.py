@@ -47,13 +47,53 @@ def test_uniform_is_balanced(name: str) -> None:
     assert tangential_imbalance(patch, conformal, weights) > 0.05
 
 
-def test_conformal_reproduces_a_planar_mesh() -> None:
-    """Harmonic weights reproduce linear functions: every flat mesh is its own fair mesh."""
+@pytest.mark.parametrize("kind", ["conformal", "shape_preserving"])
+def test_a_planar_mesh_is_reproduced(kind: str) -> None:
+    """Both weights reproduce linear functions: every flat mesh is its own fair mesh."""
     patch = shapes.plane(500)
-    result = fair_patch(patch, inner_fairness="conformal", reference=patch.vertices)
+    result = fair_patch(patch, inner_fairness=kind, reference=patch.vertices)
     assert np.abs(result.vertices - patch.vertices).max() < 1e-8
     uniform = fair_patch(patch)
     assert np.abs(uniform.vertices - patch.vertices).max() > 1e-2
+
+
+def lopsided_rows(edges: IntArray) -> FloatArray:
+    """Rows (i, j, λ) with λ_ij from 1 to 4 and λ_ji of its own: far from symmetric."""
+    both = np.vstack([edges, edges[:, ::-1]])
+    weights = np.random.default_rng(3).uniform(1.0, 4.0, len(both))
+    return np.column_stack([both, weights])
+
+
+@pytest.mark.parametrize("name", CURVED)
+def test_custom_weights_are_balanced_and_leave_the_surface_alone(name: str) -> None:
+    patch = CURVED[name]
+    rows = lopsided_rows(measures.edges(patch.triangles))
+    weights = np.zeros((len(patch.vertices),) * 2)
+    weights[rows[:, 0].astype(int), rows[:, 1].astype(int)] = rows[:, 2]
+    weights /= weights.sum(axis=1)[:, None]
+    result = fair_patch(patch, inner_fairness=rows)
+    assert result.converged
+    assert tangential_imbalance(patch, result, weights) < 1e-6
+    uniform = fair_patch(patch)
+    assert np.abs(result.vertices - uniform.vertices).max() > 1e-2
+    assert patch.error(result.vertices) < 2.0 * patch.error(uniform.vertices) + 1e-9
+
+
+def test_symmetric_custom_weights_are_the_uniform_ones() -> None:
+    """λ = 1 by hand takes the way of weights that are not symmetric, to the same place."""
+    patch = CURVED["cap"]
+    ends = measures.edges(patch.triangles)
+    rows = np.column_stack([np.vstack([ends, ends[:, ::-1]]), np.ones(2 * len(ends))])
+    assert np.abs(fair_patch(patch, inner_fairness=rows).vertices - fair_patch(patch).vertices).max() < 1e-7
+
+
+def test_custom_weights_that_lead_to_no_fixed_vertex_are_refused() -> None:
+    patch = CURVED["cap"]
+    edges = measures.edges(patch.triangles)
+    free = np.isin(edges, patch.free).all(axis=1)
+    rows = np.column_stack([np.vstack([edges[free], edges[free][:, ::-1]]), np.ones(2 * free.sum())])
+    with pytest.raises(ValueError, match=r"inner_fairness: (no chain of positive weights|vertex .* needs a row)"):
+        fair_patch(patch, inner_fairness=rows)
 
 
 def test_conformal_uses_the_reference_not_the_start() -> None:

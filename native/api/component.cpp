@@ -119,7 +119,10 @@ std::span<const int> fixed_vertices(const Patch& patch) {
     return std::span(patch.to_input).subspan(at(patch.free_count));
 }
 
-InnerWeights make_inner_weights(const Patch& patch, const Points& reference, const FairOptions& options) {
+Lambda make_lambda(const Patch& patch, const Points& reference, const FairOptions& options) {
+    const bool by_rows =
+        options.inner_fairness == InnerFairness::shape_preserving || options.inner_fairness == InnerFairness::custom;
+    if (by_rows) return make_row_weights(patch, reference, options);
     if (options.inner_fairness == InnerFairness::conformal) return conformal_weights(patch, reference);
     InnerWeights weights =
         options.neighbours ? uniform_weights(local_edges(patch, *options.neighbours)) : uniform_weights(patch);

@@ -23,10 +23,11 @@ Normalisation normalise(const Points& fixed_points);
 std::span<const int> free_vertices(const Patch& patch);
 std::span<const int> fixed_vertices(const Patch& patch);
 
-// Symmetric λ of one patch, from its own edges, from `neighbours` or from the reference (3 × local vertices).
-InnerWeights make_inner_weights(const Patch& patch, const Points& reference, const FairOptions& options);
+// λ of one patch, from its own edges, from `neighbours`, from the caller's rows or from the reference (3 × local
+// vertices): symmetric unless shape preserving or custom.
+Lambda make_lambda(const Patch& patch, const Points& reference, const FairOptions& options);
 
-// The same as directed rows, for every kind of inner fairness. `reference`: 3 × local vertices.
+// The same as rows, for every kind.
 RowWeights make_row_weights(const Patch& patch, const Points& reference, const FairOptions& options);
 
 // Degrees between the prescribed normals and the surface's own (3 × fixed count, local order); zero at pins and where

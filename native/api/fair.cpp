@@ -100,7 +100,7 @@ private:
             solution.boundary_normals = one_sided_normals(patch, solution.points);
             return solution;
         }
-        problem.weights = make_inner_weights(patch, reference, options_);
+        problem.weights = make_lambda(patch, reference, options_);
         return solve_global(problem, progress);
     }
 

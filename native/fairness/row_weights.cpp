@@ -24,6 +24,33 @@ void append(RowWeights& rows, int column, double value) {
     rows.values.push_back(value);
 }
 
+// The first free vertex from which no chain of positive weights leads to a fixed one; `none` if there is none.
+int first_adrift(const Patch& patch, const RowWeights& rows) {
+    std::vector<Indices> pulled_by(at(patch.vertex_count()));
+    for (int i = 0; i < patch.free_count; ++i) {
+        const auto columns = rows.columns_of(i);
+        const auto values = rows.values_of(i);
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            if (values[k] > 0.0) pulled_by[at(columns[k])].push_back(i);
+        }
+    }
+    std::vector<char> held(at(patch.vertex_count()), 0);
+    Indices front;
+    for (int v = patch.free_count; v < patch.vertex_count(); ++v) front.push_back(v);
+    while (!front.empty()) {
+        const int j = front.back();
+        front.pop_back();
+        for (int i : pulled_by[at(j)]) {
+            if (held[at(i)]) continue;
+            held[at(i)] = 1;
+            front.push_back(i);
+        }
+    }
+    const auto end = held.begin() + patch.free_count;
+    const auto adrift = std::find(held.begin(), end, 0);
+    return adrift == end ? none : static_cast<int>(adrift - held.begin());
+}
+
 void close_row(RowWeights& rows) { rows.begin.push_back(static_cast<int>(rows.columns.size())); }
 
 }  // namespace
@@ -53,6 +80,10 @@ RowWeights row_weights(const Patch& patch, const std::vector<DirectedWeight>& we
         }
         for (const auto& [j, weight] : rows[i]) append(result, j, weight / sum);
         close_row(result);
+    }
+    if (const int adrift = first_adrift(patch, result); adrift != none) {
+        throw std::invalid_argument(std::string(what) + ": no chain of positive weights leads from vertex " +
+                                    std::to_string(patch.to_input[at(adrift)]) + " to a fixed one");
     }
     return result;
 }

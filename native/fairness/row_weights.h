@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <variant>
 
 #include "fairness/inner_weights.h"
 
@@ -22,13 +23,17 @@ struct RowWeights {
 // λ_ij of symmetric weights. Throws std::invalid_argument, naming `what`, where a row has no positive weight.
 RowWeights row_weights(const Patch& patch, const InnerWeights& weights, const char* what);
 
+// λ of a patch: symmetric where the kind allows it, else by rows.
+using Lambda = std::variant<InnerWeights, RowWeights>;
+
 // A directed weight; rows are normalised.
 struct DirectedWeight {
     int i;
     int j;
     double weight;
 };
-// `weights`: local vertices; those of fixed i are left out. Throws as above.
+// `weights`: local vertices; those of fixed i are left out. Throws as above, and where a chain of positive weights
+// leads from a free vertex to no fixed one: its place would be undetermined.
 RowWeights row_weights(const Patch& patch, const std::vector<DirectedWeight>& weights, const char* what);
 
 // λ of all edges at each free vertex, by the rule of ring_weights.h on the positions of M0 (3 × local vertices).

@@ -19,7 +19,8 @@ std::unique_ptr<NormalOperator> make_operator(const Problem& problem) {
 }
 
 Workspace make_workspace(const Problem& problem, const Progress& progress) {
-    return {make_operator(problem), TangentialStep(problem.patch, problem.weights, problem.fixed_points, progress)};
+    return {make_operator(problem),
+            make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress)};
 }
 
 // Mean square of log(edge length over the mean) and of log(relative area): 0 for a mesh of equal triangles.

@@ -41,7 +41,7 @@ Points settle(const Problem& problem, const Workspace& work, const Points& point
     const TargetSurface target(problem.patch, points, state.normals);
     Placement placement{{}, points};
     for (int v = 0; v < problem.patch.free_count; ++v) placement.where.push_back(target.at_vertex(v));
-    relax(problem, work.tangential, target, placement);
+    relax(problem, *work.tangential, target, placement);
     return placement.points;
 }
 
@@ -66,7 +66,7 @@ Start make_start(const Problem& problem, Workspace& work, const Progress& progre
     if (problem.patch.loop_count() < 2) return start;
     // Between loops the G1 data may admit several surfaces (a pipe longer than 2 π r): the one whose mean curvature
     // varies least is wanted, so the start that varies least goes first.
-    const auto along_normals = normal_fill(problem, work.tangential, progress.here());
+    const auto along_normals = normal_fill(problem, *work.tangential, progress.here());
     if (along_normals && variation(problem, *along_normals) < variation(problem, start.points)) {
         start.points = settle(problem, work, *along_normals);
     }
@@ -81,8 +81,9 @@ std::unique_ptr<NormalOperator> make_normal_operator(const Problem& problem) {
 // The solve on the user's mesh alone, from the membrane.
 Solution solve_directly(const Problem& problem, const Progress& progress) {
     Stopwatch watch;
-    Workspace work{make_normal_operator(problem),
-                   TangentialStep(problem.patch, problem.weights, problem.fixed_points, progress.range(0.0, 0.05))};
+    Workspace work{
+        make_normal_operator(problem),
+        make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.range(0.0, 0.05))};
     const Start start = make_start(problem, work, progress.range(0.05, 0.6));
     const double start_seconds = watch.lap();
     Solution solution = solve_equation(problem, work, start.points, progress.range(0.6, 1.0));

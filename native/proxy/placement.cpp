@@ -61,7 +61,7 @@ void relax(const Problem& problem, const TangentialStep& tangential, const Targe
     constexpr double largest_step = 0.1;  // units of D
     constexpr double done = 1e-7;
     constexpr int most_halvings = 8;
-    double energy = tangential.energy(placement.points);
+    double merit = tangential.merit(placement.points, normals_at(placement, target));
     for (int step = 0; step < most_steps; ++step) {
         const Points d = tangential.displacement(placement.points, normals_at(placement, target));
         const double largest = largest_length(d);
@@ -74,9 +74,9 @@ void relax(const Problem& problem, const TangentialStep& tangential, const Targe
                 const Vector3 wanted = placement.points.col(v) + length * d.col(v);
                 put(trial, v, target, target.project(wanted, placement.where[at(v)].triangle));
             }
-            const double reached = tangential.energy(trial.points);
-            better = reached < energy;
-            if (better) energy = reached;
+            const double reached = tangential.merit(trial.points, normals_at(trial, target));
+            better = reached < merit;
+            if (better) merit = reached;
         }
         if (!better) break;
         placement = std::move(trial);

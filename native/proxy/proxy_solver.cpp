@@ -39,7 +39,7 @@ Problem coarse_problem(const Problem& problem, const Patch& patch) {
 
 Workspace make_workspace(const Problem& problem, const Progress& progress) {
     return {std::make_unique<BiharmonicOperator>(problem.patch),
-            TangentialStep(problem.patch, problem.weights, problem.fixed_points, progress.here())};
+            make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())};
 }
 
 // The fitted surface of a solution, as a target for other vertices.
@@ -128,7 +128,7 @@ private:
         const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
         Placement placement = first_placement(problem_, attempt.mesh, proxy.mesh, target);
         Workspace work = make_workspace(problem_, progress_);
-        relax(problem_, work.tangential, target, placement);
+        relax(problem_, *work.tangential, target, placement);
         return polish(proxy, target, placement, work);
     }
 

@@ -116,7 +116,7 @@ private:
     Points plain_step() {
         const VectorX u = work_.normal->solve(outer_);
         Points d = state_.normals.leftCols(patch_.free_count).array().rowwise() * u.transpose().array();
-        d += work_.tangential.displacement(state_.points, state_.normals);
+        d += work_.tangential->displacement(state_.points, state_.normals);
         return d;
     }
 

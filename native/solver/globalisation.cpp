@@ -78,7 +78,7 @@ private:
             state_.mean_curvature = mixed_mean_curvature(curvature_vectors_, state_.stiffness, state_.normals);
             if (!work_.normal->update(state_.stiffness, progress_.here())) return false;
             Points d = along_normals(state_.normals, work_.normal->solve(harmonic_residual(problem_, state_)));
-            d += work_.tangential.displacement(state_.points, state_.normals);
+            d += work_.tangential->displacement(state_.points, state_.normals);
             const double largest = largest_length(d);
             state_.points.leftCols(patch_.free_count) += std::min(1.0, largest_step / largest) * d;
             measure();
@@ -127,7 +127,7 @@ private:
     }
 
     void even_out() {
-        Points d = work_.tangential.displacement(state_.points, state_.normals);
+        Points d = work_.tangential->displacement(state_.points, state_.normals);
         const double largest = largest_length(d);
         if (!(largest > 0.0)) return;
         state_.points.leftCols(patch_.free_count) += std::min(1.0, 0.1 / largest) * d;

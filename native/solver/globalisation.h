@@ -12,7 +12,7 @@ namespace fairing {
 // What the stages of a solve share.
 struct Workspace {
     std::unique_ptr<NormalOperator> normal;  // of the equation: biharmonic, or Laplace for minimal surfaces
-    TangentialStep tangential;
+    std::unique_ptr<TangentialStep> tangential;
 };
 
 // Positions of all vertices: Willmore descent, then fixed-point steps of mixed finite elements (H_mixed ← harmonic, and

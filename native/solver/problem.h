@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/progress.h"
-#include "fairness/inner_weights.h"
+#include "fairness/row_weights.h"
 #include "geometry/vertex_normal.h"
 
 namespace fairing {
@@ -32,7 +32,7 @@ struct Problem {
     const Patch& patch;
     Points fixed_points;   // 3 × fixed count
     Points fixed_normals;  // 3 × fixed count, unit; ignored at pins
-    InnerWeights weights;
+    Lambda weights;
     SolverOptions options;
 };
 

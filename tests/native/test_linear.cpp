@@ -4,6 +4,7 @@
 
 #include "base/errors.h"
 #include "linear/anderson.h"
+#include "linear/gmres.h"
 #include "linear/sparse_cholesky.h"
 
 using namespace fairing;
@@ -74,4 +75,23 @@ TEST_CASE("Anderson acceleration ends a linear iteration within its dimension") 
     Anderson anderson(5, 6);
     for (int k = 0; k < 7; ++k) x += anderson.step(x, b - diagonal.cwiseProduct(x));
     CHECK((diagonal.cwiseProduct(x) - b).norm() < 1e-8);
+}
+
+TEST_CASE("GMRES solves systems that are not symmetric, at the latest after as many steps as unknowns") {
+    std::srand(5);
+    const int n = 30;
+    const Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n) + 3.0 * Eigen::MatrixXd::Identity(n, n);
+    const Eigen::MatrixXd M = Eigen::MatrixXd::Random(n, n) + 4.0 * Eigen::MatrixXd::Identity(n, n);
+    const VectorX b = VectorX::Random(n);
+    const LinearMap apply = [&](const VectorX& x) { return VectorX(A * x); };
+    const LinearMap precondition = [&](const VectorX& x) { return VectorX(M * x); };
+    const VectorX x = gmres(apply, precondition, b, 1e-12, n);
+    CHECK((A * x - b).norm() < 1e-10 * b.norm());
+    double last = b.norm();
+    for (int steps = 1; steps < n; steps += 4) {
+        const double left = (A * gmres(apply, precondition, b, 0.0, steps) - b).norm();
+        CHECK(left < last * (1.0 + 1e-12));
+        last = left;
+    }
+    CHECK(gmres(apply, precondition, VectorX::Zero(n), 1e-12, n).norm() == 0.0);
 }

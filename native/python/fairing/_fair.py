@@ -66,7 +66,7 @@ def fair(
         Of "constant", in length⁻³; positive bulges along the normals.
     inner_fairness : "uniform" | "conformal" | "inverse_distance" | "shape_preserving" | (e, 3) array
         How vertices sit within the surface (§7.3); rows of the array: i, j, λ_ij ≥ 0, normalised for each i, one
-        at least for each free i. Method "global" has the first three.
+        at least for each free i.
     neighbours : (e, 2) int
         Edges that uniform and inverse-distance weights use instead of the triangles' own (for quads and n-gons).
     method : "global" | "paper"
@@ -123,7 +123,7 @@ def fair(
     _arguments.whole("threads", threads, 0)
     if progress is not None and not callable(progress):
         raise ValueError(f"progress: a callable(fraction, stage) or None is needed, not {progress!r}")
-    kind, weights = _options.inner_fairness(method, inner_fairness, count)
+    kind, weights = _options.inner_fairness(inner_fairness, count)
     given = {
         "damping": damping, "cg_steps": cg_steps, "sweeps": sweeps, "epsilon": epsilon,
         "virtual_points": virtual_points, "start": start,
@@ -131,7 +131,7 @@ def fair(
     paper = _options.paper_choices(method, levels, given)
     _arguments.choice("normals", normals, _options.NORMALS)
     options = _core.Options(
-        equation=_arguments.choice("equation", equation, _options.EQUATIONS[method]),
+        equation=_arguments.choice("equation", equation, _options.EQUATIONS),
         load=_options.load_number(equation, load),
         inner_fairness=kind,
         method=method,

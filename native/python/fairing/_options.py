@@ -12,14 +12,8 @@ from fairing._types import FloatArray
 
 METHODS = ("global", "paper")
 NORMALS = ("fitted", "averaged")
-EQUATIONS = {
-    "global": ("harmonic", "constant", "minimal_energy", "minimal"),
-    "paper": ("harmonic", "constant", "minimal_energy", "minimal"),
-}
-INNER_FAIRNESS = {
-    "global": ("uniform", "conformal", "inverse_distance"),
-    "paper": ("uniform", "conformal", "inverse_distance", "shape_preserving"),
-}
+EQUATIONS = ("harmonic", "constant", "minimal_energy", "minimal")
+INNER_FAIRNESS = ("uniform", "conformal", "inverse_distance", "shape_preserving")
 VIRTUAL_POINTS = ("sparse", "coarse", "everywhere")
 STARTS = ("improved", "linear")
 
@@ -67,10 +61,10 @@ def load_number(equation: str, load: Any) -> float:
     return float(load)
 
 
-def inner_fairness(method: str, value: Any, count: int) -> tuple[str, FloatArray | None]:
+def inner_fairness(value: Any, count: int) -> tuple[str, FloatArray | None]:
     """The word for the engine and, for "custom", the rows (i, j, λ)."""
-    if isinstance(value, str) or value is None or method != "paper":
-        return _arguments.choice("inner_fairness", value, INNER_FAIRNESS[method]), None
+    if isinstance(value, str) or value is None:
+        return _arguments.choice("inner_fairness", value, INNER_FAIRNESS), None
     return "custom", _directed_weights(value, count)
 
 

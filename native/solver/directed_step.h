@@ -1,0 +1,34 @@
+// Tangential steps of λ that are not symmetric: shape preserving and custom ones.
+#pragma once
+
+#include <Eigen/SparseLU>
+
+#include "solver/tangential_step.h"
+
+namespace fairing {
+
+// Solves P (Λ − 1) x = 0; no energy stands behind it.
+class DirectedStep : public TangentialStep {
+public:
+    DirectedStep(const Patch& patch, const RowWeights& weights, const Points& fixed_points);
+
+    [[nodiscard]] Points harmonic_positions() const override;
+    [[nodiscard]] Points harmonic_extension(const Points& fixed_values) const override;
+    [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
+    [[nodiscard]] Points displacement(const Points& points, const Points& normals, int max_cycles) const override;
+
+private:
+    using Matrix = Eigen::SparseMatrix<double>;
+
+    // P (Λx − x) of the free vertices.
+    [[nodiscard]] Points pull(const Points& points, const Points& normals) const;
+    [[nodiscard]] Points solve(const Points& rhs) const;
+
+    int free_count_;
+    Matrix laplacian_;  // 1 − Λ over the free vertices
+    Matrix coupling_;   // λ_ij of free i and fixed j
+    Points fixed_points_;
+    Eigen::SparseLU<Matrix> factor_;
+};
+
+}  // namespace fairing
