@@ -1,6 +1,7 @@
 #include "proxy/proxy_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <queue>
 
 #include <Eigen/Geometry>
@@ -84,6 +85,12 @@ int ProxyMesh::flip_round() {
         ++flips;
     }
     return flips;
+}
+
+Vector3 ProxyMesh::normal(Vertex v) const {
+    std::vector<Vector3> ring;
+    for (const Vertex neighbour : mesh_.vv_ccw_range(v)) ring.push_back(point(neighbour));
+    return max_normal({point(v), ring, !mesh_.is_boundary(v)});
 }
 
 void ProxyMesh::smooth() {
@@ -180,10 +187,35 @@ int ProxyMesh::collapse_short(const std::vector<double>& target, bool keep_shape
     return collapses;
 }
 
-std::vector<double> ProxyMesh::target_lengths(const Sizing& sizing) const {
+// The longest edges at each vertex that `turn` admits.
+std::vector<double> ProxyMesh::lengths_by_turn(const Sizing& sizing) const {
     std::vector<double> target(mesh_.n_vertices(), sizing.longest);
+    if (!std::isfinite(sizing.turn)) return target;
+    std::vector<Vector3> normals(mesh_.n_vertices(), Vector3::Zero());
+    for (const Vertex v : mesh_.vertices()) {
+        if (!fixed(v)) normals[at(v.idx())] = normal(v);
+    }
+    for (const Edge e : mesh_.edges()) {
+        const Vertex a = mesh_.to_vertex_handle(mesh_.halfedge_handle(e, 0));
+        const Vertex b = mesh_.to_vertex_handle(mesh_.halfedge_handle(e, 1));
+        if (fixed(a) || fixed(b)) continue;
+        const Vector3& n = normals[at(a.idx())];
+        const Vector3& m = normals[at(b.idx())];
+        const double angle = std::atan2(n.cross(m).norm(), n.dot(m));
+        const double admitted = sizing.turn * mesh_.calc_edge_length(e) / std::max(angle, 1e-6);
+        for (const Vertex v : {a, b}) target[at(v.idx())] = std::min(target[at(v.idx())], admitted);
+    }
+    for (double& length : target) length = std::max(length, 0.25 * sizing.longest);
+    return target;
+}
+
+std::vector<double> ProxyMesh::target_lengths(const Sizing& sizing) const {
+    std::vector<double> target = lengths_by_turn(sizing);
     using Entry = std::pair<double, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    for (const Vertex v : mesh_.vertices()) {
+        if (target[at(v.idx())] < sizing.longest) queue.push({target[at(v.idx())], v.idx()});
+    }
     for (const Edge e : mesh_.edges()) {
         if (!mesh_.is_boundary(e)) continue;
         const double length = mesh_.calc_edge_length(e);

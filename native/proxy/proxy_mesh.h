@@ -1,6 +1,8 @@
 // The engine's own mesh of a patch: the same outline, an interior of its own, well-shaped whatever it came from.
 #pragma once
 
+#include <limits>
+
 #include "mesh/patch.h"
 
 namespace fairing {
@@ -15,11 +17,13 @@ struct RemovedVertex {
 };
 
 // Edge lengths of the interior: the outline's own spacing there, from there on growing by `growth` per distance up to
-// `longest`. No edge is split beyond `free_limit` free vertices.
+// `longest`, but so that the normal turns by `turn` radians at most along an edge (down to a quarter of `longest`; a
+// narrow pipe would lose its shape). No edge is split beyond `free_limit` free vertices.
 struct Sizing {
     double growth;
     double longest;
     int free_limit;
+    double turn = std::numeric_limits<double>::infinity();
 };
 
 // Vertices keep their number through all changes: those of the patch it was made from first, then vertices that were
@@ -70,6 +74,8 @@ private:
     [[nodiscard]] bool may_collapse(Halfedge h);
     void collapse(Halfedge h);
     [[nodiscard]] bool keeps_shape(Halfedge h) const;
+    [[nodiscard]] Vector3 normal(Vertex v) const;
+    [[nodiscard]] std::vector<double> lengths_by_turn(const Sizing& sizing) const;
     [[nodiscard]] std::vector<double> target_lengths(const Sizing& sizing) const;
 
     SurfaceMesh mesh_;

@@ -9,6 +9,7 @@
 #include "proxy/proxy_mesh.h"
 #include "solver/continuation.h"
 #include "solver/minimal_start.h"
+#include "solver/normal_fill.h"
 #include "solver/surface_state.h"
 #include "solver/willmore.h"
 
@@ -23,6 +24,7 @@ constexpr double finest_growth = 0.15;     // of edge lengths per distance from 
 constexpr double longest_coarse = 0.15;    // units of D
 constexpr double longest_fine = 0.03;
 constexpr int free_limit = 20000;
+constexpr double turn = 0.7;  // radians along an edge of the coarse proxy: nine edges around a pipe
 
 // A problem on the proxy's own connectivity: uniform weights, the same boundary data.
 Problem proxy_problem(const Problem& problem, const Patch& patch) {
@@ -62,8 +64,8 @@ public:
         for (const double growth : {0.5, 0.25, 0.12}) {
             Attempt attempt{ProxyMesh(problem_.patch, start), {}};
             attempt.mesh.adapt({growth, longest_coarse, free_limit});
-            solve_coarse(attempt.mesh, growth);
-            attempt.proxy.emplace(solve_fine(attempt.mesh, growth));
+            const bool converged = solve_coarse(attempt.mesh, growth);
+            attempt.proxy.emplace(solve_fine(attempt.mesh, growth, converged));
             if (attempt.proxy->converged()) return place(attempt);
             if (!least_bent || attempt.proxy->energy < least_bent->proxy->energy)
                 least_bent.emplace(std::move(attempt));
@@ -77,17 +79,59 @@ private:
         std::optional<SolvedProxy> proxy;
     };
 
-    // A start for the fine proxy: the harmonic surface where the iteration finds it, the least bent one otherwise.
-    void solve_coarse(ProxyMesh& mesh, double growth) {
+    // A surface on a coarse mesh; what curves its patch least is the better one.
+    struct Coarse {
+        ProxyMesh mesh;
+        bool converged;
+        double variation;
+    };
+
+    // A start for the fine proxy: the harmonic surface where the iteration finds it (true), the least bent one
+    // otherwise. Between loops the data may admit several surfaces: as in the direct solve, the one whose curvatures
+    // vary least is taken.
+    bool solve_coarse(ProxyMesh& mesh, double growth) {
+        std::optional<Coarse> along_normals;
+        if (problem_.patch.loop_count() > 1) along_normals = coarse_along_normals(mesh, growth);
+        Coarse bent = coarse_by_descent(mesh, growth);
+        const bool pipe = along_normals && along_normals->converged &&
+                          (!bent.converged || along_normals->variation < bent.variation);
+        Coarse& chosen = pipe ? *along_normals : bent;
+        mesh = std::move(chosen.mesh);
+        return chosen.converged;
+    }
+
+    std::optional<Coarse> coarse_along_normals(ProxyMesh mesh, double growth) {
+        constexpr int rounds = 3;  // of filling and meshing anew: the first mesh belongs to another surface
+        for (int k = 0; k < rounds; ++k) {
+            const auto snapshot = mesh.snapshot();
+            const Problem problem = coarse_problem(problem_, snapshot.patch);
+            const auto points = normal_fill(problem, progress_.here());
+            if (!points) return std::nullopt;
+            mesh.read_back(snapshot.patch, *points);
+            mesh.adapt({growth, longest_coarse, free_limit, turn});
+        }
+        return iterate_coarse(std::move(mesh), [](const Problem&, Workspace&, const Points& points) { return points; });
+    }
+
+    Coarse coarse_by_descent(ProxyMesh mesh, double growth) {
         descend(mesh);
         mesh.adapt({growth, longest_coarse, free_limit});
+        return iterate_coarse(std::move(mesh), [&](const Problem& problem, Workspace& work, const Points& points) {
+            return globalise(problem, work, points, progress_.here());
+        });
+    }
+
+    template <typename MakeStart>
+    Coarse iterate_coarse(ProxyMesh mesh, const MakeStart& make_start) {
         const auto snapshot = mesh.snapshot();
         const Problem problem = coarse_problem(problem_, snapshot.patch);
         Workspace work = make_workspace(problem, progress_);
-        const Points start = globalise(problem, work, snapshot.points, progress_.here());
+        const Points start = make_start(problem, work, snapshot.points);
         const Solution solution = iterate(problem, work, start, progress_.here());
         const bool converged = solution.termination == Termination::converged;
-        mesh.read_back(snapshot.patch, converged ? solution.points : start);
+        const Points& points = converged ? solution.points : start;
+        mesh.read_back(snapshot.patch, points);
+        return {std::move(mesh), converged, curvature_variation(problem, points)};
     }
 
     void descend(ProxyMesh& mesh) {
@@ -106,13 +150,19 @@ private:
     }
 
     // Not converged: the least bent surface of the fine proxy instead of the iteration's last one.
-    SolvedProxy solve_fine(ProxyMesh& mesh, double growth) {
+    SolvedProxy solve_fine(ProxyMesh& mesh, double growth, bool from_converged) {
         mesh.adapt({std::min(growth, finest_growth), longest_fine, free_limit});
         auto snapshot = mesh.snapshot();
         const Problem problem = proxy_problem(problem_, snapshot.patch);
         Workspace work = make_workspace(problem, progress_);
-        const Points start = globalise(problem, work, snapshot.points, progress_.range(0.4, 0.5));
-        Solution solution = solve_equation(problem, work, start, progress_.range(0.5, 0.8));
+        Points start = snapshot.points;
+        Solution solution;
+        if (from_converged) solution = solve_equation(problem, work, start, progress_.range(0.5, 0.8));
+        // The Willmore descent leads away from straight pipes: only where it is needed.
+        if (!from_converged || solution.termination != Termination::converged) {
+            start = globalise(problem, work, start, progress_.range(0.4, 0.5));
+            solution = solve_equation(problem, work, start, progress_.range(0.5, 0.8));
+        }
         const bool converged = solution.termination == Termination::converged;
         const SurfaceState state = measured_surface(problem, converged ? solution.points : start);
         solution.mean_curvature = state.mean_curvature;
@@ -132,21 +182,32 @@ private:
         return polish(proxy, target, placement, work);
     }
 
-    // The discrete equation on the user's own mesh, where it converges near the surface. On badly shaped triangles
-    // its curvature is worse than that of the proxy, so there it must agree with the proxy's surface.
+    // The discrete equation on the user's own mesh, where it converges near the surface.
     Solution polish(const SolvedProxy& proxy, const TargetSurface& target, const Placement& placement,
                     Workspace& work) {
+        Solution placed = placed_solution(proxy, target, placement);
+        if (!proxy.converged()) return placed;
+        Solution polished = iterate(problem_, work, placement.points, progress_.range(0.8, 1.0));
+        if (polished.termination != Termination::converged || !agree(polished, placed)) return placed;
+        polished.boundary_normals = one_sided_normals(problem_.patch, polished.points);
+        return polished;
+    }
+
+    // The user's mesh and the proxy discretise one surface. Where they differ by more than their own errors, the
+    // mesh is too poor to carry the equation: on crowded or needle-shaped triangles a step may be small and H nonsense.
+    [[nodiscard]] bool agree(const Solution& polished, const Solution& placed) const {
         constexpr double farthest = 0.05;  // units of D
         constexpr double farthest_on_poor_triangles = 2e-4;
-        if (proxy.converged()) {
-            Solution polished = iterate(problem_, work, placement.points, progress_.range(0.8, 1.0));
-            const bool poor = has_poor_triangles(problem_.patch, placement.points);
-            if (polished.termination == Termination::converged &&
-                largest_length(polished.points - placement.points) < (poor ? farthest_on_poor_triangles : farthest)) {
-                polished.boundary_normals = one_sided_normals(problem_.patch, polished.points);
-                return polished;
-            }
-        }
+        constexpr double curvature_share = 0.1;  // of the largest |H|, or of 1/D where that is less
+        const bool poor = has_poor_triangles(problem_.patch, placed.points);
+        if (largest_length(polished.points - placed.points) > (poor ? farthest_on_poor_triangles : farthest)) return false;
+        const Eigen::Index count = problem_.patch.free_count;
+        const VectorX difference = polished.mean_curvature.head(count) - placed.mean_curvature.head(count);
+        return difference.cwiseAbs().maxCoeff() <
+               curvature_share * std::max(1.0, placed.mean_curvature.cwiseAbs().maxCoeff());
+    }
+
+    Solution placed_solution(const SolvedProxy& proxy, const TargetSurface& target, const Placement& placement) const {
         Solution placed = proxy.solution;
         placed.polished = false;
         placed.points = placement.points;

@@ -36,11 +36,7 @@ Points DirectedStep::solve(const Points& rhs) const {
     return factor_.solve(Eigen::MatrixXd(rhs.transpose())).transpose();
 }
 
-Points DirectedStep::harmonic_extension(const Points& fixed_values) const {
-    return solve((coupling_ * fixed_values.transpose()).transpose());
-}
-
-Points DirectedStep::harmonic_positions() const { return harmonic_extension(fixed_points_); }
+Points DirectedStep::harmonic_positions() const { return solve((coupling_ * fixed_points_.transpose()).transpose()); }
 
 Points DirectedStep::pull(const Points& points, const Points& normals) const {
     Points result =

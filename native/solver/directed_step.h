@@ -13,7 +13,6 @@ public:
     DirectedStep(const Patch& patch, const RowWeights& weights, const Points& fixed_points);
 
     [[nodiscard]] Points harmonic_positions() const override;
-    [[nodiscard]] Points harmonic_extension(const Points& fixed_values) const override;
     [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
     [[nodiscard]] Points displacement(const Points& points, const Points& normals, int max_cycles) const override;
 

@@ -30,6 +30,20 @@ SurfaceState measured_surface(const Problem& problem, const Points& points) {
     return state;
 }
 
+double curvature_variation(const Problem& problem, const Points& points) {
+    const SurfaceState state = measured_surface(problem, points);
+    const VectorX& H = state.mean_curvature;
+    const VectorX half_difference = (H.cwiseAbs2() - state.gaussian_curvature).cwiseMax(0.0).cwiseSqrt();
+    double sum = 0.0;
+    for (int e = 0; e < problem.patch.edge_count(); ++e) {
+        const auto [i, j] = problem.patch.edge_ends[static_cast<std::size_t>(e)];
+        const Eigen::Vector2d difference(H[i] - H[j], half_difference[i] - half_difference[j]);
+        // Clipped, for it to be a measure on any mesh.
+        sum += std::max(state.stiffness.weights[e], 0.0) * difference.squaredNorm();
+    }
+    return sum;
+}
+
 double largest_length(const Points& field) { return std::sqrt(field.colwise().squaredNorm().maxCoeff()); }
 
 VectorX harmonic_residual(const Problem& problem, const SurfaceState& state) {

@@ -22,6 +22,10 @@ struct SurfaceState {
 // A surface with all of the above measured.
 SurfaceState measured_surface(const Problem& problem, const Points& points);
 
+// About ∫ |∇H|² + |∇√(H² − K)|², how much the principal curvatures vary over a surface (3 × local vertices): zero on
+// spheres and round pipes alone, while H is constant on bulging pipes too.
+double curvature_variation(const Problem& problem, const Points& points);
+
 // Largest length of a column.
 double largest_length(const Points& field);
 

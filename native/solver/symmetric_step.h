@@ -13,7 +13,6 @@ public:
                   const Progress& progress);
 
     [[nodiscard]] Points harmonic_positions() const override;
-    [[nodiscard]] Points harmonic_extension(const Points& fixed_values) const override;
     [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
     [[nodiscard]] Points displacement(const Points& points, const Points& normals, int max_cycles) const override;
 
@@ -23,7 +22,6 @@ private:
 
     int free_count_;
     SparseMatrix laplacian_;  // both triangles
-    SparseMatrix coupling_;   // λ_ij of free i and fixed j
     Points pull_;             // Σ λ_ij x_j over fixed neighbours j
     SparseCholesky factor_;
 };

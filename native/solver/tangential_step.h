@@ -19,10 +19,6 @@ public:
     // The positions with Σ_j λ_ij (x_i − x_j) = 0 in all three coordinates: the discrete harmonic map of the outline.
     [[nodiscard]] virtual Points harmonic_positions() const = 0;
 
-    // The free vertices' values of a field that is balanced by λ and has the given values (3 × fixed count) at the
-    // fixed ones.
-    [[nodiscard]] virtual Points harmonic_extension(const Points& fixed_values) const = 0;
-
     // What a step is to lower. Symmetric λ: the Dirichlet energy ½ Σ λ_ij |x_i − x_j|², up to a constant of the fixed
     // vertices. Others have none: ½ Σ |P (Λx − x)_i|².
     [[nodiscard]] virtual double merit(const Points& points, const Points& normals) const = 0;
