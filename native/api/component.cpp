@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 
@@ -11,15 +10,6 @@ namespace fairing {
 namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-double degrees_between(const Vector3& a, const Vector3& b) {
-    return std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / std::numbers::pi;
-}
-
-bool touches_free(const Patch& patch, int vertex) {
-    const auto ring = patch.ring(vertex).vertices;
-    return std::any_of(ring.begin(), ring.end(), [&](int v) { return patch.is_free(v); });
-}
 
 // Input vertex → local vertex. A vertex on a cut has several copies at the same place, any of which will do.
 class LocalNumbers {
@@ -62,41 +52,6 @@ void weigh_by_distance(InnerWeights& weights, const Points& reference) {
     for (auto& [i, j, weight] : weights) {
         weight = 1.0 / std::max((reference.col(i) - reference.col(j)).norm(), shortest);
     }
-}
-
-void warn_of_flips(const Patch& patch, const Points& points, Diagnostics& warnings) {
-    FaceGeometry faces;
-    faces.update(points, patch.triangles);
-    const Points no_normals = Points::Zero(3, patch.vertex_count() - patch.free_count);
-    const Points normals = max_normals(patch, points, no_normals);
-    Indices flipped;
-    for (int t = 0; t < patch.triangle_count(); ++t) {
-        Vector3 around = Vector3::Zero();
-        for (int v : patch.triangles.col(t)) around += normals.col(v);
-        if (around.dot(faces.normals.col(t)) < 0.0) flipped.push_back(patch.input_triangle[at(t)]);
-    }
-    if (flipped.empty()) return;
-    warnings.push_back({Code::flipped_triangles,
-                        std::to_string(flipped.size()) + " triangles of the result are turned over", std::move(flipped),
-                        ElementKind::triangle});
-}
-
-void warn_of_sharp_outline(const Patch& patch, const Points& prescribed, Diagnostics& warnings) {
-    constexpr double widest_turn = 20.0;
-    Indices sharp;
-    double widest = 0.0;
-    for (int e = 0; e < patch.edge_count(); ++e) {
-        if (patch.edge_triangles[at(e)][1] != none) continue;
-        const auto [a, b] = patch.edge_ends[at(e)];
-        const double turn = degrees_between(prescribed.col(a - patch.free_count), prescribed.col(b - patch.free_count));
-        widest = std::max(widest, turn);
-        if (turn > widest_turn) sharp.insert(sharp.end(), {patch.to_input[at(a)], patch.to_input[at(b)]});
-    }
-    if (sharp.empty()) return;
-    warnings.push_back({Code::sharp_boundary,
-                        "the normals along the outline turn by up to " + std::to_string(std::lround(widest)) +
-                            "° from one vertex to the next; a finer outline gives a more accurate surface",
-                        std::move(sharp)});
 }
 
 }  // namespace
@@ -145,21 +100,6 @@ RowWeights make_row_weights(const Patch& patch, const Points& reference, const F
     InnerWeights weights = uniform_weights(local_edges(patch, *options.neighbours));
     if (options.inner_fairness == InnerFairness::inverse_distance) weigh_by_distance(weights, reference);
     return row_weights(patch, weights, "neighbours");
-}
-
-VectorX boundary_angles(const Patch& patch, const Points& actual, const Points& prescribed) {
-    VectorX angles = VectorX::Zero(prescribed.cols());
-    for (int k = 0; k < prescribed.cols(); ++k) {
-        const int v = patch.free_count + k;
-        if (patch.pin[at(v)] || !touches_free(patch, v)) continue;
-        angles[k] = degrees_between(prescribed.col(k), actual.col(k));
-    }
-    return angles;
-}
-
-void diagnose(const Patch& patch, const Points& points, const Points& prescribed, Diagnostics& warnings) {
-    warn_of_flips(patch, points, warnings);
-    warn_of_sharp_outline(patch, prescribed, warnings);
 }
 
 }  // namespace fairing

@@ -30,11 +30,4 @@ Lambda make_lambda(const Patch& patch, const Points& reference, const FairOption
 // The same as rows, for every kind.
 RowWeights make_row_weights(const Patch& patch, const Points& reference, const FairOptions& options);
 
-// Degrees between the prescribed normals and the surface's own (3 × fixed count, local order); zero at pins and where
-// no free vertex is adjacent.
-VectorX boundary_angles(const Patch& patch, const Points& actual, const Points& prescribed);
-
-// Warnings about a solved patch: flipped triangles and an outline that turns more than 20° from vertex to vertex.
-void diagnose(const Patch& patch, const Points& points, const Points& prescribed, Diagnostics& warnings);
-
 }  // namespace fairing

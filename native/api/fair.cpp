@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "api/component.h"
+#include "api/diagnose.h"
 #include "api/measure.h"
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
@@ -33,6 +34,15 @@ std::vector<Patch> solvable_patches(const CheckedMesh& mesh, Diagnostics& warnin
     if (patches.empty()) throw MeshError({Code::no_boundary, text, std::move(closed)});
     warnings.push_back({Code::no_boundary, text + "; it was left alone", std::move(closed)});
     return patches;
+}
+
+bool reads_reference(InnerFairness kind) {
+    return kind != InnerFairness::uniform && kind != InnerFairness::custom;
+}
+
+FairOptions with_uniform_fairness(FairOptions options) {
+    options.inner_fairness = InnerFairness::uniform;
+    return options;
 }
 
 class Call {
@@ -78,6 +88,7 @@ private:
         Problem problem{
             patch, unit.to_unit(fixed_points), gather(mesh_.normals, fixed_vertices(patch)), {}, options_.solver};
         problem.options.load *= std::pow(unit.diameter, 3);
+        warn_of_precision(patch, input_.vertices, {unit.diameter, options_.solver.tolerance}, result_.warnings);
         const Solution solution = solve(problem, unit, progress);
         if (!solution.points.allFinite()) throw SolverError("the solution is not finite; nothing was changed");
         const Points points = unit.from_unit(solution.points);
@@ -90,18 +101,40 @@ private:
         record(patch, problem, solution);
     }
 
-    Solution solve(Problem& problem, const Normalisation& unit, const Progress& progress) const {
+    Solution solve(Problem& problem, const Normalisation& unit, const Progress& progress) {
         const Patch& patch = problem.patch;
         const Points reference = unit.to_unit(gather(reference_, patch.to_input));
-        if (options_.method == Method::paper) {
-            Solution solution = solve_paper({problem, options_.paper, options_.inner_fairness, reference,
-                                             make_row_weights(patch, reference, options_)},
+        const bool usable =
+            !reads_reference(options_.inner_fairness) || is_usable_reference(patch, reference, result_.warnings);
+        const FairOptions options = usable ? options_ : with_uniform_fairness(options_);
+        if (options.method == Method::paper) {
+            Solution solution = solve_paper({problem, options.paper, options.inner_fairness, reference,
+                                             make_row_weights(patch, reference, options)},
                                             progress);
             solution.boundary_normals = one_sided_normals(patch, solution.points);
             return solution;
         }
-        problem.weights = make_lambda(patch, reference, options_);
-        return solve_global(problem, progress);
+        problem.weights = make_lambda(patch, reference, options);
+        const Solution solution = solve_global(problem, progress);
+        return options.inner_fairness == InnerFairness::uniform ? solution : injective(problem, reference, solution, progress);
+    }
+
+    // λ may turn triangles over although the surface is smooth: uniform ones then, where they do better.
+    Solution injective(Problem& problem, const Points& reference, const Solution& solution,
+                       const Progress& progress) {
+        if (solution.termination != Termination::converged) return solution;
+        Indices flipped = flipped_triangles(problem.patch, solution.points);
+        if (flipped.empty()) return solution;
+        problem.weights = make_lambda(problem.patch, reference, with_uniform_fairness(options_));
+        const Solution uniform = solve_global(problem, progress.here());
+        const bool better = uniform.termination == Termination::converged &&
+                            flipped_triangles(problem.patch, uniform.points).size() < flipped.size();
+        if (!better) return solution;
+        result_.warnings.push_back({Code::flipped_triangles,
+                                    "the inner fairness asked for turns " + std::to_string(flipped.size()) +
+                                        " triangles over; uniform inner fairness was used",
+                                    std::move(flipped), ElementKind::triangle});
+        return uniform;
     }
 
     // Level counts of several components are added up, counted from the finest level.

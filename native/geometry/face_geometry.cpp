@@ -6,6 +6,11 @@
 
 namespace fairing {
 
+double triangle_shape(const Vector3& a, const Vector3& b, const Vector3& c) {
+    const double squared = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
+    return squared > 0.0 ? 2.0 * std::sqrt(3.0) * (b - a).cross(c - a).norm() / squared : 0.0;
+}
+
 void FaceGeometry::update(const Points& points, const Triangles& triangles) {
     const Eigen::Index count = triangles.cols();
     cotangents.resize(3, count);

@@ -5,6 +5,9 @@
 
 namespace fairing {
 
+// 1 for an equilateral triangle, 0 for a degenerate one.
+double triangle_shape(const Vector3& a, const Vector3& b, const Vector3& c);
+
 // Scratch data of one pass over the triangles. Column k of `cotangents` belongs to the angle at corner k.
 // Finite for any finite input: a triangle flatter than 1e-12 of its longest edge squared counts as that flat,
 // and its normal is zero.

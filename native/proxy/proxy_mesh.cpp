@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "geometry/face_geometry.h"
 #include "geometry/vertex_normal.h"
 
 namespace fairing {
@@ -35,11 +36,6 @@ struct QueuedEdge {
 using ShortestFirst = std::priority_queue<QueuedEdge, std::vector<QueuedEdge>, std::greater<>>;
 
 }  // namespace
-
-double triangle_shape(const Vector3& a, const Vector3& b, const Vector3& c) {
-    const double squared = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
-    return squared > 0.0 ? 2.0 * std::sqrt(3.0) * cross_product(a, b, c).norm() / squared : 0.0;
-}
 
 ProxyMesh::ProxyMesh(const Patch& patch, const Points& points)
     : mesh_(patch.mesh), fixed_(at(patch.vertex_count()), 1), pin_(patch.pin), free_count_(patch.free_count) {

@@ -7,9 +7,6 @@
 
 namespace fairing {
 
-// 1 for an equilateral triangle, 0 for a degenerate one.
-double triangle_shape(const Vector3& a, const Vector3& b, const Vector3& c);
-
 // A vertex that was taken out by a collapse, with the ring that it left behind.
 struct RemovedVertex {
     int vertex;

@@ -79,25 +79,25 @@ private:
         std::optional<SolvedProxy> proxy;
     };
 
-    // A surface on a coarse mesh; what curves its patch least is the better one.
     struct Coarse {
         ProxyMesh mesh;
         bool converged;
-        double variation;
     };
 
     // A start for the fine proxy: the harmonic surface where the iteration finds it (true), the least bent one
-    // otherwise. Between loops the data may admit several surfaces: as in the direct solve, the one whose curvatures
-    // vary least is taken.
+    // otherwise. Between loops the data may admit several surfaces: the one that follows their normals goes first,
+    // which keeps pipes straight, and the long way by descent is taken only where that fails.
     bool solve_coarse(ProxyMesh& mesh, double growth) {
-        std::optional<Coarse> along_normals;
-        if (problem_.patch.loop_count() > 1) along_normals = coarse_along_normals(mesh, growth);
-        Coarse bent = coarse_by_descent(mesh, growth);
-        const bool pipe = along_normals && along_normals->converged &&
-                          (!bent.converged || along_normals->variation < bent.variation);
-        Coarse& chosen = pipe ? *along_normals : bent;
-        mesh = std::move(chosen.mesh);
-        return chosen.converged;
+        if (problem_.patch.loop_count() > 1) {
+            auto along_normals = coarse_along_normals(mesh, growth);
+            if (along_normals && along_normals->converged) {
+                mesh = std::move(along_normals->mesh);
+                return true;
+            }
+        }
+        Coarse bent = coarse_by_descent(std::move(mesh), growth);
+        mesh = std::move(bent.mesh);
+        return bent.converged;
     }
 
     std::optional<Coarse> coarse_along_normals(ProxyMesh mesh, double growth) {
@@ -131,7 +131,7 @@ private:
         const bool converged = solution.termination == Termination::converged;
         const Points& points = converged ? solution.points : start;
         mesh.read_back(snapshot.patch, points);
-        return {std::move(mesh), converged, curvature_variation(problem, points)};
+        return {std::move(mesh), converged};
     }
 
     void descend(ProxyMesh& mesh) {

@@ -1,0 +1,32 @@
+// What is said about a patch before and after its solve.
+#pragma once
+
+#include "base/errors.h"
+#include "mesh/patch.h"
+
+namespace fairing {
+
+// Degrees between the prescribed normals and the surface's own (3 × fixed count, local order); zero at pins and where
+// no free vertex is adjacent.
+VectorX boundary_angles(const Patch& patch, const Points& actual, const Points& prescribed);
+
+// Triangles (input numbers) whose normal points against the mean of the normals at their corners.
+Indices flipped_triangles(const Patch& patch, const Points& points);
+
+// Whether inner-fairness weights can be read off a reference mesh (3 × local vertices); warns REFERENCE_UNUSABLE where
+// more than a tenth of it is needles, collapsed or turned over.
+bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostics& warnings);
+
+// D and the largest move, in units of D, at which the solve stops.
+struct Precision {
+    double diameter;
+    double tolerance;
+};
+// PRECISION where neighbouring floating-point numbers lie farther apart than that, or than a thousandth of the border
+// edges. `input`: positions of all input vertices.
+void warn_of_precision(const Patch& patch, const Points& input, const Precision& wanted, Diagnostics& warnings);
+
+// About a solved patch: flipped and crossing triangles, and an outline that turns more than 20° from vertex to vertex.
+void diagnose(const Patch& patch, const Points& points, const Points& prescribed, Diagnostics& warnings);
+
+}  // namespace fairing
