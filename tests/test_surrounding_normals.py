@@ -24,23 +24,34 @@ def angles(one: FloatArray, other: FloatArray) -> FloatArray:
     return np.asarray(np.degrees(np.arccos(np.clip((one * other).sum(axis=1), -1, 1))))
 
 
-@pytest.mark.parametrize(("n_free", "degrees"), [(200, 1.2), (500, 0.3), (2000, 0.06)])
-def test_rim_of_a_hemisphere(n_free: int, degrees: float) -> None:
-    """Rims of 34, 52 and 104 edges; one-sided averages are 6 to 2 degrees off."""
+@pytest.mark.parametrize("n_free", [60, 200, 2000])
+def test_rim_of_a_hemisphere(n_free: int) -> None:
+    """Spheres are met exactly on any rim (20 to 104 edges); one-sided averages are 10 to 2 degrees off."""
     vertices, triangles, equator = outside_of_a_hemisphere(n_free)
     normals, fitted = fairing.surrounding_normals(vertices, triangles, equator)
     assert fitted.all()
-    assert angles(normals, vertices[equator]).max() < degrees
+    assert np.abs(normals - vertices[equator]).max() < 1e-9
     averaged = fairing.vertex_normals(vertices, triangles, normals="averaged")[equator]
-    assert angles(averaged, vertices[equator]).max() > 4 * degrees
+    assert angles(averaged, vertices[equator]).max() > 1.0
+
+
+def test_a_hemisphere_comes_back_from_its_surroundings() -> None:
+    """The product's promise in one line: cut it out, fill it in, and the sphere is there again."""
+    vertices, triangles, equator = bad_inputs.closed_ball(300)
+    above = vertices[triangles].mean(axis=1)[:, 2] > 0
+    normals, _ = fairing.surrounding_normals(vertices, triangles[~above], equator)
+    flattened = vertices * [1.0, 1.0, 0.0]
+    result = fairing.fair(flattened, triangles[above], fixed=equator, fixed_normals=normals, tolerance=1e-10)
+    used = np.unique(triangles[above])
+    assert np.abs(np.linalg.norm(result.vertices[used], axis=1) - 1.0).max() < 1e-8
 
 
 def test_other_families() -> None:
-    """Rims of smooth patches, seen from the patch: half a degree at 2000 vertices."""
+    """Rims of smooth patches, seen from the patch: at 2000 vertices 0.05° were measured."""
     for name in ("cylinder", "catenoid", "linear_flux", "clothoid"):
         patch = getattr(shapes, name)(2000)
         normals, _ = fairing.surrounding_normals(patch.vertices, patch.triangles, patch.fixed)
-        assert angles(normals, patch.fixed_normals).max() < 0.5
+        assert angles(normals, patch.fixed_normals).max() < 0.1
 
 
 def test_follows_the_winding() -> None:

@@ -36,9 +36,7 @@ std::vector<Patch> solvable_patches(const CheckedMesh& mesh, Diagnostics& warnin
     return patches;
 }
 
-bool reads_reference(InnerFairness kind) {
-    return kind != InnerFairness::uniform && kind != InnerFairness::custom;
-}
+bool reads_reference(InnerFairness kind) { return kind != InnerFairness::uniform && kind != InnerFairness::custom; }
 
 FairOptions with_uniform_fairness(FairOptions options) {
     options.inner_fairness = InnerFairness::uniform;
@@ -116,12 +114,12 @@ private:
         }
         problem.weights = make_lambda(patch, reference, options);
         const Solution solution = solve_global(problem, progress);
-        return options.inner_fairness == InnerFairness::uniform ? solution : injective(problem, reference, solution, progress);
+        return options.inner_fairness == InnerFairness::uniform ? solution
+                                                                : injective(problem, reference, solution, progress);
     }
 
     // λ may turn triangles over although the surface is smooth: uniform ones then, where they do better.
-    Solution injective(Problem& problem, const Points& reference, const Solution& solution,
-                       const Progress& progress) {
+    Solution injective(Problem& problem, const Points& reference, const Solution& solution, const Progress& progress) {
         if (solution.termination != Termination::converged) return solution;
         Indices flipped = flipped_triangles(problem.patch, solution.points);
         if (flipped.empty()) return solution;

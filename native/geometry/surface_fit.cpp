@@ -81,6 +81,8 @@ private:
 };
 
 // Gradient at the centre of the best height polynomial over the plane across `normal`; coordinates in units of `scale`.
+// Its quadratic terms grow with the square of the distance in space, not in the plane (and the cubic ones likewise), as
+// normal curvatures by chords do (paper eq. 8): so a sphere is met exactly, whatever the points.
 std::optional<Eigen::Vector2d> height_gradient(const Vector3& centre, std::span<const Vector3> points,
                                                const Vector3& normal, double scale) {
     const bool cubic = points.size() >= cubic_points;
@@ -92,8 +94,13 @@ std::optional<Eigen::Vector2d> height_gradient(const Vector3& centre, std::span<
         const double u = frame.u.dot(d);
         const double v = frame.v.dot(d);
         const double weight = std::exp(-d.squaredNorm());
+        const double stretch = d.norm() / std::max(std::hypot(u, v), 1e-12);
         A.row(k).head<5>() << u, v, u * u, u * v, v * v;
-        if (cubic) A.row(k).tail<4>() << u * u * u, u * u * v, u * v * v, v * v * v;
+        A.row(k).segment<3>(2) *= stretch * stretch;
+        if (cubic) {
+            A.row(k).tail<4>() << u * u * u, u * u * v, u * v * v, v * v * v;
+            A.row(k).tail<4>() *= stretch * stretch * stretch;
+        }
         A.row(k) *= weight;
         rhs[k] = weight * normal.dot(d);
     }
@@ -126,11 +133,14 @@ std::optional<Vector3> surface_fit_normal(const Vector3& centre, std::span<const
     for (const Vector3& p : points) scale = std::max(scale, (p - centre).norm());
     if (!(scale > 0.0)) return std::nullopt;
     Vector3 normal = start;
-    for (int round = 0; round < 3; ++round) {
+    constexpr int most_rounds = 8;
+    constexpr double settled = 1e-12;
+    for (int round = 0; round < most_rounds; ++round) {
         const auto gradient = height_gradient(centre, points, normal, scale);
         if (!gradient || !gradient->allFinite()) return std::nullopt;
         const Frame frame(normal);
         normal = (normal - gradient->x() * frame.u - gradient->y() * frame.v).normalized();
+        if (gradient->norm() < settled) break;
     }
     constexpr double cos_of_widest_turn = 0.5;
     if (normal.dot(start) < cos_of_widest_turn) return std::nullopt;

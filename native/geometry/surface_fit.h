@@ -9,7 +9,7 @@
 namespace fairing {
 
 // Unit normal at `centre` of the height polynomial through it that fits `points` best (Gaussian weights, tangent frame
-// iterated three times); cubic from 16 points on, quadratic from 8. Nothing where there are fewer, where they
+// iterated); cubic from 16 points on, quadratic from 8. Exact on spheres. Nothing where there are fewer, where they
 // turn too far away from `start`, or where they don't determine the polynomial. Same side as `start`.
 std::optional<Vector3> surface_fit_normal(const Vector3& centre, std::span<const Vector3> points, const Vector3& start);
 

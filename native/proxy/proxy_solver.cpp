@@ -200,7 +200,8 @@ private:
         constexpr double farthest_on_poor_triangles = 2e-4;
         constexpr double curvature_share = 0.1;  // of the largest |H|, or of 1/D where that is less
         const bool poor = has_poor_triangles(problem_.patch, placed.points);
-        if (largest_length(polished.points - placed.points) > (poor ? farthest_on_poor_triangles : farthest)) return false;
+        if (largest_length(polished.points - placed.points) > (poor ? farthest_on_poor_triangles : farthest))
+            return false;
         const Eigen::Index count = problem_.patch.free_count;
         const VectorX difference = polished.mean_curvature.head(count) - placed.mean_curvature.head(count);
         return difference.cwiseAbs().maxCoeff() <

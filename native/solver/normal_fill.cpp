@@ -11,11 +11,13 @@ namespace {
 
 // Weight of edge lengths beside ⟨n, e⟩²; small, so that a pipe of many radii does not sag.
 constexpr double length_weight = 1e-4;
-// Of the screening beside the valence: the field forgets its outline over about 1/(2 √0.05) = 2.2 edges. Without it, what
-// is left of the normals of a long pipe in its middle would be the mean of its rims' normals, which irregular rims have.
+// Of the screening beside the valence: the field forgets its outline over about 1/(2 √0.05) = 2.2 edges. Without it,
+// what is left of the normals of a long pipe in its middle would be the mean of its rims' normals, which irregular rims
+// have.
 constexpr double screening = 0.05;
 
-// L + screening · diag(L) with the uniform Laplacian L of the edges, lower triangle, and its coupling to fixed vertices.
+// L + screening · diag(L) with the uniform Laplacian L of the edges, lower triangle, and its coupling to fixed
+// vertices.
 struct ScreenedLaplacian {
     explicit ScreenedLaplacian(const Patch& patch) : matrix(patch.free_count, patch.free_count) {
         std::vector<Eigen::Triplet<double>> entries;
