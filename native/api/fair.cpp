@@ -122,7 +122,10 @@ private:
     Solution injective(Problem& problem, const Points& reference, const Solution& solution, const Progress& progress) {
         if (solution.termination != Termination::converged) return solution;
         Indices flipped = flipped_triangles(problem.patch, solution.points);
-        if (flipped.empty()) return solution;
+        // Needles across a curvature count as turned over in the reference already.
+        const bool readable = reads_reference(options_.inner_fairness);
+        const std::size_t before = readable ? flipped_triangles(problem.patch, reference).size() : 0;
+        if (flipped.size() <= before) return solution;
         problem.weights = make_lambda(problem.patch, reference, with_uniform_fairness(options_));
         const Solution uniform = solve_global(problem, progress.here());
         const bool better = uniform.termination == Termination::converged &&

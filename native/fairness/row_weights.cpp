@@ -98,6 +98,18 @@ RowWeights row_weights(const Patch& patch, const InnerWeights& weights, const ch
     return row_weights(patch, directed, what);
 }
 
+InnerWeights symmetrised(const RowWeights& rows) {
+    InnerWeights weights;
+    for (int i = 0; i + 1 < static_cast<int>(rows.begin.size()); ++i) {
+        const auto columns = rows.columns_of(i);
+        const auto values = rows.values_of(i);
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            if (values[k] > 0.0) weights.push_back({i, columns[k], values[k]});
+        }
+    }
+    return weights;
+}
+
 RowWeights row_weights(const Patch& patch, const Points& reference, InnerFairness kind) {
     if (kind == InnerFairness::conformal) return row_weights(patch, conformal_weights(patch, reference), "reference");
     RowWeights result;

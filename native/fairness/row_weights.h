@@ -39,4 +39,8 @@ RowWeights row_weights(const Patch& patch, const std::vector<DirectedWeight>& we
 // λ of all edges at each free vertex, by the rule of ring_weights.h on the positions of M0 (3 × local vertices).
 RowWeights row_weights(const Patch& patch, const Points& reference, InnerFairness kind);
 
+// λ_ij + λ_ji over the edges (rows of fixed vertices count as zero): close to the rows where these are nearly
+// symmetric.
+InnerWeights symmetrised(const RowWeights& rows);
+
 }  // namespace fairing

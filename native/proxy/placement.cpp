@@ -1,8 +1,8 @@
 #include "proxy/placement.h"
 
 #include <algorithm>
-#include <limits>
 
+#include "linear/anderson.h"
 #include "solver/surface_state.h"
 
 namespace fairing {
@@ -55,33 +55,62 @@ Placement first_placement(const Problem& problem, const ProxyMesh& mesh, const P
     return placement;
 }
 
-void relax(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
-           Placement& placement) {
-    constexpr int most_steps = 40;
+namespace {
+
+// Moves the vertices of a placement by `step` (3 × free count), along the surface.
+Placement moved(const Placement& placement, const TargetSurface& target, const Points& step) {
+    Placement result = placement;
+    for (int v = 0; v < static_cast<int>(placement.where.size()); ++v) {
+        put(result, v, target, target.project(placement.points.col(v) + step.col(v), placement.where[at(v)].triangle));
+    }
+    return result;
+}
+
+}  // namespace
+
+Placement near(const Placement& placement, const TargetSurface& target, const Points& points) {
+    const auto count = static_cast<Eigen::Index>(placement.where.size());
+    return moved(placement, target, points.leftCols(count) - placement.points.leftCols(count));
+}
+
+double relax(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
+             Placement& placement) {
+    constexpr int most_steps = 60;
     constexpr double largest_step = 0.1;  // units of D
     constexpr double done = 1e-7;
     constexpr int most_halvings = 8;
-    double merit = tangential.merit(placement.points, normals_at(placement, target));
+    constexpr int history_depth = 5;
+    const auto merit_of = [&](const Placement& p) { return tangential.merit(p.points, normals_at(p, target)); };
+    // Where the surface is curved, plain steps are too short by the same share each time: acceleration learns it.
+    Anderson anderson(3L * problem.patch.free_count, history_depth);
+    double merit = merit_of(placement);
     for (int step = 0; step < most_steps; ++step) {
         const Points d = tangential.displacement(placement.points, normals_at(placement, target));
         const double largest = largest_length(d);
         if (largest < done) break;
-        double length = std::min(1.0, largest_step / largest);
-        Placement trial = placement;
+        const auto as_vector = [&](const auto& points) { return VectorX(points.reshaped()); };
+        const VectorX far = anderson.step(as_vector(placement.points.leftCols(d.cols())), as_vector(d));
         bool better = false;
-        for (int halving = 0; halving < most_halvings && !better; ++halving, length *= 0.5) {
-            for (int v = 0; v < problem.patch.free_count; ++v) {
-                const Vector3 wanted = placement.points.col(v) + length * d.col(v);
-                put(trial, v, target, target.project(wanted, placement.where[at(v)].triangle));
+        double length = std::min(1.0, largest_step / largest);
+        for (int attempt = 0; attempt <= most_halvings && !better; ++attempt) {
+            Points move = Eigen::Map<const Points>(far.data(), 3, d.cols());
+            if (attempt == 0) {
+                move *= std::min(1.0, largest_step / largest_length(move));
+            } else {
+                move = length * d;
+                length *= 0.5;
             }
-            const double reached = tangential.merit(trial.points, normals_at(trial, target));
+            Placement trial = moved(placement, target, move);
+            const double reached = merit_of(trial);
             better = reached < merit;
-            if (better) merit = reached;
+            if (!better) continue;
+            merit = reached;
+            placement = std::move(trial);
         }
         if (!better) break;
-        placement = std::move(trial);
         placement.last_step = largest;
     }
+    return merit;
 }
 
 }  // namespace fairing

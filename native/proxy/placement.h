@@ -20,7 +20,12 @@ Placement first_placement(const Problem& problem, const ProxyMesh& mesh, const P
                           const TargetSurface& target);
 
 // Minimises Σ λ_ij |x_i − x_j|² on the surface: tangential conjugate gradient steps, each followed by a walk back to
-// the surface, shortened until the sum no longer grows.
-void relax(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target, Placement& placement);
+// the surface, accelerated, shortened until the sum no longer grows. Gives the merit that is reached
+// (tangential_step.h).
+double relax(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
+             Placement& placement);
+
+// The placement whose points are as near to the given ones (3 × local vertices) as a walk gets.
+Placement near(const Placement& placement, const TargetSurface& target, const Points& points);
 
 }  // namespace fairing

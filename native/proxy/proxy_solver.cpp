@@ -23,7 +23,10 @@ constexpr double coarse_tolerance = 1e-6;  // units of D
 constexpr double finest_growth = 0.15;     // of edge lengths per distance from the outline
 constexpr double longest_coarse = 0.15;    // units of D
 constexpr double longest_fine = 0.03;
-constexpr int free_limit = 20000;
+// More vertices than these of the proxy would resolve what the user's mesh can't show.
+constexpr int least_free_limit = 3000;
+constexpr int largest_free_limit = 20000;
+constexpr int free_limit_per_vertex = 3;
 constexpr double turn = 0.7;  // radians along an edge of the coarse proxy: nine edges around a pipe
 
 // A problem on the proxy's own connectivity: uniform weights, the same boundary data.
@@ -56,14 +59,19 @@ struct SolvedProxy {
 
 class ProxySolve {
 public:
-    ProxySolve(const Problem& problem, const Progress& progress) : problem_(problem), progress_(progress) {}
+    ProxySolve(const Problem& problem, const std::optional<Points>& guess, const Progress& progress)
+        : problem_(problem),
+          guess_(guess),
+          progress_(progress),
+          free_limit_(
+              std::clamp(free_limit_per_vertex * problem.patch.free_count, least_free_limit, largest_free_limit)) {}
 
     Solution run(const Points& start) {
         std::optional<Attempt> least_bent;
         // Lengths that grow slowly need more vertices but resolve more.
         for (const double growth : {0.5, 0.25, 0.12}) {
             Attempt attempt{ProxyMesh(problem_.patch, start), {}};
-            attempt.mesh.adapt({growth, longest_coarse, free_limit});
+            attempt.mesh.adapt({growth, longest_coarse, free_limit_});
             const bool converged = solve_coarse(attempt.mesh, growth);
             attempt.proxy.emplace(solve_fine(attempt.mesh, growth, converged));
             if (attempt.proxy->converged()) return place(attempt);
@@ -108,14 +116,14 @@ private:
             const auto points = normal_fill(problem, progress_.here());
             if (!points) return std::nullopt;
             mesh.read_back(snapshot.patch, *points);
-            mesh.adapt({growth, longest_coarse, free_limit, turn});
+            mesh.adapt({growth, longest_coarse, free_limit_, turn});
         }
         return iterate_coarse(std::move(mesh), [](const Problem&, Workspace&, const Points& points) { return points; });
     }
 
     Coarse coarse_by_descent(ProxyMesh mesh, double growth) {
         descend(mesh);
-        mesh.adapt({growth, longest_coarse, free_limit});
+        mesh.adapt({growth, longest_coarse, free_limit_});
         return iterate_coarse(std::move(mesh), [&](const Problem& problem, Workspace& work, const Points& points) {
             return globalise(problem, work, points, progress_.here());
         });
@@ -151,7 +159,7 @@ private:
 
     // Not converged: the least bent surface of the fine proxy instead of the iteration's last one.
     SolvedProxy solve_fine(ProxyMesh& mesh, double growth, bool from_converged) {
-        mesh.adapt({std::min(growth, finest_growth), longest_fine, free_limit});
+        mesh.adapt({std::min(growth, finest_growth), longest_fine, free_limit_});
         auto snapshot = mesh.snapshot();
         const Problem problem = proxy_problem(problem_, snapshot.patch);
         Workspace work = make_workspace(problem, progress_);
@@ -178,7 +186,16 @@ private:
         const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
         Placement placement = first_placement(problem_, attempt.mesh, proxy.mesh, target);
         Workspace work = make_workspace(problem_, progress_);
-        relax(problem_, *work.tangential, target, placement);
+        // Weights that aren't symmetric have no energy to descend; their symmetric part leads near the place.
+        if (const auto* rows = std::get_if<RowWeights>(&problem_.weights)) {
+            const auto symmetric =
+                make_tangential_step(problem_.patch, symmetrised(*rows), problem_.fixed_points, progress_.here());
+            relax(problem_, *symmetric, target, placement);
+        }
+        std::optional<Placement> from_guess;
+        if (guess_) from_guess = near(placement, target, *guess_);
+        const double merit = relax(problem_, *work.tangential, target, placement);
+        if (from_guess && relax(problem_, *work.tangential, target, *from_guess) < merit) placement = *from_guess;
         return polish(proxy, target, placement, work);
     }
 
@@ -187,7 +204,11 @@ private:
                     Workspace& work) {
         Solution placed = placed_solution(proxy, target, placement);
         if (!proxy.converged()) return placed;
-        Solution polished = iterate(problem_, work, placement.points, progress_.range(0.8, 1.0));
+        // From the surface itself few iterations are needed; after many, it is another solution.
+        constexpr int most_iterations = 40;
+        Problem polishing = problem_;
+        polishing.options.max_iterations = std::min(most_iterations, problem_.options.max_iterations);
+        Solution polished = iterate(polishing, work, placement.points, progress_.range(0.8, 1.0));
         if (polished.termination != Termination::converged || !agree(polished, placed)) return placed;
         polished.boundary_normals = one_sided_normals(problem_.patch, polished.points);
         return polished;
@@ -196,12 +217,9 @@ private:
     // The user's mesh and the proxy discretise one surface. Where they differ by more than their own errors, the
     // mesh is too poor to carry the equation: on crowded or needle-shaped triangles a step may be small and H nonsense.
     [[nodiscard]] bool agree(const Solution& polished, const Solution& placed) const {
-        constexpr double farthest = 0.05;  // units of D
-        constexpr double farthest_on_poor_triangles = 2e-4;
+        constexpr double farthest = 2e-4;        // units of D
         constexpr double curvature_share = 0.1;  // of the largest |H|, or of 1/D where that is less
-        const bool poor = has_poor_triangles(problem_.patch, placed.points);
-        if (largest_length(polished.points - placed.points) > (poor ? farthest_on_poor_triangles : farthest))
-            return false;
+        if (largest_length(polished.points - placed.points) > farthest) return false;
         const Eigen::Index count = problem_.patch.free_count;
         const VectorX difference = polished.mean_curvature.head(count) - placed.mean_curvature.head(count);
         return difference.cwiseAbs().maxCoeff() <
@@ -223,7 +241,9 @@ private:
     }
 
     const Problem& problem_;
+    const std::optional<Points>& guess_;
     const Progress& progress_;
+    int free_limit_;
 };
 
 }  // namespace
@@ -239,13 +259,13 @@ bool has_poor_triangles(const Patch& patch, const Points& points) {
     return poor > tolerated_share * patch.triangle_count();
 }
 
-Solution solve_on_proxy(const Problem& problem, const Progress& progress) {
+Solution solve_on_proxy(const Problem& problem, const std::optional<Points>& guess, const Progress& progress) {
     Stopwatch watch;
     const Problem uniform = proxy_problem(problem, problem.patch);
     const Workspace work = make_workspace(uniform, progress);
     const SurfaceState start = measured_surface(problem, membrane(uniform, work));
     const double fill_seconds = watch.lap();
-    Solution solution = ProxySolve(problem, progress).run(start.points);
+    Solution solution = ProxySolve(problem, guess, progress).run(start.points);
     solution.initial_residual = largest_residual(problem, start, outer_residual(problem, start));
     solution.seconds = {{"fill", fill_seconds}, {"proxy", watch.lap()}};
     return solution;
