@@ -7,37 +7,26 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints, Mask
+from .outline import turned_over
 from .region import MeshArrays, Patch
+from .vectors import area_vectors, sum_at, unit
 
 RINGS = 4  # of outside faces handed to the engine's fit, which uses the nearest of them
 
 
-def unit(vectors: Floats) -> Floats:
-    """Return the (k, 3) vectors with length 1; zero vectors stay zero."""
-    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
-    units: Floats = vectors / np.where(lengths > 0.0, lengths, 1.0)
-    return units
-
-
-def _sum_at(places: Ints, vectors: Floats, count: int) -> Floats:
-    columns = [np.bincount(places, weights=column, minlength=count) for column in vectors.T]
-    return np.stack(columns, axis=1)
-
-
 def average_normals(mesh: MeshArrays) -> Floats:
     """Return (n, 3): the normalised mean of the unit normals of the faces at each vertex."""
-    a, b, c = (mesh.positions[column] for column in mesh.triangles.T)
-    sums = _sum_at(mesh.triangle_faces, np.cross(b - a, c - a), len(mesh.in_patch))
+    sums = sum_at(mesh.triangle_faces, area_vectors(mesh.positions, mesh.triangles), len(mesh.in_patch))
     normals = unit(sums)
     normals[~np.isfinite(normals).all(axis=1)] = 0.0
-    return unit(_sum_at(mesh.corner_vertices, normals[mesh.corner_faces], len(mesh.positions)))
+    return unit(sum_at(mesh.corner_vertices, normals[mesh.corner_faces], len(mesh.positions)))
 
 
 def custom_normals(mesh: MeshArrays) -> Floats:
     """Return (n, 3): the normalised mean of each vertex's corner normals."""
     if mesh.corner_normals is None:
         raise ValueError("boundary_normals: the mesh was read without its corner normals")
-    return unit(_sum_at(mesh.corner_vertices, mesh.corner_normals, len(mesh.positions)))
+    return unit(sum_at(mesh.corner_vertices, mesh.corner_normals, len(mesh.positions)))
 
 
 def _nearby(triangles: Ints, start: Mask) -> Ints:
@@ -55,7 +44,8 @@ def surrounding_normals(mesh: MeshArrays, fixed: Ints) -> tuple[Floats, Mask]:
     """Fit normals at the `fixed` vertices (mesh indices, k) to the faces outside the patch.
 
     Returns ((k, 3) unit normals, (k,) mask of those that have faces outside). The others take
-    the average of all their faces.
+    the average of all their faces. Where the faces outside are wound against the patch, their
+    normals are turned round.
     """
     normals = average_normals(mesh)[fixed]
     usable = np.isfinite(mesh.positions).all(axis=1)
@@ -74,6 +64,7 @@ def surrounding_normals(mesh: MeshArrays, fixed: Ints) -> tuple[Floats, Mask]:
     fitted, _ = fairing.surrounding_normals(mesh.positions[used], triangles.reshape(-1, 3).astype(np.int64), at)
     # A zero normal is one that even the average of the outside faces leaves open.
     decided = np.linalg.norm(fitted, axis=1) > 0.5
+    fitted = np.where(turned_over(mesh)[fixed[found], None], -fitted, fitted)
     normals[np.flatnonzero(found)[decided]] = fitted[decided]
     return normals, found
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+import time
 from typing import Any
 
 import bpy
@@ -14,7 +15,7 @@ import fairing
 
 from .fair_mesh import fair_faces
 from .options import FairOptions, option_names
-from .solve import Fairing
+from .report import Report, make_report, summary
 
 CONVERGED, NOT_CONVERGED, REFUSED = 0, 1, 2
 
@@ -57,27 +58,41 @@ def _faces(obj: bpy.types.Object, group: str | None) -> list[int]:
     return [polygon.index for polygon in polygons if all(member[v] for v in polygon.vertices)]
 
 
-def _figures(outcome: Fairing) -> dict[str, Any]:
-    result = outcome.result
+def _figures(report: Report) -> dict[str, Any]:
     return {
-        "free_vertices": len(outcome.vertices),
-        "converged": bool(result.converged),
-        "residual": float(result.residual),
-        "boundary_angle": float(result.boundary_angle.max(initial=0.0)),
-        "warnings": list(outcome.warnings),
+        "free_vertices": report.free_vertices,
+        "converged": report.converged,
+        "residual": report.residual,
+        "boundary_angle": report.boundary_angle,
+        "texture_distortion": report.distortion,
+        "seconds": report.seconds,
+        "checks": {check.name: {"value": check.value, "state": check.state} for check in report.checks},
+        "warnings": list(report.warnings),
     }
 
 
-def _print(figures: dict[str, Any], form: str) -> None:
+def _print(report: Report, form: str) -> None:
     if form == "json":
-        print(json.dumps(figures))
+        print(json.dumps(_figures(report)))
         return
-    for name, value in figures.items():
-        print(f"{name.replace('_', ' ')}: {value}")
+    print(summary(report))
+    for check in report.checks:
+        print(f"  {check.state.lower():6}  {check.name}: {check.value}")
+    for warning in report.warnings:
+        print(f"  warning: {warning}")
 
 
-def _progress(fraction: float, stage: str) -> None:
-    print(f"{100 * fraction:3.0f} % {stage}", file=sys.stderr)
+class _Progress:
+    """Prints a line to stderr for each whole per cent and each stage."""
+
+    def __init__(self) -> None:
+        self._last = ""
+
+    def __call__(self, fraction: float, stage: str) -> None:
+        line = f"{100 * fraction:3.0f} % {stage}"
+        if line != self._last:
+            print(line, file=sys.stderr)
+        self._last = line
 
 
 def execute(arguments: list[str]) -> int:
@@ -88,10 +103,12 @@ def execute(arguments: list[str]) -> int:
         obj = _mesh_object(chosen.object)
         faces = _faces(obj, chosen.vertex_group)
         matrix = np.array(obj.matrix_world, dtype=np.float64)
-        outcome = fair_faces(obj.data, faces, matrix, options, _progress)
+        begin = time.perf_counter()
+        outcome = fair_faces(obj.data, faces, matrix, options, _Progress())
     except (ValueError, fairing.SolverError) as error:
         print(f"fair: {error}", file=sys.stderr)
         return REFUSED
     bpy.ops.wm.save_as_mainfile(filepath=chosen.output, copy=True)
-    _print(_figures(outcome), chosen.report)
-    return CONVERGED if outcome.result.converged else NOT_CONVERGED
+    report = make_report([(obj.name, outcome)], options, time.perf_counter() - begin)
+    _print(report, chosen.report)
+    return CONVERGED if report.converged else NOT_CONVERGED

@@ -11,8 +11,9 @@ import numpy as np
 import fairing
 
 from . import mesh_io
+from .engine import Progress
 from .options import FairOptions
-from .solve import Fairing, Progress, fair_arrays
+from .solve import Fairing, fair_arrays
 
 
 def fair_mesh(

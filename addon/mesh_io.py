@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import Any
 
 import bmesh
@@ -47,7 +48,50 @@ def read_edit_mesh(obj: bpy.types.Object, options: FairOptions) -> MeshArrays:
     """
     with _snapshot(obj.data) as mesh:
         selected = _column(mesh.polygons, "select", 1, bool)
-        return _arrays(mesh, selected, _group_index(obj, options.pin_group), options)
+        arrays = _arrays(mesh, selected, _group_index(obj, options.pin_group), options)
+        return replace(arrays, mirror_x=obj.data.use_mirror_x)
+
+
+def read_own_mesh(obj: bpy.types.Object, options: FairOptions) -> MeshArrays:
+    """Read the mesh of an object in whichever mode, without modifiers."""
+    if obj.data.is_editmode:
+        return read_edit_mesh(obj, options)
+    return _arrays(obj.data, _column(obj.data.polygons, "select", 1, bool), None, options)
+
+
+def read_shown_mesh(obj: bpy.types.Object, options: FairOptions) -> MeshArrays:
+    """Read what is seen of an object: in edit mode its own mesh, else the one that its modifiers make."""
+    if obj.data.is_editmode:
+        return read_edit_mesh(obj, options)
+    evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    mesh = evaluated.to_mesh()
+    try:
+        return _arrays(mesh, np.ones(len(mesh.polygons), dtype=bool), None, options)
+    finally:
+        evaluated.to_mesh_clear()
+
+
+def edit_face_count(mesh: bpy.types.Mesh) -> int:
+    """Return the number of faces of a mesh in edit mode, at no cost."""
+    return len(bmesh.from_edit_mesh(mesh).faces)
+
+
+def edit_positions(mesh: bpy.types.Mesh) -> Floats:
+    """Return the (n, 3) positions of a mesh in edit mode."""
+    with _snapshot(mesh) as now:
+        positions: Floats = _column(now.vertices, "co", 3, np.float32).astype(np.float64)
+        return positions
+
+
+def is_unchanged(mesh: bpy.types.Mesh, arrays: MeshArrays) -> bool:
+    """Tell whether a mesh in edit mode still has the positions and corners that were read from it."""
+    with _snapshot(mesh) as now:
+        if len(now.vertices) != len(arrays.positions) or len(now.loops) != len(arrays.corner_vertices):
+            return False
+        positions = _column(now.vertices, "co", 3, np.float32)
+        corners = _indices(now.loops, "vertex_index")
+        same = np.array_equal(positions, arrays.positions, equal_nan=True)
+        return bool(same and np.array_equal(corners, arrays.corner_vertices))
 
 
 def read_mesh(mesh: bpy.types.Mesh, faces: Ints, options: FairOptions) -> MeshArrays:
@@ -62,7 +106,7 @@ def read_mesh(mesh: bpy.types.Mesh, faces: Ints, options: FairOptions) -> MeshAr
         raise IndexError(f"faces: expected polygon indices below {len(selected)}")
     selected[faces] = True
     group = _group_index(_user_of(mesh), options.pin_group) if options.pin_group else None
-    return _arrays(mesh, selected, group, options)
+    return replace(_arrays(mesh, selected, group, options), mirror_x=mesh.use_mirror_x)
 
 
 def _user_of(mesh: bpy.types.Mesh) -> bpy.types.Object | None:
@@ -190,4 +234,29 @@ def select_vertices(mesh: bpy.types.Mesh, vertices: Ints) -> None:
     for vertex in vertices.tolist():
         bm.verts[vertex].select = True
     bm.select_flush_mode()
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+def write_attribute(mesh: bpy.types.Mesh, name: str, values: Floats) -> None:
+    """Write one number per vertex (n,) to the vertex attribute `name`, in whichever mode.
+
+    Raises ValueError where the mesh has an attribute of that name for something else.
+    """
+    present = mesh.attributes.get(name)
+    if present is not None and (present.data_type, present.domain) != ("FLOAT", "POINT"):
+        raise ValueError(f"The mesh has another attribute named {name!r}: rename or remove it")
+    if mesh.is_editmode:
+        _write_edit_attribute(mesh, name, values)
+        return
+    layer = present or mesh.attributes.new(name, "FLOAT", "POINT")
+    layer.data.foreach_set("value", values.astype(np.float32))
+    mesh.update()
+
+
+def _write_edit_attribute(mesh: bpy.types.Mesh, name: str, values: Floats) -> None:
+    bm = bmesh.from_edit_mesh(mesh)
+    layers = bm.verts.layers.float
+    layer = layers.get(name) or layers.new(name)
+    for vertex, value in zip(bm.verts, values.tolist(), strict=True):
+        vertex[layer] = value
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)

@@ -1,8 +1,10 @@
-"""The operator: properties, poll, reports. What it does is in solve.py."""
+"""The operator: at once for small patches and scripts, in the background for large ones.
+
+What it does is in job.py and solve.py, the thread in runner.py.
+"""
 
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from functools import partial
 from typing import Any
 
 import bpy
@@ -10,154 +12,154 @@ import numpy as np
 
 import fairing
 
-from . import mesh_io
+from . import compare, job, mesh_io
+from .engine import Progress
 from .options import FairOptions
+from .preferences import background_from
 from .properties import FairProperties
-from .region import free_vertices
-from .solve import Fairing, Progress, fair_arrays
+from .redo_panel import draw_options
+from .report import make_report, summary
+from .report_properties import store
+from .runner import Run
+from .solve import Fairing
+from .status import hide_progress, show_progress
 
-Done = list[tuple[bpy.types.Object, Fairing]]
+TICK = 0.05  # seconds between two looks at the thread
 
-
-class Refused(Exception):
-    """One object can't be faired; nothing has been written yet."""
-
-    def __init__(self, obj: bpy.types.Object, cause: Exception) -> None:
-        super().__init__(f"{obj.name}: {cause}")
-        self.object = obj
-        self.cause = cause
+# Looking around does no harm while the engine works; all else would.
+_VIEW_EVENTS = {
+    "MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "MOUSEROTATE",
+    "NUMPAD_1", "NUMPAD_3", "NUMPAD_5", "NUMPAD_7", "NUMPAD_PERIOD", "NDOF_MOTION",
+}  # fmt: skip
 
 
 class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
-    """Replace the selected faces by the fair surface that continues their surroundings"""
+    """Replace the selected faces by the fair surface that continues their surroundings.
+    Vertices stay the same vertices; nothing outside the selection moves"""
 
     bl_idname = "mesh.fair_region"
     bl_label = "Fair Region"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
+    bl_options = {"REGISTER", "UNDO", "PRESET"}  # noqa: RUF012 - the form that Blender asks for
+
+    _run: Run[list[Fairing]] | None = None
+    _timer: Any = None
+    _tasks: list[job.Task]
+    _options: FairOptions
+    _begin: float
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Edit mode of a mesh is all it takes; an empty selection is answered by a report."""
+        """Cheap, as it is asked at every redraw; what takes a look at the mesh is answered by a report."""
         if context.mode != "EDIT_MESH":
             cls.poll_message_set("Select faces of a mesh in edit mode")
+            return False
+        if context.window_manager.fairing_progress.running:
+            cls.poll_message_set("Fairing is under way: wait for it, or press Esc")
             return False
         return True
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Lay the options out: shape, inside, outline, solver."""
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "factor")
-        layout.prop(self, "equation")
-        row = layout.row()
-        row.active = self.equation == "CONSTANT"
-        row.prop(self, "bulge")
-        layout.prop(self, "inner_fairness")
-        layout.separator()
-        layout.prop(self, "boundary_normals")
-        layout.prop_search(self, "pin_group", context.object, "vertex_groups")
-        layout.prop(self, "pin_edges")
-        layout.separator()
-        for name in ("method", "levels", "tolerance", "max_iterations"):
-            layout.prop(self, name)
+        """Lay the options out in groups."""
+        draw_options(self.layout, self, context.object)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Fair every object in edit mode, or none of them where one is refused."""
+        """Fair every object in edit mode, or none of them where one is refused; return when done."""
+        return self._begin_with(context, self._solve_at_once)
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        """Fair in the background where that takes long enough to be noticed."""
+        return self._begin_with(context, self._solve_or_start)
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Watch the thread; Esc leaves the mesh as it is."""
+        assert self._run is not None
+        if event.type == "ESC" and event.value == "PRESS":
+            self.cancel(context)
+            self.report({"INFO"}, "Fairing was cancelled; nothing has changed")
+            return {"CANCELLED"}
+        if event.type == "TIMER":
+            if self._run.finished:
+                return self._collect(context)
+            show_progress(context, self._run.fraction, self._run.stage)
+        return {"PASS_THROUGH"} if event.type in _VIEW_EVENTS else {"RUNNING_MODAL"}
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Give the run up; Blender calls this too, when it closes a window."""
+        if self._run is not None:
+            self._run.cancel()
+        self._stop_watching(context)
+
+    def _begin_with(self, context: bpy.types.Context, go_on: Any) -> set[str]:
+        self._begin = time.perf_counter()
         context.view_layer.update()  # a script may just have changed an object's matrix
-        start = time.perf_counter()
         try:
-            with _progress(context.window_manager) as progress:
-                done = fair_selections(context, FairOptions.of(self), progress)
-        except Refused as refusal:
+            self._options = FairOptions.of(self)
+            self._tasks = job.read(context, self._options)
+            if not self._tasks:
+                self.report({"INFO"}, "No vertex inside the selection is free to move")
+                return {"CANCELLED"}
+            answer: set[str] = go_on(context)
+            return answer
+        except job.Refused as refusal:
+            return self._refuse(context, refusal)
+
+    def _solve_or_start(self, context: bpy.types.Context) -> set[str]:
+        if bpy.app.background or job.size(self._tasks) < background_from(context):
+            return self._solve_at_once(context)
+        manager = context.window_manager
+        self._run = Run(partial(job.solve, self._tasks, self._options))
+        self._timer = manager.event_timer_add(TICK, window=context.window)
+        manager.progress_begin(0.0, 1.0)
+        manager.modal_handler_add(self)
+        show_progress(context, 0.0, "")
+        return {"RUNNING_MODAL"}
+
+    def _solve_at_once(self, context: bpy.types.Context) -> set[str]:
+        manager = context.window_manager
+        manager.progress_begin(0.0, 1.0)
+        tell: Progress = lambda fraction, _stage: manager.progress_update(fraction)  # noqa: E731
+        try:
+            outcomes = job.solve(self._tasks, self._options, tell)
+        finally:
+            manager.progress_end()
+        return self._apply(context, outcomes)
+
+    def _collect(self, context: bpy.types.Context) -> set[str]:
+        assert self._run is not None
+        self._stop_watching(context)
+        try:
+            outcomes = self._run.result()
+        except job.Refused as refusal:
             return self._refuse(context, refusal)
         except fairing.Cancelled:
             return {"CANCELLED"}
-        if not done:
-            self.report({"INFO"}, "No vertex inside the selection is free to move")
+        if not job.is_current(context, self._tasks):
+            self.report({"ERROR"}, "The mesh changed meanwhile; the result was dropped")
             return {"CANCELLED"}
-        for obj, outcome in done:
-            mesh_io.write_edit_mesh(obj.data, outcome.vertices, outcome.positions)
-        self._tell(context, done, time.perf_counter() - start)
+        return self._apply(context, outcomes)
+
+    def _stop_watching(self, context: bpy.types.Context) -> None:
+        if self._timer is not None:
+            context.window_manager.event_timer_remove(self._timer)
+            context.window_manager.progress_end()
+            self._timer = None
+        hide_progress(context)
+
+    def _apply(self, context: bpy.types.Context, outcomes: list[Fairing]) -> set[str]:
+        job.write(context, self._tasks, outcomes)
+        compare.remember(self._tasks, outcomes)
+        named = [(task.object_name, outcome) for task, outcome in zip(self._tasks, outcomes, strict=True)]
+        report = make_report(named, self._options, time.perf_counter() - self._begin)
+        store(context.window_manager.fairing_report, report)
+        for warning in report.warnings:
+            self.report({"WARNING"}, warning)
+        self.report({"INFO"}, summary(report))
         return {"FINISHED"}
 
-    def _refuse(self, context: bpy.types.Context, refusal: Refused) -> set[str]:
+    def _refuse(self, context: bpy.types.Context, refusal: job.Refused) -> set[str]:
         elements = np.asarray(getattr(refusal.cause, "elements", ()), dtype=np.int64)
         if elements.size:
             context.tool_settings.mesh_select_mode = (True, False, False)
-            mesh_io.select_vertices(refusal.object.data, elements)
+            mesh_io.select_vertices(job.objects_in_mode(context)[refusal.object_name].data, elements)
         self.report({"ERROR"}, str(refusal))
         return {"CANCELLED"}
-
-    def _tell(self, context: bpy.types.Context, done: Done, seconds: float) -> None:
-        report = context.window_manager.fairing_report
-        fill_report(report, done, seconds)
-        for warning in report.warnings.splitlines():
-            self.report({"WARNING"}, warning)
-        self.report({"INFO"}, summary(report))
-
-
-def fair_selections(context: bpy.types.Context, options: FairOptions, progress: Progress) -> Done:
-    """Solve for every object in edit mode that has free vertices; nothing is written.
-
-    Raises Refused for the first object that can't be faired, and fairing.Cancelled.
-    """
-    done = []
-    for obj in context.objects_in_mode_unique_data:
-        try:
-            outcome = _fair_selection(obj, options, progress)
-        except (ValueError, fairing.SolverError) as cause:
-            raise Refused(obj, cause) from cause
-        if outcome is not None:
-            done.append((obj, outcome))
-    return done
-
-
-def _fair_selection(obj: bpy.types.Object, options: FairOptions, progress: Progress) -> Fairing | None:
-    key = obj.active_shape_key
-    if key is not None and key.lock_shape:
-        raise ValueError(f"The active shape key {key.name!r} is locked")
-    arrays = mesh_io.read_edit_mesh(obj, options)
-    if not free_vertices(arrays).any():
-        return None
-    return fair_arrays(arrays, np.array(obj.matrix_world, dtype=np.float64), options, progress)
-
-
-@contextmanager
-def _progress(manager: bpy.types.WindowManager) -> Iterator[Callable[[float, str], None]]:
-    """Show the engine's progress at the mouse pointer."""
-    manager.progress_begin(0.0, 1.0)
-    try:
-        yield lambda fraction, _stage: manager.progress_update(fraction)
-    finally:
-        manager.progress_end()
-
-
-def fill_report(report: Any, done: Done, seconds: float) -> None:
-    """Write the worst of several outcomes into a FairReport; `seconds` as the user waited."""
-    results = [outcome.result for _, outcome in done]
-    report.objects = ", ".join(obj.name for obj, _ in done)
-    report.free_vertices = sum(len(outcome.vertices) for _, outcome in done)
-    report.seconds = seconds
-    report.residual = max(result.residual for result in results)
-    report.boundary_angle = max(result.boundary_angle.max(initial=0.0) for result in results)
-    report.converged = all(result.converged for result in results)
-    report.warnings = "\n".join(_warnings(done))
-
-
-def _warnings(done: Done) -> list[str]:
-    texts = []
-    for obj, outcome in done:
-        prefix = f"{obj.name}: " if len(done) > 1 else ""
-        texts += [prefix + text for text in outcome.warnings]
-        if obj.data.use_mirror_x:
-            texts.append(prefix + "X mirror is on: only the selected side was faired")
-    return texts
-
-
-def summary(report: Any) -> str:
-    """Return the one line that the status bar shows."""
-    state = "Faired" if report.converged else "Not converged:"
-    return (
-        f"{state} {report.free_vertices} vertices in {report.seconds:.2f} s, "
-        f"largest angle at the outline {report.boundary_angle:.2g}°"
-    )

@@ -1,38 +1,61 @@
 # mypy: disable-error-code="valid-type"
-"""The options as Blender properties, and the last report as the panel shows it.
+"""The options as Blender properties: names, ranges, and what each does to the shape.
 
 No postponed annotations here: Blender reads them as property definitions.
 """
 
-import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 
 _EQUATIONS = (
-    ("HARMONIC", "Harmonic", "Mean curvature blends smoothly from the outline: the all-round fair"),
-    ("CONSTANT", "Bulge", "Like Harmonic, with an even load that lifts or sinks the middle"),
-    ("MINIMAL_ENERGY", "Minimal Energy", "Least bending energy: rounder between tight outlines"),
-    ("MINIMAL", "Minimal", "Soap film: least area, meets the outline in position only"),
+    (
+        "HARMONIC",
+        "Harmonic",
+        "Curvature runs evenly from outline to outline. Restores spheres and pipes",
+    ),
+    ("CONSTANT", "Bulge", "Like Harmonic, with an even pressure from inside or outside that lifts or sinks the middle"),
+    (
+        "MINIMAL_ENERGY",
+        "Minimal Energy",
+        "Bends as little as possible: rounder near tight outlines",
+    ),
+    (
+        "MINIMAL",
+        "Soap Film",
+        "Least area: meets the outline in position only, with a crease",
+    ),
 )
 _INNER_FAIRNESS = (
-    ("UNIFORM", "Uniform", "Vertices spread evenly over the patch"),
-    ("CONFORMAL", "Keep Texture", "Faces keep their angles, so that textures keep their look"),
-    ("INVERSE_DISTANCE", "Keep Spacing", "Fine and coarse areas stay about as fine and coarse"),
-    ("SHAPE_PRESERVING", "Keep Shape", "Faces keep their proportions and never fold over"),
+    ("UNIFORM", "Even", "Vertices spread evenly over the surface. Best topology, but textures slide"),
+    (
+        "CONFORMAL",
+        "Keep Texture",
+        "Faces keep their angles as far as they can, so that textures keep their look",
+    ),
+    ("INVERSE_DISTANCE", "Keep Spacing", "Finely meshed areas stay fine, coarse ones stay coarse"),
+    (
+        "SHAPE_PRESERVING",
+        "Keep Proportions",
+        "Each vertex keeps its place among its neighbours. Textures may be distorted more than with Even",
+    ),
 )
 _BOUNDARY_NORMALS = (
-    ("SURROUNDING", "Surroundings", "Tangent to the surface around the selection"),
-    ("AVERAGE", "Average", "Tangent to the average of all faces at the outline"),
-    ("CUSTOM", "Custom Normals", "Tangent to the shading normals along the outline"),
+    (
+        "SURROUNDING",
+        "Surroundings",
+        "Continues the faces around the selection, whatever is inside",
+    ),
+    ("AVERAGE", "Average", "Leans half way between the faces inside and outside: keeps some of the old shape's slope"),
+    ("CUSTOM", "Custom Normals", "Follows the shading normals along the outline, custom split normals included"),
 )
 _METHODS = (
-    ("GLOBAL", "Global", "The fast solver, started from scratch: old shape does not matter"),
-    ("PAPER", "Multigrid", "The published iteration, step for step"),
+    ("GLOBAL", "Global", "The fast solver. The old shape inside the selection does not matter"),
+    ("PAPER", "Multigrid", "The published iteration, step by step: slow, for comparison"),
 )
 _PIN_EDGES = (
     ("NONE", "None", "No edge inside the selection is held"),
-    ("SHARP", "Sharp", "Vertices on edges marked sharp stay where they are"),
-    ("SEAM", "Seam", "Vertices on edges marked as UV seams stay where they are"),
-    ("CREASE", "Crease", "Vertices on edges with a crease weight stay where they are"),
+    ("SHARP", "Sharp", "The surface passes through edges marked sharp; closed loops of them divide it"),
+    ("SEAM", "Seam", "The surface passes through UV seams; closed loops of them divide it"),
+    ("CREASE", "Crease", "The surface passes through edges with a crease weight; closed loops of them divide it"),
 )
 
 
@@ -41,65 +64,70 @@ class FairProperties:
 
     factor: FloatProperty(
         name="Factor",
-        description="From the original shape (0) to the fair one (1)",
+        description="How far vertices go: 0 leaves the original shape, 1 is fair, between is a blend of both",
         default=1.0,
         min=0.0,
         max=1.0,
         subtype="FACTOR",
     )
-    equation: EnumProperty(name="Shape", description="The kind of fair surface", items=_EQUATIONS, default="HARMONIC")
+    equation: EnumProperty(
+        name="Shape",
+        description="Which surface spans the outline",
+        items=_EQUATIONS,
+        default="HARMONIC",
+    )
     bulge: FloatProperty(
         name="Bulge",
-        description="For the shape Bulge: 1 lifts a flat disc by a quarter of its radius",
+        description="Lifts (above 0) or sinks the middle of each island, measured by the island's size: "
+        "1 lifts a flat disc by a quarter of its radius. For the shape Bulge",
         default=0.0,
-        soft_min=-2.0,
-        soft_max=2.0,
+        soft_min=-1.0,
+        soft_max=1.0,
+        step=5,
+        precision=2,
     )
     inner_fairness: EnumProperty(
-        name="Inside",
-        description="How vertices are spread over the surface",
+        name="Vertices",
+        description="How vertices spread over the surface. The surface itself stays the same",
         items=_INNER_FAIRNESS,
         default="UNIFORM",
     )
     boundary_normals: EnumProperty(
         name="Tangent To",
-        description="What the surface continues at its outline",
+        description="The slope with which the surface leaves its outline",
         items=_BOUNDARY_NORMALS,
         default="SURROUNDING",
     )
-    method: EnumProperty(name="Method", description="The solver", items=_METHODS, default="GLOBAL")
+    method: EnumProperty(name="Method", description="How the surface is computed", items=_METHODS, default="GLOBAL")
     levels: IntProperty(
         name="Levels",
-        description="Levels of the solver's hierarchy; 0: chosen by the solver",
+        description="Steps from coarse to fine of the method Multigrid; 0: chosen for you",
         default=0,
         min=0,
         max=20,
     )
     tolerance: FloatProperty(
         name="Tolerance",
-        description="Stop when no vertex moves by more than this share of the patch's size",
+        description="Done when no vertex moves by more than this part of the patch's size; "
+        "smaller is more exact and slower",
         default=1e-6,
         min=1e-14,
         max=1e-2,
         precision=8,
     )
-    max_iterations: IntProperty(name="Iterations", description="Give up after this many steps", default=200, min=1)
-    pin_group: StringProperty(name="Pin Group", description="Vertices of this vertex group stay where they are")
+    max_iterations: IntProperty(
+        name="Iterations",
+        description="Give up after so many steps; the report says so then",
+        default=200,
+        min=1,
+    )
+    pin_group: StringProperty(
+        name="Pin Group",
+        description="The surface passes through the vertices of this vertex group; closed loops of them divide it",
+    )
     pin_edges: EnumProperty(
         name="Pin Edges",
-        description="Marked edges whose vertices stay where they are",
+        description="Marked edges that the surface passes through",
         items=_PIN_EDGES,
         default="NONE",
     )
-
-
-class FairReport(bpy.types.PropertyGroup):
-    """What the last run did; kept on the window manager, so it is not part of the file's undo."""
-
-    objects: StringProperty()
-    free_vertices: IntProperty()
-    seconds: FloatProperty()
-    residual: FloatProperty()
-    boundary_angle: FloatProperty()
-    converged: BoolProperty()
-    warnings: StringProperty()

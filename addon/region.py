@@ -25,6 +25,7 @@ class MeshArrays:
     pinned: Mask  # (n,)
     corner_normals: Floats | None = None  # (c, 3), where they were asked for
     mirrored: bool = False  # the corners go clockwise, seen from outside
+    mirror_x: bool = False  # the mesh asks for symmetric results
 
     def transformed(self, matrix: Floats) -> MeshArrays:
         """Return the mesh under a 4×4 affine map, wound so that outside stays outside.
@@ -139,22 +140,3 @@ def face_sizes(mesh: MeshArrays) -> Ints:
 
 def _all_triangles(mesh: MeshArrays) -> bool:
     return bool((face_sizes(mesh)[mesh.in_patch] == 3).all())
-
-
-def island_count(patch: Patch) -> int:
-    """Count the pieces of the patch that share no vertex."""
-    label = np.arange(len(patch.vertices))
-    while True:
-        lowest = label[patch.triangles].min(axis=1)
-        following = label.copy()
-        np.minimum.at(following, patch.triangles, lowest[:, None])
-        following = following[following]  # pointer jumping: steps ~ log of the diameter
-        if np.array_equal(following, label):
-            return len(np.unique(label))
-        label = following
-
-
-def outline_radius(patch: Patch, positions: Floats) -> float:
-    """Return the RMS distance of the outline from its centroid, in the units of `positions`."""
-    points = positions[patch.vertices[patch.outline]]
-    return float(np.sqrt(((points - points.mean(axis=0)) ** 2).sum(axis=1).mean()))

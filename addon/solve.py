@@ -2,93 +2,126 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 import fairing
 
+from . import engine, quality
 from .arrays import Floats, Ints
 from .boundary import prescribed_normals
+from .engine import Progress
+from .memory import Memory, digest
 from .options import FairOptions
-from .region import MeshArrays, Patch, island_count, make_patch, outline_radius
-
-Progress = Callable[[float, str], "bool | None"]
+from .outline import outline_notes
+from .quality import Quality
+from .region import MeshArrays, Patch, make_patch
+from .symmetry import mirror_map, symmetrised
 
 
 @dataclass(frozen=True)
 class Fairing:
-    """New positions for the free vertices, in the mesh's own coordinates."""
+    """New positions for the free vertices, in the mesh's own coordinates, and what they are worth."""
 
     vertices: Ints  # (k,) mesh indices, ascending
     positions: Floats  # (k, 3)
     result: fairing.FairResult  # for the patch, in world space
     warnings: tuple[str, ...]
+    before: Quality
+    after: Quality
+    distortion: float  # area-weighted mean of the conformal distortion − 1
+    curvature: tuple[float, float]  # largest |H| inside and on the outline, in 1/length
 
 
-def fair_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None = None) -> Fairing:
+@dataclass(frozen=True)
+class Solved:
+    """What the engine gave, before blending: the factor changes nothing here."""
+
+    problem: engine.Problem
+    result: fairing.FairResult
+    warnings: tuple[str, ...]
+
+
+def fair_arrays(
+    mesh: MeshArrays,
+    matrix: Floats,
+    options: FairOptions,
+    progress: Progress | None = None,
+    memory: Memory[Solved] | None = None,
+) -> Fairing:
     """Fair the patch of `mesh` in the space that the 4×4 `matrix` leads to.
 
+    memory: answers where nothing but the factor changed since a former call.
     Raises fairing.MeshError (its `elements` are vertices of `mesh` here), ValueError,
     fairing.SolverError and fairing.Cancelled. `mesh` is never changed.
     """
+    # Of two results for the same input the bits are the same, so that a former one is as good.
+    key = digest(mesh, matrix, replace(options, factor=1.0)) if memory is not None else ""
+    solved = memory.get(key) if memory is not None else None
+    if solved is None:
+        solved = _solve(mesh, matrix, options, progress)
+        if memory is not None:
+            memory.put(key, solved)
+    return _finish(mesh, matrix, options.factor, solved)
+
+
+def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine.Problem, tuple[str, ...]]:
+    """Return the patch with its boundary data in world space, and warnings."""
     # What is not finite outside the patch is none of our business, and the engine looks inside.
     with np.errstate(invalid="ignore", over="ignore"):
         world = mesh.transformed(matrix)
         # Conformal weights belong to the present shape, and so do its triangles.
         patch = make_patch(world, even=options.inner_fairness != "CONFORMAL")
         normals, warnings = prescribed_normals(world, patch, options.boundary_normals)
-    with _mesh_indices(patch):
-        result = fairing.fair(
-            world.positions[patch.vertices],
-            patch.triangles,
-            fixed=patch.fixed,
-            fixed_normals=normals,
-            neighbours=patch.neighbours,
-            load=_load(world, patch, options),
-            progress=progress,
-            **options.engine_arguments(),
-        )
+        notes = outline_notes(world)
+    return engine.Problem(patch, world.positions[patch.vertices], normals), warnings + notes
+
+
+def _solve(mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None) -> Solved:
+    problem, warnings = pose(mesh, matrix, options)
+    result = engine.solve(problem, options, progress)
+    texts = tuple(str(diagnostic) for diagnostic in result.warnings)
+    return Solved(problem, result, warnings + texts)
+
+
+def _finish(mesh: MeshArrays, matrix: Floats, factor: float, solved: Solved) -> Fairing:
+    patch, result = solved.problem.patch, solved.result
+    fair, warnings = _mirrored(mesh, patch, _to_local(result.vertices, matrix))
     free = patch.vertices[patch.free]
-    fair = _to_local(result.vertices[patch.free], matrix)
     original = mesh.positions[free]
     # Blended in local space, so that factor 0 gives the very bits that were there.
-    positions = original + options.factor * (fair - original)
-    return Fairing(free, positions, result, warnings + _texts(result.warnings))
+    blended = original + factor * (fair[patch.free] - original)
+    positions: Floats = fair[patch.free] if factor == 1.0 else blended
+    before = solved.problem.points
+    after = before.copy()
+    after[patch.free] = positions @ matrix[:3, :3].T + matrix[:3, 3]
+    quality_before, quality_after = quality.compare(before, after, patch.triangles)
+    return Fairing(
+        vertices=free,
+        positions=positions,
+        result=result,
+        warnings=solved.warnings + warnings,
+        before=quality_before,
+        after=quality_after,
+        distortion=quality.texture_distortion(before, after, patch.triangles),
+        curvature=_largest_curvatures(patch, result),
+    )
 
 
-@contextmanager
-def _mesh_indices(patch: Patch) -> Iterator[None]:
-    """Make the elements of a MeshError vertices of the whole mesh instead of the patch's."""
-    try:
-        yield
-    except fairing.MeshError as error:
-        elements = mesh_vertices(error.diagnostic, patch).astype(np.int32)
-        diagnostic = replace(error.diagnostic, elements=elements, kind="vertex")
-        raise fairing.MeshError(diagnostic) from error
+def _mirrored(mesh: MeshArrays, patch: Patch, fair: Floats) -> tuple[Floats, tuple[str, ...]]:
+    """Make the local positions (p, 3) symmetric where the mesh asks for that."""
+    if not mesh.mirror_x:
+        return fair, ()
+    image = mirror_map(mesh, patch)
+    if image is None:
+        return fair, ("X mirror is on, but the selection is not symmetric: it was faired as it is",)
+    return symmetrised(fair, image), ()
 
 
-def mesh_vertices(diagnostic: fairing.Diagnostic, patch: Patch) -> Ints:
-    """Return the mesh vertices that an error or warning of the engine is about, ascending.
-
-    Edges come from the engine as pairs of vertices; triangles give their corners.
-    """
-    elements: Ints = diagnostic.elements.astype(np.int64)
-    if diagnostic.kind == "triangle":
-        elements = patch.triangles[elements].ravel()
-    vertices: Ints = patch.vertices[np.unique(elements)]
-    return vertices
-
-
-def _load(world: MeshArrays, patch: Patch, options: FairOptions) -> float:
-    """Return the engine's load, in length⁻³: 8 bulge / a³ with a the outline's RMS radius."""
-    if options.equation != "CONSTANT" or options.bulge == 0.0:
-        return 0.0
-    if island_count(patch) > 1:
-        raise ValueError("bulge: fair one island at a time, each has a radius of its own")
-    return 8.0 * options.bulge / outline_radius(patch, world.positions) ** 3
+def _largest_curvatures(patch: Patch, result: fairing.FairResult) -> tuple[float, float]:
+    sizes = np.abs(result.mean_curvature)
+    return float(sizes[patch.free].max(initial=0.0)), float(sizes[patch.outline].max(initial=0.0))
 
 
 def _to_local(positions: Floats, matrix: Floats) -> Floats:
@@ -97,7 +130,3 @@ def _to_local(positions: Floats, matrix: Floats) -> Floats:
     if not np.isfinite(local).all():
         raise fairing.SolverError("The solution is not finite; the mesh was left as it was")
     return local
-
-
-def _texts(diagnostics: tuple[fairing.Diagnostic, ...]) -> tuple[str, ...]:
-    return tuple(str(diagnostic) for diagnostic in diagnostics)

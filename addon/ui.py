@@ -1,37 +1,163 @@
-"""Where the operator is found: sidebar, Face menu, context menu."""
+"""Where everything is found: sidebar panels, Face menu, context menu."""
 
 from typing import Any
 
 import bpy
 
+from .compare import MESH_OT_fair_compare
+from .curvature import MESH_OT_fair_curvature
+from .inspection import Inspection
 from .operators import MESH_OT_fair_region
+from .overlay import overlay
+from .translations import translated
+from .watch import MESH_OT_fair_inspect, is_large, request, watch
+
+_ICONS = {"MET": "CHECKMARK", "MISSED": "ERROR", "TOLD": "BLANK1"}
 
 
-class VIEW3D_PT_fairing(bpy.types.Panel):
-    """The sidebar panel: the operator and what its last run did"""
-
-    bl_label = "Intrinsic Fairing"
+class _Panel:
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "Fairing"
 
+
+class VIEW3D_PT_fairing(_Panel, bpy.types.Panel):
+    """The operator, or how far it is"""
+
+    bl_label = "Intrinsic Fairing"
+
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the button and the last report."""
-        self.layout.operator(MESH_OT_fair_region.bl_idname, icon="MOD_SMOOTH")
-        report = context.window_manager.fairing_report
-        if report.free_vertices:
-            _draw_report(self.layout.box(), report)
+        """Draw the button and the progress."""
+        layout = self.layout
+        progress = context.window_manager.fairing_progress
+        if progress.running:
+            layout.progress(factor=progress.fraction, text=f"{progress.fraction:.0%}  {progress.stage}")
+            layout.label(text="cancels", icon="EVENT_ESC")
+            return
+        column = layout.column(align=True)
+        column.scale_y = 1.3
+        column.operator(MESH_OT_fair_region.bl_idname, icon="MOD_SMOOTH")
+        layout.operator(MESH_OT_fair_compare.bl_idname, icon="ARROW_LEFTRIGHT")
+
+
+class VIEW3D_PT_fairing_selection(_Panel, bpy.types.Panel):
+    """What is selected, and what would be refused"""
+
+    bl_label = "Selection"
+    bl_parent_id = "VIEW3D_PT_fairing"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Only edit mode has a selection."""
+        return bool(context.mode == "EDIT_MESH")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw what the last look found; never look here."""
+        request(context)
+        if watch.stale and is_large(context):
+            self.layout.operator(MESH_OT_fair_inspect.bl_idname, icon="VIEWZOOM")
+            return
+        for found in watch.found:
+            _draw_inspection(self.layout, found, len(watch.found) > 1)
+
+
+class VIEW3D_PT_fairing_report(_Panel, bpy.types.Panel):
+    """What the last run did"""
+
+    bl_label = "Last Run"
+    bl_parent_id = "VIEW3D_PT_fairing"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """There must have been one."""
+        return bool(context.window_manager.fairing_report.free_vertices)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the report: what was met, what was missed."""
+        _draw_report(self.layout, context.window_manager.fairing_report)
+
+
+class VIEW3D_PT_fairing_overlay(_Panel, bpy.types.Panel):
+    """Reflection lines and curvature colours"""
+
+    bl_label = "Quality Overlay"
+    bl_parent_id = "VIEW3D_PT_fairing"
+    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012 - the form that Blender asks for
+
+    def draw_header(self, context: bpy.types.Context) -> None:
+        """Draw the switch."""
+        self.layout.prop(context.window_manager.fairing_overlay, "show", text="")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the settings."""
+        _draw_overlay(self.layout, context.window_manager.fairing_overlay)
+        self.layout.operator(MESH_OT_fair_curvature.bl_idname, icon="RNDCURVE")
+
+
+def _pair(layout: Any, name: str, value: str, icon: str = "NONE") -> None:
+    row = layout.split(factor=0.62)
+    row.label(text=name, icon=icon)
+    row.label(text=value, translate=False)
+
+
+def _draw_inspection(layout: Any, found: Inspection, named: bool) -> None:
+    column = layout.column(align=True)
+    if named:
+        column.label(text=found.object_name, icon="OBJECT_DATA", translate=False)
+    _pair(column, "Faces", str(found.faces))
+    _pair(column, "Free Vertices", str(found.free_vertices))
+    if found.refusal:
+        _draw_text(layout, translated(found.refusal), "CANCEL")
+        return
+    _pair(column, "Outlines", str(found.loops))
+    _pair(column, "Islands", str(found.islands))
+    for note in found.notes:
+        _draw_text(layout, note, "INFO")
 
 
 def _draw_report(layout: Any, report: Any) -> None:
-    layout.label(text=report.objects, icon="CHECKMARK" if report.converged else "ERROR")
+    layout.label(text=report.objects, icon="OBJECT_DATA", translate=False)
     column = layout.column(align=True)
-    column.label(text=f"Free vertices: {report.free_vertices}")
-    column.label(text=f"Seconds: {report.seconds:.2f}")
-    column.label(text=f"Residual: {report.residual:.1e}")
-    column.label(text=f"Largest angle at the outline: {report.boundary_angle:.2g}°")
+    for check in report.checks:
+        row = column.row()
+        row.alert = check.state == "MISSED"
+        _pair(row, check.name, check.value, _ICONS[check.state])
+    _pair(column, "Free Vertices", str(report.free_vertices), "BLANK1")
+    _pair(column, "Seconds", f"{report.seconds:.2f}", "BLANK1")
     for warning in report.warnings.splitlines():
-        layout.label(text=warning, icon="ERROR")
+        _draw_text(layout, warning, "ERROR")
+
+
+def _draw_overlay(layout: Any, settings: Any) -> None:
+    layout.use_property_split = True
+    column = layout.column()
+    column.active = settings.show
+    column.prop(settings, "mode")
+    column.prop(settings, "scope")
+    if settings.mode == "ZEBRA":
+        column.prop(settings, "stripes")
+        column.prop(settings, "axis")
+    else:
+        column.prop(settings, "automatic")
+        row = column.row()
+        row.active = not settings.automatic
+        row.prop(settings, "range")
+    column.prop(settings, "opacity")
+    if overlay.message:
+        _draw_text(layout, overlay.message, "ERROR")
+
+
+def _draw_text(layout: Any, text: str, icon: str, width: int = 38) -> None:
+    """Draw a sentence over as many lines as it needs: labels don't wrap."""
+    column = layout.column(align=True)
+    column.scale_y = 0.8
+    line = ""
+    for word in text.split():
+        if line and len(line) + len(word) >= width:
+            column.label(text=line, icon=icon, translate=False)
+            line, icon = "", "BLANK1"
+        line = f"{line} {word}".strip()
+    column.label(text=line, icon=icon, translate=False)
 
 
 def draw_menu(menu: Any, _context: bpy.types.Context) -> None:
@@ -44,3 +170,11 @@ def draw_context_menu(menu: Any, context: bpy.types.Context) -> None:
     """Add the operator to the context menu of faces, which vertices and edges share."""
     if context.tool_settings.mesh_select_mode[2]:
         draw_menu(menu, context)
+
+
+PANELS = (
+    VIEW3D_PT_fairing,
+    VIEW3D_PT_fairing_selection,
+    VIEW3D_PT_fairing_report,
+    VIEW3D_PT_fairing_overlay,
+)

@@ -38,12 +38,12 @@ def _render(path: Path, material: bpy.types.Material | None) -> None:
     bpy.ops.render.render(write_still=True)
 
 
-def shaded(path: Path) -> None:
-    """Render clay, with the colours of the materials."""
+def shaded(path: Path, colours: str = "MATERIAL") -> None:
+    """Render clay, coloured by "MATERIAL" or "TEXTURE"."""
     scene = bpy.context.scene
     scene.render.engine = "BLENDER_WORKBENCH"
     scene.display.shading.light = "STUDIO"
-    scene.display.shading.color_type = "MATERIAL"
+    scene.display.shading.color_type = colours
     scene.display.shading.show_specular_highlight = True
     scene.display.render_aa = "8"
     _render(path, None)

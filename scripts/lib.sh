@@ -66,3 +66,31 @@ zip_path() {
     version=$(sed -n 's/^version = "\(.*\)"/\1/p' addon/blender_manifest.toml)
     printf '%s/package/intrinsic_fairing-%s.zip' "$build" "$version"
 }
+
+# Debian's copyright files hold the licences of the two libraries that the wheel contains.
+copy_licences() {
+    mkdir "$1/licenses"
+    cp LICENSE "$1/LICENSE"
+    cp /usr/share/doc/libopenmesh-dev/copyright "$1/licenses/OpenMesh.txt"
+    cp /usr/share/doc/libeigen3-dev/copyright "$1/licenses/Eigen.txt"
+}
+
+# Lays out the folder that Blender's tool zips: the add-on with these wheels.
+# usage: stage_extension FOLDER WHEEL…
+stage_extension() {
+    local staging=$1 wheel
+    shift
+    rm -rf "$staging"
+    mkdir -p "$staging/wheels"
+    cp -r addon/. "$staging"
+    find "$staging" -name __pycache__ -prune -exec rm -r {} +
+    cp "$@" "$staging/wheels"
+    copy_licences "$staging"
+    {
+        printf '\nwheels = [\n'
+        for wheel in "$@"; do
+            printf '  "./wheels/%s",\n' "$(basename "$wheel")"
+        done
+        printf ']\n'
+    } >>"$staging/blender_manifest.toml"
+}

@@ -131,13 +131,6 @@ def test_linked_duplicates_and_several_objects() -> None:
     assert meshes.positions(first).tobytes() == meshes.positions(second).tobytes()
 
 
-def test_mirror_option_is_warned_about() -> None:
-    obj, faces = meshes.domed_grid()
-    obj.data.use_mirror_x = True
-    meshes.fair(obj, faces)
-    assert "mirror" in meshes.report().warnings
-
-
 def test_loose_parts_are_left_alone() -> None:
     obj, faces = meshes.domed_grid()
     bm = bmesh.new()

@@ -12,8 +12,6 @@ import meshes
 import numpy as np
 import pytest
 
-ID = "bl_ext.user_default.intrinsic_fairing"
-
 DEFAULTS = {
     "factor": 1.0,
     "equation": "HARMONIC",
@@ -57,23 +55,6 @@ def test_poll_says_why() -> None:
         bpy.ops.mesh.fair_region()
     bpy.ops.object.mode_set(mode="EDIT")
     assert bpy.ops.mesh.fair_region.poll()
-
-
-def test_registers_again_and_again() -> None:
-    def footprint() -> tuple[int, ...]:
-        menus = (bpy.types.VIEW3D_MT_edit_mesh_faces, bpy.types.VIEW3D_MT_edit_mesh_context_menu)
-        entries = [len(menu.draw._draw_funcs) for menu in menus]
-        return (*entries, hasattr(bpy.types, "VIEW3D_PT_fairing"))
-
-    import addon_utils
-
-    before = footprint()
-    for _ in range(5):
-        addon_utils.disable(ID)
-        assert not hasattr(bpy.types, "VIEW3D_PT_fairing")
-        assert not hasattr(bpy.types.WindowManager, "fairing_report")
-        addon_utils.enable(ID)
-    assert footprint() == before
 
 
 def test_minimal_surface() -> None:

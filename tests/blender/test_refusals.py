@@ -43,7 +43,7 @@ REFUSED = [
     (add_nan, {}, "finite"),
     (flatten, {}, "scale"),
     (nothing, {"pin_group": "Missing"}, "Missing"),
-    (nothing, {"inner_fairness": "SHAPE_PRESERVING"}, "inner_fairness"),
+    (nothing, {"levels": 5}, "levels"),
 ]
 
 
@@ -67,7 +67,7 @@ def test_refused_run_adds_no_undo_step() -> None:
     bpy.ops.transform.translate(value=(0.0, 0.0, 1.0))
     bpy.ops.ed.undo_push(message="second")
     with pytest.raises(RuntimeError):
-        meshes.run(inner_fairness="SHAPE_PRESERVING")
+        meshes.run(levels=5)
     bpy.ops.ed.undo()
     meshes.contents_in_edit_mode()
     np.testing.assert_array_equal(meshes.positions(bpy.data.objects["Grid"]), original)

@@ -1,0 +1,169 @@
+"""The one place that calls `fairing.fair`: a patch in world space, whole or piece by piece."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+import fairing
+
+from .arrays import Floats, Ints
+from .components import Component, components, outline_radius
+from .options import FairOptions
+from .region import Patch
+
+Progress = Callable[[float, str], "bool | None"]
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A patch with its G1 data, in world space."""
+
+    patch: Patch
+    points: Floats  # (p, 3) of patch.vertices
+    normals: Floats  # (k, 3) unit, in the order of patch.fixed
+
+
+def solve(problem: Problem, options: FairOptions, progress: Progress | None = None) -> fairing.FairResult:
+    """Fair the patch; indices in the result are patch indices.
+
+    A bulge is measured by each piece's own outline, so that pieces are solved one after the other
+    then. Raises fairing.MeshError (its `elements` are mesh vertices), ValueError,
+    fairing.SolverError and fairing.Cancelled.
+    """
+    if options.equation != "CONSTANT" or options.bulge == 0.0:
+        return _solve_part(problem, options, 0.0, progress)
+    pieces = components(problem.patch)
+    if len(pieces) <= 1:
+        return _solve_part(problem, options, _load(problem, problem.patch.outline, options), progress)
+    return _solve_pieces(problem, pieces, options, progress)
+
+
+def check(problem: Problem, options: FairOptions) -> None:
+    """Let the engine look at the patch without solving it; raises what `solve` would for its input."""
+    with suppress_cancel():
+        _solve_part(problem, options, 0.0, lambda _fraction, stage: stage == "topology")
+
+
+@contextmanager
+def suppress_cancel() -> Iterator[None]:
+    """End quietly where the engine was stopped on purpose."""
+    try:
+        yield
+    except fairing.Cancelled:
+        return
+
+
+def _load(problem: Problem, outline: Ints, options: FairOptions) -> float:
+    """Return the engine's load, in length⁻³: 8 bulge / a³ with a the outline's RMS radius."""
+    return 8.0 * options.bulge / outline_radius(problem.points[outline]) ** 3
+
+
+def _solve_part(problem: Problem, options: FairOptions, load: float, progress: Progress | None) -> fairing.FairResult:
+    patch = problem.patch
+    with _mesh_indices(patch):
+        return fairing.fair(
+            problem.points,
+            patch.triangles,
+            fixed=patch.fixed,
+            fixed_normals=problem.normals,
+            neighbours=patch.neighbours,
+            load=load,
+            progress=progress,
+            **options.engine_arguments(),
+        )
+
+
+@contextmanager
+def _mesh_indices(patch: Patch) -> Iterator[None]:
+    """Make the elements of a MeshError vertices of the whole mesh instead of the patch's."""
+    try:
+        yield
+    except fairing.MeshError as error:
+        elements = mesh_vertices(error.diagnostic, patch).astype(np.int32)
+        diagnostic = replace(error.diagnostic, elements=elements, kind="vertex")
+        raise fairing.MeshError(diagnostic) from error
+
+
+def mesh_vertices(diagnostic: fairing.Diagnostic, patch: Patch) -> Ints:
+    """Return the mesh vertices that an error or warning of the engine is about, ascending.
+
+    Edges come from the engine as pairs of vertices; triangles give their corners.
+    """
+    elements: Ints = diagnostic.elements.astype(np.int64)
+    if diagnostic.kind == "triangle":
+        elements = patch.triangles[elements].ravel()
+    vertices: Ints = patch.vertices[np.unique(elements)]
+    return vertices
+
+
+def _solve_pieces(
+    problem: Problem, pieces: tuple[Component, ...], options: FairOptions, progress: Progress | None
+) -> fairing.FairResult:
+    sizes = np.array([len(piece.triangles) for piece in pieces], dtype=np.float64)
+    ends = np.cumsum(sizes) / sizes.sum()
+    results = []
+    for piece, end, share in zip(pieces, ends, sizes / sizes.sum(), strict=True):
+        part, used = _part(problem, piece)
+        load = _load(problem, piece.outline, options)
+        results.append((used, _solve_part(part, options, load, sub_range(progress, end - share, end))))
+    return _merged(problem, results)
+
+
+def sub_range(progress: Progress | None, begin: float, end: float) -> Progress | None:
+    """Map the fractions of one part of the work onto those of the whole."""
+    if progress is None:
+        return None
+    return lambda fraction, stage: progress(begin + (end - begin) * fraction, stage)
+
+
+def _part(problem: Problem, piece: Component) -> tuple[Problem, Ints]:
+    """Cut one piece out; return it and the patch indices of its vertices."""
+    patch = problem.patch
+    used, triangles = np.unique(patch.triangles[piece.triangles], return_inverse=True)
+    number = np.full(len(patch.vertices), -1, dtype=np.int64)
+    number[used] = np.arange(len(used))
+    held = number[patch.fixed] >= 0
+    edges = patch.neighbours
+    part = Patch(
+        vertices=patch.vertices[used],
+        triangles=triangles.reshape(-1, 3).astype(np.int64),
+        free=_present(number[patch.free]),
+        fixed=number[patch.fixed[held]],
+        outline=number[piece.outline],
+        neighbours=None if edges is None else number[edges[(number[edges] >= 0).all(axis=1)]],
+    )
+    return Problem(part, problem.points[used], problem.normals[held]), used
+
+
+def _present(numbers: Ints) -> Ints:
+    return numbers[numbers >= 0]
+
+
+def _merged(problem: Problem, results: list[tuple[Ints, fairing.FairResult]]) -> fairing.FairResult:
+    """Put the pieces' results together: every array in patch order, of every figure the worst."""
+    worst = max((result for _, result in results), key=lambda result: (not result.converged, result.residual))
+    points = problem.points.copy()
+    curvature = np.zeros(len(points))
+    angles = np.zeros(len(points))
+    for used, result in results:
+        free = np.setdiff1d(np.arange(len(used)), result.fixed)
+        points[used[free]] = result.vertices[free]
+        curvature[used] = result.mean_curvature
+        angles[used[result.fixed]] = np.maximum(angles[used[result.fixed]], result.boundary_angle)
+    whole: dict[str, Any] = {
+        "vertices": points,
+        "fixed": problem.patch.fixed.astype(np.int32),
+        "mean_curvature": curvature,
+        "boundary_angle": angles[problem.patch.fixed],
+        "polished": all(result.polished for _, result in results),
+        "iterations": max(result.iterations for _, result in results),
+        "initial_residual": max(result.initial_residual for _, result in results),
+        "seconds": {"total": sum(result.seconds["total"] for _, result in results)},
+        "warnings": tuple(warning for _, result in results for warning in result.warnings),
+    }
+    return replace(worst, **whole)

@@ -1,0 +1,63 @@
+"""What is selected, and what would be refused: told before anything runs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+import fairing
+
+from . import engine, job
+from .components import components
+from .options import FairOptions, option_names
+from .solve import pose
+
+NO_FREE = "No vertex is free to move: a vertex is when all its faces are selected and visible"
+
+
+@dataclass(frozen=True)
+class Inspection:
+    """One object's selection."""
+
+    object_name: str
+    faces: int
+    free_vertices: int = 0
+    loops: int = 0  # of the selection's outline
+    islands: int = 0  # pieces that are solved each on its own
+    refusal: str = ""  # why the operator would say no, or do nothing; empty where it would not
+    notes: tuple[str, ...] = ()  # what may surprise about the result
+
+
+def last_options(context: bpy.types.Context) -> FairOptions:
+    """Return the options that the operator would start with."""
+    last = context.window_manager.operator_properties_last("mesh.fair_region")
+    if last is None:
+        return FairOptions()
+    return FairOptions(**{name: getattr(last, name) for name in option_names()})
+
+
+def inspect(obj: bpy.types.Object, options: FairOptions) -> Inspection:
+    """Look at the selection of an object in edit mode; the engine checks it, but solves nothing."""
+    faces = obj.data.total_face_sel
+    if not faces:
+        return Inspection(obj.name, 0, refusal="No face is selected")
+    try:
+        return _inspect_task(job.read_object(obj, options), options)
+    except ValueError as cause:
+        return Inspection(obj.name, faces, refusal=str(cause))
+
+
+def _inspect_task(task: job.Task, options: FairOptions) -> Inspection:
+    faces = int(np.count_nonzero(task.mesh.in_patch))
+    if not task.free_count:
+        return Inspection(task.object_name, faces, refusal=NO_FREE)
+    try:
+        problem, notes = pose(task.mesh, task.matrix, options)
+        engine.check(problem, options)
+    except (ValueError, fairing.SolverError) as cause:
+        return Inspection(task.object_name, faces, task.free_count, refusal=str(cause))
+    pieces = components(problem.patch)
+    loops = fairing.boundary_loops(problem.patch.triangles)
+    return Inspection(task.object_name, faces, task.free_count, len(loops), len(pieces), notes=notes)

@@ -1,0 +1,105 @@
+"""One run over all objects in edit mode: read, solve (on arrays, in any thread), write.
+
+Nothing is written unless all objects can be done.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+import fairing
+
+from . import mesh_io
+from .arrays import Floats
+from .engine import Progress, sub_range
+from .memory import Memory
+from .options import FairOptions
+from .region import MeshArrays, free_vertices
+from .solve import Fairing, Solved, fair_arrays
+
+memory: Memory[Solved] = Memory(4)  # enough for the objects of one redo panel; forgotten at unregistering
+
+
+class Refused(Exception):
+    """One object can't be faired; nothing has been written yet."""
+
+    def __init__(self, name: str, cause: Exception) -> None:
+        super().__init__(f"{name}: {cause}")
+        self.object_name = name
+        self.cause = cause
+
+
+@dataclass(frozen=True)
+class Task:
+    """One object's mesh, as it was read."""
+
+    object_name: str
+    mesh: MeshArrays
+    matrix: Floats  # (4, 4) to world space
+    free_count: int
+
+
+def read(context: bpy.types.Context, options: FairOptions) -> list[Task]:
+    """Read every object in edit mode that has free vertices; raises Refused."""
+    tasks = []
+    for obj in context.objects_in_mode_unique_data:
+        try:
+            task = read_object(obj, options)
+        except ValueError as cause:
+            raise Refused(obj.name, cause) from cause
+        if task.free_count:
+            tasks.append(task)
+    return tasks
+
+
+def read_object(obj: bpy.types.Object, options: FairOptions) -> Task:
+    """Read one object in edit mode; raises ValueError where it can't be faired."""
+    key = obj.active_shape_key
+    if key is not None and key.lock_shape:
+        raise ValueError(f"The active shape key {key.name!r} is locked")
+    mesh = mesh_io.read_edit_mesh(obj, options)
+    matrix = np.array(obj.matrix_world, dtype=np.float64)
+    return Task(obj.name, mesh, matrix, int(np.count_nonzero(free_vertices(mesh))))
+
+
+def size(tasks: list[Task]) -> int:
+    """Count the free vertices of all tasks."""
+    return sum(task.free_count for task in tasks)
+
+
+def solve(tasks: list[Task], options: FairOptions, progress: Progress) -> list[Fairing]:
+    """Solve task after task, on arrays alone; raises Refused and fairing.Cancelled."""
+    outcomes: list[Fairing] = []
+    done, total = 0, size(tasks)
+    for task in tasks:
+        part = sub_range(progress, done / total, (done + task.free_count) / total)
+        try:
+            outcomes.append(fair_arrays(task.mesh, task.matrix, options, part, memory))
+        except (ValueError, fairing.SolverError) as cause:
+            raise Refused(task.object_name, cause) from cause
+        done += task.free_count
+    return outcomes
+
+
+def objects_in_mode(context: bpy.types.Context) -> dict[str, bpy.types.Object]:
+    """Return the objects in edit mode by name; undo replaces objects, so that only names last."""
+    return {obj.name: obj for obj in context.objects_in_mode_unique_data}
+
+
+def is_current(context: bpy.types.Context, tasks: list[Task]) -> bool:
+    """Tell whether the objects are still in edit mode, with the vertices and faces that were read."""
+    objects = objects_in_mode(context)
+    return context.mode == "EDIT_MESH" and all(
+        task.object_name in objects and mesh_io.is_unchanged(objects[task.object_name].data, task.mesh)
+        for task in tasks
+    )
+
+
+def write(context: bpy.types.Context, tasks: list[Task], outcomes: list[Fairing]) -> None:
+    """Move the free vertices of every task's object."""
+    objects = objects_in_mode(context)
+    for task, outcome in zip(tasks, outcomes, strict=True):
+        mesh_io.write_edit_mesh(objects[task.object_name].data, outcome.vertices, outcome.positions)

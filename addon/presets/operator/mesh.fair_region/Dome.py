@@ -1,0 +1,8 @@
+import bpy
+
+op = bpy.context.active_operator
+
+op.bulge = 0.5
+op.equation = "CONSTANT"
+op.boundary_normals = "SURROUNDING"
+op.factor = 1.0

@@ -1,0 +1,8 @@
+import bpy
+
+op = bpy.context.active_operator
+
+op.inner_fairness = "CONFORMAL"
+op.equation = "HARMONIC"
+op.factor = 1.0
+op.boundary_normals = "SURROUNDING"

@@ -1,0 +1,8 @@
+import bpy
+
+op = bpy.context.active_operator
+
+op.equation = "HARMONIC"
+op.inner_fairness = "UNIFORM"
+op.boundary_normals = "SURROUNDING"
+op.factor = 1.0

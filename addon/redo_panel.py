@@ -1,0 +1,47 @@
+"""The options in groups, for the redo panel."""
+
+from typing import Any
+
+import bpy
+
+_SOLVER = ("method", "levels", "tolerance", "max_iterations")
+
+
+def draw_options(layout: Any, options: Any, obj: bpy.types.Object) -> None:
+    """Draw the properties of `mesh.fair_region`: shape, vertices, outline, solver."""
+    layout.use_property_split = True
+    layout.prop(options, "factor")
+    _draw_shape(_group(layout, "Shape"), options)
+    _group(layout, "Inner Fairness").prop(options, "inner_fairness")
+    _draw_outline(_group(layout, "At the Outline"), options, obj)
+    _draw_solver(_group(layout, "Solver"), options)
+
+
+def _group(layout: Any, title: str) -> Any:
+    # No collapsible layout panels: not every place that shows these options has them.
+    layout.separator(factor=0.5)
+    column = layout.column(align=True)
+    column.label(text=title)
+    return column
+
+
+def _draw_shape(group: Any, options: Any) -> None:
+    group.prop(options, "equation")
+    row = group.row()
+    row.active = options.equation == "CONSTANT"
+    row.prop(options, "bulge", slider=True)
+
+
+def _draw_outline(group: Any, options: Any, obj: bpy.types.Object) -> None:
+    row = group.row()
+    row.active = options.equation != "MINIMAL"  # meets positions only
+    row.prop(options, "boundary_normals")
+    group.prop_search(options, "pin_group", obj, "vertex_groups")
+    group.prop(options, "pin_edges")
+
+
+def _draw_solver(group: Any, options: Any) -> None:
+    for name in _SOLVER:
+        row = group.row()
+        row.active = name != "levels" or options.method == "PAPER"
+        row.prop(options, name)

@@ -1,0 +1,25 @@
+"""The installed extension's modules; imported late, when conftest has installed it."""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+import meshes
+
+ID = "bl_ext.user_default.intrinsic_fairing"
+
+
+def module(name: str = "") -> Any:
+    """Return the extension's package, or one of its modules."""
+    return importlib.import_module(f"{ID}.{name}" if name else ID)
+
+
+def inspect(obj: Any, faces: Any, **options: Any) -> Any:
+    """Return what the panel would tell about these faces of an object in object mode."""
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    try:
+        return module("inspection").inspect(obj, module("options").FairOptions(**options))
+    finally:
+        meshes.leave()

@@ -1,0 +1,283 @@
+"""What an artist does, in a real window: look, fair, adjust, cancel, judge. Makes the guide's pictures."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from collections.abc import Generator
+from pathlib import Path
+from typing import Any
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import bpy
+import numpy as np
+import scenes
+from driver import Story, click, in_view, middle, play, press, screenshot, tell, type_text, view
+
+ID = "bl_ext.user_default.intrinsic_fairing"
+KEY = "F19"  # runs the operator, so that it is run by an event as from a menu
+SIDEBAR = "520x800+1080+60"
+
+
+def extension() -> None:
+    """Install the zip and open the sidebar's tab."""
+    bpy.ops.extensions.package_install_files(
+        repo="user_default", filepath=os.environ["FAIRING_ZIP"], enable_on_install=True, overwrite=True
+    )
+    keymap = bpy.context.window_manager.keyconfigs.addon.keymaps.new("Mesh", space_type="EMPTY")
+    keymap.keymap_items.new("mesh.fair_region", KEY, "PRESS")
+    bpy.context.preferences.view.show_splash = False
+    # Else the sidebar's redraws take the whole 3D view along, eight times each: slow without a GPU.
+    bpy.context.preferences.system.viewport_aa = "OFF"
+    bpy.context.preferences.system.use_region_overlap = False
+    _, area, _ = view()
+    area.spaces.active.show_region_ui = True
+
+
+def open_tab() -> None:
+    area = view()[1]
+    next(r for r in area.regions if r.type == "UI").active_panel_category = "Fairing"
+    area.tag_redraw()
+
+
+def report() -> Any:
+    return bpy.context.window_manager.fairing_report
+
+
+def module(name: str) -> Any:
+    return sys.modules[f"{ID}.{name}"]
+
+
+def wait_until(condition: Any, seconds: float) -> Story:
+    begin = time.perf_counter()
+    while not condition():
+        if time.perf_counter() - begin > seconds:
+            raise TimeoutError(f"{condition.__name__} did not come true in {seconds} s")
+        yield 0.05
+
+
+def run_operator() -> None:
+    press(KEY, *middle())
+
+
+def seconds_of_redraw() -> Generator[float, None, float]:
+    """Software OpenGL may need long for a picture, in which Blender hears of nothing."""
+    worst = 0.0
+    for _ in range(3):
+        view()[1].tag_redraw()
+        begin = time.perf_counter()
+        yield 0.0
+        yield 0.0
+        worst = max(worst, time.perf_counter() - begin)
+    return worst
+
+
+def look_before_running() -> Story:
+    faces = scenes.ear()
+    with in_view():
+        bpy.ops.view3d.view_selected()
+    open_tab()
+    watch = module("watch").watch
+
+    def looked() -> bool:
+        return bool(not watch.stale and watch.found)
+
+    yield from wait_until(looked, 10.0)
+    yield 0.5
+    (found,) = watch.found
+    assert (found.faces, found.refusal, found.loops, found.islands) == (faces, "", 1, 1), found
+    tell(f"selection: {found.faces} faces, {found.free_vertices} free vertices")
+    for _ in range(4):  # the panel must not keep looking for ever
+        yield 0.3
+        assert not watch.stale
+    screenshot("selection")
+
+
+def told_before_running() -> Story:
+    """The panel says why nothing would happen, and running says the same and changes nothing."""
+    scenes.single_face()
+    open_tab()
+    watch = module("watch").watch
+
+    def told() -> bool:
+        return bool(not watch.stale and watch.found and "No vertex is free" in watch.found[0].refusal)
+
+    yield from wait_until(told, 10.0)
+    yield 0.5
+    screenshot("refusal")
+    before = scenes.contents()
+    run_operator()
+    yield 1.0
+    assert scenes.contents() == before
+    scenes.ear()
+    with in_view():
+        bpy.ops.view3d.view_selected()
+    open_tab()
+    yield 0.5
+
+
+def fair_it() -> Story:
+    before = scenes.positions()
+    run_operator()
+
+    def reported() -> bool:
+        return bool(report().free_vertices)
+
+    yield from wait_until(reported, 20.0)
+    yield 1.0
+    assert report().converged
+    assert np.abs(scenes.positions() - before).max() > 0.1
+    tell(f"ear: {report().free_vertices} vertices in {report().seconds:.2f} s, {report().boundary_angle:.2g}°")
+    screenshot("result")
+
+
+def adjust_in_redo_panel() -> Story:
+    """Set Factor to 0.5 in the panel at the lower left, with the mouse and the keyboard."""
+    fair = scenes.positions()
+    hud = next(r for r in view()[1].regions if r.type == "HUD")
+    tell(f"redo panel at {hud.x}, {hud.y}: {hud.width} × {hud.height}")
+    yield from click(hud.x + hud.width // 2, hud.y + hud.height // 2)  # opens it
+    yield 1.0
+    hud = next(r for r in view()[1].regions if r.type == "HUD")
+    assert hud.height > 200, "the redo panel is closed"
+    screenshot("redo_open")
+    x, y = hud.x + int(0.7 * hud.width), hud.y + hud.height - 62
+    yield from click(x, y)
+    yield 0.3
+    press("A", x, y, ctrl=True)
+    type_text("0.5", x, y)
+    yield 0.3
+    screenshot("redo_typing")
+    press("RET", x, y)
+    yield 1.5
+    operator = bpy.context.window_manager.operators[-1]
+    assert abs(operator.factor - 0.5) < 1e-6, operator.factor
+    half = scenes.positions()
+    expected = 0.5 * (scenes.original() + fair)
+    assert np.abs(half - expected).max() < 1e-6, np.abs(half - expected).max()
+    tell(f"redo: factor 0.5 answered in {report().seconds:.3f} s")
+    screenshot("redo")
+
+
+def cancel_a_long_run() -> Story:
+    faces = scenes.large()
+    bpy.context.window_manager.operator_properties_last("mesh.fair_region").factor = 1.0
+    with in_view():
+        bpy.ops.view3d.view_all()
+    open_tab()
+    yield 1.0
+    redraw = yield from seconds_of_redraw()
+    tell(f"large: {faces} faces; a redraw takes {redraw:.2f} s here")
+    before = scenes.contents()
+    progress = bpy.context.window_manager.fairing_progress
+    begin = time.perf_counter()
+    run_operator()
+
+    def running() -> bool:
+        return bool(progress.running)
+
+    yield from wait_until(running, 20.0)
+    tell(f"background run began after {time.perf_counter() - begin:.2f} s")
+    yield 0.3
+    assert progress.running, "the run was too short to be cancelled"
+    begin = time.perf_counter()
+    press("ESC", *middle())
+
+    def stopped() -> bool:
+        return not progress.running
+
+    yield from wait_until(stopped, 5.0)
+    seconds = time.perf_counter() - begin
+    tell(f"Esc: Blender was free again after {seconds:.2f} s")
+    assert seconds < 0.3 + 2 * redraw
+    yield 2.0
+    assert scenes.contents() == before, "the cancelled run left a trace"
+    assert not progress.running
+
+
+def finish_a_long_run() -> Story:
+    report().free_vertices = 0
+    begin = time.perf_counter()
+    ticks = 0
+    run_operator()
+
+    def reported() -> bool:
+        nonlocal ticks
+        ticks += 1
+        if ticks == 8:
+            screenshot("progress")
+        return bool(report().free_vertices)
+
+    yield from wait_until(reported, 120.0)
+    seconds = time.perf_counter() - begin
+    tell(f"large: {report().free_vertices} vertices in {seconds:.2f} s, looked at {ticks} times meanwhile")
+    assert ticks > 5, "Blender did not stay responsive"
+    assert report().converged
+    yield 0.5
+
+
+def judge() -> Story:
+    """Reflection lines and curvature of the ear before and after."""
+    scenes.ear()
+    with in_view():
+        bpy.ops.view3d.view_selected()
+    settings = bpy.context.window_manager.fairing_overlay
+    settings.scope = "OBJECT"
+    settings.show = True
+    yield 1.0
+    screenshot("zebra_before")
+    report().free_vertices = 0
+    run_operator()
+    yield 2.0
+    assert report().free_vertices
+    screenshot("zebra_after")
+    yield from click(1250, 404)  # the header of the panel Quality Overlay, below the report
+    yield 0.7
+    screenshot("overlay_panel")
+    settings.mode = "CURVATURE"
+    yield 1.0
+    screenshot("curvature_after")
+    bpy.ops.ed.undo()
+    yield 1.5
+    screenshot("curvature_before")
+    settings.show = False
+    yield 0.5
+    bpy.ops.wm.save_userpref()  # the command line finds the extension enabled
+
+
+def in_german() -> Story:
+    """Labels follow the interface's language."""
+    view_preferences = bpy.context.preferences.view
+    if "de_DE" not in bpy.app.translations.locales:
+        tell("this Blender has no other languages")
+        return
+    view_preferences.language, view_preferences.use_translate_interface = "de_DE", True
+    yield 1.0
+    assert bpy.app.translations.pgettext_iface("Quality Overlay") == "Qualitätsanzeige"
+    screenshot("german")
+    view_preferences.language = "en_US"
+    yield 0.5
+
+
+def story() -> Story:
+    extension()
+    yield 1.0
+    press("ESC", *middle())  # the splash screen of a first start
+    yield 0.5
+    for chapter in (
+        look_before_running,
+        told_before_running,
+        fair_it,
+        adjust_in_redo_panel,
+        cancel_a_long_run,
+        finish_a_long_run,
+        in_german,
+        judge,
+    ):
+        tell(f"== {chapter.__name__}")
+        yield from chapter()
+
+
+play(story)

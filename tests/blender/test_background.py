@@ -1,0 +1,196 @@
+"""Runs in a thread: progress, cancel, errors. The events around it are for the GUI tests."""
+
+from __future__ import annotations
+
+import threading
+from functools import partial
+from typing import Any
+
+import bpy
+import meshes
+import numpy as np
+import pytest
+from extension import module
+
+
+def run(work: Any) -> Any:
+    return module("runner").Run(work)
+
+
+def test_returns_what_the_work_returns() -> None:
+    assert run(lambda _progress: 42).result() == 42
+
+
+def test_raises_what_the_work_raises() -> None:
+    def work(_progress: Any) -> int:
+        raise ValueError("spoilt")
+
+    with pytest.raises(ValueError, match="spoilt"):
+        run(work).result()
+
+
+def test_shows_progress_and_ends() -> None:
+    told, go_on = threading.Event(), threading.Event()
+
+    def work(progress: Any) -> int:
+        assert progress(0.25, "descent")
+        told.set()
+        assert go_on.wait(10.0)
+        return 1
+
+    background = run(work)
+    assert told.wait(10.0)
+    assert not background.finished
+    assert (background.fraction, background.stage) == (0.25, "descent")
+    go_on.set()
+    assert background.wait(10.0)
+    assert background.result() == 1
+
+
+def test_cancel_returns_at_once_and_the_work_hears_of_it() -> None:
+    answers: list[bool] = []
+    started, go_on = threading.Event(), threading.Event()
+
+    def work(progress: Any) -> int:
+        answers.append(progress(0.0, "first"))
+        started.set()
+        assert go_on.wait(10.0)
+        answers.append(progress(0.5, "second"))
+        return 0
+
+    background = run(work)
+    assert started.wait(10.0)
+    background.cancel()
+    assert not background.finished  # the work is still busy: cancelling did not wait for it
+    assert not module("runner").wait_for_all(0.0)
+    go_on.set()
+    assert background.wait(10.0)
+    assert answers == [True, False]
+    assert module("runner").wait_for_all(10.0)
+
+
+def tasks_of(obj: Any, faces: Any) -> tuple[Any, Any]:
+    options = module("options").FairOptions()
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    return module("job").read(bpy.context, options), options
+
+
+def test_engine_in_a_thread_is_the_engine() -> None:
+    job = module("job")
+    obj, faces = meshes.domed_grid()
+    tasks, options = tasks_of(obj, faces)
+    job.memory.clear()
+    outcomes = run(partial(job.solve, tasks, options)).result()
+    assert job.is_current(bpy.context, tasks)
+    job.write(bpy.context, tasks, outcomes)
+    meshes.leave()
+    other, _ = meshes.domed_grid()
+    job.memory.clear()
+    meshes.fair(other, faces)
+    assert meshes.positions(obj).tobytes() == meshes.positions(other).tobytes()
+
+
+def test_cancelled_engine_leaves_every_bit() -> None:
+    import fairing
+
+    job = module("job")
+    obj, faces = meshes.domed_grid()
+    before = meshes.in_edit_mode_once(obj, faces)
+    tasks, options = tasks_of(obj, faces)
+    job.memory.clear()
+    background: Any = None
+    ready = threading.Event()
+
+    def work(progress: Any) -> Any:
+        assert ready.wait(10.0)
+        background.cancel()
+        return job.solve(tasks, options, progress)
+
+    background = run(work)
+    ready.set()
+    with pytest.raises(fairing.Cancelled):
+        background.result()
+    meshes.leave()
+    assert meshes.contents(obj) == before
+
+
+def test_a_mesh_that_changed_meanwhile_is_noticed() -> None:
+    job = module("job")
+    obj, faces = meshes.domed_grid()
+    tasks, _ = tasks_of(obj, faces)
+    assert job.is_current(bpy.context, tasks)
+    bpy.ops.transform.translate(value=(0.0, 0.0, 0.5))
+    assert not job.is_current(bpy.context, tasks)
+    bpy.ops.transform.translate(value=(0.0, 0.0, -0.5))
+    meshes.leave()
+    assert not job.is_current(bpy.context, tasks)
+
+
+def test_scripts_run_at_once_whatever_the_size() -> None:
+    obj, faces = meshes.domed_grid()
+    preferences = bpy.context.preferences.addons[module().__name__].preferences
+    preferences.background_from = 0
+    try:
+        assert meshes.fair(obj, faces) == {"FINISHED"}
+    finally:
+        preferences.property_unset("background_from")
+    assert not bpy.context.window_manager.fairing_progress.running
+
+
+def test_factor_is_answered_from_memory_with_the_same_bits() -> None:
+    job = module("job")
+    obj, faces = meshes.domed_grid()
+    start = meshes.positions(obj)
+    tasks, options = tasks_of(obj, faces)
+    job.memory.clear()
+    asked: list[float] = []
+
+    def progress(fraction: float, _stage: str) -> None:
+        asked.append(fraction)
+
+    half = type(options)(factor=0.5)
+    whole = job.solve(tasks, options, progress)[0]
+    assert asked
+    asked.clear()
+    blended = job.solve(tasks, half, progress)[0]
+    assert not asked  # the engine was not called
+    free = whole.vertices
+    np.testing.assert_allclose(blended.positions, 0.5 * (start[free] + whole.positions), atol=1e-12)
+    job.memory.clear()
+    again = job.solve(tasks, half, progress)[0]
+    assert asked
+    assert again.positions.tobytes() == blended.positions.tobytes()
+    moved = [type(tasks[0])(**{**vars(tasks[0]), "matrix": np.diag([1.0, 2.0, 1.0, 1.0])})]
+    asked.clear()
+    job.solve(moved, half, progress)
+    assert asked  # another space is another problem
+
+
+def test_memory_keeps_what_was_used_last() -> None:
+    memory = module("memory").Memory(2)
+    memory.put("a", 1)
+    memory.put("b", 2)
+    assert memory.get("a") == 1  # now "b" is the one not used for longest
+    memory.put("c", 3)
+    assert [memory.get(key) for key in "abc"] == [1, None, 3]
+    memory.clear()
+    assert memory.get("a") is None
+
+
+def test_digest_tells_inputs_apart() -> None:
+    digest = module("memory").digest
+    options = module("options").FairOptions
+    zeros, ones = np.zeros((2, 3)), np.ones((2, 3))
+    inputs: list[tuple[Any, ...]] = [
+        (zeros,),
+        (ones,),
+        (zeros.reshape(3, 2),),
+        (zeros.astype(np.float32),),
+        (zeros, zeros),
+        (zeros, options()),
+        (zeros, options(tolerance=1e-7)),
+        (zeros, "a"),
+    ]
+    assert len({digest(*given) for given in inputs}) == len(inputs)
+    assert digest(zeros, options()) == digest(np.zeros((2, 3)), options())

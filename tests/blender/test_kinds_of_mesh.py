@@ -1,0 +1,97 @@
+"""Modifiers, multiresolution, open borders, mixed faces: the base mesh is faired, the rest stays."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bmesh
+import bpy
+import meshes
+import numpy as np
+from test_restoration import BOUND, join_some_quads, off_sphere, spoil
+
+
+def evaluated(obj: bpy.types.Object) -> meshes.Floats:
+    """The positions that the modifiers make."""
+    bpy.context.view_layer.update()
+    shown = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    mesh = shown.to_mesh()
+    flat = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+    mesh.vertices.foreach_get("co", flat)
+    shown.to_mesh_clear()
+    return flat.reshape(-1, 3).astype(np.float64)
+
+
+def test_modifiers_change_nothing() -> None:
+    plain, faces = meshes.domed_grid()
+    meshes.fair(plain, faces)
+    obj, _ = meshes.domed_grid()
+    obj.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    obj.modifiers.new("Array", "ARRAY").count = 3
+    obj.modifiers.new("Thick", "SOLIDIFY").thickness = 0.1
+    before = evaluated(obj)
+    assert meshes.fair(obj, faces) == {"FINISHED"}
+    assert meshes.positions(obj).tobytes() == meshes.positions(plain).tobytes()
+    assert [modifier.type for modifier in obj.modifiers] == ["SUBSURF", "ARRAY", "SOLIDIFY"]
+    after = evaluated(obj)
+    assert after.shape == before.shape  # the modifiers still work on it
+    assert np.abs(after - before).max() > 0.01
+
+
+def test_multiresolution_detail_stays() -> None:
+    obj, faces = meshes.domed_grid()
+    modifier = obj.modifiers.new("Multires", "MULTIRES")
+    for _ in range(2):
+        bpy.ops.object.multires_subdivide(modifier=modifier.name)
+    before = evaluated(obj)
+    assert meshes.fair(obj, faces) == {"FINISHED"}
+    assert (modifier.total_levels, len(evaluated(obj))) == (2, len(before))
+    changed = np.abs(evaluated(obj) - before).max(axis=1) > 1e-6
+    # the rim's limit surface depends on two rings of the base around it, no more
+    far = np.abs(before[:, :2]).max(axis=1) > 0.99
+    assert changed.any()
+    assert not changed[far].any()
+
+
+def test_open_border_stays() -> None:
+    obj, _ = meshes.domed_grid()
+    before = meshes.positions(obj)
+    everything = np.ones(len(obj.data.polygons), dtype=bool)
+    assert meshes.fair(obj, everything) == {"FINISHED"}
+    after = meshes.positions(obj)
+    border = np.isclose(np.abs(meshes.grid_points()[:, :2]).max(axis=1), 1.0)
+    assert after[border].tobytes() == before[border].tobytes()
+    assert (after[~border] != before[~border]).any(axis=1).all()
+    assert f"{border.sum()} border vertices have no faces outside" in meshes.report().warnings
+
+
+def mixed_sphere() -> tuple[bpy.types.Object, Any]:
+    """Triangles, quads and hexagons in one selection."""
+    obj = meshes.sphere()
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    join_some_quads(bm)
+    bmesh.ops.triangulate(bm, faces=[f for f in bm.faces if f.calc_center_median().x > 0.2 and len(f.verts) == 4])
+    bm.to_mesh(obj.data)
+    bm.free()
+    return obj, meshes.faces_where(obj, lambda c: c.z > 1e-3)
+
+
+def test_mixed_faces() -> None:
+    obj, upper = mixed_sphere()
+    assert {len(p.vertices) for p, u in zip(obj.data.polygons, upper, strict=True) if u} == {3, 4, 6}
+    spoil(obj, upper)
+    meshes.fair(obj, upper)
+    assert off_sphere(meshes.positions(obj)) < BOUND[48]
+
+
+def test_selection_and_modes_stay() -> None:
+    obj, faces = meshes.domed_grid()
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    bpy.context.tool_settings.mesh_select_mode = (True, False, True)
+    meshes.run()
+    assert tuple(bpy.context.tool_settings.mesh_select_mode) == (True, False, True)
+    assert bpy.context.mode == "EDIT_MESH"
+    meshes.leave()
+    assert [p.select for p in obj.data.polygons] == faces.tolist()

@@ -1,0 +1,121 @@
+"""The operator in the background, event by event; the events come from here instead of a window."""
+
+from __future__ import annotations
+
+import threading
+from types import SimpleNamespace
+from typing import Any
+
+import bpy
+import meshes
+import pytest
+from extension import module
+
+
+def event(kind: str, value: str = "PRESS") -> Any:
+    return SimpleNamespace(type=kind, value=value)
+
+
+def started(obj: bpy.types.Object, faces: Any, go_on: threading.Event) -> Any:
+    """Return an operator whose run has begun and waits for `go_on`; a stand-in with its methods."""
+    job, options = module("job"), module("options").FairOptions()
+    original = module("operators").MESH_OT_fair_region
+
+    class Stand:
+        modal, cancel = original.modal, original.cancel
+        _collect, _apply, _refuse = original._collect, original._apply, original._refuse
+        _stop_watching = original._stop_watching
+        _timer, _begin, _options = None, 0.0, options
+
+        def report(self, kinds: set[str], text: str) -> None:
+            told.append((kinds, text))
+
+    told: list[Any] = []
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    job.memory.clear()
+    tasks = job.read(bpy.context, options)
+
+    def work(progress: Any) -> Any:
+        assert go_on.wait(10.0)
+        return job.solve(tasks, options, progress)
+
+    stand = Stand()
+    stand.told, stand._tasks = told, tasks
+    stand._run = module("runner").Run(work)
+    return stand
+
+
+@pytest.fixture
+def go_on() -> Any:
+    gate = threading.Event()
+    yield gate
+    gate.set()
+    assert module("runner").wait_for_all(10.0)
+
+
+def test_escape_leaves_every_bit(go_on: threading.Event) -> None:
+    obj, faces = meshes.domed_grid()
+    before = meshes.in_edit_mode_once(obj, faces)
+    operator = started(obj, faces, go_on)
+    assert operator.modal(bpy.context, event("TIMER")) == {"RUNNING_MODAL"}
+    assert bpy.context.window_manager.fairing_progress.running
+    assert operator.modal(bpy.context, event("ESC")) == {"CANCELLED"}
+    assert not bpy.context.window_manager.fairing_progress.running
+    go_on.set()
+    assert operator._run.wait(10.0)
+    meshes.leave()
+    assert meshes.contents(obj) == before
+
+
+def test_only_looking_around_passes_through(go_on: threading.Event) -> None:
+    obj, faces = meshes.domed_grid()
+    operator = started(obj, faces, go_on)
+    for kind in ("MIDDLEMOUSE", "WHEELUPMOUSE", "NUMPAD_1"):
+        assert operator.modal(bpy.context, event(kind)) == {"PASS_THROUGH"}
+    for kind in ("G", "X", "LEFTMOUSE", "TAB", "Z"):
+        assert operator.modal(bpy.context, event(kind)) == {"RUNNING_MODAL"}
+    assert operator.modal(bpy.context, event("ESC", "RELEASE")) == {"RUNNING_MODAL"}
+    operator.cancel(bpy.context)
+
+
+def test_the_end_writes_what_a_script_would(go_on: threading.Event) -> None:
+    scripted, faces = meshes.domed_grid()
+    meshes.fair(scripted, faces)
+    obj, _ = meshes.domed_grid()
+    operator = started(obj, faces, go_on)
+    go_on.set()
+    assert operator._run.wait(10.0)
+    assert operator.modal(bpy.context, event("TIMER")) == {"FINISHED"}
+    assert meshes.report().converged
+    meshes.leave()
+    assert meshes.positions(obj).tobytes() == meshes.positions(scripted).tobytes()
+
+
+def test_a_mesh_that_changed_meanwhile_is_left_alone(go_on: threading.Event) -> None:
+    obj, faces = meshes.domed_grid()
+    operator = started(obj, faces, go_on)
+    bpy.ops.transform.translate(value=(0.0, 0.0, 0.5))
+    meshes.leave()
+    moved = meshes.positions(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    go_on.set()
+    assert operator._run.wait(10.0)
+    assert operator.modal(bpy.context, event("TIMER")) == {"CANCELLED"}
+    assert "changed meanwhile" in operator.told[-1][1]
+    meshes.leave()
+    assert meshes.positions(obj).tobytes() == moved.tobytes()
+
+
+def test_refusal_at_the_end_is_told(go_on: threading.Event) -> None:
+    obj, faces = meshes.domed_grid()
+    operator = started(obj, faces, go_on)
+    operator._run.cancel()
+
+    def refused(_progress: Any) -> Any:
+        raise module("job").Refused(obj.name, ValueError("no"))
+
+    operator._run = module("runner").Run(refused)
+    assert operator._run.wait(10.0)
+    assert operator.modal(bpy.context, event("TIMER")) == {"CANCELLED"}
+    assert operator.told == [({"ERROR"}, f"{obj.name}: no")]

@@ -1,0 +1,249 @@
+"""Panels, presets, languages, preferences: what is offered, and what is left behind."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import bpy
+import meshes
+import numpy as np
+import pytest
+from extension import ID, inspect, module
+from test_refusals import add_nan, add_tent
+
+
+class Layout:
+    """Records what a panel draws; stands in for Blender's UILayout and its children."""
+
+    def __init__(self, told: list[str] | None = None) -> None:
+        self.told = [] if told is None else told
+
+    def label(self, text: str = "", **_rest: Any) -> None:
+        self.told.append(text)
+
+    def operator(self, name: str, **_rest: Any) -> None:
+        self.told.append(name)
+
+    def prop(self, _owner: Any, name: str, **_rest: Any) -> None:
+        self.told.append(name)
+
+    def prop_search(self, _owner: Any, name: str, *_rest: Any) -> None:
+        self.told.append(name)
+
+    def separator(self, **_rest: Any) -> None:
+        pass
+
+    def _child(self, **_rest: Any) -> Layout:
+        return Layout(self.told)
+
+    column = row = split = box = _child
+
+
+def drawn(panel: str) -> str:
+    class Shown:
+        layout = Layout()
+
+    shown = Shown()
+    getattr(module("ui"), panel).draw(shown, bpy.context)
+    return "\n".join(shown.layout.told)
+
+
+def test_inspection_counts() -> None:
+    obj, faces = meshes.domed_grid()
+    found = inspect(obj, faces)
+    assert (found.faces, found.free_vertices) == (faces.sum(), meshes.free_vertices(obj, faces).sum())
+    assert (found.loops, found.islands, found.refusal) == (1, 1, "")
+    halves = faces & meshes.faces_where(obj, lambda c: abs(c.x) > 0.2)
+    found = inspect(obj, halves)
+    assert (found.loops, found.islands) == (2, 2)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "options", "says"),
+    [
+        (add_nan, {}, "finite"),
+        (add_tent, {}, "NONMANIFOLD_EDGE"),
+        (lambda obj: None, {"pin_group": "Missing"}, "Missing"),
+        (lambda obj: setattr(obj.shape_key_add(name="Basis"), "lock_shape", True), {}, "locked"),
+    ],
+)
+def test_inspection_says_what_would_be_refused(spoil: Any, options: Any, says: str) -> None:
+    obj, _ = meshes.domed_grid()
+    spoil(obj)
+    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7 or not np.isfinite(c.x))
+    before = meshes.in_edit_mode_once(obj, faces)
+    assert says in inspect(obj, faces, **options).refusal
+    assert meshes.contents(obj) == before
+    with pytest.raises(RuntimeError, match=says):
+        meshes.fair(obj, faces, **options)
+
+
+def test_inspection_without_free_vertices() -> None:
+    obj, faces = meshes.domed_grid()
+    assert "No face" in inspect(obj, np.zeros_like(faces)).refusal
+    one = np.zeros_like(faces)
+    one[0] = True
+    assert "No vertex is free" in inspect(obj, one).refusal
+
+
+def test_drawing_the_panel_never_looks(monkeypatch: pytest.MonkeyPatch) -> None:
+    watch = module("watch")
+    obj, faces = meshes.domed_grid()
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    watch.watch.look(bpy.context)
+
+    def forbidden(*_: Any) -> None:
+        raise AssertionError("the panel looked at the mesh while it was drawn")
+
+    monkeypatch.setattr(watch, "inspect", forbidden)
+    text = drawn("VIEW3D_PT_fairing_selection")
+    assert str(int(meshes.free_vertices(obj, faces).sum())) in text.splitlines()
+    watch.watch.stale = True
+    assert drawn("VIEW3D_PT_fairing_selection") == text
+    if bpy.app.timers.is_registered(watch._look_later):
+        bpy.app.timers.unregister(watch._look_later)
+
+
+def test_selecting_makes_the_last_look_stale() -> None:
+    watch = module("watch").watch
+    obj, faces = meshes.domed_grid()
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    watch.look(bpy.context)
+    assert not watch.stale
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bpy.context.view_layer.update()
+    assert watch.stale
+    watch.look(bpy.context)
+    assert watch.found[0].faces == 0
+    bpy.context.view_layer.update()
+    assert not watch.stale  # looking is no change
+
+
+def test_no_look_in_the_middle_of_a_drag() -> None:
+    watch = module("watch")
+    obj, faces = meshes.domed_grid()
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    watch.watch.look(bpy.context)
+    bpy.ops.transform.translate(value=(0.0, 0.0, 0.1))
+    bpy.context.view_layer.update()
+    wait = watch._look_later()
+    assert 0.0 < wait <= watch.DELAY
+    assert watch.watch.stale
+    watch.watch.changed_at -= watch.DELAY  # the drag has ended a while ago
+    assert watch._look_later() is None
+    assert not watch.watch.stale
+
+
+def test_large_meshes_are_looked_at_on_demand() -> None:
+    watch = module("watch")
+    obj, faces = meshes.domed_grid()
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    preferences = bpy.context.preferences.addons[ID].preferences
+    preferences.inspect_up_to = 10
+    try:
+        watch.watch.forget()
+        assert "mesh.fair_inspect" in drawn("VIEW3D_PT_fairing_selection")
+        assert not bpy.app.timers.is_registered(watch._look_later)
+        assert bpy.ops.mesh.fair_inspect() == {"FINISHED"}
+        assert "Free Vertices" in drawn("VIEW3D_PT_fairing_selection")
+    finally:
+        preferences.property_unset("inspect_up_to")
+
+
+def test_report_is_drawn() -> None:
+    obj, faces = meshes.domed_grid()
+    meshes.fair(obj, faces)
+    text = drawn("VIEW3D_PT_fairing_report")
+    for check in meshes.report().checks:
+        assert check.name in text
+        assert check.value in text
+
+
+def test_redo_panel_shows_every_option() -> None:
+    obj = meshes.grid()
+    options = module("options").FairOptions()
+    layout = Layout()
+    module("redo_panel").draw_options(layout, options, obj)
+    names = module("options").option_names()
+    assert [text for text in layout.told if text in names] == [n for n in ORDER if n in names]
+    assert set(ORDER) == set(names)
+
+
+ORDER = (
+    "factor", "equation", "bulge", "inner_fairness", "boundary_normals", "pin_group", "pin_edges",
+    "method", "levels", "tolerance", "max_iterations",
+)  # fmt: skip
+
+
+def presets() -> list[Path]:
+    return sorted(
+        path for folder in bpy.utils.preset_paths("operator/mesh.fair_region") for path in Path(folder).glob("*.py")
+    )
+
+
+def test_presets_hold_valid_options() -> None:
+    found = presets()
+    assert len(found) >= 5
+    for path in found:
+        values = dict(line.split(" = ") for line in path.read_text().splitlines() if line.startswith("op."))
+        options = {name.removeprefix("op."): eval(value) for name, value in values.items()}
+        module("options").FairOptions(**options)
+        obj, faces = meshes.domed_grid()
+        assert meshes.fair(obj, faces, **options) == {"FINISHED"}
+
+
+def test_texts_in_another_language() -> None:
+    view = bpy.context.preferences.view
+    english = bpy.app.translations.pgettext_iface("Quality Overlay")
+    if "de_DE" not in bpy.app.translations.locales:
+        pytest.skip("this Blender was built without languages")
+    view.language, view.use_translate_interface = "de_DE", True
+    try:
+        assert bpy.app.translations.pgettext_iface("Quality Overlay") == "Qualitätsanzeige"
+    finally:
+        view.language = "en_US"
+    assert bpy.app.translations.pgettext_iface("Quality Overlay") == english
+
+
+def test_every_text_that_is_translated_exists() -> None:
+    folder = Path(module().__file__).parent
+    sources = "".join(path.read_text() for path in folder.glob("*.py") if path.name != "translations.py")
+    missing = [text for text in module("translations")._GERMAN if f'"{text}"' not in sources]
+    assert missing == []
+
+
+def footprint() -> dict[str, Any]:
+    """Everything that an add-on may leave behind."""
+    handlers = bpy.app.handlers
+    lists = [name for name in dir(handlers) if isinstance(getattr(handlers, name), list)]
+    menus = (bpy.types.VIEW3D_MT_edit_mesh_faces, bpy.types.VIEW3D_MT_edit_mesh_context_menu)
+    return {
+        "types": sorted(name for name in dir(bpy.types) if "fair" in name.lower()),
+        "window manager": sorted(name for name in dir(bpy.types.WindowManager) if "fair" in name),
+        "scene": sorted(name for name in dir(bpy.types.Scene) if "fair" in name),
+        "handlers": {name: len(getattr(handlers, name)) for name in lists},
+        "menus": [len(menu.draw._draw_funcs) for menu in menus],
+        "presets": presets(),
+        "operators": sorted(name for name in dir(bpy.ops.mesh) if name.startswith("fair")),
+    }
+
+
+def test_enabled_and_disabled_twenty_times() -> None:
+    import addon_utils
+
+    enabled = footprint()
+    for _ in range(20):
+        bpy.context.window_manager.fairing_overlay.show = True
+        addon_utils.disable(ID)
+        without = footprint()
+        assert without["types"] == without["window manager"] == without["scene"] == without["operators"] == []
+        assert without["presets"] == []
+        assert all(without["handlers"][name] <= enabled["handlers"][name] for name in enabled["handlers"])
+        assert sum(without["handlers"].values()) == sum(enabled["handlers"].values()) - 3
+        addon_utils.enable(ID)
+    assert footprint() == enabled

@@ -1,0 +1,126 @@
+"""The report: figures against closed forms, and what is called met or missed."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import bpy
+import meshes
+import numpy as np
+import pytest
+from extension import module
+from test_restoration import spoil, upper_half
+
+QUAD = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
+TWO = np.array([[0, 1, 2], [0, 2, 3]])
+
+
+def checks() -> dict[str, tuple[str, str]]:
+    return {check.name: (check.value, check.state) for check in meshes.report().checks}
+
+
+def test_report_of_a_restored_hemisphere() -> None:
+    obj = meshes.sphere(96)
+    upper = upper_half(obj)
+    spoil(obj, upper)
+    meshes.fair(obj, upper)
+    found = checks()
+    assert list(found) == [
+        "Equation solved",
+        "Angle at the outline",
+        "Curvature inside",
+        "Residual",
+        "Flipped triangles",
+        "Degenerate triangles",
+        "Self-intersections",
+        "Texture distortion",
+    ]
+    assert found["Equation solved"] == ("yes", "MET")
+    assert found["Angle at the outline"][1] == "MET"
+    # H = −1 inside and out: the maximum principle is met with equality
+    inside, outline = map(float, re.split(" [≤>] ", found["Curvature inside"][0]))
+    assert inside == pytest.approx(1.0, abs=5e-3)
+    assert outline == pytest.approx(1.0, abs=5e-3)
+    assert found["Curvature inside"][1] == "MET"
+    before, after = found["Flipped triangles"][0].split(" → ")
+    assert int(before) > 0
+    assert int(after) == 0
+    assert found["Self-intersections"][0].endswith("→ 0")
+    assert meshes.report().seconds > 0.0
+
+
+def test_kink_of_a_soap_film_is_no_fault() -> None:
+    obj, faces = meshes.domed_grid()
+    meshes.fair(obj, faces, equation="MINIMAL")
+    assert checks()["Angle at the outline"][1] == "TOLD"
+
+
+def test_unfinished_run_is_missed() -> None:
+    obj, faces = meshes.domed_grid()
+    meshes.fair(obj, faces, max_iterations=1, tolerance=1e-13)
+    assert not meshes.report().converged
+    assert checks()["Equation solved"][1] == "MISSED"
+
+
+def test_flipped_triangles() -> None:
+    quality = module("quality")
+    # a fan of six triangles around the origin; two of them turned over by moving a corner across
+    angles = np.radians(np.arange(6) * 60.0)
+    fan = np.vstack([[0.0, 0.0, 0.0], np.column_stack([np.cos(angles), np.sin(angles), np.zeros(6)])])
+    triangles = np.array([[0, 1 + k, 1 + (k + 1) % 6] for k in range(6)])
+    assert quality.flipped(fan, triangles).sum() == 0
+    fan[1, :2] = (-0.4, 0.6)  # crosses the next spoke
+    turned = module("vectors").area_vectors(fan, triangles)[:, 2] < 0.0
+    assert turned.any()
+    np.testing.assert_array_equal(quality.flipped(fan, triangles), turned)
+
+
+def test_degenerate_triangles() -> None:
+    quality = module("quality")
+    assert quality.degenerate(QUAD, TWO).sum() == 0
+    flat = QUAD.copy()
+    flat[1] = (0.5, 0.5 - 1e-4, 0.0)  # next to the diagonal
+    np.testing.assert_array_equal(quality.degenerate(flat, TWO), [True, False])
+    flat[1] = np.nan
+    assert quality.degenerate(flat, TWO)[0]
+
+
+def test_self_intersections() -> None:
+    quality = module("quality")
+    # two parallel strips of two triangles, then one of them stood through the other
+    other = QUAD + np.array([0.0, 0.0, 1.0])
+    triangles = np.vstack([TWO, TWO + 4])
+    assert quality.intersections(np.vstack([QUAD, other]), triangles) == 0
+    upright = QUAD[:, [0, 2, 1]] + np.array([0.0, 0.4, -0.5])
+    pairs = quality.intersections(np.vstack([QUAD, upright]), triangles)
+    # the line y = 0.4, z = 0 crosses both triangles of each: four pairs, one of which meets at most in a point
+    assert pairs in (3, 4)
+
+
+@pytest.mark.parametrize(("stretch", "distortion"), [(1.0, 0.0), (2.0, 1.0), (0.5, 1.0), (1.5, 0.5)])
+def test_texture_distortion_of_a_stretched_square(stretch: float, distortion: float) -> None:
+    quality = module("quality")
+    stretched = QUAD * (stretch, 1.0, 1.0)  # singular values 1 and stretch: ratio max/min − 1
+    assert quality.texture_distortion(QUAD, stretched, TWO) == pytest.approx(distortion, abs=1e-12)
+    turned = 3.0 * QUAD[:, [1, 2, 0]] + 7.0  # a similarity
+    assert quality.texture_distortion(QUAD, turned, TWO) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_before_and_after() -> None:
+    obj, faces = meshes.domed_grid()
+    start = meshes.in_edit_mode_once(obj, faces)
+    module("compare").forget()
+    meshes.edit(obj)
+    assert not bpy.ops.mesh.fair_compare.poll()
+    meshes.run()
+    states: list[Any] = [meshes.contents_in_edit_mode()]
+    for _ in range(3):
+        assert bpy.ops.mesh.fair_compare("EXEC_DEFAULT", True) == {"FINISHED"}
+        states.append(meshes.contents_in_edit_mode())
+    assert states[1] == start
+    assert states[2] == states[0]
+    assert states[3] == start
+    bpy.ops.transform.translate(value=(0.0, 0.0, 0.5))
+    with pytest.raises(RuntimeError, match="edited since"):
+        bpy.ops.mesh.fair_compare("EXEC_DEFAULT", True)
