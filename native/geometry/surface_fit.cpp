@@ -80,11 +80,13 @@ private:
     std::vector<Vector3> nearest_;
 };
 
+// What the quadratic terms grow with (and the cubic ones likewise): the square of the distance in the plane, or that in
+// space, as normal curvatures by chords do (paper eq. 8): so a sphere is met exactly, whatever the points.
+enum class Terms { planar, spatial };
+
 // Gradient at the centre of the best height polynomial over the plane across `normal`; coordinates in units of `scale`.
-// Its quadratic terms grow with the square of the distance in space, not in the plane (and the cubic ones likewise), as
-// normal curvatures by chords do (paper eq. 8): so a sphere is met exactly, whatever the points.
 std::optional<Eigen::Vector2d> height_gradient(const Vector3& centre, std::span<const Vector3> points,
-                                               const Vector3& normal, double scale) {
+                                               const Vector3& normal, double scale, Terms terms) {
     const bool cubic = points.size() >= cubic_points;
     const Frame frame(normal);
     Eigen::MatrixXd A(static_cast<Eigen::Index>(points.size()), cubic ? 9 : 5);
@@ -94,7 +96,7 @@ std::optional<Eigen::Vector2d> height_gradient(const Vector3& centre, std::span<
         const double u = frame.u.dot(d);
         const double v = frame.v.dot(d);
         const double weight = std::exp(-d.squaredNorm());
-        const double stretch = d.norm() / std::max(std::hypot(u, v), 1e-12);
+        const double stretch = terms == Terms::spatial ? d.norm() / std::max(std::hypot(u, v), 1e-12) : 1.0;
         A.row(k).head<5>() << u, v, u * u, u * v, v * v;
         A.row(k).segment<3>(2) *= stretch * stretch;
         if (cubic) {
@@ -124,27 +126,37 @@ Points averaged_at(const Points& points, const Triangles& triangles) {
     return sums;
 }
 
-}  // namespace
-
-std::optional<Vector3> surface_fit_normal(const Vector3& centre, std::span<const Vector3> points,
-                                          const Vector3& start) {
+std::optional<Vector3> fit_normal(const Vector3& centre, std::span<const Vector3> points, const Vector3& start,
+                                  Terms terms) {
+    constexpr int most_rounds = 8;
+    constexpr double settled = 1e-12;
+    constexpr double cos_of_widest_turn = 0.5;
     if (points.size() < quadric_points || start.isZero()) return std::nullopt;
     double scale = 0.0;
     for (const Vector3& p : points) scale = std::max(scale, (p - centre).norm());
     if (!(scale > 0.0)) return std::nullopt;
     Vector3 normal = start;
-    constexpr int most_rounds = 8;
-    constexpr double settled = 1e-12;
     for (int round = 0; round < most_rounds; ++round) {
-        const auto gradient = height_gradient(centre, points, normal, scale);
+        const auto gradient = height_gradient(centre, points, normal, scale, terms);
         if (!gradient || !gradient->allFinite()) return std::nullopt;
         const Frame frame(normal);
         normal = (normal - gradient->x() * frame.u - gradient->y() * frame.v).normalized();
         if (gradient->norm() < settled) break;
     }
-    constexpr double cos_of_widest_turn = 0.5;
     if (normal.dot(start) < cos_of_widest_turn) return std::nullopt;
     return normal;
+}
+
+}  // namespace
+
+std::optional<Vector3> surface_fit_normal(const Vector3& centre, std::span<const Vector3> points,
+                                          const Vector3& start) {
+    const auto planar = fit_normal(centre, points, start, Terms::planar);
+    if (!planar) return std::nullopt;
+    // Beyond a crease the distance in space misleads: there the two differ.
+    constexpr double cos_of_crease = 0.94;  // 20°
+    const auto spatial = fit_normal(centre, points, *planar, Terms::spatial);
+    return spatial && spatial->dot(*planar) > cos_of_crease ? spatial : planar;
 }
 
 SurroundingNormals surrounding_normals(const Points& points, const Triangles& triangles, const Indices& vertices) {

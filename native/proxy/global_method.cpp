@@ -92,6 +92,21 @@ bool is_trustworthy(const Problem& problem, const Solution& direct) {
            !has_poor_triangles(problem.patch, direct.points);
 }
 
+// The direct solve as a fast path: left at the first sign of trouble, since the proxy comes next.
+Solution try_directly(const Problem& problem, const Progress& progress) {
+    constexpr int patience = 12;  // near clusters of valence 3 it took up to 7
+    constexpr int most_iterations = 60;
+    Problem attempt = problem;
+    attempt.options.patience = patience;
+    attempt.options.max_iterations = std::min(problem.options.max_iterations, most_iterations);
+    Solution solution = solve_directly(attempt, progress);
+    const bool by_own_limit = attempt.options.max_iterations < problem.options.max_iterations;
+    if (solution.termination == Termination::iteration_limit && by_own_limit) {
+        solution.termination = Termination::stalled;
+    }
+    return solution;
+}
+
 // The converged one; where neither has converged, the one with the smaller residual.
 Solution better_of(Solution direct, Solution on_proxy) {
     const bool direct_converged = direct.termination == Termination::converged;
@@ -109,7 +124,7 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
         if (on_proxy.termination == Termination::converged) return on_proxy;
         return better_of(solve_directly(problem, progress), std::move(on_proxy));
     }
-    Solution direct = solve_directly(problem, progress.range(0.0, 0.5));
+    Solution direct = try_directly(problem, progress.range(0.0, 0.5));
     if (is_trustworthy(problem, direct)) return direct;
     std::optional<Points> guess;
     if (direct.termination == Termination::converged) guess = direct.points;

@@ -67,6 +67,11 @@ public:
               std::clamp(free_limit_per_vertex * problem.patch.free_count, least_free_limit, largest_free_limit)) {}
 
     Solution run(const Points& start) {
+        if (guess_) {
+            Attempt attempt{ProxyMesh(problem_.patch, *guess_), {}};
+            attempt.proxy.emplace(solve_fine(attempt.mesh, finest_growth, true));
+            if (attempt.proxy->converged()) return place(attempt);
+        }
         std::optional<Attempt> least_bent;
         // Lengths that grow slowly need more vertices but resolve more.
         for (const double growth : {0.5, 0.25, 0.12}) {

@@ -10,7 +10,8 @@ namespace fairing {
 // vertices by their inner fairness, polish on the user's own mesh where it is an improvement.
 // A proxy that fails makes room for the next finer one. When all fail, the least bent of their surfaces comes back
 // with the vertices placed on it, and says that it did not converge. `guess`: positions of all vertices that a direct
-// solve has found near the surface, or nothing; vertices are placed from there too, and the better placement is taken.
+// solve has found near the surface, or nothing; the proxy starts from them, and the vertices are placed from there
+// too (the better of two placements is taken).
 Solution solve_on_proxy(const Problem& problem, const std::optional<Points>& guess, const Progress& progress);
 
 // Whether more than a tenth of the triangles are so flat that the discrete equation on them can't be trusted even where

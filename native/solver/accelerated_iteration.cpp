@@ -20,7 +20,6 @@ constexpr double hopeless_growth = 1e4;
 // Of the Willmore energy; a whole sphere has 16 π.
 constexpr double explosion_factor = 4.0;
 constexpr double explosion_rise = 60.0;
-constexpr int patience = 40;  // iterations without progress in residual or step
 constexpr double slow = 0.5;  // contraction over `refresh_after` iterations that asks for a new factor
 constexpr int refresh_after = 6;
 
@@ -126,7 +125,8 @@ private:
             least_step_ = std::min(least_step_, largest);
             least_step_at_ = k;
         }
-        return !std::isfinite(largest) || residual_ > hopeless_growth * best_residual_ || k - least_step_at_ > patience;
+        return !std::isfinite(largest) || residual_ > hopeless_growth * best_residual_ ||
+               k - least_step_at_ > problem_.options.patience;
     }
 
     void accelerate(const Points& d) {
