@@ -1,7 +1,7 @@
 """Graded irregular meshes: fine around one spot of a surface, coarse far from it.
 
 Random points, as dense as the local size asks for, triangulated by Delaunay and not smoothed; then every
-twelfth edge is flipped where the two triangles stay below an aspect of 12 (`aspects`). `RATIO` gives a ratio
+twelfth edge is flipped where the two triangles stay below an aspect of 12 (`measures.aspects`). `RATIO` gives a ratio
 of longest to shortest edge of about 40.
 """
 
@@ -12,11 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-import measures
 import shapes
 from curves import FloatArray
 from domains import Domain, Style, clearance, contains
-from meshing import IntArray, Mesh, edge_pairs, face_normals, flip_edges, oriented, triangulated, without_ears
+from meshing import IntArray, Mesh, edge_pairs, flip_edges, oriented, triangulated, without_ears
 from shapes import Patch
 
 RATIO = 12.0
@@ -45,7 +44,7 @@ def regraded(patch: Patch, n_free: int, grading: Grading | None = None) -> Patch
         count = len(_points(domain, size, h, chosen.seed)[1])
         if abs(count - n_free) < error:
             best, error = h, abs(count - n_free)
-        if error <= 0.01 * n_free:
+        if error <= 0.02 * n_free:
             break
         h *= float(np.sqrt(max(count, 4) / n_free))
     loops, free = _points(domain, size, best, chosen.seed)
@@ -125,18 +124,3 @@ def _apart(points: FloatArray, radius: FloatArray) -> FloatArray:
         earlier = [j for j in near if j < k]
         keep[k] = not keep[earlier].any()
     return keep
-
-
-def edge_ratio(patch: Patch) -> float:
-    """Longest over shortest edge."""
-    ends = patch.vertices[measures.edges(patch.triangles)]
-    lengths = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
-    return float(lengths.max() / lengths.min())
-
-
-def aspects(patch: Patch) -> FloatArray:
-    """(m,) longest edge over height on it, times √3/2: 1 if equilateral."""
-    corners = patch.vertices[patch.triangles]
-    sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
-    doubled = np.linalg.norm(face_normals(patch.vertices, patch.triangles), axis=1)
-    return np.asarray(0.5 * np.sqrt(3) * sides.max(axis=1) ** 2 / doubled)

@@ -97,6 +97,21 @@ def edges(triangles: IntArray) -> IntArray:
     return np.unique(np.sort(directed_edges(triangles), axis=1), axis=0)
 
 
+def edge_ratio(vertices: FloatArray, triangles: IntArray) -> float:
+    """Longest over shortest edge."""
+    ends = vertices[edges(triangles)]
+    lengths = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
+    return float(lengths.max() / lengths.min())
+
+
+def aspects(vertices: FloatArray, triangles: IntArray) -> FloatArray:
+    """(m,) longest edge over height on it, times √3/2: 1 if equilateral."""
+    corners = vertices[triangles]
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    doubled = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    return np.asarray(0.5 * np.sqrt(3) * longest**2 / doubled)
+
+
 def valences(triangles: IntArray, count: int) -> IntArray:
     """Edges per vertex, (count,)."""
     return np.bincount(edges(triangles).ravel(), minlength=count)

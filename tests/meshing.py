@@ -193,10 +193,8 @@ def without_ears(domain: Domain, st: FloatArray, triangles: IntArray, fixed: Int
 
 def _with_valence3(domain: Domain, base: Mesh, count: int, clusters: int, rng: np.random.Generator) -> Mesh:
     """Insert `count` vertices of valence 3 into different triangles, on the surface."""
-    chosen = (
-        _clustered(domain, base, count, clusters, rng) if clusters else rng.permutation(len(base.triangles))[:count]
-    )
-    chosen = np.sort(chosen)
+    order = _clustered(domain, base, clusters, rng) if clusters else rng.permutation(len(base.triangles))
+    chosen = np.sort(order[:count])
     corners = base.triangles[chosen]
     centres = domain.space(base.st)[corners].mean(axis=1)
     st = np.vstack([base.st, np.column_stack(domain.surface.locate(centres))])

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import matplotlib
 import numpy as np
 from engine import FloatArray
+from PIL import Image
 from stripes import Layer, View, facing, render
 
 if TYPE_CHECKING:
@@ -17,8 +18,9 @@ if TYPE_CHECKING:
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-TILE = 190  # pixels
-AROUND, PATCH = (0.82, 0.82, 0.82), (0.5, 0.75, 1.0)
+TILE = 170  # pixels
+COLOURS = 48  # of the picture, to keep it small
+AROUND, PATCH = (0.9, 0.9, 0.9), (0.5, 0.75, 1.0)
 
 
 def save(specimens: Sequence[Specimen], path: Path) -> None:
@@ -36,7 +38,9 @@ def save(specimens: Sequence[Specimen], path: Path) -> None:
         row[0].set_title(_title(specimen), fontsize=7, loc="left", pad=2)
     figure.subplots_adjust(0, 0, 1, 0.975, 0.01, 0.1)
     path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=100, pil_kwargs={"optimize": True})
+    figure.canvas.draw()
+    picture = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[:, :, :3])  # type: ignore[attr-defined]
+    picture.quantize(COLOURS).save(path, optimize=True)
     plt.close(figure)
 
 
@@ -51,7 +55,7 @@ def tiles(specimen: Specimen) -> list[FloatArray]:
     """Before from two sides, after from the same two."""
     patch = specimen.patch
     near = np.linalg.norm(patch.whole - _centre(specimen), axis=1) < 3 * _reach(specimen)
-    around = Layer(patch.whole, patch.outside[near[patch.outside].all(axis=1)], AROUND)
+    around = Layer(patch.whole, patch.outside[near[patch.outside].all(axis=1)], AROUND, striped=True)
     return [
         render([around, Layer(vertices, patch.triangles, PATCH, striped=True)], view)
         for vertices in (patch.vertices, specimen.vertices)
