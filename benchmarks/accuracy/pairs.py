@@ -110,7 +110,7 @@ def _compared(name: str, weights: str, solved: list[Solved]) -> Iterator[Row]:
 
 def _distance(one: Solved, other: Solved) -> float:
     pairs = [(made.outcome.vertices, made.mesh.triangles) for made in (one, other)]
-    return measures.two_sided_distance(pairs[0], pairs[1]) / one.mesh.diameter
+    return measures.two_sided_distance(pairs[0], pairs[1], 2) / one.mesh.diameter
 
 
 def _difference(one: Solved, other: Solved) -> float:

@@ -16,8 +16,6 @@ from real_meshes import DATA, RealPatch, listed_patches, random_patches
 from report import WEIGHTS, Row
 from starts import moved
 
-import measures
-
 KINDS = ("given", "flattened", "noisy")
 SMOOTH = 20.0  # degrees that the outline's normals turn per edge where the surroundings count as smooth
 SAME = 0.005  # of the radius
@@ -29,7 +27,7 @@ class Record:
     """One patch with one λ: what came of its starts. `spread` is over the radius, angles are degrees.
 
     turn: largest turn of the prescribed normals per outline edge; unfitted: share of normals that are averages;
-    converged, polished: how many starts; apart: two-sided distance from the surface of uniform λ, over the radius.
+    converged, polished: how many starts.
     """
 
     name: str
@@ -44,7 +42,6 @@ class Record:
     refused: str
     states: str
     spread: float
-    apart: float
     angle: float
     angle_median: float
     residual: float
@@ -89,8 +86,8 @@ def solve(engine: Engine, patch: RealPatch, weights: str, kind: str) -> Outcome:
     )  # fmt: skip
 
 
-def measured(engine: Engine, patch: RealPatch, weights: str, uniform: FloatArray | None) -> Specimen:
-    """All starts of one patch with one λ; `uniform`: the vertices that uniform λ gave, if any."""
+def measured(engine: Engine, patch: RealPatch, weights: str) -> Specimen:
+    """All starts of one patch with one λ."""
     outcomes = [solve(engine, patch, weights, kind) for kind in KINDS]
     refusals = [outcome.refused for outcome in outcomes if outcome.refused]
     first = outcomes[0]
@@ -99,7 +96,6 @@ def measured(engine: Engine, patch: RealPatch, weights: str, uniform: FloatArray
         sum(outcome.converged for outcome in outcomes), sum(outcome.polished for outcome in outcomes),
         refusals[0].replace("\n", " ")[:80] if refusals else "", " ".join(outcome.state for outcome in outcomes),
         np.nan if refusals else _spread(outcomes) / patch.radius,
-        np.nan if refusals or uniform is None else _apart(patch, first.vertices, uniform),
         np.nan if refusals else float(first.boundary_angle.max()),
         np.nan if refusals else float(np.median(first.boundary_angle)), first.residual,
         " ".join(sorted({code for outcome in outcomes for code in outcome.codes})),
@@ -113,10 +109,6 @@ def _spread(outcomes: list[Outcome]) -> float:
     return float(max(away))
 
 
-def _apart(patch: RealPatch, one: FloatArray, other: FloatArray) -> float:
-    return measures.two_sided_distance((one, patch.triangles), (other, patch.triangles), 1) / patch.radius
-
-
 def sweep(engine: Engine, chosen: Iterable[RealPatch], path: Path) -> list[Specimen]:
     """All patches with all λ; one line each in the CSV file, written as it goes."""
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -124,10 +116,8 @@ def sweep(engine: Engine, chosen: Iterable[RealPatch], path: Path) -> list[Speci
     with path.open("w", newline="") as file:
         writer = csv.writer(file)
         for patch in chosen:
-            uniform = None
             for weights in WEIGHTS:
-                specimens.append(measured(engine, patch, weights, uniform))
-                uniform = specimens[-1].vertices if uniform is None else uniform
+                specimens.append(measured(engine, patch, weights))
                 fields = asdict(specimens[-1].record)
                 if len(specimens) == 1:
                     writer.writerow(fields)
@@ -168,10 +158,7 @@ def _failing(title: str, weights: str, records: list[Record]) -> Row:
     failing = [record for record in records if not record.good]
     refused = sum(bool(record.refused) for record in records)
     differ = sum(record.converged == len(KINDS) and record.spread > SAME for record in records)
-    apart = sum(record.good and record.apart > SAME for record in records)
     note = f"{len(failing)} of {len(records)} fail: {refused} refused, {differ} differ between starts"
-    if apart:
-        note += f"; {apart} of the others further than {SAME:.1%} of the radius from the surface of uniform λ"
     share = len(failing) / max(len(records), 1)
     cpu = sum(record.cpu for record in records)
     return Row(f"{title}: share failing", 0, weights, 0.01, share, "", True, cpu, note)
