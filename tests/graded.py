@@ -69,8 +69,8 @@ class _Size:
         share_s, share_t = grading.spot
         t = domain.low + share_t * (domain.high - domain.low)
         self.spot = domain.surface.point(np.array([start + share_s * (stop - start)]), np.array([t]))
-        s, t = np.meshgrid(np.linspace(start, stop, 41), np.linspace(domain.low, domain.high, 81))
-        self.reach = float(self._away(np.column_stack([s.ravel(), t.ravel()])).max())
+        lattice = np.meshgrid(np.linspace(start, stop, 41), np.linspace(domain.low, domain.high, 81))
+        self.reach = float(self._away(np.column_stack([axis.ravel() for axis in lattice])).max())
 
     def _away(self, st: FloatArray) -> FloatArray:
         return np.asarray(np.linalg.norm(self.domain.space(st) - self.spot, axis=1))

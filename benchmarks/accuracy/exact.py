@@ -107,7 +107,7 @@ def _order(family: str, rows: list[Row]) -> Row:
 def strong_rows(scope: Scope) -> Iterator[Row]:
     """Quads of ±0.6 h of jitter in each direction, split by random diagonals, every λ."""
     style = Style(jitter=1.2, layout="grid", seed=1)
-    makers = {
+    makers: dict[str, Callable[..., Patch]] = {
         "clothoid cylinder": partial(shapes.clothoid, shape="rectangle"),
         "r H′ = 0.35": shapes.linear_flux,
     }

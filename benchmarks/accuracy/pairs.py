@@ -126,7 +126,7 @@ def _apart(at: Solved, other: Solved) -> FloatArray:
     start, ahead = nodes[near[:, 0]], nodes[near[:, 1]] - nodes[near[:, 0]]
     share = np.clip(((points - start) * ahead).sum(axis=1) / (ahead**2).sum(axis=1), 0, 1)
     values = other.boundary_curvature[near]
-    return np.abs((1 - share) * values[:, 0] + share * values[:, 1] - at.boundary_curvature)
+    return np.asarray(np.abs((1 - share) * values[:, 0] + share * values[:, 1] - at.boundary_curvature))
 
 
 def _ranges(solved: list[Solved]) -> str:

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import matplotlib
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from report import Row
 
 matplotlib.use("Agg")
@@ -29,13 +31,13 @@ def save(tables: dict[str, list[Row]], folder: Path) -> None:
         _goals(tables, folder / "accuracy_goals.png")
 
 
-def _finished(figure: plt.Figure, path: Path) -> None:
+def _finished(figure: Figure, path: Path) -> None:
     figure.tight_layout()
     figure.savefig(path, dpi=90)
     plt.close(figure)
 
 
-def _convergence(axis: plt.Axes, name: str, rows: list[Row]) -> None:
+def _convergence(axis: Axes, name: str, rows: list[Row]) -> None:
     """One line for each case and λ; goals as grey bars."""
     lines: dict[str, list[Row]] = defaultdict(list)
     for row in rows:

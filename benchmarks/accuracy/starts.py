@@ -12,15 +12,16 @@ from report import WEIGHTS, Row
 
 import blend
 import shapes
+from meshing import IntArray
 from shapes import Patch, Style
 
 
-def given(vertices: FloatArray, fixed: FloatArray, h: float) -> FloatArray:
+def given(vertices: FloatArray, fixed: IntArray, h: float) -> FloatArray:
     """The mesh itself."""
     return vertices
 
 
-def flattened(vertices: FloatArray, fixed: FloatArray, h: float) -> FloatArray:
+def flattened(vertices: FloatArray, fixed: IntArray, h: float) -> FloatArray:
     """Projected on the plane that fits the outline best."""
     rim = vertices[fixed]
     centre = rim.mean(axis=0)
@@ -28,7 +29,7 @@ def flattened(vertices: FloatArray, fixed: FloatArray, h: float) -> FloatArray:
     return np.asarray(vertices - ((vertices - centre) @ normal)[:, None] * normal)
 
 
-def folded(vertices: FloatArray, fixed: FloatArray, h: float) -> FloatArray:
+def folded(vertices: FloatArray, fixed: IntArray, h: float) -> FloatArray:
     """Everything on one side of a plane through the centroid reflected to the other."""
     centre = vertices.mean(axis=0)
     normal = np.linalg.svd(vertices - centre, full_matrices=False)[2][0]
@@ -36,17 +37,17 @@ def folded(vertices: FloatArray, fixed: FloatArray, h: float) -> FloatArray:
     return np.asarray(vertices - 2 * np.maximum(height, 0)[:, None] * normal)
 
 
-def noisy(vertices: FloatArray, fixed: FloatArray, h: float) -> FloatArray:
+def noisy(vertices: FloatArray, fixed: IntArray, h: float) -> FloatArray:
     """Gaussian noise of two mean edge lengths."""
     return np.asarray(vertices + 2 * h * np.random.default_rng(5).standard_normal(vertices.shape))
 
 
-STARTS: dict[str, Callable[[FloatArray, FloatArray, float], FloatArray]] = {
+STARTS: dict[str, Callable[[FloatArray, IntArray, float], FloatArray]] = {
     "given": given, "flattened": flattened, "folded": folded, "noisy": noisy,
 }  # fmt: skip
 
 
-def moved(kind: str, vertices: FloatArray, triangles: FloatArray, fixed: FloatArray) -> FloatArray:
+def moved(kind: str, vertices: FloatArray, triangles: IntArray, fixed: IntArray) -> FloatArray:
     """The start of this kind, fixed vertices in their places."""
     edges = np.linalg.norm(vertices[triangles] - np.roll(vertices[triangles], 1, axis=1), axis=2)
     result = STARTS[kind](vertices, fixed, float(edges.mean())).copy()
