@@ -52,10 +52,15 @@ def _sizes(size: int) -> list[tuple[int, float]]:
 
 
 def tetrathings(size: int) -> list[Made]:
-    """Subdivided, the same with random flips, and (at 13k) once less."""
-    fine = tetrathing.tetrathing(times=3 if size < 4000 else 4)
-    coarse = fine if size < 4000 else tetrathing.tetrathing(times=3)
-    return [fine, *(flipped(mesh, share, 1) for mesh, share in ((fine, 0.15), (coarse, 0.3)))]
+    """13k vertices (3.3k below a size of 4000), and the same with 15 % and 30 % of the edges flipped at random."""
+    made = tetrathing.tetrathing(times=3 if size < 4000 else 4)
+    return [made, flipped(made, 0.15, 1), flipped(made, 0.3, 2)]
+
+
+def mixed_tetrathings(size: int) -> list[Made]:
+    """3.3k vertices, a rather coarse mesh, beside 13k; and 3.3k with flips."""
+    coarse = tetrathing.tetrathing(times=3)
+    return [coarse, tetrathing.tetrathing(times=4), flipped(coarse, 0.3, 1)]
 
 
 def flipped(mesh: Blend, share: float, seed: int) -> Blend:
@@ -73,6 +78,7 @@ def torus_patches(size: int) -> list[Made]:
 CASES: dict[str, Callable[[int], list[Made]]] = {
     "three-cylinder blend": three_cylinders,
     "tetrathing": tetrathings,
+    "tetrathing, 3.3k and 13k": mixed_tetrathings,
     "six-armed blend": six_cylinders,
     "torus patch": torus_patches,
 }
