@@ -99,9 +99,9 @@ def jittered_rows(scope: Scope) -> Iterator[Row]:
 def _order(family: str, rows: list[Row]) -> Row:
     first, last = rows[0], rows[-1]
     order = measures.observed_order((first.size, last.size), (first.measured, last.measured))
-    note = f"observed order {order:.2f}, at least 1.7 wanted"
     settled = all(made.settled for made in rows)
-    return Row(f"jittered {family}, 1.7 − order in h", 0, "uniform", 0.0, 1.7 - order, "", settled, np.nan, note)
+    note = f"observed order {order:.2f}"
+    return Row(f"jittered {family}, 1.7 ÷ order in h", 0, "uniform", 1.0, 1.7 / order, "", settled, np.nan, note)
 
 
 def strong_rows(scope: Scope) -> Iterator[Row]:

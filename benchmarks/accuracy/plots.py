@@ -9,12 +9,13 @@ import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from report import Row
+from report import WEIGHTS, Row
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 TABLES = ("graded", "jittered", "strong")
+MARKERS = "osv^"  # of the λ in the order of WEIGHTS
 
 
 def save(tables: dict[str, list[Row]], folder: Path) -> None:
@@ -22,7 +23,7 @@ def save(tables: dict[str, list[Row]], folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     chosen = [name for name in TABLES if tables.get(name)]
     if chosen:
-        figure, axes = plt.subplots(1, len(chosen), figsize=(4.6 * len(chosen), 4.4), squeeze=False, sharey=True)
+        figure, axes = plt.subplots(1, len(chosen), figsize=(4.4 * len(chosen), 5.4), squeeze=False, sharey=True)
         for axis, name in zip(axes[0], chosen, strict=True):
             _convergence(axis, name, tables[name])
         axes[0, 0].set_ylabel("largest distance to the exact surface / D")
@@ -39,20 +40,27 @@ def _finished(figure: Figure, path: Path) -> None:
 
 def _convergence(axis: Axes, name: str, rows: list[Row]) -> None:
     """One line for each case and λ; goals as grey bars."""
-    lines: dict[str, list[Row]] = defaultdict(list)
+    lines: dict[tuple[str, str], list[Row]] = defaultdict(list)
     for row in rows:
         if row.size and np.isfinite(row.measured):
-            lines[f"{row.case.removeprefix(name + ' ')}, {row.options}"].append(row)
-    markers = "osv^Dxp*"
-    for k, (label, points) in enumerate(lines.items()):
+            lines[row.case, row.options].append(row)
+    cases = list(dict.fromkeys(case for case, _ in lines))
+    for (case, weights), points in lines.items():
         h = [row.size**-0.5 for row in points]
+        axis.plot(h, [row.goal for row in points], "_", color="0.6", markersize=16, markeredgewidth=2)
         error = [max(row.measured, 1e-12) for row in points]
-        axis.loglog(h, error, marker=markers[k % len(markers)], label=label, linewidth=1, markersize=5)
-        axis.loglog(h, [row.goal for row in points], "_", color="0.6", markersize=16, markeredgewidth=2)
+        colour, marker = f"C{cases.index(case)}", MARKERS[WEIGHTS.index(weights)]
+        label = f"{case.removeprefix('strongly ').removeprefix(name).removeprefix('jittered').strip()}, {weights}"
+        axis.plot(h, error, marker=marker, color=colour, label=label, linewidth=1, markersize=5, alpha=0.8)
+    axis.set_xscale("log")
+    axis.set_yscale("log")
+    sizes = sorted({round(row.size, -3) for row in rows if row.size})
+    axis.set_xticks([size**-0.5 for size in sizes], [f"{size // 1000}k" for size in sizes])
+    axis.minorticks_off()
     axis.set_title(name)
-    axis.set_xlabel("h ∼ (free vertices)$^{-1/2}$;  grey: goals")
+    axis.set_xlabel("free vertices, placed by h ∼ $n^{-1/2}$;  grey: goals")
     axis.grid(True, which="major", linewidth=0.3)
-    axis.legend(fontsize=5.5, loc="upper left")
+    axis.legend(fontsize=6, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2, frameon=False)
 
 
 def _goals(tables: dict[str, list[Row]], path: Path) -> None:
