@@ -34,7 +34,7 @@ class Row:
 
     def line(self) -> str:
         """The Markdown of the row."""
-        measured = "–" if np.isnan(self.measured) else f"{self.measured:.1e}"
+        measured = "–" if np.isnan(self.measured) else f"{self.measured:.2e}"
         met = "yes" if self.met else "**no**"
         seconds = "" if np.isnan(self.cpu) else f"{self.cpu:.2f}"
         size = str(self.size) if self.size else ""
