@@ -26,8 +26,9 @@ import pairs
 import patches
 import plots
 import starts
-from engine import Engine
 from exact import Scope
+
+from engine import Engine
 from report import HEADER, Row, summary
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 import matplotlib
 import numpy as np
-from engine import FloatArray
 from PIL import Image
 from stripes import Layer, View, facing, render
+
+from engine import FloatArray
 
 if TYPE_CHECKING:
     from patches import Specimen

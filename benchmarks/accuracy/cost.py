@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 from exact import Scope
-from report import Row
 
 import blend
 import graded
 import shapes
+from report import Row
 from shapes import Patch
 
 CASES: dict[str, Callable[[int], Patch | blend.Blend]] = {

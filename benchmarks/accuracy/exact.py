@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from engine import Engine, FloatArray, Outcome
-from report import WEIGHTS, Row, solved_row
 
 import graded
 import measures
 import shapes
+from engine import Engine, FloatArray, Outcome
+from report import WEIGHTS, Row, solved_row
 from shapes import Patch, Style
 
 TIGHT = 1e-10

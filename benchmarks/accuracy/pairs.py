@@ -7,9 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
-from engine import FloatArray, Outcome
 from exact import TIGHT, Scope
-from report import Row
 from scipy.spatial import cKDTree
 
 import blend
@@ -19,6 +17,8 @@ import shapes
 import six_arms
 import tetrathing
 from blend import Blend
+from engine import FloatArray, Outcome
+from report import Row
 from shapes import Patch, Style
 
 Made = Blend | Patch

@@ -8,13 +8,14 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-import contact_sheet
 import numpy as np
-from engine import Engine, FloatArray, Outcome
 from exact import Scope
 from real_meshes import DATA, RealPatch, listed_patches, random_patches
-from report import WEIGHTS, Row
 from starts import moved
+
+import contact_sheet
+from engine import Engine, FloatArray, Outcome
+from report import WEIGHTS, Row
 
 KINDS = ("given", "flattened", "noisy")
 SMOOTH = 20.0  # degrees that the outline's normals turn per edge where the surroundings count as smooth

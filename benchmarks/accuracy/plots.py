@@ -9,6 +9,7 @@ import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+
 from report import WEIGHTS, Row
 
 matplotlib.use("Agg")

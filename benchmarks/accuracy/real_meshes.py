@@ -14,13 +14,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from engine import FloatArray
 from numpy.typing import NDArray
 from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
 import fairing
 import measures
+from engine import FloatArray
 from meshing import IntArray
 from polygons import edges_of, read_polygons, triangles_of
 

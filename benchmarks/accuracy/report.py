@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+
 from engine import Outcome
 
 WEIGHTS = ("uniform", "conformal", "inverse_distance", "shape_preserving")

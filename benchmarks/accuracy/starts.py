@@ -6,13 +6,13 @@ from collections.abc import Callable, Iterator
 from functools import partial
 
 import numpy as np
-from engine import FloatArray, Outcome
 from exact import TIGHT, Scope
-from report import WEIGHTS, Row
 
 import blend
 import shapes
+from engine import FloatArray, Outcome
 from meshing import IntArray
+from report import WEIGHTS, Row
 from shapes import Patch, Style
 
 

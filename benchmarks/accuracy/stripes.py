@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from engine import FloatArray
 
+from engine import FloatArray
 from meshing import IntArray, face_normals
 
 STRIPES = 9.0  # light bands over half a turn of the normal
