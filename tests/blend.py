@@ -66,14 +66,14 @@ def _outline(reach: float, h: float) -> Outline:
         turn = DIRECTIONS[(k + 1) % 3]
         following = np.array([np.cos(turn), np.sin(turn)])
         landing = reach * following - HALF_WIDTH * np.array([-following[1], following[0]])
-        sides = np.vstack([_between(rim[-1], corner, h), corner, _between(corner, landing, h)])
+        sides = np.vstack([between(rim[-1], corner, h), corner, between(corner, landing, h)])
         points += [rim, sides]
         rims += [np.full(len(rim), k), np.full(len(sides), -1)]
         across += [share, np.zeros(len(sides))]
     return Outline(np.vstack(points), np.concatenate(rims), np.concatenate(across))
 
 
-def _between(start: FloatArray, end: FloatArray, h: float) -> FloatArray:
+def between(start: FloatArray, end: FloatArray, h: float) -> FloatArray:
     """Evenly spaced points strictly between."""
     count = max(2, round(float(np.linalg.norm(end - start)) / h))
     share = np.arange(1, count)[:, None] / count
@@ -90,7 +90,7 @@ def _inside(outline: FloatArray, points: FloatArray) -> NDArray[np.bool_]:
     return inside
 
 
-def _sheet(outline: FloatArray, h: float, jitter: float, rng: np.random.Generator) -> FloatArray:
+def sheet(outline: FloatArray, h: float, jitter: float, rng: np.random.Generator) -> FloatArray:
     """Jittered hexagonal points of random phase and direction, 0.6 h clear of the outline."""
     reach = int(2 * np.abs(outline).max() / h) + 2
     i, j = np.meshgrid(np.arange(-reach, reach + 1), np.arange(-reach, reach + 1))
@@ -106,9 +106,9 @@ def _sheet(outline: FloatArray, h: float, jitter: float, rng: np.random.Generato
     return np.asarray(points[thinned(points, np.full(len(points), 0.6 * h))])
 
 
-def _triangulated(outline: FloatArray, sheet: FloatArray) -> IntArray:
+def triangulated(outline: FloatArray, inner: FloatArray) -> IntArray:
     """Delaunay triangles inside the Y, outline vertices first, counter-clockwise."""
-    points = np.vstack([outline, sheet])
+    points = np.vstack([outline, inner])
     triangles = Delaunay(points).simplices.astype(np.int64)
     a, b, c = (points[triangles[:, k]] for k in range(3))
     doubled = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
@@ -140,8 +140,8 @@ def cylinder_blend(n_free: int, *, jitter: float = 0.6, seed: int = 0, reach: fl
 def _blend(h: float, jitter: float, seed: int, reach: float) -> Blend:
     rng = np.random.default_rng(seed)
     flat = _outline(reach, h)
-    sheets = [_sheet(flat.points, h, jitter, rng) for _ in range(2)]
-    upper, lower = (_triangulated(flat.points, sheet) for sheet in sheets)
+    sheets = [sheet(flat.points, h, jitter, rng) for _ in range(2)]
+    upper, lower = (triangulated(flat.points, inner) for inner in sheets)
     corners = len(flat.points)
     return _glued(flat, upper, lower, (corners, len(sheets[0]), len(sheets[1])), reach)
 

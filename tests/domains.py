@@ -24,7 +24,8 @@ class Style:
     """How irregular a mesh is.
 
     jitter: full width of the random displacement in edge lengths (0.6: up to ±0.3 h).
-    valence3: share of the free vertices that are inserted into triangles.
+    valence3: share of the free vertices that are inserted into triangles: into random ones, or into those
+    nearest to so many random centres (clusters).
     flips: share of the edges that are flipped away from Delaunay.
     grading: ratio of the edge lengths at the ends of s. aspect: edge length along s over across.
     layout: "rows" (hexagonal-like rows, Delaunay), "grid" (quads, random diagonals), "random".
@@ -32,6 +33,7 @@ class Style:
 
     jitter: float = 0.6
     valence3: float = 0.0
+    clusters: int = 0
     flips: float = 0.0
     grading: float = 1.0
     aspect: float = 1.0

@@ -39,24 +39,32 @@ def sampled(vertices: FloatArray, triangles: IntArray, steps: int) -> FloatArray
 def distance_to_mesh(points: FloatArray, vertices: FloatArray, triangles: IntArray) -> FloatArray:
     """Exact distances (k,) from points (k, 3) to a triangle mesh.
 
-    Triangles are tried by the distance of their centroids, until that exceeds the best distance so
-    far by more than the largest centroid-to-corner distance.
+    Triangles go by octaves of their size, and within each are tried by the distance of their centroids, until
+    that exceeds the best distance so far by more than the largest centroid-to-corner distance there.
     """
     corners = vertices[triangles]
-    centres = corners.mean(axis=1)
-    reach = float(np.linalg.norm(corners - centres[:, None], axis=2).max())
-    tree = cKDTree(centres)
+    radius = np.linalg.norm(corners - corners.mean(axis=1)[:, None], axis=2).max(axis=1)
+    octave = np.round(np.log2(np.maximum(radius, 1e-12 * radius.max())))
     best = np.full(len(points), np.inf)
-    pending, count = np.arange(len(points)), 8
+    numbers, counts = np.unique(octave, return_counts=True)
+    for number in numbers[np.argsort(-counts)]:
+        chosen = octave == number
+        _nearer(points, corners[chosen], float(radius[chosen].max()), best)
+    return best
+
+
+def _nearer(points: FloatArray, corners: FloatArray, reach: float, best: FloatArray) -> None:
+    """Lower `best` where one of these triangles, (m, 3, 3) and all within `reach` of their centroid, is nearer."""
+    tree = cKDTree(corners.mean(axis=1))
+    first = tree.query(points)[0]
+    pending, count = np.flatnonzero(first < best + reach), min(8, len(corners))
     while len(pending):
-        count = min(count, len(triangles))
         away, nearest = tree.query(points[pending], k=[*range(1, count + 1)])
         tried = [_to_triangles(points[pending], corners[nearest[:, k]]) for k in range(count)]
-        best[pending] = np.min(tried, axis=0)
+        best[pending] = np.minimum(best[pending], np.min(tried, axis=0))
         unsure = away[:, -1] < best[pending] + reach
-        pending = pending[unsure] if count < len(triangles) else pending[:0]
-        count *= 4
-    return best
+        pending = pending[unsure] if count < len(corners) else pending[:0]
+        count = min(4 * count, len(corners))
 
 
 def _to_triangles(points: FloatArray, corners: FloatArray) -> FloatArray:
@@ -87,6 +95,21 @@ def directed_edges(triangles: IntArray) -> IntArray:
 def edges(triangles: IntArray) -> IntArray:
     """Every edge once, (e, 2), smaller index first."""
     return np.unique(np.sort(directed_edges(triangles), axis=1), axis=0)
+
+
+def edge_ratio(vertices: FloatArray, triangles: IntArray) -> float:
+    """Longest over shortest edge."""
+    ends = vertices[edges(triangles)]
+    lengths = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
+    return float(lengths.max() / lengths.min())
+
+
+def aspects(vertices: FloatArray, triangles: IntArray) -> FloatArray:
+    """(m,) longest edge over height on it, times √3/2: 1 if equilateral."""
+    corners = vertices[triangles]
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    doubled = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    return np.asarray(0.5 * np.sqrt(3) * longest**2 / doubled)
 
 
 def valences(triangles: IntArray, count: int) -> IntArray:

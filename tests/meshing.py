@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import Delaunay
+from scipy.spatial import Delaunay, cKDTree
 
 import grids
 from curves import FloatArray
@@ -34,7 +34,7 @@ def mesh(domain: Domain, n_free: int, style: Style) -> Mesh:
     triangles = _flipped(domain, result.st, triangles, style, rng)
     triangles = without_ears(domain, result.st, triangles, result.fixed)
     result = Mesh(result.st, triangles, result.fixed)
-    return _with_valence3(domain, result, n_free - plain, rng) if style.valence3 else result
+    return _with_valence3(domain, result, n_free - plain, style.clusters, rng) if style.valence3 else result
 
 
 def _edge_length(domain: Domain, n_free: int, style: Style) -> float:
@@ -70,7 +70,11 @@ def _count(domain: Domain, h: float, style: Style) -> int:
 
 def delaunay(domain: Domain, h: float, style: Style) -> Mesh:
     """Delaunay triangulation in the conformal chart; free vertices first, then the outline."""
-    loops, free = _points(domain, h, style)
+    return triangulated(domain, *_points(domain, h, style), style)
+
+
+def triangulated(domain: Domain, loops: list[FloatArray], free: FloatArray, style: Style) -> Mesh:
+    """Delaunay triangles of these points: stretched back by the style's aspect, not yet oriented."""
     st = np.vstack([free, *loops])
     fixed = np.arange(len(free), len(st))
     chart = domain.surface.chart(st[:, 0], st[:, 1])
@@ -140,7 +144,7 @@ def edge_pairs(triangles: IntArray) -> tuple[IntArray, IntArray, IntArray]:
     return ends[first], faces, np.column_stack([corners[first, 0], corners[second, 0]])
 
 
-def _flip_edges(domain: Domain, st: FloatArray, triangles: IntArray, chosen: IntArray, quality: float) -> IntArray:
+def flip_edges(domain: Domain, st: FloatArray, triangles: IntArray, chosen: IntArray, quality: float) -> IntArray:
     """Flip the chosen interior edges (rows of `edge_pairs`) where the outcome stays unfolded."""
     _, faces, opposite = edge_pairs(triangles)
     points, normals = domain.space(st), domain.surface.normal(st[:, 0], st[:, 1])
@@ -177,19 +181,20 @@ def _flipped(domain: Domain, st: FloatArray, triangles: IntArray, style: Style, 
         return triangles
     count = len(edge_pairs(triangles)[0])
     chosen = rng.permutation(count)[: round(style.flips * count)]
-    return _flip_edges(domain, st, triangles, chosen, quality=0.08)
+    return flip_edges(domain, st, triangles, chosen, quality=0.08)
 
 
 def without_ears(domain: Domain, st: FloatArray, triangles: IntArray, fixed: IntArray) -> IntArray:
     """Flip interior edges between two fixed vertices: every corner gets a free neighbour."""
     ends = edge_pairs(triangles)[0]
     chords = np.flatnonzero(np.isin(ends, fixed).all(axis=1))
-    return _flip_edges(domain, st, triangles, chords, quality=0.0)
+    return flip_edges(domain, st, triangles, chords, quality=0.0)
 
 
-def _with_valence3(domain: Domain, base: Mesh, count: int, rng: np.random.Generator) -> Mesh:
+def _with_valence3(domain: Domain, base: Mesh, count: int, clusters: int, rng: np.random.Generator) -> Mesh:
     """Insert `count` vertices of valence 3 into different triangles, on the surface."""
-    chosen = np.sort(rng.permutation(len(base.triangles))[:count])
+    order = _clustered(domain, base, clusters, rng) if clusters else rng.permutation(len(base.triangles))
+    chosen = np.sort(order[:count])
     corners = base.triangles[chosen]
     centres = domain.space(base.st)[corners].mean(axis=1)
     st = np.vstack([base.st, np.column_stack(domain.surface.locate(centres))])
@@ -197,3 +202,11 @@ def _with_valence3(domain: Domain, base: Mesh, count: int, rng: np.random.Genera
     fans = [np.column_stack([corners[:, [k, (k + 1) % 3]], new]) for k in range(3)]
     kept = np.delete(base.triangles, chosen, axis=0)
     return replace(base, st=st, triangles=np.vstack([kept, *fans]))
+
+
+def _clustered(domain: Domain, base: Mesh, clusters: int, rng: np.random.Generator) -> IntArray:
+    """The triangles with a free corner by their distance from so many random ones."""
+    usable = np.flatnonzero(~np.isin(base.triangles, base.fixed).all(axis=1))
+    centres = domain.space(base.st)[base.triangles[usable]].mean(axis=1)
+    seeds = centres[rng.permutation(len(usable))[:clusters]]
+    return np.asarray(usable[np.argsort(cKDTree(seeds).query(centres)[0], kind="stable")])

@@ -23,14 +23,14 @@ from scipy.sparse.linalg import splu
 import curves
 from curves import FloatArray
 from domains import Domain, Shape, Style
-from meshing import mesh
+from meshing import Mesh, mesh
 from surfaces import Extrusion, Revolution, Sphere, Surface
 
 IntArray = NDArray[np.int64]
 
 __all__ = [
     "FAMILIES", "Patch", "Style", "cap", "catenoid", "clothoid", "cylinder", "linear_flux",
-    "membrane", "plane", "start_from_nothing", "torus", "unduloid", "uniform_laplacian",
+    "membrane", "patch_of", "plane", "start_from_nothing", "torus", "unduloid", "uniform_laplacian",
 ]  # fmt: skip
 
 
@@ -40,15 +40,20 @@ class Patch:
 
     vertices (n, 3); triangles (m, 3), counter-clockwise seen from the normals' side; fixed (k,) the
     border; normals (n, 3) exact unit normals of all vertices; mean_curvature (n,) exact, −1/R on a
-    sphere with outward normals; surface gives distances.
+    sphere with outward normals; domain is the piece of surface, which gives distances.
     """
 
-    surface: Surface
+    domain: Domain
     vertices: FloatArray
     triangles: IntArray
     fixed: IntArray
     normals: FloatArray
     mean_curvature: FloatArray
+
+    @property
+    def surface(self) -> Surface:
+        """The exact surface."""
+        return self.domain.surface
 
     @cached_property
     def free(self) -> IntArray:
@@ -76,11 +81,15 @@ class Patch:
 
 
 def _patch(domain: Domain, n_free: int, style: Style | None) -> Patch:
-    made = mesh(domain, n_free, style or Style())
+    return patch_of(domain, mesh(domain, n_free, style or Style()))
+
+
+def patch_of(domain: Domain, made: Mesh) -> Patch:
+    """The mesh with its exact positions, normals and mean curvatures."""
     s, t = made.st[:, 0], made.st[:, 1]
     surface = domain.surface
     return Patch(
-        surface, surface.point(s, t), made.triangles, made.fixed,
+        domain, surface.point(s, t), made.triangles, made.fixed,
         surface.normal(s, t), surface.mean_curvature(s),
     )  # fmt: skip
 
