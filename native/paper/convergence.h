@@ -1,0 +1,53 @@
+// When an iteration is done, and when it goes wrong.
+#pragma once
+
+#include <deque>
+#include <limits>
+
+namespace fairing {
+
+// The changes still to come, from the latest steps of a linearly convergent iteration.
+class RemainingChange {
+public:
+    // Largest move of a vertex in one cycle.
+    void add(double step);
+    // step · ρ/(1 − ρ), ρ the mean contraction over the last ten steps; infinite while there are fewer than four.
+    [[nodiscard]] double estimate() const;
+    // Part of the decades from the first estimate down to the tolerance.
+    [[nodiscard]] double share_done(double tolerance) const;
+
+private:
+    std::deque<double> steps_;
+    double first_ = 0.0;
+};
+
+enum class Verdict {
+    better,       // than ever since the restart
+    fair,         // go on
+    alternating,  // vertices alternate between positions (§7.5), or nothing moves any more
+    lost          // no longer finite
+};
+
+// Follows the merit of an iteration, cycle by cycle: of the plain one its residual, which must not grow or rest for
+// long; of the accelerated one its changes, which may grow for a while: its history tames modes that the plain one
+// doesn't.
+class ProgressWatch {
+public:
+    explicit ProgressWatch(bool accelerated) : accelerated_(accelerated) {}
+    Verdict judge(double merit);
+    // After a change of the damping.
+    void restart();
+
+private:
+    [[nodiscard]] bool growing() const;
+    [[nodiscard]] bool resting() const;
+
+    bool accelerated_;
+    bool restarted_ = false;
+    std::deque<double> recent_;
+    double best_ = std::numeric_limits<double>::infinity();
+    double mark_ = std::numeric_limits<double>::infinity();
+    int since_mark_ = 0;
+};
+
+}  // namespace fairing
