@@ -16,7 +16,9 @@ constexpr double growth_of_alternation = 2.0;
 constexpr double hopeless_growth = 1e3;  // of the accelerated iteration
 constexpr std::size_t spell = 15;        // cycles
 constexpr double hardly_falling = 0.97;  // lowest merit of a spell over that of the spell before
-constexpr int plain_patience = 150;      // cycles without a hundredth less
+constexpr double undone = 0.1;           // part of the moves that is left when two updates undo each other
+constexpr int undone_cycles = 5;
+constexpr int plain_patience = 150;  // cycles without a hundredth less
 constexpr int accelerated_patience = 50;
 
 }  // namespace
@@ -41,7 +43,8 @@ double RemainingChange::share_done(double tolerance) const {
     return std::min(1.0, std::log(first_ / std::max(now, 1e-300)) / std::log(first_ / tolerance));
 }
 
-Verdict ProgressWatch::judge(double merit) {
+Verdict ProgressWatch::judge(const Change& change) {
+    const double merit = change.merit;
     if (!std::isfinite(merit)) return Verdict::lost;
     recent_.push_back(merit);
     if (recent_.size() > 2 * spell) recent_.pop_front();
@@ -53,7 +56,7 @@ Verdict ProgressWatch::judge(double merit) {
     const bool better = merit < best_;
     best_ = std::min(best_, merit);
     const bool exhausted = since_mark_ > (accelerated_ ? accelerated_patience : plain_patience);
-    if (exhausted || growing() || resting()) return Verdict::alternating;
+    if (exhausted || undoing(change) || growing() || resting()) return Verdict::alternating;
     return better ? Verdict::better : Verdict::fair;
 }
 
@@ -62,6 +65,12 @@ void ProgressWatch::restart() {
     restarted_ = true;
     mark_ = std::numeric_limits<double>::infinity();
     since_mark_ = 0;
+    undone_ = 0;
+}
+
+bool ProgressWatch::undoing(const Change& change) {
+    undone_ = change.together < undone * change.largest ? undone_ + 1 : 0;
+    return accelerated_ && undone_ >= undone_cycles;
 }
 
 bool ProgressWatch::growing() const {

@@ -21,6 +21,13 @@ private:
     double first_ = 0.0;
 };
 
+// What a cycle of a global and a local update did.
+struct Change {
+    double largest = std::numeric_limits<double>::infinity();   // move of a vertex in one of the two updates
+    double together = std::numeric_limits<double>::infinity();  // and in both together
+    double merit = std::numeric_limits<double>::infinity();     // what should fall
+};
+
 enum class Verdict {
     better,       // than ever since the restart
     fair,         // go on
@@ -30,15 +37,16 @@ enum class Verdict {
 
 // Follows the merit of an iteration, cycle by cycle: of the plain one its residual, which must not grow or rest for
 // long; of the accelerated one its changes, which may grow for a while: its history tames modes that the plain one
-// doesn't.
+// doesn't. That one may run into positions at which the two updates of a cycle undo each other: they are no solution.
 class ProgressWatch {
 public:
     explicit ProgressWatch(bool accelerated) : accelerated_(accelerated) {}
-    Verdict judge(double merit);
+    Verdict judge(const Change& change);
     // After a change of the damping.
     void restart();
 
 private:
+    [[nodiscard]] bool undoing(const Change& change);
     [[nodiscard]] bool growing() const;
     [[nodiscard]] bool resting() const;
 
@@ -48,6 +56,7 @@ private:
     double best_ = std::numeric_limits<double>::infinity();
     double mark_ = std::numeric_limits<double>::infinity();
     int since_mark_ = 0;
+    int undone_ = 0;  // cycles in a row
 };
 
 }  // namespace fairing

@@ -13,11 +13,21 @@ namespace fairing {
 
 namespace {
 
-constexpr int history_depth = 20;
+constexpr int history_depth = 12;
 constexpr double largest_step = 0.1;  // of the acceleration, units of D
 constexpr double smallest_damping = 0.05;
 
-double largest_length(const Points& moves) { return std::sqrt(moves.colwise().squaredNorm().maxCoeff()); }
+// Mean edge length over that around each free vertex: the weight of its moves, so that crowded regions settle too.
+Eigen::RowVectorXd crowding(const Patch& patch, const Points& points) {
+    Eigen::RowVectorXd inverse(patch.free_count);
+    for (int i = 0; i < patch.free_count; ++i) {
+        const auto neighbours = patch.ring(i).vertices;
+        double sum = 0.0;
+        for (int v : neighbours) sum += (points.col(v) - points.col(i)).norm();
+        inverse[i] = static_cast<double>(neighbours.size()) / std::max(sum, 1e-300);
+    }
+    return inverse * inverse.cwiseInverse().mean();
+}
 
 // Cycles of a global and a local update, after a local one that smooths what the prolongation has left.
 class FactorisedIteration {
@@ -27,6 +37,7 @@ public:
           start_(start),
           limits_(limits),
           accelerated_(level.paper.acceleration == Acceleration::anderson),
+          weights_(crowding(level.patch, start)),
           update_(level, start),
           anderson_(3L * level.patch.free_count, history_depth),
           watch_(accelerated_),
@@ -73,15 +84,17 @@ private:
     // One cycle; the residual is that of its first positions.
     void cycle(double residual, const Progress& progress) {
         const Points before = update_.points();
-        double change = std::numeric_limits<double>::infinity();
+        Change change;
         if (std::isfinite(residual)) {
             update_.global(damping_);
             progress.here().report(0.0, "iteration");
+            const Points between = update_.points();
             if (update_.measure_again()) update_.local(damping_);
-            change = largest_length(update_.points() - before);
+            change.largest = std::max(largest(update_.points(), between), largest(between, before));
+            change.together = largest(update_.points(), before);
         }
-        const double merit = accelerated_ ? change / damping_ : residual;
-        switch (watch_.judge(merit)) {
+        change.merit = accelerated_ ? change.largest / damping_ : residual;
+        switch (watch_.judge(change)) {
             case Verdict::better:
                 outcome_.points = before;
                 outcome_.residual = residual;
@@ -90,20 +103,33 @@ private:
             case Verdict::alternating: return calm(false);
             case Verdict::lost: return calm(true);
         }
-        advance(before, change);
+        const double step = advance(before);
+        remaining_.add(std::max(change.largest, step));
     }
 
-    void advance(const Points& before, double change) {
-        Points step = update_.points() - before;
+    // Largest weighted move.
+    [[nodiscard]] double largest(const Points& after, const Points& before) const {
+        const auto n = level_.patch.free_count;
+        return ((after - before).leftCols(n).colwise().norm().array() * weights_.array()).maxCoeff();
+    }
+
+    // To where the next cycle starts; returns the largest move.
+    double advance(const Points& before) {
         if (accelerated_) {
-            const auto n = 3L * level_.patch.free_count;
-            Eigen::Map<VectorX> free(step.data(), n);
-            free = anderson_.step(Eigen::Map<const VectorX>(before.data(), n), VectorX(free));
-            const double largest = largest_length(step);
-            if (largest > largest_step) step *= largest_step / largest;
-            update_.move_to(before + step);
+            const auto n = level_.patch.free_count;
+            Points x = before.leftCols(n).array().rowwise() * weights_.array();
+            const Points f = (update_.points() - before).leftCols(n).array().rowwise() * weights_.array();
+            const auto flat = [](const Points& points) {
+                return Eigen::Map<const VectorX>(points.data(), points.size());
+            };
+            const VectorX step = anderson_.step(flat(x), flat(f));
+            x = Eigen::Map<const Points>(step.data(), 3, n).array().rowwise() / weights_.array();
+            const double longest = x.colwise().norm().maxCoeff();
+            Points after = before;
+            after.leftCols(n) += longest > largest_step ? Points(x * (largest_step / longest)) : x;
+            update_.move_to(after);
         }
-        remaining_.add(std::max(change, largest_length(step)));
+        return largest(update_.points(), before);
     }
 
     // Smaller steps, where vertices alternate between positions (§7.5), mostly next to an outline that is much finer
@@ -124,6 +150,7 @@ private:
     const Points& start_;
     const IterationLimits limits_;
     bool accelerated_;
+    Eigen::RowVectorXd weights_;
     LevelUpdate update_;
     Anderson anderson_;
     ProgressWatch watch_;

@@ -18,8 +18,8 @@ public:
     // where the surface has left all bounds.
     bool measure_again();
 
-    // Step I, "local" (Gauss–Seidel sweeps) or "global" (conjugate gradient steps), then step II with damping s. Asks
-    // for a measurement before.
+    // Step I, "local" (Gauss–Seidel sweeps) or "global" (conjugate gradient steps), then step II with damping s
+    // (accelerated: less of it next to fixed vertices). Asks for a measurement before.
     void local(double damping);
     void global(double damping);
 
@@ -34,6 +34,7 @@ private:
     const LevelProblem& level_;
     CurvatureEquation equation_;
     LevelState state_;
+    VectorX share_;  // of s, for each free vertex
 };
 
 }  // namespace fairing

@@ -24,7 +24,7 @@ struct PaperOptions {
     int vertex_sweeps = 1;  // sweeps over the vertices in each update (§7.2)
     double epsilon = 0.0;   // stop at max |Δ_B H − f| D³ ≤ ε (|H| D for minimal surfaces); 0: from the tolerance
     Acceleration acceleration = Acceleration::plain;
-    VirtualPoints virtual_points = VirtualPoints::coarse;
+    VirtualPoints virtual_points = VirtualPoints::everywhere;
     PaperStart start = PaperStart::improved;
     int levels = 0;  // 0: chosen
 };

@@ -81,7 +81,7 @@ private:
     }
 
     // Coarse levels need not be more accurate than they differ from the next finer one. Their outline is much finer
-    // than they are inside, where larger s than about ½ makes vertices alternate.
+    // than they are inside, where without acceleration s above about ½ makes vertices alternate.
     [[nodiscard]] IterationLimits limits_of(int level) const {
         constexpr double coarse_tolerance = 1e-3;  // units of D
         constexpr double coarse_damping = 0.55;
@@ -90,7 +90,7 @@ private:
         if (hierarchy_.is_finest(level))
             return {paper.epsilon, options.tolerance, options.max_iterations, paper.damping};
         return {0.0, std::max(options.tolerance, coarse_tolerance), std::clamp(2 * options.max_iterations, 100, 400),
-                coarse_damping * paper.damping};
+                paper.acceleration == Acceleration::plain ? coarse_damping * paper.damping : paper.damping};
     }
 
     void fair(int level, const Progress& progress) {
@@ -120,7 +120,7 @@ private:
     Points raise_load(const LevelProblem& level, Points points, const Progress& progress) {
         constexpr double smallest_increment = 1.0 / 32.0;
         if (options_.equation != Equation::constant || options_.load == 0.0) return points;
-        const IterationLimits limits{0.0, 1e-3, 100, 0.55 * pp_.paper.damping};
+        const IterationLimits limits{0.0, 1e-3, 100, limits_of(0).damping};
         const double whole = options_.load;
         double reached = 0.0;
         for (double increment = 1.0; reached < 1.0 && increment >= smallest_increment;) {

@@ -13,7 +13,7 @@ namespace fairing {
 namespace {
 
 constexpr int fairness_sweeps = 2;   // of step (2)
-constexpr int curvature_rounds = 2;  // of step (3)
+constexpr int curvature_rounds = 1;  // of step (3)
 constexpr int curvature_sweeps = 3;  // of H in each of them
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }

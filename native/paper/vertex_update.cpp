@@ -19,7 +19,7 @@ Vector3 updated_position(const Disk& disk, const DiskField& field, const VertexT
     const Vector3 present = field.points.col(disk.centre);
     const Vector3 start = target.mean - target.normal.dot(target.mean - present) * target.normal;
     const CurvatureLine line = curvature_line(disk, field, target.weights, start, target.normal);
-    if (!(line.slope < 0.0)) return start;
+    if (!(std::abs(line.slope) > 0.0)) return start;
     const double limit = spoke_length(disk, field.points, start);
     const double t = std::clamp((target.curvature - line.mean) / line.slope, -limit, limit);
     return std::isfinite(t) ? Vector3(start + target.damping * t * target.normal) : present;

@@ -86,7 +86,7 @@ def fair(
     progress : callable(fraction, stage) -> None | bool
         Called between steps; returning False cancels.
     damping : float in (0, 1]
-        "paper": s of §7.5; default 0.9, accelerated 0.7.
+        "paper": s of §7.5, default 0.9.
     cg_steps : int
         "paper": conjugate gradient steps of a global H-update (§7.1), default 60.
     sweeps : int

@@ -20,17 +20,15 @@ ACCELERATIONS = ("anderson", "none")
 
 # What method "paper" does where the caller says nothing; with acceleration "none" as published.
 PAPER_DEFAULTS: dict[str, Any] = {
+    "damping": 0.9,
     "cg_steps": 60,
     "sweeps": 1,
     "epsilon": None,
     "acceleration": "anderson",
-    "virtual_points": "coarse",
+    "virtual_points": "everywhere",
     "start": "improved",
 }
-UPDATE_DEFAULTS: dict[str, dict[str, Any]] = {
-    "none": {"damping": 0.9, "vertex_sweeps": 1},
-    "anderson": {"damping": 0.7, "vertex_sweeps": 2},
-}
+VERTEX_SWEEPS = {"none": 1, "anderson": 2}
 
 
 def paper_choices(method: str, levels: int, given: dict[str, Any]) -> _core.PaperChoices:
@@ -41,7 +39,7 @@ def paper_choices(method: str, levels: int, given: dict[str, Any]) -> _core.Pape
         raise ValueError(f"{name}: is an option of method 'paper'; method {method!r} does not accept it")
     chosen = {**PAPER_DEFAULTS, **named}
     acceleration = _arguments.choice("acceleration", chosen["acceleration"], ACCELERATIONS)
-    chosen = {**UPDATE_DEFAULTS[acceleration], **chosen}
+    chosen = {"vertex_sweeps": VERTEX_SWEEPS[acceleration], **chosen}
     damping = _arguments.positive("damping", chosen["damping"])
     if damping > 1.0:
         raise ValueError(f"damping: {damping} is not accepted; accepted is above 0 and up to 1")
