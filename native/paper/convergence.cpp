@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::size_t fewest_steps = 4;
 constexpr std::size_t most_steps = 10;
-constexpr double slowest = 0.9999;  // contraction
+constexpr double fastest = 0.8;  // contraction
+constexpr double slowest = 0.9999;
 
 constexpr std::size_t window = 10;  // cycles over which growth shows
 constexpr double growth_of_alternation = 2.0;
@@ -31,9 +32,11 @@ void RemainingChange::add(double step) {
 
 double RemainingChange::estimate() const {
     if (steps_.size() < fewest_steps) return std::numeric_limits<double>::infinity();
-    const double last = std::max(steps_.back(), steps_[steps_.size() - 2]);
+    // Accelerated steps fall unevenly: a single small one says little.
+    const double last = *std::max_element(steps_.end() - 3, steps_.end());
     const double ratio = last / std::max(steps_.front(), 1e-300);
-    const double contraction = std::min(std::pow(ratio, 1.0 / static_cast<double>(steps_.size() - 2)), slowest);
+    const double between = static_cast<double>(steps_.size() - 3);
+    const double contraction = std::clamp(std::pow(ratio, 1.0 / between), fastest, slowest);
     return last * contraction / (1.0 - contraction);
 }
 

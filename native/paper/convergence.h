@@ -11,7 +11,8 @@ class RemainingChange {
 public:
     // Largest move of a vertex in one cycle.
     void add(double step);
-    // step · ρ/(1 − ρ), ρ the mean contraction over the last ten steps; infinite while there are fewer than four.
+    // step · ρ/(1 − ρ), the step being the largest of the last three and ρ the mean contraction over the last ten, but
+    // no less than 0.8; infinite while there are fewer than four.
     [[nodiscard]] double estimate() const;
     // Part of the decades from the first estimate down to the tolerance.
     [[nodiscard]] double share_done(double tolerance) const;

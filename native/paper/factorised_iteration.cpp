@@ -13,7 +13,7 @@ namespace fairing {
 
 namespace {
 
-constexpr int history_depth = 12;
+constexpr int history_depth = 16;
 constexpr double largest_step = 0.1;  // of the acceleration, units of D
 constexpr double smallest_damping = 0.05;
 

@@ -13,7 +13,7 @@ namespace fairing {
 namespace {
 
 constexpr int fairness_sweeps = 2;   // of step (2)
-constexpr int curvature_rounds = 1;  // of step (3)
+constexpr int curvature_rounds = 2;  // of step (3)
 constexpr int curvature_sweeps = 3;  // of H in each of them
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
@@ -54,9 +54,9 @@ public:
         mesh_.vertex_split(handle(collapse.removed), handle(collapse.kept), handle(collapse.left),
                            handle(collapse.right));
         gather(collapse.removed);
-        points.col(collapse.removed) = weighted_mean(0, points);
+        points.col(collapse.removed) = weighted_mean(stored_[0], points);
         for (int sweep = 0; sweep < fairness_sweeps; ++sweep) {
-            for_each_movable([&](std::size_t k) { points.col(stored_[k].centre) = weighted_mean(k, points); });
+            for_each_movable([&](std::size_t k) { points.col(stored_[k].centre) = weighted_mean(stored_[k], points); });
         }
         for (int round = 0; round < curvature_rounds; ++round) make_fair(completed, points);
         for (std::size_t k = 0; k < stored_count_; ++k) slot_[at(stored_[k].centre)] = none;
@@ -132,9 +132,8 @@ private:
         ring_weights({setting_.reference.col(disk.centre), ring_, true}, setting_.inner_fairness, disk.lambda);
     }
 
-    [[nodiscard]] Vector3 weighted_mean(std::size_t k, const Points& points) const {
+    [[nodiscard]] static Vector3 weighted_mean(const StoredDisk& disk, const Points& points) {
         Vector3 sum = Vector3::Zero();
-        const StoredDisk& disk = stored_[k];
         for (std::size_t j = 0; j < disk.lambda.size(); ++j) sum += disk.lambda[j] * points.col(disk.neighbours[j]);
         return sum;
     }
@@ -145,12 +144,13 @@ private:
         for (int sweep = 0; sweep < curvature_sweeps; ++sweep) {
             for_each_movable([&](std::size_t k) { relax_curvature(k); });
         }
-        for_each_movable([&](std::size_t k) {
-            const Disk disk = disk_of(stored_[k], completed);
-            const VertexTarget target{normals_.col(disk.centre), stored_[k].curvature_weights, weighted_mean(k, points),
-                                      H_[disk.centre], setting_.paper.damping};
-            points.col(disk.centre) = updated_position(disk, {points, arcs_}, target);
-        });
+        for_each_movable([&](std::size_t k) { move(stored_[k], completed, points); });
+    }
+
+    void move(const StoredDisk& stored, bool completed, Points& points) const {
+        const VertexTarget target{normals_.col(stored.centre), stored.curvature_weights, weighted_mean(stored, points),
+                                  H_[stored.centre], setting_.paper.damping};
+        points.col(stored.centre) = updated_position(disk_of(stored, completed), {points, arcs_}, target);
     }
 
     [[nodiscard]] bool prescribed(int v) const {
