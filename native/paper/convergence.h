@@ -9,12 +9,11 @@ namespace fairing {
 // The changes still to come, from the latest steps of a linearly convergent iteration.
 class RemainingChange {
 public:
-    // Largest move of a vertex in one cycle.
-    void add(double step);
+    void add(double step);  // largest move of a vertex in one cycle
     // step · ρ/(1 − ρ), the step being the largest of the last three and ρ the mean contraction over the last ten, but
     // no less than 0.8; infinite while there are fewer than four.
     [[nodiscard]] double estimate() const;
-    // Part of the decades from the first estimate down to the tolerance.
+    // Decades from the first estimate down to the tolerance: the part that is done.
     [[nodiscard]] double share_done(double tolerance) const;
 
 private:
@@ -30,27 +29,25 @@ struct Change {
 };
 
 enum class Verdict {
-    better,       // than ever since the restart
+    better,       // than ever
     fair,         // go on
     alternating,  // vertices alternate between positions (§7.5), or nothing moves any more
     lost          // no longer finite
 };
 
-// Follows the merit of an iteration, cycle by cycle: of the plain one its residual, which must not grow or rest for
-// long; of the accelerated one its changes, which may grow for a while: its history tames modes that the plain one
-// doesn't. That one may run into positions at which the two updates of a cycle undo each other: they are no solution.
+// Follows an iteration, cycle by cycle. The merit of the plain one, its residual, must not grow or rest for long; that
+// of the accelerated one, its changes, may grow for a while: the history tames modes that the plain one doesn't. That
+// one may run into positions at which the two updates of a cycle undo each other: they are no solution.
 class ProgressWatch {
 public:
     explicit ProgressWatch(bool accelerated) : accelerated_(accelerated) {}
     Verdict judge(const Change& change);
-    // After a change of the damping.
-    void restart();
+    void restart();  // after a change of the damping
 
 private:
     [[nodiscard]] bool undoing(const Change& change);
     [[nodiscard]] bool growing() const;
     [[nodiscard]] bool resting() const;
-
     bool accelerated_;
     bool restarted_ = false;
     std::deque<double> recent_;

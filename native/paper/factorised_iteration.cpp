@@ -46,7 +46,7 @@ public:
     IterationOutcome run(const Progress& progress) {
         outcome_.points = start_;
         outcome_.initial_residual = outcome_.residual = update_.measure();
-        if (limits_.max_iterations > 0) update_.local(damping_);
+        if (limits_.max_iterations > 0 && std::isfinite(outcome_.residual)) update_.local(damping_);
         for (int updates = 1; updates <= limits_.max_iterations; updates += 2) {
             report(updates, progress);
             outcome_.iterations = updates;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/progress.h"
-#include "paper/level.h"
+#include "paper/level_problem.h"
 
 namespace fairing {
 
