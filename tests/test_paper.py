@@ -161,6 +161,30 @@ def test_a_fixed_curve_inside_the_mesh_separates_two_patches() -> None:
     assert np.abs(np.linalg.norm(result.vertices[capsule.below, :2], axis=1) - 1).max() < 0.02
 
 
+def test_a_closed_mesh_is_held_by_circles_alone() -> None:
+    """The tetrathing's way (Fig. 8) on a torus cut by six circles, one H for each side of them."""
+    around, across = 66, 16
+    u, v = (a.ravel() for a in np.mgrid[:around, :across])
+    turn, lift = 2 * np.pi * u / around, 2 * np.pi * v / across
+    outward = np.column_stack([np.cos(turn) * np.cos(lift), np.sin(turn) * np.cos(lift), np.sin(lift)])
+    vertices = 0.5 * outward + 1.5 * np.column_stack([np.cos(turn), np.sin(turn), 0 * turn])
+
+    def at(di: int, dj: int) -> Any:
+        return (u + di) % around * across + (v + dj) % across
+
+    triangles = np.vstack(
+        [np.column_stack(t) for t in ((at(0, 0), at(1, 0), at(1, 1)), (at(0, 0), at(1, 1), at(0, 1)))]
+    )
+    fixed = np.flatnonzero(u % 11 == 0)
+    options = {"fixed": fixed, "fixed_normals": outward[fixed]}
+    paper = fairing.fair(vertices, triangles, method="paper", **options)
+    fast = fairing.fair(vertices, triangles, normals="averaged", **options)
+    assert paper.converged
+    assert fast.converged
+    assert np.abs(paper.vertices - fast.vertices).max() < 1e-4
+    assert paper.boundary_angle.max() < 3.0
+
+
 def test_minimal_energy_surfaces_reproduce_spheres() -> None:
     patch = shapes.cap(300, MILD, half_angle=60)
     result = fair(patch, equation="minimal_energy")

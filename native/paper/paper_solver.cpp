@@ -100,11 +100,12 @@ private:
         const Points reference = pp_.reference(Eigen::all, numbers);
         const LevelProblem lp = level_problem(level, reference);
         Points start = points_(Eigen::all, numbers);
-        if (level == 0) {
+        // A coarser level that did not converge says nothing about this one.
+        if (!coarser_converged_) {
             const Stiffness stiffness = start_stiffness(patch, pp_.inner_fairness, reference);
             start = start_of_level(lp, stiffness, problem_.fixed_points, progress.range(0.0, 0.1));
             start = raise_load(lp, std::move(start), progress.here());
-            solution_.seconds["start"] = watch.lap();
+            solution_.seconds["start"] += watch.lap();
         }
         IterationOutcome outcome = fair_level(lp, start, limits_of(level), progress.range(0.1, 1.0));
         if (hierarchy_.is_finest(level) && options_.load != problem_.options.load) confess(lp, outcome);
@@ -112,6 +113,7 @@ private:
         for (std::size_t v = 0; v < numbers.size(); ++v) {
             points_.col(numbers[v]) = outcome.points.col(static_cast<Eigen::Index>(v));
         }
+        coarser_converged_ = outcome.termination == Termination::converged;
         record(level, outcome);
     }
 
@@ -119,9 +121,9 @@ private:
     // not reached here is out of reach on the finer levels too: the branch of solutions has ended.
     Points raise_load(const LevelProblem& level, Points points, const Progress& progress) {
         constexpr double smallest_increment = 1.0 / 32.0;
-        if (options_.equation != Equation::constant || options_.load == 0.0) return points;
+        if (options_.equation != Equation::constant || problem_.options.load == 0.0) return points;
         const IterationLimits limits{0.0, 1e-3, 100, limits_of(0).damping};
-        const double whole = options_.load;
+        const double whole = problem_.options.load;
         double reached = 0.0;
         for (double increment = 1.0; reached < 1.0 && increment >= smallest_increment;) {
             options_.load = whole * std::min(1.0, reached + increment);  // `level` looks at these options
@@ -160,6 +162,7 @@ private:
     const Patch& patch_;
     SolverOptions options_;  // with as much of the load as there is a solution for
     const Progress& progress_;
+    bool coarser_converged_ = false;
     Hierarchy hierarchy_;
     Points points_;
     Solution solution_;

@@ -97,13 +97,14 @@ def fair(
         "paper": stop at max |Δ_B H − f| D³ ≤ ``epsilon`` (|H| D for "minimal"); default: where the changes still to
         come, estimated from the last ones, are ``tolerance`` × D.
     acceleration : "anderson" | "none"
-        "paper": whether each cycle of updates starts from the best combination of the last twenty (default), or
+        "paper": whether each cycle of updates starts from the best combination of the last sixteen (default), or
         where the last one ended, as published.
     virtual_points : "sparse" | "coarse" | "everywhere"
         "paper": which fits of H get virtual points (§6.2) besides valence 3 and 4 and fixed vertices: no others,
-        all on the coarse levels (default), all.
+        all on the coarse levels (as published), all (default).
     start : "improved" | "linear"
         "paper": fill of the coarsest level: the linear bilaplacian, or made fair by mixed finite elements (default).
+        With ``levels=1, max_iterations=1`` it is what comes back.
 
     Returns
     -------
