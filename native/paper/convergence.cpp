@@ -35,7 +35,7 @@ double RemainingChange::estimate() const {
     // Accelerated steps fall unevenly: a single small one says little.
     const double last = *std::max_element(steps_.end() - 3, steps_.end());
     const double ratio = last / std::max(steps_.front(), 1e-300);
-    const double between = static_cast<double>(steps_.size() - 3);
+    const auto between = static_cast<double>(steps_.size() - 3);
     const double contraction = std::clamp(std::pow(ratio, 1.0 / between), fastest, slowest);
     return last * contraction / (1.0 - contraction);
 }

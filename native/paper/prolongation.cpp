@@ -86,11 +86,13 @@ private:
     void gather(int vertex) {
         stored_count_ = 0;
         store(vertex);
+        // By index: storing a disk may move the others. NOLINTBEGIN(modernize-loop-convert)
         for (std::size_t k = 0; k < stored_[0].neighbours.size(); ++k) store(stored_[0].neighbours[k]);
         inner_count_ = stored_count_;
         for (std::size_t k = 1; k < inner_count_; ++k) {
             for (std::size_t j = 0; j < stored_[k].neighbours.size(); ++j) store(stored_[k].neighbours[j]);
         }
+        // NOLINTEND(modernize-loop-convert)
         for_each_movable([&](std::size_t k) { find_lambda(stored_[k]); });
     }
 

@@ -17,7 +17,7 @@ double spoke_length(const Disk& disk, const Points& points, const Vector3& centr
 
 Vector3 updated_position(const Disk& disk, const DiskField& field, const VertexTarget& target) {
     const Vector3 present = field.points.col(disk.centre);
-    const Vector3 start = target.mean - target.normal.dot(target.mean - present) * target.normal;
+    Vector3 start = target.mean - target.normal.dot(target.mean - present) * target.normal;
     const CurvatureLine line = curvature_line(disk, field, target.weights, start, target.normal);
     if (!(std::abs(line.slope) > 0.0)) return start;
     const double limit = spoke_length(disk, field.points, start);
