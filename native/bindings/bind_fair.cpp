@@ -78,7 +78,9 @@ struct PaperChoices {
     double damping;
     int cg_steps;
     int h_sweeps;
+    int vertex_sweeps;
     double epsilon;
+    std::string acceleration;
     std::string virtual_points;
     std::string start;
     int levels;
@@ -99,7 +101,8 @@ InnerFairness to_inner_fairness(const std::string& name) {
 }
 
 PaperOptions to_paper_options(const PaperChoices& choices) {
-    PaperOptions result{choices.damping, choices.cg_steps, choices.h_sweeps, choices.epsilon};
+    PaperOptions result{choices.damping, choices.cg_steps, choices.h_sweeps, choices.vertex_sweeps, choices.epsilon};
+    if (choices.acceleration == "anderson") result.acceleration = Acceleration::anderson;
     if (choices.virtual_points == "sparse") result.virtual_points = VirtualPoints::sparse;
     if (choices.virtual_points == "everywhere") result.virtual_points = VirtualPoints::everywhere;
     result.start = choices.start == "linear" ? PaperStart::linear : PaperStart::improved;
@@ -163,9 +166,9 @@ void bind_fair(py::module_& module) {
              py::arg("equation"), py::arg("load"), py::arg("inner_fairness"), py::arg("method"), py::arg("normals"),
              py::arg("tolerance"), py::arg("max_iterations"));
     py::class_<PaperChoices>(module, "PaperChoices")
-        .def(py::init<double, int, int, double, std::string, std::string, int>(), py::kw_only(), py::arg("damping"),
-             py::arg("cg_steps"), py::arg("h_sweeps"), py::arg("epsilon"), py::arg("virtual_points"), py::arg("start"),
-             py::arg("levels"));
+        .def(py::init<double, int, int, int, double, std::string, std::string, std::string, int>(), py::kw_only(),
+             py::arg("damping"), py::arg("cg_steps"), py::arg("h_sweeps"), py::arg("vertex_sweeps"), py::arg("epsilon"),
+             py::arg("acceleration"), py::arg("virtual_points"), py::arg("start"), py::arg("levels"));
     module.def("fair", &fair_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("fixed_normals"), py::arg("reference"), py::arg("neighbours"), py::arg("weights"),
                py::arg("options"), py::arg("paper"), py::arg("progress"));

@@ -9,25 +9,27 @@ namespace fairing {
 // vanishes (§5). Both solvers start from the H that they are given and are not meant to finish. Holds scratch memory.
 class CurvatureEquation {
 public:
-    explicit CurvatureEquation(const Patch& patch) : patch_(patch) {}
+    explicit CurvatureEquation(const Patch& patch);
 
-    // The diagonal of S; assembled once for each update of the mesh. `stiffness` must outlive the solves.
+    // S; once for each update of the mesh.
     void assemble(const Stiffness& stiffness);
 
     // "local": Gauss–Seidel sweeps over the free vertices.
     void sweep(const VectorX& rhs, int sweeps, VectorX& H) const;
     // "global": conjugate gradient steps, preconditioned by the diagonal.
-    void conjugate_gradients(const VectorX& rhs, int steps, VectorX& H);
+    void conjugate_gradients(const VectorX& rhs, int steps, VectorX& H) const;
     // rhs − S H (free count).
     [[nodiscard]] VectorX defect(const VectorX& rhs, const VectorX& H) const;
 
 private:
-    // Σ_j w_ij f_j over all neighbours, or over the free ones.
+    // Σ_j w_ij f_j over the neighbours.
     [[nodiscard]] double neighbour_sum(int i, const VectorX& f) const;
-    void multiply(const VectorX& p, VectorX& Sp) const;
 
-    const Patch& patch_;
-    const Stiffness* stiffness_ = nullptr;
+    int free_count_;
+    Indices begin_;  // rows of the free vertices: neighbours, their edges and weights
+    Indices columns_;
+    Indices edges_;
+    std::vector<double> weights_;
     VectorX diagonal_;
 };
 

@@ -1,10 +1,7 @@
-// Normals and curvatures of 1-disks by the paper's rules (§6).
+// 1-disks and what surrounds them, as the paper's construction sees them (§4, §6).
 #pragma once
 
-#include <vector>
-
-#include "paper/curvature_line.h"
-#include "paper/disk.h"
+#include "geometry/virtual_points.h"
 
 namespace fairing {
 
@@ -15,26 +12,25 @@ enum class VirtualPoints {
     everywhere  // at every vertex of every level
 };
 
+// The 1-disk D(q_i) of a vertex, however the connectivity is stored. `ring.rim[k]` is the column of `arcs` below that
+// belongs to the edge from neighbour k to k + 1; spokes are not looked at.
+struct Disk {
+    int centre = none;
+    RingView ring;
+    bool completed = false;  // a virtual point between every two consecutive neighbours joins the fit
+};
+
+// What disks are measured on: positions (3 × vertices) and, for each rim edge, the vector from the middle of its chord
+// to its virtual point. Kept apart from the chord, it stays good enough while vertices move one after the other.
+struct DiskField {
+    const Points& points;
+    const Points& arcs;
+};
+
 // Averages the cross products around the disk (§6). Zero when they cancel.
 Vector3 disk_normal(const Disk& disk, const Points& points);
 
-// Fits curvatures of disks; holds scratch memory. `points` and `normals` (3 × vertices) must outlive it.
-class DiskCurvature {
-public:
-    DiskCurvature(const Points& points, const Points& normals) : points_(points), normals_(normals) {}
-
-    // Of the disk with its centre moved to `centre` and `normal` there, from the neighbours and, where `completed`, a
-    // virtual point between every two consecutive ones.
-    CurvatureLine operator()(const Disk& disk, const Vector3& centre, const Vector3& normal, bool completed);
-    // At the present position and normal.
-    CurvatureLine operator()(const Disk& disk, bool completed);
-
-private:
-    [[nodiscard]] Vector3 virtual_point_at(const Disk& disk, const Vector3& centre, std::size_t k) const;
-
-    const Points& points_;
-    const Points& normals_;
-    std::vector<Vector3> ring_;
-};
+// The column of `arcs` for a chord.
+Vector3 arc_over(const NormalChord& chord);
 
 }  // namespace fairing

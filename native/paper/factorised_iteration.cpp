@@ -5,152 +5,158 @@
 #include <deque>
 #include <limits>
 
-#include "paper/vertex_update.h"
+#include "linear/anderson.h"
+#include "paper/convergence.h"
+#include "paper/level_update.h"
 
 namespace fairing {
 
 namespace {
 
-// Where vertices alternate between positions (§7.5), mostly next to an outline that is much finer than the mesh inside,
-// s is halved: when the residual has grown by this factor within so many updates, when it hardly falls any more, or
-// when the surface leaves all bounds.
-constexpr double growth_of_alternation = 2.0;
-constexpr std::size_t window = 20;
-constexpr double widest_surface = 4.0;  // units of D
+constexpr int history_depth = 16;
+constexpr double largest_step = 0.1;  // of the acceleration, units of D
 constexpr double smallest_damping = 0.05;
-constexpr double hardly_falling = 0.97;  // lowest residual of a spell of updates over that of the spell before
-constexpr int spell = 30;
-// Updates without a hundredth less of the residual.
-constexpr int patience = 300;
 
+// Mean edge length over that around each free vertex: the weight of its moves, so that crowded regions settle too.
+Eigen::RowVectorXd crowding(const Patch& patch, const Points& points) {
+    Eigen::RowVectorXd inverse(patch.free_count);
+    for (int i = 0; i < patch.free_count; ++i) {
+        const auto neighbours = patch.ring(i).vertices;
+        double sum = 0.0;
+        for (int v : neighbours) sum += (points.col(v) - points.col(i)).norm();
+        inverse[i] = static_cast<double>(neighbours.size()) / std::max(sum, 1e-300);
+    }
+    return inverse * inverse.cwiseInverse().mean();
+}
+
+// Cycles of a global and a local update, after a local one that smooths what the prolongation has left.
 class FactorisedIteration {
 public:
     FactorisedIteration(const LevelProblem& level, const Points& start, const IterationLimits& limits)
         : level_(level),
           start_(start),
           limits_(limits),
-          damping_(limits.damping),
-          disks_(level.patch),
-          equation_(level.patch) {
-        state_.points = start;
-    }
+          accelerated_(level.paper.acceleration == Acceleration::anderson),
+          weights_(crowding(level.patch, start)),
+          update_(level, start),
+          anderson_(3L * level.patch.free_count, history_depth),
+          watch_(accelerated_),
+          damping_(limits.damping) {}
 
     IterationOutcome run(const Progress& progress) {
-        for (int k = 0;; ++k) {
-            report(k, progress);
-            const double residual = measure();
-            outcome_.iterations = k;
-            keep_best(residual, k);
-            if (residual <= limits_.epsilon && state_.unfairness(level_, disks_) <= limits_.unfairness) {
-                outcome_.termination = Termination::converged;
-                break;
-            }
-            if (k == limits_.max_iterations) break;
-            if (k - improved_at_ > patience || damping_ < smallest_damping) {
+        outcome_.points = start_;
+        outcome_.initial_residual = outcome_.residual = update_.measure();
+        if (limits_.max_iterations > 0 && std::isfinite(outcome_.residual)) update_.local(damping_);
+        for (int updates = 1; updates <= limits_.max_iterations; updates += 2) {
+            report(updates, progress);
+            outcome_.iterations = updates;
+            const double residual = update_.measure();
+            if (finished(residual)) return converged(residual);
+            if (updates == limits_.max_iterations) break;
+            cycle(residual, progress);
+            if (damping_ < smallest_damping) {
                 outcome_.termination = Termination::stalled;
                 break;
             }
-            calm_alternation(residual, k);
-            update_vertices(wanted_curvature(k));
         }
         return std::move(outcome_);
     }
 
 private:
-    void report(int k, const Progress& progress) const {
-        const double decades = std::log10(std::max(outcome_.initial_residual / limits_.epsilon, 10.0));
-        const double gained = k > 0 ? std::log10(std::max(outcome_.initial_residual / outcome_.residual, 1.0)) : 0.0;
-        progress.report(std::max(gained / decades, static_cast<double>(k) / limits_.max_iterations), "iteration");
+    void report(int updates, const Progress& progress) const {
+        progress.report(std::max(remaining_.share_done(limits_.tolerance),
+                                 static_cast<double>(updates) / (limits_.max_iterations + 1)),
+                        "iteration");
     }
 
-    // Infinite where the surface has left all bounds: there the residual, a third power of 1/length, means nothing.
-    double measure() {
-        const double extent = state_.points.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-        if (!(extent < widest_surface)) return std::numeric_limits<double>::infinity();
-        state_.measure(level_, disks_);
-        equation_.assemble(state_.stiffness);
-        return state_.residual(level_, equation_);
+    [[nodiscard]] bool finished(double residual) const {
+        if (limits_.epsilon > 0.0) return residual <= limits_.epsilon && update_.unfairness() <= 0.04 * limits_.epsilon;
+        return std::isfinite(residual) && remaining_.estimate() <= limits_.tolerance;
     }
 
-    void keep_best(double residual, int k) {
-        if (residual < 0.99 * mark_) {
-            mark_ = residual;
-            improved_at_ = k;
-        }
-        if (k == 0) {
-            outcome_.initial_residual = residual;
-        } else if (!(residual < outcome_.residual)) {
-            return;
-        }
+    IterationOutcome converged(double residual) {
+        outcome_.points = update_.points();
         outcome_.residual = residual;
-        outcome_.points = state_.points;
+        outcome_.termination = Termination::converged;
+        return std::move(outcome_);
     }
 
-    [[nodiscard]] bool growing() const {
-        return recent_.size() > window && recent_.back() > growth_of_alternation * recent_[recent_.size() - 1 - window];
+    // One cycle; the residual is that of its first positions.
+    void cycle(double residual, const Progress& progress) {
+        const Points before = update_.points();
+        Change change;
+        if (std::isfinite(residual)) {
+            update_.global(damping_);
+            progress.here().report(0.0, "iteration");
+            const Points between = update_.points();
+            if (update_.measure_again()) update_.local(damping_);
+            change.largest = std::max(largest(update_.points(), between), largest(between, before));
+            change.together = largest(update_.points(), before);
+        }
+        change.merit = accelerated_ ? change.largest / damping_ : residual;
+        switch (watch_.judge(change)) {
+            case Verdict::better:
+                outcome_.points = before;
+                outcome_.residual = residual;
+                break;
+            case Verdict::fair: break;
+            case Verdict::alternating: return calm(false);
+            case Verdict::lost: return calm(true);
+        }
+        const double step = advance(before);
+        remaining_.add(std::max(change.largest, step));
     }
 
-    [[nodiscard]] bool resting() const {
-        if (recent_.size() < 2 * spell || damping_ < limits_.damping) return false;
-        const auto middle = recent_.end() - spell;
-        const double before = *std::min_element(middle - spell, middle);
-        return *std::min_element(middle, recent_.end()) > hardly_falling * before;
+    // Largest weighted move.
+    [[nodiscard]] double largest(const Points& after, const Points& before) const {
+        const auto n = level_.patch.free_count;
+        return ((after - before).leftCols(n).colwise().norm().array() * weights_.array()).maxCoeff();
     }
 
-    void calm_alternation(double residual, int k) {
-        recent_.push_back(residual);
-        if (recent_.size() > 2 * spell) recent_.pop_front();
-        const bool escaped = !std::isfinite(residual);
-        if (!escaped && !growing() && !resting()) return;
+    // To where the next cycle starts; returns the largest move.
+    double advance(const Points& before) {
+        if (accelerated_) {
+            const auto n = level_.patch.free_count;
+            Points x = before.leftCols(n).array().rowwise() * weights_.array();
+            const Points f = (update_.points() - before).leftCols(n).array().rowwise() * weights_.array();
+            const auto flat = [](const Points& points) {
+                return Eigen::Map<const VectorX>(points.data(), points.size());
+            };
+            const VectorX step = anderson_.step(flat(x), flat(f));
+            x = Eigen::Map<const Points>(step.data(), 3, n).array().rowwise() / weights_.array();
+            const double longest = x.colwise().norm().maxCoeff();
+            Points after = before;
+            after.leftCols(n) += longest > largest_step ? Points(x * (largest_step / longest)) : x;
+            update_.move_to(after);
+        }
+        return largest(update_.points(), before);
+    }
+
+    // Smaller steps, where vertices alternate between positions (§7.5), mostly next to an outline that is much finer
+    // than the mesh inside. A surface that is lost begins again.
+    void calm(bool lost) {
         damping_ *= 0.5;
-        recent_.clear();
-        mark_ = residual;
-        improved_at_ = k;
-        if (!escaped) return;
+        anderson_.reset();
+        remaining_ = RemainingChange();
+        watch_.restart();
+        if (!lost) return;
         // Not from the lowest residual so far: it falls with the third power of the size of a surface that inflates.
-        state_.points = start_;
+        update_.move_to(start_);
         outcome_.points = start_;
         outcome_.residual = outcome_.initial_residual;
-        measure();
-    }
-
-    // H̃: step I, local and global in turn, from the present curvature.
-    VectorX wanted_curvature(int k) {
-        if (level_.solver.equation == Equation::minimal) return VectorX::Zero(level_.patch.vertex_count());
-        VectorX H = state_.H;
-        const VectorX rhs = state_.right_hand_side(level_);
-        if (k % 2 == 0) {
-            equation_.sweep(rhs, level_.paper.h_sweeps, H);
-        } else {
-            equation_.conjugate_gradients(rhs, level_.paper.cg_steps, H);
-        }
-        return H;
-    }
-
-    // Step II: neighbours that have moved count with their new position.
-    void update_vertices(const VectorX& wanted) {
-        DiskCurvature curvature(state_.points, state_.normals);
-        for (int i = 0; i < level_.patch.free_count; ++i) {
-            const Disk disk = disks_[i];
-            const Vector3 normal = disk_normal(disk, state_.points);
-            const VertexTarget target{level_.weights.mean(i, state_.points), wanted[i], damping_,
-                                      level_.completes(i, disk.valence())};
-            state_.points.col(i) = updated_position(disk, state_.points, normal, target, curvature);
-            state_.normals.col(i) = normal;
-        }
     }
 
     const LevelProblem& level_;
     const Points& start_;
     const IterationLimits limits_;
+    bool accelerated_;
+    Eigen::RowVectorXd weights_;
+    LevelUpdate update_;
+    Anderson anderson_;
+    ProgressWatch watch_;
+    RemainingChange remaining_;
     double damping_;
-    std::deque<double> recent_;  // residuals since the damping was changed
-    DiskTable disks_;
-    CurvatureEquation equation_;
-    LevelState state_;
     IterationOutcome outcome_;
-    double mark_ = std::numeric_limits<double>::infinity();
-    int improved_at_ = 0;
 };
 
 }  // namespace

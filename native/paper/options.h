@@ -1,4 +1,4 @@
-// What the paper lets one choose.
+// What the paper lets one choose, and what was added to it.
 #pragma once
 
 #include "paper/disk_geometry.h"
@@ -11,12 +11,20 @@ enum class PaperStart {
     improved  // the same, then made fair by mixed finite elements: for sparse and very irregular meshes
 };
 
+// What becomes of the updates' positions.
+enum class Acceleration {
+    plain,    // as published: each update starts where the last one ended
+    anderson  // the best affine combination of the last cycles (one global and one local update each)
+};
+
 struct PaperOptions {
-    double damping = 0.9;  // s of §7.5, in (0, 1]
-    int cg_steps = 60;     // n of the global H-update (§7.1)
-    int h_sweeps = 1;      // Gauss–Seidel sweeps of the local H-update
-    double epsilon = 0.0;  // stop at max |Δ_B H − f| D³ ≤ ε (|H| D for minimal surfaces); 0: from the tolerance
-    VirtualPoints virtual_points = VirtualPoints::coarse;
+    double damping = 0.9;   // s of §7.5, in (0, 1]
+    int cg_steps = 60;      // n of the global H-update (§7.1)
+    int h_sweeps = 1;       // Gauss–Seidel sweeps of the local H-update
+    int vertex_sweeps = 1;  // sweeps over the vertices in each update (§7.2)
+    double epsilon = 0.0;   // stop at max |Δ_B H − f| D³ ≤ ε (|H| D for minimal surfaces); 0: from the tolerance
+    Acceleration acceleration = Acceleration::plain;
+    VirtualPoints virtual_points = VirtualPoints::everywhere;
     PaperStart start = PaperStart::improved;
     int levels = 0;  // 0: chosen
 };

@@ -6,6 +6,7 @@
 
 #include "base/stopwatch.h"
 #include "paper/factorised_iteration.h"
+#include "paper/level_update.h"
 #include "paper/prolongation.h"
 #include "paper/start.h"
 
@@ -18,7 +19,7 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 class PaperSolver {
 public:
     PaperSolver(const PaperProblem& pp, const Progress& progress)
-        : pp_(pp), problem_(pp.problem), patch_(pp.problem.patch), progress_(progress) {}
+        : pp_(pp), problem_(pp.problem), patch_(pp.problem.patch), options_(pp.problem.options), progress_(progress) {}
 
     Solution run() {
         Stopwatch watch;
@@ -26,8 +27,8 @@ public:
         solution_.seconds["hierarchy"] = watch.lap();
         points_.setZero(3, patch_.vertex_count());
         points_.rightCols(problem_.fixed_points.cols()) = problem_.fixed_points;
-        const ProlongationSetting setting{
-            patch_, problem_.fixed_normals, pp_.reference, pp_.inner_fairness, problem_.options, pp_.paper};
+        const ProlongationSetting setting{patch_,   problem_.fixed_normals, pp_.reference, pp_.inner_fairness, options_,
+                                          pp_.paper};
         Prolongation prolongation(hierarchy_, setting);
         for (int k = 0; k < hierarchy_.level_count(); ++k) {
             const auto [begin, end] = share(k);
@@ -73,23 +74,23 @@ private:
                                (pp_.paper.virtual_points == VirtualPoints::coarse && !finest);
         return {patch_of(level),
                 problem_.fixed_normals,
-                problem_.options,
+                options_,
                 pp_.paper,
                 finest ? pp_.weights : row_weights(patch_of(level), reference, pp_.inner_fairness),
                 completed};
     }
 
     // Coarse levels need not be more accurate than they differ from the next finer one. Their outline is much finer
-    // than they are inside, where larger s than about ½ makes vertices alternate.
+    // than they are inside, where without acceleration s above about ½ makes vertices alternate.
     [[nodiscard]] IterationLimits limits_of(int level) const {
-        constexpr double coarse_epsilon = 1.0;
+        constexpr double coarse_tolerance = 1e-3;  // units of D
         constexpr double coarse_damping = 0.55;
-        const bool finest = hierarchy_.is_finest(level);
-        const double wanted = pp_.paper.epsilon > 0.0 ? pp_.paper.epsilon : default_epsilon(problem_.options);
-        const double epsilon = finest ? wanted : std::max(wanted, coarse_epsilon);
-        const int most = problem_.options.max_iterations;
-        return {epsilon, unfairness_limit(problem_.options, epsilon), finest ? most : std::clamp(2 * most, 100, 400),
-                finest ? pp_.paper.damping : coarse_damping * pp_.paper.damping};
+        const SolverOptions& options = options_;
+        const PaperOptions& paper = pp_.paper;
+        if (hierarchy_.is_finest(level))
+            return {paper.epsilon, options.tolerance, options.max_iterations, paper.damping};
+        return {0.0, std::max(options.tolerance, coarse_tolerance), std::clamp(2 * options.max_iterations, 100, 400),
+                paper.acceleration == Acceleration::plain ? coarse_damping * paper.damping : paper.damping};
     }
 
     void fair(int level, const Progress& progress) {
@@ -99,34 +100,51 @@ private:
         const Points reference = pp_.reference(Eigen::all, numbers);
         const LevelProblem lp = level_problem(level, reference);
         Points start = points_(Eigen::all, numbers);
-        if (level == 0) {
+        // A coarser level that did not converge says nothing about this one.
+        if (!coarser_converged_) {
             const Stiffness stiffness = start_stiffness(patch, pp_.inner_fairness, reference);
             start = start_of_level(lp, stiffness, problem_.fixed_points, progress.range(0.0, 0.1));
             start = raise_load(lp, std::move(start), progress.here());
-            solution_.seconds["start"] = watch.lap();
+            solution_.seconds["start"] += watch.lap();
         }
-        const IterationOutcome outcome = fair_level(lp, start, limits_of(level), progress.range(0.1, 1.0));
+        IterationOutcome outcome = fair_level(lp, start, limits_of(level), progress.range(0.1, 1.0));
+        if (hierarchy_.is_finest(level) && options_.load != problem_.options.load) confess(lp, outcome);
         solution_.seconds[hierarchy_.is_finest(level) ? "iteration" : "coarse levels"] += watch.lap();
         for (std::size_t v = 0; v < numbers.size(); ++v) {
             points_.col(numbers[v]) = outcome.points.col(static_cast<Eigen::Index>(v));
         }
+        coarser_converged_ = outcome.termination == Termination::converged;
         record(level, outcome);
     }
 
-    // The load of Δ_B H = load in steps, each from the last one's surface: its solutions lie far from the start.
-    [[nodiscard]] static Points raise_load(const LevelProblem& full, Points points, const Progress& progress) {
-        constexpr double largest_step = 15.0;  // units of 1/D³
-        constexpr int updates = 100;
-        if (full.solver.equation != Equation::constant) return points;
-        const int steps = std::min(20, static_cast<int>(std::ceil(std::abs(full.solver.load) / largest_step)));
-        for (int k = 0; k < steps; ++k) {
-            SolverOptions options = full.solver;
-            options.load *= static_cast<double>(k) / steps;
-            const LevelProblem level{full.patch, full.fixed_normals, options, full.paper, full.weights, full.completed};
-            points = fair_level(level, points, {1e-2 * largest_step, 1.0, updates, 0.5 * full.paper.damping}, progress)
-                         .points;
+    // The load of Δ_B H = load on the coarsest level: at once, or in steps, each from the last one's surface. What is
+    // not reached here is out of reach on the finer levels too: the branch of solutions has ended.
+    Points raise_load(const LevelProblem& level, Points points, const Progress& progress) {
+        constexpr double smallest_increment = 1.0 / 32.0;
+        if (options_.equation != Equation::constant || problem_.options.load == 0.0) return points;
+        const IterationLimits limits{0.0, 1e-3, 100, limits_of(0).damping};
+        const double whole = problem_.options.load;
+        double reached = 0.0;
+        for (double increment = 1.0; reached < 1.0 && increment >= smallest_increment;) {
+            options_.load = whole * std::min(1.0, reached + increment);  // `level` looks at these options
+            IterationOutcome outcome = fair_level(level, points, limits, progress);
+            if (outcome.termination == Termination::converged) {
+                reached += increment;
+                points = std::move(outcome.points);
+            } else {
+                increment *= 0.5;
+            }
         }
+        options_.load = whole * std::min(1.0, reached);
         return points;
+    }
+
+    // The surface has less load than it should: it is measured by the whole one.
+    void confess(const LevelProblem& level, IterationOutcome& outcome) const {
+        const LevelProblem asked{level.patch, level.fixed_normals, problem_.options,
+                                 level.paper, level.weights,       level.completed};
+        outcome.residual = LevelUpdate(asked, outcome.points).measure();
+        outcome.termination = Termination::stalled;
     }
 
     void record(int level, const IterationOutcome& outcome) {
@@ -142,21 +160,15 @@ private:
     const PaperProblem& pp_;
     const Problem& problem_;
     const Patch& patch_;
+    SolverOptions options_;  // with as much of the load as there is a solution for
     const Progress& progress_;
+    bool coarser_converged_ = false;
     Hierarchy hierarchy_;
     Points points_;
     Solution solution_;
 };
 
 }  // namespace
-
-double default_epsilon(const SolverOptions& options) {
-    return (options.equation == Equation::minimal ? 20.0 : 500.0) * options.tolerance;
-}
-
-double unfairness_limit(const SolverOptions& options, double epsilon) {
-    return options.equation == Equation::minimal ? epsilon : 0.04 * epsilon;
-}
 
 Solution solve_paper(const PaperProblem& paper_problem, const Progress& progress) {
     return PaperSolver(paper_problem, progress).run();

@@ -16,11 +16,6 @@ struct PaperProblem {
     RowWeights weights;            // λ on the connectivity given
 };
 
-// ε that leaves changes of about the tolerance (in units of D), where the caller names none.
-double default_epsilon(const SolverOptions& options);
-// The inner-fairness limit that leaves changes of the same size as ε does.
-double unfairness_limit(const SolverOptions& options, double epsilon);
-
 // Solves the outer equation from the boundary data; the interior given shapes the hierarchy and λ alone.
 // Deterministic. Throws SolverError when the start breaks down, Cancelled.
 Solution solve_paper(const PaperProblem& paper_problem, const Progress& progress);

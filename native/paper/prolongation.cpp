@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include <Eigen/Geometry>
+
 #include "fairness/ring_weights.h"
 #include "paper/vertex_update.h"
 
@@ -22,6 +24,13 @@ double opposite_cotangent(const Vector3& apex, const Vector3& a, const Vector3& 
     return u.dot(v) / std::max(u.cross(v).norm(), 1e-12 * std::max(u.squaredNorm(), v.squaredNorm()) + 1e-300);
 }
 
+// Zero where the triangle is degenerate, as in FaceGeometry.
+Vector3 unit_normal(const Vector3& a, const Vector3& b, const Vector3& c) {
+    const Vector3 cross = (b - a).cross(c - a);
+    const double length = cross.norm();
+    return length > 0.0 ? Vector3(cross / length) : Vector3(Vector3::Zero());
+}
+
 }  // namespace
 
 // The half-edge mesh of the moment and the disks around the vertex inserted last.
@@ -37,15 +46,17 @@ public:
         normals_.setZero(3, count);
         normals_.rightCols(setting.fixed_normals.cols()) = setting.fixed_normals;
         H_.setZero(count);
+        arcs_.setZero(3, setting.patch.edge_count());
+        arc_round_.assign(at(setting.patch.edge_count()), 0);
     }
 
     void insert(const Collapse& collapse, bool completed, Points& points) {
         mesh_.vertex_split(handle(collapse.removed), handle(collapse.kept), handle(collapse.left),
                            handle(collapse.right));
         gather(collapse.removed);
-        points.col(collapse.removed) = weighted_mean(0, points);
+        points.col(collapse.removed) = weighted_mean(stored_[0], points);
         for (int sweep = 0; sweep < fairness_sweeps; ++sweep) {
-            for_each_movable([&](std::size_t k) { points.col(stored_[k].centre) = weighted_mean(k, points); });
+            for_each_movable([&](std::size_t k) { points.col(stored_[k].centre) = weighted_mean(stored_[k], points); });
         }
         for (int round = 0; round < curvature_rounds; ++round) make_fair(completed, points);
         for (std::size_t k = 0; k < stored_count_; ++k) slot_[at(stored_[k].centre)] = none;
@@ -54,12 +65,12 @@ public:
 private:
     struct StoredDisk {
         int centre;
-        bool closed;
         Indices neighbours;
-        Indices apexes;
+        Indices rim;     // columns of arcs_
+        Indices apexes;  // beyond the rim edges
         std::vector<double> lambda;
+        std::vector<double> curvature_weights;
         std::vector<double> cotangents;  // cot α + cot β of the spokes
-        [[nodiscard]] Disk view() const { return {centre, neighbours, apexes, closed}; }
     };
 
     static SurfaceMesh::VertexHandle handle(int v) { return SurfaceMesh::VertexHandle(v); }
@@ -75,11 +86,13 @@ private:
     void gather(int vertex) {
         stored_count_ = 0;
         store(vertex);
+        // By index: storing a disk may move the others. NOLINTBEGIN(modernize-loop-convert)
         for (std::size_t k = 0; k < stored_[0].neighbours.size(); ++k) store(stored_[0].neighbours[k]);
         inner_count_ = stored_count_;
         for (std::size_t k = 1; k < inner_count_; ++k) {
             for (std::size_t j = 0; j < stored_[k].neighbours.size(); ++j) store(stored_[k].neighbours[j]);
         }
+        // NOLINTEND(modernize-loop-convert)
         for_each_movable([&](std::size_t k) { find_lambda(stored_[k]); });
     }
 
@@ -90,6 +103,7 @@ private:
         StoredDisk& disk = stored_[stored_count_++];
         disk.centre = vertex;
         disk.neighbours.clear();
+        disk.rim.clear();
         disk.apexes.clear();
         walk(disk);
     }
@@ -100,17 +114,16 @@ private:
             return mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(h));
         };
         SurfaceMesh::HalfedgeHandle first = mesh_.halfedge_handle(handle(disk.centre));
-        disk.closed = !mesh_.is_boundary(first);
-        if (!disk.closed) first = next_ccw(first);
+        if (mesh_.is_boundary(first)) first = next_ccw(first);
         SurfaceMesh::HalfedgeHandle h = first;
         do {
             disk.neighbours.push_back(mesh_.to_vertex_handle(h).idx());
-            disk.apexes.push_back(none);
             if (mesh_.is_boundary(h)) break;
-            const auto beyond = mesh_.opposite_halfedge_handle(mesh_.next_halfedge_handle(h));
-            if (!mesh_.is_boundary(beyond)) {
-                disk.apexes.back() = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(beyond)).idx();
-            }
+            const auto rim = mesh_.next_halfedge_handle(h);
+            const auto beyond = mesh_.opposite_halfedge_handle(rim);
+            disk.rim.push_back(mesh_.edge_handle(rim).idx());
+            disk.apexes.push_back(
+                mesh_.is_boundary(beyond) ? none : mesh_.to_vertex_handle(mesh_.next_halfedge_handle(beyond)).idx());
             h = next_ccw(h);
         } while (h != first);
     }
@@ -121,9 +134,8 @@ private:
         ring_weights({setting_.reference.col(disk.centre), ring_, true}, setting_.inner_fairness, disk.lambda);
     }
 
-    [[nodiscard]] Vector3 weighted_mean(std::size_t k, const Points& points) const {
+    [[nodiscard]] static Vector3 weighted_mean(const StoredDisk& disk, const Points& points) {
         Vector3 sum = Vector3::Zero();
-        const StoredDisk& disk = stored_[k];
         for (std::size_t j = 0; j < disk.lambda.size(); ++j) sum += disk.lambda[j] * points.col(disk.neighbours[j]);
         return sum;
     }
@@ -134,14 +146,13 @@ private:
         for (int sweep = 0; sweep < curvature_sweeps; ++sweep) {
             for_each_movable([&](std::size_t k) { relax_curvature(k); });
         }
-        DiskCurvature curvature(points, normals_);
-        for_each_movable([&](std::size_t k) {
-            const StoredDisk& disk = stored_[k];
-            const Vector3 normal = disk_normal(disk.view(), points);
-            const VertexTarget target{weighted_mean(k, points), H_[disk.centre], setting_.paper.damping,
-                                      completed || disk.neighbours.size() < 5};
-            points.col(disk.centre) = updated_position(disk.view(), points, normal, target, curvature);
-        });
+        for_each_movable([&](std::size_t k) { move(stored_[k], completed, points); });
+    }
+
+    void move(const StoredDisk& stored, bool completed, Points& points) const {
+        const VertexTarget target{normals_.col(stored.centre), stored.curvature_weights, weighted_mean(stored, points),
+                                  H_[stored.centre], setting_.paper.damping};
+        points.col(stored.centre) = updated_position(disk_of(stored, completed), {points, arcs_}, target);
     }
 
     [[nodiscard]] bool prescribed(int v) const {
@@ -149,19 +160,43 @@ private:
                !setting_.patch.pin[at(v)];
     }
 
+    [[nodiscard]] Disk disk_of(const StoredDisk& disk, bool completed) const {
+        const bool full = completed || disk.neighbours.size() < 5 || !setting_.patch.is_free(disk.centre);
+        return {disk.centre, {disk.neighbours, {}, disk.rim}, full};
+    }
+
     void measure(bool completed, const Points& points) {
         for (std::size_t k = 0; k < stored_count_; ++k) {
             const int v = stored_[k].centre;
-            if (!prescribed(v)) normals_.col(v) = disk_normal(stored_[k].view(), points);
+            if (!prescribed(v)) normals_.col(v) = disk_normal(disk_of(stored_[k], completed), points);
         }
-        DiskCurvature curvature(points, normals_);
+        ++round_;
         for (std::size_t k = 0; k < stored_count_; ++k) {
-            const Disk disk = stored_[k].view();
-            const bool full = completed || disk.valence() < 5 || !setting_.patch.is_free(disk.centre);
-            H_[disk.centre] = curvature(disk, full).at.mean();
+            const Disk disk = disk_of(stored_[k], completed);
+            if (disk.completed) measure_arcs(stored_[k], points);
+            H_[disk.centre] = fit_(disk, {points, arcs_}, normals_.col(disk.centre)).mean();
+            if (k >= inner_count_) continue;
+            stored_[k].curvature_weights.resize(weight_count(disk));
+            fit_.weights(stored_[k].curvature_weights);
         }
         if (setting_.solver.equation == Equation::minimal) return;
         for_each_movable([&](std::size_t k) { measure_cotangents(stored_[k], points); });
+    }
+
+    void measure_arcs(const StoredDisk& disk, const Points& points) {
+        const Vector3 centre = points.col(disk.centre);
+        for (std::size_t k = 0; k < disk.rim.size(); ++k) {
+            if (arc_round_[at(disk.rim[k])] == round_) continue;
+            arc_round_[at(disk.rim[k])] = round_;
+            const int a = disk.neighbours[k];
+            const int b = disk.neighbours[k + 1 < disk.neighbours.size() ? k + 1 : 0];
+            Vector3 triangle_normals = unit_normal(centre, points.col(a), points.col(b));
+            if (disk.apexes[k] != none) {
+                triangle_normals += unit_normal(points.col(b), points.col(a), points.col(disk.apexes[k]));
+            }
+            arcs_.col(disk.rim[k]) =
+                arc_over({points.col(a), points.col(b), normals_.col(a), normals_.col(b), triangle_normals});
+        }
     }
 
     static void measure_cotangents(StoredDisk& disk, const Points& points) {
@@ -195,6 +230,10 @@ private:
     SurfaceMesh mesh_;
     Points normals_;
     VectorX H_;
+    DiskFit fit_;
+    Points arcs_;                 // a column for each edge of the finest mesh
+    std::vector<int> arc_round_;  // the round of measurement in which a column was written
+    int round_ = 0;
     std::vector<StoredDisk> stored_;  // reused from vertex to vertex
     std::size_t stored_count_ = 0;
     std::size_t inner_count_ = 0;

@@ -5,7 +5,7 @@
 
 #include "base/progress.h"
 #include "paper/hierarchy.h"
-#include "paper/level.h"
+#include "paper/level_problem.h"
 
 namespace fairing {
 

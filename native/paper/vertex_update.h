@@ -1,22 +1,22 @@
 // Step II of the factorisation: vertices move so that they get the curvature wanted (paper §7.2, §7.3).
 #pragma once
 
-#include "paper/disk_geometry.h"
+#include "paper/disk_curvature.h"
 
 namespace fairing {
 
 // What one update needs to know of its vertex.
 struct VertexTarget {
-    Vector3 mean;      // Σ_j λ_ij q_j
-    double curvature;  // H̃_i
-    double damping;    // s
-    bool completed;    // whether virtual points join the fit
+    Vector3 normal;                   // n_i, unit
+    std::span<const double> weights;  // of its curvature, see DiskFit
+    Vector3 mean;                     // Σ_j λ_ij q_j
+    double curvature;                 // H̃_i
+    double damping;                   // s
 };
 
 // The new position of the disk's centre: the projection of the weighted mean on the tangent plane, q̃ = mean −
-// ⟨Δq, n⟩ n, then s t n with H(q̃ + t n) = H̃ for the linearised curvature (eq. 13). t is limited to the mean distance of
-// the neighbours, beyond which the linearisation says nothing. `normal`: the vertex's own, of unit length.
-Vector3 updated_position(const Disk& disk, const Points& points, const Vector3& normal, const VertexTarget& target,
-                         DiskCurvature& curvature);
+// ⟨Δq, n⟩ n, then s t n with H(q̃ + t n) = H̃ for the linearised curvature (eq. 13). t is limited to the distance of
+// the neighbours (root mean square), beyond which the linearisation says nothing.
+Vector3 updated_position(const Disk& disk, const DiskField& field, const VertexTarget& target);
 
 }  // namespace fairing

@@ -4,6 +4,8 @@
 #include <functional>
 #include <numbers>
 
+#include <vector>
+
 #include "paper/vertex_update.h"
 
 using namespace fairing;
@@ -16,8 +18,9 @@ constexpr double pi = std::numbers::pi;
 struct Wheel {
     Points points;
     Points normals;
+    Points arcs;
     Indices neighbours;
-    Indices apexes;
+    Indices rim;
 
     explicit Wheel(const std::vector<Vector3>& ring) {
         const auto m = static_cast<Eigen::Index>(ring.size());
@@ -26,12 +29,25 @@ struct Wheel {
         for (Eigen::Index k = 0; k < m; ++k) {
             points.col(k + 1) = ring[static_cast<std::size_t>(k)];
             neighbours.push_back(static_cast<int>(k) + 1);
-            apexes.push_back(none);
+            rim.push_back(static_cast<int>(k));
+        }
+        measure_arcs();
+    }
+    // After a change of normals.
+    void measure_arcs() {
+        const Eigen::Index m = points.cols() - 1;
+        arcs.setZero(3, m);
+        for (Eigen::Index k = 0; k < m; ++k) {
+            const Eigen::Index a = k + 1;
+            const Eigen::Index b = (k + 1) % m + 1;
+            const Vector3 cross = (points.col(a) - points.col(0)).cross(points.col(b) - points.col(0));
+            arcs.col(k) = arc_over({points.col(a), points.col(b), normals.col(a), normals.col(b), cross.normalized()});
         }
     }
-    [[nodiscard]] Disk disk() const { return {0, neighbours, apexes, true}; }
+    [[nodiscard]] Disk disk(bool completed) const { return {0, {neighbours, {}, rim}, completed}; }
+    [[nodiscard]] DiskField field() const { return {points, arcs}; }
     [[nodiscard]] double mean_curvature(bool completed) const {
-        return DiskCurvature(points, normals)(disk(), completed).at.mean();
+        return DiskFit()(disk(completed), field(), normals.col(0)).mean();
     }
 };
 
@@ -85,30 +101,97 @@ TEST_CASE("H has no jump where a chord's arcs pass through a straight line and t
             const double angle = (k == 1 ? 0.4 : 0.7) * (2.0 * s - 1.0);
             wheel.normals.col(k) = Vector3(std::sin(angle), -std::sin(angle), 1.0).normalized();
         }
+        wheel.measure_arcs();
         return wheel;
     };
     CHECK(largest_jump(tilting, true) < 1e-3);
 }
 
-TEST_CASE("the curvature line's slope is the derivative of H along the normal") {
-    const Wheel wheel = Wheel({{1, 0, 0}, {0.2, 1.1, 0}, {-0.9, 0.4, 0}, {-0.5, -0.8, 0}, {0.6, -0.9, 0}});
-    DiskCurvature curvature(wheel.points, wheel.normals);
-    const auto H = [&](double t) {
-        return curvature(wheel.disk(), t * Vector3::UnitZ(), Vector3::UnitZ(), false).at.mean();
+TEST_CASE("H has no jump as a vertex moves through a position from which its neighbours lie on two lines (Lemma 1)") {
+    const auto moving = [](double s) {
+        Wheel wheel = uneven({0.0, 0.5 * pi, pi, 1.5 * pi});
+        wheel.points.col(0) = Vector3(0.2 * (2.0 * s - 1.0), 0.1 * (2.0 * s - 1.0), 0.01);
+        wheel.measure_arcs();
+        return wheel;
     };
-    const double slope = curvature(wheel.disk(), false).slope.mean();
-    CHECK(slope < 0.0);
-    CHECK(slope == doctest::Approx((H(1e-4) - H(-1e-4)) / 2e-4).epsilon(1e-6));
+    CHECK(largest_jump(moving, true, 2000) < 1e-3);
+    CHECK(largest_jump(moving, true, 8000) < 0.3 * largest_jump(moving, true, 2000));
 }
 
-TEST_CASE("an undamped update gives a vertex the curvature wanted, at its inner-fairness position") {
-    const Wheel wheel = Wheel({{1, 0, 0}, {0.2, 1.1, 0}, {-0.9, 0.4, 0}, {-0.5, -0.8, 0}, {0.6, -0.9, 0}});
-    DiskCurvature curvature(wheel.points, wheel.normals);
-    const Vector3 mean(0.05, 0.02, 0.3);
+TEST_CASE("H has no jump where an arc turns over at one end only: circle, straight line, inflection") {
+    const auto tilting = [](double s) {
+        Wheel wheel = uneven({0.0, 0.4 * pi, 0.9 * pi, 1.5 * pi});
+        const double angle = 0.6 * (2.0 * s - 1.0);
+        wheel.normals.col(1) = Vector3(std::sin(0.3), 0.0, std::cos(0.3));
+        wheel.normals.col(2) = Vector3(0.0, std::sin(angle), std::cos(angle));
+        wheel.measure_arcs();
+        return wheel;
+    };
+    CHECK(largest_jump(tilting, true, 2000) < 1e-3);
+    CHECK(largest_jump(tilting, true, 8000) < 0.3 * largest_jump(tilting, true, 2000));
+}
+
+TEST_CASE("the fit is that of the shared least squares, for odd and even numbers of points") {
+    for (const std::size_t m : {4U, 5U, 6U, 7U}) {
+        std::vector<Vector3> ring;
+        for (std::size_t k = 0; k < m; ++k) {
+            const double angle = 2.0 * pi * (static_cast<double>(k) + 0.2 * std::sin(3.0 * static_cast<double>(k))) /
+                                 static_cast<double>(m);
+            ring.emplace_back(std::cos(angle), 1.3 * std::sin(angle), 0.1 * std::cos(5.0 * angle));
+        }
+        const Wheel wheel(ring);
+        const CurvatureFit expected = fit_curvature(Vector3::Zero(), ring, Vector3::UnitZ());
+        const CurvatureFit fit = DiskFit()(wheel.disk(false), wheel.field(), Vector3::UnitZ());
+        CHECK(fit.mean() == doctest::Approx(expected.mean()).epsilon(1e-10));
+        CHECK(fit.gaussian() == doctest::Approx(expected.gaussian()).epsilon(1e-8));
+    }
+}
+
+namespace {
+
+const std::vector<Vector3> uneven_pentagon{{1, 0, 0}, {0.2, 1.1, 0}, {-0.9, 0.4, 0}, {-0.5, -0.8, 0}, {0.6, -0.9, 0}};
+
+std::vector<double> weights_of(const Wheel& wheel) {
+    DiskFit fit;
+    fit(wheel.disk(false), wheel.field(), Vector3::UnitZ());
+    std::vector<double> weights(weight_count(wheel.disk(false)));
+    fit.weights(weights);
+    return weights;
+}
+
+}  // namespace
+
+TEST_CASE("the curvature line's slope is the derivative of H along the normal") {
+    Wheel wheel(uneven_pentagon);
+    const auto H = [&](double t) {
+        wheel.points.col(0) = t * Vector3::UnitZ();
+        return wheel.mean_curvature(false);
+    };
+    const auto weights = weights_of(wheel);
+    const CurvatureLine line =
+        curvature_line(wheel.disk(false), wheel.field(), weights, Vector3::Zero(), Vector3::UnitZ());
+    CHECK(line.mean == doctest::Approx(0.0));
+    CHECK(line.slope < 0.0);
+    CHECK(line.slope == doctest::Approx((H(1e-4) - H(-1e-4)) / 2e-4).epsilon(1e-6));
+}
+
+TEST_CASE("an undamped update gives a vertex the curvature wanted") {
+    Wheel wheel(uneven_pentagon);
+    const auto weights = weights_of(wheel);
     const double wanted = -0.01;
-    const Vector3 moved =
-        updated_position(wheel.disk(), wheel.points, Vector3::UnitZ(), {mean, wanted, 1.0, false}, curvature);
-    CHECK(moved.x() == doctest::Approx(mean.x()));
-    CHECK(moved.y() == doctest::Approx(mean.y()));
-    CHECK(curvature(wheel.disk(), moved, Vector3::UnitZ(), false).at.mean() == doctest::Approx(wanted).epsilon(1e-3));
+    const VertexTarget target{Vector3::UnitZ(), weights, {0.0, 0.0, 0.3}, wanted, 1.0};
+    wheel.points.col(0) = updated_position(wheel.disk(false), wheel.field(), target);
+    CHECK(wheel.points.col(0).head(2).norm() < 1e-15);
+    CHECK(wheel.mean_curvature(false) == doctest::Approx(wanted).epsilon(1e-3));
+}
+
+TEST_CASE("an update puts a vertex above its inner-fairness position, whatever the curvature wanted") {
+    const Wheel wheel(uneven_pentagon);
+    const auto weights = weights_of(wheel);
+    for (const double wanted : {-0.2, 0.0, 0.1}) {
+        const VertexTarget target{Vector3::UnitZ(), weights, {0.05, 0.02, 0.3}, wanted, 0.9};
+        const Vector3 moved = updated_position(wheel.disk(false), wheel.field(), target);
+        CHECK(moved.x() == doctest::Approx(0.05));
+        CHECK(moved.y() == doctest::Approx(0.02));
+    }
 }

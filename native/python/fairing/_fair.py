@@ -34,7 +34,9 @@ def fair(
     damping: float | None = None,
     cg_steps: int | None = None,
     sweeps: int | None = None,
+    vertex_sweeps: int | None = None,
     epsilon: float | None = None,
+    acceleration: str | None = None,
     virtual_points: str | None = None,
     start: str | None = None,
 ) -> FairResult:
@@ -89,14 +91,20 @@ def fair(
         "paper": conjugate gradient steps of a global H-update (§7.1), default 60.
     sweeps : int
         "paper": Gauss–Seidel sweeps of a local H-update, default 1.
+    vertex_sweeps : int
+        "paper": sweeps over the vertices in each update of the mesh (§7.2); default 1, accelerated 2.
     epsilon : float
-        "paper": stop at max |Δ_B H − f| D³ ≤ ``epsilon`` (|H| D for "minimal"); default: what leaves changes of
-        about ``tolerance`` × D.
+        "paper": stop at max |Δ_B H − f| D³ ≤ ``epsilon`` (|H| D for "minimal"); default: where the changes still to
+        come, estimated from the last ones, are ``tolerance`` × D.
+    acceleration : "anderson" | "none"
+        "paper": whether each cycle of updates starts from the best combination of the last sixteen (default), or
+        where the last one ended, as published.
     virtual_points : "sparse" | "coarse" | "everywhere"
         "paper": which fits of H get virtual points (§6.2) besides valence 3 and 4 and fixed vertices: no others,
-        all on the coarse levels (default), all.
+        all on the coarse levels (as published), all (default).
     start : "improved" | "linear"
         "paper": fill of the coarsest level: the linear bilaplacian, or made fair by mixed finite elements (default).
+        With ``levels=1, max_iterations=1`` it is what comes back.
 
     Returns
     -------
@@ -125,8 +133,8 @@ def fair(
         raise ValueError(f"progress: a callable(fraction, stage) or None is needed, not {progress!r}")
     kind, weights = _options.inner_fairness(inner_fairness, count)
     given = {
-        "damping": damping, "cg_steps": cg_steps, "sweeps": sweeps, "epsilon": epsilon,
-        "virtual_points": virtual_points, "start": start,
+        "damping": damping, "cg_steps": cg_steps, "sweeps": sweeps, "vertex_sweeps": vertex_sweeps,
+        "epsilon": epsilon, "acceleration": acceleration, "virtual_points": virtual_points, "start": start,
     }  # fmt: skip
     paper = _options.paper_choices(method, levels, given)
     _arguments.choice("normals", normals, _options.NORMALS)

@@ -1,0 +1,159 @@
+"""How method "paper" gets there: start, hierarchy, updates, acceleration and the options of each."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import blend
+import fairing
+import shapes
+from shapes import Style
+from test_paper import MILD, fair, solved
+
+SPARSE = Style(layout="random")
+
+
+def distance_of_start(family: str, start: str) -> float:
+    """Largest distance over D of the start itself: of one level without a single cycle."""
+    patch = shapes.FAMILIES[family](60, SPARSE)
+    result = fair(patch, start=start, levels=1, max_iterations=1)
+    return patch.error(result.vertices)
+
+
+@pytest.mark.parametrize("family", ["hemisphere", "cylinder", "catenoid", "unduloid", "clothoid"])
+def test_the_improved_start_is_closer_on_sparse_irregular_meshes(family: str) -> None:
+    """Fig. 7, lower row: random points, 60 of them, against the linear bilaplacian (measured: 2.3 to 10 times)."""
+    assert distance_of_start(family, "improved") < 0.6 * distance_of_start(family, "linear")
+
+
+def test_iteration_stops_at_epsilon() -> None:
+    patch = shapes.cylinder(300, MILD)
+    for epsilon in (1.0, 1e-3):
+        result = fair(patch, epsilon=epsilon)
+        assert result.converged
+        assert result.residual <= epsilon
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-5])
+def test_default_epsilon_leaves_changes_of_about_the_tolerance(tolerance: float) -> None:
+    for family in ("cylinder", "clothoid"):
+        patch = shapes.FAMILIES[family](300, MILD)
+        rough, fine = fair(patch, tolerance=tolerance), fair(patch, epsilon=1e-7)
+        assert np.abs(rough.vertices - fine.vertices).max() < 2 * tolerance * patch.diameter
+
+
+def test_the_number_of_levels_does_not_change_the_surface() -> None:
+    patch = shapes.clothoid(600, MILD)
+    results = [fair(patch, levels=levels, tolerance=1e-7) for levels in (1, 2, 3)]
+    assert [len(r.levels) for r in results] == [1, 2, 3]
+    for other in results[1:]:
+        assert other.converged
+        assert np.abs(other.vertices - results[0].vertices).max() < 2e-6 * patch.diameter
+
+
+@pytest.mark.parametrize("start", ["linear", "improved"])
+def test_both_starts_lead_to_the_same_surface(start: str) -> None:
+    patch, result = solved("clothoid")
+    other = fair(patch, start=start, tolerance=1e-7)
+    assert other.converged
+    assert np.abs(other.vertices - result.vertices).max() < 2e-6 * patch.diameter
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"damping": 0.6}, {"cg_steps": 20}, {"sweeps": 5}, {"vertex_sweeps": 1},
+        {"acceleration": "none"}, {"acceleration": "none", "damping": 0.6},
+    ],
+    ids=lambda options: ",".join(options),
+)  # fmt: skip
+def test_what_the_paper_lets_one_choose_changes_the_way_only(options: dict[str, Any]) -> None:
+    patch, result = solved("clothoid")
+    other = fair(patch, **{"tolerance": 1e-7, **options})
+    assert other.converged
+    assert np.abs(other.vertices - result.vertices).max() < 2e-6 * patch.diameter
+
+
+def test_the_interior_given_leaves_no_trace() -> None:
+    patch = shapes.cap(300)
+    noise = np.random.default_rng(1).normal(scale=0.05, size=patch.vertices.shape)
+    noise[patch.fixed] = 0
+    one, other = (fair(patch, vertices=patch.vertices + sign * noise, max_iterations=20) for sign in (1, -1))
+    assert np.array_equal(one.vertices, other.vertices)
+
+
+def test_acceleration_needs_a_third_of_the_updates_at_most() -> None:
+    patch = blend.cylinder_blend(500)
+    quick, plain = (fair(patch, acceleration=kind, tolerance=1e-5) for kind in ("anderson", "none"))
+    assert quick.converged
+    assert quick.iterations < plain.iterations / 3
+    assert np.abs(quick.vertices - plain.vertices).max() < 1e-4 * patch.diameter
+
+
+@pytest.mark.parametrize("kind", ["uniform", "conformal", "inverse_distance"])
+@pytest.mark.parametrize("n_free", [70, 824], ids=["coarse within a fine outline", "Fig. 1"])
+def test_both_methods_solve_the_same_discrete_equation(n_free: int, kind: str) -> None:
+    """Same normals, same virtual points, same λ: 1e-4 D is asked."""
+    patch = blend.cylinder_blend(n_free)
+    paper = fair(patch, inner_fairness=kind)
+    fast = fair(patch, inner_fairness=kind, method="global", max_iterations=200, normals="averaged")
+    assert paper.converged
+    assert fast.converged
+    assert np.abs(paper.vertices - fast.vertices).max() < 1e-5 * patch.diameter
+
+
+def test_progress_can_cancel() -> None:
+    patch = shapes.cap(300)
+    seen: list[float] = []
+
+    def stop(fraction: float, stage: str) -> bool:
+        seen.append(fraction)
+        return len(seen) < 30
+
+    with pytest.raises(fairing.Cancelled):
+        fair(patch, progress=stop)
+    assert len(seen) == 30
+    assert seen == sorted(seen)
+
+
+# Options
+
+
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [
+        ("damping", 0.5), ("cg_steps", 5), ("sweeps", 2), ("epsilon", 1e-3),
+        ("virtual_points", "sparse"), ("start", "linear"), ("vertex_sweeps", 2), ("acceleration", "none"),
+    ],
+)  # fmt: skip
+def test_options_of_the_paper_are_refused_by_the_global_method(option: str, value: Any) -> None:
+    with pytest.raises(ValueError, match=option):
+        fair(shapes.cap(60), method="global", max_iterations=5, **{option: value})
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "accepted"),
+    [
+        ("damping", 1.5, "up to 1"),
+        ("damping", 0.0, "positive"),
+        ("cg_steps", 0, "1 or more"),
+        ("epsilon", -1.0, "positive"),
+        ("virtual_points", "some", "'everywhere'"),
+        ("start", "none", "'linear'"),
+        ("vertex_sweeps", 0, "1 or more"),
+        ("acceleration", "plain", "'anderson'"),
+        ("equation", "quadratic", "'minimal_energy'"),
+        ("inner_fairness", "smooth", "'shape_preserving'"),
+        ("inner_fairness", np.array([[0, 1, -1.0]]), "λ ≥ 0"),
+        ("inner_fairness", np.array([[0, 1, 1.0]]), "needs a row"),
+        ("levels", -1, "0 or more"),
+        ("load", 1.0, "'constant'"),
+    ],
+)
+def test_wrong_options_say_what_is_accepted(option: str, value: Any, accepted: str) -> None:
+    with pytest.raises(ValueError, match=option) as caught:
+        fair(shapes.cap(60), **{option: value})
+    assert accepted in str(caught.value)
