@@ -116,21 +116,26 @@ def head_case(name: str, head: Path | None, drawing: heads.Drawing) -> Case:
     )  # fmt: skip
 
 
-def ear_case(head: Path | None) -> Case:
-    """Fig. 9."""
-    drawing = heads.EAR if head else heads.MONKEY_EAR
-    made = head_case("human ear" if head else "ear (Suzanne)", head, drawing)
+def ear_case(data: Path) -> Case:
+    """Fig. 9: of the ICT head, or Suzanne's where the folder hasn't got it."""
+    head = data / "ict_head.obj"
+    if head.exists():
+        made = head_case("human ear", head, heads.EAR)
+    else:
+        made = head_case("ear (Suzanne)", None, heads.MONKEY_EAR)
     return replace(made, inner_fairness="uniform", base=248, seconds=21.0)
 
 
-def face_case(head: Path | None) -> Case:
-    """Fig. 10: conformal to the head."""
-    drawing = heads.FACE if head else heads.MONKEY_FACE
-    made = head_case("bust face" if head else "face (Suzanne)", head, drawing)
+def face_case(data: Path) -> Case:
+    """Fig. 10, conformal to the head: of a bust of Demosthenes, or Suzanne's where the folder hasn't got it."""
+    bust = data / "demosthenes-low-res.obj"
+    if bust.exists():
+        made = head_case("bust face", bust, heads.FACE)
+    else:
+        made = head_case("muzzle (Suzanne)", None, heads.MONKEY_FACE)
     return replace(made, base=256, seconds=12.0)
 
 
-def all_cases(head: Path | None) -> list[Case]:
+def all_cases(data: Path) -> list[Case]:
     """In the order of Table 1."""
-    return [blend_case(), face_case(head), ear_case(head), tetrathing_case()]
-
+    return [blend_case(), face_case(data), ear_case(data), tetrathing_case()]

@@ -31,15 +31,19 @@ class Course:
 
 def course(name: str, case: Case, stops: list[dict[str, Any]], **options: Any) -> Course:
     """Runs that are stopped ever later, against the last of them."""
-    runs = [case.fair(**options, **stop) for stop in stops]
+    runs = [min((case.fair(**options, **stop) for _ in range(2)), key=_total) for stop in stops]
     runs = [run for k, run in enumerate(runs) if k == 0 or run.iterations > runs[k - 1].iterations]
     return Course(
         name,
         [run.iterations for run in runs],
-        [run.seconds["total"] for run in runs],
+        [_total(run) for run in runs],
         [run.residual for run in runs],
         [_distance(case, run, runs[-1]) for run in runs],
     )
+
+
+def _total(run: fairing.FairResult) -> float:
+    return run.seconds["total"]
 
 
 def _distance(case: Case, one: fairing.FairResult, other: fairing.FairResult) -> float:
@@ -70,7 +74,7 @@ def convergence_plot(case: Case, path: Path) -> str:
     axes[1, 0].set_ylabel("distance to its converged surface / D")
     axes[1, 0].set_xlabel("updates (paper), steps (global) of the finest mesh")
     axes[1, 1].set_xlabel("seconds, start and hierarchy included")
-    axes[0, 1].legend()
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     for axis in axes.flat:
         axis.grid(alpha=0.3)
     path.parent.mkdir(parents=True, exist_ok=True)

@@ -24,7 +24,7 @@ SEEN = 6.0  # outline edges: how far around the outline the mesh is thinned too
 class Drawing:
     """What is cut out of a head: outline, vertices wanted in all and on the outline, subdivisions before.
 
-    `shown`: how much of the head is kept round the outline, as a multiple of its radius.
+    shown: how much of the head is kept round the outline, as a multiple of its radius.
     """
 
     outline: Drawn
@@ -49,7 +49,7 @@ class Region:
     loop: IntArray
 
 
-# Points are (z, y) from the left side and (x, y) from the front, in the files' units.
+# Of ict_head.obj in (z, y), from its left, and of demosthenes-low-res.obj in (x, y), from the front; the files' units.
 EAR = Drawing(
     Drawn(
         np.array([[2.5, 1.0], [2.2, 2.8], [1.2, 3.9], [-0.4, 4.2], [-1.7, 3.4], [-2.2, 1.7], [-1.7, -0.3],
@@ -60,9 +60,9 @@ EAR = Drawing(
 )  # fmt: skip
 FACE = Drawing(
     Drawn(
-        np.array([[0.0, 9.0], [3.6, 8.0], [6.0, 4.8], [6.2, 1.0], [5.2, -2.8], [3.0, -5.7], [0.0, -6.6],
-                  [-3.0, -5.7], [-5.2, -2.8], [-6.2, 1.0], [-6.0, 4.8], [-3.6, 8.0]]),
-        (0, 1), (0.0, 0.09096, 13.0882),
+        np.array([[0.195, 1.7], [0.45, 1.62], [0.58, 1.35], [0.56, 1.05], [0.42, 0.78], [0.195, 0.66], [-0.03, 0.78],
+                  [-0.17, 1.05], [-0.19, 1.35], [-0.06, 1.62]]),
+        (0, 1), (0.195, 1.2, 0.95),
     ),
     2926, 130, 2,
 )  # fmt: skip

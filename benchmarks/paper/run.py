@@ -1,11 +1,12 @@
 """Makes docs/paper.md and its pictures: every table and figure of the paper with ours.
 
     benchmarks/paper/run                       # on a bare Debian 12: installs what it needs, then this
-    python benchmarks/paper/run.py [--head FILE] [--out FOLDER] [PART …]
+    python benchmarks/paper/run.py [--data FOLDER] [--out FOLDER] [PART …]
 
-Needs fairing, numpy, scipy and matplotlib. Ear and face are cut out of the head in FILE, by default
-`../shared/data/ict_head.obj` beside the checkout; without it out of Suzanne, which needs bpy. PARTs (names of the
-placeholders in page.md) are printed instead of the page. Takes some minutes.
+Needs fairing, numpy, scipy and matplotlib. The ear is cut out of ict_head.obj and the face out of
+demosthenes-low-res.obj in the data folder, by default `../shared/data` beside the checkout; where a file is missing out
+of Suzanne, which needs bpy. PARTs (names of the placeholders in page.md) are printed instead of the page. Takes some
+minutes.
 """
 
 from __future__ import annotations
@@ -19,17 +20,18 @@ from importlib.util import find_spec
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-HEAD = ROOT.parent / "shared" / "data" / "ict_head.obj"
+DATA = ROOT.parent / "shared" / "data"
 sys.path.insert(0, str(ROOT / "tests"))
 
 
-def missing_modules(head: Path | None) -> list[str]:
+def missing_modules(data: Path) -> list[str]:
     """What has to be installed first."""
-    wanted = ["fairing", "numpy", "scipy", "matplotlib"] + ([] if head else ["bpy"])
+    whole = all((data / name).exists() for name in ("ict_head.obj", "demosthenes-low-res.obj"))
+    wanted = ["fairing", "numpy", "scipy", "matplotlib"] + ([] if whole else ["bpy"])
     return [name for name in wanted if find_spec(name) is None]
 
 
-def parts(head: Path | None, pictures: Path) -> dict[str, Callable[[], str]]:
+def parts(data: Path, pictures: Path) -> dict[str, Callable[[], str]]:
     """What fills each placeholder of page.md."""
     import blend_study
     import cases
@@ -37,7 +39,7 @@ def parts(head: Path | None, pictures: Path) -> dict[str, Callable[[], str]]:
     import figures
     import tables
 
-    all_cases = cache(lambda: cases.all_cases(head))
+    all_cases = cache(lambda: cases.all_cases(data))
     return {
         "table_one": lambda: tables.table_one(all_cases()),
         "figure_1": lambda: figures.figure_1(pictures),
@@ -50,7 +52,6 @@ def parts(head: Path | None, pictures: Path) -> dict[str, Callable[[], str]]:
         "methods": lambda: tables.methods_table(all_cases()),
         "accuracy": lambda: tables.accuracy_table((1000, 4000, 16000)),
         "convergence": lambda: convergence.convergence_plot(all_cases()[0], pictures / "paper_convergence.png"),
-        "head": lambda: "the ICT head (MIT, USC Institute for Creative Technologies)" if head else "Blender's Suzanne",
     }
 
 
@@ -66,14 +67,14 @@ def filled(page: str, made: dict[str, Callable[[], str]]) -> str:
 def main() -> int:
     """Writes the page, or prints parts of it."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--head", type=Path, default=HEAD if HEAD.exists() else None, help="OBJ file of a head")
+    parser.add_argument("--data", type=Path, default=DATA, help="folder of the two heads")
     parser.add_argument("--out", type=Path, default=ROOT / "docs", help="folder of paper.md and pictures/")
     parser.add_argument("part", nargs="*", help="only these placeholders, printed")
     options = parser.parse_args()
-    if missing := missing_modules(options.head):
+    if missing := missing_modules(options.data):
         print(f"first: pip install {' '.join(missing)}   (fairing: pip install . in {ROOT.name})", file=sys.stderr)
         return 2
-    made = parts(options.head, options.out / "pictures")
+    made = parts(options.data, options.out / "pictures")
     for name in options.part:
         print(made[name]())
     if not options.part:
