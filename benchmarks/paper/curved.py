@@ -5,6 +5,8 @@ Distances between meshes of different size would otherwise measure their facets.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from cases import Case
 from polygons import FloatArray, IntArray
@@ -66,6 +68,13 @@ def distance(one: Case, first: FloatArray, other: Case, second: FloatArray) -> f
         for a, p, b, q in ((one, first, other, second), (other, second, one, first))
     ]
     return float(max(far) / one.diameter)
+
+
+def asymmetry(case: Case, points: FloatArray) -> float:
+    """Distance over D between a result and its image in the plane z = 0, in which the outline is symmetric."""
+    mirror = np.array([1.0, 1.0, -1.0])
+    image = replace(case, triangles=case.triangles[:, ::-1], normals=case.normals * mirror)
+    return distance(case, points, image, points * mirror)
 
 
 def _surface(case: Case, points: FloatArray, count: float) -> tuple[FloatArray, IntArray]:

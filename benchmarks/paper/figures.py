@@ -68,7 +68,11 @@ def figure_1(folder: Path) -> str:
     other = curved.distance(
         study.cases[fine], study.linear[fine, "uniform"], study.cases[fine], study.linear[fine, "conformal"]
     )
-    return f"(c) and (d) lie up to {gap:.1%} of D apart, (d) and (f) {other:.1%}."
+    skew = curved.asymmetry(study.cases[fine], study.linear[fine, "uniform"])
+    return (
+        f"(c) and (d) lie up to {gap:.1%} of D apart, (d) and (f) {other:.1%}; "
+        f"(d) lies {skew:.1%} away from its own mirror image in the plane of the axes."
+    )
 
 
 def _linear(count: int, weights: str, caption: str, look: Look) -> Panel:
@@ -99,7 +103,11 @@ def figure_2(folder: Path) -> str:
     other = curved.distance(
         study.cases[fine], study.ours((fine, "uniform")), study.cases[fine], study.ours((fine, "conformal"))
     )
-    return f"(a) and (b) lie up to {gap:.2%} of D apart, (b) and (e) {other:.3%}."
+    skew = curved.asymmetry(study.cases[fine], study.ours((fine, "uniform")))
+    return (
+        f"(a) and (b) lie up to {gap:.2%} of D apart, (b) and (e) {other:.3%}; "
+        f"(b) lies {skew:.3%} away from its own mirror image."
+    )
 
 
 def figure_7(folder: Path) -> str:

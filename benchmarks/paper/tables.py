@@ -47,7 +47,8 @@ def table_one(cases: list[Case]) -> str:
             f"| {case.name} | {len(case.vertices)} | {len(case.triangles)} | {len(case.fixed)} "
             f"| {paper[0].levels[0]} ({case.base}) | {_solving(*rough):.2f}, {_solving(*paper):.2f} "
             f"| {rough[1]:.2f}, {paper[1]:.2f} | {brief:.2f} | {case.seconds:g} "
-            f"| {paper[0].residual:.1g}, {quick.residual:.1g} | {paper[0].boundary_angle.max():.1f}°, {quick.boundary_angle.max():.1f}° "
+            f"| {paper[0].residual:.1g}, {quick.residual:.1g} "
+            f"| {paper[0].boundary_angle.max():.1f}°, {quick.boundary_angle.max():.1f}° "
             f"| {_ending(paper[0])}, {_ending(quick)} |"
         )
     return "\n".join(lines)
