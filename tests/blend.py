@@ -8,7 +8,7 @@ the flat Y are as wide as half a circumference, so edges keep about their length
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,19 +27,37 @@ DIRECTIONS = np.radians([90.0, 210.0, 330.0])
 class Blend:
     """vertices (n, 3), exact on the rims and a uniform membrane inside; triangles (m, 3) outward.
 
-    fixed (k,): the rims, with fixed_normals (k, 3) those of the cylinders.
+    fixed (k,): the rims, with fixed_normals (k, 3) those of the cylinders. flat (n, 3): places in the flat Y,
+    third coordinate 1 above, −1 below, 0 on its sides.
     """
 
     vertices: FloatArray
     triangles: IntArray
     fixed: IntArray
     fixed_normals: FloatArray
+    flat: FloatArray
 
     @property
     def diameter(self) -> float:
         """D: twice the largest distance of the fixed vertices from their centroid."""
         rim = self.vertices[self.fixed]
         return float(2 * np.linalg.norm(rim - rim.mean(axis=0), axis=1).max())
+
+
+@dataclass(frozen=True)
+class Rectangle:
+    """A regular patch of the upper sheet: rows × columns vertices, `spacing` apart, round a centre (x, y)."""
+
+    rows: int
+    columns: int
+    spacing: float
+    centre: tuple[float, float]
+
+    def points(self) -> FloatArray:
+        """(rows · columns, 2), sheared by so little that Delaunay cuts all squares the same way."""
+        i, j = np.divmod(np.arange(self.rows * self.columns), self.columns)
+        x, y = j - 0.5 * (self.columns - 1), i - 0.5 * (self.rows - 1)
+        return np.asarray(self.spacing * np.column_stack([x + 1e-4 * y, y]) + self.centre)
 
 
 @dataclass(frozen=True)
@@ -106,6 +124,14 @@ def sheet(outline: FloatArray, h: float, jitter: float, rng: np.random.Generator
     return np.asarray(points[thinned(points, np.full(len(points), 0.6 * h))])
 
 
+def _with_rectangle(sheet: FloatArray, rectangle: Rectangle) -> FloatArray:
+    """The rectangle's vertices and those of the sheet outside it."""
+    regular = rectangle.points()
+    margin = 0.8 * rectangle.spacing
+    outside = ((sheet < regular.min(axis=0) - margin) | (sheet > regular.max(axis=0) + margin)).any(axis=1)
+    return np.vstack([regular, sheet[outside]])
+
+
 def triangulated(outline: FloatArray, inner: FloatArray) -> IntArray:
     """Delaunay triangles inside the Y, outline vertices first, counter-clockwise."""
     points = np.vstack([outline, inner])
@@ -137,13 +163,33 @@ def cylinder_blend(n_free: int, *, jitter: float = 0.6, seed: int = 0, reach: fl
     return blend
 
 
-def _blend(h: float, jitter: float, seed: int, reach: float) -> Blend:
+def blend_with_rectangle(n_free: int, rectangle: Rectangle, *, rim: int, seed: int = 0) -> Blend:
+    """Fig. 1a: an irregular mesh with a regular patch in it, `rim` vertices on each circle.
+
+    The irregular part is as coarse as the circles; what it has beyond n_free is left out here and there.
+    """
+    return _blend(4 * HALF_WIDTH / rim, 0.8, seed, 2.0, (rectangle, n_free))
+
+
+def _blend(h: float, jitter: float, seed: int, reach: float, regular: tuple[Rectangle, int] | None = None) -> Blend:
     rng = np.random.default_rng(seed)
     flat = _outline(reach, h)
     sheets = [sheet(flat.points, h, jitter, rng) for _ in range(2)]
+    if regular is not None:
+        sheets[0] = _with_rectangle(sheets[0], regular[0])
+        free = np.flatnonzero(flat.rim < 0)
+        surplus = len(free) + len(sheets[0]) + len(sheets[1]) - regular[1]
+        if surplus < 0:
+            raise ValueError(f"{-surplus} vertices short: the regular patch has to have more")
+        sheets[1] = np.delete(sheets[1], rng.choice(len(sheets[1]), surplus, replace=False), axis=0)
     upper, lower = (triangulated(flat.points, inner) for inner in sheets)
     corners = len(flat.points)
-    return _glued(flat, upper, lower, (corners, len(sheets[0]), len(sheets[1])), reach)
+    blend = _glued(flat, upper, lower, (corners, len(sheets[0]), len(sheets[1])), reach)
+    doubled = (flat.rim >= 0) & (np.abs(flat.across) < 1 - 1e-9)
+    above = np.column_stack([flat.points, doubled])
+    below = np.column_stack([flat.points, -1.0 * doubled])[doubled]
+    inside = [np.column_stack([sheet, np.full(len(sheet), side)]) for sheet, side in zip(sheets, (1, -1), strict=True)]
+    return replace(blend, flat=np.vstack([above, inside[0], below, inside[1]]))
 
 
 def _glued(flat: Outline, upper: IntArray, lower: IntArray, sizes: tuple[int, int, int], reach: float) -> Blend:
@@ -161,4 +207,4 @@ def _glued(flat: Outline, upper: IntArray, lower: IntArray, sizes: tuple[int, in
     axis = np.column_stack([np.cos(direction), np.sin(direction), 0 * direction])
     vertices = np.zeros((corners + above + len(doubled) + below, 3))
     vertices[fixed] = normals + reach * axis
-    return Blend(membrane(vertices, triangles, fixed), triangles, fixed, normals)
+    return Blend(membrane(vertices, triangles, fixed), triangles, fixed, normals, np.zeros_like(vertices))

@@ -201,6 +201,19 @@ def test_cylinder_blend(jitter: float) -> None:
     assert np.abs((made.fixed_normals * axis).sum(axis=1)).max() < 1e-14
 
 
+def test_blend_with_a_regular_rectangle_has_the_size_of_the_paper() -> None:
+    """Fig. 1a and Table 1: 920 vertices, 1746 triangles, hence 96 on the rims; the rectangle's valences are 6."""
+    rectangle = blend.Rectangle(17, 17, np.pi / 32, (0.0, 0.5))
+    made = blend.blend_with_rectangle(824, rectangle, rim=32)
+    assert (len(made.vertices), len(made.triangles), len(made.fixed)) == (920, 1746, 96)
+    assert measures.is_oriented_manifold(made.triangles)
+    assert measures.euler_number(made.triangles) == -1
+    offset = np.abs(made.flat[:, :2] - rectangle.centre).max(axis=1)
+    inner = (offset < 7.5 * rectangle.spacing) & (made.flat[:, 2] > 0)
+    assert inner.sum() == 15 * 15
+    assert (measures.valences(made.triangles, 920)[inner] == 6).all()
+
+
 def test_two_sided_distance_of_parallel_and_shifted_planes() -> None:
     flat = shapes.plane(300)
     moved = flat.vertices + np.array([0.01, 0.0, 0.0])

@@ -1,7 +1,7 @@
-"""The tetrathing (Fig. 8 of Schneider & Kobbelt 2001): closed, genus 3, held by six circles.
+"""The tetrathing of Fig. 8: a base of few triangles, subdivided.
 
-A circle of radius 0.35 round each edge of a tetrahedron of edge 2√2; between them four pairs of trousers,
-one at each corner. The base has 48 vertices and 104 triangles.
+The base has 48 vertices and 104 triangles: four pairs of trousers, one at each corner of a tetrahedron, joined along a
+circle of four vertices round each edge.
 """
 
 from __future__ import annotations
@@ -14,8 +14,10 @@ from blend import Blend
 from curves import FloatArray
 from meshing import IntArray
 
+Loops = list[list[int]]
 
-def _subdivided(triangles: IntArray, count: int) -> tuple[IntArray, IntArray]:
+
+def subdivided(triangles: IntArray, count: int) -> tuple[IntArray, IntArray]:
     """Each triangle in four; new vertex count + k is the midpoint of edge k. Returns edges too."""
     ends = measures.edges(triangles)
     key = ends[:, 0] * count + ends[:, 1]
@@ -30,8 +32,11 @@ def _subdivided(triangles: IntArray, count: int) -> tuple[IntArray, IntArray]:
     return np.vstack([np.column_stack(t) for t in corners]), ends
 
 
-def _trousers(corner: int, nodes: FloatArray, rings: dict[tuple[int, int], int]) -> IntArray:
-    """26 triangles round one corner: a nine-sided sheet outside and one inside, 13 each."""
+def trousers(corner: int, nodes: FloatArray, rings: dict[tuple[int, int], int], first: int) -> IntArray:
+    """26 triangles round one corner: a nine-sided sheet outside and one inside, 13 each.
+
+    rings: first of the four vertices round each pair of nodes; first: of three vertices outside and three inside.
+    """
     outward = nodes[corner] / np.linalg.norm(nodes[corner])
     others = [k for k in range(4) if k != corner]
     toward = {k: nodes[k] - nodes[corner] for k in others}
@@ -39,7 +44,6 @@ def _trousers(corner: int, nodes: FloatArray, rings: dict[tuple[int, int], int])
     if np.dot(np.cross(toward[a], toward[b]), outward) < 0:
         b, c = c, b
     order = [a, b, c]
-    first = 24 + 6 * corner  # three vertices outside, three inside
 
     def ring(k: int, name: str) -> int:
         start = rings[min(corner, k), max(corner, k)]
@@ -65,25 +69,42 @@ def _trousers(corner: int, nodes: FloatArray, rings: dict[tuple[int, int], int])
     return np.array(faces)
 
 
-def tetrathing(radius: float = 0.35, times: int = 4) -> Blend:
-    """The mesh with a membrane inside, base subdivided so many times: 13308 vertices after 4, 3324 after 3."""
-    nodes = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]) / 1.0
-    pairs = [(i, j) for i in range(4) for j in range(i + 1, 4)]
-    rings = {pair: 4 * k for k, pair in enumerate(pairs)}
-    triangles = np.vstack([_trousers(k, nodes, rings) for k in range(4)])
-    loops = [[4 * k + s for s in range(4)] for k in range(6)]
-    angles = [[0.5 * np.pi * s for s in range(4)] for _ in range(6)]
-    count = 48
+def refined(
+    triangles: IntArray, starts: list[int], count: int, times: int
+) -> tuple[IntArray, Loops, list[list[float]], int]:
+    """Triangles, the circles' vertices in order, their angles and the number of vertices, subdivided `times` times.
+
+    starts: first vertex of each circle of four.
+    """
+    loops = [[start + s for s in range(4)] for start in starts]
+    angles = [[0.5 * np.pi * s for s in range(4)] for _ in starts]
     for _ in range(times):
-        triangles, ends = _subdivided(triangles, count)
+        triangles, ends = subdivided(triangles, count)
         row = {tuple(e): count + k for k, e in enumerate(ends.tolist())}
-        for k in range(6):
+        for k in range(len(loops)):
             loops[k], angles[k] = _refined_loop(loops[k], angles[k], row)
         count += len(ends)
-    fixed, points, normals = _circles(loops, angles, pairs, nodes, radius)
+    return triangles, loops, angles, count
+
+
+def tetrathing_mesh(radius: float = 0.35, times: int = 4) -> tuple[FloatArray, IntArray, IntArray, FloatArray]:
+    """Vertices (exact on the circles, zero elsewhere), triangles, fixed vertices and their radial normals."""
+    nodes = np.array([[1.0, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]])
+    pairs = [(i, j) for i in range(4) for j in range(i + 1, 4)]
+    rings = {pair: 4 * k for k, pair in enumerate(pairs)}
+    base = np.vstack([trousers(k, nodes, rings, 24 + 6 * k) for k in range(4)])
+    triangles, loops, angles, count = refined(base, list(rings.values()), 48, times)
     vertices = np.zeros((count, 3))
-    vertices[fixed] = points
-    return Blend(shapes.membrane(vertices, triangles, fixed), triangles, fixed, normals)
+    normals = []
+    for loop, turn, (i, j) in zip(loops, angles, pairs, strict=True):
+        middle = 0.5 * (nodes[i] + nodes[j])
+        top = middle / np.linalg.norm(middle)
+        side = np.cross(nodes[j] - nodes[i], top)
+        side /= np.linalg.norm(side)
+        radial = np.cos(turn)[:, None] * top + np.sin(turn)[:, None] * side
+        vertices[loop] = middle + radius * radial
+        normals.append(radial)
+    return vertices, triangles, np.concatenate(loops), np.vstack(normals)
 
 
 def _refined_loop(
@@ -99,19 +120,7 @@ def _refined_loop(
     return vertices, turns
 
 
-def _circles(
-    loops: list[list[int]], angles: list[list[float]], pairs: list[tuple[int, int]],
-    nodes: FloatArray, radius: float,
-) -> tuple[IntArray, FloatArray, FloatArray]:  # fmt: skip
-    """Fixed vertices with their exact places and radial normals."""
-    fixed, points, normals = [], [], []
-    for loop, turn, (i, j) in zip(loops, angles, pairs, strict=True):
-        middle = 0.5 * (nodes[i] + nodes[j])
-        top = middle / np.linalg.norm(middle)
-        side = np.cross(nodes[j] - nodes[i], top)
-        side /= np.linalg.norm(side)
-        radial = np.cos(turn)[:, None] * top + np.sin(turn)[:, None] * side
-        fixed += loop
-        points.append(middle + radius * radial)
-        normals.append(radial)
-    return np.array(fixed), np.vstack(points), np.vstack(normals)
+def tetrathing(radius: float = 0.35, times: int = 4) -> Blend:
+    """The mesh with a membrane inside: 13308 vertices after 4 subdivisions, 3324 after 3."""
+    vertices, triangles, fixed, normals = tetrathing_mesh(radius, times)
+    return Blend(shapes.membrane(vertices, triangles, fixed), triangles, fixed, normals)

@@ -26,9 +26,8 @@ import pairs
 import patches
 import plots
 import starts
-from exact import Scope
-
 from engine import Engine
+from exact import Scope
 from report import HEADER, Row, summary
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import matplotlib
 import numpy as np
 from PIL import Image
-from stripes import Layer, View, facing, render
 
 from engine import FloatArray
+from stripes import Layer, View, facing, render
 
 if TYPE_CHECKING:
     from patches import Specimen

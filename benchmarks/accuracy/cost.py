@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import numpy as np
-from exact import Scope
 
 import blend
 import graded
 import shapes
+from exact import Scope
 from report import Row
 from shapes import Patch
 

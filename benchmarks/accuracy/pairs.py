@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
-from exact import TIGHT, Scope
 from scipy.spatial import cKDTree
 
 import blend
@@ -18,6 +17,7 @@ import six_arms
 import tetrathing
 from blend import Blend
 from engine import FloatArray, Outcome
+from exact import TIGHT, Scope
 from report import Row
 from shapes import Patch, Style
 

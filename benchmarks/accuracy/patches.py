@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from exact import Scope
-from real_meshes import DATA, RealPatch, listed_patches, random_patches
-from starts import moved
 
 import contact_sheet
 from engine import Engine, FloatArray, Outcome
+from exact import Scope
+from real_meshes import DATA, RealPatch, listed_patches, random_patches
 from report import WEIGHTS, Row
+from starts import moved
 
 KINDS = ("given", "flattened", "noisy")
 SMOOTH = 20.0  # degrees that the outline's normals turn per edge where the surroundings count as smooth

@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator
 from functools import partial
 
 import numpy as np
-from exact import TIGHT, Scope
 
 import blend
 import shapes
 from engine import FloatArray, Outcome
+from exact import TIGHT, Scope
 from meshing import IntArray
 from report import WEIGHTS, Row
 from shapes import Patch, Style

@@ -1,9 +1,12 @@
-"""Table 1, Figs. 1 and 2 in numbers, and the accuracy of method "paper", as Markdown.
+"""Makes docs/paper.md and its pictures: every table and figure of the paper with ours.
 
-    python benchmarks/paper/run.py [--iterations 200]
+    benchmarks/paper/run                       # on a bare Debian 12: installs what it needs, then this
+    python benchmarks/paper/run.py [--data FOLDER] [--out FOLDER] [PART …]
 
-Ear and face patches need `shared/data/ict_head.obj` beside the checkout; without it they are left
-out.
+Needs fairing, numpy, scipy and matplotlib. The ear is cut out of ict_head.obj and the face out of
+demosthenes-low-res.obj in the data folder, by default `../shared/data` beside the checkout; where a file is missing out
+of Suzanne, which needs bpy. PARTs (names of the placeholders in page.md) are printed instead of the page. Takes some
+minutes.
 """
 
 from __future__ import annotations
@@ -11,121 +14,74 @@ from __future__ import annotations
 import argparse
 import sys
 import time
-from itertools import combinations
+from collections.abc import Callable
+from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
-
-import cases
-import numpy as np
-from cases import Case, FloatArray
-from scipy.sparse import diags_array
-from scipy.sparse.linalg import spsolve
-
-import fairing
-import measures
-import shapes
+ROOT = Path(__file__).resolve().parents[2]
+DATA = ROOT.parent / "shared" / "data"
+sys.path.insert(0, str(ROOT / "tests"))
 
 
-def fair(case: Case, **options: Any) -> tuple[fairing.FairResult, float]:
-    """Result and seconds."""
-    start = time.perf_counter()
-    result = fairing.fair(
-        case.vertices, case.triangles,
-        fixed=case.fixed, fixed_normals=case.normals, **{**case.options, **options},
-    )  # fmt: skip
-    return result, time.perf_counter() - start
+def missing_modules(data: Path) -> list[str]:
+    """What has to be installed first."""
+    whole = all((data / name).exists() for name in ("ict_head.obj", "demosthenes-low-res.obj"))
+    wanted = ["fairing", "numpy", "scipy", "matplotlib"] + ([] if whole else ["bpy"])
+    return [name for name in wanted if find_spec(name) is None]
 
 
-def furthest(case: Case, one: fairing.FairResult, other: fairing.FairResult) -> float:
-    """Largest distance between vertices of the same number, over D."""
-    return float(np.linalg.norm(one.vertices - other.vertices, axis=1).max() / case.diameter)
+def parts(data: Path, pictures: Path) -> dict[str, Callable[[], str]]:
+    """What fills each placeholder of page.md."""
+    import blend_study
+    import cases
+    import convergence
+    import figures
+    import tables
+
+    all_cases = cache(lambda: cases.all_cases(data))
+    return {
+        "table_one": lambda: tables.table_one(all_cases()),
+        "figure_1": lambda: figures.figure_1(pictures),
+        "figure_2": lambda: figures.figure_2(pictures),
+        "sensitivity": blend_study.sensitivity_table,
+        "figure_7": lambda: figures.figure_7(pictures),
+        "figure_8": lambda: figures.figure_8(pictures),
+        "figure_9": lambda: figures.figure_9(pictures, all_cases()[2]),
+        "figure_10": lambda: figures.figure_10(pictures, all_cases()[1]),
+        "methods": lambda: tables.methods_table(all_cases()),
+        "accuracy": lambda: tables.accuracy_table((1000, 4000, 16000)),
+        "convergence": lambda: convergence.convergence_plot(all_cases()[0], pictures / "paper_convergence.png"),
+    }
 
 
-def table_one(iterations: int) -> None:
-    """The columns of Table 1 with ours beside them."""
-    print("| case | vertices | triangles | base | paper s | + hierarchy | global s | 2001 s "
-          "| residual | angle | ended | from global, averaged | from global, fitted |")  # fmt: skip
-    print("|" + " --- |" * 13)
-    for case in cases.all_cases():
-        result, seconds = fair(case, method="paper", max_iterations=iterations)
-        averaged, _ = fair(case, normals="averaged")
-        fitted, fast = fair(case)
-        without = seconds - result.seconds["hierarchy"]
-        print(
-            f"| {case.name} | {len(case.vertices)} | {len(case.triangles)} | {result.levels[0]} "
-            f"| {without:.2f} | {seconds:.2f} | {fast:.2f} | {case.seconds:g} "
-            f"| {result.residual:.2g} | {result.boundary_angle.max():.2g}° "
-            f"| {result.termination}, global {fitted.termination} "
-            f"| {furthest(case, result, averaged):.1e} | {furthest(case, result, fitted):.1e} |"
-        )
+def filled(page: str, made: dict[str, Callable[[], str]]) -> str:
+    """The page with each `{{name}}` replaced."""
+    for name, make in made.items():
+        start = time.perf_counter()
+        page = page.replace("{{" + name + "}}", make())
+        print(f"{name}: {time.perf_counter() - start:.0f} s", flush=True)
+    return page
 
 
-def linear_bilaplacian(case: Case, weights: str) -> FloatArray:
-    """Δ²q = 0 with positions met; λ uniform or conformal to the mesh that is given."""
-    count = len(case.vertices)
-    if weights == "uniform":
-        matrix = shapes.uniform_laplacian(case.triangles, count).tocsr()
-    else:
-        rows, columns, values = fairing.cotan_laplacian(case.vertices, case.triangles)
-        matrix = shapes.uniform_laplacian(case.triangles, count).tocsr()
-        matrix = type(matrix)((values, (rows, columns)), shape=(count, count))
-    scaled = diags_array(1.0 / matrix.diagonal()) @ matrix
-    free = np.setdiff1d(np.arange(count), case.fixed)
-    squared = (scaled[free][:, free] @ scaled[free]).tocsr()
-    result = case.vertices.copy()
-    result[free] = spsolve(squared[:, free].tocsc(), -(squared[:, case.fixed] @ case.vertices[case.fixed]))
-    return result
-
-
-def sensitivity() -> None:
-    """Two resolutions and two parameterisations of the blend, each pair's two-sided distance."""
-    meshes = {"coarse": cases.cylinder_blend(0.6, 3, 700), "fine": cases.cylinder_blend(0.0, 0, 1600)}
-    linear, ours = {}, {}
-    for size, case in meshes.items():
-        for weights in ("uniform", "conformal"):
-            linear[size, weights] = (linear_bilaplacian(case, weights), case.triangles)
-            result, _ = fair(case, method="paper", max_iterations=2000, inner_fairness=weights)
-            ours[size, weights] = (result.vertices, case.triangles)
-    print("| pair | linear bilaplacian | paper | ratio |\n| --- | --- | --- | --- |")
-    diameter = meshes["fine"].diameter
-    for one, other in combinations(linear, 2):
-        far = measures.two_sided_distance(linear[one], linear[other]) / diameter
-        near = measures.two_sided_distance(ours[one], ours[other]) / diameter
-        print(f"| {' '.join(one)}, {' '.join(other)} | {far:.2e} | {near:.2e} | {far / near:.1f} |")
-
-
-def accuracy() -> None:
-    """Largest distance to exact surfaces over D: averaged normals against fitted ones."""
-    print("| surface, jittered | free vertices | paper | updates | global, fitted |")
-    print("| --- | --- | --- | --- | --- |")
-    for family in ("cylinder", "catenoid", "unduloid", "linear_flux", "clothoid"):
-        for size in (500, 1000, 4000):
-            patch = shapes.FAMILIES[family](size)
-            start = shapes.start_from_nothing(patch)
-            boundary = {"fixed": patch.fixed, "fixed_normals": patch.fixed_normals}
-            ours = fairing.fair(start, patch.triangles, method="paper", max_iterations=2000, **boundary)
-            best = fairing.fair(start, patch.triangles, **boundary)
-            updates = f"{ours.iterations}{'' if ours.converged else ' (not converged)'}"
-            print(
-                f"| {family} | {len(patch.free)} | {patch.error(ours.vertices):.1e} | {updates} "
-                f"| {patch.error(best.vertices):.1e} |"
-            )
-
-
-def main() -> None:
-    """Prints all tables."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--iterations", type=int, default=200, help="updates of the finest mesh")
-    iterations = parser.parse_args().iterations
-    print("## Table 1\n")
-    table_one(iterations)
-    print("\n## Figs. 1 and 2: how far the mesh shows through\n")
-    sensitivity()
-    print("\n## Distance to exact surfaces\n")
-    accuracy()
+def main() -> int:
+    """Writes the page, or prints parts of it."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--data", type=Path, default=DATA, help="folder of the two heads")
+    parser.add_argument("--out", type=Path, default=ROOT / "docs", help="folder of paper.md and pictures/")
+    parser.add_argument("part", nargs="*", help="only these placeholders, printed")
+    options = parser.parse_args()
+    if missing := missing_modules(options.data):
+        print(f"first: pip install {' '.join(missing)}   (fairing: pip install . in {ROOT.name})", file=sys.stderr)
+        return 2
+    made = parts(options.data, options.out / "pictures")
+    for name in options.part:
+        print(made[name]())
+    if not options.part:
+        page = (Path(__file__).parent / "page.md").read_text()
+        (options.out / "paper.md").write_text(filled(page, made))
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    raise SystemExit(main())

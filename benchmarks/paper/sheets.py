@@ -1,0 +1,36 @@
+"""Contact sheets: pictures in rows with a caption under each, as small PNG files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
+
+from rasteriser import FloatArray
+
+CAPTION = 26  # pixels
+GAP = 6
+PAPER = (255, 255, 255)
+Panel = tuple[FloatArray, str]
+
+
+def save_sheet(rows: list[list[Panel]], path: Path, colours: int = 96) -> None:
+    """Writes the rows as one PNG with a palette; all pictures of a row have the same height."""
+    widths = [sum(picture.shape[1] + GAP for picture, _ in row) + GAP for row in rows]
+    heights = [max(picture.shape[0] for picture, _ in row) + CAPTION + GAP for row in rows]
+    sheet = Image.new("RGB", (max(widths), sum(heights) + GAP), PAPER)
+    pen = ImageDraw.Draw(sheet)
+    font = ImageFont.truetype(str(Path(matplotlib.get_data_path()) / "fonts" / "ttf" / "DejaVuSans.ttf"), 15)
+    top = GAP
+    for row, height in zip(rows, heights, strict=True):
+        left = GAP
+        for picture, caption in row:
+            sheet.paste(Image.fromarray((np.clip(picture, 0, 1) * 255).round().astype(np.uint8)), (left, top))
+            centre = (left + picture.shape[1] // 2, top + picture.shape[0] + CAPTION // 2)
+            pen.text(centre, caption, fill=(20, 20, 20), font=font, anchor="mm")
+            left += picture.shape[1] + GAP
+        top += height
+    path.parent.mkdir(parents=True, exist_ok=True)
+    sheet.quantize(colours, dither=Image.Dither.NONE).save(path, optimize=True)
