@@ -8,7 +8,7 @@ the flat Y are as wide as half a circumference, so edges keep about their length
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,14 +28,14 @@ class Blend:
     """vertices (n, 3), exact on the rims and a uniform membrane inside; triangles (m, 3) outward.
 
     fixed (k,): the rims, with fixed_normals (k, 3) those of the cylinders. flat (n, 3): places in the flat Y,
-    third coordinate 1 above, −1 below, 0 on its sides.
+    third coordinate 1 above, −1 below, 0 on its sides (three cylinders only, else empty).
     """
 
     vertices: FloatArray
     triangles: IntArray
     fixed: IntArray
     fixed_normals: FloatArray
-    flat: FloatArray
+    flat: FloatArray = field(default_factory=lambda: np.empty((0, 3)))
 
     @property
     def diameter(self) -> float:
