@@ -9,8 +9,6 @@ namespace fairing {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 // Input vertex → local vertex. A vertex on a cut has several copies at the same place, any of which will do.
 class LocalNumbers {
 public:

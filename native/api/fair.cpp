@@ -14,8 +14,6 @@ namespace fairing {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 // Leaves out components without fixed vertices; refuses when nothing is left.
 std::vector<Patch> solvable_patches(const CheckedMesh& mesh, Diagnostics& warnings) {
     std::vector<Patch> patches = make_patches(mesh.cut, mesh.roles);

@@ -9,8 +9,6 @@ namespace fairing {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 void check_indices(const MeshInput& input) {
     const auto count = static_cast<int>(input.vertices.cols());
     Indices offenders;

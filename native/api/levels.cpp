@@ -9,8 +9,6 @@ namespace fairing {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 using Corners = std::vector<int>;
 
 void append(Corners& corners, const Triangles& triangles, const Indices& numbers) {

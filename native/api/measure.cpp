@@ -14,8 +14,6 @@ namespace fairing {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 // Visits every piece of the cut mesh as a patch with its positions.
 template <typename Visit>
 void for_each_piece(const CheckedMesh& mesh, const Points& points, Visit visit) {

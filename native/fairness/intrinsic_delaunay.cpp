@@ -9,8 +9,6 @@ namespace fairing {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 // Cotangent of the angle between sides b and c of a triangle with sides a, b, c; finite where it is degenerate.
 double cotangent_from_lengths(double a, double b, double c) {
     const double s = 0.5 * (a + b + c);

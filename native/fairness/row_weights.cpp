@@ -12,8 +12,6 @@ namespace fairing {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 template <typename Entry>
 std::span<const Entry> row_of(const Indices& begin, const std::vector<Entry>& entries, int row) {
     return std::span(entries).subspan(at(begin[at(row)]), at(begin[at(row) + 1] - begin[at(row)]));

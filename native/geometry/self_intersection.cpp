@@ -10,8 +10,6 @@ namespace fairing {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 using Box = Eigen::AlignedBox3d;
 using Corners = std::array<Vector3, 3>;
 

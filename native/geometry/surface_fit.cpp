@@ -17,8 +17,6 @@ constexpr std::size_t cubic_points = 16;
 constexpr std::size_t quadric_points = 8;
 constexpr int most_rings = 5;
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 // Adjacency of any triangle list, flat.
 struct VertexAdjacency {
     Indices begin;

@@ -9,8 +9,6 @@ namespace fairing {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 // For each column of the permuted matrix the entries above the diagonal (row lists of the lower triangle), flat.
 struct UpperPattern {
     Indices begin;

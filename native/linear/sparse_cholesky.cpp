@@ -6,12 +6,6 @@
 
 namespace fairing {
 
-namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-}  // namespace
-
 Eigen::Map<Eigen::MatrixXd> SparseCholesky::panel(int s) {
     const Supernodes& nodes = elimination_.supernodes;
     return {panels_.data() + panel_begin_[at(s)], nodes.row_count(s), nodes.column_count(s)};

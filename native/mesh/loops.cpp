@@ -9,8 +9,6 @@ namespace fairing {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 // Side that follows a border side: turn around its head through the fan until the next border side.
 int next_border_side(const Triangles& triangles, const EdgeTable& edges, int side) {
     int next = 3 * (side / 3) + (side % 3 + 1) % 3;

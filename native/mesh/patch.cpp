@@ -6,8 +6,6 @@ namespace fairing {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 bool has_free_vertex(const CutMesh& mesh, const Indices& piece_triangles, const VertexRoles& roles) {
     return std::any_of(piece_triangles.begin(), piece_triangles.end(), [&](int t) {
         const auto corners = mesh.triangles.col(t);

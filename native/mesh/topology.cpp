@@ -9,8 +9,6 @@ namespace fairing {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 bool has_free_corner(const Triangles& triangles, int side, const VertexRoles& roles) {
     const auto corners = triangles.col(side / 3);
     return !(roles.fixed[at(corners[0])] && roles.fixed[at(corners[1])] && roles.fixed[at(corners[2])]);

@@ -42,8 +42,6 @@ public:
     }
 
 private:
-    static std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
     void compress(int item, int root, bool flipped) {
         while (item != root) {
             const int next = parent_[at(item)];

@@ -4,12 +4,6 @@
 
 namespace fairing {
 
-namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-}  // namespace
-
 CurvatureEquation::CurvatureEquation(const Patch& patch) : free_count_(patch.free_count), begin_{0} {
     for (int i = 0; i < free_count_; ++i) {
         const RingView ring = patch.ring(i);

@@ -12,8 +12,6 @@ namespace {
 constexpr int smallest_base = 40;
 constexpr double growth = 4.0;
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 // A copy of the patch's half-edge mesh with positions, status flags, and the fixed vertices locked.
 SurfaceMesh decimation_mesh(const Patch& patch, const Points& positions) {
     SurfaceMesh mesh = patch.mesh;

@@ -14,8 +14,6 @@ namespace fairing {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 class PaperSolver {
 public:
     PaperSolver(const PaperProblem& pp, const Progress& progress)

@@ -16,8 +16,6 @@ constexpr int fairness_sweeps = 2;   // of step (2)
 constexpr int curvature_rounds = 2;  // of step (3)
 constexpr int curvature_sweeps = 3;  // of H in each of them
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 double opposite_cotangent(const Vector3& apex, const Vector3& a, const Vector3& b) {
     const Vector3 u = a - apex;
     const Vector3 v = b - apex;

@@ -9,8 +9,6 @@ namespace fairing {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 void put(Placement& placement, int vertex, const TargetSurface& target, const SurfacePoint& where) {
     placement.where[at(vertex)] = where;
     placement.points.col(vertex) = target.position(where);

@@ -13,8 +13,6 @@ namespace fairing {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 constexpr double delaunay_slack = -1e-9;
 constexpr double cos_of_fold = 0.5;  // a flip may not bend the surface more than this, or further than it is bent
 constexpr unsigned highest_valence = 9;

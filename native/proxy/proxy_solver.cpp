@@ -17,8 +17,6 @@ namespace fairing {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 constexpr double coarse_tolerance = 1e-6;  // units of D
 constexpr double finest_growth = 0.15;     // of edge lengths per distance from the outline
 constexpr double longest_coarse = 0.15;    // units of D

@@ -9,8 +9,6 @@ namespace fairing {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 // Barycentric coordinates of the foot of the perpendicular on the plane of a, b, c; may be negative.
 Vector3 plane_weights(const Vector3& p, const Vector3& a, const Vector3& b, const Vector3& c) {
     const Vector3 n = (b - a).cross(c - a);

@@ -6,8 +6,6 @@ namespace fairing {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 struct ColumnEntry {
     int row;
     int spoke;  // edge, or `none` on the diagonal
