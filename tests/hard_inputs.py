@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 
 import fairing
-import shapes
 from curves import FloatArray
 from meshing import IntArray
 from shapes import Patch
@@ -21,7 +20,7 @@ KINDS = ("uniform", "conformal", "inverse_distance", "shape_preserving")
 WAYS = [(method, kind) for method in ("global", "paper") for kind in KINDS]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Input:
     """vertices (n, 3), triangles (m, 3), fixed (k,), fixed_normals (k, 3), reference (n, 3)."""
 
@@ -31,6 +30,9 @@ class Input:
     normals: FloatArray | None
     reference: FloatArray | None = None
     options: dict[str, Any] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        return f"<{len(self.vertices)} vertices, {len(self.triangles)} triangles, {len(self.fixed)} fixed>"
 
     def fair(self, **options: Any) -> fairing.FairResult:
         """Solve, and see that what must stay stayed: the arrays given, and all that is not free."""
@@ -270,3 +272,20 @@ def needle(patch: Patch, ratio: float) -> Input:
     mid = patch.triangles[np.isin(patch.triangles, patch.free).all(axis=1)][0]
     start[mid[0]] = start[mid[1]] + (start[mid[0]] - start[mid[1]]) / ratio
     return of_patch(patch).changed(vertices=start, reference=start)
+
+
+def renumbered(item: Input, rng: np.random.Generator) -> tuple[Input, IntArray]:
+    """Vertices, triangles, their corners and `fixed` in another order; new vertex k is the old one order[k]."""
+    order = rng.permutation(len(item.vertices))
+    place = np.argsort(order)
+    triangles = place[item.triangles][rng.permutation(len(item.triangles))]
+    triangles = np.stack([np.roll(triangle, rng.integers(3)) for triangle in triangles])
+    listed = rng.permutation(len(item.fixed))
+    return replace(
+        item,
+        vertices=item.vertices[order],
+        triangles=triangles,
+        fixed=place[item.fixed][listed],
+        normals=None if item.normals is None else item.normals[listed],
+        reference=None if item.reference is None else item.reference[order],
+    ), order

@@ -1,37 +1,36 @@
 """Nothing breaks the engine: which inputs are refused, which are solved, and which test shows it.
 
-The law: never crash or hang, never write NaN, keep everything outside the patch and every array given,
-name the elements of every refusal, say honestly whether it converged. `hard_inputs.Input.fair` checks the
-parts of it that hold for every call. By row:
+The law: never crash or hang, never write NaN, keep everything outside the patch and every array given, name the
+elements of every refusal, say honestly whether it converged. `hard_inputs.Input.fair` checks the parts of it that
+hold for every call. Row by row (files without their `test_`; no file: here):
 
-| input | shown by |
-| --- | --- |
-| 3 faces at an edge | test_errors: test_refused_meshes[edge_of_three], test_a_fin_inside_the_patch_is_refused; here: |
-| | test_refusals_do_not_depend_on_the_method, test_a_fin_on_the_outline_changes_nothing |
-| two triangles on the same vertices | test_doubled_triangles_are_refused_where_they_would_move, …_are_left_alone_elsewhere |
-| lobes sharing an outline vertex; bow-tie | test_lobes_are_solved_each_as_alone; test_errors: test_refused_meshes[bow_tie] |
-| no area, no length, collapsed one-ring | test_robustness_shape: test_given_positions_without_area…, test_outlines_without_… |
-| unwelded seam | test_an_unwelded_seam_stays_open_and_is_told |
-| one face, or the surroundings, wound the other way | test_windings_do_not_matter |
-| Möbius strip; closed component | test_errors: test_refused_meshes[moebius_strip, closed_sphere], test_a_closed_component_is_left_alone; |
-| | here: test_a_moebius_strip_that_does_not_move_is_ignored |
-| normals against the winding; at a pin | test_errors: test_meshes_solved_with_a_warning[reversed_normals, pinned_normal] |
-| islands | test_islands_are_solved_each_as_alone; test_components |
-| one face, nothing free, nothing selected | test_errors: test_refused_meshes[single_triangle, everything_fixed], |
-| | test_empty_arrays_are_refused; here: test_a_strip_without_free_vertices |
-| one free vertex; valence 3; fans | test_one_free_vertex, test_clusters_of_valence_3, test_fans_of_high_valence |
-| open borders; everything selected | test_an_open_mesh_without_arguments_keeps_its_border |
-| loose vertices | test_errors: test_vertices_without_triangles_may_be_anything |
-| NaN in the patch; inf elsewhere | test_errors: test_refused_meshes[not_a_number, infinite, …]; here: test_infinity_outside… |
-| scale, offset | test_robustness_shape: test_scale_and_offset; test_invariance |
-| slivers, needles, edge ratios | test_robustness_shape: test_slivers…, test_needles…, test_graded… |
-| spikes, folds, noise | test_robustness_shape: test_the_interior_given_does_not_matter; test_invariance |
-| crease, fold-over neighbours | test_robustness_shape: test_a_creased_outline_is_told; test_warnings: self-intersection |
-| wrong arguments | test_errors: test_wrong_arguments_are_named, test_any_memory_layout…; test_robustness_calls |
-| cancel, raising callbacks | test_cancel; test_robustness_calls: test_cancelled_at_every_call, test_raised_at_every_call |
-| memory, threads, fork | test_robustness_calls |
-| again, same bits, renumbered | test_robustness_calls; test_result, test_invariance |
-| anything at random | test_robustness_random |
+3 faces at an edge      errors: refused_meshes[edge_of_three], a_fin_inside_the_patch_is_refused;
+                        refusals_do_not_depend_on_the_method, a_fin_on_the_outline_changes_nothing
+doubled triangles       doubled_triangles_are_refused_where_they_would_move, …_are_left_alone_elsewhere
+lobes, bow-tie          lobes_are_solved_each_as_alone; errors: refused_meshes[bow_tie]
+no area, no length      robustness_shape: given_positions_without_area_do_no_harm, outlines_without_length_or_area_…
+unwelded seam           an_unwelded_seam_stays_open_and_is_told
+winding                 windings_do_not_matter (one face, all surroundings)
+Möbius strip, closed    errors: refused_meshes[moebius_strip, closed_sphere], a_closed_component_is_left_alone;
+                        a_moebius_strip_that_does_not_move_is_ignored
+normals                 errors: meshes_solved_with_a_warning[reversed_normals, pinned_normal]
+islands                 islands_are_solved_each_as_alone; components
+nothing free            errors: refused_meshes[single_triangle, everything_fixed], empty_arrays_are_refused;
+                        a_strip_without_free_vertices
+one free vertex, fans   one_free_vertex, clusters_of_valence_3, fans_of_high_valence, a_fan_of_50_in_other_ways
+open borders            an_open_mesh_without_arguments_keeps_its_border
+loose vertices          errors: vertices_without_triangles_may_be_anything
+NaN, infinity           what_is_not_finite_in_the_patch_is_refused, infinity_outside_the_patch_is_left_alone
+scale, offset           robustness_shape: scale_and_offset, scales_whose_squares_are_no_numbers; invariance
+slivers, needles        robustness_shape: slivers_all_over, needles_in_the_reference, graded_meshes,
+                        a_short_edge_on_the_outline
+spikes, folds, noise    robustness_shape: the_interior_given_does_not_matter; invariance
+crease, fold-over       robustness_shape: a_creased_outline_is_told; warnings: a_surface_through_itself_is_told
+wrong arguments         errors: wrong_arguments_are_named; robustness_calls: wrong_arguments_of_every_kind_are_named, …
+cancel, exceptions      cancel; robustness_calls: interrupted_at_every_call
+memory, threads, fork   robustness_calls: without_memory_it_refuses_and_lives, two_threads_at_once_…, a_fork_goes_on
+again, renumbered       robustness_calls: again_moves_nothing_…, renumbered_input_gives_the_same_shape; result
+at random               robustness_random
 """
 
 from __future__ import annotations
