@@ -7,6 +7,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+import bad_inputs
+import fairing
 import hard_inputs
 import shapes
 from curves import FloatArray
@@ -77,6 +79,20 @@ def test_the_interior_given_does_not_matter(spoil: Callable[[Patch], FloatArray]
     control = CLEAN.fair(method=method, inner_fairness=kind)
     assert np.array_equal(result.vertices, control.vertices)
     assert result.converged == control.converged
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+def test_surroundings_with_a_corner_at_infinity(value: float) -> None:
+    """Triangles that reach there say nothing about the outline: as if they weren't there."""
+    vertices, triangles, equator = bad_inputs.closed_ball(60)
+    below = triangles[vertices[triangles].mean(axis=1)[:, 2] < 0]
+    far = below[~np.isin(below, equator).any(axis=1)][0, 0]
+    spoilt = vertices.copy()
+    spoilt[far] = value
+    normals, fitted = fairing.surrounding_normals(spoilt, below, equator)
+    expected, _ = fairing.surrounding_normals(vertices, below[(below != far).all(axis=1)], equator)
+    assert fitted.any()
+    assert np.array_equal(normals, expected)
 
 
 @in_all_ways
