@@ -144,10 +144,13 @@ def test_slivers_all_over(ratio: float, method: str, kind: str) -> None:
 @in_all_ways
 @pytest.mark.parametrize("ratio", [1e2, 1e4, 1e8])
 def test_needles_in_the_reference(ratio: float, method: str, kind: str) -> None:
-    """One edge of M0 shorter than its neighbours by that ratio."""
+    """One edge of M0 shorter than its neighbours by that ratio: the published iteration may not bear its weights."""
     result = hard_inputs.needle(CAP, ratio).fair(method=method, inner_fairness=kind)
-    assert off_the_sphere(result.vertices) < (4e-2 if method == "paper" else 5e-6)
-    assert result.converged or method == "paper"
+    if method == "global":
+        assert result.converged
+        assert off_the_sphere(result.vertices) < 5e-6
+    assert not result.converged or off_the_sphere(result.vertices) < 4e-2
+    assert ("NOT_CONVERGED" in codes(result)) == (not result.converged)
 
 
 @pytest.mark.parametrize("kind", KINDS)
