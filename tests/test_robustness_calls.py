@@ -20,7 +20,6 @@ from hard_inputs import WAYS, Input
 
 CAP = shapes.cap(60)
 CLEAN = hard_inputs.of_patch(CAP)
-LARGE = hard_inputs.of_patch(shapes.catenoid(2000))
 D = CAP.diameter
 in_all_ways = pytest.mark.parametrize(("method", "kind"), WAYS, ids=["-".join(way) for way in WAYS])
 
@@ -34,7 +33,7 @@ def call(**options: Any) -> fairing.FairResult:
 
 
 def with_entry(array: Any, value: Any) -> Any:
-    """A copy as 64-bit or float array whose first entry is another."""
+    """A copy, of a wider type if need be, whose first entry is another."""
     result = array.astype(np.result_type(array, type(value)))
     result.reshape(-1)[0] = value
     return result
