@@ -63,7 +63,9 @@ Points gather(const Points& points, std::span<const int> vertices) {
 
 Normalisation normalise(const Points& fixed_points) {
     const Vector3 centre = fixed_points.rowwise().mean();
-    return {centre, 2.0 * std::sqrt((fixed_points.colwise() - centre).colwise().squaredNorm().maxCoeff())};
+    double farthest = 0.0;  // squares of coordinates may be out of range
+    for (const auto point : fixed_points.colwise()) farthest = std::max(farthest, (point - centre).stableNorm());
+    return {centre, 2.0 * farthest};
 }
 
 std::span<const int> free_vertices(const Patch& patch) { return std::span(patch.to_input).first(at(patch.free_count)); }

@@ -89,15 +89,20 @@ bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostic
     constexpr double needle = 0.02;  // a right triangle of 90 : 1
     constexpr double tolerated_share = 0.1;
     Indices bad = flipped_triangles(patch, reference);
+    std::vector<char> has_area(at(patch.vertex_count()), 0);
     for (int t = 0; t < patch.triangle_count(); ++t) {
         const auto corners = patch.triangles.col(t);
         const double shape =
             triangle_shape(reference.col(corners[0]), reference.col(corners[1]), reference.col(corners[2]));
         if (!(shape >= needle)) bad.push_back(patch.input_triangle[at(t)]);
+        for (int v : corners) has_area[at(v)] = has_area[at(v)] || shape > 0.0;
     }
+    // A vertex whose whole neighbourhood is a point or a line hangs on nothing.
+    const bool collapsed =
+        std::find(has_area.begin(), has_area.begin() + patch.free_count, 0) != has_area.begin() + patch.free_count;
     std::sort(bad.begin(), bad.end());
     bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
-    if (static_cast<double>(bad.size()) <= tolerated_share * patch.triangle_count()) return true;
+    if (!collapsed && static_cast<double>(bad.size()) <= tolerated_share * patch.triangle_count()) return true;
     warnings.push_back({Code::reference_unusable,
                         std::to_string(bad.size()) +
                             " triangles of the reference mesh are needles or turned over, so that no distribution of "

@@ -14,7 +14,7 @@ VectorX boundary_angles(const Patch& patch, const Points& actual, const Points& 
 Indices flipped_triangles(const Patch& patch, const Points& points);
 
 // Whether inner-fairness weights can be read off a reference mesh (3 × local vertices); warns REFERENCE_UNUSABLE where
-// more than a tenth of it is needles, collapsed or turned over.
+// more than a tenth of it is needles, collapsed or turned over, or the whole one-ring of a free vertex has no area.
 bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostics& warnings);
 
 // D and the largest move, in units of D, at which the solve stops.

@@ -86,8 +86,8 @@ private:
         problem.options.load *= std::pow(unit.diameter, 3);
         warn_of_precision(patch, input_.vertices, {unit.diameter, options_.solver.tolerance}, result_.warnings);
         const Solution solution = solve(problem, unit, progress);
-        if (!solution.points.allFinite()) throw SolverError("the solution is not finite; nothing was changed");
         const Points points = unit.from_unit(solution.points);
+        if (!points.allFinite()) throw SolverError("the solution is not finite; nothing was changed");
         for (int v = 0; v < patch.free_count; ++v) result_.vertices.col(patch.to_input[at(v)]) = points.col(v);
         // The paper's method leaves H to be measured.
         for (int v = 0; v < solution.mean_curvature.size(); ++v) {

@@ -40,6 +40,34 @@ std::vector<char> mark_fixed(const MeshInput& input) {
     return fixed;
 }
 
+// Triangles that nothing moves and that have a corner at infinity or nowhere say nothing about the rest: left out.
+Triangles drop_unbounded_triangles(const MeshInput& input, const Triangles& triangles,
+                                   const std::vector<char>& given_fixed, Indices& kept, Diagnostics& warnings) {
+    if (input.vertices.allFinite()) return triangles;
+    Indices dropped;
+    Indices kept_columns;
+    Indices kept_input;
+    for (int t = 0; t < triangles.cols(); ++t) {
+        const auto c = triangles.col(t);
+        const bool held = given_fixed[at(c[0])] && given_fixed[at(c[1])] && given_fixed[at(c[2])];
+        if (held && !input.vertices(Eigen::all, c).allFinite()) {
+            dropped.push_back(kept[at(t)]);
+        } else {
+            kept_columns.push_back(t);
+            kept_input.push_back(kept[at(t)]);
+        }
+    }
+    kept = std::move(kept_input);
+    if (!dropped.empty()) {
+        warnings.push_back({Code::degenerate_face,
+                            std::to_string(dropped.size()) +
+                                " triangles between fixed vertices have a corner that is NaN or infinite and were left "
+                                "out",
+                            std::move(dropped), ElementKind::triangle});
+    }
+    return triangles(Eigen::all, kept_columns);
+}
+
 void check_finite(const MeshInput& input, const VertexRoles& roles) {
     Indices offenders;
     for (int v = 0; v < input.vertices.cols(); ++v) {
@@ -78,7 +106,8 @@ Points averaged_triangle_normals(const Points& points, const CutMesh& mesh) {
     for (const auto t : mesh.triangles.colwise()) {
         const auto v = [&](int k) { return mesh.input_vertex[at(t[k])]; };
         const Vector3 a = points.col(v(0));
-        const Vector3 cross = (points.col(v(1)) - a).cross(Vector3(points.col(v(2)) - a));
+        const Vector3 ab = points.col(v(1)) - a;
+        const Vector3 cross = ab.stableNormalized().cross(Vector3(points.col(v(2)) - a).stableNormalized());
         const double length = cross.norm();
         if (!(length > 0.0)) continue;
         for (int k = 0; k < 3; ++k) sums.col(v(k)) += cross / length;
@@ -154,8 +183,9 @@ void warn_of_flat_triangles(const MeshInput& input, const CutMesh& mesh, Diagnos
         const Vector3 a = input.vertices.col(input.triangles(0, t));
         const Vector3 b = input.vertices.col(input.triangles(1, t));
         const Vector3 c = input.vertices.col(input.triangles(2, t));
-        const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-        if (!((b - a).cross(c - a).norm() > 1e-12 * longest)) offenders.push_back(t);
+        const double longest = std::max({(b - a).stableNorm(), (c - b).stableNorm(), (a - c).stableNorm()});
+        const Vector3 cross = Vector3((b - a) / longest).cross(Vector3((c - a) / longest));
+        if (!(cross.norm() > 1e-12)) offenders.push_back(t);
     }
     if (offenders.empty()) return;
     warnings.push_back({Code::degenerate_face, std::to_string(offenders.size()) + " triangles have no area",
@@ -168,8 +198,10 @@ CheckedMesh check_mesh(const MeshInput& input) {
     check_indices(input);
     CheckedMesh mesh;
     Indices kept;
-    const Triangles triangles = drop_collapsed_triangles(input.triangles, kept, mesh.warnings);
-    mesh.roles = classify_vertices(make_edges(triangles, static_cast<int>(input.vertices.cols())), mark_fixed(input));
+    const std::vector<char> given_fixed = mark_fixed(input);
+    Triangles triangles = drop_collapsed_triangles(input.triangles, kept, mesh.warnings);
+    triangles = drop_unbounded_triangles(input, triangles, given_fixed, kept, mesh.warnings);
+    mesh.roles = classify_vertices(make_edges(triangles, static_cast<int>(input.vertices.cols())), given_fixed);
     check_finite(input, mesh.roles);
     mesh.fixed = all_fixed(input, mesh.roles, mesh.warnings);
     mesh.cut = cut_mesh(triangles, kept, mesh.roles, mesh.warnings);

@@ -23,8 +23,9 @@ struct CheckedMesh {
     Diagnostics warnings;
 };
 
-// Throws MeshError: INDEX_RANGE, NONFINITE (in vertices that triangles use), NONMANIFOLD_EDGE, NONMANIFOLD_VERTEX,
-// NOT_ORIENTABLE; std::invalid_argument for a fixed vertex named twice or a normal of length zero.
+// Throws MeshError: INDEX_RANGE, NONFINITE (triangles between fixed vertices may have such corners: they are left out),
+// NONMANIFOLD_EDGE, NONMANIFOLD_VERTEX, NOT_ORIENTABLE; std::invalid_argument for a fixed vertex named twice or a
+// normal of length zero.
 CheckedMesh check_mesh(const MeshInput& input);
 
 }  // namespace fairing

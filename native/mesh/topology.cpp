@@ -1,8 +1,10 @@
 #include "mesh/topology.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 
+#include "mesh/fans.h"
 #include "mesh/union_find.h"
 
 namespace fairing {
@@ -53,31 +55,6 @@ bool same_direction(const Triangles& triangles, int side_a, int side_b) {
     return side_tail(triangles, side_a) == side_tail(triangles, side_b);
 }
 
-int corner_at(const Triangles& triangles, int side, int vertex) {
-    return 3 * (side / 3) + (side_tail(triangles, side) == vertex ? side % 3 : (side % 3 + 1) % 3);
-}
-
-// One cut vertex for each fan of triangles around an input vertex.
-struct Fans {
-    Indices of_corner;
-    Indices input_vertex;
-};
-
-Fans number_fans(const Triangles& triangles, UnionFind& corners) {
-    Fans fans;
-    const int corner_count = 3 * static_cast<int>(triangles.cols());
-    fans.of_corner.assign(at(corner_count), none);
-    for (int c = 0; c < corner_count; ++c) {
-        int& fan = fans.of_corner[at(corners.root(c))];
-        if (fan == none) {
-            fan = static_cast<int>(fans.input_vertex.size());
-            fans.input_vertex.push_back(triangles(c % 3, c / 3));
-        }
-        fans.of_corner[at(c)] = fan;
-    }
-    return fans;
-}
-
 void check_fans(const Fans& fans, const VertexRoles& roles) {
     Indices count(roles.fixed.size(), 0);
     Indices offenders;
@@ -115,21 +92,75 @@ Windings join_windings(const Triangles& triangles, const EdgeTable& edges, const
     return windings;
 }
 
-void check_orientable(const Triangles& triangles, const Indices& input_triangle, Windings& windings,
-                      const VertexRoles& roles) {
+// Which triangles lie in a piece with a free vertex.
+std::vector<char> moving_triangles(const Triangles& triangles, Windings& windings, const VertexRoles& roles) {
+    const auto count = static_cast<int>(triangles.cols());
+    std::vector<char> piece_moves(at(count), 0);
+    for (int t = 0; t < count; ++t) {
+        if (has_free_corner(triangles, 3 * t, roles)) piece_moves[at(windings.pieces.root(t))] = 1;
+    }
+    std::vector<char> moves(at(count), 0);
+    for (int t = 0; t < count; ++t) moves[at(t)] = piece_moves[at(windings.pieces.root(t))];
+    return moves;
+}
+
+Indices select(const Indices& items, const std::vector<char>& marked) {
+    Indices result;
+    std::copy_if(items.begin(), items.end(), std::back_inserter(result), [&](int item) { return marked[at(item)]; });
+    return result;
+}
+
+void check_orientable(const Indices& twisted, const Indices& input_triangle) {
     Indices offenders;
-    std::vector<char> has_free(at(static_cast<int>(triangles.cols())), 0);
-    for (int t = 0; t < triangles.cols(); ++t) {
-        if (has_free_corner(triangles, 3 * t, roles)) has_free[at(windings.pieces.root(t))] = 1;
-    }
-    for (int t : windings.conflicts) {
-        if (has_free[at(windings.pieces.root(t))]) offenders.push_back(input_triangle[at(t)]);
-    }
+    for (int t : twisted) offenders.push_back(input_triangle[at(t)]);
     if (offenders.empty()) return;
     throw MeshError({Code::not_orientable,
                      "the mesh has a single side (a Möbius strip) through triangle " +
                          std::to_string(offenders.front()) + ": cut it open, or fair a part that has two sides",
                      std::move(offenders), ElementKind::triangle});
+}
+
+void check_doubled(const Triangles& triangles, const Indices& doubled) {
+    Indices offenders;
+    for (int t : doubled) {
+        for (int k = 0; k < 3; ++k) offenders.insert(offenders.end(), {triangles(k, t), triangles((k + 1) % 3, t)});
+    }
+    if (offenders.empty()) return;
+    throw MeshError({Code::nonmanifold_edge,
+                     "two triangles lie on the same three vertices " + std::to_string(offenders[0]) + ", " +
+                         std::to_string(offenders[2]) + ", " + std::to_string(offenders[4]) + ": delete one of them",
+                     std::move(offenders)});
+}
+
+// How the triangles hang together along the edges that are not cut.
+struct Joints {
+    Fans fans;
+    Windings windings;
+};
+
+Joints join_triangles(const Triangles& triangles, const EdgeTable& edges, const std::vector<char>& cut) {
+    return {join_corners(triangles, edges, cut), join_windings(triangles, edges, cut)};
+}
+
+// Takes pieces that can't be joined apart into single triangles where nothing in them moves; throws where it does.
+Joints join_or_take_apart(const Triangles& triangles, const EdgeTable& edges, const Indices& input_triangle,
+                          const VertexRoles& roles) {
+    std::vector<char> cut = find_cut_edges(triangles, edges, roles);
+    Joints joints = join_triangles(triangles, edges, cut);
+    check_fans(joints.fans, roles);
+    const Indices doubled = doubled_triangles(triangles, edges, joints.fans);
+    Indices defects = joints.windings.conflicts;
+    defects.insert(defects.end(), doubled.begin(), doubled.end());
+    if (defects.empty()) return joints;
+    const std::vector<char> moves = moving_triangles(triangles, joints.windings, roles);
+    check_doubled(triangles, select(doubled, moves));
+    check_orientable(select(joints.windings.conflicts, moves), input_triangle);
+    std::vector<char> hopeless(at(static_cast<int>(triangles.cols())), 0);
+    for (int t : defects) hopeless[at(joints.windings.pieces.root(t))] = 1;
+    for (std::size_t s = 0; s < edges.edge_of_side.size(); ++s) {
+        if (hopeless[at(joints.windings.pieces.root(static_cast<int>(s) / 3))]) cut[at(edges.edge_of_side[s])] = 1;
+    }
+    return join_triangles(triangles, edges, cut);
 }
 
 // Triangles to turn round, so that each piece follows the majority of its triangles.
@@ -168,17 +199,6 @@ void number_pieces(CutMesh& mesh, UnionFind& pieces) {
         if (piece == none) piece = mesh.piece_count++;
         mesh.piece[at(t)] = piece;
     }
-}
-
-UnionFind join_corners(const Triangles& triangles, const EdgeTable& edges, const std::vector<char>& cut) {
-    UnionFind corners(3 * static_cast<int>(triangles.cols()));
-    for (int e = 0; e < edges.size(); ++e) {
-        if (cut[at(e)] || edges.side_count(e) != 2) continue;
-        for (int v : edges.ends[at(e)]) {
-            corners.join(corner_at(triangles, edges.side(e, 0), v), corner_at(triangles, edges.side(e, 1), v));
-        }
-    }
-    return corners;
 }
 
 }  // namespace
@@ -242,12 +262,7 @@ std::vector<char> find_cut_edges(const Triangles& triangles, const EdgeTable& ed
 CutMesh cut_mesh(const Triangles& triangles, const Indices& input_triangle, const VertexRoles& roles,
                  Diagnostics& warnings) {
     const EdgeTable edges = make_edges(triangles, static_cast<int>(roles.fixed.size()));
-    const std::vector<char> cut = find_cut_edges(triangles, edges, roles);
-    UnionFind corners = join_corners(triangles, edges, cut);
-    Fans fans = number_fans(triangles, corners);
-    check_fans(fans, roles);
-    Windings windings = join_windings(triangles, edges, cut);
-    check_orientable(triangles, input_triangle, windings, roles);
+    auto [fans, windings] = join_or_take_apart(triangles, edges, input_triangle, roles);
 
     CutMesh mesh;
     mesh.input_triangle = input_triangle;

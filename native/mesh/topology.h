@@ -37,7 +37,9 @@ VertexRoles classify_vertices(const EdgeTable& edges, const std::vector<char>& g
 std::vector<char> find_cut_edges(const Triangles& triangles, const EdgeTable& edges, const VertexRoles& roles);
 
 // Cuts, orients (the majority of triangles wins in each piece and across its curves, with a warning), numbers pieces.
-// Throws NONMANIFOLD_VERTEX (several fans at a free vertex) and NOT_ORIENTABLE.
+// Pieces without free vertices that can't be joined (single-sided, or pockets of two triangles on the same three
+// vertices) are taken apart. Throws NONMANIFOLD_VERTEX (several fans at a free vertex), and where something moves
+// NONMANIFOLD_EDGE (a pocket) and NOT_ORIENTABLE.
 CutMesh cut_mesh(const Triangles& triangles, const Indices& input_triangle, const VertexRoles& roles,
                  Diagnostics& warnings);
 

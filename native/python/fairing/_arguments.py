@@ -36,8 +36,9 @@ def integers(name: str, value: npt.ArrayLike, columns: int | None) -> IntArray:
     wanted = "(k,)" if columns is None else f"(n, {columns})"
     if array.ndim != (1 if columns is None else 2) or (columns and array.shape[1] != columns):
         raise ValueError(f"{name}: shape {wanted} is needed, not {array.shape}")
-    if array.size and (array.max() > _INT32.max or array.min() < _INT32.min):
-        raise _index_range(name, int(np.flatnonzero((array > _INT32.max).any(-1))[0]))
+    outside = (array > _INT32.max) | (array < _INT32.min)
+    if outside.any():
+        raise _index_range(name, int(np.argwhere(outside)[0, 0]))
     return np.ascontiguousarray(array, dtype=np.int32)
 
 
@@ -94,10 +95,12 @@ def positive(name: str, value: Any) -> float:
 
 
 def whole(name: str, value: Any, smallest: int, largest: int | None = None) -> int:
-    """An integer within the given bounds."""
+    """An integer within the given bounds, and those of the engine's own integers."""
     bounds = f"{smallest} or more" if largest is None else f"{smallest} … {largest}"
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
         raise ValueError(f"{name}: an integer, {bounds}, is needed, not {value!r}")
-    if value < smallest or (largest is not None and value > largest):
+    if value > _INT32.max:
+        bounds = f"{smallest} … {_INT32.max}"
+    if not smallest <= value <= (_INT32.max if largest is None else largest):
         raise ValueError(f"{name}: {value} is not accepted; accepted is {bounds}")
     return int(value)

@@ -81,10 +81,12 @@ def surrounding_normals(
     Made for the outline of a patch: ``triangles`` are those outside it. A polynomial is fitted to the nearest
     of their vertices, a few rings wide. Returns ((k, 3) unit normals, (k,) bool); where the second is False
     there were too few points and the normal is the average of the adjacent triangles', zero without any.
+    Triangles with a corner that is NaN or infinite are left out.
     """
     points = _arguments.floats("vertices", vertices)
     faces = _arguments.integers("triangles", triangles, 3)
     _arguments.indices_within("triangles", faces, points.shape[0])
     where = _arguments.integers("at", at, None)
     _arguments.indices_within("at", where, points.shape[0])
-    return _core.surrounding_normals(points, faces, where)
+    bounded = faces[np.isfinite(points[faces]).all(axis=(1, 2))]
+    return _core.surrounding_normals(points, bounded, where)
