@@ -8,8 +8,6 @@ namespace fairing {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 int corner_at(const Triangles& triangles, int side, int vertex) {
     return 3 * (side / 3) + (side_tail(triangles, side) == vertex ? side % 3 : (side % 3 + 1) % 3);
 }
