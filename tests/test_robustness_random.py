@@ -114,7 +114,7 @@ def test_numberings(item: Input, kind: str, seed: int) -> None:
     assert error < 1e-9 or not polished
 
 
-@pytest.mark.xfail(reason="the engine's own mesh depends on the numbering: 4e-3 D here, mostly below 1e-3")
+@pytest.mark.xfail(strict=True, reason="the engine's own mesh depends on the numbering: 4e-3 D here, mostly below 1e-3")
 def test_numberings_on_the_engines_own_mesh() -> None:
     """A coarse annulus whose normals are 10° off; 1e-4 D is asked."""
     polished, error = renumbering_error(random_inputs.make_patch("annulus", 40, 59), 0, "shape_preserving")
