@@ -44,7 +44,10 @@ FairOptions with_uniform_fairness(FairOptions options) {
 class Call {
 public:
     Call(const MeshInput& input, const std::optional<Points>& reference, const FairOptions& options)
-        : input_(input), reference_(reference ? *reference : input.vertices), options_(options) {}
+        : input_(input),
+          reference_(reference ? *reference : input.vertices),
+          options_(options),
+          uniform_options_(with_uniform_fairness(options)) {}
 
     FairResult run(const ProgressCallback& callback) {
         const Stopwatch watch;
@@ -102,7 +105,7 @@ private:
         const Points reference = unit.to_unit(gather(reference_, patch.to_input));
         const bool usable =
             !reads_reference(options_.inner_fairness) || is_usable_reference(patch, reference, result_.warnings);
-        const FairOptions options = usable ? options_ : with_uniform_fairness(options_);
+        const FairOptions& options = usable ? options_ : uniform_options_;
         if (options.method == Method::paper) {
             Solution solution = solve_paper({problem, options.paper, options.inner_fairness, reference,
                                              make_row_weights(patch, reference, options)},
@@ -124,7 +127,7 @@ private:
         const bool readable = reads_reference(options_.inner_fairness);
         const std::size_t before = readable ? flipped_triangles(problem.patch, reference).size() : 0;
         if (flipped.size() <= before) return solution;
-        problem.weights = make_lambda(problem.patch, reference, with_uniform_fairness(options_));
+        problem.weights = make_lambda(problem.patch, reference, uniform_options_);
         const Solution uniform = solve_global(problem, progress.here());
         const bool better = uniform.termination == Termination::converged &&
                             flipped_triangles(problem.patch, uniform.points).size() < flipped.size();
@@ -186,6 +189,7 @@ private:
     const MeshInput& input_;
     const Points& reference_;
     const FairOptions& options_;
+    const FairOptions uniform_options_;
     CheckedMesh mesh_;
     FairResult result_;
     std::vector<double> side_angles_;  // per input vertex, the larger of its sides

@@ -22,6 +22,15 @@ Points normals_at(const Placement& placement, const TargetSurface& target) {
     return normals;
 }
 
+// Moves the vertices of a placement by `step` (3 × free count), along the surface.
+Placement moved(const Placement& placement, const TargetSurface& target, const Points& step) {
+    Placement result = placement;
+    for (int v = 0; v < static_cast<int>(placement.where.size()); ++v) {
+        put(result, v, target, target.project(placement.points.col(v) + step.col(v), placement.where[at(v)].triangle));
+    }
+    return result;
+}
+
 }  // namespace
 
 Placement first_placement(const Problem& problem, const ProxyMesh& mesh, const ProxyMesh::Snapshot& snapshot,
@@ -52,19 +61,6 @@ Placement first_placement(const Problem& problem, const ProxyMesh& mesh, const P
     for (int v = 0; v < patch.free_count; ++v) put(placement, v, target, where[at(v)]);
     return placement;
 }
-
-namespace {
-
-// Moves the vertices of a placement by `step` (3 × free count), along the surface.
-Placement moved(const Placement& placement, const TargetSurface& target, const Points& step) {
-    Placement result = placement;
-    for (int v = 0; v < static_cast<int>(placement.where.size()); ++v) {
-        put(result, v, target, target.project(placement.points.col(v) + step.col(v), placement.where[at(v)].triangle));
-    }
-    return result;
-}
-
-}  // namespace
 
 Placement near(const Placement& placement, const TargetSurface& target, const Points& points) {
     const auto count = static_cast<Eigen::Index>(placement.where.size());
@@ -106,7 +102,6 @@ double relax(const Problem& problem, const TangentialStep& tangential, const Tar
             placement = std::move(trial);
         }
         if (!better) break;
-        placement.last_step = largest;
     }
     return merit;
 }

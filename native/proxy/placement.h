@@ -11,7 +11,6 @@ namespace fairing {
 struct Placement {
     std::vector<SurfacePoint> where;  // free vertices of the problem's patch
     Points points;                    // 3 × local vertices
-    double last_step = 0.0;           // units of D
 };
 
 // First guess: removed vertices come back in reverse order, each at the mean of the ring that it left; the others are

@@ -7,7 +7,7 @@
 namespace fairing {
 
 DirectedStep::DirectedStep(const Patch& patch, const RowWeights& weights, const Points& fixed_points)
-    : free_count_(patch.free_count), fixed_points_(fixed_points) {
+    : free_count_(patch.free_count) {
     std::vector<Eigen::Triplet<double>> entries;
     std::vector<Eigen::Triplet<double>> couplings;
     for (int i = 0; i < free_count_; ++i) {
@@ -24,8 +24,9 @@ DirectedStep::DirectedStep(const Patch& patch, const RowWeights& weights, const 
     }
     laplacian_.resize(free_count_, free_count_);
     laplacian_.setFromTriplets(entries.begin(), entries.end());
-    coupling_.resize(free_count_, fixed_points.cols());
-    coupling_.setFromTriplets(couplings.begin(), couplings.end());
+    Matrix coupling(free_count_, fixed_points.cols());
+    coupling.setFromTriplets(couplings.begin(), couplings.end());
+    pull_ = (coupling * fixed_points.transpose()).transpose();
     factor_.compute(laplacian_);
     if (factor_.info() != Eigen::Success) {
         throw SolverError("the inner-fairness weights give a singular matrix: some vertices hang on no fixed one");
@@ -36,17 +37,16 @@ Points DirectedStep::solve(const Points& rhs) const {
     return factor_.solve(Eigen::MatrixXd(rhs.transpose())).transpose();
 }
 
-Points DirectedStep::harmonic_positions() const { return solve((coupling_ * fixed_points_.transpose()).transpose()); }
+Points DirectedStep::harmonic_positions() const { return solve(pull_); }
 
-Points DirectedStep::pull(const Points& points, const Points& normals) const {
-    Points result =
-        (coupling_ * fixed_points_.transpose() - laplacian_ * points.leftCols(free_count_).transpose()).transpose();
+Points DirectedStep::imbalance(const Points& points, const Points& normals) const {
+    Points result = pull_ - (laplacian_ * points.leftCols(free_count_).transpose()).transpose();
     project_across(result, normals);
     return result;
 }
 
 double DirectedStep::merit(const Points& points, const Points& normals) const {
-    return 0.5 * pull(points, normals).squaredNorm();
+    return 0.5 * imbalance(points, normals).squaredNorm();
 }
 
 Points DirectedStep::displacement(const Points& points, const Points& normals, int max_cycles) const {
@@ -63,7 +63,7 @@ Points DirectedStep::displacement(const Points& points, const Points& normals, i
         project_across(product, normals);
         return as_vector(product);
     };
-    return as_points(gmres(apply, precondition, as_vector(pull(points, normals)), relative_tolerance, max_cycles));
+    return as_points(gmres(apply, precondition, as_vector(imbalance(points, normals)), relative_tolerance, max_cycles));
 }
 
 }  // namespace fairing

@@ -20,13 +20,12 @@ private:
     using Matrix = Eigen::SparseMatrix<double>;
 
     // P (Λx − x) of the free vertices.
-    [[nodiscard]] Points pull(const Points& points, const Points& normals) const;
+    [[nodiscard]] Points imbalance(const Points& points, const Points& normals) const;
     [[nodiscard]] Points solve(const Points& rhs) const;
 
     int free_count_;
     Matrix laplacian_;  // 1 − Λ over the free vertices
-    Matrix coupling_;   // λ_ij of free i and fixed j
-    Points fixed_points_;
+    Points pull_;       // Σ λ_ij x_j over fixed neighbours j
     Eigen::SparseLU<Matrix> factor_;
 };
 
