@@ -9,6 +9,7 @@ from .curvature import MESH_OT_fair_curvature
 from .inspection import Inspection
 from .operators import MESH_OT_fair_region
 from .overlay import overlay
+from .text import draw_text
 from .translations import translated
 from .watch import MESH_OT_fair_inspect, is_large, request, watch
 
@@ -107,12 +108,12 @@ def _draw_inspection(layout: Any, found: Inspection, named: bool) -> None:
     _pair(column, "Faces", str(found.faces))
     _pair(column, "Free Vertices", str(found.free_vertices))
     if found.refusal:
-        _draw_text(layout, translated(found.refusal), "CANCEL")
+        draw_text(layout, translated(found.refusal), "CANCEL")
         return
     _pair(column, "Outlines", str(found.loops))
     _pair(column, "Islands", str(found.islands))
     for note in found.notes:
-        _draw_text(layout, note, "INFO")
+        draw_text(layout, note, "INFO")
 
 
 def _draw_report(layout: Any, report: Any) -> None:
@@ -125,7 +126,7 @@ def _draw_report(layout: Any, report: Any) -> None:
     _pair(column, "Free Vertices", str(report.free_vertices), "BLANK1")
     _pair(column, "Seconds", f"{report.seconds:.2f}", "BLANK1")
     for warning in report.warnings.splitlines():
-        _draw_text(layout, warning, "ERROR")
+        draw_text(layout, warning, "ERROR")
 
 
 def _draw_overlay(layout: Any, settings: Any) -> None:
@@ -144,20 +145,7 @@ def _draw_overlay(layout: Any, settings: Any) -> None:
         row.prop(settings, "range")
     column.prop(settings, "opacity")
     if overlay.message:
-        _draw_text(layout, overlay.message, "ERROR")
-
-
-def _draw_text(layout: Any, text: str, icon: str, width: int = 38) -> None:
-    """Draw a sentence over as many lines as it needs: labels don't wrap."""
-    column = layout.column(align=True)
-    column.scale_y = 0.8
-    line = ""
-    for word in text.split():
-        if line and len(line) + len(word) >= width:
-            column.label(text=line, icon=icon, translate=False)
-            line, icon = "", "BLANK1"
-        line = f"{line} {word}".strip()
-    column.label(text=line, icon=icon, translate=False)
+        draw_text(layout, overlay.message, "ERROR")
 
 
 def draw_menu(menu: Any, _context: bpy.types.Context) -> None:
