@@ -62,11 +62,11 @@ venv_python() { printf '%s/venv-%s/bin/python' "$build" "$1"; }
 
 manifest_version() { sed -n 's/^version = "\(.*\)"/\1/p' addon/blender_manifest.toml; }
 
-# The zip that scripts/package builds for a platform.
-zip_of() { printf '%s/package/intrinsic_fairing-%s-%s.zip' "$build" "$(manifest_version)" "${1//-/_}"; }
+# usage: zip_of FOLDER PLATFORM
+zip_of() { printf '%s/intrinsic_fairing-%s-%s.zip' "$1" "$(manifest_version)" "${2//-/_}"; }
 
-# The one for this machine.
-zip_path() { zip_of linux-x64; }
+# The zip that scripts/package --bpy builds for this machine.
+zip_path() { zip_of "$build/package" linux-x64; }
 
 # Lays out the folder that becomes a platform's zip: the add-on with these wheels.
 # usage: stage_extension FOLDER PLATFORM WHEEL…

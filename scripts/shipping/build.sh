@@ -74,11 +74,11 @@ wheels_of() {
 make_zip() {
     local staging=$build/staging/$1 target
     local -a wheels
-    target=$(zip_of "$1")
+    target=$(zip_of "$packages" "$1")
     readarray -t wheels < <(wheels_of "$@")
     stage_extension "$staging" "$1" "${wheels[@]}"
     cp -r "$cross/licences/$1/." "$staging"
-    mkdir -p "$build/package"
+    mkdir -p "$packages"
     "$python" scripts/shipping/archive.py "$staging" "$target"
     "$python" "$(extension_tool)" validate "$target"
 }

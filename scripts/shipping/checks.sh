@@ -24,13 +24,13 @@ check_wheels() {
 # SBOM and checksums, beside the zips.
 write_lists() {
     "$python" scripts/shipping/sbom.py --zig "$zig_version" --openmesh "$cross"/download/openmesh \
-        "$build"/package/*.zip >"$build/package/intrinsic_fairing-$(manifest_version).cdx.json"
-    (cd "$build/package" && sha256sum -- *.zip *.json >SHA256SUMS)
+        "$packages"/*.zip >"$packages/intrinsic_fairing-$(manifest_version).cdx.json"
+    (cd "$packages" && sha256sum -- *.zip *.json >SHA256SUMS)
 }
 
 list_zips() {
     say "Packages"
-    (cd "$build/package" && stat -c '%9s  %n' -- *)
+    (cd "$packages" && stat -c '%9s  %n' -- *)
 }
 
 check_everything() {
@@ -39,7 +39,7 @@ check_everything() {
     for version in "${all_bpy[@]}"; do
         scripts/setup --bpy "$version"
         say "One solve in bpy $version"
-        use_zip "$(venv_python "$version")" "$(zip_path)"
+        use_zip "$(venv_python "$version")" "$(zip_of "$packages" "$native")"
     done
     use_zip_in_python313
     check_sdist
@@ -55,7 +55,7 @@ check_sbom() {
         "$python" -m venv "$venv"
         quietly pip-sbom "$venv/bin/python" -m pip install 'cyclonedx-python-lib[json-validation]==11.*'
     fi
-    "$venv/bin/python" scripts/shipping/check_sbom.py "$build"/package/*.cdx.json
+    "$venv/bin/python" scripts/shipping/check_sbom.py "$packages"/*.cdx.json
 }
 
 # Debian 12 has no Python 3.13; Debian 13 in a folder has.
@@ -68,7 +68,7 @@ use_zip_in_python313() {
     make_trixie "$folder"
     say "One solve in bpy $bpy_of_python313, Python 3.13"
     in_folder "$folder/root" bash -c "cd /src && timeout --kill-after 10 300 /venv/bin/python \
-        scripts/shipping/use_zip.py 'build/package/$(basename "$(zip_path)")'"
+        scripts/shipping/use_zip.py '$(zip_of build/release "$native")'"
 }
 
 make_trixie() {
