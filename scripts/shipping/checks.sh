@@ -9,7 +9,9 @@ check_manylinux() {
     local scratch=$cross/auditwheel
     rm -rf "$scratch"
     quietly auditwheel "$python" -m auditwheel repair --plat manylinux_2_28_x86_64 --wheel-dir "$scratch" "$1"
-    if unzip -l "$scratch"/*.whl | grep -q 'fairing\.libs/'; then fail "$1 needs libraries of this machine"; fi
+    if "$python" -m zipfile --list "$scratch"/*.whl | grep -q 'fairing\.libs/'; then
+        fail "$1 needs libraries of this machine"
+    fi
 }
 
 check_wheels() {

@@ -54,16 +54,18 @@ make_windows_python() {
         quietly "windows-python-$version" "$python" -m pip download --no-deps --only-binary :all: \
             --platform win_amd64 --python-version "$version" --dest "$folder/download" \
             "panda3d==$panda3d_version" "numpy==${windows_numpy[$version]}"
-        unzip -q -j "$folder"/download/panda3d-*.whl 'deploy_libs/*' -x 'deploy_libs/api-ms-*' -d "$folder"
+        "$python" -m zipfile --extract "$folder"/download/panda3d-*.whl "$folder/panda3d"
+        mv "$folder"/panda3d/deploy_libs/* "$folder"
+        rm -r "$folder/panda3d" "$folder"/api-ms-*
         cp -r "$cross/python$version/source/Lib" "$folder/Lib"
         "$zig" cc -target x86_64-windows-gnu -municode -Os -s scripts/shipping/launcher.c \
             "$cross/python$version/windows/python$digits.lib" -o "$folder/python.exe"
         touch "$folder/.complete"
     fi
     mkdir "$folder/site"
-    unzip -q "$folder"/download/numpy-*.whl -d "$folder/site"
+    "$python" -m zipfile --extract "$folder"/download/numpy-*.whl "$folder/site"
     readarray -t wheel < <(wheels_of windows-x64 "$version")
-    unzip -q "${wheel[0]}" -d "$folder/site"
+    "$python" -m zipfile --extract "${wheel[0]}" "$folder/site"
 }
 
 solve_golden_in_wine() {
