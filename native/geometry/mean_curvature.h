@@ -15,6 +15,8 @@ struct CurvatureFit {
     double x2 = 0.0;
     [[nodiscard]] double mean() const { return 0.5 * (x0 + x2); }  // eq. 10
     [[nodiscard]] double gaussian() const { return x0 * x2 - 0.25 * x1 * x1; }
+    // How far the surface rises along the normal at a small tangential displacement d: ½ κ(d) |d|². In Frame's basis.
+    [[nodiscard]] double rise(const Vector3& normal, const Vector3& d) const;
 };
 
 // Least squares fit to the normal curvatures κ_j = 2⟨d_j, n⟩/⟨d_j, d_j⟩ (eq. 8, 11) of the directions to `points`;
@@ -22,10 +24,13 @@ struct CurvatureFit {
 // carry no direction and are left out. Regularised by 1e-9 of the trace: finite for any input.
 CurvatureFit fit_curvature(const Vector3& centre, std::span<const Vector3> points, const Vector3& normal);
 
-// H and K at all vertices of a patch.
+// H at all vertices of a patch, and the form behind it.
 struct PatchCurvature {
     VectorX mean;
-    VectorX gaussian;
+    Points form;  // x0, x1, x2 in the basis that Frame makes of the normal
+
+    [[nodiscard]] VectorX gaussian() const;
+    [[nodiscard]] CurvatureFit fit(int i) const { return {form(0, i), form(1, i), form(2, i)}; }
 };
 
 // From the neighbours and a virtual point between every two of them.

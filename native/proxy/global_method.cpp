@@ -2,6 +2,7 @@
 
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
+#include "multigrid/nested_solve.h"
 #include "proxy/placement.h"
 #include "proxy/proxy_solver.h"
 #include "solver/continuation.h"
@@ -17,6 +18,8 @@ namespace {
 // Large moves wrinkle a fine mesh, and a coarse proxy makes them for less: beyond this many free vertices it goes first
 // (measured on hemispheres: 1.2 times slower at 20k, 1.4 times faster at 40k; at 100k only the proxy gets there).
 constexpr int direct_limit = 25000;
+// From here on it pays to begin on coarser levels.
+constexpr int nested_limit = 1500;
 
 double residual_of(const Problem& problem, const Points& points) {
     const SurfaceState state = measured_surface(problem, points);
@@ -119,6 +122,10 @@ Solution better_of(Solution direct, Solution on_proxy) {
 
 Solution solve_global(const Problem& problem, const Progress& progress) {
     if (problem.options.equation == Equation::minimal) return solve_directly(problem, progress);
+    if (problem.patch.free_count > nested_limit) {
+        const auto nested = solve_nested(problem, solve_global, progress);
+        if (nested && !has_poor_triangles(problem.patch, nested->points)) return *nested;
+    }
     if (problem.patch.free_count > direct_limit) {
         Solution on_proxy = solve_on_proxy(problem, std::nullopt, progress);
         if (on_proxy.termination == Termination::converged) return on_proxy;

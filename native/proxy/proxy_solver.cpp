@@ -176,7 +176,7 @@ private:
         }
         const bool converged = solution.termination == Termination::converged;
         const SurfaceState state = measured_surface(problem, converged ? solution.points : start);
-        solution.mean_curvature = state.mean_curvature;
+        solution.mean_curvature = state.curvature.mean;
         solution.residual = largest_residual(problem, state, outer_residual(problem, state));
         const Points c = conormals(problem.patch, problem.fixed_points, problem.fixed_normals);
         const double energy =

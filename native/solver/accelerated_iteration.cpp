@@ -99,7 +99,7 @@ private:
     void keep() {
         best_residual_ = residual_;
         solution_.points = state_.points;
-        solution_.mean_curvature = state_.mean_curvature;
+        solution_.mean_curvature = state_.curvature.mean;
         solution_.residual = residual_;
     }
 
@@ -112,10 +112,16 @@ private:
         return !wanted || work_.normal->update(state_.stiffness, progress_.here());
     }
 
+    // Along the normals, and within the surface: a long way there follows its curvature.
     Points plain_step() {
+        constexpr double steepest = 0.5;
         const VectorX u = work_.normal->solve(outer_);
-        Points d = state_.normals.leftCols(patch_.free_count).array().rowwise() * u.transpose().array();
-        d += work_.tangential->displacement(state_.points, state_.normals);
+        Points d = work_.tangential->displacement(state_.points, state_.normals);
+        for (int i = 0; i < patch_.free_count; ++i) {
+            const Vector3 n = state_.normals.col(i);
+            const double most = steepest * d.col(i).norm();
+            d.col(i) += (u[i] + std::clamp(state_.curvature.fit(i).rise(n, d.col(i)), -most, most)) * n;
+        }
         return d;
     }
 

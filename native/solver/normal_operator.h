@@ -14,7 +14,7 @@ public:
     // has degenerated); solve may not be called then.
     [[nodiscard]] virtual bool update(const Stiffness& stiffness, const Progress& progress) = 0;
     // The operator's inverse applied to one or more columns (free count × k).
-    [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const { return factor_.solve(rhs); }
+    [[nodiscard]] virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const { return factor_.solve(rhs); }
 
 protected:
     SparseCholesky factor_;

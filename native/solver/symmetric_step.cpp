@@ -53,8 +53,12 @@ Points SymmetricStep::gradient(const Points& points) const {
     return (laplacian_ * points.leftCols(free_count_).transpose()).transpose() - pull_;
 }
 
+Points SymmetricStep::inverse(const Points& field) const {
+    return factor_.solve(Eigen::MatrixXd(field.transpose())).transpose();
+}
+
 Points SymmetricStep::precondition(const Points& field, const Points& normals) const {
-    Points result = factor_.solve(Eigen::MatrixXd(field.transpose())).transpose();
+    Points result = inverse(field);
     project_across(result, normals);
     return result;
 }

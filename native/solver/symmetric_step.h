@@ -16,6 +16,10 @@ public:
     [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
     [[nodiscard]] Points displacement(const Points& points, const Points& normals, int max_cycles) const override;
 
+    // L⁻¹ of a field over the free vertices.
+    [[nodiscard]] Points inverse(const Points& field) const;
+    [[nodiscard]] int free_count() const { return free_count_; }
+
 private:
     [[nodiscard]] Points gradient(const Points& points) const;
     [[nodiscard]] Points precondition(const Points& field, const Points& normals) const;
