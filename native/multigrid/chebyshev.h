@@ -7,7 +7,8 @@ namespace fairing {
 // spectrum: x ← x + p(D⁻¹A) D⁻¹ r with r kept as the residual of x. `inverse_diagonal`: a row, 0 at fixed vertices;
 // `largest`: an upper bound of the eigenvalues of D⁻¹A; `apply(z, y)`: y ← A z.
 template <typename FieldType, typename Row, typename Apply>
-void chebyshev(FieldType& x, FieldType& r, const Row& inverse_diagonal, double largest, int degree, const Apply& apply) {
+void chebyshev(FieldType& x, FieldType& r, const Row& inverse_diagonal, double largest, int degree,
+               const Apply& apply) {
     FieldType z = FieldType::Zero(x.rows(), x.cols());
     FieldType y(x.rows(), x.cols());
     for (int k = 1; k <= degree; ++k) {

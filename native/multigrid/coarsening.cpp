@@ -4,7 +4,8 @@ namespace fairing {
 
 namespace {
 
-constexpr double factor = 4.0;
+// Passes are made whole, which keeps the level even: the factor ends up between this and 5.
+constexpr double factor = 3.5;
 constexpr double least_factor = 1.6;  // a level that shrinks less is not worth its cost
 constexpr double least_progress = 0.03;
 constexpr int most_passes = 12;
@@ -23,7 +24,7 @@ Removals collapse_level(CollapseMesh& mesh, int target) {
     mesh.begin_level();
     for (int k = 0; k < most_passes && mesh.free_count() > target; ++k) {
         const int before = mesh.free_count();
-        append(removals, mesh.pass(target));
+        append(removals, mesh.pass());
         if (before - mesh.free_count() < least_progress * before) break;
     }
     return removals;
@@ -41,7 +42,7 @@ std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights
     while (mesh.free_count() > 2 * coarsest) {
         const int free_before = mesh.free_count();
         Transfer transfer;
-        const int target = std::max(coarsest, static_cast<int>(free_before / factor));
+        const int target = static_cast<int>(free_before / factor);
         transfer.removals = collapse_level(mesh, target);
         if (mesh.free_count() * least_factor > free_before) break;
         for (int& v : transfer.removals.vertex) v = fine_local[at(v)];

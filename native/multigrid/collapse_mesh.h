@@ -4,6 +4,7 @@
 #include <span>
 
 #include "fairness/inner_weights.h"
+#include "multigrid/collapse_star.h"
 
 namespace fairing {
 
@@ -31,7 +32,7 @@ public:
 
     // Removes vertices, no two of them neighbours, and returns the free ones among them: about a quarter of the mesh.
     // Collapses keep the topology, valences between 4 and 9 where they were, and make no chord between fixed vertices.
-    Removals pass(int least_free);
+    Removals pass();
 
     // Loops may lose half of their vertices until the next call.
     void begin_level();
@@ -43,8 +44,6 @@ public:
     [[nodiscard]] InnerWeights weights() const;
 
 private:
-    struct Star;
-
     void build_sides(const Patch& patch);
     void set_weights(const Patch& patch, const InnerWeights& weights);
     void count_loops(const Patch& patch);

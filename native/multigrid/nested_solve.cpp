@@ -4,7 +4,6 @@
 
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
-#include "multigrid/biharmonic_multigrid.h"
 #include "multigrid/coarsening.h"
 #include "multigrid/slide.h"
 #include "multigrid/tangential_multigrid.h"
@@ -17,11 +16,13 @@ namespace fairing {
 namespace {
 
 constexpr int coarsest_size = 600;  // free vertices
-// Up to so many free vertices a factorisation is faster than multigrid.
+// Up to so many free vertices the tangential step is factorised; beyond, multigrid is faster.
 constexpr int largest_factorised = 7000;
 constexpr double between_tolerance = 1e-4;  // units of D, of levels that are only starts
-// A level that starts at the coarser one's surface needs 3 to 8 iterations.
+// A level that starts at the coarser one's surface needs 3 to 8 iterations. Those between are good enough as starts
+// even where single poor triangles of a coarse level keep them from converging.
 constexpr int most_iterations = 20;
+constexpr int most_between = 6;
 constexpr int patience = 6;
 constexpr int evening_sweeps = 3;
 
@@ -44,11 +45,14 @@ Points with_fixed(const Patch& patch, const Points& fixed) {
     return points;
 }
 
+std::unique_ptr<NormalOperator> make_normal_operator(const Problem& problem, const Points& points) {
+    return std::make_unique<BiharmonicOperator>(problem.patch, points.leftCols(problem.patch.free_count));
+}
+
 struct Level {
     Problem problem;
     InnerWeights weights;
     Workspace work;
-    const BiharmonicCycle* normal_cycle = nullptr;      // in `work`
     const LaplaceCycle* tangential_cycle = nullptr;  // in `work`
 };
 
@@ -67,22 +71,25 @@ public:
         if (coarse_.empty()) return std::nullopt;
         make_levels(std::move(weights));
         std::map<std::string, double> seconds{{"hierarchy", watch.lap()}};
-        Solution solution = solve_coarsest(levels_.back().problem, progress_.range(0.05, 0.2));
+        Solution solution = solve_coarsest(coarsest_problem(), progress_.range(0.05, 0.2));
         if (solution.termination != Termination::converged) return std::nullopt;
         const double initial_residual = solution.initial_residual;
-        if (!set_up_coarsest(solution.points)) return std::nullopt;
+        set_up_tangential(coarse_.size());
         seconds["coarsest"] = watch.lap();
         double begin = 0.2;
         for (std::size_t k = coarse_.size(); k-- > 0;) {
             // Each level is about a quarter of the next.
             const double end = begin + (k == 0 ? 1.0 - begin : 0.25 * (1.0 - begin));
             solution = refine(k, solution.points, progress_.range(begin, end));
-            if (solution.termination != Termination::converged) return std::nullopt;
+            const bool good =
+                k == 0 ? solution.termination == Termination::converged : solution.termination != Termination::stalled;
+            if (!good) return std::nullopt;
             begin = end;
         }
         solution.boundary_normals = one_sided_normals(problem_.patch, solution.points);
         solution.initial_residual = initial_residual;
-        for (std::size_t k = levels_.size(); k-- > 0;) solution.levels.push_back(levels_[k].problem.patch.vertex_count());
+        for (std::size_t k = levels_.size(); k-- > 0;)
+            solution.levels.push_back(levels_[k].problem.patch.vertex_count());
         seconds["iteration"] = watch.lap();
         solution.seconds = std::move(seconds);
         return solution;
@@ -101,23 +108,21 @@ private:
             levels_.push_back({std::move(problem), std::move(coarse.weights), {}});
         }
         for (Level& level : levels_) {
-            level.problem.options.max_iterations = std::min(most_iterations, problem_.options.max_iterations);
+            const int most = &level == &levels_.front() ? most_iterations : most_between;
+            level.problem.options.max_iterations = std::min(most, problem_.options.max_iterations);
             level.problem.options.patience = patience;
         }
     }
 
-    [[nodiscard]] bool is_factorised(std::size_t k) const {
-        return k == coarse_.size() || levels_[k].problem.patch.free_count <= largest_factorised;
+    [[nodiscard]] Problem coarsest_problem() const {
+        Problem problem = levels_.back().problem;
+        problem.options.max_iterations = problem_.options.max_iterations;
+        problem.options.patience = problem_.options.patience;
+        return problem;
     }
 
-    bool set_up_coarsest(const Points& points) {
-        Level& level = levels_.back();
-        set_up_tangential(coarse_.size());
-        set_up_normal(coarse_.size(), points);
-        SurfaceState state;
-        state.points = points;
-        state.measure_faces(level.problem.patch);
-        return level.work.normal->update(state.stiffness, progress_.here());
+    [[nodiscard]] bool is_factorised(std::size_t k) const {
+        return k == coarse_.size() || levels_[k].problem.patch.free_count <= largest_factorised;
     }
 
     void set_up_tangential(std::size_t k) {
@@ -136,23 +141,6 @@ private:
         }
     }
 
-    void set_up_normal(std::size_t k, const Points& points) {
-        Level& level = levels_[k];
-        const Patch& patch = level.problem.patch;
-        const auto adopt = [&](auto normal) {
-            level.normal_cycle = normal.get();
-            level.work.normal = std::move(normal);
-        };
-        if (is_factorised(k)) {
-            adopt(std::make_unique<FactorisedBiharmonic>(patch));
-        } else {
-            const Points normals = max_normals(patch, points, level.problem.fixed_normals);
-            adopt(std::make_unique<MultigridBiharmonic>(patch, coarse_[k].transfer,
-                                                        coarse_[k].transfer.linear_weights(points, normals),
-                                                        *levels_[k + 1].normal_cycle));
-        }
-    }
-
     // The solution of level k from that of the coarser one.
     Solution refine(std::size_t k, const Points& coarse, const Progress& progress) {
         Level& level = levels_[k];
@@ -162,7 +150,7 @@ private:
         set_up_tangential(k);
         slide(problem, *level.work.tangential, points);
         progress.report(0.3, "refinement");
-        set_up_normal(k, points);
+        level.work.normal = make_normal_operator(problem, points);
         // λ that aren't symmetric need a factorisation of their own; the slide was made by their symmetric part.
         if (k > 0 || std::holds_alternative<InnerWeights>(problem.weights)) {
             return iterate(problem, level.work, points, progress.range(0.3, 1.0));

@@ -24,8 +24,8 @@ public:
 // A V-cycle: Chebyshev smoothing, the coarser level's own λ.
 class MultigridStep : public TangentialStep, public LaplaceCycle {
 public:
-    MultigridStep(const Patch& patch, const InnerWeights& weights, const Points& fixed_points,
-                  const Transfer& transfer, const LaplaceCycle& coarser);
+    MultigridStep(const Patch& patch, const InnerWeights& weights, const Points& fixed_points, const Transfer& transfer,
+                  const LaplaceCycle& coarser);
     [[nodiscard]] Points harmonic_positions() const override;
     [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
     [[nodiscard]] Points displacement(const Points& points, const Points& normals, int max_cycles = 10) const override;

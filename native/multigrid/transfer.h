@@ -43,10 +43,6 @@ struct Transfer {
         return coarse;
     }
 
-    // The weights nearest to those of the removals that interpolate linear functions of a surface exactly (3 × fine
-    // vertices): operators of fourth order need that.
-    [[nodiscard]] std::vector<double> linear_weights(const Points& points, const Points& normals) const;
-
     // Positions and normals (3 × vertices): means lifted as in `lifted_mean`. `fine` comes with the fixed vertices.
     void prolong_surface(const Points& coarse, const Points& coarse_normals, int fine_free_count, Points& fine,
                          Points& fine_normals) const;
