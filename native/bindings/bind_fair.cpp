@@ -145,6 +145,7 @@ py::dict fair_arrays(const DoubleArray& vertices, const IntArray& triangles, con
     const auto m0 = to_optional(reference, to_points);
     FairOptions fair_options = to_fair_options(options, neighbours);
     fair_options.paper = to_paper_options(paper);
+    fair_options.solver.nested = paper.levels != 1;
     if (weights) fair_options.custom = to_directed(*weights);
     PythonProgress progress(callback);
     FairResult result;

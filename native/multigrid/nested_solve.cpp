@@ -151,13 +151,13 @@ private:
         slide(problem, *level.work.tangential, points);
         progress.report(0.3, "refinement");
         level.work.normal = make_normal_operator(problem, points);
-        // λ that aren't symmetric need a factorisation of their own; the slide was made by their symmetric part.
-        if (k > 0 || std::holds_alternative<InnerWeights>(problem.weights)) {
-            return iterate(problem, level.work, points, progress.range(0.3, 1.0));
+        // λ that aren't symmetric need a factorisation of their own; so far their symmetric part was good enough.
+        if (k == 0 && std::holds_alternative<RowWeights>(problem.weights)) {
+            level.work.tangential =
+                make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here());
+            slide(problem, *level.work.tangential, points);
         }
-        Workspace work{std::move(level.work.normal),
-                       make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())};
-        return iterate(problem, work, points, progress.range(0.3, 1.0));
+        return iterate(problem, level.work, points, progress.range(0.3, 1.0));
     }
 
     Points interpolated(std::size_t k, const Points& coarse) const {

@@ -122,7 +122,7 @@ Solution better_of(Solution direct, Solution on_proxy) {
 
 Solution solve_global(const Problem& problem, const Progress& progress) {
     if (problem.options.equation == Equation::minimal) return solve_directly(problem, progress);
-    if (problem.patch.free_count > nested_limit) {
+    if (problem.options.nested && problem.patch.free_count > nested_limit) {
         const auto nested = solve_nested(problem, solve_global, progress);
         if (nested && !has_poor_triangles(problem.patch, nested->points)) return *nested;
     }

@@ -74,7 +74,7 @@ def fair(
     method : "global" | "paper"
         The fast solver, or the factorised multigrid iteration of §7, step for step.
     levels : int
-        "paper": levels of the hierarchy, 0: chosen, 1: none. "global": 0 or 1, no hierarchy.
+        "paper": levels of the hierarchy, 0: chosen, 1: none. "global": 0 or 1 likewise.
     tolerance : float
         "global": stop when an iteration moves no vertex by more than ``tolerance`` × D. "paper": see ``epsilon``.
     max_iterations : int
