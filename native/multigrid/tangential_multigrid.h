@@ -26,6 +26,7 @@ class MultigridStep : public TangentialStep, public LaplaceCycle {
 public:
     MultigridStep(const Patch& patch, const InnerWeights& weights, const Points& fixed_points, const Transfer& transfer,
                   const LaplaceCycle& coarser);
+    void hold(const Points& fixed_points) override { fixed_points_ = fixed_points; }
     [[nodiscard]] Points harmonic_positions() const override;
     [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
     [[nodiscard]] Points displacement(const Points& points, const Points& normals, int max_cycles = 10) const override;

@@ -44,6 +44,7 @@ public:
         for (int k = 0; k < most; ++k) {
             report(k);
             if (!measure()) break;
+            if (k == 0) solution_.initial_residual = residual_;
             if (!refresh_operator(k)) {
                 solution_.termination = Termination::stalled;
                 break;
@@ -105,6 +106,7 @@ private:
 
     // A new factor at the start and where the steps hardly shrink; false where the surface has none.
     bool refresh_operator(int k) {
+        if (work_.keeps_factor) return true;
         if (k > 0 && k - refreshed_at_ < refresh_after) return true;
         const bool wanted = k == 0 || last_step_ > slow * step_at_refresh_;
         refreshed_at_ = k;
