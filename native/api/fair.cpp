@@ -128,7 +128,7 @@ private:
         const std::size_t before = readable ? flipped_triangles(problem.patch, reference).size() : 0;
         if (flipped.size() <= before) return solution;
         problem.weights = make_lambda(problem.patch, reference, uniform_options_);
-        const Solution uniform = solve_global(problem, progress.here());
+        Solution uniform = solve_global(problem, progress.here());
         const bool better = uniform.termination == Termination::converged &&
                             flipped_triangles(problem.patch, uniform.points).size() < flipped.size();
         if (!better) return solution;
