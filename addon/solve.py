@@ -14,7 +14,7 @@ from .boundary import prescribed_normals
 from .engine import Progress
 from .memory import Memory, digest
 from .options import FairOptions
-from .outline import outline_notes
+from .outline import outline_notes, precision_note
 from .quality import Quality
 from .region import MeshArrays, Patch, make_patch
 from .symmetry import mirror_map, symmetrised
@@ -87,7 +87,8 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
         # Conformal weights belong to the present shape, and so do its triangles.
         patch = make_patch(world, even=options.inner_fairness != "CONFORMAL")
         normals, warnings = prescribed_normals(world, patch, options.boundary_normals)
-        notes = outline_notes(world)
+        precision = precision_note(mesh)
+        notes = outline_notes(world) + ((precision,) if precision else ())
     return engine.Problem(patch, world.positions[patch.vertices], normals), warnings + notes
 
 

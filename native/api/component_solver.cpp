@@ -107,7 +107,7 @@ Solution ComponentSolver::injective(ComponentAnswer& answer, const Solution& sol
     Indices flipped = flipped_triangles(patch_, solution.points);
     if (flipped.size() <= tolerated_flips()) return solution;
     answer.problem.weights = make_lambda(patch_, reference_, options_.uniform);
-    const Solution uniform = solve_global(answer.problem, progress.here());
+    Solution uniform = solve_global(answer.problem, progress.here());
     const bool better = uniform.termination == Termination::converged &&
                         flipped_triangles(patch_, uniform.points).size() < flipped.size();
     if (!better) return solution;

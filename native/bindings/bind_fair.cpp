@@ -114,6 +114,7 @@ PaperOptions to_paper_options(const PaperChoices& choices) {
 // Rows (i, j, λ).
 std::vector<DirectedWeight> to_directed(const DoubleArray& rows) {
     std::vector<DirectedWeight> result;
+    result.reserve(static_cast<std::size_t>(rows.shape(0)));
     for (py::ssize_t k = 0; k < rows.shape(0); ++k) {
         result.push_back({static_cast<int>(rows.at(k, 0)), static_cast<int>(rows.at(k, 1)), rows.at(k, 2)});
     }

@@ -114,8 +114,9 @@ Solution try_directly(const Problem& problem, const Progress& progress) {
 Solution better_of(Solution direct, Solution on_proxy) {
     const bool direct_converged = direct.termination == Termination::converged;
     const bool proxy_converged = on_proxy.termination == Termination::converged;
-    if (direct_converged != proxy_converged) return direct_converged ? direct : on_proxy;
-    return direct_converged || on_proxy.residual < direct.residual ? on_proxy : direct;
+    const bool proxy_wins =
+        direct_converged != proxy_converged ? proxy_converged : direct_converged || on_proxy.residual < direct.residual;
+    return proxy_wins ? std::move(on_proxy) : std::move(direct);
 }
 
 }  // namespace

@@ -229,7 +229,8 @@ private:
                curvature_share * std::max(1.0, placed.mean_curvature.cwiseAbs().maxCoeff());
     }
 
-    Solution placed_solution(const SolvedProxy& proxy, const TargetSurface& target, const Placement& placement) const {
+    [[nodiscard]] Solution placed_solution(const SolvedProxy& proxy, const TargetSurface& target,
+                                           const Placement& placement) const {
         Solution placed = proxy.solution;
         placed.polished = false;
         placed.points = placement.points;
