@@ -16,12 +16,12 @@ from meshing import Mesh, edge_pairs, flip_edges
 from shapes import Patch, Style
 from surfaces import Sphere
 
-CENTRE = 0.33  # where the map takes the pole, in radii of the disc: makes an edge ratio of about 40
+CENTRE = 0.43  # where the map takes the pole, in radii of the disc: makes an edge ratio of about 40
 
 
 def graded_disc(n_free: int, style: Style) -> Patch:
     """A hemisphere with edges of a ratio of about 40, every twelfth flipped where triangles stay below an aspect of 12."""
-    even = shapes.cap(n_free, replace(style, layout="random"))
+    even = shapes.cap(n_free, replace(style, layout="random", jitter=0.0))
     surface = even.surface
     assert isinstance(surface, Sphere)
     s, t = surface.locate(even.vertices)

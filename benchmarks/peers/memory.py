@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -15,8 +16,12 @@ LIMIT = 900.0  # seconds
 def above_input(folder: Path, shape: str, size: int, tool: str) -> float:
     """MB, measured by a new process; NaN where the call fails there."""
     command = [sys.executable, __file__, str(folder), shape, str(size), tool]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT, check=False)
-    return float(done.stdout.split()[-1]) if done.returncode == 0 else float("nan")
+    paths = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    done = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT, check=False, env=paths)
+    if done.returncode != 0:
+        print(done.stderr, file=sys.stderr)
+        return float("nan")
+    return float(done.stdout.split()[-1])
 
 
 def _status(name: str) -> float:
@@ -27,7 +32,6 @@ def _status(name: str) -> float:
 
 def main() -> None:
     """Calls the tool once and prints the difference."""
-    sys.path.append(str(Path(__file__).resolve().parents[2] / "tests"))
     from problems import problem
     from tools import BY_NAME
 

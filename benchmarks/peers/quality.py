@@ -18,7 +18,7 @@ class Quality:
     """error, error_from_right: largest distance to the exact surface over D, started from a membrane and from the exact
     surface itself; between: distance between the results on two meshes over D, chords included; angle: largest between
     prescribed and fitted normals at the outline, degrees; flipped: triangles; distortion, worst: median and 95 % of the
-    ratio of stretches from the reference, 1 being conformal."""
+    ratio of stretches from the exact surface's triangles, 1 being conformal, when started from that surface."""
 
     error: float
     error_from_right: float
@@ -33,7 +33,7 @@ def judged(tool: Tool, one: Problem, other: Problem) -> Quality:
     """The tool on two meshes of one patch; all but `between` are of the first."""
     first, right, second = (tool.call(problem) for problem in (one, one.from_reference(), other))
     points = first.vertices
-    stretch = fairing.conformal_distortion(one.reference, points, one.triangles)
+    stretch = fairing.conformal_distortion(one.reference, right.vertices, one.triangles)
     return Quality(
         clock.error(one, first),
         clock.error(one, right),
