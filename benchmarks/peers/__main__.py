@@ -1,10 +1,12 @@
 """Ours beside the tools that are used instead: time, memory and quality on the same inputs in one run.
 
     benchmarks/peers/run                         # on a bare Debian 12: installs the peers, then this
-    python benchmarks/peers [--sizes 10000,100000,256000] [--million] [--page]
+    python benchmarks/peers [--sizes 10000,100000,256000] [--million]
+    python benchmarks/peers --parts memory,quality | --page
 
 Needs fairing, igl, meshlib, pymeshlab, numpy, scipy, matplotlib and the driver that `run` builds. Measurements go to
-build/peers/measured.json, the page with its plots to docs/performance.md; --page only writes it anew.
+build/peers/measured.json, the page with its plots to docs/performance.md. --parts measures some tables anew and keeps
+the others, --page only writes the page.
 """
 
 from __future__ import annotations
@@ -25,7 +27,8 @@ def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("--sizes", default="10000,100000,256000", help="numbers of free vertices")
     parser.add_argument("--million", action="store_true", help="a million as well: some 20 minutes and 12 GB")
-    parser.add_argument("--limit", type=float, default=400.0, help="leave out calls that are expected to take longer, s")
+    parser.add_argument("--limit", type=float, default=400.0, help="leave out calls expected to take longer, s")
+    parser.add_argument("--parts", default="times,graded,repeated,memory,quality", help="measure only these anew")
     parser.add_argument("--page", action="store_true", help="measure nothing, write the page from the last run")
     parser.add_argument("--measured", type=Path, default=BUILD / "measured.json", help="file of the measurements")
     parser.add_argument("--out", type=Path, default=ROOT / "docs", help="folder of performance.md and pictures/")
@@ -41,9 +44,8 @@ def write_page(path: Path, out: Path) -> None:
 
     done = Measured.load(path)
     page = (Path(__file__).parent / "page.md").read_text()
-    made = {"goals": goals.table, **{name: getattr(tables, name) for name in
-            ("machine", "times", "small", "memory", "quality", "repeated", "graded")}}  # fmt: skip
-    for name, make in made.items():
+    page = page.replace("{{goals}}", goals.table(done))
+    for name, make in tables.BY_NAME.items():
         page = page.replace("{{" + name + "}}", make(done))
     (out / "performance.md").write_text(page)
     charts.save(done, out / "pictures")
@@ -54,13 +56,13 @@ def main() -> int:
     """Measures, then writes the page."""
     options = arguments()
     if missing := [name for name in NEEDED if find_spec(name) is None]:
-        print(f"missing: {', '.join(missing)}; benchmarks/peers/run installs and builds what this needs", file=sys.stderr)
+        print(f"missing: {', '.join(missing)}; benchmarks/peers/run installs and builds them", file=sys.stderr)
         return 2
     if not options.page:
         from measured import Plan, run
 
         sizes = [int(word) for word in options.sizes.split(",")] + [1_000_000] * options.million
-        run(Plan(sizes, options.limit, BUILD / "inputs"), options.measured)
+        run(Plan(sizes, options.limit, BUILD / "inputs", tuple(options.parts.split(","))), options.measured)
     write_page(options.measured, options.out)
     return 0
 

@@ -39,7 +39,12 @@ def _of(done: Measured, tool: str) -> list[Row]:
 
 def _style(name: str) -> dict[str, Any]:
     marks = {"ours": "o", "peer": "s", "reference": "^", "smoothing": "x"}
-    return {"marker": marks[BY_NAME[name].kind], "linewidth": 2.4 if name == OURS else 1.0, "markersize": 5, "label": name}
+    return {
+        "marker": marks[BY_NAME[name].kind],
+        "linewidth": 2.4 if name == OURS else 1.0,
+        "markersize": 5,
+        "label": name,
+    }
 
 
 def _time_against_size(axis: Any, done: Measured) -> None:
@@ -61,4 +66,8 @@ def _error_against_cap(axis: Any, done: Measured) -> None:
     for name in BY_NAME:
         errors = [found.get((name, cap)) for cap in CAPS]
         axis.semilogy(ANGLES, [float("nan") if error is None else error for error in errors], **_style(name))
-    axis.set(xlabel="half angle of the spherical cap, degrees", ylabel="largest distance / D", title="error against curvature")
+    axis.set(
+        xlabel="half angle of the spherical cap, degrees",
+        ylabel="largest distance / D",
+        title="error against curvature",
+    )

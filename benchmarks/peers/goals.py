@@ -82,7 +82,9 @@ def _ratio(text: str, size: int, most: float, rows: dict[str, dict[str, Row]], n
     wall, cpu, shape, tool = max(found)
     best = f", best {min(found)[0]:.2g} ({min(found)[2]})" if len(found) > 1 else ""
     against = f" against {tool}" if len(names) > 1 else ""
-    return Goal(title, most, wall, f"{shape}{against}{best}; by processor time {cpu:.2g}", most == 1.0 and len(names) > 1)
+    return Goal(
+        title, most, wall, f"{shape}{against}{best}; by processor time {cpu:.2g}", most == 1.0 and len(names) > 1
+    )
 
 
 def _thousands(size: int) -> str:
@@ -94,7 +96,9 @@ def _steps(done: Measured) -> Iterator[Goal]:
     steps = {f"{row['shape']}, {_thousands(row['size'])}": row["steps"] for row in rows}
     if steps:
         worst = max(steps, key=lambda name: steps[name])
-        yield Goal("outer steps on the finest level, median of all rows", 4, median(steps.values()), f"{len(steps)} rows")
+        yield Goal(
+            "outer steps on the finest level, median of all rows", 4, median(steps.values()), f"{len(steps)} rows"
+        )
         yield Goal("outer steps on the finest level, worst", 8, steps[worst], worst)
 
 

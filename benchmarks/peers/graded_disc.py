@@ -20,7 +20,7 @@ CENTRE = 0.43  # where the map takes the pole, in radii of the disc: makes an ed
 
 
 def graded_disc(n_free: int, style: Style) -> Patch:
-    """A hemisphere with edges of a ratio of about 40, every twelfth flipped where triangles stay below an aspect of 12."""
+    """A hemisphere of edge ratio about 40; every twelfth edge is flipped where triangles stay below an aspect of 12."""
     even = shapes.cap(n_free, replace(style, layout="random", jitter=0.0))
     surface = even.surface
     assert isinstance(surface, Sphere)

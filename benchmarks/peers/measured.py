@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import platform
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, field
 from importlib.metadata import version
 from pathlib import Path
@@ -48,25 +48,23 @@ class Measured:
 
 @dataclass(frozen=True)
 class Plan:
-    """sizes: free vertices; limit: seconds that one call is expected to take at most; folder: of the meshes."""
+    """sizes: free vertices; limit: seconds that one call is expected to take at most; folder: of meshes; parts: what
+    is measured, the rest being kept from the file of the run before."""
 
     sizes: list[int]
     limit: float
     folder: Path
+    parts: tuple[str, ...]
 
 
 def run(plan: Plan, path: Path) -> Measured:
-    """Everything, saved after each part."""
-    done = Measured(machine=_machine())
-    parts: list[tuple[list[Row], Iterator[Row]]] = [
-        (done.times, _times(plan)),
-        (done.graded, _graded(plan)),
-        (done.repeated, _repeated(plan)),
-        (done.memory, _memory(plan, done)),
-        (done.quality, _quality(plan)),
-    ]
-    for rows, made in parts:
-        for row in made:
+    """Saved after each row."""
+    done = Measured.load(path) if set(plan.parts) != set(PARTS) else Measured()
+    done.machine = _machine()
+    for part in plan.parts:
+        rows: list[Row] = []
+        setattr(done, part, rows)
+        for row in PARTS[part](plan, done):
             rows.append(row)
             print(_shown(row), flush=True)
             done.save(path)
@@ -92,7 +90,7 @@ def shapes_at(size: int) -> list[str]:
     return SHAPES if size <= 10_000 else ["hemisphere", "catenoid"] if size <= 100_000 else ["hemisphere"]
 
 
-def _times(plan: Plan) -> Iterator[Row]:
+def _times(plan: Plan, _done: Measured) -> Iterator[Row]:
     known: dict[str, tuple[int, float]] = {}
     for size in sorted(plan.sizes):
         for shape in shapes_at(size):
@@ -124,7 +122,7 @@ def _clocked(made: Any, found: clock.Clocked) -> Row:
     }  # fmt: skip
 
 
-def _graded(plan: Plan) -> Iterator[Row]:
+def _graded(plan: Plan, _done: Measured) -> Iterator[Row]:
     """Ours on a graded irregular mesh and on a regular one of the same size, in turns."""
     if GRADED not in plan.sizes:
         return
@@ -138,7 +136,7 @@ def _graded(plan: Plan) -> Iterator[Row]:
         yield {"kind": kind, "free": len(mesh.free), **_clocked(mesh, clocked)}
 
 
-def _repeated(plan: Plan) -> Iterator[Row]:
+def _repeated(plan: Plan, _done: Measured) -> Iterator[Row]:
     for size in (2_000, 10_000):
         for shape in ("hemisphere", "catenoid"):
             made = problem(plan.folder, shape, size)
@@ -156,7 +154,7 @@ def _memory(plan: Plan, done: Measured) -> Iterator[Row]:
                 yield {"size": size, "tool": tool.name, "megabytes": used}
 
 
-def _quality(plan: Plan) -> Iterator[Row]:
+def _quality(plan: Plan, _done: Measured) -> Iterator[Row]:
     size = min(plan.sizes)
     for shape in SHAPES:
         one = problem(plan.folder, shape, size)
@@ -164,3 +162,12 @@ def _quality(plan: Plan) -> Iterator[Row]:
         for tool in TOOLS:
             if not tool.alike:
                 yield {"shape": shape, "tool": tool.name, **asdict(quality.judged(tool, one, other))}
+
+
+PARTS: dict[str, Callable[[Plan, Measured], Iterator[Row]]] = {
+    "times": _times,
+    "graded": _graded,
+    "repeated": _repeated,
+    "memory": _memory,
+    "quality": _quality,
+}

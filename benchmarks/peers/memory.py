@@ -1,6 +1,8 @@
 """Peak memory of one call above its input, in a process of its own.
 
-    python benchmarks/peers/memory.py FOLDER SHAPE SIZE TOOL      # prints MB
+    python benchmarks/peers/memory.py FOLDER SHAPE SIZE TOOL
+
+prints MB.
 """
 
 from __future__ import annotations

@@ -11,11 +11,11 @@ from functools import cached_property, lru_cache, partial
 from pathlib import Path
 
 import numpy as np
+import peers_driver
 from numpy.typing import NDArray
 
 import blend
 import measures
-import peers_driver
 import shapes
 from graded_disc import graded_disc
 from shapes import Patch, Style

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
+import tools
 from measured import Measured, Row
 from problems import CAPS
-from tools import BY_NAME, OURS
+from tools import OURS, SMOOTHING_STEPS
 
 
 def _table(head: list[str], rows: Iterable[list[str]]) -> str:
@@ -35,9 +36,11 @@ def _times_of(done: Measured, shape: str) -> str:
     sizes = _sizes(done, shape)
     cells = {(row["tool"], row["free"]): _seconds(row) for row in done.times if row["shape"] == shape}
     rows = [
-        [name, tool.threads, *(cells.get((name, free), "–") for free in sizes)] for name, tool in BY_NAME.items()
+        [name, tool.threads, *(cells.get((name, free), "–") for free in sizes)] for name, tool in tools.BY_NAME.items()
     ]  # fmt: skip
-    return _table(["tool, seconds by the wall (of the processor)", "threads", *(f"{free:,} free" for free in sizes)], rows)
+    return _table(
+        ["tool, seconds by the wall (of the processor)", "threads", *(f"{free:,} free" for free in sizes)], rows
+    )
 
 
 def _seconds(row: Row) -> str:
@@ -50,7 +53,7 @@ def small(done: Measured) -> str:
     rows = []
     for shape in dict.fromkeys(row["shape"] for row in done.times):
         found = {r["tool"]: r for r in done.times if (r["shape"], r["size"]) == (shape, size) and "wall" in r}
-        peers = [row for name, row in found.items() if BY_NAME[name].kind == "peer"]
+        peers = [row for name, row in found.items() if tools.BY_NAME[name].kind == "peer"]
         fastest = min(peers, key=lambda row: row["wall"])
         ours = found[OURS]
         rows.append([
@@ -64,7 +67,7 @@ def memory(done: Measured) -> str:
     """MB above the input."""
     sizes = sorted({row["size"] for row in done.memory})
     cells = {(row["tool"], row["size"]): f"{row['megabytes']:,.0f}" for row in done.memory}
-    names = [name for name in BY_NAME if any((name, size) in cells for size in sizes)]
+    names = [name for name in tools.BY_NAME if any((name, size) in cells for size in sizes)]
     rows = [[name, *(cells.get((name, size), "–") for size in sizes)] for name in names]
     return _table(["peak memory above the input, MB", *(f"{size:,}" for size in sizes)], rows)
 
@@ -115,3 +118,19 @@ def graded(done: Measured) -> str:
         for row in done.graded if "wall" in row
     ]  # fmt: skip
     return _table(["mesh of the hemisphere", "free", "ours, s", "outer steps", "ended", "error / D"], rows)
+
+
+def steps(_: Measured) -> str:
+    """Of PyMeshLab's smoothing."""
+    return str(SMOOTHING_STEPS)
+
+
+def quality_size(done: Measured) -> str:
+    """Free vertices wanted in the quality table."""
+    return f"{min(row['size'] for row in done.times):,}"
+
+
+BY_NAME: dict[str, Callable[[Measured], str]] = {
+    "machine": machine, "times": times, "small": small, "graded": graded, "memory": memory, "repeated": repeated,
+    "quality": quality, "quality_size": quality_size, "steps": steps,
+}  # fmt: skip

@@ -15,9 +15,8 @@ PYBIND11_MODULE(peers_driver, module) {
     py::enum_<Method>(module, "Method").value("ldlt", Method::ldlt).value("cholmod", Method::cholmod);
     py::class_<System>(module, "System")
         .def_readonly("load", &System::load)
-        .def("factorised", [](const System& system, Method method) {
-            return std::make_unique<Factor>(system.matrix, method);
-        });
+        .def("factorised",
+             [](const System& system, Method method) { return std::make_unique<Factor>(system.matrix, method); });
     py::class_<Factor>(module, "Factor").def("solve", &Factor::solve);
     module.def("cgal_fair", &cgal_fair);
     module.def("bilaplacian_system", &bilaplacian_system);
