@@ -11,7 +11,8 @@ from problems import Problem
 from tools import Answer, Tool
 
 CALLS = 7  # of a tool at most
-ENOUGH = 20.0  # seconds after which a tool isn't called again
+AT_LEAST = 3  # calls, however long they take together, up to
+ENOUGH = 120.0  # seconds after which a tool isn't called again; a sixth of that after AT_LEAST calls
 
 
 @dataclass
@@ -25,7 +26,7 @@ class Clocked:
 
     def call(self, tool: Tool, problem: Problem) -> None:
         """Once more, unless that would take too long or is known to fail."""
-        if self.failure or sum(self.wall) > ENOUGH:
+        if self.failure or sum(self.wall) > (ENOUGH if len(self.wall) < AT_LEAST else ENOUGH / 6):
             return
         wall, cpu = time.perf_counter(), time.process_time()
         try:
