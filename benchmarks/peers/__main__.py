@@ -28,6 +28,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--sizes", default="10000,100000,256000", help="numbers of free vertices")
     parser.add_argument("--million", action="store_true", help="a million as well: some 20 minutes and 12 GB")
     parser.add_argument("--limit", type=float, default=400.0, help="leave out calls expected to take longer, s")
+    parser.add_argument("--calls", type=int, default=7, help="of each tool at most")
     parser.add_argument("--parts", default="times,graded,repeated,memory,quality", help="measure only these anew")
     parser.add_argument("--page", action="store_true", help="measure nothing, write the page from the last run")
     parser.add_argument("--measured", type=Path, default=BUILD / "measured.json", help="file of the measurements")
@@ -62,7 +63,8 @@ def main() -> int:
         from measured import Plan, run
 
         sizes = [int(word) for word in options.sizes.split(",")] + [1_000_000] * options.million
-        run(Plan(sizes, options.limit, BUILD / "inputs", tuple(options.parts.split(","))), options.measured)
+        parts = tuple(options.parts.split(","))
+        run(Plan(sizes, options.limit, BUILD / "inputs", options.calls, parts), options.measured)
     write_page(options.measured, options.out)
     return 0
 

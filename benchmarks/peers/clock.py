@@ -10,7 +10,6 @@ import numpy as np
 from problems import Problem
 from tools import Answer, Tool
 
-CALLS = 7  # of a tool at most
 AT_LEAST = 3  # calls, however long they take together, up to
 ENOUGH = 120.0  # seconds after which a tool isn't called again; a sixth of that after AT_LEAST calls
 
@@ -38,7 +37,7 @@ class Clocked:
         self.cpu.append(time.process_time() - cpu)
 
 
-def interleaved(problem: Problem, tools: list[Tool], calls: int = CALLS) -> dict[str, Clocked]:
+def interleaved(problem: Problem, tools: list[Tool], calls: int) -> dict[str, Clocked]:
     """By name of the tool."""
     _ = problem.all_triangles, problem.all_vertices, problem.held, problem.free  # no tool pays for these
     clocked = {tool.name: Clocked() for tool in tools}

@@ -48,12 +48,13 @@ class Measured:
 
 @dataclass(frozen=True)
 class Plan:
-    """sizes: free vertices; limit: seconds that one call is expected to take at most; folder: of meshes; parts: what
-    is measured, the rest being kept from the file of the run before."""
+    """sizes: free vertices; limit: seconds that one call is expected to take at most; folder: of meshes; calls: of a
+    tool at most; parts: what is measured, the rest being kept from the file of the run before."""
 
     sizes: list[int]
     limit: float
     folder: Path
+    calls: int
     parts: tuple[str, ...]
 
 
@@ -97,7 +98,7 @@ def _times(plan: Plan, _done: Measured) -> Iterator[Row]:
             made = problem(plan.folder, shape, size)
             free = len(made.free)
             possible = [tool for tool in TOOLS if _expected(tool, free, known) < plan.limit]
-            clocked = clock.interleaved(made, possible)
+            clocked = clock.interleaved(made, possible, plan.calls)
             for tool in TOOLS:
                 row = {"shape": shape, "size": size, "free": free, "tool": tool.name}
                 if tool not in possible:
@@ -129,7 +130,7 @@ def _graded(plan: Plan, _done: Measured) -> Iterator[Row]:
     ours = BY_NAME[OURS]
     made = [problem(plan.folder, "graded hemisphere", GRADED), problem(plan.folder, "hemisphere", GRADED, REGULAR)]
     found = [clock.Clocked(), clock.Clocked()]
-    for _ in range(clock.CALLS):
+    for _ in range(plan.calls):
         for mesh, clocked in zip(made, found, strict=True):
             clocked.call(ours, mesh)
     for mesh, clocked, kind in zip(made, found, ("graded irregular", "regular"), strict=True):

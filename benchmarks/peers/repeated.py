@@ -15,17 +15,19 @@ from problems import FloatArray, Problem
 
 STEPS = 8  # moves that are measured
 STRETCH = 0.01  # of each move
+RUNS = 3
+Timed = tuple[float, Any]
 
 
 @dataclass(frozen=True)
 class Repeated:
-    """Wall seconds: the first solve; least and median of the solves after a move; least of a whole call of `fair` and
-    of a linear back-substitution for the same outlines. steps: most outer steps after a move; apart: largest distance
-    over D between the last two of solver and whole call."""
+    """Wall seconds, each the least of RUNS: the first solve; median and longest of the solves after a move; median of
+    whole calls of `fair` and least of linear back-substitutions for the same outlines. steps: most outer steps after a
+    move; apart: largest distance over D between the last two of solver and whole call."""
 
     first: float
-    least: float
     median: float
+    longest: float
     whole: float
     linear: float
     steps: int
@@ -40,15 +42,26 @@ def available() -> bool:
 def dragged(problem: Problem) -> Repeated:
     """The outline stretched a little further each time; the interior stays as it was given."""
     moves = [_moved(problem, k * STRETCH) for k in range(STEPS + 1)]
-    solver = fairing.Solver(problem.triangles, fixed=problem.fixed)  # type: ignore[attr-defined]
-    solved = [_timed(lambda at=at: solver.solve(at.vertices, fixed_normals=at.normals)) for at in moves]
-    whole = [_timed(lambda at=at: tools.fair(at)) for at in moves[1:]]
-    after = [seconds for seconds, _ in solved[1:]]
-    away = np.linalg.norm(solved[-1][1].vertices - whole[-1][1].vertices, axis=1).max() / moves[-1].diameter
+    runs = [_solved(problem, moves) for _ in range(RUNS)]
+    whole = [[_timed(lambda at=at: tools.fair(at)) for at in moves] for _ in range(RUNS)]
+    first, *after = _least(runs)
+    last, anew = (run[-1][1].vertices for run in (runs[-1], whole[-1]))
     return Repeated(
-        solved[0][0], min(after), float(np.median(after)), min(seconds for seconds, _ in whole), substitution(moves),
-        max(result.iterations for _, result in solved[1:]), float(away),
+        first, float(np.median(after)), max(after), float(np.median(_least(whole))), substitution(moves),
+        max(result.iterations for _, result in runs[-1][1:]),
+        float(np.linalg.norm(last - anew, axis=1).max() / moves[-1].diameter),
     )  # fmt: skip
+
+
+def _solved(problem: Problem, moves: list[Problem]) -> list[Timed]:
+    """One drag with a new solver."""
+    solver = fairing.Solver(problem.triangles, fixed=problem.fixed)  # type: ignore[attr-defined]
+    return [_timed(lambda at=at: solver.solve(at.vertices, fixed_normals=at.normals)) for at in moves]
+
+
+def _least(runs: list[list[Timed]]) -> list[float]:
+    """For each move."""
+    return [min(seconds for seconds, _ in calls) for calls in zip(*runs, strict=True)]
 
 
 def substitution(moves: list[Problem]) -> float:
@@ -58,7 +71,7 @@ def substitution(moves: list[Problem]) -> float:
     return min(_timed(lambda system=system: factor.solve(system.load))[0] for system in made)
 
 
-def _timed(call: Any) -> tuple[float, Any]:
+def _timed(call: Any) -> Timed:
     start = time.perf_counter()
     result = call()
     return time.perf_counter() - start, result

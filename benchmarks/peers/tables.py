@@ -99,13 +99,13 @@ def repeated(done: Measured) -> str:
     """Milliseconds, or why there are none."""
     if not done.repeated:
         return "This engine has no `fairing.Solver`: not measured."
-    names = ("first", "median", "least", "whole", "linear")
+    names = ("first", "median", "longest", "whole", "linear")
     rows = [
         [f"{row['shape']}, {row['size']:,}", *(f"{1000 * row[name]:.3g}" for name in names), str(row["steps"]),
          f"{row['apart']:.0e}"]
         for row in done.repeated
     ]  # fmt: skip
-    head = ["milliseconds", "first solve", "after a move, median", "least", "whole call of `fair`",
+    head = ["milliseconds", "first solve", "after a move, median", "longest", "whole call of `fair`",
             "linear back-substitution", "outer steps, most", "from the whole call's answer / D"]  # fmt: skip
     return _table(head, rows)
 
