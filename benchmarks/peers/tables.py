@@ -75,7 +75,7 @@ def memory(done: Measured) -> str:
 Cell = tuple[str, Callable[[Row], str]]
 COLUMNS: list[Cell] = [
     ("error / D", lambda row: f"{row['error']:.1e}"),
-    ("started from the right surface", lambda row: f"{row['error_from_right']:.1e}"),
+    ("from the right surface", lambda row: f"{row['error_from_right']:.1e}"),
     ("between two meshes / D", lambda row: f"{row['between']:.1e}"),
     ("boundary angle", lambda row: f"{row['angle']:.2g}°"),
     ("flipped", lambda row: str(row["flipped"])),
