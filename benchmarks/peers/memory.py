@@ -12,16 +12,17 @@ import subprocess
 import sys
 from pathlib import Path
 
-LIMIT = 900.0  # seconds
+LIMIT = 1200.0  # seconds
 
 
 def above_input(folder: Path, shape: str, size: int, tool: str) -> float:
-    """MB, measured by a new process; NaN where the call fails there."""
+    """MB, measured by a new process; NaN where the call fails or takes too long there."""
     command = [sys.executable, __file__, str(folder), shape, str(size), tool]
     paths = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
-    done = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT, check=False, env=paths)
-    if done.returncode != 0:
-        print(done.stderr, file=sys.stderr)
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT, check=True, env=paths)
+    except (subprocess.TimeoutExpired, subprocess.CalledProcessError) as error:
+        print(f"{tool}: {error}\n{error.stderr}", file=sys.stderr)
         return float("nan")
     return float(done.stdout.split()[-1])
 
