@@ -58,15 +58,10 @@ class Problem:
     strip: IntArray
 
     @cached_property
-    def free(self) -> IntArray:
-        """Indices of the vertices that move."""
-        return np.setdiff1d(np.arange(len(self.vertices)), self.fixed)
-
-    @cached_property
     def diameter(self) -> float:
         """D: twice the largest distance of the fixed vertices from their centroid."""
-        rim = self.vertices[self.fixed]
-        return float(2 * np.linalg.norm(rim - rim.mean(axis=0), axis=1).max())
+        outline = self.vertices[self.fixed]
+        return 2 * float(np.linalg.norm(outline - outline.mean(axis=0), axis=1).max())
 
     @cached_property
     def all_vertices(self) -> FloatArray:
@@ -77,6 +72,11 @@ class Problem:
     def all_triangles(self) -> IntArray:
         """With the strip outside, (m + s, 3)."""
         return np.vstack([self.triangles, self.strip])
+
+    @cached_property
+    def free(self) -> IntArray:
+        """Indices of the vertices that move."""
+        return np.setdiff1d(np.arange(len(self.vertices)), self.fixed)
 
     @cached_property
     def held(self) -> IntArray:
