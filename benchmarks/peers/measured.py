@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import platform
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, field
@@ -82,6 +83,7 @@ def _machine() -> Row:
     names = ("libigl", "meshlib", "pymeshlab", "numpy", "scipy")
     return {
         "processor": model, "cores": sum(line.startswith("processor") for line in lines),
+        "load": round(os.getloadavg()[0], 1),
         "fairing": fairing.__version__, **{name: version(name) for name in names},
     }  # fmt: skip
 

@@ -18,8 +18,10 @@ def _table(head: list[str], rows: Iterable[list[str]]) -> str:
 def machine(done: Measured) -> str:
     """A sentence."""
     words = dict(done.machine)
-    processor, cores = words.pop("processor"), words.pop("cores")
-    return f"{processor}, {cores} cores; " + ", ".join(f"{name} {number}" for name, number in words.items())
+    processor, cores, load = (words.pop(name) for name in ("processor", "cores", "load"))
+    return f"{processor}, {cores} cores, load {load} before the start; " + ", ".join(
+        f"{name} {number}" for name, number in words.items()
+    )
 
 
 def times(done: Measured) -> str:
