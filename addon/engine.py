@@ -1,4 +1,4 @@
-"""The one place that calls `fairing.fair`: a patch in world space, whole or piece by piece."""
+"""The one place that calls the engine: a patch in world space, whole or piece by piece, once or again and again."""
 
 from __future__ import annotations
 
@@ -76,6 +76,71 @@ def _solve_part(problem: Problem, options: FairOptions, load: float, progress: P
             progress=progress,
             **options.engine_arguments(),
         )
+
+
+class KeptSolver:
+    """Solves one patch for options that change while the mesh stays, each time from the last answer."""
+
+    def __init__(self, patch: Patch) -> None:
+        """Solve nothing yet."""
+        self._solver = fairing.Solver(patch.triangles, fixed=patch.fixed, neighbours=patch.neighbours)
+
+    def __call__(self, problem: Problem, options: FairOptions, progress: Progress | None) -> fairing.FairResult:
+        """Fair the patch, which must be the one given, as `solve` does; raises the same."""
+        with _mesh_indices(problem.patch):
+            load = 0.0
+            if options.equation == "CONSTANT" and options.bulge != 0.0:
+                load = _load(problem, problem.patch.outline, options)
+            self._solver.change(load=load, **options.engine_arguments())
+            return self._solver.solve(problem.points, problem.normals, progress=progress)
+
+
+def is_one_load(problem: Problem, options: FairOptions) -> bool:
+    """Tell whether all pieces of a patch have the same load, so that they can be solved in one go."""
+    return options.equation != "CONSTANT" or options.bulge == 0.0 or len(components(problem.patch)) <= 1
+
+
+class RepeatedSolve:
+    """Solves one patch for boundaries that move, each time from the last answer.
+
+    A bulge is measured by each piece's own outline, which moves: its pieces are solved at the size 1, where
+    the load stays the same.
+    """
+
+    def __init__(self, patch: Patch, points: Floats, options: FairOptions) -> None:
+        """Prepare for the patch; `points` (p, 3) is the shape that inner fairness belongs to."""
+        self._bulges = options.equation == "CONSTANT" and options.bulge != 0.0
+        whole = Problem(patch, points, np.zeros((len(patch.fixed), 3)))
+        self._pieces = components(patch) if self._bulges else ()
+        parts = [_part(whole, piece)[0] for piece in self._pieces] or [whole]
+        self._references = [part.points for part in parts]
+        self._solvers = [
+            fairing.Solver(
+                part.patch.triangles,
+                fixed=part.patch.fixed,
+                neighbours=part.patch.neighbours,
+                load=8.0 * options.bulge if self._bulges else 0.0,
+                **options.engine_arguments(),
+            )
+            for part in parts
+        ]
+
+    def __call__(self, problem: Problem, progress: Progress | None = None) -> fairing.FairResult:
+        """Fair the patch as `solve` does; raises the same. `progress`: of a patch in one piece."""
+        if not self._bulges:
+            return self._solve_part(0, problem, 1.0, progress)
+        results = []
+        for index, piece in enumerate(self._pieces):
+            part, used = _part(problem, piece)
+            results.append((used, self._solve_part(index, part, outline_radius(problem.points[piece.outline]))))
+        return _merged(problem, results)
+
+    def _solve_part(
+        self, index: int, part: Problem, size: float, progress: Progress | None = None
+    ) -> fairing.FairResult:
+        with _mesh_indices(part.patch):
+            result = self._solvers[index].solve(part.points / size, part.normals, self._references[index], progress)
+        return replace(result, vertices=result.vertices * size, mean_curvature=result.mean_curvature / size)
 
 
 @contextmanager

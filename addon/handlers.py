@@ -23,10 +23,12 @@ def listen(events: list[Any], function: Callable[..., None]) -> None:
 
 def unlisten(events: list[Any], function: Callable[..., None]) -> None:
     """Take one function back, unless that has been done already."""
-    if (events, function) not in _listening:
-        return
-    _listening.remove((events, function))
-    events.remove(function)
+    # By identity: two lists of events that happen to hold the same functions are equal.
+    for index, (list_of, listener) in enumerate(_listening):
+        if list_of is events and listener is function:
+            del _listening[index]
+            events.remove(function)
+            return
 
 
 def call_later(function: Callable[[], float | None], seconds: float) -> None:

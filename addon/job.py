@@ -14,13 +14,14 @@ import fairing
 
 from . import mesh_io
 from .arrays import Floats
-from .engine import Progress, sub_range
+from .engine import KeptSolver, Progress, sub_range
 from .memory import Memory
 from .options import FairOptions
 from .region import MeshArrays, free_vertices
-from .solve import Fairing, Solved, fair_arrays
+from .solve import Fairing, Kept, Solved, fair_arrays
 
 memory: Memory[Solved] = Memory(4)  # enough for the objects of one redo panel; forgotten at unregistering
+solvers: Memory[KeptSolver | None] = Memory(2)  # likewise; larger, as they hold factorisations
 
 
 class Refused(Exception):
@@ -70,14 +71,18 @@ def size(tasks: list[Task]) -> int:
     return sum(task.free_count for task in tasks)
 
 
-def solve(tasks: list[Task], options: FairOptions, progress: Progress) -> list[Fairing]:
-    """Solve task after task, on arrays alone; raises Refused and fairing.Cancelled."""
+def solve(tasks: list[Task], options: FairOptions, progress: Progress, ahead: bool = False) -> list[Fairing]:
+    """Solve task after task, on arrays alone; raises Refused and fairing.Cancelled.
+
+    ahead: prepare for a change of options, which takes a while: in the background.
+    """
+    kept = Kept(memory, solvers, ahead)
     outcomes: list[Fairing] = []
     done, total = 0, size(tasks)
     for task in tasks:
         part = sub_range(progress, done / total, (done + task.free_count) / total)
         try:
-            outcomes.append(fair_arrays(task.mesh, task.matrix, options, part, memory))
+            outcomes.append(fair_arrays(task.mesh, task.matrix, options, part, kept))
         except (ValueError, fairing.SolverError) as cause:
             raise Refused(task.object_name, cause) from cause
         done += task.free_count

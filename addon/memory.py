@@ -21,12 +21,22 @@ class Memory(Generic[Value]):
         self._values: OrderedDict[str, Value] = OrderedDict()
         self._lock = Lock()  # a cancelled run may end while the next one has begun
 
+    def __contains__(self, key: str) -> bool:
+        """Tell whether something is kept for the key."""
+        with self._lock:
+            return key in self._values
+
     def get(self, key: str) -> Value | None:
         """Return the value kept for the key, or None."""
         with self._lock:
             if key in self._values:
                 self._values.move_to_end(key)
             return self._values.get(key)
+
+    def take(self, key: str) -> Value | None:
+        """Return the value kept for the key and keep it no longer: it can't be used twice at a time."""
+        with self._lock:
+            return self._values.pop(key, None)
 
     def put(self, key: str, value: Value) -> None:
         """Keep a value, and forget the one that was not used for longest."""

@@ -41,13 +41,17 @@ def _snapshot(mesh: bpy.types.Mesh) -> Iterator[bpy.types.Mesh]:
         bpy.data.meshes.remove(copy)
 
 
-def read_edit_mesh(obj: bpy.types.Object, options: FairOptions) -> MeshArrays:
+def read_edit_mesh(obj: bpy.types.Object, options: FairOptions, region: str = "") -> MeshArrays:
     """Read the mesh of an object in edit mode; the patch is its selected, visible faces.
 
+    region: an integer face attribute that stands in for the selection.
     Raises ValueError where `options` name a vertex group that the object does not have.
     """
     with _snapshot(obj.data) as mesh:
-        selected = _column(mesh.polygons, "select", 1, bool)
+        if region:
+            selected = _column(mesh.attributes[region].data, "value", 1, np.int32).astype(bool)
+        else:
+            selected = _column(mesh.polygons, "select", 1, bool)
         arrays = _arrays(mesh, selected, _group_index(obj, options.pin_group), options)
         return replace(arrays, mirror_x=obj.data.use_mirror_x)
 

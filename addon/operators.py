@@ -107,7 +107,7 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
         if bpy.app.background or job.size(self._tasks) < background_from(context):
             return self._solve_at_once(context)
         manager = context.window_manager
-        self._run = Run(partial(job.solve, self._tasks, self._options))
+        self._run = Run(partial(job.solve, self._tasks, self._options, ahead=True))
         self._timer = manager.event_timer_add(TICK, window=context.window)
         manager.progress_begin(0.0, 1.0)
         manager.modal_handler_add(self)

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from .arrays import Floats, Ints, Mask
-from .region import MeshArrays, vertices_of
+from .region import MeshArrays, fins, vertices_of
 from .vectors import area_vectors, sum_at, unit
 
 SHARP = 60.0  # degrees between two faces at the outline that are worth telling
+COARSE = 1e-3  # of an edge: steps between neighbouring coordinates that are worth telling
 FOLDED = 150.0  # degrees between two faces around the outline that lie on each other
 
 
@@ -74,6 +75,8 @@ def outline_notes(mesh: MeshArrays) -> tuple[str, ...]:
         _winding_note(sides),
         _folded_note(mesh, outline),
         _lone_face_note(mesh, outline),
+        _seam_note(mesh),
+        _fin_note(mesh),
     )
     return tuple(note for note in found if note)
 
@@ -112,6 +115,39 @@ def _lone_face_note(mesh: MeshArrays, outline: Mask) -> str:
     if not alone:
         return ""
     return f"{alone} single faces are left out of the selection: the surface is tangent to each of them"
+
+
+def _seam_note(mesh: MeshArrays) -> str:
+    """Tell of open borders inside the patch that lie on each other: the surface is held there."""
+    single = np.bincount(mesh.corner_edges, minlength=len(mesh.edges)) == 1
+    border = np.zeros(len(mesh.positions), dtype=bool)
+    border[mesh.edges[single]] = True
+    places = mesh.positions[border & vertices_of(mesh, mesh.in_patch)]
+    doubled = len(places) - len(np.unique(places, axis=0))
+    if not doubled:
+        return ""
+    return f"{doubled} vertices of an open seam lie on others and stay where they are: use Merge by Distance first"
+
+
+def _fin_note(mesh: MeshArrays) -> str:
+    count = int(np.count_nonzero(fins(mesh)))
+    if not count:
+        return ""
+    return f"{count} faces stand on edges with more than two faces and were left out"
+
+
+def precision_note(mesh: MeshArrays) -> str:
+    """Tell where float32, in which Blender stores the mesh's own coordinates, is too coarse for the patch."""
+    used = np.unique(mesh.corner_edges[mesh.in_patch[mesh.corner_faces]])
+    ends = mesh.positions[mesh.edges[used]]
+    spacing = float(np.spacing(np.abs(ends).max(initial=0.0).astype(np.float32)))
+    edge = float(np.median(np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1))) if len(used) else 0.0
+    if spacing <= COARSE * edge:
+        return ""
+    return (
+        f"PRECISION: so far from the object's origin Blender's coordinates are {spacing:.2g} apart, edges {edge:.2g} "
+        "long: move the origin nearer"
+    )
 
 
 def turned_over(mesh: MeshArrays) -> Mask:

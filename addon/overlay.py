@@ -161,5 +161,6 @@ def register() -> None:
 def unregister() -> None:
     """Leave nothing behind."""
     stop()
-    signals.listeners.clear()
+    for kind in ("content", "look"):
+        signals.listeners.pop(kind, None)
     unlisten(bpy.app.handlers.load_post, _on_load)

@@ -6,6 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+import fairing
+
 from .arrays import Floats, Ints, Mask
 from .triangulation import split_quads, zigzag
 
@@ -83,16 +85,43 @@ def free_vertices(mesh: MeshArrays) -> Mask:
     return inside & ~outside & ~open_border & ~mesh.pinned
 
 
+def fins(mesh: MeshArrays) -> Mask:
+    """Return the (f,) mask of patch faces without free vertices at edges with more than two faces.
+
+    They stand on the outline; without the faces outside they would look like corners of the patch.
+    """
+    many = _edge_uses(mesh, slice(None)) > 2
+    hang = np.zeros(len(mesh.in_patch), dtype=bool)
+    hang[mesh.corner_faces[many[mesh.corner_edges]]] = True
+    hang[mesh.corner_faces[free_vertices(mesh)[mesh.corner_vertices]]] = False
+    return hang & mesh.in_patch
+
+
+def _check_edges(mesh: MeshArrays) -> None:
+    """Refuse edges where three faces of the patch meet: a fin's foot lies on an open border, which is no excuse."""
+    many = _edge_uses(mesh, mesh.in_patch[mesh.corner_faces]) > 2
+    offenders = mesh.edges[many & ~mesh.pinned[mesh.edges].all(axis=1)]
+    if len(offenders):
+        a, b = offenders[0]
+        text = f"more than two selected faces meet at the edge {a}–{b}: delete the extra ones, or pin both ends"
+        raise fairing.MeshError(
+            fairing.Diagnostic("NONMANIFOLD_EDGE", text, np.unique(offenders).astype(np.int32), "vertex")
+        )
+
+
 def make_patch(mesh: MeshArrays, even: bool = True) -> Patch:
     """Cut the selected visible faces out of the mesh.
 
     even: split quads and n-gons by connectivity (see triangulation), not by present shape.
+    Raises fairing.MeshError where more than two of them meet at an edge.
     """
+    _check_edges(mesh)
     inside = vertices_of(mesh, mesh.in_patch)
     vertices = np.flatnonzero(inside)
     number = np.full(len(inside), -1, dtype=np.int64)
     number[vertices] = np.arange(len(vertices))
     free = free_vertices(mesh)
+    mesh = replace(mesh, in_patch=mesh.in_patch & ~fins(mesh))
     uses = _edge_uses(mesh, mesh.in_patch[mesh.corner_faces])
     edges = mesh.edges[uses > 0]
     return Patch(

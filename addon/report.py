@@ -53,13 +53,23 @@ def make_report(named: list[tuple[str, Fairing]], options: FairOptions, seconds:
         distortion=float(np.average([outcome.distortion for outcome in outcomes], weights=sizes)),
         seconds=seconds,
         checks=_checks(outcomes, options),
-        warnings=_warnings(named),
+        warnings=_warnings(named) + _bulge_note(named, options),
     )
 
 
 def _warnings(named: list[tuple[str, Fairing]]) -> tuple[str, ...]:
     several = len(named) > 1
     return tuple(f"{name}: {text}" if several else text for name, outcome in named for text in outcome.warnings)
+
+
+def _bulge_note(named: list[tuple[str, Fairing]], options: FairOptions) -> tuple[str, ...]:
+    """Explain the usual reason why a bulge isn't found: there is no such surface."""
+    if options.equation != "CONSTANT" or options.bulge == 0.0 or all(o.result.converged for _, o in named):
+        return ()
+    return (
+        f"There may be no surface with a bulge of {options.bulge:g} on this outline: half a sphere has none "
+        "above 0.06, a flat disc none above 1.15. Try less",
+    )
 
 
 def _state(met: bool) -> str:

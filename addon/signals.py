@@ -1,4 +1,4 @@
-"""What Blender calls when a setting of the overlay changes, handed on to whoever listens.
+"""What Blender calls when a setting of the overlay or Live changes, handed on to whoever listens.
 
 Blender 4.2 never lets go of a property's callback, and its Python module crashes at exit where one
 leads to bpy. So this module knows nothing of Blender.
@@ -20,6 +20,11 @@ def content_changed(_settings: object, context: Any) -> None:
 def look_changed(_settings: object, context: Any) -> None:
     """The same is to be shown in another way."""
     _tell("look", context)
+
+
+def live_changed(_settings: object, context: Any) -> None:
+    """Live was turned on or off."""
+    _tell("live", context)
 
 
 def _tell(kind: str, context: Any) -> None:

@@ -14,7 +14,7 @@ from .boundary import prescribed_normals
 from .engine import Progress
 from .memory import Memory, digest
 from .options import FairOptions
-from .outline import outline_notes
+from .outline import outline_notes, precision_note
 from .quality import Quality
 from .region import MeshArrays, Patch, make_patch
 from .symmetry import mirror_map, symmetrised
@@ -43,26 +43,39 @@ class Solved:
     warnings: tuple[str, ...]
 
 
+@dataclass(frozen=True)
+class Kept:
+    """What the redo panel answers from."""
+
+    results: Memory[Solved]  # where nothing but the factor changed since a former call
+    solvers: Memory[engine.KeptSolver | None]  # where only options changed; None: a mesh that was solved once
+    ahead: bool = False  # make a solver at the first call already, whose start for the next one takes a while
+
+
 def fair_arrays(
     mesh: MeshArrays,
     matrix: Floats,
     options: FairOptions,
     progress: Progress | None = None,
-    memory: Memory[Solved] | None = None,
+    kept: Kept | None = None,
 ) -> Fairing:
     """Fair the patch of `mesh` in the space that the 4×4 `matrix` leads to.
 
-    memory: answers where nothing but the factor changed since a former call.
+    kept: what former calls left.
     Raises fairing.MeshError (its `elements` are vertices of `mesh` here), ValueError,
     fairing.SolverError and fairing.Cancelled. `mesh` is never changed.
     """
     # Of two results for the same input the bits are the same, so that a former one is as good.
-    key = digest(mesh, matrix, replace(options, factor=1.0)) if memory is not None else ""
-    solved = memory.get(key) if memory is not None else None
+    key = digest(mesh, matrix, replace(options, factor=1.0)) if kept is not None else ""
+    solved = kept.results.get(key) if kept is not None else None
     if solved is None:
-        solved = _solve(mesh, matrix, options, progress)
-        if memory is not None:
-            memory.put(key, solved)
+        problem, warnings = pose(mesh, matrix, options)
+        if kept is not None:
+            result = _solve_again(digest(mesh, matrix, problem.patch), problem, options, progress, kept)
+            solved = _solved(problem, result, warnings)
+            kept.results.put(key, solved)
+        else:
+            solved = _solved(problem, engine.solve(problem, options, progress), warnings)
     return _finish(mesh, matrix, options.factor, solved)
 
 
@@ -74,20 +87,37 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
         # Conformal weights belong to the present shape, and so do its triangles.
         patch = make_patch(world, even=options.inner_fairness != "CONFORMAL")
         normals, warnings = prescribed_normals(world, patch, options.boundary_normals)
-        notes = outline_notes(world)
+        precision = precision_note(mesh)
+        notes = outline_notes(world) + ((precision,) if precision else ())
     return engine.Problem(patch, world.positions[patch.vertices], normals), warnings + notes
 
 
-def _solve(mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None) -> Solved:
-    problem, warnings = pose(mesh, matrix, options)
-    result = engine.solve(problem, options, progress)
+def _solve_again(
+    key: str, problem: engine.Problem, options: FairOptions, progress: Progress | None, kept: Kept
+) -> fairing.FairResult:
+    """Solve with the solver of a former call for the same patch, if there was one: other options move less."""
+    if not engine.is_one_load(problem, options):
+        return engine.solve(problem, options, progress)
+    was_here = key in kept.solvers
+    solver = kept.solvers.take(key)
+    if not was_here and not kept.ahead:
+        kept.solvers.put(key, None)
+        return engine.solve(problem, options, progress)
+    solver = solver or engine.KeptSolver(problem.patch)
+    try:
+        return solver(problem, options, progress)
+    finally:
+        kept.solvers.put(key, solver)  # errors leave it usable
+
+
+def _solved(problem: engine.Problem, result: fairing.FairResult, warnings: tuple[str, ...]) -> Solved:
     texts = tuple(str(diagnostic) for diagnostic in result.warnings)
     return Solved(problem, result, warnings + texts)
 
 
 def _finish(mesh: MeshArrays, matrix: Floats, factor: float, solved: Solved) -> Fairing:
     patch, result = solved.problem.patch, solved.result
-    fair, warnings = _mirrored(mesh, patch, _to_local(result.vertices, matrix))
+    fair, warnings = _mirrored(mesh, patch, to_local(result.vertices, matrix))
     free = patch.vertices[patch.free]
     original = mesh.positions[free]
     # Blended in local space, so that factor 0 gives the very bits that were there.
@@ -124,7 +154,7 @@ def _largest_curvatures(patch: Patch, result: fairing.FairResult) -> tuple[float
     return float(sizes[patch.free].max(initial=0.0)), float(sizes[patch.outline].max(initial=0.0))
 
 
-def _to_local(positions: Floats, matrix: Floats) -> Floats:
+def to_local(positions: Floats, matrix: Floats) -> Floats:
     """Take world positions (k, 3) back; raises SolverError rather than pass on a NaN."""
     local: Floats = np.linalg.solve(matrix[:3, :3], (positions - matrix[:3, 3]).T).T
     if not np.isfinite(local).all():

@@ -7,6 +7,8 @@ import bpy
 from .compare import MESH_OT_fair_compare
 from .curvature import MESH_OT_fair_curvature
 from .inspection import Inspection
+from .live import live
+from .live_operators import MESH_OT_fair_live_forget, MESH_OT_fair_live_region
 from .operators import MESH_OT_fair_region
 from .overlay import overlay
 from .text import draw_text
@@ -76,6 +78,31 @@ class VIEW3D_PT_fairing_report(_Panel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the report: what was met, what was missed."""
         _draw_report(self.layout, context.window_manager.fairing_report)
+
+
+class VIEW3D_PT_fairing_live(_Panel, bpy.types.Panel):
+    """A region that follows its surroundings"""
+
+    bl_label = "Live"
+    bl_parent_id = "VIEW3D_PT_fairing"
+    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012 - the form that Blender asks for
+
+    def draw_header(self, context: bpy.types.Context) -> None:
+        """Draw the switch."""
+        self.layout.prop(context.window_manager.fairing_live, "on", text="")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the operators, what is followed and how quickly."""
+        row = self.layout.row(align=True)
+        row.operator(MESH_OT_fair_live_region.bl_idname)
+        row.operator(MESH_OT_fair_live_forget.bl_idname, text="", icon="X")
+        column = self.layout.column(align=True)
+        for name, session in live.sessions.items():
+            column.label(text=name, icon="MESH_DATA", translate=False)
+            _pair(column, "Free Vertices", str(len(session.region.free)), "BLANK1")
+            _pair(column, "Seconds", f"{session.seconds:.3f}", "BLANK1")
+        if live.message:
+            _draw_text(self.layout, translated(live.message), "ERROR")
 
 
 class VIEW3D_PT_fairing_overlay(_Panel, bpy.types.Panel):
@@ -164,5 +191,6 @@ PANELS = (
     VIEW3D_PT_fairing,
     VIEW3D_PT_fairing_selection,
     VIEW3D_PT_fairing_report,
+    VIEW3D_PT_fairing_live,
     VIEW3D_PT_fairing_overlay,
 )

@@ -62,6 +62,49 @@ venv_python() { printf '%s/venv-%s/bin/python' "$build" "$1"; }
 
 manifest_version() { sed -n 's/^version = "\(.*\)"/\1/p' addon/blender_manifest.toml; }
 
+# The Python that bpy's wheels are for, preferably Debian's own: its headers come with python3-dev.
+find_python() {
+    local candidate
+    for candidate in /usr/bin/python3.11 python3.11 python3; do
+        if "$candidate" -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' 2>/dev/null; then
+            command -v "$candidate"
+            return
+        fi
+    done
+    fail "bpy needs Python 3.11, which is not here (Debian 12 has it)"
+}
+
+is_installed() { [[ $(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null) == installed ]]; }
+
+# Installs those of these Debian packages that are missing, as root or with sudo.
+install_packages() {
+    local -a missing=() sudo=()
+    local package
+    command -v dpkg-query >/dev/null ||
+        fail "this set-up knows Debian's packages only; install by hand: $*"
+    for package in "$@"; do
+        is_installed "$package" || missing+=("$package")
+    done
+    if ((${#missing[@]} == 0)); then return; fi
+    if ((EUID != 0)); then
+        command -v sudo >/dev/null || fail "as root, install first: ${missing[*]}"
+        sudo=(sudo)
+    fi
+    say "Installing Debian packages: ${missing[*]}"
+    quietly apt-update "${sudo[@]}" apt-get update
+    quietly apt-install "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive \
+        apt-get install --yes --no-install-recommends "${missing[@]}"
+}
+
+# Puts the module that a preset has built beside its Python package: build/PRESET/package.
+stage_module() {
+    local package=$build/$1/package
+    rm -rf "$package"
+    mkdir -p "$package"
+    cp -r native/python/fairing "$package"
+    cp "$build/$1"/native/_core.*.so "$package/fairing"
+}
+
 # usage: zip_of FOLDER PLATFORM
 zip_of() { printf '%s/intrinsic_fairing-%s-%s.zip' "$1" "$(manifest_version)" "${2//-/_}"; }
 

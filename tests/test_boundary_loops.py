@@ -40,3 +40,31 @@ def test_a_single_sided_mesh_has_no_left_and_is_refused() -> None:
     with pytest.raises(fairing.MeshError) as caught:
         fairing.boundary_loops(bad_inputs.moebius_strip().triangles)
     assert caught.value.code == "NOT_ORIENTABLE"
+
+
+@pytest.mark.parametrize("index", [-1, 2**31 - 1])
+def test_an_index_that_cannot_be_counted_is_refused(index: int) -> None:
+    with pytest.raises(fairing.MeshError) as caught:
+        fairing.boundary_loops(np.array([[0, 1, index]], dtype=np.int32))
+    assert caught.value.code == "INDEX_RANGE"
+    assert list(caught.value.elements) == [index]
+
+
+def test_a_waist_between_two_fans_is_no_border() -> None:
+    """Both its ends lie on the border, free vertices on both its sides: the solver cuts there, the loop does not."""
+    left = [[0, 2, 3], [0, 3, 4], [0, 4, 5], [0, 5, 2]]
+    right = [[1, 3, 2], [1, 2, 6], [1, 6, 7], [1, 7, 3]]
+    (loop,) = fairing.boundary_loops(left + right)
+    assert list(loop) == [2, 6, 7, 3, 4, 5]
+
+
+@pytest.mark.parametrize("count", [3, 4, 9])
+def test_single_sided_bands_without_inner_vertices_are_refused(count: int) -> None:
+    """Found by fuzzing: nothing moves in them, so that the solver leaves them alone."""
+    low, high = np.arange(count), np.arange(count, 2 * count)
+    next_low, next_high = np.append(low[1:], count), np.append(high[1:], 0)
+    quads = np.column_stack([low, next_low, next_high, high])
+    with pytest.raises(fairing.MeshError) as caught:
+        fairing.boundary_loops(np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]))
+    assert caught.value.code == "NOT_ORIENTABLE"
+    assert caught.value.elements.size

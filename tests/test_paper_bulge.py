@@ -84,3 +84,14 @@ def test_both_methods_bulge_alike(name: str, bulge: float) -> None:
     assert other.converged
     # Averaged normals against fitted ones.
     assert np.abs(one.vertices - other.vertices).max() < 0.02 * patch.diameter
+
+
+@pytest.mark.parametrize(("bulge", "exists"), [(0.03, True), (0.06, True), (0.07, False), (0.15, False), (0.5, False)])
+def test_half_a_sphere_bulges_as_far_as_the_radial_equation(bulge: float, exists: bool) -> None:
+    """Shot from the pole, the branch that begins at the sphere ends at 0.065: H a = −1.12 and 1.43 a high there."""
+    patch = shapes.cap(300)
+    result = fairing.fair(
+        patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals,
+        equation="constant", load=8 * bulge / radius(patch) ** 3,
+    )  # fmt: skip
+    assert result.converged == exists

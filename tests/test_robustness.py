@@ -30,7 +30,30 @@ wrong arguments         errors: wrong_arguments_are_named; robustness_calls: wro
 cancel, exceptions      cancel; robustness_calls: interrupted_at_every_call
 memory, threads, fork   robustness_calls: without_memory_it_refuses_and_lives, two_threads_at_once_…, a_fork_goes_on
 again, renumbered       robustness_calls: again_moves_nothing_…, renumbered_input_gives_the_same_shape; result
-at random               robustness_random
+at random               robustness_random; tests/fuzz (scripts/fuzz), whose finds are tests in boundary_loops
+
+Through the operator (tests/blender; no file: bad_input). `refusal` and `solved` there check the law in Blender:
+3 faces at an edge      a_fin_in_the_selection_is_refused, a_fin_on_the_outline_changes_nothing;
+                        refusals: edge_with_four_faces
+lobes, bow-tie          lobes_that_share_a_vertex_…, a_bow_tie_is_refused
+no area, no length      edges_without_length_and_faces_without_area
+unwelded seam           an_unwelded_seam_stays_and_is_told
+winding                 one_face_wound_the_other_way; outline: surroundings_wound_the_other_way_round
+Möbius strip, closed    a_moebius_strip_is_refused, a_closed_component_alone_…, a_closed_component_beside_others_…
+normals                 normals_against_the_winding_are_told, the_normal_of_a_pin_is_told_to_be_ignored
+islands                 restoration: islands_as_alone; islands
+nothing free            nothing_to_move_adds_no_undo_step; refusals: nothing_selected_is_an_info
+one free vertex, fans   one_free_vertex_on_a_sphere, poles_of_high_valence, clusters_of_valence_3
+open borders            kinds_of_mesh: open_border_stays (everything selected)
+loose vertices, wire    integrity: loose_parts_are_left_alone
+NaN, infinity           infinity_elsewhere; refusals: mesh_error_selects_its_vertices, one_refused_object_…
+scale, offset           scale, offset_is_told, offset_of_the_object_does_no_harm
+slivers, needles        slivers
+spikes, folds, noise    spikes_and_folds_inside; restoration: result_does_not_depend_on_the_interior
+crease, fold-over       outline: sharp_edge_along_the_outline, folded_faces_around_the_outline
+wrong arguments         refusals: refused_runs_leave_no_trace; interface: fair_mesh_refuses, command_refuses
+cancel                  modal: escape_leaves_every_bit; background: cancelled_engine_leaves_every_bit
+again                   again_moves_nothing_and_the_same_gives_the_same
 """
 
 from __future__ import annotations

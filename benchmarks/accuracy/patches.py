@@ -2,129 +2,15 @@
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Iterable, Iterator
-from dataclasses import asdict, dataclass
-from pathlib import Path
-from typing import Any
+from collections.abc import Iterator
 
 import numpy as np
 
 import contact_sheet
-from engine import Engine, FloatArray, Outcome
 from exact import Scope
-from real_meshes import DATA, RealPatch, listed_patches, random_patches
+from real_meshes import DATA, listed_patches, random_patches
 from report import WEIGHTS, Row
-from starts import moved
-
-KINDS = ("given", "flattened", "noisy")
-SMOOTH = 20.0  # degrees that the outline's normals turn per edge where the surroundings count as smooth
-SAME = 0.005  # of the radius
-LIMIT = 30.0  # seconds for one call
-
-
-@dataclass(frozen=True)
-class Record:
-    """One patch with one λ: what came of its starts. `spread` is over the radius, angles are degrees.
-
-    turn: largest turn of the prescribed normals per outline edge; unfitted: share of normals that are averages;
-    converged, polished: how many starts.
-    """
-
-    name: str
-    weights: str
-    free: int
-    fixed: int
-    loops: int
-    turn: float
-    unfitted: float
-    converged: int
-    polished: int
-    refused: str
-    states: str
-    spread: float
-    angle: float
-    angle_median: float
-    residual: float
-    codes: str
-    cpu: float
-
-    @property
-    def good(self) -> bool:
-        """Converged from every start to the same surface."""
-        return self.converged == len(KINDS) and self.spread <= SAME
-
-    @property
-    def smooth(self) -> bool:
-        """Whether the surroundings define a tangent plane all along the outline."""
-        return self.turn < SMOOTH and self.unfitted == 0.0
-
-    @property
-    def badness(self) -> tuple[bool, float]:
-        """Orders by what is worst: no convergence (by the angle), then angles where they should be small."""
-        angle = 0.0 if np.isnan(self.angle) else self.angle
-        return not self.good, angle if self.smooth or not self.good else 0.0
-
-
-@dataclass(frozen=True)
-class Specimen:
-    """A record with its patch and the vertices from the first start (the given ones after a refusal)."""
-
-    record: Record
-    patch: RealPatch
-    vertices: FloatArray
-
-
-def solve(engine: Engine, patch: RealPatch, weights: str, kind: str) -> Outcome:
-    """One start; weights belong to the mesh as it is given."""
-    start = moved(kind, patch.vertices, patch.triangles, patch.fixed)
-    options: dict[str, Any] = {}
-    if weights in ("uniform", "inverse_distance"):
-        options["neighbours"] = patch.neighbours
-    return engine.fair(
-        start, patch.triangles, fixed=patch.fixed, fixed_normals=patch.normals,
-        inner_fairness=weights, reference=patch.vertices, **options,
-    )  # fmt: skip
-
-
-def measured(engine: Engine, patch: RealPatch, weights: str) -> Specimen:
-    """All starts of one patch with one λ."""
-    outcomes = [solve(engine, patch, weights, kind) for kind in KINDS]
-    refusals = [outcome.refused for outcome in outcomes if outcome.refused]
-    first = outcomes[0]
-    record = Record(
-        patch.name, weights, patch.free, len(patch.fixed), patch.loops, patch.turn, float(1 - patch.fitted.mean()),
-        sum(outcome.converged for outcome in outcomes), sum(outcome.polished for outcome in outcomes),
-        refusals[0].replace("\n", " ")[:80] if refusals else "", " ".join(outcome.state for outcome in outcomes),
-        np.nan if refusals else _spread(outcomes) / patch.radius,
-        np.nan if refusals else float(first.boundary_angle.max()),
-        np.nan if refusals else float(np.median(first.boundary_angle)), first.residual,
-        " ".join(sorted({code for outcome in outcomes for code in outcome.codes})),
-        sum(outcome.cpu for outcome in outcomes),
-    )  # fmt: skip
-    return Specimen(record, patch, patch.vertices if refusals else first.vertices)
-
-
-def _spread(outcomes: list[Outcome]) -> float:
-    away = [np.linalg.norm(outcome.vertices - outcomes[0].vertices, axis=1).max() for outcome in outcomes]
-    return float(max(away))
-
-
-def sweep(engine: Engine, chosen: Iterable[RealPatch], path: Path) -> list[Specimen]:
-    """All patches with all λ; one line each in the CSV file, written as it goes."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    specimens: list[Specimen] = []
-    with path.open("w", newline="") as file:
-        writer = csv.writer(file)
-        for patch in chosen:
-            for weights in WEIGHTS:
-                specimens.append(measured(engine, patch, weights))
-                fields = asdict(specimens[-1].record)
-                if len(specimens) == 1:
-                    writer.writerow(fields)
-                writer.writerow(fields.values())
-                file.flush()
-    return specimens
+from specimens import KINDS, LIMIT, SAME, SMOOTH, Record, Specimen, sweep, worst
 
 
 def rows(scope: Scope) -> Iterator[Row]:
@@ -139,7 +25,7 @@ def rows(scope: Scope) -> Iterator[Row]:
         (f"{scope.patches} random patches", "random", random_patches(scope.patches)),
     )
     for title, name, chosen in sets:
-        specimens = sweep(scope.engine, chosen, scope.folder / f"patches_{name}.csv")
+        specimens = sweep(scope.engine, chosen, WEIGHTS, scope.folder / f"patches_{name}.csv")
         everything += specimens
         records = [specimen.record for specimen in specimens]
         for weights in WEIGHTS:
@@ -176,11 +62,3 @@ def _angles(title: str, records: list[Record]) -> Row:
     note = "; ".join(parts) + f"; median over outlines {middle:.2g}°"
     largest = max((record.angle for record in smooth), default=np.nan)
     return Row(f"{title}: boundary angle, °", 0, "all", 1.0, largest, "", True, np.nan, note)
-
-
-def worst(specimens: list[Specimen], count: int) -> list[Specimen]:
-    """The worst of different patches, worst first."""
-    chosen: dict[str, Specimen] = {}
-    for specimen in sorted(specimens, key=lambda s: s.record.badness, reverse=True):
-        chosen.setdefault(specimen.record.name, specimen)
-    return list(chosen.values())[:count]

@@ -194,17 +194,23 @@ void warn_of_flat_triangles(const MeshInput& input, const CutMesh& mesh, Diagnos
 
 }  // namespace
 
-CheckedMesh check_mesh(const MeshInput& input) {
+MeshTopology check_topology(const MeshInput& input) {
     check_indices(input);
-    CheckedMesh mesh;
+    MeshTopology mesh;
+    Diagnostics& warnings = mesh.topology_warnings;
     Indices kept;
     const std::vector<char> given_fixed = mark_fixed(input);
-    Triangles triangles = drop_collapsed_triangles(input.triangles, kept, mesh.warnings);
-    triangles = drop_unbounded_triangles(input, triangles, given_fixed, kept, mesh.warnings);
+    Triangles triangles = drop_collapsed_triangles(input.triangles, kept, warnings);
+    triangles = drop_unbounded_triangles(input, triangles, given_fixed, kept, warnings);
     mesh.roles = classify_vertices(make_edges(triangles, static_cast<int>(input.vertices.cols())), given_fixed);
     check_finite(input, mesh.roles);
-    mesh.fixed = all_fixed(input, mesh.roles, mesh.warnings);
-    mesh.cut = cut_mesh(triangles, kept, mesh.roles, mesh.warnings);
+    mesh.fixed = all_fixed(input, mesh.roles, warnings);
+    mesh.cut = cut_mesh(triangles, kept, mesh.roles, warnings);
+    return mesh;
+}
+
+void check_geometry(const MeshInput& input, CheckedMesh& mesh) {
+    mesh.warnings.clear();
     warn_of_flat_triangles(input, mesh.cut, mesh.warnings);
     mesh.normals = averaged_triangle_normals(input.vertices, mesh.cut);
     for (int v = 0; v < mesh.normals.cols(); ++v) {
@@ -216,6 +222,11 @@ CheckedMesh check_mesh(const MeshInput& input) {
         warn_of_opposed_normals(mesh, averaged, mesh.warnings);
     }
     warn_of_normals(input, mesh);
+}
+
+CheckedMesh check_mesh(const MeshInput& input) {
+    CheckedMesh mesh{check_topology(input), {}, {}};
+    check_geometry(input, mesh);
     return mesh;
 }
 

@@ -14,18 +14,28 @@ struct MeshInput {
     std::optional<Points> fixed_normals;  // 3 × |fixed|
 };
 
-// The mesh after all checks. Border vertices are fixed, given or not.
-struct CheckedMesh {
+// What the connectivity and the choice of fixed vertices say. Border vertices are fixed, given or not.
+struct MeshTopology {
     VertexRoles roles;
-    Indices fixed;   // given order first, then the border vertices that were not given, ascending
-    Points normals;  // 3 × vertices: prescribed unit normals at fixed vertices, zero elsewhere
+    Indices fixed;  // given order first, then the border vertices that were not given, ascending
     CutMesh cut;
-    Diagnostics warnings;
+    Diagnostics topology_warnings;
+};
+
+// The mesh after all checks.
+struct CheckedMesh : MeshTopology {
+    Points normals;        // 3 × vertices: prescribed unit normals at fixed vertices, zero elsewhere
+    Diagnostics warnings;  // of the geometry
 };
 
 // Throws MeshError: INDEX_RANGE, NONFINITE (triangles between fixed vertices may have such corners: they are left out),
 // NONMANIFOLD_EDGE, NONMANIFOLD_VERTEX, NOT_ORIENTABLE; std::invalid_argument for a fixed vertex named twice or a
 // normal of length zero.
 CheckedMesh check_mesh(const MeshInput& input);
+
+// The two halves of it. The topology stays the same for other positions and normals as long as all are finite.
+MeshTopology check_topology(const MeshInput& input);
+// Reads positions and normals anew.
+void check_geometry(const MeshInput& input, CheckedMesh& mesh);
 
 }  // namespace fairing

@@ -1,6 +1,7 @@
+#include <atomic>
 #include <exception>
 
-#include "api/fair.h"
+#include "api/fair_solver.h"
 #include "bindings/convert.h"
 #include "bindings/topics.h"
 
@@ -110,30 +111,55 @@ PaperOptions to_paper_options(const PaperChoices& choices) {
     return result;
 }
 
-FairOptions to_fair_options(const Options& options, const std::optional<IntArray>& neighbours) {
+// Rows (i, j, λ).
+std::vector<DirectedWeight> to_directed(const DoubleArray& rows) {
+    std::vector<DirectedWeight> result;
+    result.reserve(static_cast<std::size_t>(rows.shape(0)));
+    for (py::ssize_t k = 0; k < rows.shape(0); ++k) {
+        result.push_back({static_cast<int>(rows.at(k, 0)), static_cast<int>(rows.at(k, 1)), rows.at(k, 2)});
+    }
+    return result;
+}
+
+// Inner fairness that is given by arrays.
+struct FairnessArrays {
+    std::optional<IntArray> neighbours;
+    std::optional<DoubleArray> weights;
+};
+
+FairOptions to_fair_options(const Options& options, const PaperChoices& paper, const FairnessArrays& fairness) {
     FairOptions result;
+    result.paper = to_paper_options(paper);
+    if (fairness.weights) result.custom = to_directed(*fairness.weights);
     result.solver.equation = to_equation(options.equation);
     result.solver.load = options.load;
     result.method = options.method == "paper" ? Method::paper : Method::global;
     result.solver.normals = options.normals == "averaged" ? NormalKind::averaged : NormalKind::fitted;
     result.solver.tolerance = options.tolerance;
     result.solver.max_iterations = options.max_iterations;
+    result.solver.nested = paper.levels != 1;
     result.inner_fairness = to_inner_fairness(options.inner_fairness);
-    if (neighbours) {
-        const Indices flat = to_indices(*neighbours);
+    if (fairness.neighbours) {
+        const Indices flat = to_indices(*fairness.neighbours);
         auto& edges = result.neighbours.emplace();
         for (std::size_t k = 0; k + 1 < flat.size(); k += 2) edges.push_back({flat[k], flat[k + 1]});
     }
     return result;
 }
 
-// Rows (i, j, λ).
-std::vector<DirectedWeight> to_directed(const DoubleArray& rows) {
-    std::vector<DirectedWeight> result;
-    for (py::ssize_t k = 0; k < rows.shape(0); ++k) {
-        result.push_back({static_cast<int>(rows.at(k, 0)), static_cast<int>(rows.at(k, 1)), rows.at(k, 2)});
+// Runs without the GIL; an exception of the callback comes out in place of the Cancelled that it became.
+template <typename Solve>
+py::dict solved(const py::object& callback, const Solve& solve) {
+    PythonProgress progress(callback);
+    FairResult result;
+    try {
+        const py::gil_scoped_release released;
+        result = solve(std::ref(progress));
+    } catch (const Cancelled&) {
+        if (progress.failure()) std::rethrow_exception(progress.failure());
+        throw;
     }
-    return result;
+    return to_dict(result);
 }
 
 py::dict fair_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
@@ -143,20 +169,50 @@ py::dict fair_arrays(const DoubleArray& vertices, const IntArray& triangles, con
     const MeshInput input{to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices),
                           to_optional(fixed_normals, to_points)};
     const auto m0 = to_optional(reference, to_points);
-    FairOptions fair_options = to_fair_options(options, neighbours);
-    fair_options.paper = to_paper_options(paper);
-    if (weights) fair_options.custom = to_directed(*weights);
-    PythonProgress progress(callback);
-    FairResult result;
-    try {
-        const py::gil_scoped_release released;
-        result = fair(input, m0, fair_options, std::ref(progress));
-    } catch (const Cancelled&) {
-        if (progress.failure()) std::rethrow_exception(progress.failure());
-        throw;
-    }
-    return to_dict(result);
+    const FairOptions fair_options = to_fair_options(options, paper, {neighbours, weights});
+    return solved(callback, [&](const ProgressCallback& progress) { return fair(input, m0, fair_options, progress); });
 }
+
+// fairing.Solver's engine. A second call while one is running (from another thread, or from `progress`) is refused.
+class PythonSolver {
+public:
+    PythonSolver(const IntArray& triangles, const std::optional<IntArray>& fixed,
+                 const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
+                 const std::pair<Options, PaperChoices>& options)
+        : solver_(to_triangles(triangles), to_optional(fixed, to_indices),
+                  to_fair_options(options.first, options.second, {neighbours, weights})) {}
+
+    void change(const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
+                const std::pair<Options, PaperChoices>& options) {
+        const Hold hold(busy_);
+        solver_.change(to_fair_options(options.first, options.second, {neighbours, weights}));
+    }
+
+    py::dict solve(const DoubleArray& vertices, const std::optional<DoubleArray>& fixed_normals,
+                   const std::optional<DoubleArray>& reference, const py::object& callback) {
+        const Hold hold(busy_);
+        Points points = to_points(vertices);
+        auto normals = to_optional(fixed_normals, to_points);
+        const auto m0 = to_optional(reference, to_points);
+        return solved(callback, [&](const ProgressCallback& progress) {
+            return solver_.solve(std::move(points), std::move(normals), m0, progress);
+        });
+    }
+
+private:
+    struct Hold {
+        std::atomic<bool>& busy;
+        explicit Hold(std::atomic<bool>& flag) : busy(flag) {
+            if (busy.exchange(true)) throw std::runtime_error("this Solver is solving already: one call at a time");
+        }
+        Hold(const Hold&) = delete;
+        Hold& operator=(const Hold&) = delete;
+        ~Hold() { busy = false; }
+    };
+
+    FairSolver solver_;
+    std::atomic<bool> busy_ = false;
+};
 
 }  // namespace
 
@@ -169,6 +225,13 @@ void bind_fair(py::module_& module) {
         .def(py::init<double, int, int, int, double, std::string, std::string, std::string, int>(), py::kw_only(),
              py::arg("damping"), py::arg("cg_steps"), py::arg("h_sweeps"), py::arg("vertex_sweeps"), py::arg("epsilon"),
              py::arg("acceleration"), py::arg("virtual_points"), py::arg("start"), py::arg("levels"));
+    py::class_<PythonSolver>(module, "Solver")
+        .def(py::init<const IntArray&, const std::optional<IntArray>&, const std::optional<IntArray>&,
+                      const std::optional<DoubleArray>&, const std::pair<Options, PaperChoices>&>(),
+             py::arg("triangles"), py::arg("fixed"), py::arg("neighbours"), py::arg("weights"), py::arg("options"))
+        .def("change", &PythonSolver::change, py::arg("neighbours"), py::arg("weights"), py::arg("options"))
+        .def("solve", &PythonSolver::solve, py::arg("vertices"), py::arg("fixed_normals"), py::arg("reference"),
+             py::arg("progress"));
     module.def("fair", &fair_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("fixed_normals"), py::arg("reference"), py::arg("neighbours"), py::arg("weights"),
                py::arg("options"), py::arg("paper"), py::arg("progress"));

@@ -41,6 +41,7 @@ py::object from_diagnostic(const Diagnostic& diagnostic) {
 }
 
 void register_errors() {
+    // NOLINTNEXTLINE(performance-unnecessary-value-param): the signature that pybind11 wants
     py::register_exception_translator([](std::exception_ptr pointer) {
         try {
             if (pointer) std::rethrow_exception(pointer);

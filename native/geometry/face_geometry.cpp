@@ -1,6 +1,7 @@
 #include "geometry/face_geometry.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include <Eigen/Geometry>
 
@@ -8,7 +9,7 @@ namespace fairing {
 
 double triangle_shape(const Vector3& a, const Vector3& b, const Vector3& c) {
     const double squared = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
-    return squared > 0.0 ? 2.0 * std::sqrt(3.0) * (b - a).cross(c - a).norm() / squared : 0.0;
+    return squared > 0.0 ? 2.0 * std::numbers::sqrt3 * (b - a).cross(c - a).norm() / squared : 0.0;
 }
 
 void FaceGeometry::update(const Points& points, const Triangles& triangles) {
@@ -26,7 +27,7 @@ void FaceGeometry::update(const Points& points, const Triangles& triangles) {
         const Vector3 cross = ab.cross(-ca);
         const double twice_area = cross.norm();
         const double longest = std::max({ab.squaredNorm(), bc.squaredNorm(), ca.squaredNorm()});
-        const double safe = std::max(twice_area, std::max(1e-12 * longest, 1e-300));
+        const double safe = std::max({twice_area, 1e-12 * longest, 1e-300});
         cotangents.col(t) << -ab.dot(ca) / safe, -bc.dot(ab) / safe, -ca.dot(bc) / safe;
         areas[t] = 0.5 * twice_area;
         normals.col(t) = twice_area > 1e-12 * longest ? Vector3(cross / twice_area) : Vector3(Vector3::Zero());

@@ -1,43 +1,95 @@
 #include "geometry/mean_curvature.h"
 
+#include <cmath>
+
 #include <Eigen/Cholesky>
 
-#include "geometry/frame.h"
 #include "geometry/one_ring_buffer.h"
 #include "geometry/virtual_points.h"
 
 namespace fairing {
 
-CurvatureFit fit_curvature(const Vector3& centre, std::span<const Vector3> points, const Vector3& normal) {
+double CurvatureFit::rise(const Vector3& normal, const Vector3& d) const {
     const Frame frame(normal);
-    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
-    Vector3 rhs = Vector3::Zero();
-    for (const Vector3& p : points) {
-        const Vector3 d = p - centre;
-        const double squared = d.squaredNorm();
-        const Eigen::Vector2d t(frame.u.dot(d), frame.v.dot(d));
-        const double in_plane = t.squaredNorm();
-        if (!(in_plane > 1e-24 * squared)) continue;
-        const Vector3 row(t.x() * t.x() / in_plane, t.x() * t.y() / in_plane, t.y() * t.y() / in_plane);
-        A.noalias() += row * row.transpose();
-        rhs += (2.0 * normal.dot(d) / squared) * row;
+    const double a = frame.u.dot(d);
+    const double b = frame.v.dot(d);
+    return 0.5 * (x0 * a * a + x1 * a * b + x2 * b * b);
+}
+
+namespace {
+
+// Of the squared distance, in the tangent plane: points nearer to the normal's line have no direction.
+constexpr double no_direction = 1e-24;
+
+// Where the patch fills less than 90° around a vertex of its outline, curvatures in directions into the patch can't
+// tell H: a neighbour in the middle of a wedge of angle ω, ω < 90°, has a negative weight, and the iteration runs away
+// from the solution there. The normals of the outline are data too: how they turn along it is II(t, t⊥). With these
+// rows all weights of a wedge are positive (they would be from weights of ½ on).
+void add_outline_normals(const Patch& patch, const Points& points, const Points& normals, int vertex,
+                         CurvatureLeastSquares& fit) {
+    for (int v : patch.ring(vertex).vertices) {
+        if (!patch.is_free(v)) fit.add_twist(points.col(v), normals.col(v));
     }
+}
+
+}  // namespace
+
+void CurvatureLeastSquares::add_row(const Vector3& row, double value) {
+    matrix_.noalias() += row * row.transpose();
+    rhs_ += value * row;
+}
+
+void CurvatureLeastSquares::add_point(const Vector3& point) {
+    const Vector3 d = point - centre_;
+    const double squared = d.squaredNorm();
+    const Eigen::Vector2d t(frame_.u.dot(d), frame_.v.dot(d));
+    const double in_plane = t.squaredNorm();
+    if (!(in_plane > no_direction * squared)) return;
+    add_row(Vector3(t.x() * t.x(), t.x() * t.y(), t.y() * t.y()) / in_plane, 2.0 * normal_.dot(d) / squared);
+}
+
+void CurvatureLeastSquares::add_twist(const Vector3& point, const Vector3& normal_there) {
+    const Vector3 d = point - centre_;
+    const double squared = d.squaredNorm();
+    const Eigen::Vector2d t(frame_.u.dot(d), frame_.v.dot(d));
+    const double in_plane = t.squaredNorm();
+    if (!(in_plane > no_direction * squared)) return;
+    const double product = t.x() * t.y();
+    const Vector3 row(-product, 0.5 * (t.x() * t.x() - t.y() * t.y()), product);
+    const Vector3 across = t.x() * frame_.v - t.y() * frame_.u;
+    add_row(row / in_plane, -normal_there.dot(across) / std::sqrt(in_plane * squared));
+}
+
+CurvatureFit CurvatureLeastSquares::solve() const {
+    Eigen::Matrix3d A = matrix_;
     A.diagonal().array() += 1e-9 * A.trace() + 1e-300;
-    const Vector3 x = A.llt().solve(rhs);
+    const Vector3 x = A.llt().solve(rhs_);
     return {x[0], x[1], x[2]};
+}
+
+VectorX PatchCurvature::gaussian() const {
+    return form.row(0).cwiseProduct(form.row(2)).transpose() - 0.25 * form.row(1).cwiseAbs2().transpose();
+}
+
+CurvatureFit fit_curvature(const Vector3& centre, std::span<const Vector3> points, const Vector3& normal) {
+    CurvatureLeastSquares fit(centre, normal);
+    for (const Vector3& p : points) fit.add_point(p);
+    return fit.solve();
 }
 
 PatchCurvature patch_curvature(const Patch& patch, const Points& points, const FaceGeometry& faces,
                                const Points& normals) {
     const Points virtual_points = edge_virtual_points(patch, points, faces, normals);
     OneRingBuffer buffer;
-    PatchCurvature curvature{VectorX(patch.vertex_count()), VectorX(patch.vertex_count())};
+    PatchCurvature curvature{VectorX(patch.vertex_count()), Points(3, patch.vertex_count())};
     for (int i = 0; i < patch.vertex_count(); ++i) {
+        CurvatureLeastSquares rows(points.col(i), normals.col(i));
         buffer.gather(patch, points, i);
-        const auto all = buffer.with_virtual(patch, virtual_points, i);
-        const CurvatureFit fit = fit_curvature(points.col(i), all, normals.col(i));
+        for (const Vector3& p : buffer.with_virtual(patch, virtual_points, i)) rows.add_point(p);
+        if (!patch.is_free(i)) add_outline_normals(patch, points, normals, i, rows);
+        const CurvatureFit fit = rows.solve();
         curvature.mean[i] = fit.mean();
-        curvature.gaussian[i] = fit.gaussian();
+        curvature.form.col(i) << fit.x0, fit.x1, fit.x2;
     }
     return curvature;
 }

@@ -3,32 +3,66 @@
 
 #include <span>
 
+#include "geometry/frame.h"
 #include "geometry/vertex_normal.h"
 
 namespace fairing {
 
-// Second fundamental form fitted at a vertex, in an arbitrary orthonormal basis of the tangent plane:
-// κ(t) = x0 tx² + x1 tx ty + x2 ty².
+// Second fundamental form II fitted at a vertex, in an arbitrary orthonormal basis of the tangent plane:
+// κ(t) = II(t, t) = x0 tx² + x1 tx ty + x2 ty².
 struct CurvatureFit {
     double x0 = 0.0;
     double x1 = 0.0;
     double x2 = 0.0;
     [[nodiscard]] double mean() const { return 0.5 * (x0 + x2); }  // eq. 10
     [[nodiscard]] double gaussian() const { return x0 * x2 - 0.25 * x1 * x1; }
+    // How far the surface rises along the normal at a small tangential displacement d: ½ κ(d) |d|². In Frame's basis.
+    [[nodiscard]] double rise(const Vector3& normal, const Vector3& d) const;
 };
 
-// Least squares fit to the normal curvatures κ_j = 2⟨d_j, n⟩/⟨d_j, d_j⟩ (eq. 8, 11) of the directions to `points`;
-// `normal` is a unit vector. Negative on a sphere with outward normals. Points at the centre or straight above it
-// carry no direction and are left out. Regularised by 1e-9 of the trace: finite for any input.
+// The least squares of eq. 11, row by row. Points at the centre or straight above it carry no direction and are left
+// out. Exact on spheres, whatever the rows.
+class CurvatureLeastSquares {
+public:
+    // `normal` is a unit vector.
+    CurvatureLeastSquares(const Vector3& centre, const Vector3& normal)
+        : centre_(centre), normal_(normal), frame_(normal) {}
+
+    // II(t, t) = κ of the direction t to the point (eq. 8).
+    void add_point(const Vector3& point);
+
+    // II(t, t⊥) from the turn of the unit normals towards `point`: −⟨normal_there − normal, t⊥⟩/|d|, t⊥ being t turned
+    // by 90° in the tangent plane.
+    void add_twist(const Vector3& point, const Vector3& normal_there);
+
+    // Regularised by 1e-9 of the trace: finite for any input.
+    [[nodiscard]] CurvatureFit solve() const;
+
+private:
+    void add_row(const Vector3& row, double value);
+
+    Vector3 centre_;
+    Vector3 normal_;
+    Frame frame_;
+    Eigen::Matrix3d matrix_ = Eigen::Matrix3d::Zero();
+    Vector3 rhs_ = Vector3::Zero();
+};
+
+// From the normal curvatures κ_j = 2⟨d_j, n⟩/⟨d_j, d_j⟩ of the directions to `points` alone. Negative on a sphere with
+// outward normals.
 CurvatureFit fit_curvature(const Vector3& centre, std::span<const Vector3> points, const Vector3& normal);
 
-// H and K at all vertices of a patch.
+// H at all vertices of a patch, and the form behind it.
 struct PatchCurvature {
     VectorX mean;
-    VectorX gaussian;
+    Points form;  // x0, x1, x2 in the basis that Frame makes of the normal
+
+    [[nodiscard]] VectorX gaussian() const;
+    [[nodiscard]] CurvatureFit fit(int i) const { return {form(0, i), form(1, i), form(2, i)}; }
 };
 
-// From the neighbours and a virtual point between every two of them.
+// From the neighbours and a virtual point between every two of them; at fixed vertices also from the turn of the
+// normals towards their fixed neighbours.
 PatchCurvature patch_curvature(const Patch& patch, const Points& points, const FaceGeometry& faces,
                                const Points& normals);
 

@@ -204,11 +204,13 @@ void fill_rows(const UpperPattern& upper, Supernodes& supernodes) {
 
 }  // namespace
 
-Elimination analyse(const SparseMatrix& lower) {
+Indices minimum_degree(const SparseMatrix& lower) {
     Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
     Eigen::AMDOrdering<int>()(lower.selfadjointView<Eigen::Lower>(), permutation);
-    const Indices first_order(permutation.indices().begin(), permutation.indices().end());
+    return {permutation.indices().begin(), permutation.indices().end()};
+}
 
+Elimination analyse(const SparseMatrix& lower, const Indices& first_order) {
     Elimination result;
     const Indices first_post = postorder(elimination_tree(upper_pattern(lower, invert(first_order))));
     for (int k : first_post) result.order.push_back(first_order[at(k)]);

@@ -34,8 +34,11 @@ struct Elimination {
     Supernodes supernodes;
 };
 
-// `lower`: lower triangle of a symmetric matrix, diagonal included. Approximate minimum degree, then a postorder of
-// the tree, so that supernodes are contiguous; small ones are merged where that adds few zeros.
-Elimination analyse(const SparseMatrix& lower);
+// `lower`: lower triangle of a symmetric matrix, diagonal included. The given order (position → unknown) is refined by
+// a postorder of the tree, so that supernodes are contiguous; small ones are merged where that adds few zeros.
+Elimination analyse(const SparseMatrix& lower, const Indices& first_order);
+
+// Approximate minimum degree.
+Indices minimum_degree(const SparseMatrix& lower);
 
 }  // namespace fairing

@@ -4,7 +4,16 @@
 
 #include <Eigen/Cholesky>
 
+#include "linear/nested_dissection.h"
+
 namespace fairing {
+
+namespace {
+
+// Below, minimum degree leaves as little fill.
+constexpr Eigen::Index least_dissected = 5000;
+
+}  // namespace
 
 Eigen::Map<Eigen::MatrixXd> SparseCholesky::panel(int s) {
     const Supernodes& nodes = elimination_.supernodes;
@@ -17,7 +26,8 @@ Eigen::Map<const Eigen::MatrixXd> SparseCholesky::panel(int s) const {
 }
 
 void SparseCholesky::set_up(const SparseMatrix& lower) {
-    elimination_ = analyse(lower);
+    const bool dissect = layout_.cols() == lower.cols() && lower.cols() >= least_dissected;
+    elimination_ = analyse(lower, dissect ? nested_dissection(lower, layout_) : minimum_degree(lower));
     const Supernodes& nodes = elimination_.supernodes;
     panel_begin_ = {0};
     for (int s = 0; s < nodes.size(); ++s) {

@@ -9,6 +9,10 @@ namespace fairing {
 
 class SparseCholesky {
 public:
+    SparseCholesky() = default;
+    // Places of the unknowns (3 × n), by which a large matrix is ordered.
+    explicit SparseCholesky(Points layout) : layout_(std::move(layout)) {}
+
     // Factorises a symmetric matrix given by its lower triangle (diagonal included). The ordering is found at the first
     // call and kept: the pattern must stay the same. False where the matrix is not positive definite; the factor is
     // then unusable until the next call, as it is after Cancelled. `what` names the stage for `progress`.
@@ -25,6 +29,7 @@ private:
     [[nodiscard]] Eigen::Map<Eigen::MatrixXd> panel(int supernode);
     [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> panel(int supernode) const;
 
+    Points layout_;  // empty: not known
     Elimination elimination_;
     std::vector<std::size_t> panel_begin_;  // dense row_count × column_count blocks
     std::vector<double> panels_;

@@ -15,12 +15,8 @@ struct EdgeTable {
     Indices edge_of_side;
 
     [[nodiscard]] int size() const { return static_cast<int>(ends.size()); }
-    [[nodiscard]] int side_count(int edge) const {
-        return begin[static_cast<std::size_t>(edge) + 1] - begin[static_cast<std::size_t>(edge)];
-    }
-    [[nodiscard]] int side(int edge, int k) const {
-        return sides[static_cast<std::size_t>(begin[static_cast<std::size_t>(edge)] + k)];
-    }
+    [[nodiscard]] int side_count(int edge) const { return begin[at(edge + 1)] - begin[at(edge)]; }
+    [[nodiscard]] int side(int edge, int k) const { return sides[at(begin[at(edge)] + k)]; }
 };
 
 // Precondition: indices in [0, vertex_count), three different ones in each triangle.

@@ -22,25 +22,50 @@ int next_border_side(const Triangles& triangles, const EdgeTable& edges, int sid
     return next;
 }
 
+// The triangles in input vertices, wound as in the cut mesh. Cuts through the mesh are no border and stay closed.
+Triangles wound_triangles(const CutMesh& mesh) {
+    Triangles result(3, mesh.triangles.cols());
+    for (int c = 0; c < 3 * result.cols(); ++c)
+        result(c % 3, c / 3) = mesh.input_vertex[at(mesh.triangles(c % 3, c / 3))];
+    return result;
+}
+
+// A single-sided piece without free vertices is no matter for cut_mesh, but has no left.
+void check_windings(const Triangles& triangles, const EdgeTable& edges, const Indices& input_triangle) {
+    Indices offenders;
+    for (int e = 0; e < edges.size(); ++e) {
+        if (edges.side_count(e) != 2) continue;
+        const int side = edges.side(e, 0);
+        if (side_tail(triangles, side) != side_tail(triangles, edges.side(e, 1))) continue;
+        offenders.push_back(input_triangle[at(side / 3)]);
+    }
+    if (offenders.empty()) return;
+    throw MeshError({Code::not_orientable,
+                     "the mesh is single-sided (like a Möbius strip): its border has no left side",
+                     std::move(offenders), ElementKind::triangle});
+}
+
 }  // namespace
 
 std::vector<Indices> boundary_loops(const Triangles& input, int vertex_count) {
     Diagnostics ignored;
     Indices kept;
-    const Triangles triangles = drop_collapsed_triangles(input, kept, ignored);
+    const Triangles whole = drop_collapsed_triangles(input, kept, ignored);
     const VertexRoles roles =
-        classify_vertices(make_edges(triangles, vertex_count), std::vector<char>(at(vertex_count), 0));
-    const CutMesh mesh = cut_mesh(triangles, kept, roles, ignored);
-    const EdgeTable edges = make_edges(mesh.triangles, static_cast<int>(mesh.input_vertex.size()));
+        classify_vertices(make_edges(whole, vertex_count), std::vector<char>(at(vertex_count), 0));
+    const CutMesh mesh = cut_mesh(whole, kept, roles, ignored);
+    const Triangles triangles = wound_triangles(mesh);
+    const EdgeTable edges = make_edges(triangles, vertex_count);
+    check_windings(triangles, edges, mesh.input_triangle);
 
     std::vector<char> visited(edges.edge_of_side.size(), 0);
     std::vector<Indices> loops;
     for (int s = 0; s < static_cast<int>(visited.size()); ++s) {
         if (visited[at(s)] || edges.side_count(edges.edge_of_side[at(s)]) != 1) continue;
         Indices loop;
-        for (int side = s; !visited[at(side)]; side = next_border_side(mesh.triangles, edges, side)) {
+        for (int side = s; !visited[at(side)]; side = next_border_side(triangles, edges, side)) {
             visited[at(side)] = 1;
-            loop.push_back(mesh.input_vertex[at(side_tail(mesh.triangles, side))]);
+            loop.push_back(side_tail(triangles, side));
         }
         std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
         loops.push_back(std::move(loop));

@@ -47,8 +47,7 @@ PatchMembers number_vertices(const CutMesh& cut, const Indices& piece_triangles,
 }  // namespace
 
 Patch::Patch(PatchMembers members) : PatchMembers(std::move(members)) {
-    build_mesh();
-    flatten_edges();
+    number_edges();
     flatten_rings();
 }
 
@@ -61,78 +60,113 @@ RingView Patch::ring(int vertex) const {
 }
 
 int Patch::loop_count() const {
-    std::vector<char> seen(mesh.n_halfedges(), 0);
+    std::vector<char> seen(at(vertex_count()), 0);
     int loops = 0;
-    for (const SurfaceMesh::HalfedgeHandle start : mesh.halfedges()) {
-        if (!mesh.is_boundary(start) || seen[at(start.idx())]) continue;
+    for (int start = free_count; start < vertex_count(); ++start) {
+        if (seen[at(start)] || ring(start).closed()) continue;
         ++loops;
-        for (SurfaceMesh::HalfedgeHandle h = start; !seen[at(h.idx())]; h = mesh.next_halfedge_handle(h)) {
-            seen[at(h.idx())] = 1;
-        }
+        // The first neighbour of an open ring lies behind the border edge with the patch on its left.
+        for (int v = start; !seen[at(v)]; v = ring(v).vertices.front()) seen[at(v)] = 1;
     }
     return loops;
 }
 
-void Patch::build_mesh() {
-    const auto vertices = to_input.size();
-    mesh.reserve(vertices, vertices + at(triangle_count()) + 64, at(triangle_count()));
-    for (std::size_t v = 0; v < vertices; ++v) mesh.add_vertex(SurfaceMesh::Point::Zero());
-    for (int t = 0; t < triangle_count(); ++t) {
-        const auto corner = [&](int k) { return mesh.vertex_handle(static_cast<unsigned>(triangles(k, t))); };
-        if (!mesh.add_face(corner(0), corner(1), corner(2)).is_valid()) {
-            throw MeshError({Code::nonmanifold_edge,
-                             "triangle " + std::to_string(input_triangle[at(t)]) + " can't be joined to its neighbours",
-                             {to_input[at(triangles(0, t))], to_input[at(triangles(1, t))]}});
-        }
-    }
+void Patch::refuse(int triangle, int a, int b) const {
+    throw MeshError({Code::nonmanifold_edge,
+                     "triangle " + std::to_string(input_triangle[at(triangle)]) + " can't be joined to its neighbours",
+                     {to_input[at(a)], to_input[at(b)]}});
 }
 
-void Patch::flatten_edges() {
-    const auto face = [&](SurfaceMesh::HalfedgeHandle h) {
-        return mesh.is_boundary(h) ? none : mesh.face_handle(h).idx();
+// Edges in the order in which the triangles' sides (0 → 1, 1 → 2, 2 → 0) first show them.
+void Patch::number_edges() {
+    struct Side {
+        int head;
+        int edge;
+    };
+    Indices begin(at(vertex_count()) + 1, 0);
+    for (const int v : triangles.reshaped()) ++begin[at(v) + 1];
+    for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
+    Indices end(begin.begin(), begin.end() - 1);  // sides known so far, by tail
+    std::vector<Side> sides(at(3 * triangle_count()));
+    const auto find = [&](int tail, int head) {
+        for (int s = begin[at(tail)]; s < end[at(tail)]; ++s) {
+            if (sides[at(s)].head == head) return sides[at(s)].edge;
+        }
+        return none;
     };
     triangle_edges.resize(3, triangle_count());
-    edge_ends.reserve(mesh.n_edges());
-    edge_triangles.reserve(mesh.n_edges());
-    for (const SurfaceMesh::EdgeHandle edge : mesh.edges()) {
-        SurfaceMesh::HalfedgeHandle h = mesh.halfedge_handle(edge, 0);
-        if (mesh.is_boundary(h)) h = mesh.opposite_halfedge_handle(h);
-        edge_ends.push_back({mesh.from_vertex_handle(h).idx(), mesh.to_vertex_handle(h).idx()});
-        edge_triangles.push_back({face(h), face(mesh.opposite_halfedge_handle(h))});
-        for (int t : edge_triangles.back()) {
-            if (t == none) continue;
-            for (int k = 0; k < 3; ++k) {
-                const int v = triangles(k, t);
-                if (v != edge_ends.back()[0] && v != edge_ends.back()[1]) triangle_edges(k, t) = edge.idx();
+    edge_ends.reserve(at(3 * triangle_count() / 2 + vertex_count() / 8 + 8));
+    edge_triangles.reserve(edge_ends.capacity());
+    for (int t = 0; t < triangle_count(); ++t) {
+        for (int k = 0; k < 3; ++k) {
+            const int tail = triangles(k, t);
+            const int head = triangles((k + 1) % 3, t);
+            int edge = find(head, tail);
+            if (edge == none) {
+                edge = edge_count();
+                edge_ends.push_back({tail, head});
+                edge_triangles.push_back({t, none});
+            } else {
+                edge_triangles[at(edge)][1] = t;
             }
+            if (find(tail, head) != none) refuse(t, tail, head);
+            sides[at(end[at(tail)]++)] = {head, edge};
+            triangle_edges((k + 2) % 3, t) = edge;
         }
     }
 }
 
 void Patch::flatten_rings() {
+    // A triangle at each vertex; on the border the one with the border edge that begins there.
+    Indices first(at(vertex_count()), none);
+    Indices triangles_at(at(vertex_count()), 0);
+    for (int t = 0; t < triangle_count(); ++t) {
+        for (int k = 0; k < 3; ++k) {
+            const int v = triangles(k, t);
+            ++triangles_at[at(v)];
+            const bool begins = edge_triangles[at(triangle_edges((k + 2) % 3, t))][1] == none;
+            if (first[at(v)] == none || begins) first[at(v)] = t;
+        }
+    }
     ring_begin_ = {0};
     rim_begin_ = {0};
-    ring_vertices_.reserve(2 * mesh.n_edges());
-    ring_spokes_.reserve(2 * mesh.n_edges());
-    ring_rim_.reserve(2 * mesh.n_edges());
-    const auto next_ccw = [&](SurfaceMesh::HalfedgeHandle h) {
-        return mesh.opposite_halfedge_handle(mesh.prev_halfedge_handle(h));
-    };
-    for (const SurfaceMesh::VertexHandle vertex : mesh.vertices()) {
-        // OpenMesh keeps the outgoing border half-edge first; the fan begins one step after it.
-        SurfaceMesh::HalfedgeHandle first = mesh.halfedge_handle(vertex);
-        if (mesh.is_boundary(first)) first = next_ccw(first);
-        SurfaceMesh::HalfedgeHandle h = first;
-        do {
-            ring_vertices_.push_back(mesh.to_vertex_handle(h).idx());
-            ring_spokes_.push_back(mesh.edge_handle(h).idx());
-            if (mesh.is_boundary(h)) break;
-            ring_rim_.push_back(mesh.edge_handle(mesh.next_halfedge_handle(h)).idx());
-            h = next_ccw(h);
-        } while (h != first);
+    for (Indices* list : {&ring_vertices_, &ring_spokes_, &ring_rim_}) list->reserve(2 * edge_ends.size());
+    for (int v = 0; v < vertex_count(); ++v) {
+        int passed = 0;
+        for (int t = first[at(v)]; t != none;) {
+            const auto corners = triangles.col(t);
+            const int k = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
+            const int spoke = triangle_edges((k + 2) % 3, t);
+            const int left = triangle_edges((k + 1) % 3, t);
+            ring_vertices_.push_back(corners[(k + 1) % 3]);
+            ring_spokes_.push_back(spoke);
+            ring_rim_.push_back(triangle_edges(k, t));
+            ++passed;
+            const auto [a, b] = edge_triangles[at(left)];
+            const int next = a == t ? b : a;
+            if (next == none) {
+                ring_vertices_.push_back(corners[(k + 2) % 3]);
+                ring_spokes_.push_back(left);
+            }
+            t = next == first[at(v)] ? none : next;
+        }
+        // Several fans that meet in the vertex alone.
+        if (passed != triangles_at[at(v)]) refuse(first[at(v)], v, v);
         ring_begin_.push_back(static_cast<int>(ring_vertices_.size()));
         rim_begin_.push_back(static_cast<int>(ring_rim_.size()));
     }
+}
+
+SurfaceMesh surface_mesh(const Patch& patch) {
+    SurfaceMesh mesh;
+    const auto vertices = at(patch.vertex_count());
+    mesh.reserve(vertices, at(patch.edge_count()), at(patch.triangle_count()));
+    for (std::size_t v = 0; v < vertices; ++v) mesh.add_vertex(SurfaceMesh::Point::Zero());
+    for (const auto corners : patch.triangles.colwise()) {
+        const auto corner = [&](int k) { return mesh.vertex_handle(static_cast<unsigned>(corners[k])); };
+        mesh.add_face(corner(0), corner(1), corner(2));
+    }
+    return mesh;
 }
 
 std::vector<Indices> triangles_of_pieces(const CutMesh& mesh) {

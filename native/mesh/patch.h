@@ -1,4 +1,4 @@
-// One connected piece of the cut mesh: its half-edge mesh and flat adjacency arrays for the numerics.
+// One connected piece of the cut mesh, with flat adjacency arrays for the numerics.
 #pragma once
 
 #include <array>
@@ -44,12 +44,11 @@ public:
     Triangles triangle_edges;  // edge opposite to corner k of each triangle
     std::vector<std::array<int, 2>> edge_ends;
     std::vector<std::array<int, 2>> edge_triangles;  // second entry `none` on the border
-    SurfaceMesh mesh;  // the same connectivity; vertex, edge and face indices agree with the arrays
 
 private:
-    void build_mesh();
-    void flatten_edges();
+    void number_edges();
     void flatten_rings();
+    [[noreturn]] void refuse(int triangle, int a, int b) const;
 
     Indices ring_begin_;
     Indices ring_vertices_;
@@ -57,6 +56,9 @@ private:
     Indices rim_begin_;
     Indices ring_rim_;
 };
+
+// The connectivity of a patch as a half-edge mesh without positions; vertex, edge and face indices agree.
+SurfaceMesh surface_mesh(const Patch& patch);
 
 // One piece of a cut mesh.
 Patch make_patch(const CutMesh& cut, const Indices& piece_triangles, const VertexRoles& roles);

@@ -14,7 +14,7 @@ constexpr double growth = 4.0;
 
 // A copy of the patch's half-edge mesh with positions, status flags, and the fixed vertices locked.
 SurfaceMesh decimation_mesh(const Patch& patch, const Points& positions) {
-    SurfaceMesh mesh = patch.mesh;
+    SurfaceMesh mesh = surface_mesh(patch);
     mesh.request_vertex_status();
     mesh.request_halfedge_status();
     mesh.request_edge_status();

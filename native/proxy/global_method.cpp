@@ -2,6 +2,7 @@
 
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
+#include "multigrid/nested_solve.h"
 #include "proxy/placement.h"
 #include "proxy/proxy_solver.h"
 #include "solver/continuation.h"
@@ -17,6 +18,8 @@ namespace {
 // Large moves wrinkle a fine mesh, and a coarse proxy makes them for less: beyond this many free vertices it goes first
 // (measured on hemispheres: 1.2 times slower at 20k, 1.4 times faster at 40k; at 100k only the proxy gets there).
 constexpr int direct_limit = 25000;
+// From here on it pays to begin on coarser levels.
+constexpr int nested_limit = 1500;
 
 double residual_of(const Problem& problem, const Points& points) {
     const SurfaceState state = measured_surface(problem, points);
@@ -111,14 +114,19 @@ Solution try_directly(const Problem& problem, const Progress& progress) {
 Solution better_of(Solution direct, Solution on_proxy) {
     const bool direct_converged = direct.termination == Termination::converged;
     const bool proxy_converged = on_proxy.termination == Termination::converged;
-    if (direct_converged != proxy_converged) return direct_converged ? direct : on_proxy;
-    return direct_converged || on_proxy.residual < direct.residual ? on_proxy : direct;
+    const bool proxy_wins =
+        direct_converged != proxy_converged ? proxy_converged : direct_converged || on_proxy.residual < direct.residual;
+    return proxy_wins ? std::move(on_proxy) : std::move(direct);
 }
 
 }  // namespace
 
 Solution solve_global(const Problem& problem, const Progress& progress) {
     if (problem.options.equation == Equation::minimal) return solve_directly(problem, progress);
+    if (problem.options.nested && problem.patch.free_count > nested_limit) {
+        const auto nested = solve_nested(problem, solve_global, progress);
+        if (nested && !has_poor_triangles(problem.patch, nested->points)) return *nested;
+    }
     if (problem.patch.free_count > direct_limit) {
         Solution on_proxy = solve_on_proxy(problem, std::nullopt, progress);
         if (on_proxy.termination == Termination::converged) return on_proxy;

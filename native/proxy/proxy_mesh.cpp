@@ -36,7 +36,7 @@ using ShortestFirst = std::priority_queue<QueuedEdge, std::vector<QueuedEdge>, s
 }  // namespace
 
 ProxyMesh::ProxyMesh(const Patch& patch, const Points& points)
-    : mesh_(patch.mesh), fixed_(at(patch.vertex_count()), 1), pin_(patch.pin), free_count_(patch.free_count) {
+    : mesh_(surface_mesh(patch)), fixed_(at(patch.vertex_count()), 1), pin_(patch.pin), free_count_(patch.free_count) {
     std::fill(fixed_.begin(), fixed_.begin() + patch.free_count, 0);
     mesh_.request_vertex_status();
     mesh_.request_edge_status();

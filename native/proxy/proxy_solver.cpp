@@ -45,6 +45,15 @@ Workspace make_workspace(const Problem& problem, const Progress& progress) {
             make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())};
 }
 
+// The equation from a good start; with damped steps where the plain ones fail.
+Solution solve_patiently(const Problem& problem, Workspace& work, const Points& start, const Progress& progress) {
+    Solution solution = solve_equation(problem, work, start, progress);
+    if (solution.termination == Termination::converged || problem.options.equation == Equation::constant)
+        return solution;
+    Solution damped = iterate_damped(problem, work, start, progress);
+    return damped.termination == Termination::converged ? damped : solution;
+}
+
 // The fitted surface of a solution, as a target for other vertices.
 struct SolvedProxy {
     ProxyMesh::Snapshot mesh;
@@ -138,7 +147,7 @@ private:
         const Problem problem = coarse_problem(problem_, snapshot.patch);
         Workspace work = make_workspace(problem, progress_);
         const Points start = make_start(problem, work, snapshot.points);
-        const Solution solution = iterate(problem, work, start, progress_.here());
+        const Solution solution = solve_patiently(problem, work, start, progress_.here());
         const bool converged = solution.termination == Termination::converged;
         const Points& points = converged ? solution.points : start;
         mesh.read_back(snapshot.patch, points);
@@ -172,11 +181,11 @@ private:
         // The Willmore descent leads away from straight pipes: only where it is needed.
         if (!from_converged || solution.termination != Termination::converged) {
             start = globalise(problem, work, start, progress_.range(0.4, 0.5));
-            solution = solve_equation(problem, work, start, progress_.range(0.5, 0.8));
+            solution = solve_patiently(problem, work, start, progress_.range(0.5, 0.8));
         }
         const bool converged = solution.termination == Termination::converged;
         const SurfaceState state = measured_surface(problem, converged ? solution.points : start);
-        solution.mean_curvature = state.mean_curvature;
+        solution.mean_curvature = state.curvature.mean;
         solution.residual = largest_residual(problem, state, outer_residual(problem, state));
         const Points c = conormals(problem.patch, problem.fixed_points, problem.fixed_normals);
         const double energy =
@@ -229,7 +238,8 @@ private:
                curvature_share * std::max(1.0, placed.mean_curvature.cwiseAbs().maxCoeff());
     }
 
-    Solution placed_solution(const SolvedProxy& proxy, const TargetSurface& target, const Placement& placement) const {
+    [[nodiscard]] Solution placed_solution(const SolvedProxy& proxy, const TargetSurface& target,
+                                           const Placement& placement) const {
         Solution placed = proxy.solution;
         placed.polished = false;
         placed.points = placement.points;

@@ -14,6 +14,8 @@ namespace {
 
 constexpr int history_depth = 6;
 constexpr double largest_step = 0.1;  // units of D
+constexpr double undamped = 1.0;
+constexpr double damped = 0.4;
 // The residual may grow for a while: near clusters of valence 3 only the history tames a growing mode of the plain
 // map. Far above the best it is hopeless.
 constexpr double hopeless_growth = 1e4;
@@ -25,17 +27,17 @@ constexpr int refresh_after = 6;
 
 class AcceleratedIteration {
 public:
-    AcceleratedIteration(const Problem& problem, Workspace& work, const Points& start, const Progress& progress)
+    AcceleratedIteration(const Problem& problem, Workspace& work, double damping, const Progress& progress)
         : problem_(problem),
           patch_(problem.patch),
           work_(work),
+          damping_(damping),
           progress_(progress),
           conormals_(conormals(problem.patch, problem.fixed_points, problem.fixed_normals)),
-          anderson_(3L * problem.patch.free_count, history_depth) {
-        state_.points = start;
-    }
+          anderson_(3L * problem.patch.free_count, history_depth) {}
 
-    Solution run() {
+    Solution run(const Points& start) {
+        state_.points = start;
         const int most = problem_.options.max_iterations;
         solution_.termination = Termination::iteration_limit;
         solution_.points = state_.points;
@@ -44,6 +46,7 @@ public:
         for (int k = 0; k < most; ++k) {
             report(k);
             if (!measure()) break;
+            if (k == 0) solution_.initial_residual = residual_;
             if (!refresh_operator(k)) {
                 solution_.termination = Termination::stalled;
                 break;
@@ -99,12 +102,13 @@ private:
     void keep() {
         best_residual_ = residual_;
         solution_.points = state_.points;
-        solution_.mean_curvature = state_.mean_curvature;
+        solution_.mean_curvature = state_.curvature.mean;
         solution_.residual = residual_;
     }
 
     // A new factor at the start and where the steps hardly shrink; false where the surface has none.
     bool refresh_operator(int k) {
+        if (work_.keeps_factor) return true;
         if (k > 0 && k - refreshed_at_ < refresh_after) return true;
         const bool wanted = k == 0 || last_step_ > slow * step_at_refresh_;
         refreshed_at_ = k;
@@ -112,10 +116,16 @@ private:
         return !wanted || work_.normal->update(state_.stiffness, progress_.here());
     }
 
+    // Along the normals, and within the surface: a long way there follows its curvature.
     Points plain_step() {
+        constexpr double steepest = 0.5;
         const VectorX u = work_.normal->solve(outer_);
-        Points d = state_.normals.leftCols(patch_.free_count).array().rowwise() * u.transpose().array();
-        d += work_.tangential->displacement(state_.points, state_.normals);
+        Points d = work_.tangential->displacement(state_.points, state_.normals);
+        for (int i = 0; i < patch_.free_count; ++i) {
+            const Vector3 n = state_.normals.col(i);
+            const double most = steepest * d.col(i).norm();
+            d.col(i) += (u[i] + std::clamp(state_.curvature.fit(i).rise(n, d.col(i)), -most, most)) * n;
+        }
         return d;
     }
 
@@ -131,7 +141,7 @@ private:
 
     void accelerate(const Points& d) {
         Eigen::Map<VectorX> x(state_.points.data(), 3L * patch_.free_count);
-        VectorX step = anderson_.step(x, Eigen::Map<const VectorX>(d.data(), d.size()));
+        VectorX step = anderson_.step(x, damping_ * Eigen::Map<const VectorX>(d.data(), d.size()));
         const double largest = largest_length(Eigen::Map<const Points>(step.data(), 3, patch_.free_count));
         if (largest > largest_step) step *= largest_step / largest;
         x += step;
@@ -140,6 +150,7 @@ private:
     const Problem& problem_;
     const Patch& patch_;
     Workspace& work_;
+    double damping_;
     const Progress& progress_;
     Points conormals_;
     Anderson anderson_;
@@ -159,7 +170,11 @@ private:
 }  // namespace
 
 Solution iterate(const Problem& problem, Workspace& work, const Points& start, const Progress& progress) {
-    return AcceleratedIteration(problem, work, start, progress).run();
+    return AcceleratedIteration(problem, work, undamped, progress).run(start);
+}
+
+Solution iterate_damped(const Problem& problem, Workspace& work, const Points& start, const Progress& progress) {
+    return AcceleratedIteration(problem, work, damped, progress).run(start);
 }
 
 }  // namespace fairing

@@ -24,14 +24,16 @@ DirectedStep::DirectedStep(const Patch& patch, const RowWeights& weights, const 
     }
     laplacian_.resize(free_count_, free_count_);
     laplacian_.setFromTriplets(entries.begin(), entries.end());
-    Matrix coupling(free_count_, fixed_points.cols());
-    coupling.setFromTriplets(couplings.begin(), couplings.end());
-    pull_ = (coupling * fixed_points.transpose()).transpose();
+    coupling_.resize(free_count_, fixed_points.cols());
+    coupling_.setFromTriplets(couplings.begin(), couplings.end());
+    hold(fixed_points);
     factor_.compute(laplacian_);
     if (factor_.info() != Eigen::Success) {
         throw SolverError("the inner-fairness weights give a singular matrix: some vertices hang on no fixed one");
     }
 }
+
+void DirectedStep::hold(const Points& fixed_points) { pull_ = (coupling_ * fixed_points.transpose()).transpose(); }
 
 Points DirectedStep::solve(const Points& rhs) const {
     return factor_.solve(Eigen::MatrixXd(rhs.transpose())).transpose();

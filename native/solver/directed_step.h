@@ -12,6 +12,7 @@ class DirectedStep : public TangentialStep {
 public:
     DirectedStep(const Patch& patch, const RowWeights& weights, const Points& fixed_points);
 
+    void hold(const Points& fixed_points) override;
     [[nodiscard]] Points harmonic_positions() const override;
     [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
     [[nodiscard]] Points displacement(const Points& points, const Points& normals, int max_cycles) const override;
@@ -25,6 +26,7 @@ private:
 
     int free_count_;
     Matrix laplacian_;  // 1 − Λ over the free vertices
+    Matrix coupling_;   // λ_ij of free i and fixed j
     Points pull_;       // Σ λ_ij x_j over fixed neighbours j
     Eigen::SparseLU<Matrix> factor_;
 };

@@ -28,6 +28,20 @@ Points weighted_rows(const Patch& patch, const Stiffness& stiffness, const Point
     return stiffness.apply(patch, scaled, patch.free_count);
 }
 
+// S_I (4M)⁻¹ Sᵀ x with x zero at the free vertices.
+Points pull_of_positions(const Patch& patch, const Stiffness& stiffness, const Points& fixed_points) {
+    Points field = Points::Zero(3, patch.vertex_count());
+    field.rightCols(fixed_points.cols()) = fixed_points;
+    return weighted_rows(patch, stiffness, stiffness.apply(patch, field, patch.vertex_count()));
+}
+
+// S_I (4M)⁻¹ 2c.
+Points pull_of_conormals(const Patch& patch, const Stiffness& stiffness, const Points& conormals) {
+    Points field = Points::Zero(3, patch.vertex_count());
+    field.rightCols(conormals.cols()) = 2.0 * conormals;
+    return weighted_rows(patch, stiffness, field);
+}
+
 }  // namespace
 
 Fill clamped_fill(const Patch& patch, const Points& fixed_points, const Points& conormals, NormalOperator& op,
@@ -38,16 +52,18 @@ Fill clamped_fill(const Patch& patch, const Points& fixed_points, const Points& 
 Fill clamped_fill(const Patch& patch, const Stiffness& stiffness, const Points& fixed_points, const Points& conormals,
                   NormalOperator& op, const Progress& progress) {
     if (!op.update(stiffness, progress)) throw SolverError("the uniform fairness operator is not positive definite");
-    Points boundary = Points::Zero(3, patch.vertex_count());
-    boundary.rightCols(fixed_points.cols()) = fixed_points;
-    const Points from_positions =
-        weighted_rows(patch, stiffness, stiffness.apply(patch, boundary, patch.vertex_count()));
-    boundary.rightCols(fixed_points.cols()) = 2.0 * conormals;
-    const Points from_conormals = weighted_rows(patch, stiffness, boundary);
     Eigen::MatrixXd rhs(patch.free_count, 6);
-    rhs << -from_positions.transpose(), from_conormals.transpose();
+    rhs << -pull_of_positions(patch, stiffness, fixed_points).transpose(),
+        pull_of_conormals(patch, stiffness, conormals).transpose();
     const Eigen::MatrixXd solution = op.solve(rhs);
     return {solution.leftCols<3>().transpose(), solution.rightCols<3>().transpose()};
+}
+
+Points clamped_displacement(const Patch& patch, const Stiffness& stiffness, const Points& fixed_displacement,
+                            const Points& conormal_change, const NormalOperator& op) {
+    const Points rhs =
+        pull_of_conormals(patch, stiffness, conormal_change) - pull_of_positions(patch, stiffness, fixed_displacement);
+    return op.solve(rhs.transpose()).transpose();
 }
 
 }  // namespace fairing

@@ -19,6 +19,10 @@ struct Fill {
 // `op`: biharmonic; it is left holding the factorisation for `stiffness`.
 Fill clamped_fill(const Patch& patch, const Stiffness& stiffness, const Points& fixed_points, const Points& conormals,
                   NormalOperator& op, const Progress& progress);
+// Displacement of the free vertices that continues one of the fixed vertices and the change of their conormals
+// (3 × fixed count) as smoothly. `op` holds the factorisation for `stiffness`.
+Points clamped_displacement(const Patch& patch, const Stiffness& stiffness, const Points& fixed_displacement,
+                            const Points& conormal_change, const NormalOperator& op);
 // With the uniform stiffness.
 Fill clamped_fill(const Patch& patch, const Points& fixed_points, const Points& conormals, NormalOperator& op,
                   const Progress& progress);

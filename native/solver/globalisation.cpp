@@ -75,7 +75,7 @@ private:
     bool fixed_point_steps() {
         for (int k = 0; k < most_fixed_point_steps; ++k) {
             report(k, most_fixed_point_steps);
-            state_.mean_curvature = mixed_mean_curvature(curvature_vectors_, state_.stiffness, state_.normals);
+            state_.curvature.mean = mixed_mean_curvature(curvature_vectors_, state_.stiffness, state_.normals);
             if (!work_.normal->update(state_.stiffness, progress_.here())) return false;
             Points d = along_normals(state_.normals, work_.normal->solve(harmonic_residual(problem_, state_)));
             d += work_.tangential->displacement(state_.points, state_.normals);

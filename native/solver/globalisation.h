@@ -13,6 +13,7 @@ namespace fairing {
 struct Workspace {
     std::unique_ptr<NormalOperator> normal;  // of the equation: biharmonic, or Laplace for minimal surfaces
     std::unique_ptr<TangentialStep> tangential;
+    bool keeps_factor = false;  // `normal` holds the factor of a surface near the start, which the iteration leaves
 };
 
 // Positions of all vertices: Willmore descent, then fixed-point steps of mixed finite elements (H_mixed ← harmonic, and

@@ -30,7 +30,10 @@ double diagonal_weight(const Patch& patch, const Stiffness& stiffness, int k) {
 
 }  // namespace
 
-BiharmonicOperator::BiharmonicOperator(const Patch& patch) : patch_(patch) { build_pattern(); }
+BiharmonicOperator::BiharmonicOperator(const Patch& patch, Points layout)
+    : NormalOperator(std::move(layout)), patch_(patch) {
+    build_pattern();
+}
 
 template <typename Visit>
 void BiharmonicOperator::for_each_column(Visit visit) const {

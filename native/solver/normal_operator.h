@@ -14,9 +14,11 @@ public:
     // has degenerated); solve may not be called then.
     [[nodiscard]] virtual bool update(const Stiffness& stiffness, const Progress& progress) = 0;
     // The operator's inverse applied to one or more columns (free count × k).
-    [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const { return factor_.solve(rhs); }
+    [[nodiscard]] virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const { return factor_.solve(rhs); }
 
 protected:
+    NormalOperator() = default;
+    explicit NormalOperator(Points layout) : factor_(std::move(layout)) {}
     SparseCholesky factor_;
 };
 
@@ -24,7 +26,8 @@ protected:
 // derivative of S_I H by a displacement along the normals (paper §5, §7.2).
 class BiharmonicOperator : public NormalOperator {
 public:
-    explicit BiharmonicOperator(const Patch& patch);
+    // `layout`: about where the free vertices are (3 × free count), to order the factorisation by; or nothing.
+    explicit BiharmonicOperator(const Patch& patch, Points layout = {});
     [[nodiscard]] bool update(const Stiffness& stiffness, const Progress& progress) override;
 
 private:

@@ -25,6 +25,7 @@ struct SolverOptions {
     NormalKind normals = NormalKind::fitted;
     double tolerance = 1e-6;  // of the largest move in an iteration, in units of D
     int max_iterations = 200;
+    bool nested = true;  // large patches begin on coarser levels
     int patience = 40;  // iterations without progress after which the solve is given up
 };
 

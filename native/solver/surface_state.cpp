@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "geometry/mean_curvature.h"
 #include "geometry/surface_fit.h"
 
 namespace fairing {
@@ -17,9 +16,7 @@ void SurfaceState::measure_curvature(const Problem& problem) {
     const Points boundary = problem.options.equation == Equation::minimal ? one_sided_normals(problem.patch, points)
                                                                           : problem.fixed_normals;
     normals = vertex_normals(problem.patch, points, faces, boundary, problem.options.normals);
-    PatchCurvature curvature = patch_curvature(problem.patch, points, faces, normals);
-    mean_curvature = std::move(curvature.mean);
-    gaussian_curvature = std::move(curvature.gaussian);
+    curvature = patch_curvature(problem.patch, points, faces, normals);
 }
 
 SurfaceState measured_surface(const Problem& problem, const Points& points) {
@@ -32,8 +29,8 @@ SurfaceState measured_surface(const Problem& problem, const Points& points) {
 
 double curvature_variation(const Problem& problem, const Points& points) {
     const SurfaceState state = measured_surface(problem, points);
-    const VectorX& H = state.mean_curvature;
-    const VectorX half_difference = (H.cwiseAbs2() - state.gaussian_curvature).cwiseMax(0.0).cwiseSqrt();
+    const VectorX& H = state.curvature.mean;
+    const VectorX half_difference = (H.cwiseAbs2() - state.curvature.gaussian()).cwiseMax(0.0).cwiseSqrt();
     double sum = 0.0;
     for (int e = 0; e < problem.patch.edge_count(); ++e) {
         const auto [i, j] = problem.patch.edge_ends[static_cast<std::size_t>(e)];
@@ -47,20 +44,20 @@ double curvature_variation(const Problem& problem, const Points& points) {
 double largest_length(const Points& field) { return std::sqrt(field.colwise().squaredNorm().maxCoeff()); }
 
 VectorX harmonic_residual(const Problem& problem, const SurfaceState& state) {
-    const Eigen::RowVectorXd H = state.mean_curvature.transpose();
+    const Eigen::RowVectorXd H = state.curvature.mean.transpose();
     return state.stiffness.apply(problem.patch, H, problem.patch.free_count).transpose();
 }
 
 VectorX outer_residual(const Problem& problem, const SurfaceState& state) {
     const int count = problem.patch.free_count;
     const auto mass = state.stiffness.mass.head(count).array();
-    const auto H = state.mean_curvature.head(count).array();
+    const auto H = state.curvature.mean.head(count).array();
     switch (problem.options.equation) {
         case Equation::harmonic: break;
         case Equation::minimal: return 4.0 * mass * H;
         case Equation::constant: return harmonic_residual(problem, state).array() + 2.0 * mass * problem.options.load;
         case Equation::minimal_energy: {
-            const auto K = state.gaussian_curvature.head(count).array();
+            const auto K = state.curvature.gaussian().head(count).array().eval();
             return harmonic_residual(problem, state).array() - 4.0 * mass * H * (H.square() - K);
         }
     }

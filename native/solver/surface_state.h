@@ -1,6 +1,7 @@
 // Positions of a patch with everything that is measured on them.
 #pragma once
 
+#include "geometry/mean_curvature.h"
 #include "solver/problem.h"
 
 namespace fairing {
@@ -10,8 +11,7 @@ struct SurfaceState {
     FaceGeometry faces;
     Stiffness stiffness;
     Points normals;
-    VectorX mean_curvature;
-    VectorX gaussian_curvature;
+    PatchCurvature curvature;
 
     // Faces and stiffness of the present points.
     void measure_faces(const Patch& patch);

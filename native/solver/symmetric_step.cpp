@@ -30,15 +30,17 @@ SymmetricStep::SymmetricStep(const Patch& patch, const InnerWeights& weights, co
         add_row(edge.i, edge.j, edge.weight);
         add_row(edge.j, edge.i, edge.weight);
     }
-    SparseMatrix coupling(free_count_, fixed_points.cols());
-    coupling.setFromTriplets(couplings.begin(), couplings.end());
-    pull_ = (coupling * fixed_points.transpose()).transpose();
+    coupling_.resize(free_count_, fixed_points.cols());
+    coupling_.setFromTriplets(couplings.begin(), couplings.end());
+    hold(fixed_points);
     laplacian_.resize(free_count_, free_count_);
     laplacian_.setFromTriplets(entries.begin(), entries.end());
     if (!factor_.factorise(laplacian_.triangularView<Eigen::Lower>(), "the inner-fairness weights", progress)) {
         throw SolverError("the inner-fairness weights give no positive definite matrix");
     }
 }
+
+void SymmetricStep::hold(const Points& fixed_points) { pull_ = (coupling_ * fixed_points.transpose()).transpose(); }
 
 Points SymmetricStep::harmonic_positions() const {
     return factor_.solve(Eigen::MatrixXd(pull_.transpose())).transpose();
@@ -53,8 +55,12 @@ Points SymmetricStep::gradient(const Points& points) const {
     return (laplacian_ * points.leftCols(free_count_).transpose()).transpose() - pull_;
 }
 
+Points SymmetricStep::inverse(const Points& field) const {
+    return factor_.solve(Eigen::MatrixXd(field.transpose())).transpose();
+}
+
 Points SymmetricStep::precondition(const Points& field, const Points& normals) const {
-    Points result = factor_.solve(Eigen::MatrixXd(field.transpose())).transpose();
+    Points result = inverse(field);
     project_across(result, normals);
     return result;
 }

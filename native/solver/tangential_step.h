@@ -16,6 +16,9 @@ public:
     TangentialStep& operator=(const TangentialStep&) = delete;
     virtual ~TangentialStep() = default;
 
+    // Moves the fixed vertices (3 × fixed count); the factorisation does not depend on them.
+    virtual void hold(const Points& fixed_points) = 0;
+
     // The positions with Σ_j λ_ij (x_i − x_j) = 0 in all three coordinates: the discrete harmonic map of the outline.
     [[nodiscard]] virtual Points harmonic_positions() const = 0;
 

@@ -70,14 +70,12 @@ wheels_of() {
     done
 }
 
-# usage: make_zip PLATFORM PYTHON…
+# usage: make_zip PLATFORM LICENCES WHEEL…
 make_zip() {
     local staging=$build/staging/$1 target
-    local -a wheels
     target=$(zip_of "$packages" "$1")
-    readarray -t wheels < <(wheels_of "$@")
-    stage_extension "$staging" "$1" "${wheels[@]}"
-    cp -r "$cross/licences/$1/." "$staging"
+    stage_extension "$staging" "$1" "${@:3}"
+    cp -r "$2/." "$staging"
     mkdir -p "$packages"
     "$python" scripts/shipping/archive.py "$staging" "$target"
     "$python" "$(extension_tool)" validate "$target"

@@ -2,7 +2,20 @@
 # What scripts/package does with the zips once they are there; sourced by it after build.sh.
 
 bpy_of_python313=5.2.3
+checking=$cross/checking
 wheel_limit=$((2 * 1024 * 1024))
+
+# What reads Windows' modules and CycloneDX, in an environment of its own.
+make_checking_tools() {
+    local wanted
+    wanted=$(fingerprint scripts/shipping/requirements.txt)
+    if is_done "$checking/.requirements" "$wanted"; then return; fi
+    rm -rf "$checking"
+    "$python" -m venv "$checking"
+    quietly pip-checking "$checking/bin/python" -m pip install --progress-bar off \
+        --requirement scripts/shipping/requirements.txt
+    printf '%s' "$wanted" >"$checking/.requirements"
+}
 
 # Fails where the module needs more than manylinux_2_28 has.
 check_manylinux() {
@@ -20,7 +33,8 @@ check_wheels() {
         (($(stat -c %s "$wheel") <= wheel_limit)) || fail "$wheel is larger than 2 MB"
         if [[ $wheel == *manylinux* ]]; then check_manylinux "$wheel"; fi
     done
-    "$python" scripts/shipping/imports.py "$build"/wheelhouse/*win_amd64.whl
+    make_checking_tools
+    "$checking/bin/python" scripts/shipping/imports.py "$build"/wheelhouse/*win_amd64.whl
 }
 
 # SBOM and checksums, beside the zips.
@@ -52,12 +66,8 @@ check_everything() {
 use_zip() { timeout --kill-after 10 300 "$1" scripts/shipping/use_zip.py "$2"; }
 
 check_sbom() {
-    local venv=$cross/sbom-venv
-    if [[ ! -x $venv/bin/python ]]; then
-        "$python" -m venv "$venv"
-        quietly pip-sbom "$venv/bin/python" -m pip install 'cyclonedx-python-lib[json-validation]==11.*'
-    fi
-    "$venv/bin/python" scripts/shipping/check_sbom.py "$packages"/*.cdx.json
+    make_checking_tools
+    "$checking/bin/python" scripts/shipping/check_sbom.py "$packages"/*.cdx.json
 }
 
 # Debian 12 has no Python 3.13; Debian 13 in a folder has.

@@ -194,3 +194,55 @@ def test_digest_tells_inputs_apart() -> None:
     ]
     assert len({digest(*given) for given in inputs}) == len(inputs)
     assert digest(zeros, options()) == digest(np.zeros((2, 3)), options())
+
+
+def test_redo_with_other_options_starts_from_the_last_answer() -> None:
+    """After a run in the background; the answer is the one from scratch, to the tolerance."""
+    job, options = module("job"), module("options").FairOptions
+    obj, faces = meshes.domed_grid()
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    tasks = job.read(bpy.context, options())
+    silent: Any = lambda fraction, stage: True  # noqa: E731
+    for changed in (
+        {"boundary_normals": "AVERAGE"},
+        {"equation": "CONSTANT", "bulge": 0.3},
+        {"equation": "CONSTANT", "bulge": 0.35},
+        {"equation": "MINIMAL_ENERGY"},
+        {"inner_fairness": "CONFORMAL"},
+        {},
+    ):
+        job.memory.clear()
+        job.solvers.clear()
+        (scratch,) = job.solve(tasks, options(tolerance=1e-9, **changed), silent)
+        job.memory.clear()
+        job.solvers.clear()
+        job.solve(tasks, options(tolerance=1e-9), silent, ahead=True)
+        job.memory.clear()
+        stages: set[str] = set()
+        seen = stages.add
+        (again,) = job.solve(tasks, options(tolerance=1e-9, **changed), lambda _, stage, seen=seen: seen(stage))
+        np.testing.assert_allclose(again.positions, scratch.positions, atol=1e-6)
+        if not changed:
+            assert "globalisation" not in stages
+    job.memory.clear()
+    job.solvers.clear()
+
+
+def test_a_single_run_prepares_nothing() -> None:
+    """The second run on the same mesh makes the solver that the third one starts from."""
+    job, options = module("job"), module("options").FairOptions
+    obj, faces = meshes.domed_grid()
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    job.memory.clear()
+    job.solvers.clear()
+    tasks = job.read(bpy.context, options())
+    seen = []
+    for tolerance in (1e-6, 1e-7, 1e-8):
+        stages: set[str] = set()
+        job.solve(tasks, options(tolerance=tolerance), lambda _, stage, stages=stages: stages.add(stage))
+        seen.append("globalisation" in stages)
+    assert seen == [True, True, False]
+    job.memory.clear()
+    job.solvers.clear()

@@ -47,3 +47,10 @@ def test_no_bulge_is_harmonic() -> None:
     obj, faces = disc(1.0)
     meshes.fair(obj, faces, equation="CONSTANT", bulge=0.0)
     assert np.abs(meshes.positions(obj)[:, 2]).max() < 1e-6
+
+
+def test_a_bulge_that_no_surface_has_is_explained() -> None:
+    obj = meshes.sphere(48)
+    meshes.fair(obj, meshes.faces_where(obj, lambda centre: centre.z > 0.0), equation="CONSTANT", bulge=0.3)
+    assert not meshes.report().converged
+    assert "no surface with a bulge of 0.3" in meshes.report().warnings

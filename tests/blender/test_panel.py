@@ -239,11 +239,12 @@ def test_enabled_and_disabled_twenty_times() -> None:
     enabled = footprint()
     for _ in range(20):
         bpy.context.window_manager.fairing_overlay.show = True
+        bpy.context.window_manager.fairing_live.on = True
         addon_utils.disable(ID)
         without = footprint()
         assert without["types"] == without["window manager"] == without["scene"] == without["operators"] == []
         assert without["presets"] == []
         assert all(without["handlers"][name] <= enabled["handlers"][name] for name in enabled["handlers"])
-        assert sum(without["handlers"].values()) == sum(enabled["handlers"].values()) - 3
+        assert sum(without["handlers"].values()) == sum(enabled["handlers"].values()) - 4
         addon_utils.enable(ID)
     assert footprint() == enabled

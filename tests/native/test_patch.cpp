@@ -7,10 +7,12 @@ using namespace fairing;
 TEST_CASE("rings turn counter-clockwise and agree with the half-edge mesh") {
     const test::Single single = test::single_patch(test::grid(6, 0.2, test::flat));
     const Patch& patch = single.patch();
+    const SurfaceMesh mesh = surface_mesh(patch);
+    CHECK(static_cast<int>(mesh.n_edges()) == patch.edge_count());
     for (int v = 0; v < patch.vertex_count(); ++v) {
         const RingView ring = patch.ring(v);
         CHECK(ring.closed() == patch.is_free(v));
-        CHECK(ring.valence() == patch.mesh.valence(patch.mesh.vertex_handle(static_cast<unsigned>(v))));
+        CHECK(ring.valence() == mesh.valence(mesh.vertex_handle(static_cast<unsigned>(v))));
         for (std::size_t k = 0; k < ring.rim.size(); ++k) {
             const Vector3 a = single.points.col(ring.vertices[k]) - single.points.col(v);
             const Vector3 b = single.points.col(ring.vertices[(k + 1) % ring.valence()]) - single.points.col(v);

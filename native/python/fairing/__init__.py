@@ -11,6 +11,7 @@ from fairing._measure import (
     surrounding_normals,
     vertex_normals,
 )
+from fairing._solver import Solver
 from fairing._types import Cancelled, Diagnostic, FairResult, MeshError, SolverError
 
 __all__ = [
@@ -18,6 +19,7 @@ __all__ = [
     "Diagnostic",
     "FairResult",
     "MeshError",
+    "Solver",
     "SolverError",
     "__version__",
     "boundary_loops",

@@ -37,6 +37,26 @@ class PaperChoices:
 _Floats = npt.NDArray[np.float64]
 _Ints = npt.NDArray[np.int32]
 
+class Solver:
+    def __init__(
+        self,
+        triangles: _Ints,
+        fixed: _Ints | None,
+        neighbours: _Ints | None,
+        weights: _Floats | None,
+        options: tuple[Options, PaperChoices],
+    ) -> None: ...
+    def change(
+        self, neighbours: _Ints | None, weights: _Floats | None, options: tuple[Options, PaperChoices]
+    ) -> None: ...
+    def solve(
+        self,
+        vertices: _Floats,
+        fixed_normals: _Floats | None,
+        reference: _Floats | None,
+        progress: Callable[[float, str], bool | None] | None,
+    ) -> dict[str, Any]: ...
+
 def fair(
     vertices: _Floats,
     triangles: _Ints,

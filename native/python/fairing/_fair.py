@@ -8,7 +8,7 @@ from typing import Any
 import numpy.typing as npt
 
 from fairing import _arguments, _core, _options
-from fairing._types import FairResult, IntArray
+from fairing._types import FairResult
 
 Progress = Callable[[float, str], "bool | None"]
 
@@ -74,7 +74,7 @@ def fair(
     method : "global" | "paper"
         The fast solver, or the factorised multigrid iteration of §7, step for step.
     levels : int
-        "paper": levels of the hierarchy, 0: chosen, 1: none. "global": 0 or 1, no hierarchy.
+        "paper": levels of the hierarchy, 0: chosen, 1: none. "global": 0 or 1 likewise.
     tolerance : float
         "global": stop when an iteration moves no vertex by more than ``tolerance`` × D. "paper": see ``epsilon``.
     max_iterations : int
@@ -126,34 +126,20 @@ def fair(
     faces = _arguments.integers("triangles", triangles, 3)
     fixed_list, given_normals = _arguments.boundary(fixed, fixed_normals)
     m0 = None if reference is None else _arguments.floats("reference", reference, count)
-    edges = _neighbour_edges(neighbours, count)
+    edges = _options.neighbour_edges(neighbours, count)
     _arguments.choice("method", method, _options.METHODS)
     _arguments.whole("threads", threads, 0)
-    if progress is not None and not callable(progress):
-        raise ValueError(f"progress: a callable(fraction, stage) or None is needed, not {progress!r}")
+    _options.callback(progress)
     kind, weights = _options.inner_fairness(inner_fairness, count)
     given = {
         "damping": damping, "cg_steps": cg_steps, "sweeps": sweeps, "vertex_sweeps": vertex_sweeps,
         "epsilon": epsilon, "acceleration": acceleration, "virtual_points": virtual_points, "start": start,
     }  # fmt: skip
     paper = _options.paper_choices(method, levels, given)
-    _arguments.choice("normals", normals, _options.NORMALS)
-    options = _core.Options(
-        equation=_arguments.choice("equation", equation, _options.EQUATIONS),
-        load=_options.load_number(equation, load),
-        inner_fairness=kind,
-        method=method,
-        normals="averaged" if method == "paper" else normals,
-        tolerance=_arguments.positive("tolerance", tolerance),
-        max_iterations=_arguments.whole("max_iterations", max_iterations, 1),
-    )
+    options = _options.engine_options(
+        equation=equation, load=load, fairness=kind, method=method, normals=normals,
+        tolerance=tolerance, max_iterations=max_iterations,
+    )  # fmt: skip
     return FairResult(
         **_core.fair(points, faces, fixed_list, given_normals, m0, edges, weights, options, paper, progress)
     )
-
-
-def _neighbour_edges(neighbours: npt.ArrayLike | None, count: int) -> IntArray | None:
-    if neighbours is None:
-        return None
-    edges = _arguments.integers("neighbours", neighbours, 2)
-    return _arguments.indices_within("neighbours", edges, count)

@@ -54,10 +54,12 @@ def cotan_laplacian(vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> tuple[
 
 
 def boundary_loops(triangles: npt.ArrayLike) -> list[IntArray]:
-    """Closed loops of border vertices, each with the mesh on its left, starting at its smallest vertex."""
+    """Closed loops of border vertices, each with the mesh on its left, starting at its smallest vertex.
+
+    Memory grows with the largest index.
+    """
     faces = _arguments.integers("triangles", triangles, 3)
-    if faces.size and faces.min() < 0:
-        _arguments.indices_within("triangles", faces, int(faces.max()) + 1)
+    _arguments.indices_within("triangles", faces, np.iinfo(np.int32).max)  # one more is counted
     return _core.boundary_loops(faces)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core
-from fairing._types import FloatArray
+from fairing._types import FloatArray, IntArray
 
 METHODS = ("global", "paper")
 NORMALS = ("fitted", "averaged")
@@ -55,6 +55,36 @@ def paper_choices(method: str, levels: int, given: dict[str, Any]) -> _core.Pape
         start=_arguments.choice("start", chosen["start"], STARTS),
         levels=_arguments.whole("levels", levels, 0, None if method == "paper" else 1),
     )
+
+
+def engine_options(
+    *, equation: str, load: Any, fairness: str, method: str, normals: str, tolerance: Any, max_iterations: Any
+) -> _core.Options:
+    """Checks the options that both methods have; ``fairness`` is the engine's word for it."""
+    _arguments.choice("normals", normals, NORMALS)
+    return _core.Options(
+        equation=_arguments.choice("equation", equation, EQUATIONS),
+        load=load_number(equation, load),
+        inner_fairness=fairness,
+        method=method,
+        normals="averaged" if method == "paper" else normals,
+        tolerance=_arguments.positive("tolerance", tolerance),
+        max_iterations=_arguments.whole("max_iterations", max_iterations, 1),
+    )
+
+
+def neighbour_edges(neighbours: npt.ArrayLike | None, count: int) -> IntArray | None:
+    """(e, 2) vertices below ``count``."""
+    if neighbours is None:
+        return None
+    return _arguments.indices_within("neighbours", _arguments.integers("neighbours", neighbours, 2), count)
+
+
+def callback(progress: Any) -> Any:
+    """A callable, or None."""
+    if progress is not None and not callable(progress):
+        raise ValueError(f"progress: a callable(fraction, stage) or None is needed, not {progress!r}")
+    return progress
 
 
 def load_number(equation: str, load: Any) -> float:

@@ -14,7 +14,7 @@ from engine import FloatArray
 from stripes import Layer, View, facing, render
 
 if TYPE_CHECKING:
-    from patches import Specimen
+    from specimens import Specimen
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt

@@ -1,0 +1,176 @@
+"""The measurements of one run, as plain rows that are kept in a file for the page."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass, field
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import clock
+import fairing
+import memory
+import quality
+import repeated
+from problems import BLEND, OTHER, PATCHES, REGULAR, problem
+from tools import BY_NAME, OURS, TOOLS, Tool
+
+SHAPES = [name for name in PATCHES if name != "graded hemisphere"] + [BLEND]
+SECOND = 0.8  # share of the vertices of the other mesh of a patch
+GRADED = 100_000
+Row = dict[str, Any]
+
+
+@dataclass
+class Measured:
+    """Rows of dictionaries; `machine` in words."""
+
+    machine: Row = field(default_factory=dict)
+    times: list[Row] = field(default_factory=list)
+    memory: list[Row] = field(default_factory=list)
+    quality: list[Row] = field(default_factory=list)
+    repeated: list[Row] = field(default_factory=list)
+    graded: list[Row] = field(default_factory=list)
+
+    def save(self, path: Path) -> None:
+        """As JSON."""
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(json.dumps(asdict(self), indent=1, ensure_ascii=False))
+
+    @staticmethod
+    def load(path: Path) -> Measured:
+        """What `save` wrote."""
+        return Measured(**json.loads(path.read_text()))
+
+
+@dataclass(frozen=True)
+class Plan:
+    """sizes: free vertices; limit: seconds that one call is expected to take at most; folder: of meshes; calls: of a
+    tool at most; parts: what is measured, the rest being kept from the file of the run before."""
+
+    sizes: list[int]
+    limit: float
+    folder: Path
+    calls: int
+    parts: tuple[str, ...]
+
+
+def run(plan: Plan, path: Path) -> Measured:
+    """Saved after each row."""
+    done = Measured.load(path) if set(plan.parts) != set(PARTS) else Measured()
+    done.machine = _machine()
+    for part in plan.parts:
+        rows: list[Row] = []
+        setattr(done, part, rows)
+        for row in PARTS[part](plan, done):
+            rows.append(row)
+            print(_shown(row), flush=True)
+            done.save(path)
+    return done
+
+
+def _shown(row: Row) -> str:
+    return "  ".join(f"{value:.4g}" if isinstance(value, float) else str(value) for value in row.values())
+
+
+def _machine() -> Row:
+    lines = Path("/proc/cpuinfo").read_text().splitlines()
+    model = next((line.split(":")[1].strip() for line in lines if line.startswith("model name")), platform.machine())
+    names = ("libigl", "meshlib", "pymeshlab", "numpy", "scipy")
+    return {
+        "processor": model, "cores": sum(line.startswith("processor") for line in lines),
+        "load": round(os.getloadavg()[0], 1),
+        "fairing": fairing.__version__, **{name: version(name) for name in names},
+    }  # fmt: skip
+
+
+def shapes_at(size: int) -> list[str]:
+    """All at 10k, two at 100k, the hemisphere above."""
+    return SHAPES if size <= 10_000 else ["hemisphere", "catenoid"] if size <= 100_000 else ["hemisphere"]
+
+
+def _times(plan: Plan, _done: Measured) -> Iterator[Row]:
+    known: dict[str, tuple[int, float]] = {}
+    for size in sorted(plan.sizes):
+        for shape in shapes_at(size):
+            made = problem(plan.folder, shape, size)
+            free = len(made.free)
+            possible = [tool for tool in TOOLS if _expected(tool, free, known) < plan.limit]
+            clocked = clock.interleaved(made, possible, plan.calls)
+            for tool in TOOLS:
+                row = {"shape": shape, "size": size, "free": free, "tool": tool.name}
+                if tool not in possible:
+                    yield {**row, "failure": f"not run: {_expected(tool, free, known):.0f} s expected"}
+                    continue
+                yield {**row, **_clocked(made, clocked[tool.name])}
+            known.update({name: (free, min(found.wall)) for name, found in clocked.items() if found.wall})
+
+
+def _expected(tool: Tool, free: int, known: dict[str, tuple[int, float]]) -> float:
+    """Seconds, from a smaller size."""
+    before, seconds = known.get(tool.name, (free, 0.0))
+    return float(seconds * (free / before) ** (1 + tool.growth))
+
+
+def _clocked(made: Any, found: clock.Clocked) -> Row:
+    if found.answer is None:
+        return {"failure": found.failure}
+    return {
+        "wall": min(found.wall), "cpu": min(found.cpu), "calls": len(found.wall),
+        "error": clock.error(made, found.answer), "steps": found.answer.steps, "state": found.answer.state,
+    }  # fmt: skip
+
+
+def _graded(plan: Plan, _done: Measured) -> Iterator[Row]:
+    """Ours on a graded irregular mesh and on a regular one of the same size, in turns."""
+    if GRADED not in plan.sizes:
+        return
+    ours = BY_NAME[OURS]
+    made = [problem(plan.folder, "graded hemisphere", GRADED), problem(plan.folder, "hemisphere", GRADED, REGULAR)]
+    found = [clock.Clocked(), clock.Clocked()]
+    for _ in range(plan.calls):
+        for mesh, clocked in zip(made, found, strict=True):
+            clocked.call(ours, mesh)
+    for mesh, clocked, kind in zip(made, found, ("graded irregular", "regular"), strict=True):
+        yield {"kind": kind, "free": len(mesh.free), **_clocked(mesh, clocked)}
+
+
+def _repeated(plan: Plan, _done: Measured) -> Iterator[Row]:
+    for size in (2_000, 10_000):
+        for shape in ("hemisphere", "catenoid"):
+            made = problem(plan.folder, shape, size)
+            if repeated.available():
+                yield {"shape": shape, "size": size, **asdict(repeated.dragged(made))}
+
+
+def _memory(plan: Plan, done: Measured) -> Iterator[Row]:
+    """Of every tool that was timed, at 100k and at the largest size."""
+    for size in sorted({100_000, max(plan.sizes)} & set(plan.sizes)):
+        timed = {row["tool"] for row in done.times if row["size"] == size and "wall" in row}
+        for tool in TOOLS:
+            if tool.name in timed:
+                used = memory.above_input(plan.folder, "hemisphere", size, tool.name)
+                yield {"size": size, "tool": tool.name, "megabytes": used}
+
+
+def _quality(plan: Plan, _done: Measured) -> Iterator[Row]:
+    size = min(plan.sizes)
+    for shape in SHAPES:
+        one = problem(plan.folder, shape, size)
+        other = problem(plan.folder, shape, round(SECOND * size), OTHER)
+        for tool in TOOLS:
+            if not tool.alike:
+                yield {"shape": shape, "tool": tool.name, **asdict(quality.judged(tool, one, other))}
+
+
+PARTS: dict[str, Callable[[Plan, Measured], Iterator[Row]]] = {
+    "times": _times,
+    "graded": _graded,
+    "repeated": _repeated,
+    "memory": _memory,
+    "quality": _quality,
+}

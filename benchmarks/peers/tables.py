@@ -1,0 +1,138 @@
+"""The tables of docs/performance.md."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+import tools
+from measured import Measured, Row
+from problems import CAPS
+from tools import OURS, SMOOTHING_STEPS
+
+
+def _table(head: list[str], rows: Iterable[list[str]]) -> str:
+    lines = [head, ["---"] + ["--:"] * (len(head) - 1), *rows]
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
+
+
+def machine(done: Measured) -> str:
+    """A sentence."""
+    words = dict(done.machine)
+    processor, cores, load = (words.pop(name) for name in ("processor", "cores", "load"))
+    return f"{processor}, {cores} cores, load {load} before the start; " + ", ".join(
+        f"{name} {number}" for name, number in words.items()
+    )
+
+
+def times(done: Measured) -> str:
+    """Wall and processor seconds; one table for each shape, a column for each size."""
+    shapes = list(dict.fromkeys(row["shape"] for row in done.times))
+    return "\n\n".join(f"**{shape}**\n\n{_times_of(done, shape)}" for shape in shapes if len(_sizes(done, shape)) > 1)
+
+
+def _sizes(done: Measured, shape: str) -> list[int]:
+    return sorted({row["free"] for row in done.times if row["shape"] == shape})
+
+
+def _times_of(done: Measured, shape: str) -> str:
+    sizes = _sizes(done, shape)
+    cells = {(row["tool"], row["free"]): _seconds(row) for row in done.times if row["shape"] == shape}
+    rows = [
+        [name, tool.threads, *(cells.get((name, free), "–") for free in sizes)] for name, tool in tools.BY_NAME.items()
+    ]  # fmt: skip
+    return _table(
+        ["tool, seconds by the wall (of the processor)", "threads", *(f"{free:,} free" for free in sizes)], rows
+    )
+
+
+def _seconds(row: Row) -> str:
+    return f"{row['wall']:.3g} ({row['cpu']:.3g})" if "wall" in row else row["failure"]
+
+
+def small(done: Measured) -> str:
+    """All shapes at the smallest size: ours, the fastest peer, steps and state."""
+    size = min(row["size"] for row in done.times)
+    rows = []
+    for shape in dict.fromkeys(row["shape"] for row in done.times):
+        found = {r["tool"]: r for r in done.times if (r["shape"], r["size"]) == (shape, size) and "wall" in r}
+        peers = [row for name, row in found.items() if tools.BY_NAME[name].kind == "peer"]
+        fastest = min(peers, key=lambda row: row["wall"])
+        ours = found[OURS]
+        rows.append([
+            shape, f"{ours['free']:,}", f"{ours['wall']:.3f} ({ours['cpu']:.3f})", str(ours["steps"]), ours["state"],
+            f"{fastest['wall']:.3f} ({fastest['cpu']:.3f}), {fastest['tool']}",
+        ])  # fmt: skip
+    return _table(["shape", "free", "ours, s", "outer steps", "ended", "fastest peer, s"], rows)
+
+
+def memory(done: Measured) -> str:
+    """MB above the input."""
+    sizes = sorted({row["size"] for row in done.memory})
+    cells = {(row["tool"], row["size"]): f"{row['megabytes']:,.0f}" for row in done.memory}
+    names = [name for name in tools.BY_NAME if any((name, size) in cells for size in sizes)]
+    rows = [[name, *(cells.get((name, size), "–") for size in sizes)] for name in names]
+    return _table(["peak memory above the input, MB", *(f"{size:,}" for size in sizes)], rows)
+
+
+Cell = tuple[str, Callable[[Row], str]]
+COLUMNS: list[Cell] = [
+    ("error / D", lambda row: f"{row['error']:.1e}"),
+    ("from the right surface", lambda row: f"{row['error_from_right']:.1e}"),
+    ("between two meshes / D", lambda row: f"{row['between']:.1e}"),
+    ("boundary angle", lambda row: f"{row['angle']:.2g}°"),
+    ("flipped", lambda row: str(row["flipped"])),
+    ("distortion: median, 95 %", lambda row: f"{row['distortion']:.2f}, {row['worst']:.2f}"),
+]
+
+
+def quality(done: Measured) -> str:
+    """A block of rows for each shape."""
+    shapes = list(dict.fromkeys(row["shape"] for row in done.quality))
+    order = [*CAPS, *(shape for shape in shapes if shape not in CAPS)]
+    rows = []
+    for shape in order:
+        for row in (row for row in done.quality if row["shape"] == shape):
+            cells = [text(row).replace("nan", "–") for _, text in COLUMNS]
+            rows.append([f"{shape}: {row['tool']}", *cells])
+    return _table(["patch: tool", *(name for name, _ in COLUMNS)], rows)
+
+
+def repeated(done: Measured) -> str:
+    """Milliseconds, or why there are none."""
+    if not done.repeated:
+        return "This engine has no `fairing.Solver`: not measured."
+    names = ("first", "median", "longest", "whole", "linear")
+    rows = [
+        [f"{row['shape']}, {row['size']:,}", *(f"{1000 * row[name]:.3g}" for name in names), str(row["steps"]),
+         f"{row['apart']:.0e}"]
+        for row in done.repeated
+    ]  # fmt: skip
+    head = ["milliseconds", "first solve", "after a move, median", "longest", "whole call of `fair`",
+            "linear back-substitution", "outer steps, most", "from the whole call's answer / D"]  # fmt: skip
+    return _table(head, rows)
+
+
+def graded(done: Measured) -> str:
+    """Ours on graded and regular meshes."""
+    rows = [
+        [row["kind"], f"{row['free']:,}", f"{row['wall']:.3g} ({row['cpu']:.3g})", str(row["steps"]), row["state"],
+         f"{row['error']:.1e}"]
+        for row in done.graded if "wall" in row
+    ]  # fmt: skip
+    return _table(["mesh of the hemisphere", "free", "ours, s", "outer steps", "ended", "error / D"], rows)
+
+
+def steps(_: Measured) -> str:
+    """Of PyMeshLab's smoothing."""
+    return str(SMOOTHING_STEPS)
+
+
+def quality_size(done: Measured) -> str:
+    """Free vertices wanted in the quality table."""
+    return f"{min(row['size'] for row in done.times):,}"
+
+
+BY_NAME: dict[str, Callable[[Measured], str]] = {
+    "machine": machine, "times": times, "small": small, "graded": graded, "memory": memory, "repeated": repeated,
+    "quality": quality, "quality_size": quality_size, "steps": steps,
+}  # fmt: skip

@@ -1,0 +1,121 @@
+#include "api/component_solver.h"
+
+#include <cmath>
+
+#include "api/diagnose.h"
+#include "geometry/surface_fit.h"
+#include "proxy/global_method.h"
+
+namespace fairing {
+
+namespace {
+
+bool reads_reference(InnerFairness kind) { return kind != InnerFairness::uniform && kind != InnerFairness::custom; }
+
+// The warm start of a component this large would cost more than it saves: one factorisation takes longer than a solve.
+constexpr int largest_warm = 50000;
+
+}  // namespace
+
+CallOptions::CallOptions(FairOptions options, bool keeps) : asked(std::move(options)), uniform(asked), repeated(keeps) {
+    uniform.inner_fairness = InnerFairness::uniform;
+}
+
+ComponentSolver::ComponentSolver(const Patch& patch, const CallOptions& options)
+    : patch_(patch), options_(options), warm_(patch) {}
+
+bool ComponentSolver::keeps() const {
+    return options_.repeated && options_.asked.method == Method::global && patch_.free_count <= largest_warm;
+}
+
+ComponentAnswer ComponentSolver::solve(const ComponentData& data, const Progress& progress) {
+    const auto fixed = fixed_vertices(patch_);
+    const Points fixed_points = gather(data.vertices, fixed);
+    const Normalisation unit = normalise(fixed_points);
+    if (!(unit.diameter > 0.0)) {
+        throw MeshError({Code::no_boundary, "a component is held in a single point: fix more of its vertices",
+                         Indices(fixed.begin(), fixed.end())});
+    }
+    const SolverOptions& solver = options_.asked.solver;
+    ComponentAnswer answer{unit, {patch_, unit.to_unit(fixed_points), gather(data.normals, fixed), {}, solver}, {}, {}};
+    answer.problem.options.load *= std::pow(unit.diameter, 3);
+    warn_of_precision(patch_, data.vertices, {unit.diameter, solver.tolerance}, answer.warnings);
+    read_reference(gather(data.reference, patch_.to_input), unit);
+    answer.warnings.insert(answer.warnings.end(), reference_warnings_.begin(), reference_warnings_.end());
+    answer.solution =
+        options().method == Method::paper ? solve_by_paper(answer.problem, progress) : solve_globally(answer, progress);
+    return answer;
+}
+
+// λ stays as long as what it is read off does.
+void ComponentSolver::read_reference(const Points& reference, const Normalisation& unit) {
+    const bool read = given_reference_.cols() > 0;
+    const InnerFairness kind = options_.asked.inner_fairness;
+    if (read && (!reads_reference(kind) || reference == given_reference_)) return;
+    given_reference_.resize(3, 0);
+    reference_ = unit.to_unit(reference);
+    reference_warnings_.clear();
+    usable_ = !reads_reference(kind) || is_usable_reference(patch_, reference_, reference_warnings_);
+    if (options().method == Method::global) lambda_ = make_lambda(patch_, reference_, options());
+    warm_.new_weights();
+    given_reference_ = reference;
+}
+
+Solution ComponentSolver::solve_by_paper(const Problem& problem, const Progress& progress) const {
+    Solution solution = solve_paper({problem, options().paper, options().inner_fairness, reference_,
+                                     make_row_weights(patch_, reference_, options())},
+                                    progress);
+    solution.boundary_normals = one_sided_normals(patch_, solution.points);
+    return solution;
+}
+
+Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Progress& progress) {
+    Problem& problem = answer.problem;
+    problem.weights = lambda_;
+    std::optional<Solution> near_last = solve_warm(problem, progress);
+    Solution solution = near_last ? std::move(*near_last) : solve_global(problem, progress);
+    const std::size_t told = answer.warnings.size();
+    if (!near_last && options_.asked.inner_fairness != InnerFairness::uniform) {
+        solution = injective(answer, solution, progress);
+    }
+    if (!keeps()) return solution;
+    // Other weights than those asked for were used: the next solve has to try again.
+    if (answer.warnings.size() > told) {
+        warm_.forget();
+    } else {
+        warm_.remember(problem, solution, progress.here());
+    }
+    return solution;
+}
+
+// Only an answer without folds counts as the one that a solve from the boundary alone would give.
+std::optional<Solution> ComponentSolver::solve_warm(const Problem& problem, const Progress& progress) {
+    if (!keeps()) return std::nullopt;
+    std::optional<Solution> solution = warm_.solve(problem, progress);
+    if (solution && !flipped_triangles(patch_, solution->points).empty()) return std::nullopt;
+    return solution;
+}
+
+// Needles across a curvature count as turned over in the reference already.
+std::size_t ComponentSolver::tolerated_flips() const {
+    return reads_reference(options_.asked.inner_fairness) ? flipped_triangles(patch_, reference_).size() : 0;
+}
+
+// λ may turn triangles over although the surface is smooth: uniform ones then, where they do better.
+Solution ComponentSolver::injective(ComponentAnswer& answer, const Solution& solution, const Progress& progress) {
+    if (solution.termination != Termination::converged) return solution;
+    Indices flipped = flipped_triangles(patch_, solution.points);
+    if (flipped.size() <= tolerated_flips()) return solution;
+    answer.problem.weights = make_lambda(patch_, reference_, options_.uniform);
+    Solution uniform = solve_global(answer.problem, progress.here());
+    const bool better = uniform.termination == Termination::converged &&
+                        flipped_triangles(patch_, uniform.points).size() < flipped.size();
+    if (!better) return solution;
+    answer.warnings.push_back({Code::flipped_triangles,
+                               "the inner fairness asked for turns " + std::to_string(flipped.size()) +
+                                   " triangles over; uniform inner fairness was used",
+                               std::move(flipped), ElementKind::triangle});
+    return uniform;
+}
+
+}  // namespace fairing

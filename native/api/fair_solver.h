@@ -1,0 +1,34 @@
+// Repeated calls for one mesh, each from the last one's answer.
+#pragma once
+
+#include <memory>
+
+#include "api/fair.h"
+
+namespace fairing {
+
+struct PreparedMesh;
+struct CallOptions;
+
+// One call at a time.
+class FairSolver {
+public:
+    FairSolver(Triangles triangles, std::optional<Indices> fixed, FairOptions options);
+    FairSolver(const FairSolver&) = delete;
+    FairSolver& operator=(const FairSolver&) = delete;
+    ~FairSolver();
+
+    // What fair() gives: the first time bit for bit, then to the tolerance. Throws the same; the solver stays usable.
+    FairResult solve(Points vertices, std::optional<Points> fixed_normals, const std::optional<Points>& reference,
+                     const ProgressCallback& progress);
+
+    // Other options from the next solve on; what does not depend on them is kept, the last answer too.
+    void change(FairOptions options);
+
+private:
+    MeshInput input_;  // vertices and normals of the last call
+    std::unique_ptr<CallOptions> options_;
+    std::unique_ptr<PreparedMesh> prepared_;
+};
+
+}  // namespace fairing

@@ -1,0 +1,41 @@
+#include "api/prepared_mesh.h"
+
+#include <algorithm>
+
+namespace fairing {
+
+namespace {
+
+// Leaves out components without fixed vertices; refuses when nothing is left.
+std::vector<Patch> solvable_patches(const CheckedMesh& mesh, Diagnostics& warnings) {
+    std::vector<Patch> patches = make_patches(mesh.cut, mesh.roles);
+    if (patches.empty()) {
+        throw MeshError(
+            {Code::no_free_vertices, "there is no vertex that may move: all are fixed or on the border", {}});
+    }
+    Indices closed;
+    std::erase_if(patches, [&](const Patch& patch) {
+        if (patch.free_count < patch.vertex_count()) return false;
+        closed.insert(closed.end(), patch.to_input.begin(), patch.to_input.end());
+        return true;
+    });
+    if (closed.empty()) return patches;
+    const std::string text = "a closed component has no fixed vertices to hold it: fix some of them";
+    if (patches.empty()) throw MeshError({Code::no_boundary, text, std::move(closed)});
+    warnings.push_back({Code::no_boundary, text + "; it was left alone", std::move(closed)});
+    return patches;
+}
+
+}  // namespace
+
+std::unique_ptr<PreparedMesh> prepare(const MeshInput& input, const CallOptions& options) {
+    auto prepared = std::make_unique<PreparedMesh>();
+    prepared->mesh = check_mesh(input);
+    prepared->finite = input.vertices.allFinite();
+    prepared->patches = solvable_patches(prepared->mesh, prepared->closed_components);
+    prepared->solvers.reserve(prepared->patches.size());
+    for (const Patch& patch : prepared->patches) prepared->solvers.emplace_back(patch, options);
+    return prepared;
+}
+
+}  // namespace fairing

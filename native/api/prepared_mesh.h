@@ -1,0 +1,24 @@
+// What a call makes of the mesh before it solves; repeated calls keep it.
+#pragma once
+
+#include "api/component_solver.h"
+
+namespace fairing {
+
+struct PreparedMesh {
+    CheckedMesh mesh;
+    bool finite;                           // all coordinates; where one is not, the topology depends on which
+    std::vector<Patch> patches;            // all that have free and fixed vertices
+    Diagnostics closed_components;         // those that are left alone
+    std::vector<ComponentSolver> solvers;  // one for each patch; they refer to patches and options
+};
+
+// Throws what check_mesh throws, NO_FREE_VERTICES, NO_BOUNDARY. The options must outlive what comes back.
+std::unique_ptr<PreparedMesh> prepare(const MeshInput& input, const CallOptions& options);
+
+// One call. `prepared`: of an earlier call with the same triangles, fixed vertices and options, or null; it is made
+// where it is missing or not of this input. `reference`: M0; the input's vertices where it is left out.
+FairResult run_call(const MeshInput& input, const std::optional<Points>& reference, const CallOptions& options,
+                    std::unique_ptr<PreparedMesh>& prepared, const ProgressCallback& callback);
+
+}  // namespace fairing

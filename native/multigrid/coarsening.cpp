@@ -1,0 +1,71 @@
+#include "multigrid/coarsening.h"
+
+namespace fairing {
+
+namespace {
+
+// Passes are made whole, which keeps the level even: the factor ends up between this and 5.
+constexpr double factor = 3.5;
+constexpr double least_factor = 1.6;  // a level that shrinks less is not worth its cost
+constexpr double least_progress = 0.03;
+constexpr int most_passes = 12;
+
+void append(Removals& all, const Removals& more) {
+    const int offset = all.begin.back();
+    all.vertex.insert(all.vertex.end(), more.vertex.begin(), more.vertex.end());
+    all.neighbours.insert(all.neighbours.end(), more.neighbours.begin(), more.neighbours.end());
+    all.weights.insert(all.weights.end(), more.weights.begin(), more.weights.end());
+    for (std::size_t k = 1; k < more.begin.size(); ++k) all.begin.push_back(offset + more.begin[k]);
+}
+
+// Collapses down to a quarter.
+Removals collapse_level(CollapseMesh& mesh, int target) {
+    Removals removals;
+    mesh.begin_level();
+    for (int k = 0; k < most_passes && mesh.free_count() > target; ++k) {
+        const int before = mesh.free_count();
+        append(removals, mesh.pass());
+        if (before - mesh.free_count() < least_progress * before) break;
+    }
+    return removals;
+}
+
+}  // namespace
+
+std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights, const Outline& outline,
+                                 int coarsest) {
+    std::vector<CoarseLevel> levels;
+    CollapseMesh mesh(patch, weights, outline);
+    Indices fine_local(at(patch.vertex_count()));  // vertex of the patch → of the level above
+    for (std::size_t v = 0; v < fine_local.size(); ++v) fine_local[v] = static_cast<int>(v);
+    int fine_count = patch.vertex_count();
+    while (mesh.free_count() > 2 * coarsest) {
+        const int free_before = mesh.free_count();
+        Transfer transfer;
+        const int target = static_cast<int>(free_before / factor);
+        transfer.removals = collapse_level(mesh, target);
+        if (mesh.free_count() * least_factor > free_before) break;
+        for (int& v : transfer.removals.vertex) v = fine_local[at(v)];
+        for (int& v : transfer.removals.neighbours) v = fine_local[at(v)];
+        transfer.fine_count = fine_count;
+        PatchMembers members = mesh.members();
+        transfer.coarse_free_count = members.free_count;
+        Indices local(at(patch.vertex_count()), none);
+        for (std::size_t c = 0; c < members.to_input.size(); ++c) {
+            const int v = members.to_input[c];
+            transfer.coarse_in_fine.push_back(fine_local[at(v)]);
+            local[at(v)] = static_cast<int>(c);
+        }
+        InnerWeights level_weights = mesh.weights();
+        for (auto& edge : level_weights) {
+            edge.i = local[at(edge.i)];
+            edge.j = local[at(edge.j)];
+        }
+        fine_count = static_cast<int>(members.to_input.size());
+        fine_local = std::move(local);
+        levels.push_back({Patch(std::move(members)), std::move(level_weights), std::move(transfer)});
+    }
+    return levels;
+}
+
+}  // namespace fairing

@@ -1,0 +1,21 @@
+// The levels of the global method's multigrid: the user's connectivity, ever coarser.
+#pragma once
+
+#include <memory>
+
+#include "multigrid/transfer.h"
+
+namespace fairing {
+
+// A level below the finest.
+struct CoarseLevel {
+    Patch patch;           // to_input: vertices of the finest patch
+    InnerWeights weights;  // local vertices
+    Transfer transfer;     // to the next finer level
+};
+
+// Fine to coarse, each about a quarter of the one before, down to about `coarsest` free vertices; fewer where collapses
+// run out.
+std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights, const Outline& outline, int coarsest);
+
+}  // namespace fairing

@@ -1,0 +1,296 @@
+#include "multigrid/collapse_mesh.h"
+
+#include <algorithm>
+
+namespace fairing {
+
+namespace {
+
+constexpr int hub = 12;             // vertices of more neighbours stay
+constexpr int smallest_loop = 8;    // vertices that a loop keeps
+constexpr double dearest = 12.0;    // a collapse that spoils the valences more than this waits
+constexpr double far_share = 0.77;  // keeps the mean energy of a linear function on a regular star
+
+}  // namespace
+
+CollapseMesh::CollapseMesh(const Patch& patch, const InnerWeights& weights, const Outline& outline)
+    : outline_(outline),
+      patch_free_count_(patch.free_count),
+      free_count_(patch.free_count),
+      pin_(patch.pin),
+      border_(at(patch.vertex_count()), 0),
+      dead_vertex_(at(patch.vertex_count()), 0),
+      dead_triangle_(at(patch.triangle_count()), 0),
+      blocked_(at(patch.vertex_count()), 0),
+      valence_(at(patch.vertex_count()), 0),
+      first_side_(at(patch.vertex_count()), none),
+      loop_(at(patch.vertex_count()), none),
+      stamp_(at(patch.vertex_count()), 0) {
+    build_sides(patch);
+    set_weights(patch, weights);
+    count_loops(patch);
+    begin_level();
+}
+
+void CollapseMesh::build_sides(const Patch& patch) {
+    const int side_count = 3 * patch.triangle_count();
+    corner_.assign(patch.triangles.data(), patch.triangles.data() + side_count);
+    twin_.assign(at(side_count), none);
+    Indices first(at(patch.edge_count()), none);
+    for (int s = 0; s < side_count; ++s) {
+        int& other = first[at(patch.triangle_edges((s + 2) % 3, s / 3))];
+        if (other == none) {
+            other = s;
+        } else {
+            twin_[at(s)] = other;
+            twin_[at(other)] = s;
+        }
+    }
+    for (int v = 0; v < patch.vertex_count(); ++v) {
+        const RingView ring = patch.ring(v);
+        valence_[at(v)] = static_cast<int>(ring.valence());
+        border_[at(v)] = !ring.closed();
+    }
+    for (int s = 0; s < side_count; ++s) {
+        int& side = first_side_[at(corner_[at(s)])];
+        if (side == none || twin_[at(s)] == none) side = s;
+    }
+}
+
+void CollapseMesh::set_weights(const Patch& patch, const InnerWeights& weights) {
+    VectorX of_edge = VectorX::Zero(patch.edge_count());
+    const auto find = [&](int i, int j) {
+        const RingView ring = patch.ring(i);
+        const auto found = std::find(ring.vertices.begin(), ring.vertices.end(), j);
+        return found == ring.vertices.end() ? none
+                                            : ring.spokes[static_cast<std::size_t>(found - ring.vertices.begin())];
+    };
+    double sum = 0.0;
+    for (const auto& [i, j, weight] : weights) {
+        const int edge = find(i, j);
+        sum += weight;
+        if (edge != none) of_edge[edge] += weight;
+    }
+    // A star without any weight (all of its edges are others than the mesh's) is still interpolated from its ring.
+    const double least = 1e-3 * sum / std::max<double>(1.0, static_cast<double>(patch.edge_count()));
+    weight_.resize(corner_.size());
+    for (std::size_t s = 0; s < corner_.size(); ++s) {
+        const int side = static_cast<int>(s);
+        const double weight = of_edge[patch.triangle_edges((side + 2) % 3, side / 3)];
+        weight_[s] = static_cast<float>(std::max(weight, least));
+    }
+}
+
+void CollapseMesh::count_loops(const Patch& patch) {
+    for (int start = patch.free_count; start < patch.vertex_count(); ++start) {
+        if (!border_[at(start)] || loop_[at(start)] != none) continue;
+        const int loop = static_cast<int>(loop_size_.size());
+        loop_size_.push_back(0);
+        for (int v = start; loop_[at(v)] == none; v = patch.ring(v).vertices.front()) {
+            loop_[at(v)] = loop;
+            ++loop_size_.back();
+        }
+    }
+}
+
+void CollapseMesh::begin_level() {
+    least_loop_size_.clear();
+    for (const int size : loop_size_) least_loop_size_.push_back(std::max(smallest_loop, (size + 1) / 2));
+}
+
+void CollapseMesh::gather(int v, Star& star) const {
+    star.centre = v;
+    star.vertices.clear();
+    star.sides.clear();
+    star.weights.clear();
+    star.closed = true;
+    int s = first_side_[at(v)];
+    do {
+        star.vertices.push_back(corner_[at(next_side(s))]);
+        star.sides.push_back(s);
+        star.weights.push_back(weight_[at(s)]);
+        const int last = previous_side(s);
+        s = twin_[at(last)];
+        if (s == none) {
+            star.closed = false;
+            star.vertices.push_back(corner_[at(last)]);
+            star.sides.push_back(none);
+            star.weights.push_back(weight_[at(last)]);
+            return;
+        }
+    } while (s != first_side_[at(v)]);
+}
+
+Removals CollapseMesh::pass() {
+    Removals removals;
+    Star star;
+    std::fill(blocked_.begin(), blocked_.end(), 0);
+    for (int v = 0; v < static_cast<int>(blocked_.size()); ++v) {
+        if (dead_vertex_[at(v)] || blocked_[at(v)] || valence_[at(v)] > hub) continue;
+        if (is_fixed(v) && (pin_[at(v)] || !border_[at(v)])) continue;
+        gather(v, star);
+        if (!try_collapse(v, star, removals)) continue;
+        for (int u : star.vertices) blocked_[at(u)] = 1;
+    }
+    return removals;
+}
+
+bool CollapseMesh::try_collapse(int v, Star& star, Removals& removals) {
+    double least = dearest;
+    std::size_t best = star.size();
+    for (std::size_t k = 0; k < star.size(); ++k) {
+        const double price = cost(star, k);
+        if (price < least && is_legal(star, k)) {
+            least = price;
+            best = k;
+        }
+    }
+    if (best == star.size()) return false;
+    if (is_fixed(v)) {
+        --loop_size_[at(loop_[at(v)])];
+        pass_fixed_weights_on(star, best);
+    } else {
+        --free_count_;
+        double sum = 0.0;
+        for (const double weight : star.weights) sum += weight;
+        removals.vertex.push_back(v);
+        for (std::size_t k = 0; k < star.size(); ++k) {
+            removals.neighbours.push_back(star.vertices[k]);
+            removals.weights.push_back(star.weights[k] / sum);
+        }
+        removals.begin.push_back(static_cast<int>(removals.neighbours.size()));
+        pass_weights_on(star, best);
+    }
+    collapse(star, best);
+    return true;
+}
+
+// Eliminating the centre of a star leaves springs λ_a λ_b / Σλ between its neighbours (star-mesh transform). Those
+// between two that share no edge afterwards go by way of the vertex kept.
+void CollapseMesh::pass_weights_on(Star& star, std::size_t k) const {
+    const std::size_t n = star.size();
+    double sum = 0.0;
+    for (const double weight : star.weights) sum += weight;
+    star.passed.assign(n, 0.0);
+    for (std::size_t j = 0; j < n; ++j) {
+        if (j == k) continue;
+        double far = sum - star.weights[k] - star.weights[j];
+        if (star.after(j) != k) far -= star.weights[star.after(j)];
+        if (star.before(j) != k) far -= star.weights[star.before(j)];
+        star.passed[j] = star.weights[j] * (star.weights[k] + far_share * std::max(far, 0.0)) / sum;
+    }
+}
+
+void CollapseMesh::pass_fixed_weights_on(Star& star, std::size_t k) const {
+    star.passed = star.weights;
+    star.passed[k] = 0.0;
+}
+
+void CollapseMesh::set_first_side(int v, int side) {
+    if (border_[at(v)]) {
+        // Clockwise to the end of the fan.
+        while (twin_[at(side)] != none) side = next_side(twin_[at(side)]);
+    }
+    first_side_[at(v)] = side;
+}
+
+// Drops the triangle of `side`, an edge between the star's centre and the vertex kept, and joins what lies behind the
+// two other edges, which become one of the given weight.
+void CollapseMesh::drop_triangle(int side, double weight) {
+    const int a = twin_[at(next_side(side))];
+    const int b = twin_[at(previous_side(side))];
+    dead_triangle_[at(side / 3)] = 1;
+    for (const auto& [s, other] : {std::pair(a, b), std::pair(b, a)}) {
+        if (s == none) continue;
+        twin_[at(s)] = other;
+        weight_[at(s)] = static_cast<float>(weight);
+    }
+}
+
+void CollapseMesh::strengthen_rim(const Star& star, std::size_t k) {
+    double sum = 0.0;
+    for (const double weight : star.weights) sum += weight;
+    for (std::size_t j = 0; j < star.size(); ++j) {
+        if (!star.has_triangle(j) || j == k || star.after(j) == k) continue;
+        const auto more = static_cast<float>(star.weights[j] * star.weights[star.after(j)] / sum);
+        const int rim = next_side(star.sides[j]);
+        weight_[at(rim)] += more;
+        if (twin_[at(rim)] != none) weight_[at(twin_[at(rim)])] += more;
+    }
+}
+
+void CollapseMesh::hand_over_spokes(const Star& star, int kept) {
+    for (std::size_t j = 0; j < star.size(); ++j) {
+        const auto weight = static_cast<float>(star.passed[j]);
+        const int s = star.sides[j];
+        if (s == none) {
+            weight_[at(previous_side(star.sides[j - 1]))] = weight;
+            continue;
+        }
+        corner_[at(s)] = kept;
+        weight_[at(s)] = weight;
+        if (twin_[at(s)] != none) weight_[at(twin_[at(s)])] = weight;
+    }
+}
+
+void CollapseMesh::collapse(const Star& star, std::size_t k) {
+    const int kept = star.vertices[k];
+    if (!is_fixed(star.centre)) strengthen_rim(star, k);
+    hand_over_spokes(star, kept);
+    dead_vertex_[at(star.centre)] = 1;
+    valence_[at(kept)] += static_cast<int>(star.size()) - (star.closed ? 4 : 3);
+    std::array<std::pair<int, std::size_t>, 2> dropped{{{none, 0}, {none, 0}}};  // side, apex
+    if (star.has_triangle(k)) {
+        const int side = star.sides[k];  // centre → kept → l → centre
+        dropped[0] = {side, star.after(k)};
+        drop_triangle(side, weight_[at(next_side(side))] + star.passed[star.after(k)]);
+    }
+    if (star.has_triangle(star.before(k))) {
+        const int side = previous_side(star.sides[star.before(k)]);  // kept → centre → r → kept
+        dropped[1] = {side, star.before(k)};
+        drop_triangle(side, weight_[at(previous_side(side))] + star.passed[star.before(k)]);
+    }
+    for (const auto& [side, j] : dropped) {
+        if (side == none) continue;
+        const int apex = star.vertices[j];
+        --valence_[at(apex)];
+        const int from_apex = twin_[at(next_side(side))];
+        const int to_apex = twin_[at(previous_side(side))];
+        set_first_side(apex, from_apex != none ? from_apex : next_side(to_apex));
+        set_first_side(kept, to_apex != none ? to_apex : next_side(from_apex));
+    }
+}
+
+PatchMembers CollapseMesh::members() const {
+    PatchMembers members;
+    members.free_count = free_count_;
+    Indices local(dead_vertex_.size(), none);
+    for (std::size_t v = 0; v < dead_vertex_.size(); ++v) {
+        if (dead_vertex_[v]) continue;
+        local[v] = static_cast<int>(members.to_input.size());
+        members.to_input.push_back(static_cast<int>(v));
+        members.pin.push_back(pin_[v]);
+    }
+    for (std::size_t t = 0; t < dead_triangle_.size(); ++t) {
+        if (!dead_triangle_[t]) members.input_triangle.push_back(static_cast<int>(t));
+    }
+    members.triangles.resize(3, static_cast<Eigen::Index>(members.input_triangle.size()));
+    for (std::size_t t = 0; t < members.input_triangle.size(); ++t) {
+        for (int k = 0; k < 3; ++k) {
+            members.triangles(k, static_cast<Eigen::Index>(t)) =
+                local[at(corner_[at(3 * members.input_triangle[t] + k)])];
+        }
+    }
+    return members;
+}
+
+InnerWeights CollapseMesh::weights() const {
+    InnerWeights result;
+    for (int s = 0; s < static_cast<int>(corner_.size()); ++s) {
+        if (dead_triangle_[at(s / 3)] || (twin_[at(s)] != none && twin_[at(s)] < s)) continue;
+        result.push_back({corner_[at(s)], corner_[at(next_side(s))], weight_[at(s)]});
+    }
+    return result;
+}
+
+}  // namespace fairing

@@ -1,0 +1,86 @@
+// Half-edge collapses on connectivity and inner-fairness weights alone, for the coarse levels of the global method.
+#pragma once
+
+#include <span>
+
+#include "fairness/inner_weights.h"
+#include "multigrid/collapse_star.h"
+
+namespace fairing {
+
+// A free vertex that was removed: its value follows from its neighbours at that time by their weights.
+struct Removals {
+    Indices vertex;
+    Indices begin{0};
+    Indices neighbours;
+    std::vector<double> weights;  // sum 1 for each vertex
+
+    [[nodiscard]] int size() const { return static_cast<int>(vertex.size()); }
+};
+
+// Where the fixed vertices are: thinned loops have to follow the outline. 3 × local vertices, free columns unused.
+struct Outline {
+    const Points& points;
+    const Points& normals;
+};
+
+// A mesh without positions inside: interior shapes are those of the graph, which uniform weights make even, and
+// otherwise of the weights, which are large along short edges.
+class CollapseMesh {
+public:
+    CollapseMesh(const Patch& patch, const InnerWeights& weights, const Outline& outline);
+
+    // Removes vertices, no two of them neighbours, and returns the free ones among them: about a quarter of the mesh.
+    // Collapses keep the topology, valences between 4 and 9 where they were, and make no chord between fixed vertices.
+    Removals pass();
+
+    // Loops may lose half of their vertices until the next call.
+    void begin_level();
+
+    [[nodiscard]] int free_count() const { return free_count_; }
+    // The present mesh: to_input and input_triangle are the patch's vertices and triangles.
+    [[nodiscard]] PatchMembers members() const;
+    // Weights of the present edges by the patch's vertices, each edge once.
+    [[nodiscard]] InnerWeights weights() const;
+
+private:
+    void build_sides(const Patch& patch);
+    void set_weights(const Patch& patch, const InnerWeights& weights);
+    void count_loops(const Patch& patch);
+    void gather(int v, Star& star) const;
+    bool try_collapse(int v, Star& star, Removals& removals);
+    [[nodiscard]] double cost(const Star& star, std::size_t k) const;
+    [[nodiscard]] bool is_legal(const Star& star, std::size_t k);
+    [[nodiscard]] bool may_thin(const Star& star, std::size_t k) const;
+    void pass_weights_on(Star& star, std::size_t k) const;
+    void pass_fixed_weights_on(Star& star, std::size_t k) const;
+    void collapse(const Star& star, std::size_t k);
+    void strengthen_rim(const Star& star, std::size_t k);
+    void hand_over_spokes(const Star& star, int kept);
+    void drop_triangle(int side, double weight);
+    void set_first_side(int v, int side);
+
+    [[nodiscard]] bool is_fixed(int v) const { return v >= patch_free_count_; }
+    [[nodiscard]] double valence_penalty(int v, int valence) const;
+
+    const Outline& outline_;
+    int patch_free_count_;
+    int free_count_;
+    std::vector<char> pin_;
+    std::vector<char> border_;
+    std::vector<char> dead_vertex_;
+    std::vector<char> dead_triangle_;
+    std::vector<char> blocked_;
+    Indices valence_;
+    Indices first_side_;  // outgoing; of border vertices the one without a twin
+    Indices loop_;        // of a border vertex
+    Indices loop_size_;
+    Indices least_loop_size_;
+    Indices corner_;  // side 3t + k runs from corner k to corner k + 1 of triangle t
+    Indices twin_;
+    std::vector<float> weight_;  // of both sides of an edge
+    Indices stamp_;              // scratch: neighbours of the vertex looked at last
+    int stamp_now_ = 0;
+};
+
+}  // namespace fairing

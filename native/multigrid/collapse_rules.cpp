@@ -1,0 +1,85 @@
+// Which half-edge collapses of a CollapseMesh are legal, and what they cost.
+#include <algorithm>
+#include <limits>
+
+#include "multigrid/collapse_mesh.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr int largest_valence = 9;
+constexpr int least_valence = 4;
+constexpr double weak = 3.0;  // what a collapse along an edge without weight costs, in units of (valence − 6)²
+// Cosines of the turn that a thinned outline may make from one edge to the next, and of the turn of its normals.
+constexpr double straight = 0.8;
+constexpr double parallel = 0.8;
+
+}  // namespace
+
+double CollapseMesh::valence_penalty(int v, int valence) const {
+    const double excess = valence - (border_[at(v)] ? 4 : 6);
+    return excess * excess;
+}
+
+// What the collapse of the star's centre onto neighbour k does to the valences, and how weakly the two are tied.
+double CollapseMesh::cost(const Star& star, std::size_t k) const {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    const int kept = star.vertices[k];
+    const int valence = valence_[at(kept)] + static_cast<int>(star.size()) - (star.closed ? 4 : 3);
+    if (valence > largest_valence && valence >= valence_[at(kept)]) return never;
+    double change = valence_penalty(kept, valence) - valence_penalty(kept, valence_[at(kept)]) -
+                    valence_penalty(star.centre, static_cast<int>(star.size()));
+    const auto lose_one = [&](std::size_t j) {
+        const int u = star.vertices[j];
+        const int left = valence_[at(u)] - 1;
+        if (left < (border_[at(u)] ? 3 : least_valence)) change = never;
+        change += valence_penalty(u, left) - valence_penalty(u, left + 1);
+    };
+    if (star.has_triangle(k)) lose_one(star.after(k));
+    if (star.has_triangle(star.before(k))) lose_one(star.before(k));
+    if (is_fixed(star.centre)) return change;
+    const double largest = *std::max_element(star.weights.begin(), star.weights.end());
+    return change + weak * (1.0 - star.weights[k] / largest);
+}
+
+bool CollapseMesh::may_thin(const Star& star, std::size_t k) const {
+    const int v = star.centre;
+    if (star.closed || loop_size_[at(loop_[at(v)])] <= least_loop_size_[at(loop_[at(v)])]) return false;
+    const int a = star.vertices.front();
+    const int b = star.vertices.back();
+    const int kept = star.vertices[k];
+    if (kept != a && kept != b) return false;
+    const auto& points = outline_.points;
+    const Vector3 to = points.col(a) - points.col(v);
+    const Vector3 from = points.col(v) - points.col(b);
+    if (to.dot(from) < straight * to.norm() * from.norm()) return false;
+    const auto& normals = outline_.normals;
+    return normals.col(a).dot(normals.col(b)) >= parallel;
+}
+
+// The link condition, and no chord from a fixed vertex to another one.
+bool CollapseMesh::is_legal(const Star& star, std::size_t k) {
+    const int kept = star.vertices[k];
+    if (is_fixed(star.centre) && !may_thin(star, k)) return false;
+    ++stamp_now_;
+    int s = first_side_[at(kept)];
+    const int start = s;
+    do {
+        stamp_[at(corner_[at(next_side(s))])] = stamp_now_;
+        const int last = previous_side(s);
+        stamp_[at(corner_[at(last)])] = stamp_now_;
+        s = twin_[at(last)];
+    } while (s != none && s != start);
+    const bool left = star.has_triangle(k);
+    const bool right = star.has_triangle(star.before(k));
+    for (std::size_t j = 0; j < star.size(); ++j) {
+        if (j == k || (left && j == star.after(k)) || (right && j == star.before(k))) continue;
+        if (stamp_[at(star.vertices[j])] == stamp_now_) return false;
+        const bool along_outline = !star.closed && (j == 0 || j + 1 == star.size());
+        if (is_fixed(kept) && is_fixed(star.vertices[j]) && !along_outline) return false;
+    }
+    return true;
+}
+
+}  // namespace fairing

@@ -1,0 +1,190 @@
+#include "multigrid/nested_solve.h"
+
+#include <algorithm>
+
+#include "base/stopwatch.h"
+#include "geometry/surface_fit.h"
+#include "multigrid/coarsening.h"
+#include "multigrid/slide.h"
+#include "multigrid/tangential_multigrid.h"
+#include "solver/accelerated_iteration.h"
+#include "solver/globalisation.h"
+#include "solver/surface_state.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr int coarsest_size = 600;  // free vertices
+// Up to so many free vertices the tangential step is factorised; beyond, multigrid is faster.
+constexpr int largest_factorised = 7000;
+constexpr double between_tolerance = 1e-4;  // units of D, of levels that are only starts
+// A level that starts at the coarser one's surface needs 3 to 8 iterations. Those between are good enough as starts
+// even where single poor triangles of a coarse level keep them from converging.
+constexpr int most_iterations = 20;
+constexpr int most_between = 6;
+constexpr int patience = 6;
+constexpr int evening_sweeps = 3;
+
+InnerWeights symmetric_weights(const Lambda& weights) {
+    if (const auto* rows = std::get_if<RowWeights>(&weights)) return symmetrised(*rows);
+    return std::get<InnerWeights>(weights);
+}
+
+// Columns of the vertices of a coarse level, in its order.
+Points pick(const Points& points, const Indices& columns, int first) {
+    Points result(3, static_cast<Eigen::Index>(columns.size()) - first);
+    for (Eigen::Index k = 0; k < result.cols(); ++k) result.col(k) = points.col(columns[at(first) + std::size_t(k)]);
+    return result;
+}
+
+// A value for all vertices of which only the fixed ones are known.
+Points with_fixed(const Patch& patch, const Points& fixed) {
+    Points points = Points::Zero(3, patch.vertex_count());
+    points.rightCols(fixed.cols()) = fixed;
+    return points;
+}
+
+std::unique_ptr<NormalOperator> make_normal_operator(const Problem& problem, const Points& points) {
+    return std::make_unique<BiharmonicOperator>(problem.patch, points.leftCols(problem.patch.free_count));
+}
+
+struct Level {
+    Problem problem;
+    InnerWeights weights;
+    Workspace work;
+    const LaplaceCycle* tangential_cycle = nullptr;  // in `work`
+};
+
+class NestedSolve {
+public:
+    NestedSolve(const Problem& problem, const Progress& progress)
+        : problem_(problem),
+          progress_(progress),
+          fixed_points_(with_fixed(problem.patch, problem.fixed_points)),
+          fixed_normals_(with_fixed(problem.patch, problem.fixed_normals)) {}
+
+    std::optional<Solution> run(const CoarseSolver& solve_coarsest) {
+        Stopwatch watch;
+        InnerWeights weights = symmetric_weights(problem_.weights);
+        coarse_ = coarsen(problem_.patch, weights, {fixed_points_, fixed_normals_}, coarsest_size);
+        if (coarse_.empty()) return std::nullopt;
+        make_levels(std::move(weights));
+        std::map<std::string, double> seconds{{"hierarchy", watch.lap()}};
+        Solution solution = solve_coarsest(coarsest_problem(), progress_.range(0.05, 0.2));
+        if (solution.termination != Termination::converged) return std::nullopt;
+        const double initial_residual = solution.initial_residual;
+        set_up_tangential(coarse_.size());
+        seconds["coarsest"] = watch.lap();
+        double begin = 0.2;
+        for (std::size_t k = coarse_.size(); k-- > 0;) {
+            // Each level is about a quarter of the next.
+            const double end = begin + (k == 0 ? 1.0 - begin : 0.25 * (1.0 - begin));
+            solution = refine(k, solution.points, progress_.range(begin, end));
+            const bool good =
+                k == 0 ? solution.termination == Termination::converged : solution.termination != Termination::stalled;
+            if (!good) return std::nullopt;
+            begin = end;
+        }
+        solution.boundary_normals = one_sided_normals(problem_.patch, solution.points);
+        solution.initial_residual = initial_residual;
+        for (std::size_t k = levels_.size(); k-- > 0;)
+            solution.levels.push_back(levels_[k].problem.patch.vertex_count());
+        seconds["iteration"] = watch.lap();
+        solution.seconds = std::move(seconds);
+        return solution;
+    }
+
+private:
+    // Fine to coarse; levels_[0] is the caller's.
+    void make_levels(InnerWeights weights) {
+        levels_.reserve(coarse_.size() + 1);
+        levels_.push_back({problem_, std::move(weights), {}});
+        for (CoarseLevel& coarse : coarse_) {
+            const Patch& patch = coarse.patch;
+            Problem problem{patch, pick(fixed_points_, patch.to_input, patch.free_count),
+                            pick(fixed_normals_, patch.to_input, patch.free_count), coarse.weights, problem_.options};
+            problem.options.tolerance = std::max(between_tolerance, problem_.options.tolerance);
+            levels_.push_back({std::move(problem), std::move(coarse.weights), {}});
+        }
+        for (Level& level : levels_) {
+            const int most = &level == &levels_.front() ? most_iterations : most_between;
+            level.problem.options.max_iterations = std::min(most, problem_.options.max_iterations);
+            level.problem.options.patience = patience;
+        }
+    }
+
+    [[nodiscard]] Problem coarsest_problem() const {
+        Problem problem = levels_.back().problem;
+        problem.options.max_iterations = problem_.options.max_iterations;
+        problem.options.patience = problem_.options.patience;
+        return problem;
+    }
+
+    [[nodiscard]] bool is_factorised(std::size_t k) const {
+        return k == coarse_.size() || levels_[k].problem.patch.free_count <= largest_factorised;
+    }
+
+    void set_up_tangential(std::size_t k) {
+        Level& level = levels_[k];
+        const Problem& problem = level.problem;
+        const auto adopt = [&](auto step) {
+            level.tangential_cycle = step.get();
+            level.work.tangential = std::move(step);
+        };
+        if (is_factorised(k)) {
+            adopt(std::make_unique<FactorisedLaplacian>(problem.patch, level.weights, problem.fixed_points,
+                                                        progress_.here()));
+        } else {
+            adopt(std::make_unique<MultigridStep>(problem.patch, level.weights, problem.fixed_points,
+                                                  coarse_[k].transfer, *levels_[k + 1].tangential_cycle));
+        }
+    }
+
+    // The solution of level k from that of the coarser one.
+    Solution refine(std::size_t k, const Points& coarse, const Progress& progress) {
+        Level& level = levels_[k];
+        const Problem& problem = level.problem;
+        Points points = interpolated(k, coarse);
+        progress.report(0.1, "refinement");
+        set_up_tangential(k);
+        slide(problem, *level.work.tangential, points);
+        progress.report(0.3, "refinement");
+        level.work.normal = make_normal_operator(problem, points);
+        // λ that aren't symmetric need a factorisation of their own; so far their symmetric part was good enough.
+        if (k == 0 && std::holds_alternative<RowWeights>(problem.weights)) {
+            level.work.tangential =
+                make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here());
+            slide(problem, *level.work.tangential, points);
+        }
+        return iterate(problem, level.work, points, progress.range(0.3, 1.0));
+    }
+
+    Points interpolated(std::size_t k, const Points& coarse) const {
+        const Problem& fine = levels_[k].problem;
+        const SurfaceState state = measured_surface(levels_[k + 1].problem, coarse);
+        Points points = with_fixed(fine.patch, fine.fixed_points);
+        Points normals = with_fixed(fine.patch, fine.fixed_normals);
+        coarse_[k].transfer.prolong_surface(coarse, state.normals, fine.patch.free_count, points, normals);
+        RingMatrix laplacian;
+        laplacian.assemble(fine.patch.vertex_count(), levels_[k].weights);
+        even_out(laplacian, fine.patch.free_count, evening_sweeps, points, normals);
+        return points;
+    }
+
+    const Problem& problem_;
+    const Progress& progress_;
+    Points fixed_points_;  // of the finest level, all vertices; 0 at free ones
+    Points fixed_normals_;
+    std::vector<CoarseLevel> coarse_;  // coarse_[k] lies below levels_[k]
+    std::vector<Level> levels_;
+};
+
+}  // namespace
+
+std::optional<Solution> solve_nested(const Problem& problem, const CoarseSolver& solve_coarsest,
+                                     const Progress& progress) {
+    return NestedSolve(problem, progress).run(solve_coarsest);
+}
+
+}  // namespace fairing

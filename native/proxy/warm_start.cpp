@@ -1,0 +1,174 @@
+#include "proxy/warm_start.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+
+#include "base/stopwatch.h"
+#include "geometry/surface_fit.h"
+#include "proxy/proxy_solver.h"
+#include "solver/accelerated_iteration.h"
+#include "solver/fill.h"
+#include "solver/surface_state.h"
+#include "solver/willmore.h"
+
+namespace fairing {
+
+namespace {
+
+// Moves of the boundary, its rotation apart, up to which the last answer is worth starting from.
+constexpr double farthest_move = 0.05;  // units of D
+constexpr double cos_of_widest_turn = 0.7;
+// More iterations than a solve from the boundary takes are a sign of trouble (global_method.cpp).
+constexpr int most_iterations = 20;
+constexpr int patience = 6;
+// This many more than the first solve with a factor took: it is time for a new one.
+constexpr int tolerated_growth = 3;
+
+// The rotation that takes one set of directions and places nearest to another (Kabsch 1976). Both are centred.
+Eigen::Matrix3d best_rotation(const Points& from, const Points& to) {
+    const Eigen::Matrix3d covariance = to * from.transpose();
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Eigen::Matrix3d U = svd.matrixU();
+    if ((U * svd.matrixV().transpose()).determinant() < 0.0) U.col(2) = -U.col(2);
+    return U * svd.matrixV().transpose();
+}
+
+// Normals of the fixed vertices; pins have none.
+Points prescribed(const Patch& patch, const Points& normals) {
+    Points result = normals;
+    for (Eigen::Index k = 0; k < normals.cols(); ++k) {
+        if (patch.pin[at(patch.free_count + static_cast<int>(k))]) result.col(k).setZero();
+    }
+    return result;
+}
+
+// Fixed points, and normals with a small weight: they decide where the points lie on a line.
+Points placed_and_turned(const Points& points, const Points& normals) {
+    constexpr double weight = 1e-2;
+    Points both(3, points.cols() + normals.cols());
+    both << points, weight * normals;
+    return both;
+}
+
+bool turned_too_far(const Points& from, const Points& to) {
+    for (Eigen::Index k = 0; k < from.cols(); ++k) {
+        if (from.col(k).dot(to.col(k)) < cos_of_widest_turn * from.col(k).squaredNorm()) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+void WarmStart::choose_operator(const Problem& problem) {
+    const bool minimal = problem.options.equation == Equation::minimal;
+    if (work_.normal && is_laplacian_ == minimal) return;
+    is_laplacian_ = minimal;
+    work_.keeps_factor = false;
+    if (minimal) {
+        work_.normal = std::make_unique<LaplaceOperator>(patch_);
+    } else {
+        work_.normal = std::make_unique<BiharmonicOperator>(patch_);
+    }
+}
+
+bool WarmStart::factorise(const Problem& problem, const Points& points, const Progress& progress) {
+    choose_operator(problem);
+    work_.keeps_factor = false;  // Cancelled leaves none
+    iterations_at_first_ = 0;
+    FaceGeometry faces;
+    faces.update(points, patch_.triangles);
+    factorised_.update(faces, patch_);
+    work_.keeps_factor = work_.normal->update(factorised_, progress);
+    return work_.keeps_factor;
+}
+
+void WarmStart::hold(const Problem& problem, const Progress& progress) {
+    if (work_.tangential) {
+        work_.tangential->hold(problem.fixed_points);
+    } else {
+        work_.tangential = make_tangential_step(patch_, problem.weights, problem.fixed_points, progress.here());
+    }
+}
+
+void WarmStart::remember(const Problem& problem, const Solution& solution, const Progress& progress) {
+    ready_ = false;
+    choose_operator(problem);
+    if (solution.termination != Termination::converged || !solution.polished ||
+        has_poor_triangles(patch_, solution.points)) {
+        return;
+    }
+    if (!work_.keeps_factor && !factorise(problem, solution.points, progress.here())) return;
+    hold(problem, progress);
+    points_ = solution.points;
+    normals_ = prescribed(patch_, problem.fixed_normals);
+    ready_ = true;
+}
+
+Points WarmStart::continued(const Problem& problem, const Points& fixed_displacement,
+                            const Points& conormal_change) const {
+    if (problem.options.equation != Equation::minimal) {
+        return clamped_displacement(patch_, factorised_, fixed_displacement, conormal_change, *work_.normal);
+    }
+    Points field = Points::Zero(3, patch_.vertex_count());
+    field.rightCols(fixed_displacement.cols()) = fixed_displacement;
+    const Points rhs = -factorised_.apply(patch_, field, patch_.free_count);
+    return work_.normal->solve(rhs.transpose()).transpose();
+}
+
+std::optional<Points> WarmStart::moved_along(const Problem& problem) const {
+    const Eigen::Index count = problem.fixed_points.cols();
+    const Points normals = prescribed(patch_, problem.fixed_normals);
+    if (problem.fixed_points == points_.rightCols(count) && normals == normals_) return points_;
+    const Eigen::Matrix3d rotation = best_rotation(placed_and_turned(points_.rightCols(count), normals_),
+                                                   placed_and_turned(problem.fixed_points, normals));
+    Points result = rotation * points_;
+    const Points from_normals = rotation * normals_;
+    const Points from_points = result.rightCols(count);
+    const Points move = problem.fixed_points - from_points;
+    if (!(largest_length(move) <= farthest_move) || turned_too_far(from_normals, normals)) return std::nullopt;
+    const Points conormal_change =
+        conormals(patch_, problem.fixed_points, normals) - conormals(patch_, from_points, from_normals);
+    result.leftCols(patch_.free_count) += continued(problem, move, conormal_change);
+    result.rightCols(count) = problem.fixed_points;
+    return result;
+}
+
+void WarmStart::watch_factor(int iterations) {
+    if (iterations_at_first_ == 0) iterations_at_first_ = iterations;
+    if (iterations > iterations_at_first_ + tolerated_growth) work_.keeps_factor = false;
+}
+
+Solution WarmStart::iterate_from(const Problem& problem, const Points& start, const Progress& progress) {
+    Problem attempt = problem;
+    attempt.options.max_iterations = std::min(most_iterations, problem.options.max_iterations);
+    attempt.options.patience = patience;
+    return iterate(attempt, work_, start, progress);
+}
+
+std::optional<Solution> WarmStart::solve(const Problem& problem, const Progress& progress) {
+    if (!ready_) return std::nullopt;
+    Stopwatch watch;
+    choose_operator(problem);
+    if (!work_.keeps_factor && !factorise(problem, points_, progress.here())) return std::nullopt;
+    const std::optional<Points> start = moved_along(problem);
+    if (!start) return std::nullopt;
+    hold(problem, progress);
+    const double prediction = watch.lap();
+    Solution solution = iterate_from(problem, *start, progress.range(0.0, 0.5));
+    if (solution.termination != Termination::converged) {
+        if (!factorise(problem, *start, progress.here())) return std::nullopt;
+        solution = iterate_from(problem, *start, progress.range(0.5, 1.0));
+    }
+    if (solution.termination != Termination::converged || has_poor_triangles(patch_, solution.points)) {
+        return std::nullopt;
+    }
+    watch_factor(solution.iterations);
+    solution.boundary_normals = one_sided_normals(patch_, solution.points);
+    solution.seconds = {{"prediction", prediction}, {"iteration", watch.lap()}};
+    return solution;
+}
+
+}  // namespace fairing

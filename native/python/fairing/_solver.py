@@ -1,0 +1,128 @@
+"""Repeated solves of one mesh."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from fairing import _arguments, _core, _options
+from fairing._fair import Progress
+from fairing._types import FairResult, FloatArray, IntArray
+
+_ANY_COUNT = int(np.iinfo(np.int32).max)
+_SHARED = ("equation", "load", "normals", "tolerance", "max_iterations")
+_PAPER = (
+    "damping", "cg_steps", "sweeps", "vertex_sweeps", "epsilon", "acceleration", "virtual_points", "start",
+)  # fmt: skip
+_CHANGEABLE = (*_SHARED, *_PAPER, "inner_fairness", "neighbours", "method", "levels", "threads")
+
+
+class Solver:
+    """Fairs one mesh again and again while its boundary moves, each time from the last answer.
+
+    Takes the triangles, the fixed vertices and the options of :func:`fairing.fair`, with the same meanings,
+    defaults and errors; :meth:`solve` takes what may change. Kept between solves: the checked and cut
+    connectivity, the weights λ while the reference stays the same, the factorisations, and each component's last
+    answer. A small move of the boundary then costs a few iterations, without any factorisation.
+
+    The first solve gives the bits of :func:`fairing.fair`, and so does each one that follows a changed number of
+    vertices or coordinates that are not finite. Later ones give the same surface to the tolerance, whatever was
+    solved before, where the data admit one surface; where they admit several, the one next to the last answer.
+    A component is solved from its boundary alone, as by :func:`fairing.fair`, whenever
+
+    - its last answer is not one to start from: not ``converged`` or not ``polished``, triangles flipped, more than a
+      tenth of them poor (7 : 1 and beyond), or λ had to be given up for uniform ones;
+    - its outline, after the best rotation and scaling, has moved by more than 0.05 D, or a normal by more than 45°;
+    - the iteration from the last answer is not at its end after a few steps, or ends in flipped triangles;
+    - it has more than 50000 free vertices, or ``method`` is "paper".
+
+    ``initial_residual`` is that of the surface that the solve started from. An error or a cancelled solve leaves the
+    solver usable, with the answers that it had. One call at a time: another one meanwhile, from a second thread
+    or from ``progress``, raises RuntimeError. Different solvers are independent of each other.
+    """
+
+    def __init__(
+        self,
+        triangles: npt.ArrayLike,
+        *,
+        fixed: npt.ArrayLike | None = None,
+        equation: str = "harmonic",
+        load: float = 0.0,
+        inner_fairness: Any = "uniform",
+        neighbours: npt.ArrayLike | None = None,
+        method: str = "global",
+        levels: int = 0,
+        tolerance: float = 1e-6,
+        max_iterations: int = 200,
+        normals: str = "fitted",
+        threads: int = 0,
+        damping: float | None = None,
+        cg_steps: int | None = None,
+        sweeps: int | None = None,
+        vertex_sweeps: int | None = None,
+        epsilon: float | None = None,
+        acceleration: str | None = None,
+        virtual_points: str | None = None,
+        start: str | None = None,
+    ) -> None:
+        """Check and copy everything; nothing is solved yet. Raises what fairing.fair does for these arguments."""
+        given = dict(locals())
+        faces = _arguments.integers("triangles", triangles, 3)
+        self._fixed, _ = _arguments.boundary(fixed, None)
+        self._options = {name: given[name] for name in _CHANGEABLE}
+        self._neighbours, self._weights, options = self._checked(self._options)
+        self._engine = _core.Solver(faces, self._fixed, self._neighbours, self._weights, options)
+
+    def change(self, **options: Any) -> None:
+        """Give some options of the constructor (all but ``triangles`` and ``fixed``) other values.
+
+        The next solve starts from the last answer all the same, which is worth it for another load, λ or tolerance,
+        and often for another equation. Raises what the constructor does, TypeError for other names; nothing has
+        changed then.
+        """
+        unknown = set(options) - set(_CHANGEABLE)
+        if unknown:
+            raise TypeError(f"{min(unknown)!r} is no option that can be changed")
+        wanted = {**self._options, **options}
+        neighbours, weights, checked = self._checked(wanted)
+        self._engine.change(neighbours, weights, checked)
+        self._options, self._neighbours, self._weights = wanted, neighbours, weights
+
+    @staticmethod
+    def _checked(
+        options: dict[str, Any],
+    ) -> tuple[IntArray | None, FloatArray | None, tuple[_core.Options, _core.PaperChoices]]:
+        """Edges, λ by rows, and the engine's options; how many vertices there are is known at the first solve."""
+        edges = _options.neighbour_edges(options["neighbours"], _ANY_COUNT)
+        method = _arguments.choice("method", options["method"], _options.METHODS)
+        _arguments.whole("threads", options["threads"], 0)
+        kind, weights = _options.inner_fairness(options["inner_fairness"], _ANY_COUNT)
+        paper = _options.paper_choices(method, options["levels"], {name: options[name] for name in _PAPER})
+        shared = {name: options[name] for name in _SHARED}
+        return edges, weights, (_options.engine_options(fairness=kind, method=method, **shared), paper)
+
+    def solve(
+        self,
+        vertices: npt.ArrayLike,
+        fixed_normals: npt.ArrayLike | None = None,
+        reference: npt.ArrayLike | None = None,
+        progress: Progress | None = None,
+    ) -> FairResult:
+        """Solve for these positions and normals; arguments, result and errors are those of fairing.fair.
+
+        ``reference`` left out is ``vertices``, as there. Give the same one each time for weights that depend on
+        it, or they are made anew, and factorised, whenever a vertex has moved.
+        """
+        points = _arguments.floats("vertices", vertices)
+        count = points.shape[0]
+        if fixed_normals is not None and self._fixed is None:
+            raise ValueError("fixed_normals: needs `fixed`, whose order it follows")
+        _, given_normals = _arguments.boundary(self._fixed, fixed_normals)
+        m0 = None if reference is None else _arguments.floats("reference", reference, count)
+        if self._neighbours is not None:
+            _arguments.indices_within("neighbours", self._neighbours, count)
+        if self._weights is not None:
+            _arguments.indices_within("inner_fairness", self._weights[:, :2].astype(np.int32), count)
+        return FairResult(**self._engine.solve(points, given_normals, m0, _options.callback(progress)))

@@ -1,0 +1,312 @@
+"""Live: the region follows what is moved around it, and one undo takes both back.
+
+A background process updates the scene by view_layer.update(), which calls the same handlers as the window does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import bmesh
+import bpy
+import meshes
+import numpy as np
+import pytest
+from extension import module
+
+
+@pytest.fixture
+def live() -> Iterator[Any]:
+    found = module("live")
+    yield found.live
+    bpy.context.window_manager.fairing_live.on = False
+    assert not found.live.on
+
+
+def switch(on: bool) -> None:
+    bpy.context.window_manager.fairing_live.on = on
+
+
+def table_mountain(size: int = 16) -> tuple[bpy.types.Object, Any]:
+    """Add a bumpy grid in edit mode with its middle as the live region."""
+    obj = meshes.grid(size)
+    points = meshes.positions(obj)
+    points[:, 2] = 0.3 * np.cos(2.0 * points[:, 0]) * np.cos(1.5 * points[:, 1])
+    meshes.move(obj, points)
+    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6)
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    bpy.ops.ed.undo_push(message="start")
+    assert bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True) == {"FINISHED"}
+    return bpy.data.objects[obj.name], faces
+
+
+def now(name: str = "Grid") -> Any:
+    """(n, 3) positions of a mesh in edit mode, straight from its bmesh."""
+    bm = bmesh.from_edit_mesh(bpy.data.objects[name].data)
+    return np.array([vertex.co[:] for vertex in bm.verts])
+
+
+def drag(vertices: Any, step: tuple[float, float, float], name: str = "Grid") -> None:
+    """Move some vertices as a tool does, and let Blender update the scene."""
+    mesh = bpy.data.objects[name].data
+    bm = bmesh.from_edit_mesh(mesh)
+    bm.verts.ensure_lookup_table()
+    for vertex in vertices:
+        bm.verts[vertex].co += bm.verts[vertex].co.__class__(step)
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+    bpy.context.view_layer.update()
+
+
+def flank(points: Any) -> Any:
+    """Vertices beside the region: on its outline and outside, on one side."""
+    return np.flatnonzero((points[:, 0] > 0.6) & (np.abs(points[:, 1]) < 0.4))
+
+
+def assert_fair(faces: Any, name: str = "Grid") -> None:
+    """The operator would change nothing but the last digits: of its tolerance, and of float32."""
+    before = now(name)
+    obj = bpy.data.objects[name]
+    meshes.leave()
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    switch(False)
+    meshes.run()
+    np.testing.assert_allclose(now(name), before, atol=2e-5)
+    switch(True)
+
+
+def test_region_follows_every_change(live: Any) -> None:
+    _, faces = table_mountain()
+    points = now()
+    for _ in range(3):
+        before = now()
+        drag(flank(points), (0.0, 0.0, 0.05))
+        moved = np.abs(now() - before).max(axis=1) > 1e-4
+        assert moved.sum() > len(flank(points)) + 20  # the region came along
+    assert live.updates == 3
+    assert live.message == ""
+    assert_fair(faces)
+
+
+def test_what_is_around_keeps_its_bits(live: Any) -> None:
+    obj, faces = table_mountain()
+    before = now()
+    beside = flank(before)
+    drag(beside, (0.02, 0.0, 0.05))
+    meshes.leave()
+    held = ~meshes.free_vertices(obj, faces)
+    meshes.edit(obj)
+    held[beside] = False
+    assert np.array_equal(now()[held], before[held])
+
+
+def test_no_change_is_no_reason_to_write(live: Any) -> None:
+    table_mountain(32)
+    drag(flank(now()), (0.0, 0.0, 0.05))
+    count, points = live.updates, now()
+    for _ in range(5):
+        bpy.context.view_layer.update()
+        bpy.context.view_layer.objects.active.data.update_tag()
+    drag([], (0.0, 0.0, 0.0))
+    far = np.flatnonzero(points[:, 0] < -0.99)  # farther away than normals are fitted
+    drag(far, (0.0, 0.0, 0.01))
+    assert live.updates == count
+
+
+def test_vertices_of_the_region_return(live: Any) -> None:
+    """A free vertex that is pulled out goes back: the region is a function of its surroundings."""
+    table_mountain()
+    before = now()
+    middle = int(np.argmin(np.abs(before).sum(axis=1)))
+    drag([middle], (0.0, 0.0, 0.5))
+    np.testing.assert_allclose(now(), before, atol=2e-6)
+
+
+def test_one_undo_takes_edit_and_fairing_back(live: Any) -> None:
+    table_mountain()
+    start = now()
+    drag(flank(start), (0.0, 0.0, 0.05))
+    bpy.ops.ed.undo_push(message="drag")
+    first = now()
+    drag(flank(start), (0.0, 0.0, 0.05))
+    bpy.ops.ed.undo_push(message="drag again")
+    for expected in (first, start):
+        bpy.ops.ed.undo()
+        bpy.context.view_layer.update()
+        np.testing.assert_allclose(now(), expected, atol=2e-6)
+    bpy.ops.ed.redo()
+    bpy.context.view_layer.update()
+    np.testing.assert_allclose(now(), first, atol=2e-6)
+
+
+def test_undo_step_made_before_the_fairing(live: Any) -> None:
+    """A tool that is done at once pushes its step before the scene is updated: the step back is fair all the same."""
+    table_mountain()
+    start = now()
+    mesh = bpy.data.objects["Grid"].data
+    for _ in range(2):
+        bm = bmesh.from_edit_mesh(mesh)
+        bm.verts.ensure_lookup_table()
+        for vertex in flank(start):
+            bm.verts[vertex].co.z += 0.05
+        bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+        bpy.ops.ed.undo_push(message="tool")
+        bpy.context.view_layer.update()
+        if _ == 0:
+            first = now()
+    bpy.ops.ed.undo()
+    bpy.context.view_layer.update()
+    np.testing.assert_allclose(now(), first, atol=2e-5)
+
+
+def test_region_is_undone_too(live: Any) -> None:
+    obj = meshes.grid(12)
+    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6)
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    bpy.ops.ed.undo_push(message="start")
+    bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True)
+    assert module("live_mesh").has_region(bpy.data.objects["Grid"].data)
+    bpy.ops.ed.undo()
+    bpy.context.view_layer.update()
+    assert not module("live_mesh").has_region(bpy.data.objects["Grid"].data)
+    count = live.updates
+    drag(flank(now()), (0.0, 0.0, 0.05))
+    assert live.updates == count
+
+
+def test_off_is_off(live: Any) -> None:
+    _, faces = table_mountain()
+    before = now()
+    switch(False)
+    drag(flank(before), (0.0, 0.0, 0.05))
+    changed = np.flatnonzero(np.abs(now() - before).max(axis=1) > 0.0)
+    assert set(changed) == set(flank(before))
+    switch(True)  # and back on: what was missed is made good
+    assert_fair(faces)
+
+
+def test_off_by_default_and_nothing_left(live: Any) -> None:
+    events = (bpy.app.handlers.depsgraph_update_post, bpy.app.handlers.undo_post, bpy.app.handlers.redo_post)
+    counts = [len(event) for event in events]
+    assert not bpy.context.window_manager.fairing_live.on
+    table_mountain()
+    assert [len(event) for event in events] == [count + 1 for count in counts]
+    switch(False)
+    assert [len(event) for event in events] == counts
+    assert live.sessions == {}
+
+
+def test_region_is_saved_with_the_mesh(live: Any, tmp_path: Path) -> None:
+    _, faces = table_mountain()
+    points = now()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "live.blend"))
+    switch(False)
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "live.blend"))
+    obj = bpy.data.objects["Grid"]
+    if obj.mode != "EDIT":
+        meshes.edit(obj)
+    switch(True)
+    drag(flank(points), (0.0, 0.0, 0.05))
+    assert live.updates >= 1
+    assert_fair(faces)
+
+
+def test_options_are_those_of_the_last_run(live: Any) -> None:
+    obj = meshes.grid(12)
+    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6)
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    module("live").live.take(obj, module("options").FairOptions(equation="CONSTANT", bulge=0.4))
+    switch(True)
+    height = now()[:, 2].max()
+    assert height > 0.02
+    outline = np.flatnonzero(now()[:, 0] > 0.55)
+    drag(outline, (0.0, 0.0, 0.001))
+    # Hardly moved: the bulge is as high as before, which a harmonic surface would not be.
+    assert now()[:, 2].max() == pytest.approx(height, rel=0.05)
+    before = now()
+    switch(False)
+    meshes.run(equation="CONSTANT", bulge=0.4)
+    np.testing.assert_allclose(now(), before, atol=2e-5)
+
+
+def test_new_connectivity_is_read_anew(live: Any) -> None:
+    table_mountain()
+    mesh = bpy.data.objects["Grid"].data
+    bm = bmesh.from_edit_mesh(mesh)
+    bm.faces.ensure_lookup_table()
+    layer = bm.faces.layers.int[module("live_mesh").LAYER]
+    inside = [face for face in bm.faces if face[layer]]
+    bmesh.ops.poke(bm, faces=[inside[len(inside) // 2]])
+    bmesh.update_edit_mesh(mesh)
+    bpy.context.view_layer.update()
+    count = live.updates
+    drag(flank(now()), (0.0, 0.0, 0.05))
+    assert live.updates == count + 1
+    assert live.message == ""
+
+
+def test_a_spoilt_outline_is_told_and_leaves_the_mesh(live: Any) -> None:
+    table_mountain()
+    before = now()
+    beside = flank(before)
+    drag(beside, (float("nan"), 0.0, 0.0))
+    assert "NONFINITE" in live.message
+    others = np.setdiff1d(np.arange(len(before)), beside)
+    assert np.array_equal(now()[others], before[others])
+
+
+def test_scale_of_the_object_counts(live: Any) -> None:
+    obj, faces = table_mountain()
+    before = now()
+    obj.scale = (3.0, 1.0, 1.0)
+    bpy.context.view_layer.update()
+    assert np.abs(now() - before).max() > 1e-4
+    assert_fair(faces)
+
+
+def test_mirrored_region_stays_symmetric(live: Any) -> None:
+    obj = meshes.grid(16)
+    obj.data.use_mirror_x = True
+    points = meshes.positions(obj)
+    points[:, 2] = 0.3 * np.cos(2.0 * points[:, 0])
+    meshes.move(obj, points)
+    meshes.select(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6))
+    meshes.edit(obj)
+    bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True)
+    drag(np.flatnonzero(np.abs(points[:, 1]) > 0.6), (0.0, 0.0, 0.1))
+    order = np.lexsort(np.round(points * (1, 1, 0), 4).T)
+    mirrored = np.lexsort(np.round(points * (-1, 1, 0), 4).T)
+    assert np.array_equal(now()[order], now()[mirrored] * (-1, 1, 1))
+
+
+def test_what_cannot_be_live_is_refused() -> None:
+    obj = meshes.grid(6)
+    meshes.select(obj, meshes.faces_where(obj, lambda c: False))
+    meshes.edit(obj)
+    with pytest.raises(RuntimeError, match="No face is selected"):
+        bpy.ops.mesh.fair_live_region()
+    live_module, options = module("live"), module("options")
+    meshes.leave()
+    meshes.select(obj, meshes.faces_where(obj, lambda c: abs(c.x) < 0.7 and abs(c.y) < 0.7))
+    meshes.edit(obj)
+    before = now()
+    with pytest.raises(ValueError, match="can't be followed"):
+        live_module.live.take(obj, options.FairOptions(boundary_normals="CUSTOM"))
+    assert np.array_equal(now(), before)
+    assert not module("live_mesh").has_region(obj.data)
+
+
+def test_forgetting_leaves_no_trace(live: Any) -> None:
+    obj, _ = table_mountain()
+    assert bpy.ops.mesh.fair_live_forget() == {"FINISHED"}
+    bpy.context.view_layer.update()
+    meshes.leave()
+    assert module("live_mesh").LAYER not in obj.data.attributes
+    assert module("live_mesh").OPTIONS not in obj.data
+    meshes.edit(obj)
+    assert not bpy.ops.mesh.fair_live_forget.poll()

@@ -1,0 +1,159 @@
+// A libFuzzer target for the native entry points: the first byte chooses one, the others make its arguments.
+#include <fuzzer/FuzzedDataProvider.h>
+
+#include <cmath>
+#include <cstring>
+#include <ctime>
+#include <set>
+
+#include "api/measure.h"
+#include "geometry/surface_fit.h"
+#include "law.h"
+#include "mesh/loops.h"
+#include "random_mesh.h"
+#include "random_options.h"
+
+namespace fairing::fuzz {
+
+namespace {
+
+// Says no at the call that was chosen (0: at none) and after a while: what the fuzzer sees as a hang is then a stretch
+// without a question.
+struct Stopper {
+    static constexpr std::clock_t patience = CLOCKS_PER_SEC / 4;  // of processor time
+    int last;
+    int calls = 0;
+    double fraction = 0.0;
+    std::clock_t begin = std::clock();
+
+    bool operator()(double now, std::string_view stage) {
+        require(now >= fraction && now <= 1.0 && !stage.empty(), "progress only grows");
+        fraction = now;
+        return ++calls != last && std::clock() - begin < patience;
+    }
+};
+
+void fuzz_fair(FuzzedDataProvider& bytes) {
+    MeshInput mesh = random_mesh(bytes, false);
+    random_boundary(bytes, mesh);
+    const FairOptions options = random_options(bytes, static_cast<int>(mesh.vertices.cols()));
+    const std::optional<Points> reference = random_reference(bytes, mesh.vertices);
+    const bool twice = bytes.ConsumeIntegralInRange(0, 7) == 7;
+    const int last = bytes.ConsumeIntegralInRange(0, 60);
+    const MeshInput kept = mesh;
+    try {
+        const FairResult result = fair(mesh, reference, options, Stopper{last});
+        check_fair(result, mesh, options);
+        if (twice) check_same(result, fair(mesh, reference, options, {}));
+    } catch (const MeshError& error) {
+        check_elements(error.diagnostic(), mesh);
+    } catch (const std::invalid_argument&) {
+    } catch (const SolverError&) {
+    } catch (const Cancelled&) {
+    }
+    require(std::memcmp(kept.vertices.data(), mesh.vertices.data(),
+                        sizeof(double) * at(3) * at(static_cast<int>(mesh.vertices.cols()))) == 0,
+            "the input stays");
+}
+
+// Calls `measure` with a mesh that may be refused.
+template <typename Measure>
+void on_any_mesh(FuzzedDataProvider& bytes, Measure measure) {
+    MeshInput mesh = random_mesh(bytes, false);
+    random_boundary(bytes, mesh);
+    try {
+        measure(mesh);
+    } catch (const MeshError& error) {
+        check_elements(error.diagnostic(), mesh);
+    } catch (const std::invalid_argument&) {
+    }
+}
+
+void fuzz_mean_curvature(FuzzedDataProvider& bytes) {
+    const NormalKind kind = bytes.ConsumeBool() ? NormalKind::averaged : NormalKind::fitted;
+    on_any_mesh(bytes, [&](const MeshInput& mesh) {
+        const VectorX H = mean_curvature(mesh, kind);
+        require(H.size() == mesh.vertices.cols() && H.allFinite(), "H is finite at every vertex");
+    });
+}
+
+void fuzz_vertex_normals(FuzzedDataProvider& bytes) {
+    const NormalKind kind = bytes.ConsumeBool() ? NormalKind::averaged : NormalKind::fitted;
+    on_any_mesh(bytes, [&](const MeshInput& mesh) {
+        const Points normals = vertex_normals({mesh.vertices, mesh.triangles, {}, {}}, kind);
+        require(normals.cols() == mesh.vertices.cols(), "a normal per vertex");
+        for (const auto normal : normals.colwise()) {
+            require(normal.isZero(0.0) || std::abs(normal.norm() - 1.0) < 1e-12, "normals are unit or zero");
+        }
+    });
+}
+
+void fuzz_hierarchy(FuzzedDataProvider& bytes) {
+    const int levels = bytes.ConsumeIntegralInRange(0, 6);
+    on_any_mesh(bytes, [&](const MeshInput& mesh) { check_levels(mesh_hierarchy(mesh, levels), mesh); });
+}
+
+void fuzz_cotan_laplacian(FuzzedDataProvider& bytes) {
+    const MeshInput mesh = random_mesh(bytes, true);
+    const MatrixEntries entries = cotan_laplacian(mesh.vertices, mesh.triangles);
+    require(entries.rows.size() == entries.columns.size() && entries.rows.size() == entries.values.size(),
+            "rows, columns and values belong together");
+    for (std::size_t k = 0; k < entries.rows.size(); ++k) {
+        require(std::max(entries.rows[k], entries.columns[k]) < mesh.vertices.cols(), "entries are in the matrix");
+        require(!mesh.vertices.allFinite() || std::isfinite(entries.values[k]), "entries are finite");
+    }
+}
+
+void fuzz_conformal_distortion(FuzzedDataProvider& bytes) {
+    const MeshInput mesh = random_mesh(bytes, true);
+    const Points reference = random_reference(bytes, mesh.vertices).value_or(mesh.vertices);
+    const VectorX ratio = conformal_distortion(reference, mesh.vertices, mesh.triangles);
+    require(ratio.size() == mesh.triangles.cols() && (ratio.array() >= 1.0).all(), "distortions are 1 or more");
+}
+
+void fuzz_boundary_loops(FuzzedDataProvider& bytes) {
+    const MeshInput mesh = random_mesh(bytes, true);
+    try {
+        std::set<std::pair<int, int>> edges;
+        for (const Indices& loop : boundary_loops(mesh.triangles, static_cast<int>(mesh.vertices.cols()))) {
+            require(loop.size() >= 2, "a loop has edges");
+            for (std::size_t k = 0; k < loop.size(); ++k) {
+                require(edges.insert({loop[k], loop[(k + 1) % loop.size()]}).second, "loops use an edge once");
+            }
+        }
+    } catch (const MeshError& error) {
+        check_elements(error.diagnostic(), mesh);
+    }
+}
+
+void fuzz_surrounding_normals(FuzzedDataProvider& bytes) {
+    MeshInput mesh = random_mesh(bytes, true);
+    if (!mesh.vertices.allFinite()) return;
+    Indices where(at(static_cast<int>(mesh.vertices.cols())));
+    for (std::size_t v = 0; v < where.size(); ++v) where[v] = static_cast<int>(v);
+    const SurroundingNormals result = surrounding_normals(mesh.vertices, mesh.triangles, where);
+    require(result.fitted.size() == where.size(), "an answer per vertex");
+    for (const auto normal : result.normals.colwise()) {
+        require(normal.isZero(0.0) || std::abs(normal.norm() - 1.0) < 1e-12, "normals are unit or zero");
+    }
+}
+
+}  // namespace
+
+}  // namespace fairing::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace fairing::fuzz;
+    FuzzedDataProvider bytes(data, size);
+    switch (bytes.ConsumeIntegralInRange(0, 10)) {
+        case 1: fuzz_mean_curvature(bytes); break;
+        case 2: fuzz_vertex_normals(bytes); break;
+        case 3: fuzz_hierarchy(bytes); break;
+        case 4: fuzz_cotan_laplacian(bytes); break;
+        case 5: fuzz_conformal_distortion(bytes); break;
+        case 6: fuzz_boundary_loops(bytes); break;
+        case 7: fuzz_surrounding_normals(bytes); break;
+        default: fuzz_fair(bytes);
+    }
+    return 0;
+}

@@ -1,0 +1,21 @@
+// Small meshes from a fuzzer's bytes: a plausible shape, then damage.
+#pragma once
+
+#include <fuzzer/FuzzedDataProvider.h>
+
+#include "api/input.h"
+
+namespace fairing::fuzz {
+
+// Vertices and triangles of a grid, fan, tube, Möbius strip, closed surface, two islands or a heap of triangles, with
+// some triangles turned, doubled, left out or led elsewhere and some coordinates moved, merged or made special (NaN,
+// infinity, extremes). With `valid_indices` every index names a vertex. Without bytes left: a flat quad.
+MeshInput random_mesh(FuzzedDataProvider& bytes, bool valid_indices);
+
+// Fixed vertices (none given, the border, any subset, any list with repetitions and strangers) and their normals.
+void random_boundary(FuzzedDataProvider& bytes, MeshInput& mesh);
+
+// One of the coordinates that no mesh should have, or an ordinary one.
+double special_number(FuzzedDataProvider& bytes);
+
+}  // namespace fairing::fuzz

@@ -1,0 +1,194 @@
+#include <doctest/doctest.h>
+
+#include <numeric>
+
+#include "linear/nested_dissection.h"
+#include "linear/sparse_cholesky.h"
+#include "meshes.h"
+#include "multigrid/coarsening.h"
+#include "multigrid/tangential_multigrid.h"
+#include "solver/normal_operator.h"
+#include "solver/symmetric_step.h"
+
+using namespace fairing;
+
+namespace {
+
+int euler_number(const Patch& patch) { return patch.vertex_count() - patch.edge_count() + patch.triangle_count(); }
+
+// A part of the unit sphere, where points are their own normals, with its levels.
+struct Ball {
+    explicit Ball(int n, double jitter = 0.3, int coarsest = 40)
+        : single(test::single_patch(test::grid(n, jitter, test::sphere))),
+          weights(uniform_weights(single.patch())),
+          levels(coarsen(single.patch(), weights, {single.points, single.points}, coarsest)) {}
+
+    [[nodiscard]] const Patch& patch() const { return single.patch(); }
+    [[nodiscard]] Points fixed_points() const {
+        return single.points.rightCols(patch().vertex_count() - patch().free_count);
+    }
+
+    test::Single single;
+    InnerWeights weights;
+    std::vector<CoarseLevel> levels;
+};
+
+Points of_level(const CoarseLevel& level, const Points& finest) {
+    Points result(3, level.patch.vertex_count());
+    for (int v = 0; v < level.patch.vertex_count(); ++v) result.col(v) = finest.col(level.patch.to_input[at(v)]);
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("levels shrink evenly and keep the topology, the outline and which vertices are fixed") {
+    const Ball ball(60);
+    REQUIRE(ball.levels.size() >= 3);
+    int finer = ball.patch().free_count;
+    for (const CoarseLevel& level : ball.levels) {
+        const double factor = static_cast<double>(finer) / level.patch.free_count;
+        CHECK(factor > 3.0);
+        CHECK(factor < 6.0);
+        finer = level.patch.free_count;
+        CHECK(euler_number(level.patch) == 1);
+        CHECK(level.patch.loop_count() == 1);
+        CHECK(level.patch.vertex_count() - level.patch.free_count >= 8);
+        for (int v = 0; v < level.patch.vertex_count(); ++v) {
+            CHECK(level.patch.is_free(v) == ball.patch().is_free(level.patch.to_input[at(v)]));
+            CHECK(level.patch.ring(v).closed() == level.patch.is_free(v));
+        }
+        for (const WeightedEdge& edge : level.weights) CHECK(edge.weight > 0.0);
+    }
+}
+
+TEST_CASE("corners of the outline and pins stay on all levels") {
+    const Ball ball(40);
+    const Patch& coarsest = ball.levels.back().patch;
+    for (const double x : {-1.0, 1.0}) {
+        for (const double y : {-1.0, 1.0}) {
+            int corner = 0;
+            for (int v = 0; v < ball.patch().vertex_count(); ++v) {
+                const auto score = [&](int k) { return x * ball.single.points(0, k) + y * ball.single.points(1, k); };
+                if (score(v) > score(corner)) corner = v;
+            }
+            CHECK(std::count(coarsest.to_input.begin(), coarsest.to_input.end(), corner) == 1);
+        }
+    }
+}
+
+TEST_CASE("restriction is the transpose of interpolation, whose weights sum to one") {
+    const Ball ball(30);
+    const Transfer& transfer = ball.levels.front().transfer;
+    for (int k = 0; k < transfer.removals.size(); ++k) {
+        const auto first = transfer.removals.weights.begin() + transfer.removals.begin[at(k)];
+        const auto last = transfer.removals.weights.begin() + transfer.removals.begin[at(k) + 1];
+        CHECK(std::accumulate(first, last, 0.0) == doctest::Approx(1.0).epsilon(1e-12));
+    }
+    Field<3> coarse = Field<3>::Random(3, ball.levels.front().patch.vertex_count());
+    coarse.rightCols(coarse.cols() - transfer.coarse_free_count).setZero();
+    const Field<3> fine = Field<3>::Random(3, transfer.fine_count);
+    const auto& weights = transfer.removals.weights;
+    const double left = transfer.prolong<3>(coarse, weights).cwiseProduct(fine).sum();
+    const double right = coarse.cwiseProduct(transfer.restrict<3>(fine, weights)).sum();
+    CHECK(left == doctest::Approx(right).epsilon(1e-12));
+}
+
+TEST_CASE("an interpolated sphere is one to the fourth order in the spacing") {
+    // Means of points lie h²/2 below the sphere; what the lift leaves falls by 16 where h halves (8 to be safe).
+    std::vector<double> errors;
+    for (const int n : {20, 40}) {
+        const Ball ball(n, 0.1, 20);
+        const CoarseLevel& level = ball.levels.front();
+        const Points coarse = of_level(level, ball.single.points);
+        Points fine = ball.single.points;
+        fine.leftCols(ball.patch().free_count).setZero();
+        Points normals = fine;
+        level.transfer.prolong_surface(coarse, coarse, ball.patch().free_count, fine, normals);
+        errors.push_back((fine.colwise().norm().array() - 1.0).abs().maxCoeff());
+    }
+    CHECK(errors[0] < 2e-3);
+    CHECK(errors[1] < errors[0] / 8.0);
+}
+
+TEST_CASE("the weights of a coarse level put its vertices where the fine level has them") {
+    // Edges in the half x > 0 are nine times as strong: they draw vertices there together.
+    const Ball ball(40, 0.3, 100);
+    InnerWeights uneven = ball.weights;
+    for (WeightedEdge& edge : uneven) {
+        if (ball.single.points(0, edge.i) + ball.single.points(0, edge.j) > 0.0) edge.weight = 9.0;
+    }
+    const SymmetricStep fine(ball.patch(), uneven, ball.fixed_points(), Progress());
+    const auto levels = coarsen(ball.patch(), uneven, {ball.single.points, ball.single.points}, 100);
+    const CoarseLevel& level = levels.front();
+    const Points all = of_level(level, ball.single.points);
+    const Points fixed = all.rightCols(level.patch.vertex_count() - level.patch.free_count);
+    Points wanted = ball.single.points;
+    wanted.leftCols(ball.patch().free_count) = fine.harmonic_positions();
+    const auto mean_error = [&](const InnerWeights& weights) {
+        const Points positions = SymmetricStep(level.patch, weights, fixed, Progress()).harmonic_positions();
+        const Points difference = positions - of_level(level, wanted).leftCols(level.patch.free_count);
+        return difference.colwise().norm().mean();
+    };
+    // Of an outline two units wide. Weights that know nothing of the fine ones are far off.
+    CHECK(mean_error(level.weights) < 0.04);
+    CHECK(mean_error(level.weights) < 0.5 * mean_error(uniform_weights(level.patch)));
+}
+
+TEST_CASE("multigrid and a factorisation give the same tangential steps") {
+    const Ball ball(40, 0.3, 60);
+    REQUIRE(ball.levels.size() >= 2);
+    std::vector<Points> fixed;
+    for (const CoarseLevel& level : ball.levels) {
+        const Points all = of_level(level, ball.single.points);
+        fixed.emplace_back(all.rightCols(level.patch.vertex_count() - level.patch.free_count));
+    }
+    const CoarseLevel& middle = ball.levels[0];
+    const CoarseLevel& coarsest = ball.levels[1];
+    const FactorisedLaplacian base(coarsest.patch, coarsest.weights, fixed[1], Progress());
+    const MultigridStep between(middle.patch, middle.weights, fixed[0], coarsest.transfer, base);
+    const MultigridStep multigrid(ball.patch(), ball.weights, ball.fixed_points(), middle.transfer, between);
+    const SymmetricStep factorised(ball.patch(), ball.weights, ball.fixed_points(), Progress());
+
+    const Points membrane = factorised.harmonic_positions();
+    CHECK((multigrid.harmonic_positions() - membrane).norm() < 1e-6 * membrane.norm());
+    const Points step = factorised.displacement(ball.single.points, ball.single.points, 30);
+    const Points other = multigrid.displacement(ball.single.points, ball.single.points, 30);
+    // Both stop at a residual of 0.05.
+    CHECK((step - other).norm() < 0.15 * step.norm());
+    CHECK(multigrid.merit(ball.single.points, ball.single.points) >
+          0.0);  // and both measure the energy that steps lower
+}
+
+TEST_CASE("nested dissection is an order of elimination with less fill than the natural one") {
+    const test::Single single = test::single_patch(test::grid(90, 0.3, test::flat));
+    const Patch& patch = single.patch();
+    SparseMatrix lower(patch.free_count, patch.free_count);
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int i = 0; i < patch.free_count; ++i) {
+        entries.emplace_back(i, i, 7.0);
+        for (const int j : patch.ring(i).vertices) {
+            if (patch.is_free(j) && j > i) entries.emplace_back(j, i, -1.0);
+        }
+    }
+    lower.setFromTriplets(entries.begin(), entries.end());
+    const Points layout = single.points.leftCols(patch.free_count);
+    const Indices order = nested_dissection(lower, layout);
+    Indices sorted = order;
+    std::sort(sorted.begin(), sorted.end());
+    Indices natural(order.size());
+    std::iota(natural.begin(), natural.end(), 0);
+    CHECK(sorted == natural);
+    const auto fill = [&](const Indices& first_order) {
+        const Supernodes nodes = analyse(lower, first_order).supernodes;
+        double count = 0.0;
+        for (int k = 0; k < nodes.size(); ++k) count += static_cast<double>(nodes.row_count(k)) * nodes.column_count(k);
+        return count;
+    };
+    CHECK(fill(order) < 0.6 * fill(natural));
+
+    SparseCholesky factor(layout);
+    REQUIRE(factor.factorise(lower, "a test matrix", Progress()));
+    const Eigen::MatrixXd rhs = Eigen::MatrixXd::Random(patch.free_count, 2);
+    const Eigen::MatrixXd residual = lower.selfadjointView<Eigen::Lower>() * factor.solve(rhs) - rhs;
+    CHECK(residual.norm() < 1e-11 * rhs.norm());
+}

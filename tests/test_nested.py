@@ -1,0 +1,53 @@
+"""Large patches begin on coarser levels of their own connectivity: faster, and the same surface."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import fairing
+import shapes
+from shapes import Patch, Style
+from solving import fair_patch
+
+PATCHES = {
+    "hemisphere": lambda: shapes.cap(5000),
+    "catenoid": lambda: shapes.catenoid(5000),
+    "pipe": lambda: shapes.cylinder(4000, Style(seed=2)),
+    "clothoid cylinder": lambda: shapes.clothoid(4000),
+}
+
+
+@pytest.mark.parametrize("name", PATCHES)
+def test_levels_change_the_way_and_not_the_surface(name: str) -> None:
+    """Both solve one discrete equation to 1e-10, so they end within some 1e-9 D of each other."""
+    patch: Patch = PATCHES[name]()
+    nested = fair_patch(patch, tolerance=1e-10)
+    plain = fair_patch(patch, tolerance=1e-10, levels=1)
+    assert nested.converged
+    assert plain.converged
+    assert len(nested.levels) > 1
+    assert list(nested.levels) == sorted(nested.levels)
+    assert nested.levels[-1] == len(patch.vertices)
+    assert plain.levels == (len(patch.vertices),)
+    assert np.abs(nested.vertices - plain.vertices).max() <= 1e-8 * patch.diameter
+
+
+@pytest.mark.parametrize("inner_fairness", ["conformal", "inverse_distance", "shape_preserving"])
+def test_every_inner_fairness_is_nested(inner_fairness: str) -> None:
+    patch = shapes.cap(4000)
+    result = fairing.fair(
+        shapes.start_from_nothing(patch), patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals,
+        reference=patch.vertices, inner_fairness=inner_fairness, tolerance=1e-10,
+    )  # fmt: skip
+    assert result.converged
+    assert len(result.levels) > 1
+    assert patch.error(result.vertices) <= 1e-8  # a sphere is exact
+
+
+def test_few_iterations_remain_for_the_finest_level() -> None:
+    """A start at a coarser level's surface: at most eight steps, whatever the size."""
+    for n_free in (3000, 12000, 30000):
+        result = fair_patch(shapes.cap(n_free), tolerance=1e-6)
+        assert result.converged
+        assert result.iterations <= 8

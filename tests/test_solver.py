@@ -1,0 +1,419 @@
+"""Repeated solves: the first is fair's bit for bit, later ones start from the last answer and give the same surface."""
+
+from __future__ import annotations
+
+import threading
+from typing import Any
+
+import numpy as np
+import pytest
+
+import blend
+import fairing
+import shapes
+from curves import FloatArray
+from shapes import Patch
+
+TOLERANCE = 1e-10
+# Two solves that stop at steps below 1e-10 D are this near to each other.
+SAME = 1e-8
+SIZE = 600
+
+
+def solver_of(patch: Patch, **options: Any) -> fairing.Solver:
+    return fairing.Solver(patch.triangles, fixed=patch.fixed, **{"tolerance": TOLERANCE, **options})
+
+
+def fair(patch: Patch, vertices: FloatArray, at_fixed: FloatArray, **options: Any) -> fairing.FairResult:
+    arguments: dict[str, Any] = {"tolerance": TOLERANCE, **options}
+    return fairing.fair(vertices, patch.triangles, fixed=patch.fixed, fixed_normals=at_fixed, **arguments)
+
+
+def stages(solver: fairing.Solver, *arguments: Any, **named: Any) -> tuple[fairing.FairResult, set[str]]:
+    """The result, and what was reported on the way to it."""
+    seen: set[str] = set()
+    result = solver.solve(*arguments, progress=lambda fraction, stage: seen.add(stage), **named)
+    return result, seen
+
+
+WITHOUT_FACTORISATION = {"topology", "iteration", "done"}
+
+
+def dragged(patch: Patch, vertices: FloatArray, at: int, by: float) -> FloatArray:
+    """Everything near one fixed vertex moved, at most by `by` × D."""
+    reach = np.linalg.norm(vertices - vertices[patch.fixed[at]], axis=1) / (0.2 * patch.diameter)
+    step: FloatArray = by * patch.diameter * np.exp(-(reach**2))[:, None] * np.array([0.3, -0.5, 0.8])
+    return vertices + step
+
+
+def turned(degrees: float) -> FloatArray:
+    """Rotation about an oblique axis, (3, 3)."""
+    angle, axis = np.radians(degrees), np.array([2.0, -1.0, 2.0]) / 3.0
+    cross = np.cross(np.eye(3), axis)
+    matrix: FloatArray = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+    return matrix
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {},
+        {"inner_fairness": "conformal"},
+        {"inner_fairness": "shape_preserving"},
+        {"equation": "constant", "load": 2.0},
+        {"equation": "minimal"},
+        {"equation": "minimal_energy"},
+        {"method": "paper", "tolerance": 1e-5},
+    ],
+)
+def test_first_solve_has_the_bits_of_fair(options: dict[str, Any]) -> None:
+    patch = shapes.cap(300, half_angle=60)
+    start = shapes.start_from_nothing(patch)
+    first = solver_of(patch, **options).solve(start, patch.fixed_normals)
+    single = fair(patch, start, patch.fixed_normals, **options)
+    for name in ("vertices", "fixed", "mean_curvature", "boundary_angle"):
+        assert np.array_equal(getattr(first, name), getattr(single, name)), name
+    for name in ("converged", "polished", "termination", "iterations", "residual", "initial_residual", "levels"):
+        assert getattr(first, name) == getattr(single, name), name
+    assert [str(warning) for warning in first.warnings] == [str(warning) for warning in single.warnings]
+
+
+def test_an_outline_that_slides_on_a_sphere_leaves_the_sphere() -> None:
+    """The vertices of the rim go south by up to 3°, unevenly; the sphere is the one that was there."""
+    patch = shapes.cap(SIZE, half_angle=70)
+    solver = solver_of(patch)
+    solver.solve(shapes.start_from_nothing(patch), patch.fixed_normals)
+    for share in (0.3, 0.6, 1.0):
+        vertices = patch.vertices.copy()
+        rim = patch.vertices[patch.fixed]
+        longitude = np.arctan2(rim[:, 1], rim[:, 0])
+        latitude = np.radians(70 + 3 * share * (1 + np.sin(2 * longitude)) / 2)
+        outward = np.column_stack(
+            [np.sin(latitude) * np.cos(longitude), np.sin(latitude) * np.sin(longitude), np.cos(latitude)]
+        )
+        # The domain's sphere: centre at the origin, or wherever the exact positions lie one radius along the normals.
+        vertices[patch.fixed] = (patch.vertices - patch.normals).mean(axis=0) + outward
+        result, seen = stages(solver, vertices, outward)
+        assert seen == WITHOUT_FACTORISATION
+        assert result.converged
+        assert patch.error(result.vertices) <= 1e-8
+        assert np.abs(result.mean_curvature + 1).max() <= 1e-6
+
+
+def test_a_pipe_grows_to_another_radius() -> None:
+    patch = shapes.cylinder(1500, length=1.0)
+    solver = solver_of(patch)
+    solver.solve(patch.vertices, patch.fixed_normals)
+    wider = patch.vertices * np.array([1.04, 1.04, 1.0])
+    result, seen = stages(solver, wider, patch.fixed_normals)
+    assert seen == WITHOUT_FACTORISATION
+    radius = np.linalg.norm(result.vertices[:, :2], axis=1)
+    # The discretisation's error on this mesh: 2e-6 D is the goal of test_fair_closed_forms.
+    assert np.abs(radius - 1.04).max() <= 2e-6 * patch.diameter
+
+
+def test_a_similarity_moves_the_last_answer_and_nothing_else() -> None:
+    patch = shapes.unduloid(SIZE)
+    solver = solver_of(patch)
+    first = solver.solve(patch.vertices, patch.fixed_normals)
+    rotation = turned(130)
+    moved = 3.0 * first.vertices @ rotation.T + np.array([5.0, -2.0, 1.0])
+    start = np.zeros_like(moved)
+    start[patch.fixed] = moved[patch.fixed]
+    result, seen = stages(solver, start, patch.fixed_normals @ rotation.T)
+    assert seen == WITHOUT_FACTORISATION
+    assert result.iterations == 1
+    assert np.abs(result.vertices - moved).max() <= SAME * 3 * patch.diameter
+
+
+@pytest.mark.parametrize("family", ["hemisphere", "unduloid", "linear_flux", "clothoid", "plane"])
+def test_answers_do_not_depend_on_what_was_solved_before(family: str) -> None:
+    patch = shapes.FAMILIES[family](SIZE)
+    solver = solver_of(patch)
+    vertices, normals = shapes.start_from_nothing(patch), patch.fixed_normals
+    solver.solve(vertices, normals)
+    for at, by in [(0, 0.01), (7, 0.02), (3, 0.001), (11, 0.04)]:
+        vertices = dragged(patch, vertices, at, by)
+        result, seen = stages(solver, vertices, normals)
+        assert "globalisation" not in seen
+        single = fair(patch, vertices, normals)
+        assert np.abs(result.vertices - single.vertices).max() <= SAME * patch.diameter
+        assert np.abs(result.mean_curvature - single.mean_curvature).max() <= 1e-4
+        assert result.residual <= 1.0
+    back = solver.solve(shapes.start_from_nothing(patch), normals)
+    assert np.abs(back.vertices - fair(patch, shapes.start_from_nothing(patch), normals).vertices).max() <= (
+        SAME * patch.diameter
+    )
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"equation": "constant", "load": 2.0},
+        {"equation": "minimal"},
+        {"equation": "minimal_energy"},
+        {"normals": "averaged"},
+        {"inner_fairness": "inverse_distance"},
+        {"inner_fairness": "shape_preserving"},
+    ],
+)
+def test_every_equation_and_fairness_starts_from_the_last_answer(options: dict[str, Any]) -> None:
+    patch = shapes.cap(SIZE, half_angle=50)
+    solver = solver_of(patch, **options)
+    solver.solve(patch.vertices, patch.fixed_normals, reference=patch.vertices)
+    vertices = dragged(patch, patch.vertices, 2, 0.01)
+    result, seen = stages(solver, vertices, patch.fixed_normals, reference=patch.vertices)
+    assert seen == WITHOUT_FACTORISATION
+    single = fair(patch, vertices, patch.fixed_normals, reference=patch.vertices, **options)
+    assert np.abs(result.vertices - single.vertices).max() <= 10 * SAME * patch.diameter
+
+
+def test_turned_normals_alone_are_followed() -> None:
+    """All normals of a cap's rim tilted to those of a shallower cap on the same circle."""
+    patch = shapes.cap(SIZE, half_angle=50)
+    solver = solver_of(patch)
+    solver.solve(patch.vertices, patch.fixed_normals)
+    rim = patch.vertices[patch.fixed]
+    radial = rim[:, :2] / np.linalg.norm(rim[:, :2], axis=1)[:, None]
+    tilt = np.radians(47)
+    normals = np.column_stack([np.sin(tilt) * radial, np.full(len(rim), np.cos(tilt))])
+    result, seen = stages(solver, patch.vertices, normals)
+    assert seen == WITHOUT_FACTORISATION
+    radius = np.linalg.norm(rim[:, :2], axis=1).mean() / np.sin(tilt)
+    centre = np.array([0.0, 0.0, rim[:, 2].mean() - radius * np.cos(tilt)])
+    assert np.abs(np.linalg.norm(result.vertices - centre, axis=1) - radius).max() <= 1e-8
+
+
+def test_another_reference_changes_the_weights() -> None:
+    patch = shapes.cap(SIZE, half_angle=60)
+    stretched = patch.vertices * np.array([1.6, 1.0, 1.0])
+    solver = solver_of(patch, inner_fairness="conformal")
+    for reference in (patch.vertices, stretched, patch.vertices):
+        result = solver.solve(patch.vertices, patch.fixed_normals, reference=reference)
+        single = fair(patch, patch.vertices, patch.fixed_normals, inner_fairness="conformal", reference=reference)
+        assert np.abs(result.vertices - single.vertices).max() <= SAME * patch.diameter
+    first = solver.solve(patch.vertices, patch.fixed_normals, reference=patch.vertices)
+    other = solver.solve(patch.vertices, patch.fixed_normals, reference=stretched)
+    assert np.abs(first.vertices - other.vertices).max() > 1e-2 * patch.diameter
+
+
+def test_a_boundary_that_jumps_is_solved_from_scratch() -> None:
+    patch = shapes.cap(300)
+    solver = solver_of(patch)
+    solver.solve(patch.vertices, patch.fixed_normals)
+    vertices = dragged(patch, patch.vertices, 5, 0.2)
+    result, seen = stages(solver, vertices, patch.fixed_normals)
+    assert "globalisation" in seen
+    assert np.array_equal(result.vertices, fair(patch, vertices, patch.fixed_normals).vertices)
+
+
+def test_same_input_gives_the_same_bits_again() -> None:
+    patch = shapes.catenoid(SIZE)
+    solver = solver_of(patch)
+    first = solver.solve(patch.vertices, patch.fixed_normals)
+    again = solver.solve(patch.vertices, patch.fixed_normals)
+    assert np.array_equal(first.vertices, again.vertices)
+    assert again.iterations == 1
+
+
+def test_blend_between_three_loops_follows_its_rims() -> None:
+    made = blend.cylinder_blend(600)
+    options: dict[str, Any] = {"fixed": made.fixed, "tolerance": TOLERANCE}
+    solver = fairing.Solver(made.triangles, **options)
+    solver.solve(made.vertices, made.fixed_normals)
+    vertices = made.vertices * np.array([1.0, 1.02, 0.99])
+    result, seen = stages(solver, vertices, made.fixed_normals)
+    single = fairing.fair(vertices, made.triangles, fixed_normals=made.fixed_normals, **options)
+    assert "globalisation" not in seen
+    assert np.abs(result.vertices - single.vertices).max() <= 1e-6 * np.ptp(vertices)
+
+
+def two_caps() -> tuple[Patch, FloatArray, FloatArray, Any, Any]:
+    """Two copies of a cap beside each other: vertices, normals, triangles and fixed of both."""
+    patch = shapes.cap(300, half_angle=60)
+    count = len(patch.vertices)
+    vertices = np.vstack([patch.vertices, patch.vertices + np.array([5.0, 0.0, 0.0])])
+    triangles = np.vstack([patch.triangles, patch.triangles + count])
+    fixed = np.concatenate([patch.fixed, patch.fixed + count])
+    return patch, vertices, np.vstack([patch.fixed_normals] * 2), triangles, fixed
+
+
+def test_each_component_starts_from_its_own_last_answer() -> None:
+    """One of two islands jumps, so that it is solved from scratch; the other one keeps its bits."""
+    patch, vertices, normals, triangles, fixed = two_caps()
+    solver = fairing.Solver(triangles, fixed=fixed, tolerance=TOLERANCE)
+    first = solver.solve(vertices, normals)
+    count = len(patch.vertices)
+    vertices[count:] = dragged(patch, patch.vertices, 0, 0.2) + np.array([5.0, 0.0, 0.0])
+    result = solver.solve(vertices, normals)
+    single = fairing.fair(vertices, triangles, fixed=fixed, fixed_normals=normals, tolerance=TOLERANCE)
+    assert np.array_equal(result.vertices[:count], first.vertices[:count])
+    assert np.array_equal(result.vertices[count:], single.vertices[count:])
+
+
+PATCH = shapes.cap(300)
+
+
+@pytest.mark.parametrize(
+    ("vertices", "normals", "error"),
+    [
+        (np.where(np.arange(len(PATCH.vertices))[:, None] == 3, np.nan, PATCH.vertices), PATCH.fixed_normals, "NONFI"),
+        (PATCH.vertices[:-1], PATCH.fixed_normals, "INDEX_RANGE"),
+        (PATCH.vertices, PATCH.fixed_normals[:-1], "rows are needed"),
+        (PATCH.vertices, np.zeros_like(PATCH.fixed_normals), "length zero"),
+        (PATCH.vertices[:, :2], PATCH.fixed_normals, "vertices: shape"),
+        (np.zeros_like(PATCH.vertices), PATCH.fixed_normals, "single point"),
+    ],
+)
+def test_what_is_refused_leaves_the_solver_as_it_was(vertices: Any, normals: Any, error: str) -> None:
+    solver = solver_of(PATCH)
+    for _ in range(2):
+        with pytest.raises(ValueError, match=error):
+            solver.solve(vertices, normals)
+        result = solver.solve(PATCH.vertices, PATCH.fixed_normals)
+        assert np.array_equal(result.vertices, fair(PATCH, PATCH.vertices, PATCH.fixed_normals).vertices)
+
+
+def test_wrong_arguments_of_the_solver_are_named() -> None:
+    with pytest.raises(ValueError, match="triangles"):
+        fairing.Solver([[0.5, 1.5, 2.5]])
+    with pytest.raises(ValueError, match="equation"):
+        solver_of(PATCH, equation="wave")
+    with pytest.raises(ValueError, match="damping"):
+        solver_of(PATCH, damping=0.5)
+    with pytest.raises(ValueError, match="progress"):
+        solver_of(PATCH).solve(PATCH.vertices, PATCH.fixed_normals, progress=3)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="needs `fixed`"):
+        fairing.Solver(PATCH.triangles).solve(PATCH.vertices, PATCH.fixed_normals)
+    outside = [[0, len(PATCH.vertices)]]
+    with pytest.raises(fairing.MeshError, match="neighbours"):
+        solver_of(PATCH, neighbours=outside).solve(PATCH.vertices, PATCH.fixed_normals)
+
+
+def test_cancelling_at_any_call_leaves_the_last_answer() -> None:
+    """Then the next solve needs as few stages and gives the same bits as without the cancelled one."""
+    moved = dragged(PATCH, PATCH.vertices, 4, 0.01)
+    expected, calls = None, 0
+    counted = solver_of(PATCH)
+    counted.solve(PATCH.vertices, PATCH.fixed_normals)
+
+    def count(fraction: float, stage: str) -> None:
+        nonlocal calls
+        calls += 1
+
+    expected = counted.solve(moved, PATCH.fixed_normals, progress=count)
+    for last in range(1, calls):
+        solver = solver_of(PATCH)
+        solver.solve(PATCH.vertices, PATCH.fixed_normals)
+        left = last
+
+        def stop(fraction: float, stage: str) -> bool:
+            nonlocal left
+            left -= 1
+            return left > 0
+
+        with pytest.raises(fairing.Cancelled):
+            solver.solve(moved, PATCH.fixed_normals, progress=stop)
+        result, seen = stages(solver, moved, PATCH.fixed_normals)
+        assert seen == WITHOUT_FACTORISATION
+        assert np.array_equal(result.vertices, expected.vertices)
+
+
+def test_an_exception_of_the_callback_comes_out() -> None:
+    def fail(fraction: float, stage: str) -> bool:
+        raise KeyError("mine")
+
+    solver = solver_of(PATCH)
+    with pytest.raises(KeyError, match="mine"):
+        solver.solve(PATCH.vertices, PATCH.fixed_normals, progress=fail)
+    assert solver.solve(PATCH.vertices, PATCH.fixed_normals).converged
+
+
+def test_one_call_at_a_time() -> None:
+    """From `progress` and from another thread the call is refused; the running one is not disturbed."""
+    solver = solver_of(PATCH)
+    refusals: list[str] = []
+
+    def call() -> None:
+        try:
+            solver.solve(PATCH.vertices, PATCH.fixed_normals)
+        except RuntimeError as error:
+            refusals.append(str(error))
+
+    def meanwhile(fraction: float, stage: str) -> None:
+        if not refusals:
+            call()
+            thread = threading.Thread(target=call)
+            thread.start()
+            thread.join()
+
+    result = solver.solve(PATCH.vertices, PATCH.fixed_normals, progress=meanwhile)
+    assert len(refusals) == 2
+    assert all("one call at a time" in text for text in refusals)
+    assert np.array_equal(result.vertices, fair(PATCH, PATCH.vertices, PATCH.fixed_normals).vertices)
+
+
+def test_arguments_stay_as_they_are_and_results_are_read_only() -> None:
+    vertices, normals = PATCH.vertices.copy(), PATCH.fixed_normals.copy()
+    solver = solver_of(PATCH)
+    for _ in range(2):
+        result = solver.solve(vertices, normals)
+        assert np.array_equal(vertices, PATCH.vertices)
+        assert np.array_equal(normals, PATCH.fixed_normals)
+        assert not result.vertices.flags.writeable
+
+
+def test_more_vertices_than_before_are_solved_anew() -> None:
+    solver = solver_of(PATCH)
+    first = solver.solve(PATCH.vertices, PATCH.fixed_normals)
+    longer = np.vstack([PATCH.vertices, [[9.0, 9.0, 9.0]]])
+    result = solver.solve(longer, PATCH.fixed_normals)
+    assert np.array_equal(result.vertices[:-1], first.vertices)
+    assert np.array_equal(result.vertices[-1], longer[-1])
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"equation": "constant", "load": 3.0},
+        {"equation": "minimal_energy"},
+        {"equation": "minimal"},
+        {"inner_fairness": "conformal"},
+        {"inner_fairness": "shape_preserving"},
+        {"method": "paper", "tolerance": 1e-6},
+    ],
+)
+def test_changed_options_count_from_the_next_solve_on(options: dict[str, Any]) -> None:
+    """And changed back they give the former answer again."""
+    patch = shapes.cap(SIZE, half_angle=50)
+    solver = solver_of(patch)
+    first = solver.solve(patch.vertices, patch.fixed_normals)
+    solver.change(**options)
+    changed = solver.solve(patch.vertices, patch.fixed_normals)
+    single = fair(patch, patch.vertices, patch.fixed_normals, **options)
+    assert np.abs(changed.vertices - single.vertices).max() <= 10 * SAME * patch.diameter
+    solver.change(equation="harmonic", load=0.0, inner_fairness="uniform", method="global", tolerance=TOLERANCE)
+    back = solver.solve(patch.vertices, patch.fixed_normals)
+    assert np.abs(back.vertices - first.vertices).max() <= SAME * patch.diameter
+
+
+def test_a_growing_load_keeps_the_fairness_operator() -> None:
+    patch = shapes.cap(SIZE, half_angle=50)
+    solver = solver_of(patch, equation="constant", load=1.0)
+    solver.solve(patch.vertices, patch.fixed_normals)
+    for load in (1.2, 1.5, 2.0):
+        solver.change(load=load)
+        result, seen = stages(solver, patch.vertices, patch.fixed_normals)
+        assert seen == WITHOUT_FACTORISATION | {"the inner-fairness weights"}
+        single = fair(patch, patch.vertices, patch.fixed_normals, equation="constant", load=load)
+        assert np.abs(result.vertices - single.vertices).max() <= SAME * patch.diameter
+
+
+def test_what_cannot_be_changed_is_refused_and_changes_nothing() -> None:
+    solver = solver_of(PATCH)
+    first = solver.solve(PATCH.vertices, PATCH.fixed_normals)
+    with pytest.raises(TypeError, match="'fixed' is no option"):
+        solver.change(fixed=[1, 2])
+    with pytest.raises(ValueError, match="tolerance"):
+        solver.change(equation="minimal", tolerance=-1.0)
+    assert np.array_equal(solver.solve(PATCH.vertices, PATCH.fixed_normals).vertices, first.vertices)
