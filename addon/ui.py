@@ -102,7 +102,7 @@ class VIEW3D_PT_fairing_live(_Panel, bpy.types.Panel):
             _pair(column, "Free Vertices", str(len(session.region.free)), "BLANK1")
             _pair(column, "Seconds", f"{session.seconds:.3f}", "BLANK1")
         if live.message:
-            _draw_text(self.layout, translated(live.message), "ERROR")
+            draw_text(self.layout, translated(live.message), "ERROR")
 
 
 class VIEW3D_PT_fairing_overlay(_Panel, bpy.types.Panel):
