@@ -33,8 +33,10 @@ check_wheels() {
         (($(stat -c %s "$wheel") <= wheel_limit)) || fail "$wheel is larger than 2 MB"
         if [[ $wheel == *manylinux* ]]; then check_manylinux "$wheel"; fi
     done
-    make_checking_tools
-    "$checking/bin/python" scripts/shipping/imports.py "$build"/wheelhouse/*win_amd64.whl
+    if makes windows-x64; then
+        make_checking_tools
+        "$checking/bin/python" scripts/shipping/imports.py "$build"/wheelhouse/*win_amd64.whl
+    fi
 }
 
 # SBOM and checksums, beside the zips.

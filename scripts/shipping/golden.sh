@@ -20,7 +20,7 @@ check_golden() {
         install_sdist clang++
         solve_golden clang++ "$build/venv-clang++/bin/python" && found+=("$golden/clang++.npz")
     fi
-    if get_debian "$wine" wine64; then
+    if makes windows-x64 && get_debian "$wine" wine64; then
         for version in "${pythons[@]}"; do
             make_windows_python "$version"
             solve_golden_in_wine "$version" && found+=("$golden/windows-$version.npz")
