@@ -1,78 +1,11 @@
 """Intrinsic Fairing: selected faces become the fair surface that continues their surroundings."""
 
-from pathlib import Path
-from typing import Any
+from . import loading
 
-import bpy
-
-from . import cli, compare, handlers, job, live, overlay, runner, translations, ui, watch
-from .curvature import MESH_OT_fair_curvature
-from .fair_mesh import fair_mesh
-from .live_operators import FairLive, MESH_OT_fair_live_forget, MESH_OT_fair_live_region
-from .operators import MESH_OT_fair_region
-from .overlay_settings import FairOverlay
-from .preferences import FairPreferences
-from .report_properties import FairCheck, FairProgress, FairReport
+if loading.problem():
+    from .loading_panel import register, unregister
+else:
+    from .fair_mesh import fair_mesh
+    from .registration import register, unregister
 
 __all__ = ["fair_mesh", "register", "unregister"]
-
-_register_classes, _unregister_classes = bpy.utils.register_classes_factory(
-    (
-        FairPreferences,
-        FairCheck,
-        FairReport,
-        FairProgress,
-        FairOverlay,
-        FairLive,
-        MESH_OT_fair_region,
-        MESH_OT_fair_live_region,
-        MESH_OT_fair_live_forget,
-        compare.MESH_OT_fair_compare,
-        watch.MESH_OT_fair_inspect,
-        MESH_OT_fair_curvature,
-        *ui.PANELS,
-    )
-)
-LONGEST_STEP = 10.0  # seconds that a cancelled engine may take to hear of it
-_commands: list[Any] = []  # handles that Blender wants back at unregistering
-_folder = str(Path(__file__).parent)  # holds presets/operator/mesh.fair_region
-
-
-def register() -> None:
-    """Make operators, panels, menu entries, presets and command known to Blender."""
-    _register_classes()
-    bpy.types.WindowManager.fairing_report = bpy.props.PointerProperty(type=FairReport)
-    bpy.types.WindowManager.fairing_progress = bpy.props.PointerProperty(type=FairProgress)
-    bpy.types.WindowManager.fairing_overlay = bpy.props.PointerProperty(type=FairOverlay)
-    bpy.types.WindowManager.fairing_live = bpy.props.PointerProperty(type=FairLive)
-    bpy.types.VIEW3D_MT_edit_mesh_faces.append(ui.draw_menu)
-    bpy.types.VIEW3D_MT_edit_mesh_context_menu.append(ui.draw_context_menu)
-    handlers.register()
-    watch.register()
-    overlay.register()
-    live.register()
-    translations.register()
-    bpy.utils.register_preset_path(_folder)
-    _commands.append(bpy.utils.register_cli_command("fair", cli.execute))
-
-
-def unregister() -> None:
-    """Take back everything that register() did, in reverse."""
-    bpy.utils.unregister_cli_command(_commands.pop())
-    bpy.utils.unregister_preset_path(_folder)
-    translations.unregister()
-    live.unregister()
-    overlay.unregister()
-    watch.unregister()
-    handlers.unregister()
-    runner.wait_for_all(LONGEST_STEP)
-    compare.forget()
-    job.memory.clear()
-    job.solvers.clear()
-    bpy.types.VIEW3D_MT_edit_mesh_context_menu.remove(ui.draw_context_menu)
-    bpy.types.VIEW3D_MT_edit_mesh_faces.remove(ui.draw_menu)
-    del bpy.types.WindowManager.fairing_live
-    del bpy.types.WindowManager.fairing_overlay
-    del bpy.types.WindowManager.fairing_progress
-    del bpy.types.WindowManager.fairing_report
-    _unregister_classes()

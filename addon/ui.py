@@ -11,6 +11,7 @@ from .live import live
 from .live_operators import MESH_OT_fair_live_forget, MESH_OT_fair_live_region
 from .operators import MESH_OT_fair_region
 from .overlay import overlay
+from .text import draw_text
 from .translations import translated
 from .watch import MESH_OT_fair_inspect, is_large, request, watch
 
@@ -101,7 +102,7 @@ class VIEW3D_PT_fairing_live(_Panel, bpy.types.Panel):
             _pair(column, "Free Vertices", str(len(session.region.free)), "BLANK1")
             _pair(column, "Seconds", f"{session.seconds:.3f}", "BLANK1")
         if live.message:
-            _draw_text(self.layout, translated(live.message), "ERROR")
+            draw_text(self.layout, translated(live.message), "ERROR")
 
 
 class VIEW3D_PT_fairing_overlay(_Panel, bpy.types.Panel):
@@ -134,12 +135,12 @@ def _draw_inspection(layout: Any, found: Inspection, named: bool) -> None:
     _pair(column, "Faces", str(found.faces))
     _pair(column, "Free Vertices", str(found.free_vertices))
     if found.refusal:
-        _draw_text(layout, translated(found.refusal), "CANCEL")
+        draw_text(layout, translated(found.refusal), "CANCEL")
         return
     _pair(column, "Outlines", str(found.loops))
     _pair(column, "Islands", str(found.islands))
     for note in found.notes:
-        _draw_text(layout, note, "INFO")
+        draw_text(layout, note, "INFO")
 
 
 def _draw_report(layout: Any, report: Any) -> None:
@@ -152,7 +153,7 @@ def _draw_report(layout: Any, report: Any) -> None:
     _pair(column, "Free Vertices", str(report.free_vertices), "BLANK1")
     _pair(column, "Seconds", f"{report.seconds:.2f}", "BLANK1")
     for warning in report.warnings.splitlines():
-        _draw_text(layout, warning, "ERROR")
+        draw_text(layout, warning, "ERROR")
 
 
 def _draw_overlay(layout: Any, settings: Any) -> None:
@@ -171,20 +172,7 @@ def _draw_overlay(layout: Any, settings: Any) -> None:
         row.prop(settings, "range")
     column.prop(settings, "opacity")
     if overlay.message:
-        _draw_text(layout, overlay.message, "ERROR")
-
-
-def _draw_text(layout: Any, text: str, icon: str, width: int = 38) -> None:
-    """Draw a sentence over as many lines as it needs: labels don't wrap."""
-    column = layout.column(align=True)
-    column.scale_y = 0.8
-    line = ""
-    for word in text.split():
-        if line and len(line) + len(word) >= width:
-            column.label(text=line, icon=icon, translate=False)
-            line, icon = "", "BLANK1"
-        line = f"{line} {word}".strip()
-    column.label(text=line, icon=icon, translate=False)
+        draw_text(layout, overlay.message, "ERROR")
 
 
 def draw_menu(menu: Any, _context: bpy.types.Context) -> None:

@@ -60,6 +60,8 @@ is_done() { [[ -f $1 && $(<"$1") == "$2" ]]; }
 
 venv_python() { printf '%s/venv-%s/bin/python' "$build" "$1"; }
 
+manifest_version() { sed -n 's/^version = "\(.*\)"/\1/p' addon/blender_manifest.toml; }
+
 # The Python that bpy's wheels are for, preferably Debian's own: its headers come with python3-dev.
 find_python() {
     local candidate
@@ -103,32 +105,23 @@ stage_module() {
     cp "$build/$1"/native/_core.*.so "$package/fairing"
 }
 
-# The zip that scripts/package has built for the version in the manifest.
-zip_path() {
-    local version
-    version=$(sed -n 's/^version = "\(.*\)"/\1/p' addon/blender_manifest.toml)
-    printf '%s/package/intrinsic_fairing-%s.zip' "$build" "$version"
-}
+# usage: zip_of FOLDER PLATFORM
+zip_of() { printf '%s/intrinsic_fairing-%s-%s.zip' "$1" "$(manifest_version)" "${2//-/_}"; }
 
-# Debian's copyright files hold the licences of the two libraries that the wheel contains.
-copy_licences() {
-    mkdir "$1/licenses"
-    cp LICENSE "$1/LICENSE"
-    cp /usr/share/doc/libopenmesh-dev/copyright "$1/licenses/OpenMesh.txt"
-    cp /usr/share/doc/libeigen3-dev/copyright "$1/licenses/Eigen.txt"
-}
+# The zip that scripts/package --bpy builds for this machine.
+zip_path() { zip_of "$build/package" linux-x64; }
 
-# Lays out the folder that Blender's tool zips: the add-on with these wheels.
-# usage: stage_extension FOLDER WHEEL…
+# Lays out the folder that becomes a platform's zip: the add-on with these wheels.
+# usage: stage_extension FOLDER PLATFORM WHEEL…
 stage_extension() {
-    local staging=$1 wheel
-    shift
+    local staging=$1 platform=$2 wheel
+    shift 2
     rm -rf "$staging"
     mkdir -p "$staging/wheels"
     cp -r addon/. "$staging"
     find "$staging" -name __pycache__ -prune -exec rm -r {} +
     cp "$@" "$staging/wheels"
-    copy_licences "$staging"
+    sed -i "s/^platforms = .*/platforms = [\"$platform\"]/" "$staging/blender_manifest.toml"
     {
         printf '\nwheels = [\n'
         for wheel in "$@"; do
@@ -136,4 +129,21 @@ stage_extension() {
         done
         printf ']\n'
     } >>"$staging/blender_manifest.toml"
+}
+
+# Runs a command in a folder that holds another Debian, this one mounted at /src; the mounts end with the command.
+# usage: in_folder FOLDER COMMAND…
+in_folder() {
+    # shellcheck disable=SC2016 # the inner shell is the one that expands these
+    unshare --mount --fork -- bash -c '
+        set -e
+        mount --make-rprivate /
+        chroot=$1 source=$2
+        shift 2
+        mount -t proc proc "$chroot/proc"
+        mount --bind /dev "$chroot/dev"
+        mkdir -p "$chroot/src"
+        mount --bind "$source" "$chroot/src"
+        exec chroot "$chroot" env HOME=/root LC_ALL=C.UTF-8 "$@"
+    ' in_folder "$1" "$root" "${@:2}"
 }

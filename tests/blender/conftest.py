@@ -23,7 +23,7 @@ PACKAGES = Path(__file__).parents[2] / "build" / "package"
 
 def _zip() -> Path:
     given = os.environ.get("FAIRING_ZIP")
-    found = [Path(given)] if given else sorted(PACKAGES.glob("*.zip"))
+    found = [Path(given)] if given else sorted(PACKAGES.glob("*-linux_x64.zip"))
     if len(found) != 1 or not found[0].is_file():
         pytest.exit("run scripts/package first: the tests use the zip that it builds", 2)
     return found[0]

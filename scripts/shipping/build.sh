@@ -1,0 +1,85 @@
+# shellcheck shell=bash disable=SC2034,SC2154,SC2164
+# Modules, wheels and zips; sourced by scripts/package after sources.sh.
+
+declare -A wheel_platform=(
+    [linux-x64]=manylinux_2_28_x86_64 [windows-x64]=win_amd64
+    [macos-arm64]=macosx_11_0_arm64 [macos-x64]=macosx_11_0_x86_64
+)
+export ZIG_GLOBAL_CACHE_DIR=$build/zig-cache ZIG_LOCAL_CACHE_DIR=$build/zig-cache
+
+# usage: build_module PLATFORM PYTHON: compiles and installs to build/cross/stage/PLATFORM-PYTHON.
+# One build folder per platform: the second Python compiles its bindings alone.
+build_module() {
+    local platform=$1 version=$2 folder=$cross/$1 stage=$cross/stage/$1-$2 headers=$cross/python$2/unix library=
+    if [[ $platform == windows-* ]]; then
+        headers=$cross/python$version/windows
+        library=$headers/python${version/./}.lib
+    fi
+    quietly "configure-$platform-$version" cmake -S . -B "$folder" -G Ninja \
+        -U 'Python_*' -U '_Python_*' -U 'PYTHON_*' \
+        -DCMAKE_TOOLCHAIN_FILE="$root/native/cmake/zig.cmake" -DFAIRING_ZIG="$zig" \
+        -DFAIRING_PLATFORM="$platform" -DFAIRING_PYTHON_HEADERS="$headers" -DFAIRING_PYTHON_LIBRARY="$library" \
+        -DFAIRING_BUILD_TESTS=OFF -DFAIRING_OPENMESH_SOURCE="$cross/openmesh" \
+        -DEigen3_DIR=/usr/share/eigen3/cmake -Dpybind11_DIR="$("$python" -m pybind11 --cmakedir)"
+    quietly "compile-$platform-$version" cmake --build "$folder" --target _core --parallel "$(nproc)"
+    rm -rf "$stage"
+    cmake --install "$folder" --component python --prefix "$stage" >"$build/log/install-$platform-$version.log"
+    cp -r native/python/fairing/. "$stage/fairing"
+}
+
+# The licences of all that is linked into a platform's module.
+gather_licences() {
+    local platform=$1 folder=$cross/licences/$1 library
+    rm -rf "$folder"
+    mkdir -p "$folder/third-party"
+    cp LICENSE "$folder/LICENSE"
+    cd "$folder/third-party"
+    cp "$cross/openmesh/LICENSE" OpenMesh.txt
+    cp /usr/share/doc/libeigen3-dev/copyright Eigen.txt
+    cp "$("$python" -c 'import pybind11; print(pybind11.__path__[0])')"-*.dist-info/licenses/LICENSE pybind11.txt
+    for library in libcxx libcxxabi libunwind; do
+        cp "$build/zig/ziglang/lib/$library/LICENSE.TXT" "$library.txt"
+    done
+    cp "$build/zig/ziglang/LICENSE" zig-compiler-rt.txt
+    case $platform in
+        linux-*) cp "$build/zig/ziglang/lib/libc/glibc/LICENSES" glibc.txt ;;
+        windows-*) cp "$build/zig/ziglang/lib/libc/mingw/COPYING" mingw-w64.txt ;;
+    esac
+    cd "$root"
+}
+
+# usage: build_wheel PLATFORM PYTHON
+build_wheel() {
+    local tag=cp${2/./}
+    build_module "$1" "$2"
+    gather_licences "$1"
+    mkdir -p "$build/wheelhouse"
+    "$python" scripts/shipping/wheel.py --content "$cross/stage/$1-$2" --licences "$cross/licences/$1" \
+        --tag "$tag-$tag-${wheel_platform[$1]}" --output "$build/wheelhouse"
+}
+
+# Wheels of the version in the manifest, for one platform; the wheel and the extension are one release.
+# usage: wheels_of PLATFORM PYTHON…
+wheels_of() {
+    local platform=$1 version wheel
+    shift
+    for version in "$@"; do
+        wheel=$build/wheelhouse/fairing-$(manifest_version)-cp${version/./}-cp${version/./}-${wheel_platform[$platform]}.whl
+        [[ -f $wheel ]] || fail "the manifest says $(manifest_version), but $wheel is not there"
+        printf '%s\n' "$wheel"
+    done
+}
+
+# usage: make_zip PLATFORM LICENCES WHEEL…
+make_zip() {
+    local staging=$build/staging/$1 target
+    target=$(zip_of "$packages" "$1")
+    stage_extension "$staging" "$1" "${@:3}"
+    cp -r "$2/." "$staging"
+    mkdir -p "$packages"
+    "$python" scripts/shipping/archive.py "$staging" "$target"
+    "$python" "$(extension_tool)" validate "$target"
+}
+
+# Blender's own command-line tool for extensions, out of the bpy at hand.
+extension_tool() { find "$build/venv-$bpy/" -path '*/bl_pkg/cli/blender_ext.py' -print -quit; }

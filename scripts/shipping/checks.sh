@@ -1,0 +1,126 @@
+# shellcheck shell=bash disable=SC2034,SC2154,SC2164
+# What scripts/package does with the zips once they are there; sourced by it after build.sh.
+
+bpy_of_python313=5.2.3
+checking=$cross/checking
+wheel_limit=$((2 * 1024 * 1024))
+
+# What reads Windows' modules and CycloneDX, in an environment of its own.
+make_checking_tools() {
+    local wanted
+    wanted=$(fingerprint scripts/shipping/requirements.txt)
+    if is_done "$checking/.requirements" "$wanted"; then return; fi
+    rm -rf "$checking"
+    "$python" -m venv "$checking"
+    quietly pip-checking "$checking/bin/python" -m pip install --progress-bar off \
+        --requirement scripts/shipping/requirements.txt
+    printf '%s' "$wanted" >"$checking/.requirements"
+}
+
+# Fails where the module needs more than manylinux_2_28 has.
+check_manylinux() {
+    local scratch=$cross/auditwheel
+    rm -rf "$scratch"
+    quietly auditwheel "$python" -m auditwheel repair --plat manylinux_2_28_x86_64 --wheel-dir "$scratch" "$1"
+    if "$python" -m zipfile --list "$scratch"/*.whl | grep -q 'fairing\.libs/'; then
+        fail "$1 needs libraries of this machine"
+    fi
+}
+
+check_wheels() {
+    local wheel
+    for wheel in "$build"/wheelhouse/*.whl; do
+        (($(stat -c %s "$wheel") <= wheel_limit)) || fail "$wheel is larger than 2 MB"
+        if [[ $wheel == *manylinux* ]]; then check_manylinux "$wheel"; fi
+    done
+    if makes windows-x64; then
+        make_checking_tools
+        "$checking/bin/python" scripts/shipping/imports.py "$build"/wheelhouse/*win_amd64.whl
+    fi
+}
+
+# SBOM and checksums, beside the zips.
+write_lists() {
+    "$python" scripts/shipping/sbom.py --zig "$zig_version" --openmesh "$cross"/download/openmesh \
+        "$packages"/*.zip >"$packages/intrinsic_fairing-$(manifest_version).cdx.json"
+    (cd "$packages" && sha256sum -- *.zip *.json >SHA256SUMS)
+}
+
+list_zips() {
+    say "Packages"
+    (cd "$packages" && stat -c '%9s  %n' -- *)
+}
+
+check_everything() {
+    local version
+    check_sbom
+    for version in "${all_bpy[@]}"; do
+        scripts/setup --bpy "$version"
+        say "One solve in bpy $version"
+        use_zip "$(venv_python "$version")" "$(zip_of "$packages" "$native")"
+    done
+    use_zip_in_python313
+    check_sdist
+    check_golden
+}
+
+# usage: use_zip PYTHON ZIP: bpy may hang at its end
+use_zip() { timeout --kill-after 10 300 "$1" scripts/shipping/use_zip.py "$2"; }
+
+check_sbom() {
+    make_checking_tools
+    "$checking/bin/python" scripts/shipping/check_sbom.py "$packages"/*.cdx.json
+}
+
+# Debian 12 has no Python 3.13; Debian 13 in a folder has.
+use_zip_in_python313() {
+    local folder=$build/trixie
+    if ((EUID != 0)); then
+        say "Left out: bpy $bpy_of_python313 (its Python 3.13 is installed with debootstrap, as root)"
+        return
+    fi
+    make_trixie "$folder"
+    say "One solve in bpy $bpy_of_python313, Python 3.13"
+    in_folder "$folder/root" bash -c "cd /src && timeout --kill-after 10 300 /venv/bin/python \
+        scripts/shipping/use_zip.py '$(zip_of build/release "$native")'"
+}
+
+make_trixie() {
+    local folder=$1 packages
+    if is_done "$folder/.bpy" "$bpy_of_python313"; then return; fi
+    packages=ca-certificates,python3-venv,libx11-6,libxrender1,libxfixes3,libxi6,libxkbcommon0,libsm6,libgl1
+    packages+=,libegl1,libxxf86vm1,libgomp1
+    mkdir -p "$folder"
+    command -v debootstrap >/dev/null || quietly apt-debootstrap apt-get install --yes debootstrap
+    if [[ ! -f $folder/.root ]]; then
+        rm -rf "$folder/root"
+        quietly trixie debootstrap --variant=minbase "--include=$packages" trixie "$folder/root" "$(mirror)"
+        touch "$folder/.root"
+    fi
+    # Fetched from outside: certificates and settings of the network are this machine's.
+    quietly "download-bpy-$bpy_of_python313" "$python" -m pip download --progress-bar off --only-binary :all: \
+        --python-version 3.13 --platform manylinux_2_28_x86_64 --platform manylinux_2_27_x86_64 \
+        --platform manylinux_2_17_x86_64 --platform manylinux2014_x86_64 \
+        --dest "$folder/root/wheels" "bpy==$bpy_of_python313"
+    in_folder "$folder/root" python3 -m venv /venv
+    quietly "pip-bpy-$bpy_of_python313" in_folder "$folder/root" /venv/bin/python -m pip install \
+        --progress-bar off --no-index --find-links /wheels "bpy==$bpy_of_python313"
+    rm -r "$folder/root/wheels"
+    printf '%s' "$bpy_of_python313" >"$folder/.bpy"
+}
+
+# The sdist, built, installed with this machine's compiler in a fresh environment, and used.
+check_sdist() {
+    say "Source distribution"
+    rm -rf "$build/sdist"
+    quietly sdist "$python" -c "from scikit_build_core.build import build_sdist; build_sdist('$build/sdist')"
+    install_sdist g++
+}
+
+# usage: install_sdist COMPILER: into build/venv-COMPILER
+install_sdist() {
+    local venv=$build/venv-$1
+    rm -rf "$venv"
+    "$python" -m venv "$venv"
+    CXX=$1 quietly "install-$1" "$venv/bin/python" -m pip install --progress-bar off "$build"/sdist/*.tar.gz
+}

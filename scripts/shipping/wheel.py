@@ -1,0 +1,60 @@
+"""Writes the wheel of one platform and Python from what CMake installed.
+
+    wheel.py --content FOLDER --licences FOLDER --tag cp311-cp311-win_amd64 --output FOLDER
+
+Name, version and the other metadata come from pyproject.toml, through the backend that builds the
+ordinary wheel; run from the repository's root.
+"""
+
+from __future__ import annotations
+
+import argparse
+import base64
+import hashlib
+import tempfile
+from pathlib import Path
+
+import archive
+from scikit_build_core.build import prepare_metadata_for_build_wheel
+
+
+def metadata() -> tuple[str, bytes]:
+    """Return the name of the wheel's .dist-info folder and its METADATA."""
+    with tempfile.TemporaryDirectory() as folder:
+        name = prepare_metadata_for_build_wheel(folder)
+        return name, (Path(folder) / name / "METADATA").read_bytes()
+
+
+def record(contents: dict[str, bytes], path: str) -> bytes:
+    """Return the list of all files with their hashes; its own line, at `path`, has none."""
+    lines = []
+    for name in sorted(contents):
+        digest = base64.urlsafe_b64encode(hashlib.sha256(contents[name]).digest()).rstrip(b"=").decode()
+        lines.append(f"{name},sha256={digest},{len(contents[name])}")
+    return "\n".join([*lines, f"{path},,", ""]).encode()
+
+
+def main() -> None:
+    """Write the wheel; print its path."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--content", type=Path, required=True, help="folder that holds the package")
+    parser.add_argument("--licences", type=Path, required=True)
+    parser.add_argument("--tag", required=True)
+    parser.add_argument("--output", type=Path, required=True)
+    given = parser.parse_args()
+    info, text = metadata()
+    contents = archive.files(given.content)
+    contents[f"{info}/METADATA"] = text
+    contents[f"{info}/WHEEL"] = (
+        f"Wheel-Version: 1.0\nGenerator: scripts/package\nRoot-Is-Purelib: false\nTag: {given.tag}\n"
+    ).encode()
+    for name, licence in archive.files(given.licences).items():
+        contents[f"{info}/licenses/{name}"] = licence
+    contents[f"{info}/RECORD"] = record(contents, f"{info}/RECORD")
+    target = given.output / f"{info.removesuffix('.dist-info')}-{given.tag}.whl"
+    archive.write(target, contents)
+    print(target)
+
+
+if __name__ == "__main__":
+    main()
