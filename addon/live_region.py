@@ -92,8 +92,8 @@ class LiveRegion:
     def free(self) -> Ints:
         """Mesh indices of the vertices that answers are for, ascending."""
         patch = self._around.patch
-        vertices: Ints = self._around.vertices[patch.vertices[patch.free]]
-        return vertices
+        free: Ints = self._around.vertices[patch.vertices[patch.free]]
+        return free
 
     def answer(self, positions: Floats, matrix: Floats) -> Floats | None:
         """Return the free vertices' positions (k, 3) in the mesh's own coordinates; None where there is no convergence.

@@ -1,6 +1,8 @@
 #include "geometry/mean_curvature.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/Cholesky>
 
@@ -21,22 +23,41 @@ namespace {
 // Of the squared distance, in the tangent plane: points nearer to the normal's line have no direction.
 constexpr double no_direction = 1e-24;
 
+// Wedges of the outline from which on its normals count in part, and in full (radians).
+constexpr double wide = 2.0 * std::numbers::pi / 3.0;
+constexpr double narrow = std::numbers::pi / 2.0;
+
+// The angle that the patch fills around a vertex of its outline, in the tangent plane there. A constant of the problem
+// where the vertex's neighbours on the outline and its normal are.
+double wedge(const Patch& patch, const Points& points, const Points& normals, int vertex) {
+    const auto ring = patch.ring(vertex).vertices;
+    const Vector3 n = normals.col(vertex);
+    const Vector3 first = points.col(ring.front()) - points.col(vertex);
+    const Vector3 last = points.col(ring.back()) - points.col(vertex);
+    const double angle = std::atan2(first.cross(last).dot(n), first.dot(last) - first.dot(n) * last.dot(n));
+    return angle < 0.0 ? angle + 2.0 * std::numbers::pi : angle;
+}
+
 // Where the patch fills less than 90° around a vertex of its outline, curvatures in directions into the patch can't
 // tell H: a neighbour in the middle of a wedge of angle ω, ω < 90°, has a negative weight, and the iteration runs away
 // from the solution there. The normals of the outline are data too: how they turn along it is II(t, t⊥). With these
-// rows all weights of a wedge are positive (they would be from weights of ½ on).
+// rows all weights of a wedge are positive (they would be from weights of ½ on). Along smooth outlines they would only
+// add their own error.
 void add_outline_normals(const Patch& patch, const Points& points, const Points& normals, int vertex,
                          CurvatureLeastSquares& fit) {
+    const double s = std::clamp((wide - wedge(patch, points, normals, vertex)) / (wide - narrow), 0.0, 1.0);
+    if (!(s > 0.0)) return;
+    const double weight = s * s * (3.0 - 2.0 * s);
     for (int v : patch.ring(vertex).vertices) {
-        if (!patch.is_free(v)) fit.add_twist(points.col(v), normals.col(v));
+        if (!patch.is_free(v)) fit.add_twist(points.col(v), normals.col(v), weight);
     }
 }
 
 }  // namespace
 
-void CurvatureLeastSquares::add_row(const Vector3& row, double value) {
-    matrix_.noalias() += row * row.transpose();
-    rhs_ += value * row;
+void CurvatureLeastSquares::add_row(const Vector3& row, double value, double weight) {
+    matrix_.noalias() += weight * row * row.transpose();
+    rhs_ += weight * value * row;
 }
 
 void CurvatureLeastSquares::add_point(const Vector3& point) {
@@ -48,7 +69,7 @@ void CurvatureLeastSquares::add_point(const Vector3& point) {
     add_row(Vector3(t.x() * t.x(), t.x() * t.y(), t.y() * t.y()) / in_plane, 2.0 * normal_.dot(d) / squared);
 }
 
-void CurvatureLeastSquares::add_twist(const Vector3& point, const Vector3& normal_there) {
+void CurvatureLeastSquares::add_twist(const Vector3& point, const Vector3& normal_there, double weight) {
     const Vector3 d = point - centre_;
     const double squared = d.squaredNorm();
     const Eigen::Vector2d t(frame_.u.dot(d), frame_.v.dot(d));
@@ -57,7 +78,7 @@ void CurvatureLeastSquares::add_twist(const Vector3& point, const Vector3& norma
     const double product = t.x() * t.y();
     const Vector3 row(-product, 0.5 * (t.x() * t.x() - t.y() * t.y()), product);
     const Vector3 across = t.x() * frame_.v - t.y() * frame_.u;
-    add_row(row / in_plane, -normal_there.dot(across) / std::sqrt(in_plane * squared));
+    add_row(row / in_plane, -normal_there.dot(across) / std::sqrt(in_plane * squared), weight);
 }
 
 CurvatureFit CurvatureLeastSquares::solve() const {
@@ -78,7 +99,7 @@ CurvatureFit fit_curvature(const Vector3& centre, std::span<const Vector3> point
 }
 
 PatchCurvature patch_curvature(const Patch& patch, const Points& points, const FaceGeometry& faces,
-                               const Points& normals) {
+                               const Points& normals, NormalKind kind) {
     const Points virtual_points = edge_virtual_points(patch, points, faces, normals);
     OneRingBuffer buffer;
     PatchCurvature curvature{VectorX(patch.vertex_count()), Points(3, patch.vertex_count())};
@@ -86,7 +107,8 @@ PatchCurvature patch_curvature(const Patch& patch, const Points& points, const F
         CurvatureLeastSquares rows(points.col(i), normals.col(i));
         buffer.gather(patch, points, i);
         for (const Vector3& p : buffer.with_virtual(patch, virtual_points, i)) rows.add_point(p);
-        if (!patch.is_free(i)) add_outline_normals(patch, points, normals, i, rows);
+        if (kind == NormalKind::fitted && !patch.is_free(i) && !patch.ring(i).closed())
+            add_outline_normals(patch, points, normals, i, rows);
         const CurvatureFit fit = rows.solve();
         curvature.mean[i] = fit.mean();
         curvature.form.col(i) << fit.x0, fit.x1, fit.x2;

@@ -32,14 +32,14 @@ public:
     void add_point(const Vector3& point);
 
     // II(t, t⊥) from the turn of the unit normals towards `point`: −⟨normal_there − normal, t⊥⟩/|d|, t⊥ being t turned
-    // by 90° in the tangent plane.
-    void add_twist(const Vector3& point, const Vector3& normal_there);
+    // by 90° in the tangent plane. `weight`: of the row beside those of points.
+    void add_twist(const Vector3& point, const Vector3& normal_there, double weight = 1.0);
 
     // Regularised by 1e-9 of the trace: finite for any input.
     [[nodiscard]] CurvatureFit solve() const;
 
 private:
-    void add_row(const Vector3& row, double value);
+    void add_row(const Vector3& row, double value, double weight = 1.0);
 
     Vector3 centre_;
     Vector3 normal_;
@@ -61,9 +61,9 @@ struct PatchCurvature {
     [[nodiscard]] CurvatureFit fit(int i) const { return {form(0, i), form(1, i), form(2, i)}; }
 };
 
-// From the neighbours and a virtual point between every two of them; at fixed vertices also from the turn of the
-// normals towards their fixed neighbours.
+// From the neighbours and a virtual point between every two of them; in corners of the outline also from the
+// turn of the normals along it, unless the normals are averaged ones, which is the paper's discretisation.
 PatchCurvature patch_curvature(const Patch& patch, const Points& points, const FaceGeometry& faces,
-                               const Points& normals);
+                               const Points& normals, NormalKind kind);
 
 }  // namespace fairing

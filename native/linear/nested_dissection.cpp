@@ -45,7 +45,7 @@ private:
     [[nodiscard]] int longest_axis(Iterator first, Iterator last) const {
         Vector3 low = points_.col(*first);
         Vector3 high = low;
-        for (Iterator v = first; v != last; ++v) {
+        for (auto v = first; v != last; ++v) {
             low = low.cwiseMin(points_.col(*v));
             high = high.cwiseMax(points_.col(*v));
         }
@@ -57,15 +57,15 @@ private:
     void dissect(Iterator first, Iterator last) {
         if (last - first <= leaf) return;
         const int axis = longest_axis(first, last);
-        const Iterator middle = first + (last - first) / 2;
+        const auto middle = first + (last - first) / 2;
         std::nth_element(first, middle, last, [&](int a, int b) {
             const double x = points_(axis, a);
             const double y = points_(axis, b);
             return x != y ? x < y : a < b;
         });
         const int right = ++parts_;
-        for (Iterator v = middle; v != last; ++v) part_[at(*v)] = right;
-        const Iterator separator = std::stable_partition(first, middle, [&](int v) {
+        for (auto v = middle; v != last; ++v) part_[at(*v)] = right;
+        const auto separator = std::stable_partition(first, middle, [&](int v) {
             return std::none_of(neighbours_.begin() + begin_[at(v)], neighbours_.begin() + begin_[at(v) + 1],
                                 [&](int u) { return part_[at(u)] == right; });
         });

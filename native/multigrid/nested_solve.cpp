@@ -160,7 +160,7 @@ private:
         return iterate(problem, level.work, points, progress.range(0.3, 1.0));
     }
 
-    Points interpolated(std::size_t k, const Points& coarse) const {
+    [[nodiscard]] Points interpolated(std::size_t k, const Points& coarse) const {
         const Problem& fine = levels_[k].problem;
         const SurfaceState state = measured_surface(levels_[k + 1].problem, coarse);
         Points points = with_fixed(fine.patch, fine.fixed_points);

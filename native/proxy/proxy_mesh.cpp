@@ -208,14 +208,14 @@ std::vector<double> ProxyMesh::target_lengths(const Sizing& sizing) const {
     using Entry = std::pair<double, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     for (const Vertex v : mesh_.vertices()) {
-        if (target[at(v.idx())] < sizing.longest) queue.push({target[at(v.idx())], v.idx()});
+        if (target[at(v.idx())] < sizing.longest) queue.emplace(target[at(v.idx())], v.idx());
     }
     for (const Edge e : mesh_.edges()) {
         if (!mesh_.is_boundary(e)) continue;
         const double length = mesh_.calc_edge_length(e);
         for (const Vertex v : {mesh_.to_vertex_handle(mesh_.halfedge_handle(e, 0)),
                                mesh_.to_vertex_handle(mesh_.halfedge_handle(e, 1))}) {
-            if (length < target[at(v.idx())]) queue.push({target[at(v.idx())] = length, v.idx()});
+            if (length < target[at(v.idx())]) queue.emplace(target[at(v.idx())] = length, v.idx());
         }
     }
     while (!queue.empty()) {
@@ -225,7 +225,7 @@ std::vector<double> ProxyMesh::target_lengths(const Sizing& sizing) const {
         for (const Halfedge h : mesh_.voh_range(mesh_.vertex_handle(unsigned(v)))) {
             const int other = mesh_.to_vertex_handle(h).idx();
             const double reached = length + sizing.growth * mesh_.calc_edge_length(h);
-            if (reached < target[at(other)]) queue.push({target[at(other)] = reached, other});
+            if (reached < target[at(other)]) queue.emplace(target[at(other)] = reached, other);
         }
     }
     return target;

@@ -16,7 +16,7 @@ void SurfaceState::measure_curvature(const Problem& problem) {
     const Points boundary = problem.options.equation == Equation::minimal ? one_sided_normals(problem.patch, points)
                                                                           : problem.fixed_normals;
     normals = vertex_normals(problem.patch, points, faces, boundary, problem.options.normals);
-    curvature = patch_curvature(problem.patch, points, faces, normals);
+    curvature = patch_curvature(problem.patch, points, faces, normals, problem.options.normals);
 }
 
 SurfaceState measured_surface(const Problem& problem, const Points& points) {
