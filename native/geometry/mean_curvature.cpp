@@ -12,10 +12,12 @@
 namespace fairing {
 
 double CurvatureFit::rise(const Vector3& normal, const Vector3& d) const {
+    constexpr double steepest = 0.5;
     const Frame frame(normal);
     const double a = frame.u.dot(d);
     const double b = frame.v.dot(d);
-    return 0.5 * (x0 * a * a + x1 * a * b + x2 * b * b);
+    const double most = steepest * d.norm();
+    return std::clamp(0.5 * (x0 * a * a + x1 * a * b + x2 * b * b), -most, most);
 }
 
 namespace {

@@ -16,7 +16,8 @@ struct CurvatureFit {
     double x2 = 0.0;
     [[nodiscard]] double mean() const { return 0.5 * (x0 + x2); }  // eq. 10
     [[nodiscard]] double gaussian() const { return x0 * x2 - 0.25 * x1 * x1; }
-    // How far the surface rises along the normal at a small tangential displacement d: ½ κ(d) |d|². In Frame's basis.
+    // How far the surface rises along the normal at a small tangential displacement d: ½ κ(d) |d|², and no more
+    // than half the length of d. In Frame's basis.
     [[nodiscard]] double rise(const Vector3& normal, const Vector3& d) const;
 };
 

@@ -59,16 +59,19 @@ RingView Patch::ring(int vertex) const {
     return {view(ring_begin_, ring_vertices_), view(ring_begin_, ring_spokes_), view(rim_begin_, ring_rim_)};
 }
 
-int Patch::loop_count() const {
+std::vector<Indices> Patch::loops() const {
     std::vector<char> seen(at(vertex_count()), 0);
-    int loops = 0;
+    std::vector<Indices> result;
     for (int start = free_count; start < vertex_count(); ++start) {
         if (seen[at(start)] || ring(start).closed()) continue;
-        ++loops;
+        Indices& loop = result.emplace_back();
         // The first neighbour of an open ring lies behind the border edge with the patch on its left.
-        for (int v = start; !seen[at(v)]; v = ring(v).vertices.front()) seen[at(v)] = 1;
+        for (int v = start; !seen[at(v)]; v = ring(v).vertices.front()) {
+            seen[at(v)] = 1;
+            loop.push_back(v);
+        }
     }
-    return loops;
+    return result;
 }
 
 void Patch::refuse(int triangle, int a, int b) const {

@@ -38,8 +38,9 @@ public:
     [[nodiscard]] int triangle_count() const { return static_cast<int>(triangles.cols()); }
     [[nodiscard]] bool is_free(int vertex) const { return vertex < free_count; }
     [[nodiscard]] RingView ring(int vertex) const;
-    // Closed loops of border edges.
-    [[nodiscard]] int loop_count() const;
+    // Closed loops of border edges, the patch on their left, vertex by vertex.
+    [[nodiscard]] std::vector<Indices> loops() const;
+    [[nodiscard]] int loop_count() const { return static_cast<int>(loops().size()); }
 
     Triangles triangle_edges;  // edge opposite to corner k of each triangle
     std::vector<std::array<int, 2>> edge_ends;

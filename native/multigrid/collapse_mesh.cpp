@@ -1,6 +1,7 @@
 #include "multigrid/collapse_mesh.h"
 
 #include <algorithm>
+#include <array>
 
 namespace fairing {
 
@@ -28,8 +29,7 @@ CollapseMesh::CollapseMesh(const Patch& patch, const InnerWeights& weights, cons
       stamp_(at(patch.vertex_count()), 0) {
     build_sides(patch);
     set_weights(patch, weights);
-    count_loops(patch);
-    begin_level();
+    number_loops(patch);
 }
 
 void CollapseMesh::build_sides(const Patch& patch) {
@@ -81,15 +81,10 @@ void CollapseMesh::set_weights(const Patch& patch, const InnerWeights& weights) 
     }
 }
 
-void CollapseMesh::count_loops(const Patch& patch) {
-    for (int start = patch.free_count; start < patch.vertex_count(); ++start) {
-        if (!border_[at(start)] || loop_[at(start)] != none) continue;
-        const int loop = static_cast<int>(loop_size_.size());
-        loop_size_.push_back(0);
-        for (int v = start; loop_[at(v)] == none; v = patch.ring(v).vertices.front()) {
-            loop_[at(v)] = loop;
-            ++loop_size_.back();
-        }
+void CollapseMesh::number_loops(const Patch& patch) {
+    for (const Indices& loop : patch.loops()) {
+        for (const int v : loop) loop_[at(v)] = static_cast<int>(loop_size_.size());
+        loop_size_.push_back(static_cast<int>(loop.size()));
     }
 }
 
@@ -151,8 +146,7 @@ bool CollapseMesh::try_collapse(int v, Star& star, Removals& removals) {
         pass_fixed_weights_on(star, best);
     } else {
         --free_count_;
-        double sum = 0.0;
-        for (const double weight : star.weights) sum += weight;
+        const double sum = star.weight();
         removals.vertex.push_back(v);
         for (std::size_t k = 0; k < star.size(); ++k) {
             removals.neighbours.push_back(star.vertices[k]);
@@ -169,8 +163,7 @@ bool CollapseMesh::try_collapse(int v, Star& star, Removals& removals) {
 // between two that share no edge afterwards go by way of the vertex kept.
 void CollapseMesh::pass_weights_on(Star& star, std::size_t k) const {
     const std::size_t n = star.size();
-    double sum = 0.0;
-    for (const double weight : star.weights) sum += weight;
+    const double sum = star.weight();
     star.passed.assign(n, 0.0);
     for (std::size_t j = 0; j < n; ++j) {
         if (j == k) continue;
@@ -208,8 +201,7 @@ void CollapseMesh::drop_triangle(int side, double weight) {
 }
 
 void CollapseMesh::strengthen_rim(const Star& star, std::size_t k) {
-    double sum = 0.0;
-    for (const double weight : star.weights) sum += weight;
+    const double sum = star.weight();
     for (std::size_t j = 0; j < star.size(); ++j) {
         if (!star.has_triangle(j) || j == k || star.after(j) == k) continue;
         const auto more = static_cast<float>(star.weights[j] * star.weights[star.after(j)] / sum);

@@ -1,8 +1,6 @@
 // Half-edge collapses on connectivity and inner-fairness weights alone, for the coarse levels of the global method.
 #pragma once
 
-#include <span>
-
 #include "fairness/inner_weights.h"
 #include "multigrid/collapse_star.h"
 
@@ -34,7 +32,7 @@ public:
     // Collapses keep the topology, valences between 4 and 9 where they were, and make no chord between fixed vertices.
     Removals pass();
 
-    // Loops may lose half of their vertices until the next call.
+    // To be called before a level's passes: loops may lose half of their vertices until the next call.
     void begin_level();
 
     [[nodiscard]] int free_count() const { return free_count_; }
@@ -46,7 +44,7 @@ public:
 private:
     void build_sides(const Patch& patch);
     void set_weights(const Patch& patch, const InnerWeights& weights);
-    void count_loops(const Patch& patch);
+    void number_loops(const Patch& patch);
     void gather(int v, Star& star) const;
     bool try_collapse(int v, Star& star, Removals& removals);
     [[nodiscard]] double cost(const Star& star, std::size_t k) const;

@@ -1,6 +1,8 @@
 // What a half-edge collapse looks at.
 #pragma once
 
+#include <numeric>
+
 #include "base/types.h"
 
 namespace fairing {
@@ -19,6 +21,7 @@ struct Star {
     std::vector<double> passed;  // scratch: new weights to the vertex kept
 
     [[nodiscard]] std::size_t size() const { return vertices.size(); }
+    [[nodiscard]] double weight() const { return std::accumulate(weights.begin(), weights.end(), 0.0); }
     // Whether neighbours k and k + 1 (cyclic) span a triangle with the centre.
     [[nodiscard]] bool has_triangle(std::size_t k) const { return closed || k + 1 < size(); }
     [[nodiscard]] std::size_t after(std::size_t k) const { return k + 1 == size() ? 0 : k + 1; }

@@ -45,10 +45,6 @@ Points with_fixed(const Patch& patch, const Points& fixed) {
     return points;
 }
 
-std::unique_ptr<NormalOperator> make_normal_operator(const Problem& problem, const Points& points) {
-    return std::make_unique<BiharmonicOperator>(problem.patch, points.leftCols(problem.patch.free_count));
-}
-
 struct Level {
     Problem problem;
     InnerWeights weights;
@@ -74,7 +70,7 @@ public:
         Solution solution = solve_coarsest(coarsest_problem(), progress_.range(0.05, 0.2));
         if (solution.termination != Termination::converged) return std::nullopt;
         const double initial_residual = solution.initial_residual;
-        set_up_tangential(coarse_.size());
+        set_up_tangential(coarse_.size(), laplacian_of(coarse_.size()));
         seconds["coarsest"] = watch.lap();
         double begin = 0.2;
         for (std::size_t k = coarse_.size(); k-- > 0;) {
@@ -125,7 +121,7 @@ private:
         return k == coarse_.size() || levels_[k].problem.patch.free_count <= largest_factorised;
     }
 
-    void set_up_tangential(std::size_t k) {
+    void set_up_tangential(std::size_t k, RingMatrix laplacian) {
         Level& level = levels_[k];
         const Problem& problem = level.problem;
         const auto adopt = [&](auto step) {
@@ -136,7 +132,7 @@ private:
             adopt(std::make_unique<FactorisedLaplacian>(problem.patch, level.weights, problem.fixed_points,
                                                         progress_.here()));
         } else {
-            adopt(std::make_unique<MultigridStep>(problem.patch, level.weights, problem.fixed_points,
+            adopt(std::make_unique<MultigridStep>(problem.patch, std::move(laplacian), problem.fixed_points,
                                                   coarse_[k].transfer, *levels_[k + 1].tangential_cycle));
         }
     }
@@ -145,12 +141,14 @@ private:
     Solution refine(std::size_t k, const Points& coarse, const Progress& progress) {
         Level& level = levels_[k];
         const Problem& problem = level.problem;
-        Points points = interpolated(k, coarse);
+        RingMatrix laplacian = laplacian_of(k);
+        Points points = interpolated(k, coarse, laplacian);
         progress.report(0.1, "refinement");
-        set_up_tangential(k);
+        set_up_tangential(k, std::move(laplacian));
         slide(problem, *level.work.tangential, points);
         progress.report(0.3, "refinement");
-        level.work.normal = make_normal_operator(problem, points);
+        level.work.normal =
+            std::make_unique<BiharmonicOperator>(problem.patch, points.leftCols(problem.patch.free_count));
         // λ that aren't symmetric need a factorisation of their own; so far their symmetric part was good enough.
         if (k == 0 && std::holds_alternative<RowWeights>(problem.weights)) {
             level.work.tangential =
@@ -160,14 +158,16 @@ private:
         return iterate(problem, level.work, points, progress.range(0.3, 1.0));
     }
 
-    [[nodiscard]] Points interpolated(std::size_t k, const Points& coarse) const {
+    [[nodiscard]] RingMatrix laplacian_of(std::size_t k) const {
+        return {levels_[k].problem.patch.vertex_count(), levels_[k].weights};
+    }
+
+    [[nodiscard]] Points interpolated(std::size_t k, const Points& coarse, const RingMatrix& laplacian) const {
         const Problem& fine = levels_[k].problem;
         const SurfaceState state = measured_surface(levels_[k + 1].problem, coarse);
         Points points = with_fixed(fine.patch, fine.fixed_points);
         Points normals = with_fixed(fine.patch, fine.fixed_normals);
         coarse_[k].transfer.prolong_surface(coarse, state.normals, fine.patch.free_count, points, normals);
-        RingMatrix laplacian;
-        laplacian.assemble(fine.patch.vertex_count(), levels_[k].weights);
         even_out(laplacian, fine.patch.free_count, evening_sweeps, points, normals);
         return points;
     }

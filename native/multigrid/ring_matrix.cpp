@@ -2,34 +2,8 @@
 
 namespace fairing {
 
-void RingMatrix::set_pattern(const Patch& patch) {
-    begin = {0};
-    columns.clear();
-    columns.reserve(at(2 * patch.edge_count()));
-    for (int i = 0; i < patch.vertex_count(); ++i) {
-        const auto ring = patch.ring(i).vertices;
-        columns.insert(columns.end(), ring.begin(), ring.end());
-        begin.push_back(static_cast<int>(columns.size()));
-    }
-    weights.resize(static_cast<Eigen::Index>(columns.size()));
-    diagonal.resize(patch.vertex_count());
-}
-
-void RingMatrix::set_weights(const Patch& patch, const VectorX& edge_weights) {
-    for (int i = 0; i < patch.vertex_count(); ++i) {
-        const auto spokes = patch.ring(i).spokes;
-        double sum = 0.0;
-        int k = begin[at(i)];
-        for (const int edge : spokes) {
-            weights[k++] = edge_weights[edge];
-            sum += edge_weights[edge];
-        }
-        diagonal[i] = sum;
-    }
-}
-
-void RingMatrix::assemble(int vertex_count, const InnerWeights& edges) {
-    begin.assign(at(vertex_count) + 1, 0);
+RingMatrix::RingMatrix(int vertex_count, const InnerWeights& edges)
+    : begin(at(vertex_count) + 1, 0), diagonal(VectorX::Zero(vertex_count)) {
     for (const auto& edge : edges) {
         ++begin[at(edge.i) + 1];
         ++begin[at(edge.j) + 1];
@@ -37,7 +11,6 @@ void RingMatrix::assemble(int vertex_count, const InnerWeights& edges) {
     for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
     columns.resize(at(begin.back()));
     weights.resize(begin.back());
-    diagonal.setZero(vertex_count);
     Indices cursor(begin.begin(), begin.end() - 1);
     const auto add = [&](int i, int j, double weight) {
         columns[at(cursor[at(i)])] = j;

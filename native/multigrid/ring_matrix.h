@@ -12,11 +12,7 @@ struct RingMatrix {
     VectorX weights;
     VectorX diagonal;
 
-    // The mesh's edges, in the order of its rings; `edge_weights`: one for each edge.
-    void set_pattern(const Patch& patch);
-    void set_weights(const Patch& patch, const VectorX& edge_weights);
-    // Any graph.
-    void assemble(int vertex_count, const InnerWeights& weights);
+    RingMatrix(int vertex_count, const InnerWeights& weights);
 
     // y_i for the first `rows` vertices.
     template <int Rows>

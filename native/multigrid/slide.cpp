@@ -1,7 +1,5 @@
 #include "multigrid/slide.h"
 
-#include <algorithm>
-
 #include "geometry/mean_curvature.h"
 #include "geometry/one_ring_buffer.h"
 #include "linear/anderson.h"
@@ -14,7 +12,6 @@ namespace {
 constexpr int most_steps = 3;
 constexpr int history_depth = 3;
 constexpr double near_enough = 5e-4;  // units of D; the iteration does the rest
-constexpr double steepest = 0.5;      // most rise per length of a step
 
 // Adds to tangential steps how far the surface rises along them.
 void follow_curvature(const Patch& patch, const Points& points, const Points& normals, Points& d) {
@@ -22,8 +19,7 @@ void follow_curvature(const Patch& patch, const Points& points, const Points& no
     for (int i = 0; i < patch.free_count; ++i) {
         const OneRing ring = buffer.gather(patch, points, i);
         const Vector3 n = normals.col(i);
-        const double most = steepest * d.col(i).norm();
-        d.col(i) += std::clamp(fit_curvature(ring.centre, ring.points, n).rise(n, d.col(i)), -most, most) * n;
+        d.col(i) += fit_curvature(ring.centre, ring.points, n).rise(n, d.col(i)) * n;
     }
 }
 

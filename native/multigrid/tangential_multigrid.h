@@ -24,7 +24,8 @@ public:
 // A V-cycle: Chebyshev smoothing, the coarser level's own λ.
 class MultigridStep : public TangentialStep, public LaplaceCycle {
 public:
-    MultigridStep(const Patch& patch, const InnerWeights& weights, const Points& fixed_points, const Transfer& transfer,
+    // `laplacian`: of λ, over all vertices of the level.
+    MultigridStep(const Patch& patch, RingMatrix laplacian, const Points& fixed_points, const Transfer& transfer,
                   const LaplaceCycle& coarser);
     void hold(const Points& fixed_points) override { fixed_points_ = fixed_points; }
     [[nodiscard]] Points harmonic_positions() const override;
@@ -36,9 +37,6 @@ private:
     [[nodiscard]] Points gradient(const Points& points) const;
     void apply(const Field<3>& x, Field<3>& y) const;
     void smooth(Field<3>& x, Field<3>& r) const;
-    template <typename Project>
-    [[nodiscard]] Points solve(Points r, double relative_tolerance, int max_cycles, const Project& project) const;
-    [[nodiscard]] double largest_eigenvalue() const;
 
     const Patch& patch_;
     Points fixed_points_;
@@ -46,7 +44,6 @@ private:
     const LaplaceCycle& coarser_;
     RingMatrix laplacian_;
     Field<1> inverse_diagonal_;  // 0 at fixed vertices
-    double largest_ = 2.0;
 };
 
 }  // namespace fairing

@@ -17,13 +17,13 @@ struct Transfer {
 
     // Interpolation: removed vertices take the weighted mean of what was around them.
     template <int Rows>
-    [[nodiscard]] Field<Rows> prolong(const Field<Rows>& coarse, const std::vector<double>& weights) const {
+    [[nodiscard]] Field<Rows> prolong(const Field<Rows>& coarse) const {
         Field<Rows> fine = Field<Rows>::Zero(Rows, fine_count);
         for (Eigen::Index c = 0; c < coarse.cols(); ++c) fine.col(coarse_in_fine[std::size_t(c)]) = coarse.col(c);
         for (int k = removals.size(); k-- > 0;) {
             Eigen::Matrix<double, Rows, 1> sum = Eigen::Matrix<double, Rows, 1>::Zero();
             for (int j = removals.begin[at(k)]; j < removals.begin[at(k) + 1]; ++j)
-                sum += weights[at(j)] * fine.col(removals.neighbours[at(j)]);
+                sum += removals.weights[at(j)] * fine.col(removals.neighbours[at(j)]);
             fine.col(removals.vertex[at(k)]) = sum;
         }
         return fine;
@@ -31,11 +31,11 @@ struct Transfer {
 
     // Its transpose; nothing arrives at fixed vertices.
     template <int Rows>
-    [[nodiscard]] Field<Rows> restrict(Field<Rows> fine, const std::vector<double>& weights) const {
+    [[nodiscard]] Field<Rows> restrict(Field<Rows> fine) const {
         for (int k = 0; k < removals.size(); ++k) {
             const Eigen::Matrix<double, Rows, 1> value = fine.col(removals.vertex[at(k)]);
             for (int j = removals.begin[at(k)]; j < removals.begin[at(k) + 1]; ++j)
-                fine.col(removals.neighbours[at(j)]) += weights[at(j)] * value;
+                fine.col(removals.neighbours[at(j)]) += removals.weights[at(j)] * value;
         }
         Field<Rows> coarse(Rows, static_cast<Eigen::Index>(coarse_in_fine.size()));
         for (int c = 0; c < coarse_free_count; ++c) coarse.col(c) = fine.col(coarse_in_fine[at(c)]);

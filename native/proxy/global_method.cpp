@@ -64,11 +64,6 @@ Start make_start(const Problem& problem, Workspace& work, const Progress& progre
     return start;
 }
 
-std::unique_ptr<NormalOperator> make_normal_operator(const Problem& problem) {
-    if (problem.options.equation == Equation::minimal) return std::make_unique<LaplaceOperator>(problem.patch);
-    return std::make_unique<BiharmonicOperator>(problem.patch);
-}
-
 // The solve on the user's mesh alone, from the membrane.
 Solution solve_directly(const Problem& problem, const Progress& progress) {
     Stopwatch watch;

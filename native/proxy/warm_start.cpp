@@ -67,11 +67,7 @@ void WarmStart::choose_operator(const Problem& problem) {
     if (work_.normal && is_laplacian_ == minimal) return;
     is_laplacian_ = minimal;
     work_.keeps_factor = false;
-    if (minimal) {
-        work_.normal = std::make_unique<LaplaceOperator>(patch_);
-    } else {
-        work_.normal = std::make_unique<BiharmonicOperator>(patch_);
-    }
+    work_.normal = make_normal_operator(problem);
 }
 
 bool WarmStart::factorise(const Problem& problem, const Points& points, const Progress& progress) {

@@ -118,13 +118,11 @@ private:
 
     // Along the normals, and within the surface: a long way there follows its curvature.
     Points plain_step() {
-        constexpr double steepest = 0.5;
         const VectorX u = work_.normal->solve(outer_);
         Points d = work_.tangential->displacement(state_.points, state_.normals);
         for (int i = 0; i < patch_.free_count; ++i) {
             const Vector3 n = state_.normals.col(i);
-            const double most = steepest * d.col(i).norm();
-            d.col(i) += (u[i] + std::clamp(state_.curvature.fit(i).rise(n, d.col(i)), -most, most)) * n;
+            d.col(i) += (u[i] + state_.curvature.fit(i).rise(n, d.col(i))) * n;
         }
         return d;
     }

@@ -114,4 +114,9 @@ bool LaplaceOperator::update(const Stiffness& stiffness, const Progress& progres
     return factor_.factorise(matrix, "the Laplace–Beltrami operator", progress);
 }
 
+std::unique_ptr<NormalOperator> make_normal_operator(const Problem& problem) {
+    if (problem.options.equation == Equation::minimal) return std::make_unique<LaplaceOperator>(problem.patch);
+    return std::make_unique<BiharmonicOperator>(problem.patch);
+}
+
 }  // namespace fairing

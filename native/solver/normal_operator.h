@@ -1,8 +1,11 @@
 // Linear operators along the normals that precondition the outer equation (SOLVER: K_p).
 #pragma once
 
+#include <memory>
+
 #include "geometry/face_geometry.h"
 #include "linear/sparse_cholesky.h"
+#include "solver/problem.h"
 
 namespace fairing {
 
@@ -14,7 +17,7 @@ public:
     // has degenerated); solve may not be called then.
     [[nodiscard]] virtual bool update(const Stiffness& stiffness, const Progress& progress) = 0;
     // The operator's inverse applied to one or more columns (free count × k).
-    [[nodiscard]] virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const { return factor_.solve(rhs); }
+    [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const { return factor_.solve(rhs); }
 
 protected:
     NormalOperator() = default;
@@ -49,5 +52,8 @@ public:
 private:
     const Patch& patch_;
 };
+
+// The one of the problem's equation: Laplace for minimal surfaces, biharmonic for all others.
+std::unique_ptr<NormalOperator> make_normal_operator(const Problem& problem);
 
 }  // namespace fairing

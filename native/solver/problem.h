@@ -26,7 +26,7 @@ struct SolverOptions {
     double tolerance = 1e-6;  // of the largest move in an iteration, in units of D
     int max_iterations = 200;
     bool nested = true;  // large patches begin on coarser levels
-    int patience = 40;  // iterations without progress after which the solve is given up
+    int patience = 40;   // iterations without progress after which the solve is given up
 };
 
 // One component in units of D: translated and scaled so that D = 1.

@@ -1,6 +1,7 @@
 #include "solver/symmetric_step.h"
 
 #include "base/errors.h"
+#include "linear/conjugate_gradients.h"
 #include "solver/across.h"
 
 namespace fairing {
@@ -67,27 +68,15 @@ Points SymmetricStep::precondition(const Points& field, const Points& normals) c
 
 Points SymmetricStep::displacement(const Points& points, const Points& normals, int max_cycles) const {
     constexpr double relative_tolerance = 0.05;
-    Points d = Points::Zero(3, free_count_);
     Points r = -gradient(points);
     project_across(r, normals);
-    Points z = precondition(r, normals);
-    Points p = z;
-    double rz = inner(r, z);
-    const double target = relative_tolerance * relative_tolerance * rz;
-    for (int cycle = 0; cycle < max_cycles && rz > target; ++cycle) {
-        Points Ap = (laplacian_ * p.transpose()).transpose();
-        project_across(Ap, normals);
-        const double curvature = inner(p, Ap);
-        if (!(curvature > 0.0)) break;
-        const double alpha = rz / curvature;
-        d += alpha * p;
-        r -= alpha * Ap;
-        z = precondition(r, normals);
-        const double next = inner(r, z);
-        p = z + (next / rz) * p;
-        rz = next;
-    }
-    return d;
+    const auto apply = [&](const Points& p) {
+        Points product = (laplacian_ * p.transpose()).transpose();
+        project_across(product, normals);
+        return product;
+    };
+    const auto approximate_inverse = [&](const Points& field) { return precondition(field, normals); };
+    return conjugate_gradients(std::move(r), relative_tolerance, max_cycles, apply, approximate_inverse);
 }
 
 }  // namespace fairing

@@ -87,9 +87,8 @@ TEST_CASE("restriction is the transpose of interpolation, whose weights sum to o
     Field<3> coarse = Field<3>::Random(3, ball.levels.front().patch.vertex_count());
     coarse.rightCols(coarse.cols() - transfer.coarse_free_count).setZero();
     const Field<3> fine = Field<3>::Random(3, transfer.fine_count);
-    const auto& weights = transfer.removals.weights;
-    const double left = transfer.prolong<3>(coarse, weights).cwiseProduct(fine).sum();
-    const double right = coarse.cwiseProduct(transfer.restrict<3>(fine, weights)).sum();
+    const double left = transfer.prolong<3>(coarse).cwiseProduct(fine).sum();
+    const double right = coarse.cwiseProduct(transfer.restrict<3>(fine)).sum();
     CHECK(left == doctest::Approx(right).epsilon(1e-12));
 }
 
@@ -145,8 +144,10 @@ TEST_CASE("multigrid and a factorisation give the same tangential steps") {
     const CoarseLevel& middle = ball.levels[0];
     const CoarseLevel& coarsest = ball.levels[1];
     const FactorisedLaplacian base(coarsest.patch, coarsest.weights, fixed[1], Progress());
-    const MultigridStep between(middle.patch, middle.weights, fixed[0], coarsest.transfer, base);
-    const MultigridStep multigrid(ball.patch(), ball.weights, ball.fixed_points(), middle.transfer, between);
+    const MultigridStep between(middle.patch, RingMatrix(middle.patch.vertex_count(), middle.weights), fixed[0],
+                                coarsest.transfer, base);
+    const MultigridStep multigrid(ball.patch(), RingMatrix(ball.patch().vertex_count(), ball.weights),
+                                  ball.fixed_points(), middle.transfer, between);
     const SymmetricStep factorised(ball.patch(), ball.weights, ball.fixed_points(), Progress());
 
     const Points membrane = factorised.harmonic_positions();
