@@ -94,9 +94,11 @@ def test_default_tolerance_is_met() -> None:
     assert np.abs(default.vertices - tight.vertices).max() < 1e-5 * patch.diameter
 
 
-def test_same_input_same_bits() -> None:
-    patch, result = solved("catenoid", 300)
-    for threads in (0, 1, 2):
+@pytest.mark.parametrize("n_free", [300, 12000])
+def test_same_input_same_bits(n_free: int) -> None:
+    patch = shapes.catenoid(n_free)
+    result = fair_patch(patch, threads=1)
+    for threads in (0, 1, 2, 3):
         assert np.array_equal(fair_patch(patch, threads=threads).vertices, result.vertices)
 
 

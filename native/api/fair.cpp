@@ -5,6 +5,7 @@
 #include "api/diagnose.h"
 #include "api/measure.h"
 #include "api/prepared_mesh.h"
+#include "base/parallel.h"
 #include "base/stopwatch.h"
 
 namespace fairing {
@@ -134,6 +135,7 @@ void prepare_for(const MeshInput& input, const CallOptions& options, std::unique
 FairResult run_call(const MeshInput& input, const std::optional<Points>& reference, const CallOptions& options,
                     std::unique_ptr<PreparedMesh>& prepared, const ProgressCallback& callback) {
     const Stopwatch watch;
+    const Threads threads(options.asked.threads);
     const Progress progress(callback);
     progress.report(0.0, "topology");
     prepare_for(input, options, prepared);

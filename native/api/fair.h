@@ -16,6 +16,7 @@ struct FairOptions {
     // Edges (input vertices) that uniform weights use instead of the triangles' own.
     std::optional<std::vector<std::array<int, 2>>> neighbours;
     std::vector<DirectedWeight> custom;  // λ of input vertices, for InnerFairness::custom
+    int threads = 0;                     // 0: one on each core; the result doesn't depend on it
 };
 
 struct FairResult {

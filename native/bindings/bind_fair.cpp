@@ -72,6 +72,7 @@ struct Options {
     std::string normals;
     double tolerance;
     int max_iterations;
+    int threads;
 };
 
 // Options of method "paper".
@@ -137,6 +138,7 @@ FairOptions to_fair_options(const Options& options, const PaperChoices& paper, c
     result.solver.normals = options.normals == "averaged" ? NormalKind::averaged : NormalKind::fitted;
     result.solver.tolerance = options.tolerance;
     result.solver.max_iterations = options.max_iterations;
+    result.threads = options.threads;
     result.solver.nested = paper.levels != 1;
     result.inner_fairness = to_inner_fairness(options.inner_fairness);
     if (fairness.neighbours) {
@@ -218,9 +220,9 @@ private:
 
 void bind_fair(py::module_& module) {
     py::class_<Options>(module, "Options")
-        .def(py::init<std::string, double, std::string, std::string, std::string, double, int>(), py::kw_only(),
+        .def(py::init<std::string, double, std::string, std::string, std::string, double, int, int>(), py::kw_only(),
              py::arg("equation"), py::arg("load"), py::arg("inner_fairness"), py::arg("method"), py::arg("normals"),
-             py::arg("tolerance"), py::arg("max_iterations"));
+             py::arg("tolerance"), py::arg("max_iterations"), py::arg("threads"));
     py::class_<PaperChoices>(module, "PaperChoices")
         .def(py::init<double, int, int, int, double, std::string, std::string, std::string, int>(), py::kw_only(),
              py::arg("damping"), py::arg("cg_steps"), py::arg("h_sweeps"), py::arg("vertex_sweeps"), py::arg("epsilon"),

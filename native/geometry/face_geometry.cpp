@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 
+#include "base/parallel.h"
+
 namespace fairing {
 
 double triangle_shape(const Vector3& a, const Vector3& b, const Vector3& c) {
@@ -13,35 +15,53 @@ double triangle_shape(const Vector3& a, const Vector3& b, const Vector3& c) {
 }
 
 void FaceGeometry::update(const Points& points, const Triangles& triangles) {
-    const Eigen::Index count = triangles.cols();
+    const int count = static_cast<int>(triangles.cols());
     cotangents.resize(3, count);
     areas.resize(count);
     normals.resize(3, count);
-    for (Eigen::Index t = 0; t < count; ++t) {
-        const Vector3 a = points.col(triangles(0, t));
-        const Vector3 b = points.col(triangles(1, t));
-        const Vector3 c = points.col(triangles(2, t));
-        const Vector3 ab = b - a;
-        const Vector3 bc = c - b;
-        const Vector3 ca = a - c;
-        const Vector3 cross = ab.cross(-ca);
-        const double twice_area = cross.norm();
-        const double longest = std::max({ab.squaredNorm(), bc.squaredNorm(), ca.squaredNorm()});
-        const double safe = std::max({twice_area, 1e-12 * longest, 1e-300});
-        cotangents.col(t) << -ab.dot(ca) / safe, -bc.dot(ab) / safe, -ca.dot(bc) / safe;
-        areas[t] = 0.5 * twice_area;
-        normals.col(t) = twice_area > 1e-12 * longest ? Vector3(cross / twice_area) : Vector3(Vector3::Zero());
-    }
+    for_ranges(count, coarse_grain, [&](int begin, int end) {
+        for (int t = begin; t < end; ++t) measure(points, triangles, t);
+    });
 }
 
+void FaceGeometry::measure(const Points& points, const Triangles& triangles, int t) {
+    const Vector3 a = points.col(triangles(0, t));
+    const Vector3 b = points.col(triangles(1, t));
+    const Vector3 c = points.col(triangles(2, t));
+    const Vector3 ab = b - a;
+    const Vector3 bc = c - b;
+    const Vector3 ca = a - c;
+    const Vector3 cross = ab.cross(-ca);
+    const double twice_area = cross.norm();
+    const double longest = std::max({ab.squaredNorm(), bc.squaredNorm(), ca.squaredNorm()});
+    const double safe = std::max({twice_area, 1e-12 * longest, 1e-300});
+    cotangents.col(t) << -ab.dot(ca) / safe, -bc.dot(ab) / safe, -ca.dot(bc) / safe;
+    areas[t] = 0.5 * twice_area;
+    normals.col(t) = twice_area > 1e-12 * longest ? Vector3(cross / twice_area) : Vector3(Vector3::Zero());
+}
+
+namespace {
+
+double cotangent_opposite(const FaceGeometry& faces, const Patch& patch, int edge, int triangle) {
+    int corner = 0;
+    while (patch.triangle_edges(corner, triangle) != edge) ++corner;
+    return faces.cotangents(corner, triangle);
+}
+
+}  // namespace
+
 void Stiffness::update(const FaceGeometry& faces, const Patch& patch) {
-    weights.setZero(patch.edge_count());
+    weights.resize(patch.edge_count());
+    for_ranges(patch.edge_count(), coarse_grain, [&](int begin, int end) {
+        for (int e = begin; e < end; ++e) {
+            const auto [left, right] = patch.edge_triangles[at(e)];
+            weights[e] = cotangent_opposite(faces, patch, e, left);
+            if (right != none) weights[e] += cotangent_opposite(faces, patch, e, right);
+        }
+    });
     mass.setZero(patch.vertex_count());
     for (int t = 0; t < patch.triangle_count(); ++t) {
-        for (int k = 0; k < 3; ++k) {
-            weights[patch.triangle_edges(k, t)] += faces.cotangents(k, t);
-            mass[patch.triangles(k, t)] += faces.areas[t] / 3.0;
-        }
+        for (int v : patch.triangles.col(t)) mass[v] += faces.areas[t] / 3.0;
     }
     // A one-ring collapsed to a point has no area; the equations divide by it.
     const double floor = 1e-14 * std::max(mass.mean(), 1e-300);

@@ -1,6 +1,7 @@
 // Cotangents, areas and unit normals of all triangles, and the Laplace–Beltrami weights that follow from them.
 #pragma once
 
+#include "base/parallel.h"
 #include "mesh/patch.h"
 
 namespace fairing {
@@ -17,6 +18,9 @@ struct FaceGeometry {
     Points normals;
 
     void update(const Points& points, const Triangles& triangles);
+
+private:
+    void measure(const Points& points, const Triangles& triangles, int triangle);
 };
 
 // Laplace–Beltrami matrix S of all vertices of a patch, kept as one weight for each edge (paper §5, eq. 6, 7):
@@ -36,12 +40,14 @@ struct Stiffness {
 template <typename Field>
 Field Stiffness::apply(const Patch& patch, const Field& field, int count) const {
     Field result = Field::Zero(field.rows(), count);
-    for (int i = 0; i < count; ++i) {
-        const RingView ring = patch.ring(i);
-        for (std::size_t k = 0; k < ring.valence(); ++k) {
-            result.col(i) += weights[ring.spokes[k]] * (field.col(i) - field.col(ring.vertices[k]));
+    for_ranges(count, coarse_grain, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i) {
+            const RingView ring = patch.ring(i);
+            for (std::size_t k = 0; k < ring.valence(); ++k) {
+                result.col(i) += weights[ring.spokes[k]] * (field.col(i) - field.col(ring.vertices[k]));
+            }
         }
-    }
+    });
     return result;
 }
 

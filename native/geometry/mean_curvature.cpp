@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "base/parallel.h"
 #include "geometry/one_ring_buffer.h"
 #include "geometry/virtual_points.h"
 
@@ -103,18 +104,21 @@ CurvatureFit fit_curvature(const Vector3& centre, std::span<const Vector3> point
 PatchCurvature patch_curvature(const Patch& patch, const Points& points, const FaceGeometry& faces,
                                const Points& normals, NormalKind kind) {
     const Points virtual_points = edge_virtual_points(patch, points, faces, normals);
-    OneRingBuffer buffer;
+    const auto virtual_point = [&](int edge) { return virtual_points.col(edge); };
     PatchCurvature curvature{VectorX(patch.vertex_count()), Points(3, patch.vertex_count())};
-    for (int i = 0; i < patch.vertex_count(); ++i) {
-        CurvatureLeastSquares rows(points.col(i), normals.col(i));
-        buffer.gather(patch, points, i);
-        for (const Vector3& p : buffer.with_virtual(patch, virtual_points, i)) rows.add_point(p);
-        if (kind == NormalKind::fitted && !patch.is_free(i) && !patch.ring(i).closed())
-            add_outline_normals(patch, points, normals, i, rows);
-        const CurvatureFit fit = rows.solve();
-        curvature.mean[i] = fit.mean();
-        curvature.form.col(i) << fit.x0, fit.x1, fit.x2;
-    }
+    for_ranges(patch.vertex_count(), fine_grain, [&](int begin, int end) {
+        OneRingBuffer buffer;
+        for (int i = begin; i < end; ++i) {
+            CurvatureLeastSquares rows(points.col(i), normals.col(i));
+            buffer.gather(patch, points, i);
+            for (const Vector3& p : buffer.with_virtual(patch, i, virtual_point)) rows.add_point(p);
+            if (kind == NormalKind::fitted && !patch.is_free(i) && !patch.ring(i).closed())
+                add_outline_normals(patch, points, normals, i, rows);
+            const CurvatureFit fit = rows.solve();
+            curvature.mean[i] = fit.mean();
+            curvature.form.col(i) << fit.x0, fit.x1, fit.x2;
+        }
+    });
     return curvature;
 }
 

@@ -17,9 +17,10 @@ public:
         return {points.col(vertex), points_, ring.closed()};
     }
 
-    // Appends a virtual point for each rim edge of the ring gathered last; `virtual_points` has a column for each edge.
-    std::span<const Vector3> with_virtual(const Patch& patch, const Points& virtual_points, int vertex) {
-        for (int edge : patch.ring(vertex).rim) points_.emplace_back(virtual_points.col(edge));
+    // Appends virtual_point(edge) for each rim edge of the ring gathered last.
+    template <typename VirtualPoint>
+    std::span<const Vector3> with_virtual(const Patch& patch, int vertex, const VirtualPoint& virtual_point) {
+        for (int edge : patch.ring(vertex).rim) points_.emplace_back(virtual_point(edge));
         return points_;
     }
 

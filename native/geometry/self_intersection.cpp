@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <numeric>
 
 #include <Eigen/Geometry>
+
+#include "base/parallel.h"
 
 namespace fairing {
 
@@ -13,37 +16,45 @@ namespace {
 using Box = Eigen::AlignedBox3d;
 using Corners = std::array<Vector3, 3>;
 
+constexpr int leaf_size = 4;
+constexpr int most_pieces = 64;  // of a level of the tree, to work on side by side
+
 // Six times the signed volume of a tetrahedron.
 double volume(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
     return (b - a).cross(c - a).dot(d - a);
 }
 
-// The segment pq passes through the inside of the triangle, by more than round-off.
-bool pierces(const Vector3& p, const Vector3& q, const Corners& t) {
-    constexpr double round_off = 1e-12;
-    const double size = std::max({(t[1] - t[0]).norm(), (t[2] - t[0]).norm(), (q - p).norm()});
-    const double slack = round_off * size * size * size;
-    const double above = volume(t[0], t[1], t[2], p);
-    const double below = volume(t[0], t[1], t[2], q);
-    if (!((above > slack && below < -slack) || (above < -slack && below > slack))) return false;
-    const double sign = above > 0.0 ? -1.0 : 1.0;
-    for (int k = 0; k < 3; ++k) {
-        if (!(sign * volume(p, q, t[at(k)], t[at((k + 1) % 3)]) > slack)) return false;
-    }
-    return true;
-}
+// The triangles of a range of the order, split at the median.
+struct Node {
+    Box box;
+    int begin = 0;
+    int end = 0;
+    [[nodiscard]] int size() const { return end - begin; }
+    [[nodiscard]] bool is_leaf() const { return size() <= leaf_size; }
+};
 
 class Crossings {
 public:
     Crossings(const Triangles& triangles, const Points& points)
-        : triangles_(triangles), points_(points), crossing_(at(static_cast<int>(triangles.cols())), 0) {
-        order_.resize(crossing_.size());
+        : triangles_(triangles), points_(points), crossing_(at(static_cast<int>(triangles.cols()))) {
+        const int count = static_cast<int>(triangles.cols());
+        order_.resize(at(count));
         std::iota(order_.begin(), order_.end(), 0);
-        if (!order_.empty()) build(0, static_cast<int>(order_.size()));
+        boxes_.resize(at(count));
+        for_ranges(count, coarse_grain, [&](int begin, int end) {
+            for (int t = begin; t < end; ++t) {
+                for (const Vector3& corner : corners(t)) boxes_[at(t)].extend(corner);
+            }
+        });
+        int last_level = 1;  // nodes there: enough for all of them to be leaves
+        while (last_level * leaf_size < count) last_level *= 2;
+        nodes_.resize(2 * at(last_level));
+        nodes_[1] = {Box(), 0, count};
+        for (int level = 1; level <= last_level; level *= 2) sort_level(level);
     }
 
     Indices find() {
-        if (!nodes_.empty()) test_inside(0);
+        test_pairs();
         Indices result;
         for (int t = 0; t < static_cast<int>(crossing_.size()); ++t) {
             if (crossing_[at(t)]) result.push_back(t);
@@ -52,82 +63,98 @@ public:
     }
 
 private:
-    // A leaf has no children and holds order_[begin … end).
-    struct Node {
-        Box box;
-        int begin;
-        int end;
-        int left = none;
-        int right = none;
+    // Numbers two nodes that may touch, or a node twice.
+    struct Pair {
+        int first;
+        int second;
     };
 
     [[nodiscard]] Corners corners(int t) const {
         return {points_.col(triangles_(0, t)), points_.col(triangles_(1, t)), points_.col(triangles_(2, t))};
     }
 
-    [[nodiscard]] Vector3 centre(int t) const {
-        const Corners c = corners(t);
-        return c[0] + c[1] + c[2];
+    // Children of node k are 2 k and 2 k + 1: a level begins at a power of two and has as many nodes.
+    void sort_level(int first) {
+        for_ranges(first, std::max(1, first / most_pieces), [&](int begin, int end) {
+            for (int k = first + begin; k < first + end; ++k) sort_node(k);
+        });
     }
 
-    int build(int begin, int end) {
-        constexpr int leaf_size = 4;
-        const int index = static_cast<int>(nodes_.size());
-        nodes_.push_back({Box(), begin, end});
-        Box box;
+    void sort_node(int index) {
+        Node& node = nodes_[at(index)];
         Box centres;
-        for (int k = begin; k < end; ++k) {
-            for (const Vector3& corner : corners(order_[at(k)])) box.extend(corner);
-            centres.extend(centre(order_[at(k)]));
+        for (int k = node.begin; k < node.end; ++k) {
+            const Box& box = boxes_[at(order_[at(k)])];
+            node.box.extend(box);
+            centres.extend(Vector3(box.min() + box.max()));
         }
-        nodes_[at(index)].box = box;
-        if (end - begin <= leaf_size) return index;
+        if (node.is_leaf()) return;
         Eigen::Index axis = 0;
         centres.sizes().maxCoeff(&axis);
-        const int middle = (begin + end) / 2;
-        std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](int a, int b) {
-            const double x = centre(a)[axis];
-            const double y = centre(b)[axis];
+        const int middle = (node.begin + node.end) / 2;
+        const auto first = order_.begin();
+        std::nth_element(first + node.begin, first + middle, first + node.end, [&](int a, int b) {
+            const double x = boxes_[at(a)].min()[axis] + boxes_[at(a)].max()[axis];
+            const double y = boxes_[at(b)].min()[axis] + boxes_[at(b)].max()[axis];
             return x != y ? x < y : a < b;
         });
-        const int left = build(begin, middle);
-        const int right = build(middle, end);
-        nodes_[at(index)].left = left;
-        nodes_[at(index)].right = right;
-        return index;
+        nodes_[at(2 * index)] = {Box(), node.begin, middle};
+        nodes_[at(2 * index + 1)] = {Box(), middle, node.end};
     }
 
-    void test_inside(int index) {
-        const Node node = nodes_[at(index)];
-        if (node.left != none) {
-            test_inside(node.left);
-            test_inside(node.right);
-            test_between(node.left, node.right);
-            return;
-        }
-        for (int a = node.begin; a < node.end; ++a) {
-            for (int b = a + 1; b < node.end; ++b) test_pair(order_[at(a)], order_[at(b)]);
-        }
-    }
-
-    void test_between(int first, int second) {
-        const Node a = nodes_[at(first)];
-        const Node b = nodes_[at(second)];
-        if (!a.box.intersects(b.box)) return;
-        if (a.left != none && (b.left == none || a.end - a.begin >= b.end - b.begin)) {
-            test_between(a.left, second);
-            test_between(a.right, second);
-        } else if (b.left != none) {
-            test_between(first, b.left);
-            test_between(first, b.right);
-        } else {
-            for (int k = a.begin; k < a.end; ++k) {
-                for (int l = b.begin; l < b.end; ++l) test_pair(order_[at(k)], order_[at(l)]);
+    // Pairs of large nodes are split one after the other, what they come down to side by side.
+    void test_pairs() {
+        const int small = std::max(leaf_size, static_cast<int>(order_.size()) / most_pieces);
+        std::vector<Pair> open{{1, 1}};
+        std::vector<Pair> pieces;
+        while (!open.empty()) {
+            const Pair pair = open.back();
+            open.pop_back();
+            if (std::max(nodes_[at(pair.first)].size(), nodes_[at(pair.second)].size()) <= small) {
+                pieces.push_back(pair);
+            } else {
+                split(pair, [&](const Pair& part) { open.push_back(part); });
             }
         }
+        run_pieces(static_cast<int>(pieces.size()), [&](int k) { test(pieces[at(k)]); });
     }
 
-    void test_pair(int a, int b) {
+    // visit(pair) for the parts of a pair of which not both are leaves, as far as they touch.
+    template <typename Visit>
+    void split(const Pair& pair, const Visit& visit) const {
+        const auto [a, b] = pair;
+        if (a == b) {
+            for (const Pair& part : {Pair{2 * a, 2 * a}, Pair{2 * a + 1, 2 * a + 1}, Pair{2 * a, 2 * a + 1}}) {
+                if (touch(part)) visit(part);
+            }
+            return;
+        }
+        const bool splits_first = nodes_[at(a)].size() >= nodes_[at(b)].size();
+        for (int child : {0, 1}) {
+            const Pair part = splits_first ? Pair{2 * a + child, b} : Pair{a, 2 * b + child};
+            if (touch(part)) visit(part);
+        }
+    }
+
+    [[nodiscard]] bool touch(const Pair& pair) const {
+        return nodes_[at(pair.first)].box.intersects(nodes_[at(pair.second)].box);
+    }
+
+    void test(const Pair& pair) {
+        const Node& a = nodes_[at(pair.first)];
+        const Node& b = nodes_[at(pair.second)];
+        if (!a.is_leaf() || !b.is_leaf()) {
+            split(pair, [&](const Pair& part) { test(part); });
+            return;
+        }
+        for (int k = a.begin; k < a.end; ++k) {
+            const int other = pair.first == pair.second ? k + 1 : b.begin;
+            for (int l = other; l < b.end; ++l) test_triangles(order_[at(k)], order_[at(l)]);
+        }
+    }
+
+    void test_triangles(int a, int b) {
+        if (!boxes_[at(a)].intersects(boxes_[at(b)])) return;
         int shared = 0;
         for (int v : triangles_.col(a)) {
             for (int w : triangles_.col(b)) shared += v == w;
@@ -136,22 +163,42 @@ private:
         if (edge_pierces(a, b) || edge_pierces(b, a)) crossing_[at(a)] = crossing_[at(b)] = 1;
     }
 
-    // Edges that end in a corner of the other triangle only touch it.
+    // An edge of triangle a passes through the inside of triangle b, by more than round-off. Edges that end in a corner
+    // of b only touch it.
     [[nodiscard]] bool edge_pierces(int a, int b) const {
-        const Corners target = corners(b);
+        constexpr double round_off = 1e-12;
+        const Corners from = corners(a);
+        const Corners to = corners(b);
+        const double size = std::max(boxes_[at(a)].diagonal().norm(), boxes_[at(b)].diagonal().norm());
+        const double slack = round_off * size * size * size;
+        std::array<double, 3> above;
+        for (int k = 0; k < 3; ++k) above[at(k)] = volume(to[0], to[1], to[2], from[at(k)]);
         const auto is_corner_of_b = [&](int v) { return (triangles_.col(b).array() == v).any(); };
         for (int k = 0; k < 3; ++k) {
-            const int p = triangles_(k, a);
-            const int q = triangles_((k + 1) % 3, a);
-            if (is_corner_of_b(p) || is_corner_of_b(q)) continue;
-            if (pierces(points_.col(p), points_.col(q), target)) return true;
+            const int next = (k + 1) % 3;
+            const double p = above[at(k)];
+            const double q = above[at(next)];
+            if (!((p > slack && q < -slack) || (p < -slack && q > slack))) continue;
+            if (is_corner_of_b(triangles_(k, a)) || is_corner_of_b(triangles_(next, a))) continue;
+            if (passes_inside(from[at(k)], from[at(next)], to, p > 0.0 ? -slack : slack)) return true;
         }
         return false;
     }
 
+    // The line pq passes all edges of the triangle on the side of its inside: where all volumes have the sign of
+    // `slack`, and more than its size.
+    [[nodiscard]] static bool passes_inside(const Vector3& p, const Vector3& q, const Corners& t, double slack) {
+        const double sign = slack > 0.0 ? 1.0 : -1.0;
+        for (int k = 0; k < 3; ++k) {
+            if (!(sign * volume(p, q, t[at(k)], t[at((k + 1) % 3)]) > std::abs(slack))) return false;
+        }
+        return true;
+    }
+
     const Triangles& triangles_;
     const Points& points_;
-    std::vector<char> crossing_;
+    std::vector<std::atomic<char>> crossing_;
+    std::vector<Box> boxes_;  // of triangles
     Indices order_;
     std::vector<Node> nodes_;
 };
@@ -159,6 +206,7 @@ private:
 }  // namespace
 
 Indices crossing_triangles(const Triangles& triangles, const Points& points) {
+    if (triangles.cols() == 0) return {};
     return Crossings(triangles, points).find();
 }
 

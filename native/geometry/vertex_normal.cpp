@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "base/parallel.h"
 #include "geometry/frame.h"
 #include "geometry/one_ring_buffer.h"
 #include "geometry/virtual_points.h"
@@ -54,12 +55,17 @@ bool is_prescribed(const Patch& patch, int vertex) {
     return !patch.is_free(vertex) && !patch.pin[static_cast<std::size_t>(vertex)];
 }
 
+// normal(ring): of the vertices without a prescribed one.
 template <typename Normal>
-Points computed_normals(const Patch& patch, const Points& prescribed, Normal normal) {
+Points computed_normals(const Patch& patch, const Points& points, const Points& prescribed, const Normal& normal) {
     Points normals(3, patch.vertex_count());
-    for (int i = 0; i < patch.vertex_count(); ++i) {
-        normals.col(i) = is_prescribed(patch, i) ? Vector3(prescribed.col(i - patch.free_count)) : normal(i);
-    }
+    for_ranges(patch.vertex_count(), fine_grain, [&](int begin, int end) {
+        OneRingBuffer buffer;
+        for (int i = begin; i < end; ++i) {
+            normals.col(i) = is_prescribed(patch, i) ? Vector3(prescribed.col(i - patch.free_count))
+                                                     : normal(buffer.gather(patch, points, i));
+        }
+    });
     return normals;
 }
 
@@ -110,30 +116,24 @@ Vector3 fitted_normal(const Vector3& centre, std::span<const Vector3> points, co
 }
 
 Points max_normals(const Patch& patch, const Points& points, const Points& prescribed) {
-    OneRingBuffer buffer;
-    return computed_normals(patch, prescribed, [&](int i) { return max_normal(buffer.gather(patch, points, i)); });
+    return computed_normals(patch, points, prescribed, max_normal);
 }
 
 Points vertex_normals(const Patch& patch, const Points& points, const FaceGeometry& faces, const Points& prescribed,
                       NormalKind kind) {
-    OneRingBuffer buffer;
-    if (kind == NormalKind::averaged) {
-        return computed_normals(patch, prescribed,
-                                [&](int i) { return averaged_normal(buffer.gather(patch, points, i)); });
-    }
-    const auto sparse = [&](int i) { return patch.ring(i).valence() < smallest_full_ring; };
-    Points normals = computed_normals(patch, prescribed, [&](int i) {
-        const OneRing ring = buffer.gather(patch, points, i);
+    if (kind == NormalKind::averaged) return computed_normals(patch, points, prescribed, averaged_normal);
+    const Points normals = computed_normals(patch, points, prescribed, [](const OneRing& ring) {
         const Vector3 start = max_normal(ring);
-        return sparse(i) ? start : fitted_normal(ring.centre, ring.points, start);
+        return ring.points.size() < smallest_full_ring ? start : fitted_normal(ring.centre, ring.points, start);
     });
     // Second pass: small rings are completed by virtual points between neighbours whose normals are known by now.
-    const Points virtual_points = edge_virtual_points(patch, points, faces, normals);
+    const auto virtual_point = [&](int edge) { return edge_virtual_point(patch, points, faces, normals, edge); };
     Points result = normals;
+    OneRingBuffer buffer;
     for (int i = 0; i < patch.vertex_count(); ++i) {
-        if (is_prescribed(patch, i) || !sparse(i)) continue;
+        if (is_prescribed(patch, i) || patch.ring(i).valence() >= smallest_full_ring) continue;
         const OneRing ring = buffer.gather(patch, points, i);
-        const auto completed = buffer.with_virtual(patch, virtual_points, i);
+        const auto completed = buffer.with_virtual(patch, i, virtual_point);
         result.col(i) = fitted_normal(ring.centre, completed, normals.col(i));
     }
     return result;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
+
 namespace fairing {
 
 namespace {
@@ -31,15 +33,20 @@ Vector3 virtual_point(const NormalChord& chord) {
     return midpoint + up * (0.25 * length * (slope_a + slope_b));
 }
 
+Vector3 edge_virtual_point(const Patch& patch, const Points& points, const FaceGeometry& faces, const Points& normals,
+                           int edge) {
+    const auto [a, b] = patch.edge_ends[at(edge)];
+    const auto [left, right] = patch.edge_triangles[at(edge)];
+    Vector3 triangle_normals = faces.normals.col(left);
+    if (right != none) triangle_normals += faces.normals.col(right);
+    return virtual_point({points.col(a), points.col(b), normals.col(a), normals.col(b), triangle_normals});
+}
+
 Points edge_virtual_points(const Patch& patch, const Points& points, const FaceGeometry& faces, const Points& normals) {
     Points result(3, patch.edge_count());
-    for (int e = 0; e < patch.edge_count(); ++e) {
-        const auto [a, b] = patch.edge_ends[static_cast<std::size_t>(e)];
-        const auto [left, right] = patch.edge_triangles[static_cast<std::size_t>(e)];
-        Vector3 triangle_normals = faces.normals.col(left);
-        if (right != none) triangle_normals += faces.normals.col(right);
-        result.col(e) = virtual_point({points.col(a), points.col(b), normals.col(a), normals.col(b), triangle_normals});
-    }
+    for_ranges(patch.edge_count(), coarse_grain, [&](int begin, int end) {
+        for (int e = begin; e < end; ++e) result.col(e) = edge_virtual_point(patch, points, faces, normals, e);
+    });
     return result;
 }
 

@@ -20,7 +20,11 @@ struct NormalChord {
 // in all its arguments while the triangle normals don't cancel.
 Vector3 virtual_point(const NormalChord& chord);
 
-// One virtual point for each edge of a patch: it does not depend on the vertex that looks at it.
+// Of an edge of a patch: it does not depend on the vertex that looks at it.
+Vector3 edge_virtual_point(const Patch& patch, const Points& points, const FaceGeometry& faces, const Points& normals,
+                           int edge);
+
+// Of all edges.
 Points edge_virtual_points(const Patch& patch, const Points& points, const FaceGeometry& faces, const Points& normals);
 
 }  // namespace fairing

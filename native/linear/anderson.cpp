@@ -4,7 +4,40 @@
 
 #include <Eigen/QR>
 
+#include "base/parallel.h"
+
 namespace fairing {
+
+namespace {
+
+constexpr int rows_at_once = 4096;
+
+// γ with least |A γ − b|, of least norm in the columns that are independent.
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A);
+    qr.setThreshold(1e-12);
+    return qr.solve(b);
+}
+
+// The same of the first columns of a tall A by factors of its parts (Golub, Plemmons & Sameh 1988).
+Eigen::VectorXd least_squares_by_parts(const Eigen::MatrixXd& A, int columns, const Eigen::VectorXd& b) {
+    const int rows = static_cast<int>(A.rows());
+    const int parts = (rows + rows_at_once - 1) / rows_at_once;
+    if (parts == 1) return least_squares(A.leftCols(columns), b);
+    Eigen::MatrixXd factors = Eigen::MatrixXd::Zero(Eigen::Index(parts) * columns, columns);
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(factors.rows());
+    for_ranges(rows, rows_at_once, [&](int begin, int end) {
+        const Eigen::HouseholderQR<Eigen::MatrixXd> qr(A.block(begin, 0, end - begin, columns));
+        const Eigen::VectorXd rotated = qr.householderQ().adjoint() * b.segment(begin, end - begin);
+        const Eigen::Index first = Eigen::Index(begin / rows_at_once) * columns;
+        const int kept = std::min(columns, end - begin);
+        factors.middleRows(first, kept) = qr.matrixQR().topRows(kept).triangularView<Eigen::Upper>();
+        values.segment(first, kept) = rotated.head(kept);
+    });
+    return least_squares(factors, values);
+}
+
+}  // namespace
 
 Anderson::Anderson(Eigen::Index size, int depth) : depth_(depth), dx_(size, depth), df_(size, depth) {}
 
@@ -18,10 +51,13 @@ Eigen::VectorXd Anderson::step(const Eigen::VectorXd& x, const Eigen::VectorXd& 
     last_f_ = f;
     const int used = std::min(count_++, depth_);
     if (used == 0) return f;
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(df_.leftCols(used));
-    qr.setThreshold(1e-12);
-    const Eigen::VectorXd gamma = qr.solve(f);
-    return f - (dx_.leftCols(used) + df_.leftCols(used)) * gamma;
+    const Eigen::VectorXd gamma = least_squares_by_parts(df_, used, f);
+    Eigen::VectorXd step = f;
+    for_ranges(static_cast<int>(step.size()), rows_at_once, [&](int begin, int end) {
+        const int size = end - begin;
+        step.segment(begin, size) -= (dx_.block(begin, 0, size, used) + df_.block(begin, 0, size, used)) * gamma;
+    });
+    return step;
 }
 
 }  // namespace fairing

@@ -1,32 +1,49 @@
 // Preconditioned conjugate gradients over the columns of a field.
 #pragma once
 
+#include "base/parallel.h"
 #include "base/types.h"
 
 namespace fairing {
 
+inline double inner_product(const Points& a, const Points& b) {
+    return sum_over_ranges(static_cast<int>(a.cols()), coarse_grain, [&](int begin, int end) {
+        return a.middleCols(begin, end - begin).cwiseProduct(b.middleCols(begin, end - begin)).sum();
+    });
+}
+
 // x with A x ≈ r from x = 0, until the residual in the preconditioner's norm has fallen to `relative_tolerance` or
-// after `max_cycles`; earlier where A shows itself not to be positive definite. `apply(p)`: A p; `precondition(r)`:
-// about A⁻¹ r.
+// after `max_cycles`; earlier where A shows itself not to be positive definite. `apply(p, q)`: q ← A p;
+// `precondition(r, z)`: z ← about A⁻¹ r. Both get q and z in the right size.
 template <typename Apply, typename Precondition>
 Points conjugate_gradients(Points r, double relative_tolerance, int max_cycles, const Apply& apply,
                            const Precondition& precondition) {
-    const auto inner = [](const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); };
-    Points x = Points::Zero(3, r.cols());
-    Points z = precondition(r);
+    const int count = static_cast<int>(r.cols());
+    Points x = Points::Zero(3, count);
+    Points z(3, count);
+    Points product(3, count);
+    precondition(r, z);
     Points p = z;
-    double rz = inner(r, z);
+    double rz = inner_product(r, z);
     const double target = relative_tolerance * relative_tolerance * rz;
     for (int cycle = 0; cycle < max_cycles && rz > target; ++cycle) {
-        const Points Ap = apply(p);
-        const double curvature = inner(p, Ap);
+        apply(p, product);
+        const double curvature = inner_product(p, product);
         if (!(curvature > 0.0)) break;
         const double alpha = rz / curvature;
-        x += alpha * p;
-        r -= alpha * Ap;
-        z = precondition(r);
-        const double next = inner(r, z);
-        p = z + (next / rz) * p;
+        for_ranges(count, coarse_grain, [&](int begin, int end) {
+            const int size = end - begin;
+            x.middleCols(begin, size) += alpha * p.middleCols(begin, size);
+            r.middleCols(begin, size) -= alpha * product.middleCols(begin, size);
+        });
+        if (cycle + 1 == max_cycles) break;
+        precondition(r, z);
+        const double next = inner_product(r, z);
+        const double beta = next / rz;
+        for_ranges(count, coarse_grain, [&](int begin, int end) {
+            const int size = end - begin;
+            p.middleCols(begin, size) = z.middleCols(begin, size) + beta * p.middleCols(begin, size);
+        });
         rz = next;
     }
     return x;

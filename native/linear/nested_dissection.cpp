@@ -1,13 +1,18 @@
 #include "linear/nested_dissection.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <numeric>
+
+#include "base/parallel.h"
 
 namespace fairing {
 
 namespace {
 
 constexpr std::ptrdiff_t leaf = 32;
+constexpr int shared_depth = 4;
 
 class Dissection {
 public:
@@ -34,18 +39,29 @@ public:
         std::iota(order_.begin(), order_.end(), 0);
     }
 
+    // The first halves are cut one after the other, then each by itself.
     Indices run() {
-        dissect(order_.begin(), order_.end());
+        std::vector<Range> ranges{{order_.begin(), order_.end()}};
+        for (int depth = 0; depth < shared_depth; ++depth) {
+            std::vector<std::array<Range, 2>> halves(ranges.size());
+            run_pieces(static_cast<int>(ranges.size()), [&](int k) { halves[at(k)] = cut(ranges[at(k)]); });
+            ranges.clear();
+            for (const auto& pair : halves) ranges.insert(ranges.end(), pair.begin(), pair.end());
+        }
+        run_pieces(static_cast<int>(ranges.size()), [&](int k) { dissect(ranges[at(k)]); });
         return std::move(order_);
     }
 
 private:
-    using Iterator = Indices::iterator;
+    struct Range {
+        Indices::iterator first;
+        Indices::iterator last;
+    };
 
-    [[nodiscard]] int longest_axis(Iterator first, Iterator last) const {
-        Vector3 low = points_.col(*first);
+    [[nodiscard]] int longest_axis(const Range& range) const {
+        Vector3 low = points_.col(*range.first);
         Vector3 high = low;
-        for (auto v = first; v != last; ++v) {
+        for (auto v = range.first; v != range.last; ++v) {
             low = low.cwiseMin(points_.col(*v));
             high = high.cwiseMax(points_.col(*v));
         }
@@ -54,9 +70,17 @@ private:
         return axis;
     }
 
-    void dissect(Iterator first, Iterator last) {
-        if (last - first <= leaf) return;
-        const int axis = longest_axis(first, last);
+    void dissect(const Range& range) {
+        if (range.last - range.first <= leaf) return;
+        for (const Range& half : cut(range)) dissect(half);
+    }
+
+    // The two halves; their separator stands behind them. Unknowns of different halves are not coupled, so that pieces
+    // cut side by side look at no part_ but their own and those of separators, which stay as they are.
+    std::array<Range, 2> cut(const Range& range) {
+        const auto [first, last] = range;
+        if (last - first <= leaf) return {Range{first, first}, Range{first, first}};
+        const int axis = longest_axis(range);
         const auto middle = first + (last - first) / 2;
         std::nth_element(first, middle, last, [&](int a, int b) {
             const double x = points_(axis, a);
@@ -71,15 +95,14 @@ private:
         });
         const auto separator_size = middle - separator;
         std::rotate(separator, middle, last);
-        dissect(first, separator);
-        dissect(separator, last - separator_size);
+        return {Range{first, separator}, Range{separator, last - separator_size}};
     }
 
     const Points& points_;
     Indices begin_;
     Indices neighbours_;
     Indices part_;  // which right half an unknown was in last
-    int parts_ = 0;
+    std::atomic<int> parts_ = 0;
     Indices order_;
 };
 

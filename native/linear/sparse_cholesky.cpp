@@ -1,9 +1,11 @@
 #include "linear/sparse_cholesky.h"
 
 #include <algorithm>
+#include <atomic>
+#include <thread>
 
-#include <Eigen/Cholesky>
-
+#include "base/parallel.h"
+#include "linear/dense_front.h"
 #include "linear/nested_dissection.h"
 
 namespace fairing {
@@ -13,158 +15,186 @@ namespace {
 // Below, minimum degree leaves as little fill.
 constexpr Eigen::Index least_dissected = 5000;
 
+// Counts the operations of several threads; the one that made it reports, about every ten million.
+class SharedProgress {
+public:
+    SharedProgress(const Progress& progress, const char* what, double total)
+        : progress_(progress), what_(what), total_(total) {}
+
+    void add(double operations) {
+        constexpr long between_reports = 10'000'000;
+        const long done = done_ += static_cast<long>(operations);
+        if (std::this_thread::get_id() != caller_ || done - reported_ < between_reports) return;
+        reported_ = done;
+        progress_.report(std::min(1.0, static_cast<double>(done) / total_), what_);
+    }
+
+private:
+    const Progress& progress_;
+    const char* what_;
+    const double total_;
+    const std::thread::id caller_ = std::this_thread::get_id();
+    std::atomic<long> done_ = 0;
+    long reported_ = 0;
+};
+
 }  // namespace
 
-Eigen::Map<Eigen::MatrixXd> SparseCholesky::panel(int s) {
-    const Supernodes& nodes = elimination_.supernodes;
+SparseCholesky::Panel SparseCholesky::panel(int s) {
+    const Supernodes& nodes = tree_.nodes();
     return {panels_.data() + panel_begin_[at(s)], nodes.row_count(s), nodes.column_count(s)};
 }
 
-Eigen::Map<const Eigen::MatrixXd> SparseCholesky::panel(int s) const {
-    const Supernodes& nodes = elimination_.supernodes;
+SparseCholesky::ConstPanel SparseCholesky::panel(int s) const {
+    const Supernodes& nodes = tree_.nodes();
     return {panels_.data() + panel_begin_[at(s)], nodes.row_count(s), nodes.column_count(s)};
 }
 
 void SparseCholesky::set_up(const SparseMatrix& lower) {
     const bool dissect = layout_.cols() == lower.cols() && lower.cols() >= least_dissected;
-    elimination_ = analyse(lower, dissect ? nested_dissection(lower, layout_) : minimum_degree(lower));
-    const Supernodes& nodes = elimination_.supernodes;
+    Elimination elimination = analyse(lower, dissect ? nested_dissection(lower, layout_) : minimum_degree(lower));
+    order_ = std::move(elimination.order);
+    tree_ = FrontTree(std::move(elimination.supernodes));
+    const Supernodes& nodes = tree_.nodes();
     panel_begin_ = {0};
     for (int s = 0; s < nodes.size(); ++s) {
         panel_begin_.push_back(panel_begin_.back() + at(nodes.row_count(s)) * at(nodes.column_count(s)));
     }
-    panels_.resize(panel_begin_.back());
+    panels_.resize(static_cast<Eigen::Index>(panel_begin_.back()));
     updates_.resize(at(nodes.size()));
-    local_row_.assign(elimination_.order.size(), none);
-
-    children_begin_.assign(at(nodes.size()) + 1, 0);
-    for (int p : nodes.parent) {
-        if (p != none) ++children_begin_[at(p) + 1];
-    }
-    for (std::size_t s = 1; s < children_begin_.size(); ++s) children_begin_[s] += children_begin_[s - 1];
-    children_.resize(at(children_begin_.back()));
-    Indices cursor(children_begin_.begin(), children_begin_.end());
-    for (int s = 0; s < nodes.size(); ++s) {
-        if (nodes.parent[at(s)] != none) children_[at(cursor[at(nodes.parent[at(s)])]++)] = s;
-    }
-
-    entry_slot_.reserve(at(static_cast<int>(lower.nonZeros())));
-    for (int j = 0; j < lower.cols(); ++j) {
-        for (SparseMatrix::InnerIterator entry(lower, j); entry; ++entry) {
-            const int a = elimination_.position[at(static_cast<int>(entry.row()))];
-            const int b = elimination_.position[at(j)];
-            const int column = std::min(a, b);
-            const int s = nodes.column_to_supernode[at(column)];
-            const int* rows = nodes.row_list(s);
-            const auto row = std::lower_bound(rows, rows + nodes.row_count(s), std::max(a, b)) - rows;
-            const auto local_column = static_cast<std::size_t>(column - nodes.first[at(s)]);
-            entry_slot_.push_back(panel_begin_[at(s)] + local_column * at(nodes.row_count(s)) +
-                                  static_cast<std::size_t>(row));
-        }
-    }
+    find_slots(lower, elimination.position);
     analysed_ = true;
 }
 
+void SparseCholesky::find_slots(const SparseMatrix& lower, const Indices& position) {
+    const Supernodes& nodes = tree_.nodes();
+    entry_slot_.resize(static_cast<std::size_t>(lower.nonZeros()));
+    for_ranges(static_cast<int>(lower.cols()), coarse_grain, [&](int first, int last) {
+        auto slot = entry_slot_.begin() + lower.outerIndexPtr()[first];
+        for (int j = first; j < last; ++j) {
+            for (SparseMatrix::InnerIterator entry(lower, j); entry; ++entry) {
+                const int a = position[at(static_cast<int>(entry.row()))];
+                const int b = position[at(j)];
+                const int column = std::min(a, b);
+                const int s = nodes.column_to_supernode[at(column)];
+                const int* rows = nodes.row_list(s);
+                const auto row = std::lower_bound(rows, rows + nodes.row_count(s), std::max(a, b)) - rows;
+                const auto local_column = static_cast<std::size_t>(column - nodes.first[at(s)]);
+                *slot++ = panel_begin_[at(s)] + local_column * at(nodes.row_count(s)) + static_cast<std::size_t>(row);
+            }
+        }
+    });
+}
+
 void SparseCholesky::scatter(const SparseMatrix& lower) {
-    std::fill(panels_.begin(), panels_.end(), 0.0);
-    auto slot = entry_slot_.begin();
-    for (int j = 0; j < lower.cols(); ++j) {
-        for (SparseMatrix::InnerIterator entry(lower, j); entry; ++entry) panels_[*slot++] += entry.value();
-    }
+    for_ranges(tree_.nodes().size(), fine_grain, [&](int first, int last) {
+        for (int s = first; s < last; ++s) panel(s).setZero();
+    });
+    double* panels = panels_.data();
+    const double* values = lower.valuePtr();
+    for_ranges(static_cast<int>(lower.nonZeros()), 8 * coarse_grain, [&](int first, int last) {
+        for (int k = first; k < last; ++k) panels[entry_slot_[at(k)]] = values[k];
+    });
 }
 
 // Adds what a child passes on to the panel of its parent and to what the parent passes on itself (lower triangles).
 void SparseCholesky::add_child(int child, int parent, Eigen::MatrixXd& parent_update) {
-    const Supernodes& nodes = elimination_.supernodes;
     Eigen::MatrixXd& update = updates_[at(child)];
-    const int* rows = nodes.row_list(child) + nodes.column_count(child);
-    const int columns = nodes.column_count(parent);
+    const auto target = tree_.below_in_parent(child);
+    const int columns = tree_.nodes().column_count(parent);
     auto front = panel(parent);
     for (Eigen::Index b = 0; b < update.cols(); ++b) {
-        const int column = local_row_[at(rows[b])];
+        const int column = target[std::size_t(b)];
         if (column < columns) {
-            for (Eigen::Index a = b; a < update.rows(); ++a) front(local_row_[at(rows[a])], column) += update(a, b);
+            for (Eigen::Index a = b; a < update.rows(); ++a) front(target[std::size_t(a)], column) += update(a, b);
         } else {
             for (Eigen::Index a = b; a < update.rows(); ++a) {
-                parent_update(local_row_[at(rows[a])] - columns, column - columns) += update(a, b);
+                parent_update(target[std::size_t(a)] - columns, column - columns) += update(a, b);
             }
         }
     }
     update.resize(0, 0);
 }
 
-// Dense factorisation of one front; false where a pivot is not positive.
-bool SparseCholesky::eliminate(int s) {
-    const Supernodes& nodes = elimination_.supernodes;
-    const int columns = nodes.column_count(s);
-    const int below = nodes.row_count(s) - columns;
-    const int* rows = nodes.row_list(s);
-    for (int k = 0; k < nodes.row_count(s); ++k) local_row_[at(rows[k])] = k;
+// False where a pivot is not positive.
+bool SparseCholesky::eliminate(int s, const WorkDone& work_done) {
     Eigen::MatrixXd& update = updates_[at(s)];
+    const auto below = static_cast<Eigen::Index>(tree_.below(s).size());
     update.setZero(below, below);
-    for (int c = children_begin_[at(s)]; c < children_begin_[at(s) + 1]; ++c) add_child(children_[at(c)], s, update);
-
-    auto front = panel(s);
-    auto diagonal = front.topRows(columns);
-    Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(diagonal);
-    if (llt.info() != Eigen::Success) return false;
-    if (below == 0) return true;
-    auto lower = front.bottomRows(below);
-    diagonal.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(lower);
-    update.selfadjointView<Eigen::Lower>().rankUpdate(lower, -1.0);
-    return true;
+    for (int child : tree_.children(s)) add_child(child, s, update);
+    return eliminate_front(panel(s), update, work_done);
 }
 
 bool SparseCholesky::factorise(const SparseMatrix& lower, const char* what, const Progress& progress) {
     progress.report(0.0, what);
     if (!analysed_) set_up(lower);
     scatter(lower);
-    // Asked about every ten million operations of the dense kernels.
-    constexpr double operations_between_reports = 1e7;
-    double operations = 0.0;
-    const Supernodes& nodes = elimination_.supernodes;
-    for (int s = 0; s < nodes.size(); ++s) {
-        if (!eliminate(s)) return false;
-        const double rows = nodes.row_count(s);
-        operations += rows * rows * nodes.column_count(s);
-        if (operations > operations_between_reports) {
-            operations = 0.0;
-            progress.report(static_cast<double>(panel_begin_[at(s)]) / static_cast<double>(panels_.size()), what);
+    SharedProgress shared(progress, what, tree_.total_work());
+    const WorkDone work_done = [&](double operations) { shared.add(operations); };
+    std::atomic<bool> positive = true;
+    run_pieces(static_cast<int>(tree_.subtrees().size()), [&](int k) {
+        const Subtree& part = tree_.subtrees()[at(k)];
+        for (int s = part.begin; s < part.end && positive; ++s) {
+            if (!eliminate(s, work_done)) positive = false;
+        }
+    });
+    for (int s : tree_.top()) positive = positive && eliminate(s, work_done);
+    return positive;
+}
+
+// x ← L⁻¹ x in the supernode's rows and what follows below, in `outer` outside its subtree.
+void SparseCholesky::forward(int s, Eigen::MatrixXd& x, Eigen::MatrixXd& outer) const {
+    const auto front = panel(s);
+    const Eigen::Index columns = front.cols();
+    auto own = x.middleRows(tree_.nodes().first[at(s)], columns);
+    front.topRows(columns).triangularView<Eigen::Lower>().solveInPlace(own);
+    const Eigen::MatrixXd passed = front.bottomRows(front.rows() - columns) * own;
+    const auto rows = tree_.below(s);
+    const auto places = tree_.below_in_outer(s);
+    for (Eigen::Index k = 0; k < passed.rows(); ++k) {
+        const int place = places[std::size_t(k)];
+        if (place == none) {
+            x.row(rows[std::size_t(k)]) -= passed.row(k);
+        } else {
+            outer.row(place) -= passed.row(k);
         }
     }
-    return true;
+}
+
+// x ← L⁻ᵀ x in the supernode's rows.
+void SparseCholesky::backward(int s, Eigen::MatrixXd& x) const {
+    const auto front = panel(s);
+    const Eigen::Index columns = front.cols();
+    const auto rows = tree_.below(s);
+    Eigen::MatrixXd below(front.rows() - columns, x.cols());
+    for (Eigen::Index k = 0; k < below.rows(); ++k) below.row(k) = x.row(rows[std::size_t(k)]);
+    auto own = x.middleRows(tree_.nodes().first[at(s)], columns);
+    own.noalias() -= front.bottomRows(front.rows() - columns).transpose() * below;
+    front.topRows(columns).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
 }
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& rhs) const {
-    const Supernodes& nodes = elimination_.supernodes;
     Eigen::MatrixXd x(rhs.rows(), rhs.cols());
-    for (std::size_t k = 0; k < elimination_.order.size(); ++k) {
-        x.row(static_cast<Eigen::Index>(k)) = rhs.row(elimination_.order[k]);
+    for (std::size_t k = 0; k < order_.size(); ++k) x.row(static_cast<Eigen::Index>(k)) = rhs.row(order_[k]);
+    const std::vector<Subtree>& parts = tree_.subtrees();
+    std::vector<Eigen::MatrixXd> outer(parts.size());
+    run_pieces(static_cast<int>(parts.size()), [&](int k) {
+        const Subtree& part = parts[at(k)];
+        outer[at(k)].setZero(static_cast<Eigen::Index>(tree_.below(part.root()).size()), rhs.cols());
+        for (int s = part.begin; s < part.end; ++s) forward(s, x, outer[at(k)]);
+    });
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        Eigen::Index place = 0;
+        for (int row : tree_.below(parts[k].root())) x.row(row) += outer[k].row(place++);
     }
-    Eigen::MatrixXd below;
-    for (int s = 0; s < nodes.size(); ++s) {
-        const int columns = nodes.column_count(s);
-        const auto front = panel(s);
-        auto own = x.middleRows(nodes.first[at(s)], columns);
-        front.topRows(columns).triangularView<Eigen::Lower>().solveInPlace(own);
-        const int* rows = nodes.row_list(s) + columns;
-        below.noalias() = front.bottomRows(front.rows() - columns) * own;
-        for (Eigen::Index k = 0; k < below.rows(); ++k) x.row(rows[k]) -= below.row(k);
-    }
-    for (int s = nodes.size() - 1; s >= 0; --s) {
-        const int columns = nodes.column_count(s);
-        const auto front = panel(s);
-        const int* rows = nodes.row_list(s) + columns;
-        below.resize(front.rows() - columns, rhs.cols());
-        for (Eigen::Index k = 0; k < below.rows(); ++k) below.row(k) = x.row(rows[k]);
-        auto own = x.middleRows(nodes.first[at(s)], columns);
-        own.noalias() -= front.bottomRows(front.rows() - columns).transpose() * below;
-        front.topRows(columns).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
-    }
+    Eigen::MatrixXd unused;
+    for (int s : tree_.top()) forward(s, x, unused);
+    for (auto s = tree_.top().rbegin(); s != tree_.top().rend(); ++s) backward(*s, x);
+    run_pieces(static_cast<int>(parts.size()), [&](int k) {
+        for (int s = parts[at(k)].end; s-- > parts[at(k)].begin;) backward(s, x);
+    });
     Eigen::MatrixXd result(rhs.rows(), rhs.cols());
-    for (std::size_t k = 0; k < elimination_.order.size(); ++k) {
-        result.row(elimination_.order[k]) = x.row(static_cast<Eigen::Index>(k));
-    }
+    for (std::size_t k = 0; k < order_.size(); ++k) result.row(order_[k]) = x.row(static_cast<Eigen::Index>(k));
     return result;
 }
 

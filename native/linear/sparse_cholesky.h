@@ -3,7 +3,8 @@
 #pragma once
 
 #include "base/progress.h"
-#include "linear/elimination.h"
+#include "linear/dense_front.h"
+#include "linear/front_tree.h"
 
 namespace fairing {
 
@@ -22,22 +23,26 @@ public:
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
 
 private:
+    using Panel = Eigen::Map<Eigen::MatrixXd>;
+    using ConstPanel = Eigen::Map<const Eigen::MatrixXd>;
+
     void set_up(const SparseMatrix& lower);
+    void find_slots(const SparseMatrix& lower, const Indices& position);
     void scatter(const SparseMatrix& lower);
     void add_child(int child, int parent, Eigen::MatrixXd& parent_update);
-    bool eliminate(int supernode);
-    [[nodiscard]] Eigen::Map<Eigen::MatrixXd> panel(int supernode);
-    [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> panel(int supernode) const;
+    bool eliminate(int supernode, const WorkDone& work_done);
+    void forward(int supernode, Eigen::MatrixXd& x, Eigen::MatrixXd& outer) const;
+    void backward(int supernode, Eigen::MatrixXd& x) const;
+    [[nodiscard]] Panel panel(int supernode);
+    [[nodiscard]] ConstPanel panel(int supernode) const;
 
     Points layout_;  // empty: not known
-    Elimination elimination_;
+    Indices order_;  // position in the factor → row of the matrix
+    FrontTree tree_;
     std::vector<std::size_t> panel_begin_;  // dense row_count × column_count blocks
-    std::vector<double> panels_;
-    std::vector<std::size_t> entry_slot_;  // entry of the matrix → place in panels_
-    Indices children_begin_;
-    Indices children_;
+    VectorX panels_;
+    std::vector<std::size_t> entry_slot_;   // entry of the matrix → place in panels_
     std::vector<Eigen::MatrixXd> updates_;  // Schur complement that a supernode passes on, freed when taken
-    Indices local_row_;                     // scratch: row of the factor → row of the current front
     bool analysed_ = false;
 };
 

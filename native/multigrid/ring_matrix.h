@@ -1,6 +1,7 @@
 // Symmetric matrices with the pattern of a graph.
 #pragma once
 
+#include "base/parallel.h"
 #include "multigrid/transfer.h"
 
 namespace fairing {
@@ -14,14 +15,16 @@ struct RingMatrix {
 
     RingMatrix(int vertex_count, const InnerWeights& weights);
 
-    // y_i for the first `rows` vertices.
-    template <int Rows>
-    void apply(const Field<Rows>& x, Field<Rows>& y, int rows) const {
-        for (int i = 0; i < rows; ++i) {
-            Eigen::Matrix<double, Rows, 1> sum = diagonal[i] * x.col(i);
-            for (int k = begin[at(i)]; k < begin[at(i) + 1]; ++k) sum -= weights[k] * x.col(columns[at(k)]);
-            y.col(i) = sum;
-        }
+    // write(i, (A x)_i) for the first `rows` vertices.
+    template <typename Write>
+    void apply(const Points& x, int rows, const Write& write) const {
+        for_ranges(rows, coarse_grain, [&](int first, int last) {
+            for (int i = first; i < last; ++i) {
+                Vector3 sum = diagonal[i] * x.col(i);
+                for (int k = begin[at(i)]; k < begin[at(i) + 1]; ++k) sum -= weights[k] * x.col(columns[at(k)]);
+                write(i, sum);
+            }
+        });
     }
 };
 

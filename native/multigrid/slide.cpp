@@ -1,5 +1,6 @@
 #include "multigrid/slide.h"
 
+#include "base/parallel.h"
 #include "geometry/mean_curvature.h"
 #include "geometry/one_ring_buffer.h"
 #include "linear/anderson.h"
@@ -15,12 +16,14 @@ constexpr double near_enough = 5e-4;  // units of D; the iteration does the rest
 
 // Adds to tangential steps how far the surface rises along them.
 void follow_curvature(const Patch& patch, const Points& points, const Points& normals, Points& d) {
-    OneRingBuffer buffer;
-    for (int i = 0; i < patch.free_count; ++i) {
-        const OneRing ring = buffer.gather(patch, points, i);
-        const Vector3 n = normals.col(i);
-        d.col(i) += fit_curvature(ring.centre, ring.points, n).rise(n, d.col(i)) * n;
-    }
+    for_ranges(patch.free_count, fine_grain, [&](int begin, int end) {
+        OneRingBuffer buffer;
+        for (int i = begin; i < end; ++i) {
+            const OneRing ring = buffer.gather(patch, points, i);
+            const Vector3 n = normals.col(i);
+            d.col(i) += fit_curvature(ring.centre, ring.points, n).rise(n, d.col(i)) * n;
+        }
+    });
 }
 
 }  // namespace

@@ -9,16 +9,19 @@ namespace fairing {
 // An approximate inverse of a λ-Laplacian, symmetric positive definite.
 class LaplaceCycle {
 public:
+    LaplaceCycle() = default;
+    LaplaceCycle(const LaplaceCycle&) = delete;
+    LaplaceCycle& operator=(const LaplaceCycle&) = delete;
     virtual ~LaplaceCycle() = default;
-    // `r`: 3 × vertices of the level, 0 at fixed ones.
-    [[nodiscard]] virtual Field<3> cycle(Field<3> r) const = 0;
+    // `r` and `x`: 3 × vertices of the level, 0 at fixed ones; x in the right size, r is used up.
+    virtual void cycle(Points& r, Points& x) const = 0;
 };
 
 // Of the coarsest level, factorised.
 class FactorisedLaplacian : public SymmetricStep, public LaplaceCycle {
 public:
     using SymmetricStep::SymmetricStep;
-    [[nodiscard]] Field<3> cycle(Field<3> r) const override;
+    void cycle(Points& r, Points& x) const override;
 };
 
 // A V-cycle: Chebyshev smoothing, the coarser level's own λ.
@@ -31,19 +34,25 @@ public:
     [[nodiscard]] Points harmonic_positions() const override;
     [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
     [[nodiscard]] Points displacement(const Points& points, const Points& normals, int max_cycles = 10) const override;
-    [[nodiscard]] Field<3> cycle(Field<3> r) const override;
+    void cycle(Points& r, Points& x) const override;
 
 private:
-    [[nodiscard]] Points gradient(const Points& points) const;
-    void apply(const Field<3>& x, Field<3>& y) const;
-    void smooth(Field<3>& x, Field<3>& r) const;
+    enum class Residual { kept, left };
+
+    void apply(const Points& x, Points& y) const;
+    void subtract_product(const Points& x, Points& r) const;
+    void smooth(Points& x, Points& r, Residual last) const;
 
     const Patch& patch_;
     Points fixed_points_;
     const Transfer& transfer_;
     const LaplaceCycle& coarser_;
     RingMatrix laplacian_;
-    Field<1> inverse_diagonal_;  // 0 at fixed vertices
+    VectorX inverse_diagonal_;  // 0 at fixed vertices
+    // Scratch: fields of this level and of the coarser one.
+    mutable Points fine_;
+    mutable Points coarse_r_;
+    mutable Points coarse_x_;
 };
 
 }  // namespace fairing

@@ -2,6 +2,27 @@
 
 namespace fairing {
 
+void Transfer::prolong(const Points& coarse, Points& fine) const {
+    fine.setZero();  // a coarse level may lack some of the fixed vertices
+    for (int c = 0; c < coarse_count(); ++c) fine.col(coarse_in_fine[at(c)]) = coarse.col(c);
+    for (int k = removals.size(); k-- > 0;) {
+        Vector3 sum = Vector3::Zero();
+        for (int j = removals.begin[at(k)]; j < removals.begin[at(k) + 1]; ++j)
+            sum += removals.weights[at(j)] * fine.col(removals.neighbours[at(j)]);
+        fine.col(removals.vertex[at(k)]) = sum;
+    }
+}
+
+void Transfer::restrict(Points& fine, Points& coarse) const {
+    for (int k = 0; k < removals.size(); ++k) {
+        const Vector3 value = fine.col(removals.vertex[at(k)]);
+        for (int j = removals.begin[at(k)]; j < removals.begin[at(k) + 1]; ++j)
+            fine.col(removals.neighbours[at(j)]) += removals.weights[at(j)] * value;
+    }
+    for (int c = 0; c < coarse_free_count; ++c) coarse.col(c) = fine.col(coarse_in_fine[at(c)]);
+    coarse.rightCols(coarse.cols() - coarse_free_count).setZero();
+}
+
 Vector3 lifted_mean(const Points& points, const Points& normals, const int* vertices, const double* weights,
                     int count) {
     Vector3 mean = Vector3::Zero();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/parallel.h"
 #include "linear/anderson.h"
 #include "solver/surface_state.h"
 #include "solver/willmore.h"
@@ -120,10 +121,12 @@ private:
     Points plain_step() {
         const VectorX u = work_.normal->solve(outer_);
         Points d = work_.tangential->displacement(state_.points, state_.normals);
-        for (int i = 0; i < patch_.free_count; ++i) {
-            const Vector3 n = state_.normals.col(i);
-            d.col(i) += (u[i] + state_.curvature.fit(i).rise(n, d.col(i))) * n;
-        }
+        for_ranges(patch_.free_count, coarse_grain, [&](int begin, int end) {
+            for (int i = begin; i < end; ++i) {
+                const Vector3 n = state_.normals.col(i);
+                d.col(i) += (u[i] + state_.curvature.fit(i).rise(n, d.col(i))) * n;
+            }
+        });
         return d;
     }
 

@@ -1,26 +1,13 @@
 #include "solver/normal_operator.h"
 
 #include <algorithm>
+#include <numeric>
+
+#include "base/parallel.h"
 
 namespace fairing {
 
 namespace {
-
-struct ColumnEntry {
-    int row;
-    int spoke;  // edge, or `none` on the diagonal
-};
-
-// The free rows of column k of S_I: k itself where it is free, and its free neighbours; rows ascending.
-void gather_column(const Patch& patch, int k, std::vector<ColumnEntry>& column) {
-    column.clear();
-    const RingView ring = patch.ring(k);
-    for (std::size_t j = 0; j < ring.valence(); ++j) {
-        if (patch.is_free(ring.vertices[j])) column.push_back({ring.vertices[j], ring.spokes[j]});
-    }
-    if (patch.is_free(k)) column.push_back({k, none});
-    std::sort(column.begin(), column.end(), [](const ColumnEntry& a, const ColumnEntry& b) { return a.row < b.row; });
-}
 
 double diagonal_weight(const Patch& patch, const Stiffness& stiffness, int k) {
     double sum = 0.0;
@@ -28,71 +15,87 @@ double diagonal_weight(const Patch& patch, const Stiffness& stiffness, int k) {
     return sum;
 }
 
+// visit(k, edge from i to k) for each column k of S_I with an entry in row i; `none` for k = i.
+template <typename Visit>
+void for_each_around(const Patch& patch, int i, const Visit& visit) {
+    visit(i, none);
+    const RingView ring = patch.ring(i);
+    for (std::size_t n = 0; n < ring.valence(); ++n) visit(ring.vertices[n], ring.spokes[n]);
+}
+
+// visit(j, k, edge from i to k, edge from k to j) for each product S_ik S_jk of row i with j ≥ i, both free.
+template <typename Visit>
+void for_each_product(const Patch& patch, int i, const Visit& visit) {
+    for_each_around(patch, i, [&](int k, int first) {
+        for_each_around(patch, k, [&](int j, int second) {
+            if (j >= i && patch.is_free(j)) visit(j, k, first, second);
+        });
+    });
+}
+
 }  // namespace
 
 BiharmonicOperator::BiharmonicOperator(const Patch& patch, Points layout)
     : NormalOperator(std::move(layout)), patch_(patch) {
     build_pattern();
-}
-
-template <typename Visit>
-void BiharmonicOperator::for_each_column(Visit visit) const {
-    std::vector<ColumnEntry> column;
-    for (int k = 0; k < patch_.vertex_count(); ++k) {
-        gather_column(patch_, k, column);
-        visit(k, column);
-    }
+    find_slots();
 }
 
 void BiharmonicOperator::build_pattern() {
-    std::vector<Indices> rows(at(patch_.free_count));
-    std::size_t products = 0;
-    for_each_column([&](int, const std::vector<ColumnEntry>& column) {
-        for (std::size_t a = 0; a < column.size(); ++a) {
-            for (std::size_t b = a; b < column.size(); ++b) rows[at(column[a].row)].push_back(column[b].row);
+    const int count = patch_.free_count;
+    std::vector<Indices> pieces(at(count / coarse_grain) + 1);
+    std::vector<int> sizes(at(count));
+    product_begin_.assign(at(count) + 1, 0);
+    for_ranges(count, coarse_grain, [&](int begin, int end) {
+        Indices& all = pieces[at(begin / coarse_grain)];
+        Indices row;
+        for (int i = begin; i < end; ++i) {
+            row.clear();
+            for_each_product(patch_, i, [&](int j, int, int, int) { row.push_back(j); });
+            product_begin_[at(i) + 1] = row.size();
+            std::sort(row.begin(), row.end());
+            row.erase(std::unique(row.begin(), row.end()), row.end());
+            sizes[at(i)] = static_cast<int>(row.size());
+            all.insert(all.end(), row.begin(), row.end());
         }
-        products += column.size() * (column.size() + 1) / 2;
     });
-    Indices sizes;
-    for (Indices& list : rows) {
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
-        sizes.push_back(static_cast<int>(list.size()));
-    }
-    matrix_.resize(patch_.free_count, patch_.free_count);
-    matrix_.reserve(sizes);
-    for (int j = 0; j < patch_.free_count; ++j) {
-        for (int i : rows[at(j)]) matrix_.insert(i, j) = 0.0;
-    }
-    matrix_.makeCompressed();
+    std::partial_sum(product_begin_.begin(), product_begin_.end(), product_begin_.begin());
+    matrix_.resize(count, count);
+    std::partial_sum(sizes.begin(), sizes.end(), matrix_.outerIndexPtr() + 1);
+    matrix_.resizeNonZeros(count > 0 ? matrix_.outerIndexPtr()[count] : 0);
+    int* next = matrix_.innerIndexPtr();
+    for (const Indices& piece : pieces) next = std::copy(piece.begin(), piece.end(), next);
+}
 
-    slots_.reserve(products);
-    for_each_column([&](int, const std::vector<ColumnEntry>& column) {
-        for (std::size_t a = 0; a < column.size(); ++a) {
-            const Indices& list = rows[at(column[a].row)];
-            const int begin = matrix_.outerIndexPtr()[column[a].row];
-            for (std::size_t b = a; b < column.size(); ++b) {
-                const auto found = std::lower_bound(list.begin(), list.end(), column[b].row);
-                slots_.push_back(begin + static_cast<int>(found - list.begin()));
-            }
+void BiharmonicOperator::find_slots() {
+    slots_.resize(product_begin_.back());
+    for_ranges(patch_.free_count, coarse_grain, [&](int begin, int end) {
+        auto slot = slots_.begin() + std::ptrdiff_t(product_begin_[at(begin)]);
+        for (int i = begin; i < end; ++i) {
+            const int* first = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[i];
+            const int* last = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[i + 1];
+            for_each_product(patch_, i, [&](int j, int, int, int) {
+                *slot++ = static_cast<int>(std::lower_bound(first, last, j) - first);
+            });
         }
     });
 }
 
 bool BiharmonicOperator::update(const Stiffness& stiffness, const Progress& progress) {
-    matrix_.coeffs().setZero();
-    double* values = matrix_.valuePtr();
-    auto slot = slots_.begin();
-    std::vector<double> entries;
-    for_each_column([&](int k, const std::vector<ColumnEntry>& column) {
-        entries.clear();
-        for (const ColumnEntry& entry : column) {
-            entries.push_back(entry.spoke == none ? diagonal_weight(patch_, stiffness, k)
-                                                  : -stiffness.weights[entry.spoke]);
-        }
-        const double scale = 0.25 / stiffness.mass[k];
-        for (std::size_t a = 0; a < entries.size(); ++a) {
-            for (std::size_t b = a; b < entries.size(); ++b) values[*slot++] += scale * entries[a] * entries[b];
+    VectorX diagonal(patch_.vertex_count());
+    for_ranges(patch_.vertex_count(), coarse_grain, [&](int begin, int end) {
+        for (int k = begin; k < end; ++k) diagonal[k] = diagonal_weight(patch_, stiffness, k);
+    });
+    const auto entry = [&](int k, int edge) { return edge == none ? diagonal[k] : -stiffness.weights[edge]; };
+    for_ranges(patch_.free_count, coarse_grain, [&](int begin, int end) {
+        auto slot = slots_.begin() + std::ptrdiff_t(product_begin_[at(begin)]);
+        for (int i = begin; i < end; ++i) {
+            const int first = matrix_.outerIndexPtr()[i];
+            double* row = matrix_.valuePtr() + first;
+            std::fill(row, matrix_.valuePtr() + matrix_.outerIndexPtr()[i + 1], 0.0);
+            for_each_product(patch_, i, [&](int, int k, int edge_i, int edge_j) {
+                row[*slot++] += 0.25 / stiffness.mass[k] * entry(k, edge_i) * entry(k, edge_j);
+            });
         }
     });
     return factor_.factorise(matrix_, "the fairness operator", progress);

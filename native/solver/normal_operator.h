@@ -34,13 +34,14 @@ public:
     [[nodiscard]] bool update(const Stiffness& stiffness, const Progress& progress) override;
 
 private:
-    template <typename Visit>
-    void for_each_column(Visit visit) const;
     void build_pattern();
+    void find_slots();
 
     const Patch& patch_;
     SparseMatrix matrix_;
-    Indices slots_;  // where each product of two entries of a column of S_I is added, in the order of the assembly
+    // Of the products S_ik S_jk, row by row: where row i begins, and the place of each sum within its row.
+    std::vector<std::size_t> product_begin_;
+    Indices slots_;
 };
 
 // S restricted to the free vertices: minus the derivative of 4 M H by a displacement along the normals.

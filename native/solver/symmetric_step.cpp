@@ -6,12 +6,6 @@
 
 namespace fairing {
 
-namespace {
-
-double inner(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
-
-}  // namespace
-
 SymmetricStep::SymmetricStep(const Patch& patch, const InnerWeights& weights, const Points& fixed_points,
                              const Progress& progress)
     : free_count_(patch.free_count) {
@@ -49,7 +43,7 @@ Points SymmetricStep::harmonic_positions() const {
 
 double SymmetricStep::merit(const Points& points, const Points& /*normals*/) const {
     const auto free = points.leftCols(free_count_);
-    return 0.5 * inner(free, gradient(points)) - 0.5 * inner(free, pull_);
+    return 0.5 * inner_product(free, gradient(points) - pull_);
 }
 
 Points SymmetricStep::gradient(const Points& points) const {
@@ -70,12 +64,11 @@ Points SymmetricStep::displacement(const Points& points, const Points& normals, 
     constexpr double relative_tolerance = 0.05;
     Points r = -gradient(points);
     project_across(r, normals);
-    const auto apply = [&](const Points& p) {
-        Points product = (laplacian_ * p.transpose()).transpose();
+    const auto apply = [&](const Points& p, Points& product) {
+        product = (laplacian_ * p.transpose()).transpose();
         project_across(product, normals);
-        return product;
     };
-    const auto approximate_inverse = [&](const Points& field) { return precondition(field, normals); };
+    const auto approximate_inverse = [&](const Points& field, Points& z) { z = precondition(field, normals); };
     return conjugate_gradients(std::move(r), relative_tolerance, max_cycles, apply, approximate_inverse);
 }
 

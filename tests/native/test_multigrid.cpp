@@ -84,11 +84,15 @@ TEST_CASE("restriction is the transpose of interpolation, whose weights sum to o
         const auto last = transfer.removals.weights.begin() + transfer.removals.begin[at(k) + 1];
         CHECK(std::accumulate(first, last, 0.0) == doctest::Approx(1.0).epsilon(1e-12));
     }
-    Field<3> coarse = Field<3>::Random(3, ball.levels.front().patch.vertex_count());
+    Points coarse = Points::Random(3, ball.levels.front().patch.vertex_count());
     coarse.rightCols(coarse.cols() - transfer.coarse_free_count).setZero();
-    const Field<3> fine = Field<3>::Random(3, transfer.fine_count);
-    const double left = transfer.prolong<3>(coarse).cwiseProduct(fine).sum();
-    const double right = coarse.cwiseProduct(transfer.restrict<3>(fine)).sum();
+    Points fine = Points::Random(3, transfer.fine_count);
+    Points prolonged(3, transfer.fine_count);
+    transfer.prolong(coarse, prolonged);
+    const double left = prolonged.cwiseProduct(fine).sum();
+    Points restricted(3, coarse.cols());
+    transfer.restrict(fine, restricted);
+    const double right = coarse.cwiseProduct(restricted).sum();
     CHECK(left == doctest::Approx(right).epsilon(1e-12));
 }
 

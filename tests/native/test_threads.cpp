@@ -3,9 +3,14 @@
 
 #include <array>
 #include <atomic>
+#include <numeric>
+#include <stdexcept>
 #include <thread>
 
 #include "api/fair.h"
+#include "base/parallel.h"
+#include "geometry/self_intersection.h"
+#include "linear/sparse_cholesky.h"
 #include "meshes.h"
 
 using namespace fairing;
@@ -67,4 +72,105 @@ TEST_CASE("threads: a run is watched and stopped from another thread") {
     stop = true;
     worker.join();
     CHECK(cancelled);
+}
+
+TEST_CASE("threads: a loop runs every piece once, also within another loop") {
+    for (const int threads : {1, 2, 5}) {
+        const Threads team(threads);
+        std::vector<int> calls(1000, 0);
+        run_pieces(10, [&](int outer) { run_pieces(100, [&](int k) { ++calls[at(100 * outer + k)]; }); });
+        CHECK(calls == std::vector<int>(1000, 1));
+        run_pieces(0, [&](int) { FAIL("there is no piece"); });
+    }
+}
+
+TEST_CASE("threads: ranges cover all indices and sums don't depend on the threads") {
+    std::vector<double> values(10001);
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] = 1.0 / static_cast<double>(k + 1);
+    const auto sum = [&] {
+        return sum_over_ranges(static_cast<int>(values.size()), 100, [&](int begin, int end) {
+            return std::accumulate(values.begin() + begin, values.begin() + end, 0.0);
+        });
+    };
+    const double alone = sum();
+    CHECK(alone == doctest::Approx(std::accumulate(values.begin(), values.end(), 0.0)).epsilon(1e-14));
+    for (const int threads : {1, 2, 3}) {
+        const Threads team(threads);
+        CHECK(sum() == alone);
+    }
+}
+
+TEST_CASE("threads: the exception of a piece comes through and the next loop runs") {
+    const Threads team(3);
+    for (int round = 0; round < 20; ++round) {
+        std::atomic<int> calls = 0;
+        CHECK_THROWS_AS(run_pieces(50,
+                                   [&](int k) {
+                                       ++calls;
+                                       if (k == 7) throw std::runtime_error("piece 7");
+                                   }),
+                        std::runtime_error);
+        CHECK(calls >= 8);
+        std::atomic<int> sum = 0;
+        run_pieces(50, [&](int k) { sum += k; });
+        CHECK(sum == 49 * 25);
+    }
+}
+
+TEST_CASE("threads: a large factor has the same bits for any number of them") {
+    constexpr int n = 1500;
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int i = 0; i < n; ++i) {
+        entries.emplace_back(i, i, 8.5);
+        // Two coupled grids and a few far couplings: subtrees, and fronts of several blocks above them.
+        for (const int step : {1, 30, 31, 700}) {
+            if (i + step < n) entries.emplace_back(i + step, i, -1.0 + 0.001 * (i % 7));
+        }
+    }
+    SparseMatrix lower(n, n);
+    lower.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::MatrixXd rhs = Eigen::MatrixXd::Random(n, 2);
+    SparseCholesky single;
+    REQUIRE(single.factorise(lower, "a test matrix", Progress()));
+    const Eigen::MatrixXd alone = single.solve(rhs);
+    CHECK((lower.selfadjointView<Eigen::Lower>() * alone - rhs).norm() < 1e-11 * rhs.norm());
+    for (const int threads : {2, 4}) {
+        const Threads team(threads);
+        SparseCholesky factor;
+        REQUIRE(factor.factorise(lower, "a test matrix", Progress()));
+        CHECK(factor.solve(rhs).cwiseEqual(alone).all());
+        lower.coeffRef(n - 1, n - 1) = -1.0;
+        CHECK_FALSE(factor.factorise(lower, "a test matrix", Progress()));
+        lower.coeffRef(n - 1, n - 1) = 8.5;
+    }
+}
+
+TEST_CASE("threads: crossing triangles are found by any number of them") {
+    const test::Mesh mesh = test::grid(40, 0.2, test::sphere);
+    // The same sheet again, turned and moved: the two cross along a curve.
+    const int count = static_cast<int>(mesh.points.cols());
+    Points points(3, 2 * count);
+    points.leftCols(count) = mesh.points;
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3(1.0, 2.0, 0.3).normalized()).toRotationMatrix();
+    points.rightCols(count) = turn * mesh.points;
+    Triangles triangles(3, 2 * mesh.triangles.cols());
+    triangles.leftCols(mesh.triangles.cols()) = mesh.triangles;
+    triangles.rightCols(mesh.triangles.cols()) = mesh.triangles.array() + count;
+    const Indices alone = crossing_triangles(triangles, points);
+    CHECK(alone.size() > 20);
+    const Threads team(3);
+    CHECK(crossing_triangles(triangles, points) == alone);
+}
+
+TEST_CASE("threads: a nested solve has the same bits for any number of them") {
+    const MeshInput input = dented_cap(52);
+    FairOptions wanted = options(Method::global);
+    wanted.threads = 1;
+    const FairResult alone = fair(input, {}, wanted, {});
+    CHECK(alone.converged);
+    CHECK(alone.levels.size() > 1);
+    for (const int threads : {0, 2, 5}) {
+        wanted.threads = threads;
+        CHECK(same_bits(fair(input, {}, wanted, {}), alone));
+    }
 }

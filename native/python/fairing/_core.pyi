@@ -17,6 +17,7 @@ class Options:
         normals: str,
         tolerance: float,
         max_iterations: int,
+        threads: int,
     ) -> None: ...
 
 class PaperChoices:

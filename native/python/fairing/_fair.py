@@ -128,7 +128,6 @@ def fair(
     m0 = None if reference is None else _arguments.floats("reference", reference, count)
     edges = _options.neighbour_edges(neighbours, count)
     _arguments.choice("method", method, _options.METHODS)
-    _arguments.whole("threads", threads, 0)
     _options.callback(progress)
     kind, weights = _options.inner_fairness(inner_fairness, count)
     given = {
@@ -138,7 +137,7 @@ def fair(
     paper = _options.paper_choices(method, levels, given)
     options = _options.engine_options(
         equation=equation, load=load, fairness=kind, method=method, normals=normals,
-        tolerance=tolerance, max_iterations=max_iterations,
+        tolerance=tolerance, max_iterations=max_iterations, threads=threads,
     )  # fmt: skip
     return FairResult(
         **_core.fair(points, faces, fixed_list, given_normals, m0, edges, weights, options, paper, progress)

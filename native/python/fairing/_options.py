@@ -58,7 +58,15 @@ def paper_choices(method: str, levels: int, given: dict[str, Any]) -> _core.Pape
 
 
 def engine_options(
-    *, equation: str, load: Any, fairness: str, method: str, normals: str, tolerance: Any, max_iterations: Any
+    *,
+    equation: str,
+    load: Any,
+    fairness: str,
+    method: str,
+    normals: str,
+    tolerance: Any,
+    max_iterations: Any,
+    threads: Any,
 ) -> _core.Options:
     """Checks the options that both methods have; ``fairness`` is the engine's word for it."""
     _arguments.choice("normals", normals, NORMALS)
@@ -70,6 +78,7 @@ def engine_options(
         normals="averaged" if method == "paper" else normals,
         tolerance=_arguments.positive("tolerance", tolerance),
         max_iterations=_arguments.whole("max_iterations", max_iterations, 1),
+        threads=_arguments.whole("threads", threads, 0),
     )
 
 

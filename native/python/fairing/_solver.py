@@ -12,11 +12,11 @@ from fairing._fair import Progress
 from fairing._types import FairResult, FloatArray, IntArray
 
 _ANY_COUNT = int(np.iinfo(np.int32).max)
-_SHARED = ("equation", "load", "normals", "tolerance", "max_iterations")
+_SHARED = ("equation", "load", "normals", "tolerance", "max_iterations", "threads")
 _PAPER = (
     "damping", "cg_steps", "sweeps", "vertex_sweeps", "epsilon", "acceleration", "virtual_points", "start",
 )  # fmt: skip
-_CHANGEABLE = (*_SHARED, *_PAPER, "inner_fairness", "neighbours", "method", "levels", "threads")
+_CHANGEABLE = (*_SHARED, *_PAPER, "inner_fairness", "neighbours", "method", "levels")
 
 
 class Solver:
@@ -97,7 +97,6 @@ class Solver:
         """Edges, λ by rows, and the engine's options; how many vertices there are is known at the first solve."""
         edges = _options.neighbour_edges(options["neighbours"], _ANY_COUNT)
         method = _arguments.choice("method", options["method"], _options.METHODS)
-        _arguments.whole("threads", options["threads"], 0)
         kind, weights = _options.inner_fairness(options["inner_fairness"], _ANY_COUNT)
         paper = _options.paper_choices(method, options["levels"], {name: options[name] for name in _PAPER})
         shared = {name: options[name] for name in _SHARED}

@@ -1,0 +1,59 @@
+// Loops on several threads. Who runs which piece is left open, where a piece writes is not: the results have the same
+// bits for any number of threads.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace fairing {
+
+class ThreadTeam;
+
+// While it lives, the loops below that its thread enters run on up to `count` threads, 0 for one on each core. Without
+// it, and within a piece, they run on their own thread. Threads begin at the first loop with work for them and end
+// with it: nothing is left for a fork to lose.
+class Threads {
+public:
+    explicit Threads(int count);
+    ~Threads();
+    Threads(const Threads&) = delete;
+    Threads& operator=(const Threads&) = delete;
+
+private:
+    std::unique_ptr<ThreadTeam> team_;
+    ThreadTeam* previous_;
+};
+
+// Calls piece(k) once for each k = 0 … pieces − 1, in any order. An exception comes through once no piece runs any
+// more; those not begun are left out then.
+void run_pieces(int pieces, const std::function<void(int)>& piece);
+
+// Indices that a piece takes at once: of loops with few operations for each, and of those with hundreds.
+inline constexpr int coarse_grain = 1024;
+inline constexpr int fine_grain = 128;
+
+// Calls body(begin, end) for pieces of 0 … count − 1.
+template <typename Body>
+void for_ranges(int count, int grain, const Body& body) {
+    const int pieces = (count + grain - 1) / grain;
+    if (pieces <= 1) {
+        if (count > 0) body(0, count);
+        return;
+    }
+    run_pieces(pieces, [&](int k) { body(k * grain, std::min((k + 1) * grain, count)); });
+}
+
+// The sum of body(begin, end) over pieces of 0 … count − 1, added up in order.
+template <typename Body>
+double sum_over_ranges(int count, int grain, const Body& body) {
+    std::vector<double> sums(static_cast<std::size_t>((count + grain - 1) / grain));
+    for_ranges(count, grain,
+               [&](int begin, int end) { sums[static_cast<std::size_t>(begin / grain)] = body(begin, end); });
+    double sum = 0.0;
+    for (double s : sums) sum += s;
+    return sum;
+}
+
+}  // namespace fairing
