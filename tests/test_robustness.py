@@ -58,8 +58,11 @@ again                   again_moves_nothing_and_the_same_gives_the_same
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import bad_inputs
 import fairing
@@ -194,6 +197,17 @@ def test_clusters_of_valence_3(kind: str, rounds: int) -> None:
     result = item.fair(inner_fairness=kind)
     assert result.converged
     assert off_the_sphere(result) < 5e-3
+
+
+def test_clusters_behind_a_coarse_outline_whichever_way_they_are_turned() -> None:
+    """Nine outline vertices around half a sphere: the direct solve stalls, or not, by round-off."""
+    item = hard_inputs.subdivided(hard_inputs.of_patch(shapes.cap(12)), 3)
+    assert item.normals is not None
+    for turn in Rotation.random(6, random_state=1).as_matrix():
+        turned = replace(item, vertices=item.vertices @ turn.T, normals=item.normals @ turn.T)
+        result = turned.fair()
+        assert result.converged
+        assert off_the_sphere(result) < 5e-3
 
 
 @pytest.mark.parametrize("valence", [50, 500, 1000])

@@ -137,17 +137,21 @@ FairResult run_call(const MeshInput& input, const std::optional<Points>& referen
     const Stopwatch watch;
     const Threads threads(options.asked.threads);
     const Progress progress(callback);
+    const Checkpoints checkpoints(progress);
+    // Shares of the time in a large call.
+    constexpr double begin = 0.1;
+    constexpr double end = 0.9;
     progress.report(0.0, "topology");
     prepare_for(input, options, prepared);
     Call call(*prepared, input, options.asked);
     const double topology_seconds = watch.seconds();
     const ComponentData data{input.vertices, prepared->mesh.normals, reference ? *reference : input.vertices};
-    double done = 0.0;
+    double done = begin;
     double total = 0.0;
     for (const Patch& patch : prepared->patches) total += patch.vertex_count();
     for (std::size_t k = 0; k < prepared->patches.size(); ++k) {
         const Patch& patch = prepared->patches[k];
-        const double share = patch.vertex_count() / total;
+        const double share = (end - begin) * patch.vertex_count() / total;
         call.record(patch, prepared->solvers[k].solve(data, progress.range(done, done + share)));
         done += share;
     }

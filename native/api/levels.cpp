@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "api/component.h"
+#include "mesh/pieces.h"
 #include "paper/hierarchy.h"
 
 namespace fairing {
@@ -47,8 +48,9 @@ std::vector<MeshLevel> mesh_hierarchy(const MeshInput& input, int levels) {
     const CheckedMesh mesh = check_mesh(input);
     std::vector<std::vector<Corners>> pieces;
     std::size_t depth = 1;
-    for (const Indices& triangles : triangles_of_pieces(mesh.cut)) {
-        pieces.push_back(piece_levels(make_patch(mesh.cut, triangles, mesh.roles), input.vertices, levels));
+    const Pieces parts(mesh.cut, mesh.roles);
+    for (int k = 0; k < parts.size(); ++k) {
+        pieces.push_back(piece_levels(parts.patch(k), input.vertices, levels));
         depth = std::max(depth, pieces.back().size());
     }
     std::vector<MeshLevel> result;

@@ -9,6 +9,7 @@
 #include "geometry/mean_curvature.h"
 #include "geometry/one_ring_buffer.h"
 #include "geometry/surface_fit.h"
+#include "mesh/pieces.h"
 
 namespace fairing {
 
@@ -17,8 +18,9 @@ namespace {
 // Visits every piece of the cut mesh as a patch with its positions.
 template <typename Visit>
 void for_each_piece(const CheckedMesh& mesh, const Points& points, Visit visit) {
-    for (const Indices& piece : triangles_of_pieces(mesh.cut)) {
-        const Patch patch = make_patch(mesh.cut, piece, mesh.roles);
+    const Pieces pieces(mesh.cut, mesh.roles);
+    for (int k = 0; k < pieces.size(); ++k) {
+        const Patch patch = pieces.patch(k);
         visit(patch, gather(points, patch.to_input));
     }
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mesh/pieces.h"
+
 namespace fairing {
 
 namespace {

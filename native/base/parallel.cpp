@@ -7,6 +7,8 @@
 #include <system_error>
 #include <thread>
 
+#include "base/progress.h"
+
 namespace fairing {
 
 namespace {
@@ -27,6 +29,7 @@ public:
         for (int k = next_++; k < pieces_; k = next_++) {
             try {
                 piece_(k);
+                checkpoint();
             } catch (...) {
                 next_ = pieces_;
                 const std::scoped_lock lock(mutex_);
@@ -152,7 +155,10 @@ void run_pieces(int pieces, const std::function<void(int)>& piece) {
         taken.team->run(pieces, piece);
         return;
     }
-    for (int k = 0; k < pieces; ++k) piece(k);
+    for (int k = 0; k < pieces; ++k) {
+        piece(k);
+        checkpoint();
+    }
 }
 
 }  // namespace fairing

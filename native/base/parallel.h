@@ -27,7 +27,7 @@ private:
 };
 
 // Calls piece(k) once for each k = 0 … pieces − 1, in any order. An exception comes through once no piece runs any
-// more; those not begun are left out then.
+// more; those not begun are left out then. The caller's thread passes a checkpoint after each piece.
 void run_pieces(int pieces, const std::function<void(int)>& piece);
 
 // Indices that a piece takes at once: of loops with few operations for each, and of those with hundreds.

@@ -23,11 +23,38 @@ public:
     // For work inside a step: asks whether to stop, without moving the fraction.
     [[nodiscard]] Progress here() const;
 
+    // Asks whether to stop; fraction and stage stay what they are.
+    void ask() const;
+
 private:
     struct Shared;
     std::shared_ptr<Shared> shared_;
     double begin_ = 0.0;
     double end_ = 1.0;
 };
+
+// While it lives, checkpoint() in its thread asks this progress.
+class Checkpoints {
+public:
+    explicit Checkpoints(const Progress& progress);
+    ~Checkpoints();
+    Checkpoints(const Checkpoints&) = delete;
+    Checkpoints& operator=(const Checkpoints&) = delete;
+
+private:
+    struct Watch;
+    static thread_local Watch* current;
+    std::unique_ptr<Watch> watch_;
+    Watch* previous_;
+    friend void checkpoint();
+};
+
+// For every loop that may take long: asks, every 50 ms at most, whether to stop, and throws Cancelled then.
+void checkpoint();
+
+// The same for loops of many short steps: `step` counts them.
+inline void checkpoint(int step) {
+    if (step % 4096 == 0) checkpoint();
+}
 
 }  // namespace fairing

@@ -92,12 +92,16 @@ private:
         Eigen::Index axis = 0;
         centres.sizes().maxCoeff(&axis);
         const int middle = (node.begin + node.end) / 2;
-        const auto first = order_.begin();
-        std::nth_element(first + node.begin, first + middle, first + node.end, [&](int a, int b) {
-            const double x = boxes_[at(a)].min()[axis] + boxes_[at(a)].max()[axis];
-            const double y = boxes_[at(b)].min()[axis] + boxes_[at(b)].max()[axis];
-            return x != y ? x < y : a < b;
-        });
+        // Keys side by side: large nodes would wait for the memory otherwise.
+        std::vector<std::pair<double, int>> keys;
+        keys.reserve(at(node.size()));
+        for (int k = node.begin; k < node.end; ++k) {
+            const Box& box = boxes_[at(order_[at(k)])];
+            keys.emplace_back(box.min()[axis] + box.max()[axis], order_[at(k)]);
+        }
+        std::nth_element(keys.begin(), keys.begin() + (middle - node.begin), keys.end());
+        std::transform(keys.begin(), keys.end(), order_.begin() + node.begin,
+                       [](const auto& key) { return key.second; });
         nodes_[at(2 * index)] = {Box(), node.begin, middle};
         nodes_[at(2 * index + 1)] = {Box(), middle, node.end};
     }

@@ -5,6 +5,8 @@
 
 #include <Eigen/OrderingMethods>
 
+#include "base/progress.h"
+
 namespace fairing {
 
 namespace {
@@ -20,6 +22,7 @@ UpperPattern upper_pattern(const SparseMatrix& lower, const Indices& position) {
     UpperPattern upper{Indices(at(n) + 1, 0), {}};
     const auto visit = [&](auto action) {
         for (int j = 0; j < n; ++j) {
+            checkpoint(j);
             for (SparseMatrix::InnerIterator entry(lower, j); entry; ++entry) {
                 const int a = position[at(static_cast<int>(entry.row()))];
                 const int b = position[at(j)];
@@ -47,6 +50,7 @@ Indices elimination_tree(const UpperPattern& upper) {
     Indices parent(at(n), none);
     Indices ancestor(at(n), none);
     for (int j = 0; j < n; ++j) {
+        checkpoint(j);
         for (int p = upper.begin[at(j)]; p < upper.begin[at(j) + 1]; ++p) {
             int i = upper.rows[at(p)];
             while (i != none && i < j) {
@@ -96,6 +100,7 @@ Indices column_counts(const UpperPattern& upper, const Indices& parent) {
     Indices counts(at(n), 1);
     Indices mark(at(n), none);
     for (int i = 0; i < n; ++i) {
+        checkpoint(i);
         mark[at(i)] = i;
         for (int p = upper.begin[at(i)]; p < upper.begin[at(i) + 1]; ++p) {
             for (int j = upper.rows[at(p)]; mark[at(j)] != i; j = parent[at(j)]) {
@@ -171,6 +176,7 @@ void fill_rows(const UpperPattern& upper, Supernodes& supernodes) {
     const int n = static_cast<int>(supernodes.column_to_supernode.size());
     std::vector<Indices> below(at(supernodes.size()));  // entries of the matrix by the supernode of their column
     for (int i = 0; i < n; ++i) {
+        checkpoint(i);
         for (int p = upper.begin[at(i)]; p < upper.begin[at(i) + 1]; ++p) {
             Indices& list = below[at(supernodes.column_to_supernode[at(upper.rows[at(p)])])];
             if (list.empty() || list.back() != i) list.push_back(i);
@@ -180,6 +186,7 @@ void fill_rows(const UpperPattern& upper, Supernodes& supernodes) {
     Indices mark(at(n), none);
     supernodes.row_begin = {0};
     for (int s = 0; s < supernodes.size(); ++s) {
+        checkpoint(s);
         const int end = supernodes.first[at(s) + 1];
         Indices rows;
         for (const Indices* list : {&below[at(s)], &passed[at(s)]}) {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/parallel.h"
+#include "base/progress.h"
 
 namespace fairing {
 
@@ -22,6 +23,7 @@ public:
           part_(at(static_cast<int>(lower.cols())), 0) {
         const auto visit = [&](auto action) {
             for (int j = 0; j < lower.cols(); ++j) {
+                checkpoint(j);
                 for (SparseMatrix::InnerIterator entry(lower, j); entry; ++entry) {
                     const int i = static_cast<int>(entry.row());
                     if (i == j) continue;

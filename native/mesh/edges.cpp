@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/progress.h"
+
 namespace fairing {
 
 namespace {
@@ -22,6 +24,7 @@ std::vector<Entry> bucket_sides(const Triangles& triangles, Indices& bucket_begi
     std::vector<Entry> entries(static_cast<std::size_t>(side_count));
     Indices cursor(bucket_begin.begin(), bucket_begin.end());
     for (int s = 0; s < side_count; ++s) {
+        checkpoint(s);
         const int low = std::min(side_tail(triangles, s), side_head(triangles, s));
         const int high = std::max(side_tail(triangles, s), side_head(triangles, s));
         entries[static_cast<std::size_t>(cursor[static_cast<std::size_t>(low)]++)] = {high, s};
@@ -38,6 +41,7 @@ EdgeTable make_edges(const Triangles& triangles, int vertex_count) {
     table.edge_of_side.resize(entries.size());
     table.sides.reserve(entries.size());
     for (int low = 0; low < vertex_count; ++low) {
+        checkpoint(low);
         const auto first = entries.begin() + bucket_begin[static_cast<std::size_t>(low)];
         const auto last = entries.begin() + bucket_begin[static_cast<std::size_t>(low) + 1];
         std::sort(first, last,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/progress.h"
 #include "mesh/union_find.h"
 
 namespace fairing {
@@ -17,6 +18,7 @@ Fans number_fans(const Triangles& triangles, UnionFind& corners) {
     const int corner_count = 3 * static_cast<int>(triangles.cols());
     fans.of_corner.assign(at(corner_count), none);
     for (int c = 0; c < corner_count; ++c) {
+        checkpoint(c);
         int& fan = fans.of_corner[at(corners.root(c))];
         if (fan == none) {
             fan = static_cast<int>(fans.input_vertex.size());
@@ -39,6 +41,7 @@ std::array<int, 3> sorted_fans(const Fans& fans, int triangle) {
 Fans join_corners(const Triangles& triangles, const EdgeTable& edges, const std::vector<char>& cut) {
     UnionFind corners(3 * static_cast<int>(triangles.cols()));
     for (int e = 0; e < edges.size(); ++e) {
+        checkpoint(e);
         if (cut[at(e)] || edges.side_count(e) != 2) continue;
         for (int v : edges.ends[at(e)]) {
             corners.join(corner_at(triangles, edges.side(e, 0), v), corner_at(triangles, edges.side(e, 1), v));
@@ -51,6 +54,7 @@ Indices doubled_triangles(const Triangles& triangles, const EdgeTable& edges, co
     // A pocket has an edge that joins it, since its corners are joined: the two sides of that one are looked at.
     Indices result;
     for (int e = 0; e < edges.size(); ++e) {
+        checkpoint(e);
         if (edges.side_count(e) != 2) continue;
         const int a = edges.side(e, 0) / 3;
         const int b = edges.side(e, 1) / 3;

@@ -2,49 +2,9 @@
 
 #include <algorithm>
 
+#include "base/progress.h"
+
 namespace fairing {
-
-namespace {
-
-bool has_free_vertex(const CutMesh& mesh, const Indices& piece_triangles, const VertexRoles& roles) {
-    return std::any_of(piece_triangles.begin(), piece_triangles.end(), [&](int t) {
-        const auto corners = mesh.triangles.col(t);
-        return std::any_of(corners.begin(), corners.end(),
-                           [&](int v) { return !roles.fixed[at(mesh.input_vertex[at(v)])]; });
-    });
-}
-
-// Free vertices first, each group in the order of the input, so that neighbours in the input stay close in memory.
-PatchMembers number_vertices(const CutMesh& cut, const Indices& piece_triangles, const VertexRoles& roles) {
-    PatchMembers members;
-    Indices vertices;
-    for (int t : piece_triangles)
-        vertices.insert(vertices.end(), cut.triangles.col(t).begin(), cut.triangles.col(t).end());
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    const auto input = [&](int v) { return cut.input_vertex[at(v)]; };
-    std::sort(vertices.begin(), vertices.end(),
-              [&](int a, int b) { return input(a) != input(b) ? input(a) < input(b) : a < b; });
-    const auto first_fixed =
-        std::stable_partition(vertices.begin(), vertices.end(), [&](int v) { return !roles.fixed[at(input(v))]; });
-    members.free_count = static_cast<int>(first_fixed - vertices.begin());
-
-    Indices local(cut.input_vertex.size(), none);
-    for (int v : vertices) {
-        local[at(v)] = static_cast<int>(members.to_input.size());
-        members.to_input.push_back(input(v));
-        members.pin.push_back(roles.pin[at(input(v))]);
-    }
-    members.triangles.resize(3, static_cast<Eigen::Index>(piece_triangles.size()));
-    for (std::size_t k = 0; k < piece_triangles.size(); ++k) {
-        const int t = piece_triangles[k];
-        members.input_triangle.push_back(cut.input_triangle[at(t)]);
-        for (int c = 0; c < 3; ++c) members.triangles(c, static_cast<Eigen::Index>(k)) = local[at(cut.triangles(c, t))];
-    }
-    return members;
-}
-
-}  // namespace
 
 Patch::Patch(PatchMembers members) : PatchMembers(std::move(members)) {
     number_edges();
@@ -101,6 +61,7 @@ void Patch::number_edges() {
     edge_ends.reserve(at(3 * triangle_count() / 2 + vertex_count() / 8 + 8));
     edge_triangles.reserve(edge_ends.capacity());
     for (int t = 0; t < triangle_count(); ++t) {
+        checkpoint(t);
         for (int k = 0; k < 3; ++k) {
             const int tail = triangles(k, t);
             const int head = triangles((k + 1) % 3, t);
@@ -135,6 +96,7 @@ void Patch::flatten_rings() {
     rim_begin_ = {0};
     for (Indices* list : {&ring_vertices_, &ring_spokes_, &ring_rim_}) list->reserve(2 * edge_ends.size());
     for (int v = 0; v < vertex_count(); ++v) {
+        checkpoint(v);
         int passed = 0;
         for (int t = first[at(v)]; t != none;) {
             const auto corners = triangles.col(t);
@@ -170,24 +132,6 @@ SurfaceMesh surface_mesh(const Patch& patch) {
         mesh.add_face(corner(0), corner(1), corner(2));
     }
     return mesh;
-}
-
-std::vector<Indices> triangles_of_pieces(const CutMesh& mesh) {
-    std::vector<Indices> pieces(at(mesh.piece_count));
-    for (std::size_t t = 0; t < mesh.piece.size(); ++t) pieces[at(mesh.piece[t])].push_back(static_cast<int>(t));
-    return pieces;
-}
-
-Patch make_patch(const CutMesh& cut, const Indices& piece_triangles, const VertexRoles& roles) {
-    return Patch(number_vertices(cut, piece_triangles, roles));
-}
-
-std::vector<Patch> make_patches(const CutMesh& mesh, const VertexRoles& roles) {
-    std::vector<Patch> patches;
-    for (const Indices& piece : triangles_of_pieces(mesh)) {
-        if (has_free_vertex(mesh, piece, roles)) patches.push_back(make_patch(mesh, piece, roles));
-    }
-    return patches;
 }
 
 }  // namespace fairing

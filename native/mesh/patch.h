@@ -61,13 +61,4 @@ private:
 // The connectivity of a patch as a half-edge mesh without positions; vertex, edge and face indices agree.
 SurfaceMesh surface_mesh(const Patch& patch);
 
-// One piece of a cut mesh.
-Patch make_patch(const CutMesh& cut, const Indices& piece_triangles, const VertexRoles& roles);
-
-// The patches that have free vertices, in the order of their lowest triangle.
-std::vector<Patch> make_patches(const CutMesh& mesh, const VertexRoles& roles);
-
-// Triangle lists of all pieces, free vertices or not.
-std::vector<Indices> triangles_of_pieces(const CutMesh& mesh);
-
 }  // namespace fairing

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <string>
 
+#include "base/progress.h"
 #include "mesh/fans.h"
 #include "mesh/union_find.h"
 
@@ -81,6 +82,7 @@ Windings join_windings(const Triangles& triangles, const EdgeTable& edges, const
     Windings windings{UnionFind(count), UnionFind(count), {}};
     for (const bool across_cuts : {false, true}) {
         for (int e = 0; e < edges.size(); ++e) {
+            checkpoint(e);
             if (edges.side_count(e) != 2 || (cut[at(e)] != 0) != across_cuts) continue;
             const int a = edges.side(e, 0);
             const int b = edges.side(e, 1);
@@ -146,6 +148,7 @@ Joints join_triangles(const Triangles& triangles, const EdgeTable& edges, const 
 Joints join_or_take_apart(const Triangles& triangles, const EdgeTable& edges, const Indices& input_triangle,
                           const VertexRoles& roles) {
     std::vector<char> cut = find_cut_edges(triangles, edges, roles);
+    checkpoint();
     Joints joints = join_triangles(triangles, edges, cut);
     check_fans(joints.fans, roles);
     const Indices doubled = doubled_triangles(triangles, edges, joints.fans);
@@ -267,6 +270,7 @@ CutMesh cut_mesh(const Triangles& triangles, const Indices& input_triangle, cons
     CutMesh mesh;
     mesh.input_triangle = input_triangle;
     mesh.input_vertex = std::move(fans.input_vertex);
+    checkpoint();
     mesh.flipped = minority_triangles(static_cast<int>(triangles.cols()), windings.orientation);
     warn_of_windings(mesh, warnings);
     mesh.triangles.resize(3, triangles.cols());
@@ -274,6 +278,7 @@ CutMesh cut_mesh(const Triangles& triangles, const Indices& input_triangle, cons
     for (int t = 0; t < triangles.cols(); ++t) {
         if (mesh.flipped[at(t)]) std::swap(mesh.triangles(1, t), mesh.triangles(2, t));
     }
+    checkpoint();
     number_pieces(mesh, windings.pieces);
     return mesh;
 }

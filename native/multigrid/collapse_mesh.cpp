@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "base/progress.h"
+
 namespace fairing {
 
 namespace {
@@ -67,6 +69,7 @@ void CollapseMesh::set_weights(const Patch& patch, const InnerWeights& weights) 
     };
     double sum = 0.0;
     for (const auto& [i, j, weight] : weights) {
+        checkpoint(i);
         const int edge = find(i, j);
         sum += weight;
         if (edge != none) of_edge[edge] += weight;
@@ -121,6 +124,7 @@ Removals CollapseMesh::pass() {
     Star star;
     std::fill(blocked_.begin(), blocked_.end(), 0);
     for (int v = 0; v < static_cast<int>(blocked_.size()); ++v) {
+        checkpoint(v);
         if (dead_vertex_[at(v)] || blocked_[at(v)] || valence_[at(v)] > hub) continue;
         if (is_fixed(v) && (pin_[at(v)] || !border_[at(v)])) continue;
         gather(v, star);

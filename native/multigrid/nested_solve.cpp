@@ -1,6 +1,7 @@
 #include "multigrid/nested_solve.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
@@ -25,6 +26,9 @@ constexpr int most_iterations = 20;
 constexpr int most_between = 6;
 constexpr int patience = 6;
 constexpr int evening_sweeps = 3;
+// Shares of the time, measured at 100k and 256k.
+constexpr double begin = 0.06;  // the hierarchy
+constexpr double share_of_start = 0.3;
 
 InnerWeights symmetric_weights(const Lambda& weights) {
     if (const auto* rows = std::get_if<RowWeights>(&weights)) return symmetrised(*rows);
@@ -44,6 +48,9 @@ Points with_fixed(const Patch& patch, const Points& fixed) {
     points.rightCols(fixed.cols()) = fixed;
     return points;
 }
+
+// The fraction of all that is done after level k: each level takes about a quarter of the next finer one.
+double done_after(std::size_t k) { return begin + (1.0 - begin) * std::pow(0.25, static_cast<double>(k)); }
 
 struct Level {
     Problem problem;
@@ -67,20 +74,17 @@ public:
         if (coarse_.empty()) return std::nullopt;
         make_levels(std::move(weights));
         std::map<std::string, double> seconds{{"hierarchy", watch.lap()}};
-        Solution solution = solve_coarsest(coarsest_problem(), progress_.range(0.05, 0.2));
+        progress_.report(begin, "hierarchy");
+        Solution solution = solve_coarsest(coarsest_problem(), progress_.range(begin, done_after(coarse_.size())));
         if (solution.termination != Termination::converged) return std::nullopt;
         const double initial_residual = solution.initial_residual;
         set_up_tangential(coarse_.size(), laplacian_of(coarse_.size()));
         seconds["coarsest"] = watch.lap();
-        double begin = 0.2;
         for (std::size_t k = coarse_.size(); k-- > 0;) {
-            // Each level is about a quarter of the next.
-            const double end = begin + (k == 0 ? 1.0 - begin : 0.25 * (1.0 - begin));
-            solution = refine(k, solution.points, progress_.range(begin, end));
+            solution = refine(k, solution.points, progress_.range(done_after(k + 1), done_after(k)));
             const bool good =
                 k == 0 ? solution.termination == Termination::converged : solution.termination != Termination::stalled;
             if (!good) return std::nullopt;
-            begin = end;
         }
         solution.boundary_normals = one_sided_normals(problem_.patch, solution.points);
         solution.initial_residual = initial_residual;
@@ -143,10 +147,10 @@ private:
         const Problem& problem = level.problem;
         RingMatrix laplacian = laplacian_of(k);
         Points points = interpolated(k, coarse, laplacian);
-        progress.report(0.1, "refinement");
+        progress.report(share_of_start / 3, "refinement");
         set_up_tangential(k, std::move(laplacian));
         slide(problem, *level.work.tangential, points);
-        progress.report(0.3, "refinement");
+        progress.report(share_of_start, "refinement");
         level.work.normal =
             std::make_unique<BiharmonicOperator>(problem.patch, points.leftCols(problem.patch.free_count));
         // λ that aren't symmetric need a factorisation of their own; so far their symmetric part was good enough.
@@ -155,7 +159,7 @@ private:
                 make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here());
             slide(problem, *level.work.tangential, points);
         }
-        return iterate(problem, level.work, points, progress.range(0.3, 1.0));
+        return iterate(problem, level.work, points, progress.range(share_of_start, 1.0));
     }
 
     [[nodiscard]] RingMatrix laplacian_of(std::size_t k) const {

@@ -1,5 +1,7 @@
 #include "multigrid/ring_matrix.h"
 
+#include "base/progress.h"
+
 namespace fairing {
 
 RingMatrix::RingMatrix(int vertex_count, const InnerWeights& edges)
@@ -26,6 +28,7 @@ RingMatrix::RingMatrix(int vertex_count, const InnerWeights& edges)
 void even_out(const RingMatrix& weights, int free_count, int sweeps, Points& points, Points& normals) {
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         for (int i = 0; i < free_count; ++i) {
+            checkpoint(i);
             const int first = weights.begin[at(i)];
             const int count = weights.begin[at(i) + 1] - first;
             const int* around = &weights.columns[at(first)];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/pieces.h"
 #include "paper/collapse_module.h"
 
 namespace fairing {
@@ -33,14 +34,15 @@ Patch level_patch(const Patch& fine, const Triangles& triangles) {
     cut.triangles = triangles;
     cut.input_vertex.resize(count);
     std::iota(cut.input_vertex.begin(), cut.input_vertex.end(), 0);
-    Indices all(at(static_cast<int>(triangles.cols())));
-    std::iota(all.begin(), all.end(), 0);
-    cut.input_triangle = all;
+    cut.input_triangle.resize(at(static_cast<int>(triangles.cols())));
+    std::iota(cut.input_triangle.begin(), cut.input_triangle.end(), 0);
+    cut.piece.assign(cut.input_triangle.size(), 0);
+    cut.piece_count = 1;
     VertexRoles roles;
     roles.pin = fine.pin;
     roles.fixed.assign(count, 1);
     std::fill_n(roles.fixed.begin(), fine.free_count, 0);
-    return make_patch(cut, all, roles);
+    return Pieces(cut, roles).patch(0);
 }
 
 }  // namespace

@@ -54,6 +54,18 @@ Solution solve_patiently(const Problem& problem, Workspace& work, const Points& 
     return damped.termination == Termination::converged ? damped : solution;
 }
 
+double mean_outline_edge(const Problem& problem) {
+    const auto place = [&](int v) { return problem.fixed_points.col(v - problem.patch.free_count); };
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const Indices& loop : problem.patch.loops()) {
+        for (std::size_t k = 0; k < loop.size(); ++k)
+            sum += (place(loop[k]) - place(loop[(k + 1) % loop.size()])).norm();
+        count += loop.size();
+    }
+    return count > 0 ? sum / static_cast<double>(count) : 0.0;
+}
+
 // The fitted surface of a solution, as a target for other vertices.
 struct SolvedProxy {
     ProxyMesh::Snapshot mesh;
@@ -76,16 +88,21 @@ public:
     Solution run(const Points& start) {
         if (guess_) {
             Attempt attempt{ProxyMesh(problem_.patch, *guess_), {}};
-            attempt.proxy.emplace(solve_fine(attempt.mesh, finest_growth, true));
+            attempt.proxy.emplace(solve_fine(attempt.mesh, {finest_growth, longest_fine, free_limit_}, true));
             if (attempt.proxy->converged()) return place(attempt);
         }
         std::optional<Attempt> least_bent;
-        // Lengths that grow slowly need more vertices but resolve more.
-        for (const double growth : {0.5, 0.25, 0.12}) {
+        // Lengths that grow slowly need more vertices but resolve more. Where the outline is coarse, the needles
+        // between it and a fine interior may keep the iteration from converging: then the interior is coarse, too.
+        for (const auto& [growth, share_of_outline] :
+             {std::pair(0.5, 0.0), std::pair(0.25, 0.35), std::pair(0.12, 0.35)}) {
             Attempt attempt{ProxyMesh(problem_.patch, start), {}};
             attempt.mesh.adapt({growth, longest_coarse, free_limit_});
             const bool converged = solve_coarse(attempt.mesh, growth);
-            attempt.proxy.emplace(solve_fine(attempt.mesh, growth, converged));
+            const double longest =
+                std::clamp(share_of_outline * mean_outline_edge(problem_), longest_fine, longest_coarse);
+            const Sizing fine{std::min(growth, finest_growth), longest, free_limit_};
+            attempt.proxy.emplace(solve_fine(attempt.mesh, fine, converged));
             if (attempt.proxy->converged()) return place(attempt);
             if (!least_bent || attempt.proxy->energy < least_bent->proxy->energy)
                 least_bent.emplace(std::move(attempt));
@@ -170,8 +187,8 @@ private:
     }
 
     // Not converged: the least bent surface of the fine proxy instead of the iteration's last one.
-    SolvedProxy solve_fine(ProxyMesh& mesh, double growth, bool from_converged) {
-        mesh.adapt({std::min(growth, finest_growth), longest_fine, free_limit_});
+    SolvedProxy solve_fine(ProxyMesh& mesh, const Sizing& sizing, bool from_converged) {
+        mesh.adapt(sizing);
         auto snapshot = mesh.snapshot();
         const Problem problem = proxy_problem(problem_, snapshot.patch);
         Workspace work = make_workspace(problem, progress_);

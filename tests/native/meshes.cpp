@@ -1,4 +1,5 @@
 #include "meshes.h"
+#include "mesh/pieces.h"
 
 namespace fairing::test {
 

@@ -1,8 +1,11 @@
 #include <doctest/doctest.h>
 
+#include <chrono>
+#include <thread>
 #include <vector>
 
 #include "base/errors.h"
+#include "base/parallel.h"
 #include "base/progress.h"
 
 using namespace fairing;
@@ -24,4 +27,33 @@ TEST_CASE("a callback that says no cancels; without one nothing happens") {
     const Progress progress([](double, std::string_view) { return false; });
     CHECK_THROWS_AS(progress.report(0.1, "x"), Cancelled);
     CHECK_NOTHROW(Progress().report(0.1, "x"));
+}
+
+TEST_CASE("checkpoints ask again where the last report was, in their own thread and while they live") {
+    std::vector<std::string> stages;
+    bool go_on = true;
+    const Progress progress([&](double fraction, std::string_view stage) {
+        CHECK(fraction == 0.25);
+        stages.emplace_back(stage);
+        return go_on;
+    });
+    const auto wait = [] { std::this_thread::sleep_for(std::chrono::milliseconds(60)); };
+    progress.report(0.25, "a stage");
+    {
+        const Checkpoints checkpoints(progress);
+        checkpoint();  // too early
+        wait();
+        std::thread([] { checkpoint(); }).join();
+        CHECK(stages.size() == 1);
+        checkpoint();
+        CHECK(stages == std::vector<std::string>{"a stage", "a stage"});
+        go_on = false;
+        int pieces = 0;
+        CHECK_THROWS_AS(run_pieces(10, [&](int) { ++pieces, wait(); }), Cancelled);
+        CHECK(pieces == 1);
+        const Threads team(2);
+        CHECK_THROWS_AS(run_pieces(100, [&](int) { wait(); }), Cancelled);
+    }
+    wait();
+    CHECK_NOTHROW(checkpoint());
 }

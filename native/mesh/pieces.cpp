@@ -1,0 +1,88 @@
+#include "mesh/pieces.h"
+
+#include "base/progress.h"
+
+namespace fairing {
+
+namespace {
+
+// Cut vertices by their input vertices, those of one as they are numbered.
+Indices sorted_by_input(const Indices& input_vertex, std::size_t input_count) {
+    Indices begin(input_count + 1, 0);
+    for (int input : input_vertex) ++begin[at(input) + 1];
+    for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
+    Indices sorted(input_vertex.size());
+    for (int v = 0; v < static_cast<int>(input_vertex.size()); ++v) {
+        checkpoint(v);
+        sorted[at(begin[at(input_vertex[at(v)])]++)] = v;
+    }
+    return sorted;
+}
+
+}  // namespace
+
+Pieces::Pieces(const CutMesh& cut, const VertexRoles& roles) : cut_(cut), roles_(roles) {
+    list_triangles();
+    number_vertices();
+}
+
+void Pieces::list_triangles() {
+    triangles_.resize(at(cut_.piece_count));
+    for (int t = 0; t < static_cast<int>(cut_.piece.size()); ++t) {
+        checkpoint(t);
+        triangles_[at(cut_.piece[at(t)])].push_back(t);
+    }
+}
+
+// A cut vertex belongs to one piece: all triangles around it are joined.
+void Pieces::number_vertices() {
+    Indices piece_of(cut_.input_vertex.size(), none);
+    for (int t = 0; t < static_cast<int>(cut_.piece.size()); ++t) {
+        checkpoint(t);
+        for (int v : cut_.triangles.col(t)) piece_of[at(v)] = cut_.piece[at(t)];
+    }
+    const Indices sorted = sorted_by_input(cut_.input_vertex, roles_.fixed.size());
+    vertices_.resize(triangles_.size());
+    free_count_.assign(triangles_.size(), 0);
+    local_.assign(cut_.input_vertex.size(), none);
+    for (const bool fixed : {false, true}) {
+        for (int v : sorted) {
+            const int piece = piece_of[at(v)];
+            if (piece == none || (roles_.fixed[at(cut_.input_vertex[at(v)])] != 0) != fixed) continue;
+            local_[at(v)] = static_cast<int>(vertices_[at(piece)].size());
+            vertices_[at(piece)].push_back(v);
+            if (!fixed) ++free_count_[at(piece)];
+        }
+        checkpoint();
+    }
+}
+
+Patch Pieces::patch(int piece) const {
+    PatchMembers members;
+    members.free_count = free_count_[at(piece)];
+    for (int v : vertices_[at(piece)]) {
+        const int input = cut_.input_vertex[at(v)];
+        members.to_input.push_back(input);
+        members.pin.push_back(roles_.pin[at(input)]);
+    }
+    const Indices& triangles = triangles_[at(piece)];
+    members.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
+    for (int k = 0; k < static_cast<int>(triangles.size()); ++k) {
+        checkpoint(k);
+        const int t = triangles[at(k)];
+        members.input_triangle.push_back(cut_.input_triangle[at(t)]);
+        for (int c = 0; c < 3; ++c) members.triangles(c, k) = local_[at(cut_.triangles(c, t))];
+    }
+    return Patch(std::move(members));
+}
+
+std::vector<Patch> make_patches(const CutMesh& cut, const VertexRoles& roles) {
+    const Pieces pieces(cut, roles);
+    std::vector<Patch> patches;
+    for (int k = 0; k < pieces.size(); ++k) {
+        if (pieces.has_free_vertex(k)) patches.push_back(pieces.patch(k));
+    }
+    return patches;
+}
+
+}  // namespace fairing

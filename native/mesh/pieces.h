@@ -1,0 +1,33 @@
+// The connected pieces of a cut mesh.
+#pragma once
+
+#include "mesh/patch.h"
+
+namespace fairing {
+
+// Pieces are numbered by their lowest triangle. Refers to its arguments.
+class Pieces {
+public:
+    Pieces(const CutMesh& cut, const VertexRoles& roles);
+
+    [[nodiscard]] int size() const { return static_cast<int>(triangles_.size()); }
+    [[nodiscard]] bool has_free_vertex(int piece) const { return free_count_[at(piece)] > 0; }
+    // Free vertices first, each group in the order of the input, so that neighbours in the input stay close in memory.
+    [[nodiscard]] Patch patch(int piece) const;
+
+private:
+    void list_triangles();
+    void number_vertices();
+
+    const CutMesh& cut_;
+    const VertexRoles& roles_;
+    std::vector<Indices> triangles_;
+    std::vector<Indices> vertices_;  // cut vertices in the order of the patch
+    Indices free_count_;
+    Indices local_;  // cut vertex → its number in its piece
+};
+
+// The patches that have free vertices.
+std::vector<Patch> make_patches(const CutMesh& cut, const VertexRoles& roles);
+
+}  // namespace fairing
