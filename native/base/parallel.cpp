@@ -13,11 +13,13 @@ namespace fairing {
 
 namespace {
 
-// More bring little: parts of every solve are serial.
-constexpr int most_threads = 8;
+// Of our own choice: more bring little, since parts of every solve are serial. And of the caller's.
+constexpr int most_chosen = 8;
+constexpr int most_asked = 64;
 
 int wanted_threads(int count) {
-    return std::clamp(count > 0 ? count : static_cast<int>(std::thread::hardware_concurrency()), 1, most_threads);
+    if (count > 0) return std::min(count, most_asked);
+    return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, most_chosen);
 }
 
 // One loop, shared by those who work on it.

@@ -11,9 +11,9 @@ namespace fairing {
 
 class ThreadTeam;
 
-// While it lives, the loops below that its thread enters run on up to `count` threads, 0 for one on each core. Without
-// it, and within a piece, they run on their own thread. Threads begin at the first loop with work for them and end
-// with it: nothing is left for a fork to lose.
+// While it lives, the loops below that its thread enters run on up to `count` threads (64 at most), 0 for one on each
+// core (8 at most). Without it, and within a piece, they run on their own thread. Threads begin at the first loop with
+// work for them and end with it: nothing is left for a fork to lose.
 class Threads {
 public:
     explicit Threads(int count);

@@ -82,9 +82,9 @@ def fair(
     normals : "fitted" | "averaged"
         Vertex normal behind H. "paper" always averages.
     threads : int
-        0: all cores. The result has the same bits for every number of threads.
+        0: one for each core, eight at most. The result has the same bits for every number of threads.
     progress : callable(fraction, stage) -> None | bool
-        Called between steps; returning False cancels.
+        Called every 50 ms or so, by the calling thread; returning False cancels.
     damping : float in (0, 1]
         "paper": s of §7.5, default 0.9.
     cg_steps : int
