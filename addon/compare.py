@@ -10,6 +10,7 @@ import numpy as np
 from . import mesh_io
 from .arrays import Floats, Ints
 from .job import Task, objects_in_mode
+from .polling import require, require_edit_mode
 from .solve import Fairing
 
 
@@ -97,13 +98,7 @@ class MESH_OT_fair_compare(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """There must be something to compare, in edit mode."""
-        if context.mode != "EDIT_MESH":
-            cls.poll_message_set("Only in edit mode")
-            return False
-        if not is_available():
-            cls.poll_message_set("Nothing has been faired yet")
-            return False
-        return True
+        return require_edit_mode(cls, context) and require(cls, is_available(), "Nothing has been faired yet")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Swap, unless the vertices were moved by anything else."""

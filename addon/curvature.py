@@ -9,6 +9,7 @@ import fairing
 
 from . import mesh_io
 from .options import FairOptions
+from .polling import require
 
 NAME = "mean_curvature"
 
@@ -24,13 +25,10 @@ class MESH_OT_fair_curvature(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Needs a mesh, in object or edit mode."""
-        if context.active_object is None or context.active_object.type != "MESH":
-            cls.poll_message_set("Make a mesh object active")
-            return False
-        if context.mode not in ("OBJECT", "EDIT_MESH"):
-            cls.poll_message_set("In object or edit mode")
-            return False
-        return True
+        obj = context.active_object
+        return require(cls, obj is not None and obj.type == "MESH", "Make a mesh object active") and require(
+            cls, context.mode in ("OBJECT", "EDIT_MESH"), "In object or edit mode"
+        )
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Measure and write; positions and all other layers stay."""

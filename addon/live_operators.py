@@ -12,6 +12,7 @@ import fairing
 from . import live_mesh
 from .inspection import last_options
 from .live import live
+from .polling import SELECT_FACES, require, require_edit_mode
 from .signals import live_changed
 
 
@@ -38,10 +39,7 @@ class MESH_OT_fair_live_region(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Edit mode has a selection."""
-        if context.mode != "EDIT_MESH":
-            cls.poll_message_set("Select faces of a mesh in edit mode")
-            return False
-        return True
+        return require_edit_mode(cls, context, SELECT_FACES)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Take the selection of every object in edit mode that has one, and turn Live on."""
@@ -71,13 +69,11 @@ class MESH_OT_fair_live_forget(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """There must be a region."""
-        if context.mode != "EDIT_MESH":
-            cls.poll_message_set("Only in edit mode")
-            return False
-        if not any(live_mesh.has_region(obj.data) for obj in context.objects_in_mode_unique_data):
-            cls.poll_message_set("There is no live region")
-            return False
-        return True
+        return require_edit_mode(cls, context) and require(
+            cls,
+            any(live_mesh.has_region(obj.data) for obj in context.objects_in_mode_unique_data),
+            "There is no live region",
+        )
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Forget them all."""

@@ -15,6 +15,7 @@ import fairing
 from . import compare, job, mesh_io
 from .engine import Progress
 from .options import FairOptions
+from .polling import SELECT_FACES, require, require_edit_mode
 from .preferences import background_from
 from .properties import FairProperties
 from .redo_panel import draw_options
@@ -50,13 +51,11 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Cheap, as it is asked at every redraw; what takes a look at the mesh is answered by a report."""
-        if context.mode != "EDIT_MESH":
-            cls.poll_message_set("Select faces of a mesh in edit mode")
-            return False
-        if context.window_manager.fairing_progress.running:
-            cls.poll_message_set("Fairing is under way: wait for it, or press Esc")
-            return False
-        return True
+        return require_edit_mode(cls, context, SELECT_FACES) and require(
+            cls,
+            not context.window_manager.fairing_progress.running,
+            "Fairing is under way: wait for it, or press Esc",
+        )
 
     def draw(self, context: bpy.types.Context) -> None:
         """Lay the options out in groups."""

@@ -13,6 +13,7 @@ import bpy
 from .handlers import call_later, call_off, listen, unlisten
 from .inspection import Inspection, inspect, last_options
 from .mesh_io import edit_face_count
+from .polling import require_edit_mode
 from .preferences import inspect_up_to
 from .status import redraw_sidebars
 
@@ -97,10 +98,7 @@ class MESH_OT_fair_inspect(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Edit mode has a selection to look at."""
-        if context.mode != "EDIT_MESH":
-            cls.poll_message_set("Only in edit mode")
-            return False
-        return True
+        return require_edit_mode(cls, context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Look now, however large the mesh."""

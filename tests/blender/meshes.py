@@ -206,10 +206,10 @@ def moved(before: dict[str, bytes], after: dict[str, bytes], name: str = "POINT 
     return (old != new).any(axis=1)
 
 
-def contents_in_edit_mode() -> dict[str, bytes]:
-    """Undo replaces objects: look the grid up again, and visit object mode to read it."""
+def contents_in_edit_mode(name: str = "Grid") -> dict[str, bytes]:
+    """Undo replaces objects: look this one up again, and visit object mode to read it."""
     assert bpy.context.mode == "EDIT_MESH"
     leave()
-    found = contents(bpy.data.objects["Grid"])
+    found = contents(bpy.data.objects[name])
     bpy.ops.object.mode_set(mode="EDIT")
     return found

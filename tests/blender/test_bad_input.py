@@ -6,6 +6,8 @@ the free vertices keep every bit, what is odd is told.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import bmesh
@@ -15,14 +17,6 @@ import numpy as np
 import pytest
 import spoiled
 from test_restoration import BOUND, off_sphere, spoil, upper_half
-
-
-def snapshot(name: str) -> dict[str, bytes]:
-    """The contents of an object in edit mode; undo replaces objects, so that only names last."""
-    meshes.leave()
-    found = meshes.contents(bpy.data.objects[name])
-    bpy.ops.object.mode_set(mode="EDIT")
-    return found
 
 
 def without_selection(contents: dict[str, bytes]) -> dict[str, bytes]:
@@ -36,25 +30,35 @@ def chosen(name: str) -> list[int]:
     return found
 
 
+@contextmanager
+def no_step_added(obj: bpy.types.Object, moving: Any, faces: Any) -> Iterator[dict[str, bytes]]:
+    """Give the contents after a move, `faces` selected; see that an undo afterwards takes back the move."""
+    name = obj.name
+    meshes.select(obj, moving)
+    meshes.edit(obj)
+    bpy.ops.ed.undo_push(message="first")
+    first = meshes.contents_in_edit_mode(name)
+    bpy.ops.transform.translate(value=(0.0, 0.0, 0.25))
+    meshes.leave()
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    bpy.ops.ed.undo_push(message="second")
+    second = meshes.contents_in_edit_mode(name)
+    assert first["POINT position"] != second["POINT position"]
+    yield second
+    bpy.ops.ed.undo()
+    assert meshes.contents_in_edit_mode(name)["POINT position"] == first["POINT position"]
+    meshes.leave()
+
+
 def refusal(obj: bpy.types.Object, faces: Any, **properties: Any) -> tuple[str, list[int]]:
     """Run what is refused, see that it leaves no trace; return the message and the vertices selected by it."""
     name = obj.name
-    meshes.select(obj, faces)
-    meshes.edit(obj)
-    bpy.ops.ed.undo_push(message="first")
-    first = snapshot(name)
-    bpy.ops.transform.translate(value=(0.0, 0.0, 0.25))
-    bpy.ops.ed.undo_push(message="second")
-    second = snapshot(name)
-    assert first["POINT position"] != second["POINT position"]
-    with pytest.raises(RuntimeError) as caught:
-        meshes.run(**properties)
-    assert without_selection(snapshot(name)) == without_selection(second)
-    selected = chosen(name)
-    bpy.ops.ed.undo()
-    assert snapshot(name)["POINT position"] == first["POINT position"]
-    meshes.leave()
-    return str(caught.value), selected
+    with no_step_added(obj, faces, faces) as before:
+        with pytest.raises(RuntimeError) as caught:
+            meshes.run(**properties)
+        assert without_selection(meshes.contents_in_edit_mode(name)) == without_selection(before)
+        return str(caught.value), chosen(name)
 
 
 def solved(obj: bpy.types.Object, faces: Any, free: Any = None, **properties: Any) -> str:
@@ -197,21 +201,9 @@ def test_nothing_to_move_adds_no_undo_step(count: int) -> None:
     few = np.zeros_like(faces)
     few[:count] = True
     name = obj.name
-    meshes.select(obj, faces)
-    meshes.edit(obj)
-    bpy.ops.ed.undo_push(message="first")
-    first = snapshot(name)
-    bpy.ops.transform.translate(value=(0.0, 0.0, 0.25))
-    meshes.leave()
-    meshes.select(obj, few)
-    meshes.edit(obj)
-    bpy.ops.ed.undo_push(message="second")
-    second = snapshot(name)
-    assert meshes.run() == {"CANCELLED"}
-    assert snapshot(name) == second
-    bpy.ops.ed.undo()
-    assert snapshot(name)["POINT position"] == first["POINT position"]
-    meshes.leave()
+    with no_step_added(obj, faces, few) as before:
+        assert meshes.run() == {"CANCELLED"}
+        assert meshes.contents_in_edit_mode(name) == before
 
 
 def dented(obj: bpy.types.Object, faces: Any) -> None:

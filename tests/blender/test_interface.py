@@ -11,6 +11,7 @@ import bpy
 import meshes
 import numpy as np
 import pytest
+from extension import module
 
 DEFAULTS = {
     "factor": 1.0,
@@ -55,6 +56,28 @@ def test_poll_says_why() -> None:
         bpy.ops.mesh.fair_region()
     bpy.ops.object.mode_set(mode="EDIT")
     assert bpy.ops.mesh.fair_region.poll()
+
+
+@pytest.mark.parametrize("name", ["fair_live_region", "fair_live_forget", "fair_compare", "fair_inspect"])
+def test_every_button_says_that_it_needs_edit_mode(name: str) -> None:
+    meshes.grid()
+    operator = getattr(bpy.ops.mesh, name)
+    assert not operator.poll()
+    with pytest.raises(RuntimeError, match="edit mode"):
+        operator()
+
+
+def test_every_button_says_what_it_lacks() -> None:
+    module("compare").forget()
+    meshes.edit(meshes.grid())
+    for name, lack in (("fair_live_forget", "no live region"), ("fair_compare", "Nothing has been faired")):
+        with pytest.raises(RuntimeError, match=lack):
+            getattr(bpy.ops.mesh, name)()
+    meshes.leave()
+    bpy.ops.object.select_all(action="DESELECT")
+    bpy.context.view_layer.objects.active = None
+    with pytest.raises(RuntimeError, match="mesh object"):
+        bpy.ops.mesh.fair_curvature()
 
 
 def test_minimal_surface() -> None:
