@@ -4,6 +4,8 @@
 No postponed annotations here: Blender reads them as property definitions.
 """
 
+from typing import Any
+
 import bpy
 from bpy.props import BoolProperty
 
@@ -59,6 +61,34 @@ class MESH_OT_fair_live_region(bpy.types.Operator):
         return {"FINISHED"}
 
 
+def _require_region(operator: Any, context: bpy.types.Context) -> bool:
+    return require_edit_mode(operator, context) and require(
+        operator,
+        any(live_mesh.has_region(obj.data) for obj in context.objects_in_mode_unique_data),
+        "There is no live region",
+    )
+
+
+class MESH_OT_fair_live_select(bpy.types.Operator):
+    """Select the faces of the live region, to see which they are"""
+
+    bl_idname = "mesh.fair_live_select"
+    bl_label = "Select Live Region"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """There must be a region."""
+        return _require_region(cls, context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Select in face mode: the other modes would select faces between the region's vertices too."""
+        context.tool_settings.mesh_select_mode = (False, False, True)
+        for obj in context.objects_in_mode_unique_data:
+            live_mesh.select_region(obj.data)
+        return {"FINISHED"}
+
+
 class MESH_OT_fair_live_forget(bpy.types.Operator):
     """Forget the live region of the meshes being edited; their shape stays as it is"""
 
@@ -69,11 +99,7 @@ class MESH_OT_fair_live_forget(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """There must be a region."""
-        return require_edit_mode(cls, context) and require(
-            cls,
-            any(live_mesh.has_region(obj.data) for obj in context.objects_in_mode_unique_data),
-            "There is no live region",
-        )
+        return _require_region(cls, context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Forget them all."""

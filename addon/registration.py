@@ -7,7 +7,12 @@ import bpy
 
 from . import cli, compare, handlers, job, live, overlay, runner, translations, ui, watch
 from .curvature import MESH_OT_fair_curvature
-from .live_operators import FairLive, MESH_OT_fair_live_forget, MESH_OT_fair_live_region
+from .live_operators import (
+    FairLive,
+    MESH_OT_fair_live_forget,
+    MESH_OT_fair_live_region,
+    MESH_OT_fair_live_select,
+)
 from .operators import MESH_OT_fair_region
 from .overlay_settings import FairOverlay
 from .preferences import FairPreferences
@@ -23,6 +28,7 @@ _register_classes, _unregister_classes = bpy.utils.register_classes_factory(
         FairLive,
         MESH_OT_fair_region,
         MESH_OT_fair_live_region,
+        MESH_OT_fair_live_select,
         MESH_OT_fair_live_forget,
         compare.MESH_OT_fair_compare,
         watch.MESH_OT_fair_inspect,

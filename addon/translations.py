@@ -18,6 +18,7 @@ _GERMAN = {
     "Last Run": "Letzter Lauf",
     "Live": "Mitlaufend",
     "Live Region": "Mitlaufende Region",
+    "Select Live Region": "Mitlaufende Region auswählen",
     "Forget Live Region": "Mitlaufende Region vergessen",
     "Quality Overlay": "Qualitätsanzeige",
     "Free Vertices": "Freie Vertices",

@@ -8,7 +8,7 @@ from .compare import MESH_OT_fair_compare
 from .curvature import MESH_OT_fair_curvature
 from .inspection import Inspection
 from .live import live
-from .live_operators import MESH_OT_fair_live_forget, MESH_OT_fair_live_region
+from .live_operators import MESH_OT_fair_live_forget, MESH_OT_fair_live_region, MESH_OT_fair_live_select
 from .operators import MESH_OT_fair_region
 from .overlay import overlay
 from .text import draw_text
@@ -95,6 +95,7 @@ class VIEW3D_PT_fairing_live(_Panel, bpy.types.Panel):
         """Draw the operators, what is followed and how quickly."""
         row = self.layout.row(align=True)
         row.operator(MESH_OT_fair_live_region.bl_idname)
+        row.operator(MESH_OT_fair_live_select.bl_idname, text="", icon="RESTRICT_SELECT_OFF")
         row.operator(MESH_OT_fair_live_forget.bl_idname, text="", icon="X")
         column = self.layout.column(align=True)
         for name, session in live.sessions.items():

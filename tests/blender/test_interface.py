@@ -58,7 +58,9 @@ def test_poll_says_why() -> None:
     assert bpy.ops.mesh.fair_region.poll()
 
 
-@pytest.mark.parametrize("name", ["fair_live_region", "fair_live_forget", "fair_compare", "fair_inspect"])
+@pytest.mark.parametrize(
+    "name", ["fair_live_region", "fair_live_select", "fair_live_forget", "fair_compare", "fair_inspect"]
+)
 def test_every_button_says_that_it_needs_edit_mode(name: str) -> None:
     meshes.grid()
     operator = getattr(bpy.ops.mesh, name)

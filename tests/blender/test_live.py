@@ -301,6 +301,24 @@ def test_what_cannot_be_live_is_refused() -> None:
     assert not module("live_mesh").has_region(obj.data)
 
 
+@pytest.mark.parametrize("mode", [(True, False, False), (False, False, True)])
+def test_region_can_be_selected(live: Any, mode: tuple[bool, bool, bool]) -> None:
+    obj, faces = table_mountain()
+    before = now()
+    hidden = np.flatnonzero(faces)[5]
+    meshes.leave()
+    obj.data.polygons[hidden].hide = True
+    obj.data.polygons.foreach_set("select", (~faces).tolist())
+    meshes.edit(obj)
+    bpy.context.tool_settings.mesh_select_mode = mode
+    assert bpy.ops.mesh.fair_live_select() == {"FINISHED"}
+    meshes.leave()
+    shown = faces.copy()
+    shown[hidden] = False
+    assert np.array_equal([polygon.select for polygon in obj.data.polygons], shown)
+    assert np.array_equal(meshes.positions(obj), before)
+
+
 def test_forgetting_leaves_no_trace(live: Any) -> None:
     obj, _ = table_mountain()
     assert bpy.ops.mesh.fair_live_forget() == {"FINISHED"}
@@ -310,3 +328,4 @@ def test_forgetting_leaves_no_trace(live: Any) -> None:
     assert module("live_mesh").OPTIONS not in obj.data
     meshes.edit(obj)
     assert not bpy.ops.mesh.fair_live_forget.poll()
+    assert not bpy.ops.mesh.fair_live_select.poll()
