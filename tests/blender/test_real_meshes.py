@@ -27,7 +27,7 @@ def counts(report: Any, name: str) -> tuple[int, int]:
 
 @needs_meshes
 @pytest.mark.slow
-@pytest.mark.parametrize("patch", PATCHES, ids=real.name)
+@pytest.mark.parametrize("patch", PATCHES, ids=[real.name(patch) for patch in PATCHES])
 def test_patch_converges_without_new_flips(patch: dict[str, Any]) -> None:
     report = run(patch)
     assert report.converged

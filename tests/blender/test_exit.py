@@ -1,0 +1,50 @@
+"""Blender ends as it should after everything that listens has been used: a process of its own, and its exit status."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+TESTS = Path(__file__).parent
+USE = """
+import conftest  # before bpy: it sets Blender's scratch folder
+import addon_utils
+import bpy
+import meshes
+
+bpy.ops.extensions.package_install_files(
+    repo="user_default", filepath=str(conftest._zip()), enable_on_install=True, overwrite=True
+)
+manager = bpy.context.window_manager
+obj, faces = meshes.domed_grid()
+meshes.fair(obj, faces)
+manager.fairing_overlay.show = True
+meshes.edit(obj)
+bpy.ops.mesh.fair_live_region()
+assert manager.fairing_live.on
+"""
+ENDINGS = {
+    "in use": "",
+    "disabled": "addon_utils.disable('bl_ext.user_default.intrinsic_fairing')",
+    "disabled and enabled": """
+for _ in range(20):
+    addon_utils.disable('bl_ext.user_default.intrinsic_fairing')
+    addon_utils.enable('bl_ext.user_default.intrinsic_fairing')
+""",
+    "another file": "bpy.ops.wm.read_homefile(use_empty=True)",
+}
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_blender_ends_well(ending: str, tmp_path: Path) -> None:
+    environment = {**os.environ, "PYTHONPATH": str(TESTS), "TMPDIR": str(tmp_path)}
+    ended = subprocess.run(
+        [sys.executable, "-c", USE + ENDINGS[ending]], env=environment, capture_output=True, text=True, timeout=120.0
+    )
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    assert "Traceback" not in ended.stderr
+    assert "Error" not in ended.stderr
