@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -65,6 +66,75 @@ def single_face() -> int:
     _clear()
     monkey = demo_scenes.suzanne()
     return _start(np.arange(len(monkey.data.polygons)) == 700)
+
+
+def _profile(points: list[tuple[float, float]], counts: list[int]) -> Any:
+    """Points (k, 2) along a polyline, so many on each of its pieces."""
+    pieces = [
+        np.linspace(begin, end, count, endpoint=False)
+        for (begin, end), count in zip(pairwise(points), counts, strict=True)
+    ]
+    return np.concatenate([*pieces, [points[-1]]])
+
+
+def bottle(around: int = 96) -> int:
+    """A bottle whose shoulder, some 2k free vertices between body and neck, is selected; return its faces' number."""
+    _clear()
+    profile = _profile([(0.8, -1.3), (0.8, -0.2), (0.3, 0.6), (0.3, 1.3)], [40, 23, 30])
+    turns = 2.0 * np.pi * np.arange(around) / around
+    points = [(r * np.cos(a), r * np.sin(a), z) for r, z in profile for a in turns]
+    faces = [
+        (k * around + j, k * around + (j + 1) % around, (k + 1) * around + (j + 1) % around, (k + 1) * around + j)
+        for k in range(len(profile) - 1)
+        for j in range(around)
+    ]
+    _add("Bottle", points, faces)
+    rings = np.arange(len(faces)) // around
+    return _start((rings >= 40) & (rings < 63))
+
+
+def hill(size: int = 100) -> int:
+    """A plain of size × size quads with its middle selected, some 2k free vertices, the centre in the group "Pin"."""
+    _clear()
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=size, y_subdivisions=size, size=3.0)
+    obj = bpy.context.object
+    centre = int(np.linalg.norm(demo_scenes.positions(obj.data), axis=1).argmin())
+    obj.vertex_groups.new(name="Pin").add([centre], 1.0, "REPLACE")
+    centres = np.array([polygon.center for polygon in obj.data.polygons])
+    return _start(np.linalg.norm(centres[:, :2], axis=1) < 0.8)
+
+
+def _add(name: str, points: Any, faces: Any) -> None:
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(points, [], faces)
+    obj = bpy.data.objects.new(name, mesh)
+    bpy.context.collection.objects.link(obj)
+    bpy.context.view_layer.objects.active = obj
+    obj.select_set(True)
+
+
+def select_vertices(chosen: Any) -> None:
+    """Select exactly these vertices (n,) of the mesh in edit mode, and the faces between them."""
+    _select((True, False, False), np.flatnonzero(chosen))
+
+
+def select_faces(chosen: Any) -> None:
+    """Select exactly these faces (k,) of the mesh in edit mode."""
+    _select((False, False, True), chosen)
+
+
+def _select(mode: tuple[bool, bool, bool], chosen: Any) -> None:
+    bpy.context.tool_settings.mesh_select_mode = mode
+    bpy.ops.mesh.select_all(action="DESELECT")
+    mesh = bpy.context.object.data
+    bm = bmesh.from_edit_mesh(mesh)
+    table: Any = bm.verts if mode[0] else bm.faces
+    table.ensure_lookup_table()
+    for index in chosen.tolist():
+        table[index].select = True
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+    bpy.ops.ed.undo_push(message="selection")
 
 
 def large() -> int:

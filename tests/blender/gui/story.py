@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import os
 import sys
 import time
 from collections.abc import Generator
 from pathlib import Path
-from typing import Any
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -15,51 +13,21 @@ import bpy
 import numpy as np
 import scenes
 from driver import Story, click, in_view, middle, play, press, screenshot, tell, type_text, view
+from live_chapters import live_follows_a_drag, live_follows_a_pin
+from panel import (
+    extension,
+    module,
+    open_redo_panel,
+    open_tab,
+    redo_panel,
+    report,
+    run_operator,
+    set_options,
+    wait_until,
+)
 
-ID = "bl_ext.user_default.intrinsic_fairing"
-KEY = "F19"  # runs the operator, so that it is run by an event as from a menu
-SIDEBAR = "520x800+1080+60"
-
-
-def extension() -> None:
-    """Install the zip and open the sidebar's tab."""
-    bpy.ops.extensions.package_install_files(
-        repo="user_default", filepath=os.environ["FAIRING_ZIP"], enable_on_install=True, overwrite=True
-    )
-    keymap = bpy.context.window_manager.keyconfigs.addon.keymaps.new("Mesh", space_type="EMPTY")
-    keymap.keymap_items.new("mesh.fair_region", KEY, "PRESS")
-    bpy.context.preferences.view.show_splash = False
-    # Else the sidebar's redraws take the whole 3D view along, eight times each: slow without a GPU.
-    bpy.context.preferences.system.viewport_aa = "OFF"
-    bpy.context.preferences.system.use_region_overlap = False
-    _, area, _ = view()
-    area.spaces.active.show_region_ui = True
-
-
-def open_tab() -> None:
-    area = view()[1]
-    next(r for r in area.regions if r.type == "UI").active_panel_category = "Fairing"
-    area.tag_redraw()
-
-
-def report() -> Any:
-    return bpy.context.window_manager.fairing_report
-
-
-def module(name: str) -> Any:
-    return sys.modules[f"{ID}.{name}"]
-
-
-def wait_until(condition: Any, seconds: float) -> Story:
-    begin = time.perf_counter()
-    while not condition():
-        if time.perf_counter() - begin > seconds:
-            raise TimeoutError(f"{condition.__name__} did not come true in {seconds} s")
-        yield 0.05
-
-
-def run_operator() -> None:
-    press(KEY, *middle())
+VERTICES_FIELD = 188  # pixels from the redo panel's upper edge down to the field
+KEEP_SPACING = 70  # from there down to the entry of its menu
 
 
 def seconds_of_redraw() -> Generator[float, None, float]:
@@ -136,12 +104,8 @@ def fair_it() -> Story:
 def adjust_in_redo_panel() -> Story:
     """Set Factor to 0.5 in the panel at the lower left, with the mouse and the keyboard."""
     fair = scenes.positions()
-    hud = next(r for r in view()[1].regions if r.type == "HUD")
-    tell(f"redo panel at {hud.x}, {hud.y}: {hud.width} × {hud.height}")
-    yield from click(hud.x + hud.width // 2, hud.y + hud.height // 2)  # opens it
-    yield 1.0
-    hud = next(r for r in view()[1].regions if r.type == "HUD")
-    assert hud.height > 200, "the redo panel is closed"
+    yield from open_redo_panel()
+    hud = redo_panel()
     screenshot("redo_open")
     x, y = hud.x + int(0.7 * hud.width), hud.y + hud.height - 62
     yield from click(x, y)
@@ -163,7 +127,7 @@ def adjust_in_redo_panel() -> Story:
 
 def cancel_a_long_run() -> Story:
     faces = scenes.large()
-    bpy.context.window_manager.operator_properties_last("mesh.fair_region").factor = 1.0
+    set_options()
     with in_view():
         bpy.ops.view3d.view_all()
     open_tab()
@@ -218,9 +182,40 @@ def finish_a_long_run() -> Story:
     yield 0.5
 
 
+def redo_after_a_long_run() -> Story:
+    """Another way to spread the vertices, chosen in the redo panel: answered by the solver that the run left."""
+    solvers = module("job").solvers
+    *_, solver = solvers._values.values()
+    assert solver is not None
+    first, before = report().seconds, scenes.positions()
+    yield from open_redo_panel()
+    hud = redo_panel()
+    screenshot("redo_long_open")
+    x, y = hud.x + int(0.7 * hud.width), hud.y + hud.height - VERTICES_FIELD
+    report().free_vertices = 0
+    yield from click(x, y)
+    yield 0.5
+    screenshot("redo_long_menu")
+    yield from click(x, y - KEEP_SPACING)
+
+    def answered() -> bool:
+        return bool(report().free_vertices)
+
+    yield from wait_until(answered, 60.0)
+    yield 1.0
+    operator = bpy.context.window_manager.operators[-1]
+    assert operator.inner_fairness == "INVERSE_DISTANCE", "the redo panel's menu was not met"
+    assert report().converged
+    assert np.abs(scenes.positions() - before).max() > 1e-4
+    assert list(solvers._values.values())[-1] is solver
+    tell(f"redo: {operator.inner_fairness} answered in {report().seconds:.2f} s, the run took {first:.2f} s")
+    screenshot("redo_long")
+
+
 def judge() -> Story:
     """Reflection lines and curvature of the ear before and after."""
     scenes.ear()
+    set_options()
     with in_view():
         bpy.ops.view3d.view_selected()
     settings = bpy.context.window_manager.fairing_overlay
@@ -233,7 +228,7 @@ def judge() -> Story:
     yield 2.0
     assert report().free_vertices
     screenshot("zebra_after")
-    yield from click(1250, 404)  # the header of the panel Quality Overlay, below the report
+    yield from click(1250, 379)  # the header of the panel Quality Overlay, below the report
     yield 0.7
     screenshot("overlay_panel")
     settings.mode = "CURVATURE"
@@ -273,8 +268,11 @@ def story() -> Story:
         adjust_in_redo_panel,
         cancel_a_long_run,
         finish_a_long_run,
+        redo_after_a_long_run,
         in_german,
         judge,
+        live_follows_a_drag,
+        live_follows_a_pin,
     ):
         tell(f"== {chapter.__name__}")
         yield from chapter()

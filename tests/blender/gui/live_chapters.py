@@ -1,0 +1,172 @@
+"""Live in the window: dragging the surroundings or a pin with the mouse, and taking it back."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Generator, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import bpy
+import numpy as np
+import scenes
+from driver import Story, click, in_view, middle, press, screenshot, tell
+from panel import drag, module, open_tab, report, run_operator, set_options
+
+STEPS = 40  # of the mouse in one drag
+SELECTION = (1250, 809)  # header of the panel Selection, whose height changes: it is folded
+HEADER = (1250, 782)  # of the panel Live below it, where there is no report
+SWITCH = (1081, 782)
+BUTTON = (1154, 751)
+AGAIN = 2e-6  # what answers to the same question may differ by: float32
+FAIR = 2e-5  # what an answer may differ by from the operator's: its tolerance
+
+
+def live_follows_a_drag() -> Story:
+    """The neck of a bottle is dragged aside: its shoulder follows."""
+    scenes.bottle()
+    yield from _open_panel()
+    yield from _make_live(scenes.bottle)
+    scenes.select_vertices(scenes.positions()[:, 2] > 0.59)
+    yield from _follow("live", (130, 20))
+
+
+def live_follows_a_pin() -> Story:
+    """A plain, held in its middle: the pin is dragged upwards and a hill rises."""
+    yield from _make_live(scenes.hill, pin_group="Pin")
+    scenes.select_vertices(np.linalg.norm(scenes.positions(), axis=1) < 1e-6)
+    yield from _follow("live_pin", (0, 200), "Z")
+
+
+def _live() -> Any:
+    return module("live").live
+
+
+def _session() -> Any:
+    (session,) = _live().sessions.values()
+    return session
+
+
+def _is_on() -> bool:
+    return bool(bpy.context.window_manager.fairing_live.on)
+
+
+def _open_panel() -> Story:
+    """Fold the panel Selection, open the panel Live."""
+    report().free_vertices = 0  # no panel Last Run in between
+    open_tab()
+    yield 1.0
+    yield from click(*SELECTION)
+    yield 0.7
+    yield from click(*HEADER)
+    yield 0.7
+
+
+def _make_live(scene: Callable[[], int], pin_group: str = "") -> Story:
+    """Make the scene and press the panel's button: Live is on."""
+    tell(f"{scene.__name__}: {scene()} faces selected of {len(bpy.context.object.data.polygons)}")
+    set_options(pin_group=pin_group)
+    report().free_vertices = 0
+    with in_view():
+        bpy.ops.view3d.view_all()
+    yield 1.0
+    screenshot("live_before")
+    assert not _is_on()
+    yield from click(*BUTTON)
+    yield 1.0
+    assert _is_on(), "the button Live Region was not met"
+    tell(f"live region: {len(_session().region.free)} free vertices, {1e3 * _session().seconds:.0f} ms")
+
+
+def _follow(name: str, by: tuple[int, int], axis: str = "") -> Story:
+    """Drag what is selected: the region comes along, stays on release, and goes back by one Ctrl Z."""
+    free, start = _session().region.free, scenes.positions()
+    without = yield from _pictures_without_live(by, axis)
+    assert np.array_equal(scenes.positions(), start), "Live was off, or a drag was given up, and something moved"
+    yield from _switch(True)
+    yield from _timed_drag(free, by, axis, without)
+    screenshot(f"{name}_during")
+    press("LEFTMOUSE", *_target(by))
+    yield 0.5
+    released = scenes.positions()
+    assert np.abs(released - start)[free].max() > 0.1, "the region went back on release"
+    screenshot(f"{name}_released")
+    for redo, expected in ((False, start), (True, released), (False, start), (True, released)):
+        press("Z", *middle(), ctrl=True, shift=redo)
+        yield 1.0
+        np.testing.assert_allclose(scenes.positions(), expected, atol=AGAIN)
+    yield from _compare_with_operator(released)
+
+
+def _timed_drag(free: Any, by: tuple[int, int], axis: str, without: float) -> Story:
+    """Drag without letting go: the region must come along."""
+    start, count = scenes.positions(), _live().updates
+    with _answers() as spent:
+        begin = time.perf_counter()
+        yield from drag(STEPS, by, axis)
+        seconds = time.perf_counter() - begin
+    count = _live().updates - count
+    along = float(np.abs(scenes.positions() - start)[free].max())
+    wall, processor = (1e3 * float(value) for value in np.median(spent, axis=0))
+    tell(
+        f"drag: {count} updates in {seconds:.2f} s, {count / seconds:.1f} a second with the drawing; without Live "
+        f"{without:.1f} pictures a second here; the region moved by up to {along:.2f}"
+    )
+    tell(f"Live itself, median of {len(spent)}: {wall:.0f} ms, of the processor {processor:.0f} ms")
+    assert count > STEPS // 2, "the region did not follow during the drag"
+    assert along > 0.1
+    assert _live().message == ""
+
+
+@contextmanager
+def _answers() -> Iterator[list[tuple[float, float]]]:
+    """Give the seconds that each change costs Live, from reading to writing: by the wall, of the processor."""
+    home = module("live")
+    follow, spent = home.follow, list[tuple[float, float]]()
+
+    def timed(obj: Any) -> bool:
+        wall, processor = time.perf_counter(), time.process_time()
+        written = bool(follow(obj))
+        if written:
+            spent.append((time.perf_counter() - wall, time.process_time() - processor))
+        return written
+
+    home.follow = timed
+    try:
+        yield spent
+    finally:
+        home.follow = follow
+
+
+def _pictures_without_live(by: tuple[int, int], axis: str) -> Generator[float, None, float]:
+    """Turn Live off, drag and give it up with Esc; return the pictures a second that Blender draws here."""
+    yield from _switch(False)
+    begin = time.perf_counter()
+    yield from drag(STEPS, by, axis)
+    seconds = time.perf_counter() - begin
+    press("ESC", *_target(by))
+    yield 0.5
+    return STEPS / seconds
+
+
+def _target(by: tuple[int, int]) -> tuple[int, int]:
+    x, y = middle()
+    return x + by[0], y + by[1]
+
+
+def _switch(on: bool) -> Story:
+    """Click the checkbox in the panel's title."""
+    yield from click(*SWITCH)
+    yield 0.5
+    assert _is_on() == on, "the checkbox of Live was not met"
+
+
+def _compare_with_operator(shown: Any) -> Story:
+    """Turn Live off; the operator on the region's faces has nothing to add."""
+    faces = _session().faces
+    yield from _switch(False)
+    scenes.select_faces(faces)
+    run_operator()
+    yield 2.0
+    assert report().free_vertices, "the operator did not run"
+    np.testing.assert_allclose(scenes.positions(), shown, atol=FAIR)

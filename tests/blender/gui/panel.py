@@ -1,0 +1,93 @@
+"""The extension's place in the window: its tab, its report, running it, and a drag with the mouse."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from typing import Any
+
+import bpy
+from driver import Story, click, middle, move_mouse, press, view
+
+ID = "bl_ext.user_default.intrinsic_fairing"
+KEY = "F19"  # runs the operator, so that it is run by an event as from a menu
+
+
+def extension() -> None:
+    """Install the zip and open the sidebar's tab."""
+    bpy.ops.extensions.package_install_files(
+        repo="user_default", filepath=os.environ["FAIRING_ZIP"], enable_on_install=True, overwrite=True
+    )
+    keymap = bpy.context.window_manager.keyconfigs.addon.keymaps.new("Mesh", space_type="EMPTY")
+    keymap.keymap_items.new("mesh.fair_region", KEY, "PRESS")
+    bpy.context.preferences.view.show_splash = False
+    # Else the sidebar's redraws take the whole 3D view along, eight times each: slow without a GPU.
+    bpy.context.preferences.system.viewport_aa = "OFF"
+    bpy.context.preferences.system.use_region_overlap = False
+    _, area, _ = view()
+    area.spaces.active.show_region_ui = True
+
+
+def open_tab() -> None:
+    area = view()[1]
+    next(r for r in area.regions if r.type == "UI").active_panel_category = "Fairing"
+    area.tag_redraw()
+
+
+def report() -> Any:
+    return bpy.context.window_manager.fairing_report
+
+
+def module(name: str) -> Any:
+    return sys.modules[f"{ID}.{name}"]
+
+
+def wait_until(condition: Any, seconds: float) -> Story:
+    begin = time.perf_counter()
+    while not condition():
+        if time.perf_counter() - begin > seconds:
+            raise TimeoutError(f"{condition.__name__} did not come true in {seconds} s")
+        yield 0.05
+
+
+def run_operator() -> None:
+    press(KEY, *middle())
+
+
+def set_options(**options: Any) -> None:
+    """Have the operator start with its defaults next time, apart from these."""
+    last = bpy.context.window_manager.operator_properties_last("mesh.fair_region")
+    for name in module("options").option_names():
+        last.property_unset(name)
+    for name, value in options.items():
+        setattr(last, name, value)
+
+
+def redo_panel() -> Any:
+    """The region of the panel at the lower left."""
+    return next(r for r in view()[1].regions if r.type == "HUD")
+
+
+def open_redo_panel() -> Story:
+    """Open it with a click on its header, unless it is open."""
+    hud = redo_panel()
+    if hud.height < 100:
+        yield from click(hud.x + hud.width // 2, hud.y + hud.height // 2)
+        yield 1.0
+    assert redo_panel().height > 200, "the redo panel is closed"
+
+
+def drag(steps: int, by: tuple[int, int], axis: str = "") -> Story:
+    """Grab what is selected (G) and move the mouse by so many pixels; the caller confirms or cancels."""
+    x, y = middle()
+    move_mouse(x, y)
+    yield 0.1
+    press("G", x, y)
+    yield 0.1
+    if axis:
+        press(axis, x, y)
+        yield 0.1
+    for step in range(1, steps + 1):
+        move_mouse(x + by[0] * step // steps, y + by[1] * step // steps)
+        yield 0.0
