@@ -71,6 +71,9 @@ def hill() -> tuple[bpy.types.Object, Any]:
     ring = np.isclose(np.abs(points[:, :2]).max(axis=1), 0.25, atol=1e-3)
     obj.vertex_groups.new(name="Top").add(top, 1.0, "REPLACE")
     obj.vertex_groups.new(name="Ring").add(np.flatnonzero(ring).tolist(), 1.0, "REPLACE")
+    line = np.isclose(points[:, 0], 0.25, atol=1e-3)
+    for edge in obj.data.edges:
+        edge.use_seam = bool(line[list(edge.vertices)].all())
     pictures.add_camera((0.0, 0.0, 0.1), (0.6, -1.0, 0.6), 2.3)
     centres = np.array([polygon.center for polygon in obj.data.polygons])
     return obj, np.linalg.norm(centres[:, :2], axis=1) < 0.6
@@ -103,6 +106,10 @@ def constant(bulge: float) -> dict[str, Any]:
     return {"equation": "CONSTANT", "bulge": bulge}
 
 
+def multigrid(**options: Any) -> dict[str, Any]:
+    return {"method": "PAPER", **options}
+
+
 WEIGHTS = ("UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING")
 ROWS: dict[str, tuple[Scene, tuple[Options, ...]]] = {
     "factor": (ear, (None, {"factor": 0.5}, {"factor": 1.0})),
@@ -111,6 +118,17 @@ ROWS: dict[str, tuple[Scene, tuple[Options, ...]]] = {
     "vertices": (checkered_ear, (None, *({"inner_fairness": w} for w in WEIGHTS))),
     "tangent": (mesa, (None, *({"boundary_normals": source} for source in ("SURROUNDING", "AVERAGE", "CUSTOM")))),
     "pins": (hill, (None, {}, {"pin_group": "Top"}, {"pin_group": "Ring"})),
+    "pin_edges": (hill, (None, {}, {"pin_edges": "SEAM"})),
+    "solver": (
+        ear,
+        (
+            {},
+            multigrid(),
+            multigrid(tolerance=1e-2),
+            multigrid(max_iterations=5),
+            multigrid(max_iterations=5, levels=1),
+        ),
+    ),
 }
 
 
