@@ -126,13 +126,14 @@ class RepeatedSolve:
         ]
 
     def __call__(self, problem: Problem, progress: Progress | None = None) -> fairing.FairResult:
-        """Fair the patch as `solve` does; raises the same. `progress`: of a patch in one piece."""
+        """Fair the patch as `solve` does; raises the same. `progress` begins anew with each piece."""
         if not self._bulges:
             return self._solve_part(0, problem, 1.0, progress)
         results = []
         for index, piece in enumerate(self._pieces):
             part, used = _part(problem, piece)
-            results.append((used, self._solve_part(index, part, outline_radius(problem.points[piece.outline]))))
+            size = outline_radius(problem.points[piece.outline])
+            results.append((used, self._solve_part(index, part, size, progress)))
         return _merged(problem, results)
 
     def _solve_part(

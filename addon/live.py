@@ -11,6 +11,7 @@ made fair for those.
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -29,6 +30,7 @@ from .region import free_vertices
 from .status import redraw_sidebars
 
 SLOW = 0.25  # seconds of the last answer from which the next one waits for the end of the changes
+PATIENCE = 0.5  # seconds after which an answer in the middle of changes is given up, to be asked for at their end
 PAUSE = 0.3  # seconds without a change that count as their end
 NO_REGION = "No live region: select faces, then Live Region"
 
@@ -54,6 +56,7 @@ class Live:
         self.sessions: dict[str, Session] = {}
         self.message = ""
         self.updates = 0  # answers written since the switch was turned on
+        self.changed_at = 0.0  # the last change that waits for an answer, by time.monotonic
         self.on = False
 
     def take(self, obj: bpy.types.Object, options: FairOptions) -> None:
@@ -70,17 +73,25 @@ class Live:
         session = self.sessions[obj.data.name] = _session(obj, region)
         self._write(obj, session, answer)
 
-    def follow(self, obj: bpy.types.Object) -> bool:
-        """Make the region fair again where something has changed around it; tell whether it was written."""
+    def follow(self, obj: bpy.types.Object, patience: float = math.inf) -> bool:
+        """Make the region fair again where something has changed around it; tell whether it was written.
+
+        patience: seconds after which to give up; the region is slow then.
+        """
         session = self._current(obj)
         if session is None:
             return False
         positions, matrix = live_mesh.positions(obj.data, session.region.vertices), _matrix(obj)
         if np.array_equal(positions, session.positions) and np.array_equal(matrix, session.matrix):
             return False
-        begin = time.perf_counter()
         session.positions, session.matrix = positions, matrix
-        answer = session.region.answer(positions, matrix)
+        begin = time.perf_counter()
+        try:
+            answer = session.region.answer(positions, matrix, lambda *_: time.perf_counter() < begin + patience)
+        except fairing.Cancelled:
+            session.positions = np.empty((0, 3))  # this change still waits for its answer
+            session.seconds = patience
+            return False
         session.seconds = time.perf_counter() - begin
         if answer is None:
             self.message = "The surface did not converge: the region stays as it is until the next change"
@@ -180,10 +191,10 @@ def edited_objects() -> Iterator[bpy.types.Object]:
             yield obj
 
 
-def follow(obj: bpy.types.Object) -> bool:
+def follow(obj: bpy.types.Object, patience: float = math.inf) -> bool:
     """Follow one object; what goes wrong is told in the panel, and the mesh is left as it is."""
     try:
-        return live.follow(obj)
+        return live.follow(obj, patience)
     except (ValueError, fairing.SolverError) as cause:
         live.message = f"{obj.name}: {cause}"
         return False
@@ -191,15 +202,21 @@ def follow(obj: bpy.types.Object) -> bool:
 
 def _on_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     for obj in _edited(depsgraph):
+        if not live.is_slow(obj):
+            follow(obj, PATIENCE)
         if live.is_slow(obj):
+            live.changed_at = time.monotonic()
             call_later(_follow_later, PAUSE)
-        else:
-            follow(obj)
 
 
-def _follow_later() -> None:
+def _follow_later() -> float | None:
+    """Follow, or return the seconds to wait until the changes may have ended."""
+    wait = live.changed_at + PAUSE - time.monotonic()
+    if wait > 0.0:
+        return wait
     for obj in edited_objects():
         follow(obj)
+    return None
 
 
 def _on_step(*_arguments: object) -> None:

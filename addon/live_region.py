@@ -8,7 +8,7 @@ import numpy as np
 
 from .arrays import Floats, Ints, Mask
 from .boundary import RINGS, prescribed_normals
-from .engine import Problem, RepeatedSolve
+from .engine import Problem, Progress, RepeatedSolve
 from .options import FairOptions
 from .region import MeshArrays, Patch, make_patch
 from .solve import to_local
@@ -95,7 +95,7 @@ class LiveRegion:
         free: Ints = self._around.vertices[patch.vertices[patch.free]]
         return free
 
-    def answer(self, positions: Floats, matrix: Floats) -> Floats | None:
+    def answer(self, positions: Floats, matrix: Floats, progress: Progress | None = None) -> Floats | None:
         """Return the free vertices' positions (k, 3) in the mesh's own coordinates; None where there is no convergence.
 
         positions: (n, 3) of `vertices`, in the mesh's own coordinates. Raises what engine.solve does.
@@ -104,7 +104,7 @@ class LiveRegion:
         with np.errstate(invalid="ignore", over="ignore"):
             world = replace(self._around.mesh, positions=positions).transformed(matrix)
             normals, _ = prescribed_normals(world, patch, self._options.boundary_normals)
-        result = self._solve(Problem(patch, world.positions[patch.vertices], normals))
+        result = self._solve(Problem(patch, world.positions[patch.vertices], normals), progress)
         if not result.converged:
             return None
         fair = to_local(result.vertices, matrix)

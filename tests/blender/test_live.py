@@ -260,6 +260,29 @@ def test_a_spoilt_outline_is_told_and_leaves_the_mesh(live: Any) -> None:
     assert np.array_equal(now()[others], before[others])
 
 
+def test_a_slow_answer_waits_for_the_end_of_the_drag(live: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Out of patience at once: the engine is stopped at its first question, and asked again when all is quiet."""
+    home = module("live")
+    monkeypatch.setattr(home, "PATIENCE", -1.0)
+    monkeypatch.setattr(home, "SLOW", -2.0)
+    _, faces = table_mountain()
+    before = now()
+    live.sessions["Grid"].seconds = -3.0  # quick so far
+    drag(flank(before), (0.0, 0.0, 0.05))
+    changed = np.flatnonzero(np.abs(now() - before).max(axis=1) > 0.0)
+    assert set(changed) == set(flank(before))
+    assert live.updates == 0
+    wait = home._follow_later()
+    assert 0.0 < wait <= home.PAUSE  # the drag may still go on
+    drag(flank(before), (0.0, 0.0, 0.05))
+    assert live.updates == 0  # slow now: not even tried
+    live.changed_at -= home.PAUSE
+    assert home._follow_later() is None
+    assert live.updates == 1
+    monkeypatch.undo()
+    assert_fair(faces)
+
+
 def test_scale_of_the_object_counts(live: Any) -> None:
     obj, faces = table_mountain()
     before = now()

@@ -43,6 +43,8 @@ def test_report_of_a_restored_hemisphere() -> None:
     assert inside == pytest.approx(1.0, abs=5e-3)
     assert outline == pytest.approx(1.0, abs=5e-3)
     assert found["Curvature inside"][1] == "MET"
+    rough, solved = map(float, found["Residual"][0].split(" → "))
+    assert solved < 1e-2 * rough
     before, after = found["Flipped triangles"][0].split(" → ")
     assert int(before) > 0
     assert int(after) == 0

@@ -228,6 +228,14 @@ def judge() -> Story:
     yield 2.0
     assert report().free_vertices
     screenshot("zebra_after")
+    for name, look in (("stripes", {"stripes": 40}), ("direction", {"axis": (1.0, 0.0, 0.0)})):
+        for option, value in look.items():
+            setattr(settings, option, value)
+        yield 1.0
+        screenshot(f"zebra_{name}")
+        for option in look:
+            settings.property_unset(option)
+    yield 1.0
     yield from click(1250, 379)  # the header of the panel Quality Overlay, below the report
     yield 0.7
     screenshot("overlay_panel")
