@@ -11,6 +11,7 @@ import fairing
 from . import engine, quality
 from .arrays import Floats, Ints
 from .boundary import prescribed_normals
+from .components import components
 from .engine import Progress
 from .memory import Memory, digest
 from .options import FairOptions
@@ -126,7 +127,8 @@ def _finish(mesh: MeshArrays, matrix: Floats, factor: float, solved: Solved) -> 
     before = solved.problem.points
     after = before.copy()
     after[patch.free] = positions @ matrix[:3, :3].T + matrix[:3, 3]
-    quality_before, quality_after = quality.compare(before, after, patch.triangles)
+    clear = factor == 1.0 and not mesh.mirror_x and _is_clear(patch, result)
+    quality_before, quality_after = quality.compare(before, after, patch.triangles, clear)
     return Fairing(
         vertices=free,
         positions=positions,
@@ -137,6 +139,12 @@ def _finish(mesh: MeshArrays, matrix: Floats, factor: float, solved: Solved) -> 
         distortion=quality.texture_distortion(before, after, patch.triangles),
         curvature=_largest_curvatures(patch, result),
     )
+
+
+def _is_clear(patch: Patch, result: fairing.FairResult) -> bool:
+    """Tell whether the engine, which looks at each piece, has found that no triangle passes through another."""
+    found = any(diagnostic.code == "SELF_INTERSECTION" for diagnostic in result.warnings)
+    return not found and len(components(patch)) <= 1
 
 
 def _mirrored(mesh: MeshArrays, patch: Patch, fair: Floats) -> tuple[Floats, tuple[str, ...]]:
