@@ -7,9 +7,8 @@ No postponed annotations here: Blender reads them as property definitions.
 import bpy
 from bpy.props import BoolProperty
 
-import fairing
-
 from . import live_mesh
+from .engine import REFUSALS
 from .inspection import last_options
 from .live import live
 from .signals import live_changed
@@ -54,7 +53,7 @@ class MESH_OT_fair_live_region(bpy.types.Operator):
         for obj in chosen:
             try:
                 live.take(obj, options)
-            except (ValueError, fairing.SolverError) as cause:
+            except REFUSALS as cause:
                 self.report({"ERROR"}, f"{obj.name}: {cause}")
                 return {"CANCELLED"}
         context.window_manager.fairing_live.on = True
