@@ -11,8 +11,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-import fairing
-
+from .engine import REFUSALS
 from .fair_mesh import fair_faces
 from .options import FairOptions, option_names
 from .report import Report, make_report, summary
@@ -105,7 +104,7 @@ def execute(arguments: list[str]) -> int:
         matrix = np.array(obj.matrix_world, dtype=np.float64)
         begin = time.perf_counter()
         outcome = fair_faces(obj.data, faces, matrix, options, _Progress())
-    except (ValueError, fairing.SolverError) as error:
+    except REFUSALS as error:
         print(f"fair: {error}", file=sys.stderr)
         return REFUSED
     bpy.ops.wm.save_as_mainfile(filepath=chosen.output, copy=True)

@@ -18,6 +18,9 @@ from .region import Patch
 
 Progress = Callable[[float, str], "bool | None"]
 
+# What `solve` raises for input that it can't fair here; the mesh is untouched then.
+REFUSALS = (ValueError, fairing.SolverError, MemoryError)
+
 
 @dataclass(frozen=True)
 class Problem:

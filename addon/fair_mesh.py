@@ -26,7 +26,7 @@ def fair_mesh(
     Returns the `fairing` result for the patch: its vertices are those of the visible `faces`, in
     ascending order, in the space of `matrix`.
     Raises fairing.MeshError (elements: vertices of `mesh`), ValueError, TypeError for a property
-    that does not exist, IndexError and fairing.SolverError; the mesh is untouched then.
+    that does not exist, IndexError, fairing.SolverError and MemoryError; the mesh is untouched then.
     """
     return fair_faces(mesh, faces, matrix, FairOptions(**properties)).result
 

@@ -56,7 +56,7 @@ def _inspect_task(task: job.Task, options: FairOptions) -> Inspection:
     try:
         problem, notes = pose(task.mesh, task.matrix, options)
         engine.check(problem, options)
-    except (ValueError, fairing.SolverError) as cause:
+    except engine.REFUSALS as cause:
         return Inspection(task.object_name, faces, task.free_count, refusal=str(cause))
     pieces = components(problem.patch)
     loops = fairing.boundary_loops(problem.patch.triangles)

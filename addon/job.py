@@ -10,11 +10,9 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-import fairing
-
 from . import mesh_io
 from .arrays import Floats
-from .engine import KeptSolver, Progress, sub_range
+from .engine import REFUSALS, KeptSolver, Progress, sub_range
 from .memory import Memory
 from .options import FairOptions
 from .region import MeshArrays, free_vertices
@@ -83,7 +81,7 @@ def solve(tasks: list[Task], options: FairOptions, progress: Progress, ahead: bo
         part = sub_range(progress, done / total, (done + task.free_count) / total)
         try:
             outcomes.append(fair_arrays(task.mesh, task.matrix, options, part, kept))
-        except (ValueError, fairing.SolverError) as cause:
+        except REFUSALS as cause:
             raise Refused(task.object_name, cause) from cause
         done += task.free_count
     return outcomes

@@ -23,6 +23,7 @@ import fairing
 
 from . import live_mesh, mesh_io, signals
 from .arrays import Floats, Ints
+from .engine import REFUSALS
 from .handlers import call_later, call_off, listen, unlisten
 from .live_region import LiveRegion
 from .options import FairOptions
@@ -62,7 +63,7 @@ class Live:
     def take(self, obj: bpy.types.Object, options: FairOptions) -> None:
         """Make the selection the region of an object in edit mode, fair now.
 
-        Raises ValueError and fairing.SolverError where it can't be; nothing has changed then.
+        Raises what engine.REFUSALS lists where it can't be; nothing has changed then.
         """
         region = _read(obj, options, None)
         matrix = _matrix(obj)
@@ -195,7 +196,7 @@ def follow(obj: bpy.types.Object, patience: float = math.inf) -> bool:
     """Follow one object; what goes wrong is told in the panel, and the mesh is left as it is."""
     try:
         return live.follow(obj, patience)
-    except (ValueError, fairing.SolverError) as cause:
+    except REFUSALS as cause:
         live.message = f"{obj.name}: {cause}"
         return False
 

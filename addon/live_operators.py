@@ -9,9 +9,8 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty
 
-import fairing
-
 from . import live_mesh
+from .engine import REFUSALS
 from .inspection import last_options
 from .live import live
 from .polling import SELECT_FACES, require, require_edit_mode
@@ -54,7 +53,7 @@ class MESH_OT_fair_live_region(bpy.types.Operator):
         for obj in chosen:
             try:
                 live.take(obj, options)
-            except (ValueError, fairing.SolverError) as cause:
+            except REFUSALS as cause:
                 self.report({"ERROR"}, f"{obj.name}: {cause}")
                 return {"CANCELLED"}
         context.window_manager.fairing_live.on = True

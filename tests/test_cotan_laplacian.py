@@ -69,3 +69,17 @@ def test_invariant_under_scale_and_winding() -> None:
     count = len(patch.vertices)
     other = coo_array((values, (rows, columns)), shape=(count, count)).toarray()
     assert np.abs(other - stiffness(patch).toarray()).max() < 1e-10
+
+
+def test_triangles_of_any_size() -> None:
+    """S has no unit: also where squares of lengths are no numbers, and in one mesh with others."""
+    patch = shapes.catenoid(100)
+    expected = stiffness(patch).toarray()
+    for scale in (2.0**-1000, 2.0**-600, 2.0**600, 2.0**1000):
+        rows, columns, values = fairing.cotan_laplacian(scale * patch.vertices, patch.triangles)
+        assert np.array_equal(coo_array((values, (rows, columns))).toarray(), expected)
+    both = np.vstack([patch.vertices, 2.0**1000 * patch.vertices])
+    faces = np.vstack([patch.triangles, patch.triangles + len(patch.vertices)])
+    rows, columns, values = fairing.cotan_laplacian(both, faces)
+    found = coo_array((values, (rows, columns))).toarray()
+    assert np.array_equal(found, np.kron(np.eye(2), expected))

@@ -42,6 +42,28 @@ def with_entry(array: Any, value: Any) -> Any:
 # Arguments
 
 
+class Unwilling:
+    """Not to be had as an array."""
+
+    def __array__(self, *_: Any, **__: Any) -> Any:
+        raise TypeError("no array")
+
+
+@pytest.mark.parametrize(
+    "option", ["vertices", "triangles", "fixed", "fixed_normals", "reference", "neighbours", "inner_fairness"]
+)
+@pytest.mark.parametrize("value", [[[0, 0], [1, 2, 3]], Unwilling(), {"a": 1}, b"mesh", [[None, 1, 2]]])
+def test_what_is_no_array_is_named(option: str, value: Any) -> None:
+    with pytest.raises(ValueError, match=option):
+        call(**{option: value})
+
+
+def test_longer_floats_than_ours_are_infinite() -> None:
+    with pytest.raises(fairing.MeshError) as caught:
+        call(vertices=CAP.vertices.astype(np.longdouble) * np.longdouble("1e4000"))
+    assert caught.value.code == "NONFINITE"
+
+
 @pytest.mark.parametrize(
     ("option", "value"),
     [
@@ -72,6 +94,7 @@ def with_entry(array: Any, value: Any) -> Any:
         ("inner_fairness", np.array([[0.0, 1.0, -1.0]])),
         ("inner_fairness", np.array([[0.0, 1e6, 1.0]])),
         ("inner_fairness", np.array([[0.5, 1.0, 1.0]])),
+        ("inner_fairness", np.array([[0.0, 1e300, 1.0]])),
         ("tolerance", None),
         ("tolerance", "small"),
         ("tolerance", float("inf")),
@@ -161,17 +184,23 @@ def test_interrupted_at_every_call(method: str, kind: str, raises: bool) -> None
     total = recorded(CLEAN, method=method, inner_fairness=kind)
     assert total > 5
     for last in range(1, total + 1, max(1, total // 40)):
-        left = iter(range(last - 1))
+        calls: list[str] = []
 
-        def stop(fraction: float, stage: str, left: Any = left) -> bool:
-            if next(left, None) is not None:
-                return True
-            if raises:
+        def stop(fraction: float, stage: str, last: int = last, calls: list[str] = calls) -> bool:
+            calls.append(stage)
+            if raises and len(calls) == last:
                 raise MineError(stage)
-            return False
+            return len(calls) < last
 
-        with pytest.raises(MineError if raises else fairing.Cancelled):
+        try:
             CLEAN.fair(method=method, inner_fairness=kind, progress=stop)
+        except (MineError, fairing.Cancelled) as error:
+            assert isinstance(error, MineError) == raises
+            assert len(calls) == last
+        else:  # questions depend on the time too: there were fewer than at first
+            assert last > 1
+            assert calls[-1] == "done"
+            assert len(calls) < last
 
 
 @pytest.mark.parametrize("answer", [np.False_, 0, ""])

@@ -110,13 +110,22 @@ def test_scale_and_offset(scale: float, method: str, kind: str) -> None:
 
 
 @pytest.mark.parametrize("method", ["global", "paper"])
-@pytest.mark.parametrize("scale", [1e-200, 1e-100, 1e100, 1e200])
+@pytest.mark.parametrize("scale", [1e-300, 1e-200, 1e-100, 1e100, 1e200, 1e300])
 def test_scales_whose_squares_are_no_numbers(scale: float, method: str) -> None:
     """H of the result included, in units of 1/scale."""
     control = CLEAN.fair(method=method)
     result = CLEAN.changed(vertices=scale * CAP.vertices, reference=None).fair(method=method)
     assert np.abs(result.vertices / scale - control.vertices).max() < 1e-6 * D
-    assert "DEGENERATE_FACE" not in codes(result)
+    assert result.converged
+    assert codes(result) == codes(control)
+
+
+@pytest.mark.parametrize("method", ["global", "paper"])
+def test_coordinates_whose_sums_are_no_numbers_are_refused(method: str) -> None:
+    with pytest.raises(fairing.MeshError) as caught:
+        CLEAN.changed(vertices=1e308 * CAP.vertices, reference=None).fair(method=method)
+    assert caught.value.code == "NONFINITE"
+    assert set(caught.value.elements) == set(CAP.fixed)
 
 
 def squeezed(ratio: float) -> Input:

@@ -32,13 +32,17 @@ ComponentAnswer ComponentSolver::solve(const ComponentData& data, const Progress
     const auto fixed = fixed_vertices(patch_);
     const Points fixed_points = gather(data.vertices, fixed);
     const Normalisation unit = normalise(fixed_points);
+    if (!unit.centre.allFinite() || std::isinf(unit.diameter)) {
+        throw MeshError({Code::nonfinite, "coordinates this large overflow when they are added: scale the mesh down",
+                         Indices(fixed.begin(), fixed.end())});
+    }
     if (!(unit.diameter > 0.0)) {
         throw MeshError({Code::no_boundary, "a component is held in a single point: fix more of its vertices",
                          Indices(fixed.begin(), fixed.end())});
     }
     const SolverOptions& solver = options_.asked.solver;
     ComponentAnswer answer{unit, {patch_, unit.to_unit(fixed_points), gather(data.normals, fixed), {}, solver}, {}, {}};
-    answer.problem.options.load *= std::pow(unit.diameter, 3);
+    if (solver.load != 0.0) answer.problem.options.load *= std::pow(unit.diameter, 3);
     warn_of_precision(patch_, data.vertices, {unit.diameter, solver.tolerance}, answer.warnings);
     read_reference(gather(data.reference, patch_.to_input), unit);
     answer.warnings.insert(answer.warnings.end(), reference_warnings_.begin(), reference_warnings_.end());

@@ -118,7 +118,7 @@ void warn_of_precision(const Patch& patch, const Points& input, const Precision&
     for (int e = 0; e < patch.edge_count(); ++e) {
         if (patch.edge_triangles[at(e)][1] != none) continue;
         const auto [a, b] = patch.edge_ends[at(e)];
-        length += (input.col(patch.to_input[at(a)]) - input.col(patch.to_input[at(b)])).norm();
+        length += (input.col(patch.to_input[at(a)]) - input.col(patch.to_input[at(b)])).stableNorm();
         ++count;
     }
     double farthest = 0.0;

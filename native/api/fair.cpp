@@ -4,6 +4,7 @@
 
 #include "api/diagnose.h"
 #include "api/measure.h"
+#include "api/memory.h"
 #include "api/prepared_mesh.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
@@ -130,6 +131,13 @@ void prepare_for(const MeshInput& input, const CallOptions& options, std::unique
     prepared = prepare(input, options);
 }
 
+// Patches are solved one after the other.
+int largest_free_count(const std::vector<Patch>& patches) {
+    int largest = 0;
+    for (const Patch& patch : patches) largest = std::max(largest, patch.free_count);
+    return largest;
+}
+
 }  // namespace
 
 FairResult run_call(const MeshInput& input, const std::optional<Points>& reference, const CallOptions& options,
@@ -143,6 +151,7 @@ FairResult run_call(const MeshInput& input, const std::optional<Points>& referen
     constexpr double end = 0.9;
     progress.report(0.0, "topology");
     prepare_for(input, options, prepared);
+    check_memory(largest_free_count(prepared->patches));
     Call call(*prepared, input, options.asked);
     const double topology_seconds = watch.seconds();
     const ComponentData data{input.vertices, prepared->mesh.normals, reference ? *reference : input.vertices};

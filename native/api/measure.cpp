@@ -1,5 +1,6 @@
 #include "api/measure.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -39,6 +40,25 @@ Eigen::Matrix2d planar_edges(const Points& points, const Eigen::Vector3i& triang
 Points normals_at_fixed(const Patch& patch, const Points& local, const CheckedMesh& mesh, BoundaryNormals boundary) {
     return boundary == BoundaryNormals::prescribed ? gather(mesh.normals, fixed_vertices(patch))
                                                    : one_sided_normals(patch, local);
+}
+
+// Each triangle is scaled by a power of two, so that squares of its lengths are numbers: its angles stay the same.
+Eigen::Matrix3Xd cotangents(const Points& points, const Triangles& triangles) {
+    constexpr int largest_exponent = 1000;
+    Points corners(3, triangles.size());
+    Triangles own(3, triangles.cols());
+    for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
+        const Eigen::Matrix3d given = points(Eigen::all, triangles.col(t));
+        int exponent = 0;
+        std::frexp(given.cwiseAbs().maxCoeff(), &exponent);
+        exponent = std::clamp(exponent, -largest_exponent, largest_exponent);
+        corners.middleCols<3>(3 * t) = given * std::ldexp(1.0, -exponent);
+        const int first = static_cast<int>(3 * t);
+        own.col(t) << first, first + 1, first + 2;
+    }
+    FaceGeometry faces;
+    faces.update(corners, own);
+    return faces.cotangents;
 }
 
 }  // namespace
@@ -88,12 +108,11 @@ Points vertex_normals(const MeshInput& input, NormalKind kind) {
 }
 
 MatrixEntries cotan_laplacian(const Points& points, const Triangles& triangles) {
-    FaceGeometry faces;
-    faces.update(points, triangles);
+    const Eigen::Matrix3Xd cotangent = cotangents(points, triangles);
     const EdgeTable edges = make_edges(triangles, static_cast<int>(points.cols()));
     VectorX weights = VectorX::Zero(edges.size());
     for (int s = 0; s < 3 * triangles.cols(); ++s) {
-        weights[edges.edge_of_side[at(s)]] += faces.cotangents((s + 2) % 3, s / 3);
+        weights[edges.edge_of_side[at(s)]] += cotangent((s + 2) % 3, s / 3);
     }
     VectorX diagonal = VectorX::Zero(points.cols());
     MatrixEntries entries;

@@ -1,5 +1,7 @@
 #include "bindings/convert.h"
 
+#include "api/memory.h"
+
 namespace fairing::bindings {
 
 namespace {
@@ -49,6 +51,10 @@ void register_errors() {
             raise_mesh_error(error);
         } catch (const SolverError& error) {
             PyErr_SetString(package_type("SolverError").ptr(), error.what());
+        } catch (const MemoryShortage& error) {
+            PyErr_SetString(PyExc_MemoryError, error.what());
+        } catch (const std::bad_alloc&) {
+            PyErr_SetString(PyExc_MemoryError, "not enough memory");
         } catch (const Cancelled& error) {
             PyErr_SetString(package_type("Cancelled").ptr(), error.what());
         }

@@ -6,7 +6,8 @@
 
 namespace fairing {
 
-DirectedStep::DirectedStep(const Patch& patch, const RowWeights& weights, const Points& fixed_points)
+DirectedStep::DirectedStep(const Patch& patch, const RowWeights& weights, const Points& fixed_points,
+                           const Progress& progress)
     : free_count_(patch.free_count) {
     std::vector<Eigen::Triplet<double>> entries;
     std::vector<Eigen::Triplet<double>> couplings;
@@ -27,7 +28,9 @@ DirectedStep::DirectedStep(const Patch& patch, const RowWeights& weights, const 
     coupling_.resize(free_count_, fixed_points.cols());
     coupling_.setFromTriplets(couplings.begin(), couplings.end());
     hold(fixed_points);
-    factor_.compute(laplacian_);
+    factor_.analyzePattern(laplacian_);
+    progress.report(0.0, "the inner-fairness weights");
+    factor_.factorize(laplacian_);
     if (factor_.info() != Eigen::Success) {
         throw SolverError("the inner-fairness weights give a singular matrix: some vertices hang on no fixed one");
     }

@@ -10,7 +10,7 @@ namespace fairing {
 // Solves P (Λ − 1) x = 0; no energy stands behind it.
 class DirectedStep : public TangentialStep {
 public:
-    DirectedStep(const Patch& patch, const RowWeights& weights, const Points& fixed_points);
+    DirectedStep(const Patch& patch, const RowWeights& weights, const Points& fixed_points, const Progress& progress);
 
     void hold(const Points& fixed_points) override;
     [[nodiscard]] Points harmonic_positions() const override;

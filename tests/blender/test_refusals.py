@@ -9,6 +9,7 @@ import bpy
 import meshes
 import numpy as np
 import pytest
+from extension import inspect, module
 
 
 def add_nan(obj: bpy.types.Object) -> None:
@@ -94,6 +95,21 @@ def test_edge_with_four_faces() -> None:
     assert after["POINT position"] == before["POINT position"]
     selected = [v.index for v in obj.data.vertices if v.select]
     assert len(selected) == 2
+
+
+def test_too_little_memory_is_a_refusal(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What the engine says of a run that is too large for the machine."""
+
+    def refuse(*_: Any, **__: Any) -> None:
+        raise MemoryError("about 7.0 GB of memory are needed")
+
+    monkeypatch.setattr(module("engine").fairing, "fair", refuse)
+    obj, faces = meshes.domed_grid()
+    before = meshes.in_edit_mode_once(obj, faces)
+    with pytest.raises(RuntimeError, match=r"7\.0 GB"):
+        meshes.fair(obj, faces)
+    assert meshes.contents(obj)["POINT position"] == before["POINT position"]
+    assert "7.0 GB" in inspect(obj, faces).refusal
 
 
 def test_nothing_selected_is_an_info() -> None:

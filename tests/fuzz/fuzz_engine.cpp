@@ -6,6 +6,7 @@
 #include <ctime>
 #include <set>
 
+#include "api/fair_solver.h"
 #include "api/measure.h"
 #include "geometry/surface_fit.h"
 #include "law.h"
@@ -33,6 +34,19 @@ struct Stopper {
     }
 };
 
+// A call that may be refused, given up or stopped.
+template <typename Call>
+void attempt(const MeshInput& mesh, const Call& call) {
+    try {
+        call();
+    } catch (const MeshError& error) {
+        check_elements(error.diagnostic(), mesh);
+    } catch (const std::invalid_argument&) {
+    } catch (const SolverError&) {
+    } catch (const Cancelled&) {
+    }
+}
+
 void fuzz_fair(FuzzedDataProvider& bytes) {
     MeshInput mesh = random_mesh(bytes, false);
     random_boundary(bytes, mesh);
@@ -41,32 +55,45 @@ void fuzz_fair(FuzzedDataProvider& bytes) {
     const bool twice = bytes.ConsumeIntegralInRange(0, 7) == 7;
     const int last = bytes.ConsumeIntegralInRange(0, 60);
     const MeshInput kept = mesh;
-    try {
+    attempt(mesh, [&] {
         const FairResult result = fair(mesh, reference, options, Stopper{last});
         check_fair(result, mesh, options);
         if (twice) check_same(result, fair(mesh, reference, options, {}));
-    } catch (const MeshError& error) {
-        check_elements(error.diagnostic(), mesh);
-    } catch (const std::invalid_argument&) {
-    } catch (const SolverError&) {
-    } catch (const Cancelled&) {
-    }
+    });
     require(std::memcmp(kept.vertices.data(), mesh.vertices.data(),
                         sizeof(double) * at(3) * at(static_cast<int>(mesh.vertices.cols()))) == 0,
             "the input stays");
 }
 
-// Calls `measure` with a mesh that may be refused.
-template <typename Measure>
-void on_any_mesh(FuzzedDataProvider& bytes, Measure measure) {
+// One mesh again and again: moved, with other numbers of vertices, other options and after errors.
+void fuzz_solver(FuzzedDataProvider& bytes) {
     MeshInput mesh = random_mesh(bytes, false);
     random_boundary(bytes, mesh);
-    try {
-        measure(mesh);
-    } catch (const MeshError& error) {
-        check_elements(error.diagnostic(), mesh);
-    } catch (const std::invalid_argument&) {
+    const int count = static_cast<int>(mesh.vertices.cols());
+    FairOptions options = random_options(bytes, count);
+    FairSolver solver(mesh.triangles, mesh.fixed, options);
+    const int solves = bytes.ConsumeIntegralInRange(1, 4);
+    for (int k = 0; k < solves; ++k) {
+        const std::optional<Points> reference = random_reference(bytes, mesh.vertices);
+        attempt(mesh, [&] {
+            const FairResult result = solver.solve(mesh.vertices, mesh.fixed_normals, reference,
+                                                   Stopper{bytes.ConsumeIntegralInRange(0, 60)});
+            check_fair(result, mesh, options);
+            if (k == 0) check_same(result, fair(mesh, reference, options, {}));
+        });
+        move(bytes, mesh);
+        if (bytes.ConsumeBool()) continue;
+        options = random_options(bytes, count);
+        solver.change(options);
     }
+}
+
+// Calls `measure` with a mesh that may be refused.
+template <typename Measure>
+void on_any_mesh(FuzzedDataProvider& bytes, const Measure& measure) {
+    MeshInput mesh = random_mesh(bytes, false);
+    random_boundary(bytes, mesh);
+    attempt(mesh, [&] { measure(mesh); });
 }
 
 void fuzz_mean_curvature(FuzzedDataProvider& bytes) {
@@ -145,7 +172,7 @@ void fuzz_surrounding_normals(FuzzedDataProvider& bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace fairing::fuzz;
     FuzzedDataProvider bytes(data, size);
-    switch (bytes.ConsumeIntegralInRange(0, 10)) {
+    switch (bytes.ConsumeIntegralInRange(0, 13)) {
         case 1: fuzz_mean_curvature(bytes); break;
         case 2: fuzz_vertex_normals(bytes); break;
         case 3: fuzz_hierarchy(bytes); break;
@@ -153,6 +180,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         case 5: fuzz_conformal_distortion(bytes); break;
         case 6: fuzz_boundary_loops(bytes); break;
         case 7: fuzz_surrounding_normals(bytes); break;
+        case 8:
+        case 9: fuzz_solver(bytes); break;
         default: fuzz_fair(bytes);
     }
     return 0;

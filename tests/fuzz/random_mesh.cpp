@@ -1,5 +1,6 @@
 #include "random_mesh.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -215,6 +216,22 @@ void random_boundary(FuzzedDataProvider& bytes, MeshInput& mesh) {
     }
     if (normals.cols() > 0 && bytes.ConsumeIntegralInRange(0, 7) == 7) {
         normals(bytes.ConsumeIntegralInRange(0, 2), 0) = special_number(bytes);
+    }
+}
+
+void move(FuzzedDataProvider& bytes, MeshInput& mesh) {
+    const Eigen::Index count = mesh.vertices.cols();
+    const double reach = bytes.PickValueInArray({0.0, 1e-12, 1e-3, 0.03, 0.5}) * mesh.vertices(0, count - 1);
+    const int moves = bytes.ConsumeIntegralInRange(0, 8);
+    for (int k = 0; k < moves; ++k) {
+        const auto v = bytes.ConsumeIntegralInRange<Eigen::Index>(0, count - 1);
+        double& x = mesh.vertices(bytes.ConsumeIntegralInRange(0, 2), v);
+        x = bytes.ConsumeIntegralInRange(0, 15) == 15 ? special_number(bytes) : x + reach;
+    }
+    switch (bytes.ConsumeIntegralInRange(0, 15)) {
+        case 14: mesh.vertices.conservativeResize(3, count + 1), mesh.vertices.col(count).setOnes(); break;
+        case 15: mesh.vertices.conservativeResize(3, std::max<Eigen::Index>(count - 1, 1)); break;
+        default: break;
     }
 }
 

@@ -15,6 +15,9 @@ MeshInput random_mesh(FuzzedDataProvider& bytes, bool valid_indices);
 // Fixed vertices (none given, the border, any subset, any list with repetitions and strangers) and their normals.
 void random_boundary(FuzzedDataProvider& bytes, MeshInput& mesh);
 
+// Some vertices moved a little, to anywhere or to no number; now and then one more vertex, or the last one gone.
+void move(FuzzedDataProvider& bytes, MeshInput& mesh);
+
 // One of the coordinates that no mesh should have, or an ordinary one.
 double special_number(FuzzedDataProvider& bytes);
 

@@ -14,21 +14,30 @@ from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
 _INT32 = np.iinfo(np.int32)
 
 
+def _array(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
+    """What numpy makes of it, or a ValueError that names the argument."""
+    try:
+        return np.asarray(value)
+    except (ValueError, TypeError) as error:
+        raise ValueError(f"{name}: an array is needed: {error}") from error
+
+
 def floats(name: str, value: npt.ArrayLike, rows: int | None = None) -> FloatArray:
     """(n, 3) float64 in C order, or ValueError. ``rows``: the n that is needed."""
-    array = np.asarray(value)
+    array = _array(name, value)
     if array.dtype.kind not in "fiu":
         raise ValueError(f"{name}: numbers are needed, not {array.dtype}")
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"{name}: shape (n, 3) is needed, not {array.shape}")
     if rows is not None and array.shape[0] != rows:
         raise ValueError(f"{name}: {rows} rows are needed, not {array.shape[0]}")
-    return np.ascontiguousarray(array, dtype=np.float64)
+    with np.errstate(over="ignore"):  # of longer floats: infinite then
+        return np.ascontiguousarray(array, dtype=np.float64)
 
 
 def integers(name: str, value: npt.ArrayLike, columns: int | None) -> IntArray:
     """(n, columns), or (n,) for None, as int32 in C order, or ValueError."""
-    array = np.asarray(value)
+    array = _array(name, value)
     if array.size == 0 and array.ndim == 1:
         array = array.reshape((0,) if columns is None else (0, columns)).astype(np.int32)
     if array.dtype.kind not in "iu":

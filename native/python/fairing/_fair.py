@@ -120,6 +120,8 @@ def fair(
         ``progress`` returned False.
     SolverError
         The numerics broke down.
+    MemoryError
+        There is not enough memory; on Linux a large run (100,000 free vertices) says so before it begins.
     """
     points = _arguments.floats("vertices", vertices)
     count = points.shape[0]

@@ -117,7 +117,8 @@ def inner_fairness(value: Any, count: int) -> tuple[str, FloatArray | None]:
 def _directed_weights(value: npt.ArrayLike, count: int) -> FloatArray:
     rows = _arguments.floats("inner_fairness", value)
     ends = rows[:, :2]
-    if not np.isfinite(rows).all() or (ends != np.floor(ends)).any() or (rows[:, 2] < 0).any():
+    whole = (ends == np.floor(ends)) & (np.abs(ends) <= np.iinfo(np.int32).max)
+    if not np.isfinite(rows).all() or not whole.all() or (rows[:, 2] < 0).any():
         raise ValueError("inner_fairness: rows of two vertex indices and a finite weight λ ≥ 0 are needed")
     _arguments.indices_within("inner_fairness", ends.astype(np.int64), count)
     return rows

@@ -1,0 +1,68 @@
+#include <doctest/doctest.h>
+
+#include "meshes.h"
+#include "solver/accelerated_iteration.h"
+
+using namespace fairing;
+
+namespace {
+
+// Part of the unit sphere with its own normals at the border, and its inner vertices moved along theirs to and fro.
+struct Ball {
+    test::Single single = test::single_patch(test::grid(10, 0.2, test::sphere));
+    Problem problem = make_problem();
+    Points start = dented();
+
+    [[nodiscard]] const Patch& patch() const { return single.patch(); }
+
+    [[nodiscard]] Problem make_problem() const {
+        const Points fixed = single.points.rightCols(patch().vertex_count() - patch().free_count);
+        return {patch(), fixed, fixed, uniform_weights(patch()), {}};
+    }
+
+    [[nodiscard]] Points dented() const {
+        Points points = single.points;
+        for (int v = 0; v < patch().free_count; ++v) points.col(v) *= v % 2 == 0 ? 1.02 : 0.98;
+        return points;
+    }
+
+    [[nodiscard]] Workspace workspace() const {
+        return {std::make_unique<BiharmonicOperator>(patch()),
+                make_tangential_step(patch(), problem.weights, problem.fixed_points, Progress())};
+    }
+
+    template <typename Iteration>
+    [[nodiscard]] Solution solve(const Iteration& iteration) const {
+        Workspace work = workspace();
+        return iteration(problem, work, start, Progress());
+    }
+};
+
+double off_the_sphere(const Points& points) { return (points.colwise().norm().array() - 1.0).abs().maxCoeff(); }
+
+double distance(const Points& a, const Points& b) { return (a - b).colwise().norm().maxCoeff(); }
+
+}  // namespace
+
+TEST_CASE("the iteration finds the sphere that its border belongs to") {
+    const Ball ball;
+    const Solution solution = ball.solve(iterate);
+    CHECK(solution.termination == Termination::converged);
+    CHECK(off_the_sphere(solution.points) < 1e-6);
+}
+
+TEST_CASE("damped, it finds the same surface by shorter steps") {
+    const Ball ball;
+    const Solution plain = ball.solve(iterate);
+    const Solution damped = ball.solve(iterate_damped);
+    CHECK(damped.termination == Termination::converged);
+    CHECK(distance(damped.points, plain.points) < 1e-5);
+    CHECK(damped.iterations > plain.iterations);
+    // Before any history, one step goes 0.4 of the way that the plain one goes.
+    Ball once;
+    once.problem.options.max_iterations = 2;  // the second one measures where the first has led
+    const auto first_step = [&](const auto& iteration) { return Points(once.solve(iteration).points - once.start); };
+    const Points whole = first_step(iterate);
+    CHECK(whole.norm() > 0.0);
+    CHECK(distance(first_step(iterate_damped), 0.4 * whole) < 1e-12);
+}
