@@ -7,10 +7,24 @@ declare -A wheel_platform=(
 )
 export ZIG_GLOBAL_CACHE_DIR=$build/zig-cache ZIG_LOCAL_CACHE_DIR=$build/zig-cache
 
+# One hash of all that a platform's modules are compiled from.
+inputs_of() {
+    fingerprint native CMakeLists.txt pyproject.toml scripts/locked scripts/shipping/build.sh "$cross/openmesh" \
+        "$cross"/python*/unix /usr/include/eigen3 -- "$1"
+}
+
 # usage: build_module PLATFORM PYTHON: compiles and installs to build/cross/stage/PLATFORM-PYTHON.
-# One build folder per platform: the second Python compiles its bindings alone.
+# One build folder per platform: the second Python compiles its bindings alone. It begins from scratch where anything
+# has changed, since zig's dependency files miss precompiled headers.
 build_module() {
-    local platform=$1 version=$2 folder=$cross/$1 stage=$cross/stage/$1-$2 headers=$cross/python$2/unix library=
+    local platform=$1 version=$2 folder=$cross/$1 stage=$cross/stage/$1-$2 headers=$cross/python$2/unix library='' inputs
+    inputs=$(inputs_of "$platform")
+    if is_done "$stage.inputs" "$inputs"; then return; fi
+    if ! is_done "$folder/.inputs" "$inputs"; then
+        rm -rf "$folder"
+        mkdir -p "$folder"
+        printf '%s' "$inputs" >"$folder/.inputs"
+    fi
     if [[ $platform == windows-* ]]; then
         headers=$cross/python$version/windows
         library=$headers/python${version/./}.lib
@@ -25,6 +39,7 @@ build_module() {
     rm -rf "$stage"
     cmake --install "$folder" --component python --prefix "$stage" >"$build/log/install-$platform-$version.log"
     cp -r native/python/fairing/. "$stage/fairing"
+    printf '%s' "$inputs" >"$stage.inputs"
 }
 
 # The licences of all that is linked into a platform's module.

@@ -1,19 +1,18 @@
 # shellcheck shell=bash disable=SC2034,SC2154,SC2164
 # What scripts/package does with the zips once they are there; sourced by it after build.sh.
 
-bpy_of_python313=5.2.3
 checking=$cross/checking
 wheel_limit=$((2 * 1024 * 1024))
 
-# What reads Windows' modules and CycloneDX, in an environment of its own.
+# What reads modules of all platforms and CycloneDX, in an environment of its own.
 make_checking_tools() {
     local wanted
-    wanted=$(fingerprint scripts/shipping/requirements.txt)
+    wanted=$(fingerprint scripts/locked/checking.txt)
     if is_done "$checking/.requirements" "$wanted"; then return; fi
     rm -rf "$checking"
     "$python" -m venv "$checking"
     quietly pip-checking "$checking/bin/python" -m pip install --progress-bar off \
-        --requirement scripts/shipping/requirements.txt
+        --require-hashes --only-binary :all: --requirement scripts/locked/checking.txt
     printf '%s' "$wanted" >"$checking/.requirements"
 }
 
@@ -33,10 +32,8 @@ check_wheels() {
         (($(stat -c %s "$wheel") <= wheel_limit)) || fail "$wheel is larger than 2 MB"
         if [[ $wheel == *manylinux* ]]; then check_manylinux "$wheel"; fi
     done
-    if makes windows-x64; then
-        make_checking_tools
-        "$checking/bin/python" scripts/shipping/imports.py "$build"/wheelhouse/*win_amd64.whl
-    fi
+    make_checking_tools
+    "$checking/bin/python" scripts/shipping/check_modules.py "$build"/wheelhouse/*.whl
 }
 
 # SBOM and checksums, beside the zips.
@@ -79,6 +76,10 @@ use_zip_in_python313() {
         say "Left out: bpy $bpy_of_python313 (its Python 3.13 is installed with debootstrap, as root)"
         return
     fi
+    if ! unshare --mount true 2>/dev/null; then
+        say "Left out: bpy $bpy_of_python313 (nothing can be mounted here; in a container: --privileged)"
+        return
+    fi
     make_trixie "$folder"
     say "One solve in bpy $bpy_of_python313, Python 3.13"
     in_folder "$folder/root" bash -c "cd /src && timeout --kill-after 10 300 /venv/bin/python \
@@ -99,12 +100,12 @@ make_trixie() {
     fi
     # Fetched from outside: certificates and settings of the network are this machine's.
     quietly "download-bpy-$bpy_of_python313" "$python" -m pip download --progress-bar off --only-binary :all: \
-        --python-version 3.13 --platform manylinux_2_28_x86_64 --platform manylinux_2_27_x86_64 \
-        --platform manylinux_2_17_x86_64 --platform manylinux2014_x86_64 \
-        --dest "$folder/root/wheels" "bpy==$bpy_of_python313"
+        --python-version 3.13 "${platforms_of_python313[@]}" --dest "$folder/root/wheels" \
+        --require-hashes --requirement "scripts/locked/bpy-$bpy_of_python313.txt"
     in_folder "$folder/root" python3 -m venv /venv
     quietly "pip-bpy-$bpy_of_python313" in_folder "$folder/root" /venv/bin/python -m pip install \
-        --progress-bar off --no-index --find-links /wheels "bpy==$bpy_of_python313"
+        --progress-bar off --no-index --find-links /wheels \
+        --require-hashes --requirement "/src/scripts/locked/bpy-$bpy_of_python313.txt"
     rm -r "$folder/root/wheels"
     printf '%s' "$bpy_of_python313" >"$folder/.bpy"
 }
@@ -122,5 +123,6 @@ install_sdist() {
     local venv=$build/venv-$1
     rm -rf "$venv"
     "$python" -m venv "$venv"
-    CXX=$1 quietly "install-$1" "$venv/bin/python" -m pip install --progress-bar off "$build"/sdist/*.tar.gz
+    CXX=$1 PIP_CONSTRAINT=$root/scripts/locked/sdist.txt quietly "install-$1" \
+        "$venv/bin/python" -m pip install --progress-bar off "$build"/sdist/*.tar.gz
 }
