@@ -96,5 +96,9 @@ make_zip() {
     "$python" "$(extension_tool)" validate "$target"
 }
 
+make_sdist() {
+    quietly sdist "$python" -c "from scikit_build_core.build import build_sdist; build_sdist('$packages')"
+}
+
 # Blender's own command-line tool for extensions, out of the bpy at hand.
 extension_tool() { find "$build/venv-$bpy/" -path '*/bl_pkg/cli/blender_ext.py' -print -quit; }

@@ -40,7 +40,7 @@ check_wheels() {
 write_lists() {
     "$python" scripts/shipping/sbom.py --zig "$zig_version" --openmesh "$cross"/download/openmesh \
         "$packages"/*.zip >"$packages/intrinsic_fairing-$(manifest_version).cdx.json"
-    (cd "$packages" && sha256sum -- *.zip *.json >SHA256SUMS)
+    (cd "$packages" && sha256sum -- *.zip *.tar.gz *.json >SHA256SUMS)
 }
 
 list_zips() {
@@ -57,7 +57,8 @@ check_everything() {
         use_zip "$(venv_python "$version")" "$(zip_of "$packages" "$native")"
     done
     use_zip_in_python313
-    check_sdist
+    say "The source distribution, by this machine's compiler"
+    install_sdist g++
     check_golden
 }
 
@@ -110,19 +111,13 @@ make_trixie() {
     printf '%s' "$bpy_of_python313" >"$folder/.bpy"
 }
 
-# The sdist, built, installed with this machine's compiler in a fresh environment, and used.
-check_sdist() {
-    say "Source distribution"
-    rm -rf "$build/sdist"
-    quietly sdist "$python" -c "from scikit_build_core.build import build_sdist; build_sdist('$build/sdist')"
-    install_sdist g++
-}
-
-# usage: install_sdist COMPILER: into build/venv-COMPILER
+# usage: install_sdist COMPILER: into build/venv-COMPILER, with build tools of known hashes
 install_sdist() {
     local venv=$build/venv-$1
     rm -rf "$venv"
     "$python" -m venv "$venv"
-    CXX=$1 PIP_CONSTRAINT=$root/scripts/locked/sdist.txt quietly "install-$1" \
-        "$venv/bin/python" -m pip install --progress-bar off "$build"/sdist/*.tar.gz
+    quietly "pip-$1" "$venv/bin/python" -m pip install --progress-bar off \
+        --require-hashes --only-binary :all: --requirement scripts/locked/sdist.txt
+    CXX=$1 quietly "install-$1" "$venv/bin/python" -m pip install \
+        --no-index --no-deps --no-build-isolation "$packages"/*.tar.gz
 }
