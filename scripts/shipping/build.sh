@@ -60,8 +60,16 @@ make_zip() {
     "$python" "$(extension_tool)" validate "$target"
 }
 
+# From a copy: the backend walks all that lies beside the sources, build/ too.
 make_sdist() {
+    local staging=$build/staging/sdist
+    rm -rf "$staging"
+    mkdir -p "$staging"
+    cp -r "${engine[@]}" "$staging"
+    find "$staging" -name __pycache__ -prune -exec rm -r {} +
+    cd "$staging"
     quietly sdist "$python" -c "from scikit_build_core.build import build_sdist; build_sdist('$packages')"
+    cd "$root"
 }
 
 # Blender's own command-line tool for extensions, out of the bpy at hand.
