@@ -39,6 +39,7 @@ set(CMAKE_INTERPROCEDURAL_OPTIMIZATION OFF)
 set(FAIRING_PRECOMPILE ON)
 get_filename_component(source_root "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
 set(CMAKE_CXX_FLAGS_INIT "-ffile-prefix-map=${source_root}/=")  # no path of this machine in the module
+string(APPEND CMAKE_CXX_FLAGS_INIT " -DPYBIND11_EXPORT_EXCEPTION=")  # else Windows' module shows pybind11's classes
 set(CMAKE_CXX_FLAGS_RELEASE_INIT "-g0 -fno-sanitize=undefined")  # zig checks for undefined behaviour by default
 set(CMAKE_MODULE_LINKER_FLAGS_INIT "-s")
 
