@@ -55,8 +55,9 @@ make_windows_python() {
         mv "$folder"/panda3d/deploy_libs/* "$folder"
         rm -r "$folder/panda3d" "$folder"/api-ms-*
         cp -r "$cross/python$version/source/Lib" "$folder/Lib"
-        "$zig" cc -target x86_64-windows-gnu -municode -O3 -s scripts/shipping/launcher.c \
-            "$cross/python$version/windows/python$digits.lib" -o "$folder/python.exe"
+        # Elsewhere than above zig's own folder: its cache distinguishes relative paths, and would compile all anew.
+        (cd "$folder" && "$zig" cc -target x86_64-windows-gnu -municode -O3 -s "$root/scripts/shipping/launcher.c" \
+            "$cross/python$version/windows/python$digits.lib" -o python.exe)
         touch "$folder/.complete"
     fi
     mkdir "$folder/site"
