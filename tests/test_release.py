@@ -37,8 +37,9 @@ def test_notes_are_the_versions_section(checkout: Path) -> None:
     assert (done.returncode, done.stdout.strip()) == (0, NOTES)
 
 
-def test_tag_of_another_version_is_refused(checkout: Path) -> None:
-    done = release_notes(checkout, "v1.2.4")
+@pytest.mark.parametrize("tag", ["v1.2.4", "1.2.3", "v1.2", "v1.2.3-rc1", ""])
+def test_tag_of_another_version_is_refused(checkout: Path, tag: str) -> None:
+    done = release_notes(checkout, tag)
     assert done.returncode != 0
     assert "1.2.3" in done.stderr
 

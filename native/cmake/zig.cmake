@@ -39,6 +39,7 @@ set(CMAKE_INTERPROCEDURAL_OPTIMIZATION OFF)
 set(FAIRING_PRECOMPILE ON)
 get_filename_component(source_root "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
 set(CMAKE_CXX_FLAGS_INIT "-ffile-prefix-map=${source_root}/=")  # no path of this machine in the module
+string(APPEND CMAKE_CXX_FLAGS_INIT " -DPYBIND11_EXPORT_EXCEPTION=")  # else Windows' module shows pybind11's classes
 set(CMAKE_CXX_FLAGS_RELEASE_INIT "-g0 -fno-sanitize=undefined")  # zig checks for undefined behaviour by default
 set(CMAKE_MODULE_LINKER_FLAGS_INIT "-s")
 
@@ -57,7 +58,8 @@ elseif(CMAKE_SYSTEM_NAME STREQUAL Windows)
   set(Python_LIBRARY "${FAIRING_PYTHON_LIBRARY}")
 else()
   set(PYTHON_MODULE_EXTENSION ".cpython-3${python_minor}-darwin.so")
-  # zig brings Apple's headers.
+  # zig brings Apple's headers. Their math.h takes a part of float.h, whose guard then keeps the rest out.
+  string(APPEND CMAKE_CXX_FLAGS_INIT " -DFLT_MAX=__FLT_MAX__")
   set(CMAKE_OSX_SYSROOT "")
   set(CMAKE_USER_MAKE_RULES_OVERRIDE_CXX "${CMAKE_CURRENT_LIST_DIR}/zig_macos.cmake")
   set(CMAKE_INSTALL_NAME_TOOL "${FAIRING_ZIG}")

@@ -1,31 +1,10 @@
 # shellcheck shell=bash disable=SC2034,SC2154,SC2164
-# Modules, wheels and zips; sourced by scripts/package after sources.sh.
+# Wheels, zips and the sdist; sourced by scripts/package after compile.sh.
 
 declare -A wheel_platform=(
     [linux-x64]=manylinux_2_28_x86_64 [windows-x64]=win_amd64
     [macos-arm64]=macosx_11_0_arm64 [macos-x64]=macosx_11_0_x86_64
 )
-export ZIG_GLOBAL_CACHE_DIR=$build/zig-cache ZIG_LOCAL_CACHE_DIR=$build/zig-cache
-
-# usage: build_module PLATFORM PYTHON: compiles and installs to build/cross/stage/PLATFORM-PYTHON.
-# One build folder per platform: the second Python compiles its bindings alone.
-build_module() {
-    local platform=$1 version=$2 folder=$cross/$1 stage=$cross/stage/$1-$2 headers=$cross/python$2/unix library=
-    if [[ $platform == windows-* ]]; then
-        headers=$cross/python$version/windows
-        library=$headers/python${version/./}.lib
-    fi
-    quietly "configure-$platform-$version" cmake -S . -B "$folder" -G Ninja \
-        -U 'Python_*' -U '_Python_*' -U 'PYTHON_*' \
-        -DCMAKE_TOOLCHAIN_FILE="$root/native/cmake/zig.cmake" -DFAIRING_ZIG="$zig" \
-        -DFAIRING_PLATFORM="$platform" -DFAIRING_PYTHON_HEADERS="$headers" -DFAIRING_PYTHON_LIBRARY="$library" \
-        -DFAIRING_BUILD_TESTS=OFF -DFAIRING_OPENMESH_SOURCE="$cross/openmesh" \
-        -DEigen3_DIR=/usr/share/eigen3/cmake -Dpybind11_DIR="$("$python" -m pybind11 --cmakedir)"
-    quietly "compile-$platform-$version" cmake --build "$folder" --target _core --parallel "$(nproc)"
-    rm -rf "$stage"
-    cmake --install "$folder" --component python --prefix "$stage" >"$build/log/install-$platform-$version.log"
-    cp -r native/python/fairing/. "$stage/fairing"
-}
 
 # The licences of all that is linked into a platform's module.
 gather_licences() {
@@ -79,6 +58,18 @@ make_zip() {
     mkdir -p "$packages"
     "$python" scripts/shipping/archive.py "$staging" "$target"
     "$python" "$(extension_tool)" validate "$target"
+}
+
+# From a copy: the backend walks all that lies beside the sources, build/ too.
+make_sdist() {
+    local staging=$build/staging/sdist
+    rm -rf "$staging"
+    mkdir -p "$staging"
+    cp -r "${engine[@]}" "$staging"
+    find "$staging" -name __pycache__ -prune -exec rm -r {} +
+    cd "$staging"
+    quietly sdist "$python" -c "from scikit_build_core.build import build_sdist; build_sdist('$packages')"
+    cd "$root"
 }
 
 # Blender's own command-line tool for extensions, out of the bpy at hand.

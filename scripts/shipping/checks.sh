@@ -1,19 +1,18 @@
 # shellcheck shell=bash disable=SC2034,SC2154,SC2164
 # What scripts/package does with the zips once they are there; sourced by it after build.sh.
 
-bpy_of_python313=5.2.3
 checking=$cross/checking
 wheel_limit=$((2 * 1024 * 1024))
 
-# What reads Windows' modules and CycloneDX, in an environment of its own.
+# What reads modules of all platforms and CycloneDX, in an environment of its own.
 make_checking_tools() {
     local wanted
-    wanted=$(fingerprint scripts/shipping/requirements.txt)
+    wanted=$(fingerprint scripts/locked/checking.txt)
     if is_done "$checking/.requirements" "$wanted"; then return; fi
     rm -rf "$checking"
     "$python" -m venv "$checking"
     quietly pip-checking "$checking/bin/python" -m pip install --progress-bar off \
-        --requirement scripts/shipping/requirements.txt
+        --require-hashes --only-binary :all: --requirement scripts/locked/checking.txt
     printf '%s' "$wanted" >"$checking/.requirements"
 }
 
@@ -33,17 +32,15 @@ check_wheels() {
         (($(stat -c %s "$wheel") <= wheel_limit)) || fail "$wheel is larger than 2 MB"
         if [[ $wheel == *manylinux* ]]; then check_manylinux "$wheel"; fi
     done
-    if makes windows-x64; then
-        make_checking_tools
-        "$checking/bin/python" scripts/shipping/imports.py "$build"/wheelhouse/*win_amd64.whl
-    fi
+    make_checking_tools
+    "$checking/bin/python" scripts/shipping/check_modules.py "$build"/wheelhouse/*.whl
 }
 
 # SBOM and checksums, beside the zips.
 write_lists() {
     "$python" scripts/shipping/sbom.py --zig "$zig_version" --openmesh "$cross"/download/openmesh \
         "$packages"/*.zip >"$packages/intrinsic_fairing-$(manifest_version).cdx.json"
-    (cd "$packages" && sha256sum -- *.zip *.json >SHA256SUMS)
+    (cd "$packages" && sha256sum -- *.zip *.tar.gz *.json >SHA256SUMS)
 }
 
 list_zips() {
@@ -60,7 +57,8 @@ check_everything() {
         use_zip "$(venv_python "$version")" "$(zip_of "$packages" "$native")"
     done
     use_zip_in_python313
-    check_sdist
+    say "The source distribution, by this machine's compiler"
+    install_sdist g++
     check_golden
 }
 
@@ -77,6 +75,10 @@ use_zip_in_python313() {
     local folder=$build/trixie
     if ((EUID != 0)); then
         say "Left out: bpy $bpy_of_python313 (its Python 3.13 is installed with debootstrap, as root)"
+        return
+    fi
+    if ! unshare --mount true 2>/dev/null; then
+        say "Left out: bpy $bpy_of_python313 (nothing can be mounted here; in a container: --privileged)"
         return
     fi
     make_trixie "$folder"
@@ -99,28 +101,23 @@ make_trixie() {
     fi
     # Fetched from outside: certificates and settings of the network are this machine's.
     quietly "download-bpy-$bpy_of_python313" "$python" -m pip download --progress-bar off --only-binary :all: \
-        --python-version 3.13 --platform manylinux_2_28_x86_64 --platform manylinux_2_27_x86_64 \
-        --platform manylinux_2_17_x86_64 --platform manylinux2014_x86_64 \
-        --dest "$folder/root/wheels" "bpy==$bpy_of_python313"
+        --python-version 3.13 "${platforms_of_python313[@]}" --dest "$folder/root/wheels" \
+        --require-hashes --requirement "scripts/locked/bpy-$bpy_of_python313.txt"
     in_folder "$folder/root" python3 -m venv /venv
     quietly "pip-bpy-$bpy_of_python313" in_folder "$folder/root" /venv/bin/python -m pip install \
-        --progress-bar off --no-index --find-links /wheels "bpy==$bpy_of_python313"
+        --progress-bar off --no-index --find-links /wheels \
+        --require-hashes --requirement "/src/scripts/locked/bpy-$bpy_of_python313.txt"
     rm -r "$folder/root/wheels"
     printf '%s' "$bpy_of_python313" >"$folder/.bpy"
 }
 
-# The sdist, built, installed with this machine's compiler in a fresh environment, and used.
-check_sdist() {
-    say "Source distribution"
-    rm -rf "$build/sdist"
-    quietly sdist "$python" -c "from scikit_build_core.build import build_sdist; build_sdist('$build/sdist')"
-    install_sdist g++
-}
-
-# usage: install_sdist COMPILER: into build/venv-COMPILER
+# usage: install_sdist COMPILER: into build/venv-COMPILER, with build tools of known hashes
 install_sdist() {
     local venv=$build/venv-$1
     rm -rf "$venv"
     "$python" -m venv "$venv"
-    CXX=$1 quietly "install-$1" "$venv/bin/python" -m pip install --progress-bar off "$build"/sdist/*.tar.gz
+    quietly "pip-$1" "$venv/bin/python" -m pip install --progress-bar off \
+        --require-hashes --only-binary :all: --requirement scripts/locked/sdist.txt
+    CXX=$1 quietly "install-$1" "$venv/bin/python" -m pip install \
+        --no-index --no-deps --no-build-isolation "$packages"/*.tar.gz
 }

@@ -4,9 +4,6 @@
 
 golden=$build/golden
 wine=/usr/lib/wine/wine64 # Debian's wrapper wants 32-bit wine too
-# A real CPython for Windows that PyPI has: inside the wheels of an engine that ships it with games.
-panda3d_version=1.10.16
-declare -A windows_numpy=([3.11]=1.26.4 [3.13]=2.1.0) # the newest that need nothing wine 8 lacks
 
 check_golden() {
     local version
@@ -53,13 +50,14 @@ make_windows_python() {
         get_windows_headers "$version"
         quietly "windows-python-$version" "$python" -m pip download --no-deps --only-binary :all: \
             --platform win_amd64 --python-version "$version" --dest "$folder/download" \
-            "panda3d==$panda3d_version" "numpy==${windows_numpy[$version]}"
+            --require-hashes --requirement "scripts/locked/windows-$version.txt"
         "$python" -m zipfile --extract "$folder"/download/panda3d-*.whl "$folder/panda3d"
         mv "$folder"/panda3d/deploy_libs/* "$folder"
         rm -r "$folder/panda3d" "$folder"/api-ms-*
         cp -r "$cross/python$version/source/Lib" "$folder/Lib"
-        "$zig" cc -target x86_64-windows-gnu -municode -O3 -s scripts/shipping/launcher.c \
-            "$cross/python$version/windows/python$digits.lib" -o "$folder/python.exe"
+        # Elsewhere than above zig's own folder: its cache distinguishes relative paths, and would compile all anew.
+        (cd "$folder" && "$zig" cc -target x86_64-windows-gnu -municode -O3 -s "$root/scripts/shipping/launcher.c" \
+            "$cross/python$version/windows/python$digits.lib" -o python.exe)
         touch "$folder/.complete"
     fi
     mkdir "$folder/site"

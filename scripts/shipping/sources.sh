@@ -3,14 +3,14 @@
 # All of it lies under build/cross: compiler from PyPI, sources and headers from Debian.
 
 cross=$build/cross
-zig_version=0.17.1
 zig=$build/zig/ziglang/zig
 declare -A suite_of=([3.11]=bookworm [3.13]=trixie) # Debian's release with that Python
 
 get_zig() {
     if [[ -x $zig ]] && is_done "$build/zig/.version" "$zig_version"; then return; fi
     rm -rf "$build/zig"
-    quietly zig "$python" -m pip install --progress-bar off --no-deps --target "$build/zig" "ziglang==$zig_version"
+    quietly zig "$python" -m pip install --progress-bar off --target "$build/zig" \
+        --require-hashes --requirement scripts/locked/zig.txt
     printf '%s' "$zig_version" >"$build/zig/.version"
 }
 
