@@ -39,6 +39,7 @@ Points settle(const Problem& problem, const Workspace& work, const Points& point
 // The start of the accurate iteration and what is reported about it.
 struct Start {
     Points points;
+    Points membrane;
     double initial_residual = 0.0;
     double fill_seconds = 0.0;
 };
@@ -46,7 +47,8 @@ struct Start {
 // The membrane depends on the outline's positions alone; the normals come in with the Willmore descent.
 Start make_start(const Problem& problem, Workspace& work, const Progress& progress) {
     const Stopwatch watch;
-    Start start{membrane(problem, work)};
+    Start start{membrane(problem, work), {}};
+    start.membrane = start.points;
     start.initial_residual = residual_of(problem, start.points);
     start.fill_seconds = watch.seconds();
     if (problem.options.equation == Equation::minimal) {
@@ -64,6 +66,16 @@ Start make_start(const Problem& problem, Workspace& work, const Progress& progre
     return start;
 }
 
+// An iteration that fails may end anywhere: what is less bent is taken instead.
+void keep_less_bent(const Problem& problem, const Points& candidate, Solution& solution) {
+    if (problem.options.equation == Equation::minimal || solution.termination == Termination::converged) return;
+    if (willmore_energy(problem, solution.points) <= willmore_energy(problem, candidate)) return;
+    const SurfaceState state = measured_surface(problem, candidate);
+    solution.points = candidate;
+    solution.mean_curvature = state.curvature.mean;
+    solution.residual = largest_residual(problem, state, outer_residual(problem, state));
+}
+
 // The solve on the user's mesh alone, from the membrane.
 Solution solve_directly(const Problem& problem, const Progress& progress) {
     Stopwatch watch;
@@ -73,6 +85,7 @@ Solution solve_directly(const Problem& problem, const Progress& progress) {
     const Start start = make_start(problem, work, progress.range(0.05, 0.6));
     const double start_seconds = watch.lap();
     Solution solution = solve_equation(problem, work, start.points, progress.range(0.6, 1.0));
+    for (const Points& candidate : {start.points, start.membrane}) keep_less_bent(problem, candidate, solution);
     solution.boundary_normals = one_sided_normals(problem.patch, solution.points);
     solution.initial_residual = start.initial_residual;
     solution.seconds = {{"fill", start.fill_seconds},
@@ -105,12 +118,14 @@ Solution try_directly(const Problem& problem, const Progress& progress) {
     return solution;
 }
 
-// The converged one; where neither has converged, the one with the smaller residual.
-Solution better_of(Solution direct, Solution on_proxy) {
+// The converged one; where neither has converged, the less bent one. Residuals of two meshes can't be compared.
+Solution better_of(const Problem& problem, Solution direct, Solution on_proxy) {
     const bool direct_converged = direct.termination == Termination::converged;
     const bool proxy_converged = on_proxy.termination == Termination::converged;
-    const bool proxy_wins =
-        direct_converged != proxy_converged ? proxy_converged : direct_converged || on_proxy.residual < direct.residual;
+    const bool proxy_wins = direct_converged != proxy_converged
+                                ? proxy_converged
+                                : direct_converged || !(willmore_energy(problem, direct.points) <=
+                                                        willmore_energy(problem, on_proxy.points));
     return proxy_wins ? std::move(on_proxy) : std::move(direct);
 }
 
@@ -125,13 +140,13 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
     if (problem.patch.free_count > direct_limit) {
         Solution on_proxy = solve_on_proxy(problem, std::nullopt, progress);
         if (on_proxy.termination == Termination::converged) return on_proxy;
-        return better_of(solve_directly(problem, progress), std::move(on_proxy));
+        return better_of(problem, solve_directly(problem, progress), std::move(on_proxy));
     }
     Solution direct = try_directly(problem, progress.range(0.0, 0.5));
     if (is_trustworthy(problem, direct)) return direct;
     std::optional<Points> guess;
     if (direct.termination == Termination::converged) guess = direct.points;
-    return better_of(std::move(direct), solve_on_proxy(problem, guess, progress.range(0.5, 1.0)));
+    return better_of(problem, std::move(direct), solve_on_proxy(problem, guess, progress.range(0.5, 1.0)));
 }
 
 }  // namespace fairing

@@ -11,7 +11,6 @@
 #include "solver/minimal_start.h"
 #include "solver/normal_fill.h"
 #include "solver/surface_state.h"
-#include "solver/willmore.h"
 
 namespace fairing {
 
@@ -204,9 +203,7 @@ private:
         const SurfaceState state = measured_surface(problem, converged ? solution.points : start);
         solution.mean_curvature = state.curvature.mean;
         solution.residual = largest_residual(problem, state, outer_residual(problem, state));
-        const Points c = conormals(problem.patch, problem.fixed_points, problem.fixed_normals);
-        const double energy =
-            willmore_energy(mixed_curvature_vectors(problem.patch, state.stiffness, state.points, c), state.stiffness);
+        const double energy = willmore_energy(problem, state.points);
         return {{std::move(snapshot.patch), state.points}, std::move(solution), state.normals, energy};
     }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "geometry/surface_fit.h"
+#include "solver/willmore.h"
 
 namespace fairing {
 
@@ -25,6 +26,14 @@ SurfaceState measured_surface(const Problem& problem, const Points& points) {
     state.measure_faces(problem.patch);
     state.measure_curvature(problem);
     return state;
+}
+
+double willmore_energy(const Problem& problem, const Points& points) {
+    SurfaceState state;
+    state.points = points;
+    state.measure_faces(problem.patch);
+    const Points boundary = conormals(problem.patch, problem.fixed_points, problem.fixed_normals);
+    return willmore_energy(mixed_curvature_vectors(problem.patch, state.stiffness, points, boundary), state.stiffness);
 }
 
 double curvature_variation(const Problem& problem, const Points& points) {
