@@ -2,8 +2,9 @@
 
     python benchmarks/cancel.py [--size 100000] [--even] [--ways global:uniform,paper:uniform]
 
-The longest stretches without a call of `progress` (goal: 0.3 s), by the wall, from the call's beginning to its end; the largest
-difference between the fraction told and the share of the time. A graded irregular hemisphere, or with --even a jittered one.
+The longest stretches without a call of `progress` (goal: 0.3 s), by the wall, from the call's beginning to its end;
+the largest difference between the fraction told and the share of the time. A graded irregular hemisphere, or with
+--even a jittered one.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ GOAL = 0.3  # seconds
 
 
 def calls(item: Input, method: str, kind: str) -> list[tuple[float, float, str]]:
-    """When `progress` was called, with which fraction and stage; the call's beginning and end are the first and last."""
+    """When `progress` was called, with which fraction and stage; first and last are the beginning and the end."""
     found = [(time.perf_counter(), 0.0, "arguments")]
 
     def ask(fraction: float, stage: str) -> None:
