@@ -11,7 +11,8 @@ namespace fairing {
 using ProgressCallback = std::function<bool(double fraction, std::string_view stage)>;
 
 // A view of a callback that maps [0, 1] onto a sub-range of the whole run, so that a stage need not know its place.
-// The fraction that callers see never decreases. Asked at every outer step and around each factorisation.
+// The fraction that callers see never decreases. Asked at every outer step, around each factorisation and at
+// checkpoints.
 class Progress {
 public:
     Progress() = default;

@@ -63,7 +63,7 @@ public:
     }
 
 private:
-    // Numbers two nodes that may touch, or a node twice.
+    // Two nodes that may touch, or one twice.
     struct Pair {
         int first;
         int second;

@@ -85,7 +85,7 @@ Solution solve_directly(const Problem& problem, const Progress& progress) {
     const Start start = make_start(problem, work, progress.range(0.05, 0.6));
     const double start_seconds = watch.lap();
     Solution solution = solve_equation(problem, work, start.points, progress.range(0.6, 1.0));
-    for (const Points& candidate : {start.points, start.membrane}) keep_less_bent(problem, candidate, solution);
+    for (const Points* candidate : {&start.points, &start.membrane}) keep_less_bent(problem, *candidate, solution);
     solution.boundary_normals = one_sided_normals(problem.patch, solution.points);
     solution.initial_residual = start.initial_residual;
     solution.seconds = {{"fill", start.fill_seconds},

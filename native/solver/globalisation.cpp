@@ -161,20 +161,17 @@ Points best_fill(const Problem& problem, Workspace& work, const Progress& progre
     const Patch& patch = problem.patch;
     const Points boundary = conormals(patch, problem.fixed_points, problem.fixed_normals);
     const Fill fill = clamped_fill(patch, problem.fixed_points, boundary, *work.normal, progress);
-    SurfaceState state;
-    state.points.resize(3, patch.vertex_count());
-    state.points.rightCols(problem.fixed_points.cols()) = problem.fixed_points;
+    Points points(3, patch.vertex_count());
+    points.rightCols(problem.fixed_points.cols()) = problem.fixed_points;
     Points best;
     double least = std::numeric_limits<double>::infinity();
     // Bulges of the linear fill: a strongly curved surface needs more than the linear theory's 1.
     for (const double sigma : {1.0, 1.5, 2.2, 3.2, 4.5}) {
-        state.points.leftCols(patch.free_count) = fill.flat + sigma * fill.bulge;
-        state.measure_faces(patch);
-        const double energy =
-            willmore_energy(mixed_curvature_vectors(patch, state.stiffness, state.points, boundary), state.stiffness);
+        points.leftCols(patch.free_count) = fill.flat + sigma * fill.bulge;
+        const double energy = willmore_energy(problem, points);
         if (energy < least) {
             least = energy;
-            best = state.points;
+            best = points;
         }
     }
     return best;
