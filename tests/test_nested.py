@@ -7,6 +7,7 @@ import pytest
 
 import fairing
 import shapes
+from cubes import cube_cap
 from shapes import Patch, Style
 from solving import fair_patch
 
@@ -51,3 +52,17 @@ def test_few_iterations_remain_for_the_finest_level() -> None:
         result = fair_patch(shapes.cap(n_free), tolerance=1e-6)
         assert result.converged
         assert result.iterations <= 8
+
+
+@pytest.mark.parametrize("quads", [30, 44, 60])
+def test_extraordinary_vertices_are_passed(quads: int) -> None:
+    """Next to a cube's corners vertices move over several edges from one level to the next, within the surface."""
+    cap = cube_cap(quads)
+    free = np.ones(len(cap.vertices), dtype=bool)
+    free[cap.fixed] = False
+    start = np.where(free[:, None], 0.0, cap.vertices)
+    result = fairing.fair(start, cap.triangles, fixed=cap.fixed, fixed_normals=cap.vertices[cap.fixed], tolerance=1e-10)
+    assert result.converged
+    assert len(result.levels) > 1
+    assert result.iterations <= 16
+    assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max() <= 1e-8

@@ -200,7 +200,10 @@ def test_a_creased_outline_is_told(method: str, kind: str) -> None:
 
 @pytest.mark.parametrize(("length", "lean"), [(6, 30), (6, -15), (12, 30)])
 def test_without_a_solution_the_answer_is_a_plain_surface(length: float, lean: float) -> None:
-    """Pipes whose end normals lean too far have none (docs/accuracy.md): no iterate that went astray is written."""
+    """Pipes whose end normals lean too far have none (docs/accuracy.md): no iterate that went astray is written.
+
+    What is least bent bulges, on the way to a sphere: no wider than it is long.
+    """
     patch = shapes.cylinder(1000, length=length)
     axis = np.eye(3)[np.argmax(np.ptp(patch.vertices, axis=0))]
     ends = np.sign((patch.vertices[patch.fixed] - patch.vertices.mean(axis=0)) @ axis)
@@ -211,4 +214,4 @@ def test_without_a_solution_the_answer_is_a_plain_surface(length: float, lean: f
     assert not {"FLIPPED_TRIANGLES", "SELF_INTERSECTION"} & set(codes(result))
     along = result.vertices @ axis
     assert np.ptp(along) < 1.001 * length
-    assert np.linalg.norm(result.vertices - np.outer(along, axis), axis=1).max() < 4
+    assert np.linalg.norm(result.vertices - np.outer(along, axis), axis=1).max() < 0.5 * length

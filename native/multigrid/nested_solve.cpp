@@ -6,10 +6,10 @@
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
 #include "multigrid/coarsening.h"
-#include "multigrid/slide.h"
 #include "multigrid/tangential_multigrid.h"
 #include "solver/accelerated_iteration.h"
 #include "solver/globalisation.h"
+#include "solver/slide.h"
 #include "solver/surface_state.h"
 
 namespace fairing {
@@ -26,6 +26,7 @@ constexpr int most_iterations = 20;
 constexpr int most_between = 6;
 constexpr int patience = 6;
 constexpr int evening_sweeps = 3;
+constexpr int most_slides = 8;
 // Shares of the time, measured at 100k and 256k.
 constexpr double begin = 0.06;  // the hierarchy
 constexpr double share_of_start = 0.3;
@@ -146,10 +147,10 @@ private:
         Level& level = levels_[k];
         const Problem& problem = level.problem;
         RingMatrix laplacian = laplacian_of(k);
-        Points points = interpolated(k, coarse, laplacian);
+        auto [points, normals] = interpolated(k, coarse, laplacian);
         progress.report(share_of_start / 3, "refinement");
         set_up_tangential(k, std::move(laplacian));
-        slide(problem, *level.work.tangential, points);
+        slide(problem, *level.work.tangential, normals, most_slides, points);
         progress.report(share_of_start, "refinement");
         level.work.normal =
             std::make_unique<BiharmonicOperator>(problem.patch, points.leftCols(problem.patch.free_count));
@@ -157,7 +158,8 @@ private:
         if (k == 0 && std::holds_alternative<RowWeights>(problem.weights)) {
             level.work.tangential =
                 make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here());
-            slide(problem, *level.work.tangential, points);
+            slide(problem, *level.work.tangential, max_normals(problem.patch, points, problem.fixed_normals),
+                  most_slides, points);
         }
         return iterate(problem, level.work, points, progress.range(share_of_start, 1.0));
     }
@@ -166,14 +168,19 @@ private:
         return {levels_[k].problem.patch.vertex_count(), levels_[k].weights};
     }
 
-    [[nodiscard]] Points interpolated(std::size_t k, const Points& coarse, const RingMatrix& laplacian) const {
+    struct Surface {
+        Points points;
+        Points normals;
+    };
+
+    [[nodiscard]] Surface interpolated(std::size_t k, const Points& coarse, const RingMatrix& laplacian) const {
         const Problem& fine = levels_[k].problem;
         const SurfaceState state = measured_surface(levels_[k + 1].problem, coarse);
         Points points = with_fixed(fine.patch, fine.fixed_points);
         Points normals = with_fixed(fine.patch, fine.fixed_normals);
         coarse_[k].transfer.prolong_surface(coarse, state.normals, fine.patch.free_count, points, normals);
         even_out(laplacian, fine.patch.free_count, evening_sweeps, points, normals);
-        return points;
+        return {std::move(points), std::move(normals)};
     }
 
     const Problem& problem_;

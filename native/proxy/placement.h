@@ -2,7 +2,7 @@
 #pragma once
 
 #include "proxy/proxy_mesh.h"
-#include "proxy/target_surface.h"
+#include "geometry/target_surface.h"
 #include "solver/problem.h"
 #include "solver/tangential_step.h"
 

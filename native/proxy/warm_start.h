@@ -41,8 +41,9 @@ private:
     Stiffness factorised_;         // what `work_.normal` holds the factor of
     int iterations_at_first_ = 0;  // of the first solve with that factor; 0: not known yet
     bool ready_ = false;
-    Points points_;   // 3 × local vertices, units of D
-    Points normals_;  // 3 × fixed count
+    bool is_minimal_ = false;  // the last answer
+    Points points_;            // 3 × local vertices, units of D
+    Points normals_;           // 3 × fixed count
 };
 
 }  // namespace fairing

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "solver/fill.h"
+#include "solver/slide.h"
 #include "solver/surface_state.h"
 #include "solver/willmore.h"
 
@@ -93,8 +94,9 @@ private:
     void descend() {
         for (int k = 0; k < most_descent_steps; ++k) {
             report(k, most_descent_steps);
+            const double before = energy_;
             if (descend_once() < descended) return;
-            even_out();
+            even_out(before);
         }
     }
 
@@ -126,13 +128,11 @@ private:
         return false;
     }
 
-    void even_out() {
-        Points d = work_.tangential->displacement(state_.points, state_.normals);
-        const double largest = largest_length(d);
-        if (!(largest > 0.0)) return;
-        state_.points.leftCols(patch_.free_count) += std::min(1.0, 0.1 / largest) * d;
+    // Within the surface, unless that costs more than the last descent step has gained: they would take turns for ever.
+    void even_out(double most_energy) {
+        slide(problem_, *work_.tangential, state_.normals, 1, state_.points);
         measure();
-        keep();
+        energy_ <= most_energy ? keep() : restore();
     }
 
     const Problem& problem_;

@@ -4,7 +4,7 @@
 
 #include "meshes.h"
 #include "proxy/proxy_mesh.h"
-#include "proxy/target_surface.h"
+#include "geometry/target_surface.h"
 
 using namespace fairing;
 

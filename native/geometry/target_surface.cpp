@@ -1,4 +1,4 @@
-#include "proxy/target_surface.h"
+#include "geometry/target_surface.h"
 
 #include <algorithm>
 #include <array>
