@@ -72,8 +72,9 @@ def components(patch: Patch) -> tuple[Component, ...]:
 
 
 def _component(patch: Patch, triangles: Ints) -> Component:
-    edges, counts = np.unique(triangle_edges(patch.triangles[triangles]), axis=0, return_counts=True)
-    return Component(triangles, np.unique(edges[counts == 1]))
+    edges = triangle_edges(patch.triangles[triangles])
+    numbers, counts = np.unique(edges[:, 0] * len(patch.vertices) + edges[:, 1], return_counts=True)
+    return Component(triangles, np.unique(np.divmod(numbers[counts == 1], len(patch.vertices))))
 
 
 def outline_radius(points: Floats) -> float:

@@ -193,14 +193,16 @@ def sub_range(progress: Progress | None, begin: float, end: float) -> Progress |
 def _part(problem: Problem, piece: Component) -> tuple[Problem, Ints]:
     """Cut one piece out; return it and the patch indices of its vertices."""
     patch = problem.patch
-    used, triangles = np.unique(patch.triangles[piece.triangles], return_inverse=True)
+    triangles = patch.triangles[piece.triangles]
     number = np.full(len(patch.vertices), -1, dtype=np.int64)
+    number[triangles] = 0
+    used = np.flatnonzero(number == 0)
     number[used] = np.arange(len(used))
     held = number[patch.fixed] >= 0
     edges = patch.neighbours
     part = Patch(
         vertices=patch.vertices[used],
-        triangles=triangles.reshape(-1, 3).astype(np.int64),
+        triangles=number[triangles],
         free=_present(number[patch.free]),
         fixed=number[patch.fixed[held]],
         outline=number[piece.outline],

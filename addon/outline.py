@@ -138,10 +138,11 @@ def _fin_note(mesh: MeshArrays) -> str:
 
 def precision_note(mesh: MeshArrays) -> str:
     """Tell where float32, in which Blender stores the mesh's own coordinates, is too coarse for the patch."""
-    used = np.unique(mesh.corner_edges[mesh.in_patch[mesh.corner_faces]])
+    used = np.zeros(len(mesh.edges), dtype=bool)
+    used[mesh.corner_edges[mesh.in_patch[mesh.corner_faces]]] = True
     ends = mesh.positions[mesh.edges[used]]
     spacing = float(np.spacing(np.abs(ends).max(initial=0.0).astype(np.float32)))
-    edge = float(np.median(np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1))) if len(used) else 0.0
+    edge = float(np.median(np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1))) if len(ends) else 0.0
     if spacing <= COARSE * edge:
         return ""
     return (
