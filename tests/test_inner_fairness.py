@@ -7,6 +7,7 @@ import pytest
 
 import fairing
 import measures
+import random_inputs
 import shapes
 from curves import FloatArray
 from meshing import IntArray
@@ -151,3 +152,19 @@ def test_the_surface_does_not_depend_on_inner_fairness() -> None:
     conformal = fair_patch(patch, inner_fairness="conformal", reference=patch.vertices)
     assert patch.error(conformal.vertices) < 2e-3
     assert patch.error(fair_patch(patch).vertices) < 2e-3
+
+
+@pytest.mark.parametrize(("seed", "kind"), [(273, "conformal"), (273, "shape_preserving"), (286, "inverse_distance")])
+def test_where_only_even_vertices_carry_the_equation_they_decide_the_surface(seed: int, kind: str) -> None:
+    """Few vertices, an outline of wild normals: the others are placed on the surface of uniform inner fairness."""
+    patch = random_inputs.make_patch("disc", 40, seed, height=1.0, noise=0.6)
+    even = patch.fair()
+    result = patch.fair(inner_fairness=kind)
+    assert even.converged
+    assert result.converged
+    assert not result.polished
+    rim = patch.fixed
+    assert np.abs(result.mean_curvature[rim] - even.mean_curvature[rim]).max() < 1e-12
+    assert result.mean_curvature.min() >= even.mean_curvature.min() - 1e-12
+    assert result.mean_curvature.max() <= even.mean_curvature.max() + 1e-12
+    assert np.abs(result.vertices - even.vertices).max() > 1e-3

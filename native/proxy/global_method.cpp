@@ -1,5 +1,7 @@
 #include "proxy/global_method.h"
 
+#include <algorithm>
+
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
 #include "multigrid/nested_solve.h"
@@ -27,11 +29,10 @@ double residual_of(const Problem& problem, const Points& points) {
 }
 
 // The vertices of a surface, placed on it by their inner fairness.
-Points settle(const Problem& problem, const Workspace& work, const Points& points) {
+Points settled(const Problem& problem, const Workspace& work, const Points& points) {
     const SurfaceState state = measured_surface(problem, points);
     const TargetSurface target(problem.patch, points, state.normals);
-    Placement placement{{}, points};
-    for (int v = 0; v < problem.patch.free_count; ++v) placement.where.push_back(target.at_vertex(v));
+    Placement placement = at_vertices(problem, target, points);
     relax(problem, *work.tangential, target, placement);
     return placement.points;
 }
@@ -61,7 +62,7 @@ Start make_start(const Problem& problem, Workspace& work, const Progress& progre
     // least is wanted, so the start that varies least goes first.
     const auto along_normals = normal_fill(problem, progress.here());
     if (along_normals && curvature_variation(problem, *along_normals) < curvature_variation(problem, start.points)) {
-        start.points = settle(problem, work, *along_normals);
+        start.points = settled(problem, work, *along_normals);
     }
     return start;
 }
@@ -129,6 +130,31 @@ Solution better_of(const Problem& problem, Solution direct, Solution on_proxy) {
     return proxy_wins ? std::move(on_proxy) : std::move(direct);
 }
 
+bool is_uniform(const Lambda& weights) {
+    const auto* edges = std::get_if<InnerWeights>(&weights);
+    return edges && std::all_of(edges->begin(), edges->end(),
+                                [&](const WeightedEdge& edge) { return edge.weight == edges->front().weight; });
+}
+
+// The shape doesn't depend on λ: where a mesh carries the equation with its vertices evenly placed only, that surface
+// is taken and λ places them on it. Nothing where even that doesn't converge.
+std::optional<Solution> solve_evenly(const Problem& problem, const Progress& progress) {
+    if (is_uniform(problem.weights)) return std::nullopt;
+    Problem even = problem;
+    even.weights = uniform_weights(problem.patch);
+    Solution solution = try_directly(even, progress);
+    if (!is_trustworthy(even, solution)) return std::nullopt;
+    const SurfaceState state = measured_surface(even, solution.points);
+    const TargetSurface target(problem.patch, state.points, state.normals);
+    Placement placement = at_vertices(problem, target, state.points);
+    const auto tangential = make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here());
+    settle(problem, *tangential, target, placement, progress.here());
+    solution.mean_curvature = carried_over(placement, target, solution.mean_curvature, problem);
+    solution.points = std::move(placement.points);
+    solution.polished = false;
+    return solution;
+}
+
 }  // namespace
 
 Solution solve_global(const Problem& problem, const Progress& progress) {
@@ -146,7 +172,11 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
     if (is_trustworthy(problem, direct)) return direct;
     std::optional<Points> guess;
     if (direct.termination == Termination::converged) guess = direct.points;
-    return better_of(problem, std::move(direct), solve_on_proxy(problem, guess, progress.range(0.5, 1.0)));
+    Solution on_proxy = solve_on_proxy(problem, guess, progress.range(0.5, 0.9));
+    if (on_proxy.termination != Termination::converged && direct.termination != Termination::converged) {
+        if (auto even = solve_evenly(problem, progress.range(0.9, 1.0))) return *even;
+    }
+    return better_of(problem, std::move(direct), std::move(on_proxy));
 }
 
 }  // namespace fairing

@@ -106,4 +106,29 @@ double relax(const Problem& problem, const TangentialStep& tangential, const Tar
     return merit;
 }
 
+double settle(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
+              Placement& placement, const Progress& progress) {
+    if (const auto* rows = std::get_if<RowWeights>(&problem.weights)) {
+        const auto symmetric = make_tangential_step(problem.patch, symmetrised(*rows), problem.fixed_points, progress);
+        relax(problem, *symmetric, target, placement);
+    }
+    return relax(problem, tangential, target, placement);
+}
+
+Placement at_vertices(const Problem& problem, const TargetSurface& target, const Points& points) {
+    Placement placement{{}, points};
+    for (int v = 0; v < problem.patch.free_count; ++v) placement.where.push_back(target.at_vertex(v));
+    return placement;
+}
+
+VectorX carried_over(const Placement& placement, const TargetSurface& target, const VectorX& values,
+                     const Problem& problem) {
+    VectorX result(problem.patch.vertex_count());
+    for (int v = 0; v < problem.patch.free_count; ++v) {
+        result[v] = target.interpolate(values, placement.where[at(v)]);
+    }
+    result.tail(problem.fixed_points.cols()) = values.tail(problem.fixed_points.cols());
+    return result;
+}
+
 }  // namespace fairing

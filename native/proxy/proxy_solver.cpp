@@ -212,15 +212,9 @@ private:
         const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
         Placement placement = first_placement(problem_, attempt.mesh, proxy.mesh, target);
         Workspace work = make_workspace(problem_, progress_);
-        // Weights that aren't symmetric have no energy to descend; their symmetric part leads near the place.
-        if (const auto* rows = std::get_if<RowWeights>(&problem_.weights)) {
-            const auto symmetric =
-                make_tangential_step(problem_.patch, symmetrised(*rows), problem_.fixed_points, progress_.here());
-            relax(problem_, *symmetric, target, placement);
-        }
         std::optional<Placement> from_guess;
         if (guess_) from_guess = near(placement, target, *guess_);
-        const double merit = relax(problem_, *work.tangential, target, placement);
+        const double merit = settle(problem_, *work.tangential, target, placement, progress_.here());
         if (from_guess && relax(problem_, *work.tangential, target, *from_guess) < merit) placement = *from_guess;
         return polish(proxy, target, placement, work);
     }
@@ -258,12 +252,7 @@ private:
         placed.polished = false;
         placed.points = placement.points;
         placed.boundary_normals = one_sided_normals(proxy.mesh.patch, proxy.mesh.points);
-        placed.mean_curvature.resize(problem_.patch.vertex_count());
-        for (int v = 0; v < problem_.patch.free_count; ++v) {
-            placed.mean_curvature[v] = target.interpolate(proxy.solution.mean_curvature, placement.where[at(v)]);
-        }
-        placed.mean_curvature.tail(problem_.fixed_points.cols()) =
-            proxy.solution.mean_curvature.tail(problem_.fixed_points.cols());
+        placed.mean_curvature = carried_over(placement, target, proxy.solution.mean_curvature, problem_);
         return placed;
     }
 
