@@ -114,12 +114,20 @@ def test_wrong_arguments_of_every_kind_are_named(option: str, value: Any) -> Non
         call(**{option: value})
 
 
-def test_named_indices_out_of_range_are_elements() -> None:
-    for value in (-1, len(CAP.vertices), 2**31, -(2**40)):
+@pytest.mark.parametrize("value", [-1, len(CAP.vertices), 2**31, -(2**40), np.uint64(2**63)])
+def test_named_indices_out_of_range_are_elements(value: Any) -> None:
+    """Of `fixed` the vertices that it names, of `triangles` the rows."""
+    for option, array, elements, kind in (
+        ("fixed", CAP.fixed, [value], "vertex"),
+        ("triangles", CAP.triangles, [0], "triangle"),
+    ):
+        wide = array.astype(np.uint64) if isinstance(value, np.uint64) else array
         with pytest.raises(fairing.MeshError) as caught:
-            call(fixed=with_entry(CAP.fixed, value))
+            call(**{option: with_entry(wide, value)})
         assert caught.value.code == "INDEX_RANGE"
-        assert caught.value.elements.size
+        assert list(caught.value.elements) == elements
+        assert caught.value.kind == kind
+        assert option.rstrip("s") in str(caught.value)
 
 
 @in_all_ways

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/progress.h"
 #include "mesh/edges.h"
 
 namespace fairing {
@@ -26,6 +27,7 @@ IntrinsicTriangulation::IntrinsicTriangulation(const Triangles& triangles, const
     twin_.assign(at(side_count), none);
     length_.resize(at(side_count));
     for (int h = 0; h < side_count; ++h) {
+        checkpoint(h);
         tail_[at(h)] = side_tail(triangles, h);
         length_[at(h)] = (points.col(side_tail(triangles, h)) - points.col(side_head(triangles, h))).norm();
     }
@@ -103,8 +105,9 @@ void IntrinsicTriangulation::make_delaunay() {
     for (int h = 0; h < static_cast<int>(tail_.size()); ++h) {
         if (twin_[at(h)] > h) queue.push_back(h);
     }
-    long budget = 20L * static_cast<long>(tail_.size());
-    while (!queue.empty() && budget-- > 0) {
+    const long most_steps = 20L * static_cast<long>(tail_.size());
+    for (long step = 0; step < most_steps && !queue.empty(); ++step) {
+        checkpoint(static_cast<int>(step % 4096));
         const int h = queue.back();
         queue.pop_back();
         if (twin_[at(h)] == none || cotangent_sum(h) >= -1e-10) continue;
@@ -119,6 +122,7 @@ InnerWeights IntrinsicTriangulation::cotangent_weights() const {
     InnerWeights weights;
     double sum = 0.0;
     for (int h = 0; h < static_cast<int>(tail_.size()); ++h) {
+        checkpoint(h);
         const int twin = twin_[at(h)];
         const int i = tail_[at(h)];
         const int j = tail_[at(next(h))];

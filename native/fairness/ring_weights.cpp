@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "base/progress.h"
+
 namespace fairing {
 
 namespace {
@@ -99,6 +101,7 @@ void shape_preserving_ring_weights(const OneRing& ring, std::vector<double>& res
     const std::vector<Eigen::Vector2d> flat = lay_out(ring);
     result.assign(ring.points.size(), 0.0);
     for (std::size_t k = 0; k < flat.size(); ++k) {
+        if (k % 64 == 63) checkpoint();  // of large rings: each search passes along all of it
         if (!flat[k].allFinite()) return uniform_ring_weights(flat.size(), result);
         add_barycentric(flat, k, result);
     }

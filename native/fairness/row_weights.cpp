@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/progress.h"
 #include "fairness/ring_weights.h"
 #include "geometry/one_ring_buffer.h"
 
@@ -26,6 +27,7 @@ void append(RowWeights& rows, int column, double value) {
 int first_adrift(const Patch& patch, const RowWeights& rows) {
     std::vector<Indices> pulled_by(at(patch.vertex_count()));
     for (int i = 0; i < patch.free_count; ++i) {
+        checkpoint(i);
         const auto columns = rows.columns_of(i);
         const auto values = rows.values_of(i);
         for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -70,6 +72,7 @@ RowWeights row_weights(const Patch& patch, const std::vector<DirectedWeight>& we
     }
     RowWeights result;
     for (std::size_t i = 0; i < rows.size(); ++i) {
+        checkpoint(static_cast<int>(i));
         double sum = 0.0;
         for (const auto& [j, weight] : rows[i]) sum += weight;
         if (!(sum > 0.0) || !std::isfinite(sum)) {
@@ -114,6 +117,7 @@ RowWeights row_weights(const Patch& patch, const Points& reference, InnerFairnes
     OneRingBuffer buffer;
     std::vector<double> lambda;
     for (int i = 0; i < patch.free_count; ++i) {
+        checkpoint(i);
         ring_weights(buffer.gather(patch, reference, i), kind, lambda);
         const auto neighbours = patch.ring(i).vertices;
         for (std::size_t k = 0; k < lambda.size(); ++k) append(result, neighbours[k], lambda[k]);

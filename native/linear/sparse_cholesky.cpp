@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "linear/dense_front.h"
 #include "linear/nested_dissection.h"
+#include "linear/tree_solve.h"
 
 namespace fairing {
 
@@ -142,60 +143,19 @@ bool SparseCholesky::factorise(const SparseMatrix& lower, const char* what, cons
     return positive;
 }
 
-// x ← L⁻¹ x in the supernode's rows and what follows below, in `outer` outside its subtree.
-void SparseCholesky::forward(int s, Eigen::MatrixXd& x, Eigen::MatrixXd& outer) const {
-    const auto front = panel(s);
-    const Eigen::Index columns = front.cols();
-    auto own = x.middleRows(tree_.nodes().first[at(s)], columns);
-    front.topRows(columns).triangularView<Eigen::Lower>().solveInPlace(own);
-    const Eigen::MatrixXd passed = front.bottomRows(front.rows() - columns) * own;
-    const auto rows = tree_.below(s);
-    const auto places = tree_.below_in_outer(s);
-    for (Eigen::Index k = 0; k < passed.rows(); ++k) {
-        const int place = places[std::size_t(k)];
-        if (place == none) {
-            x.row(rows[std::size_t(k)]) -= passed.row(k);
-        } else {
-            outer.row(place) -= passed.row(k);
-        }
-    }
-}
-
-// x ← L⁻ᵀ x in the supernode's rows.
-void SparseCholesky::backward(int s, Eigen::MatrixXd& x) const {
-    const auto front = panel(s);
-    const Eigen::Index columns = front.cols();
-    const auto rows = tree_.below(s);
-    Eigen::MatrixXd below(front.rows() - columns, x.cols());
-    for (Eigen::Index k = 0; k < below.rows(); ++k) below.row(k) = x.row(rows[std::size_t(k)]);
-    auto own = x.middleRows(tree_.nodes().first[at(s)], columns);
-    own.noalias() -= front.bottomRows(front.rows() - columns).transpose() * below;
-    front.topRows(columns).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
-}
-
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& rhs) const {
-    Eigen::MatrixXd x(rhs.rows(), rhs.cols());
-    for (std::size_t k = 0; k < order_.size(); ++k) x.row(static_cast<Eigen::Index>(k)) = rhs.row(order_[k]);
-    const std::vector<Subtree>& parts = tree_.subtrees();
-    std::vector<Eigen::MatrixXd> outer(parts.size());
-    run_pieces(static_cast<int>(parts.size()), [&](int k) {
-        const Subtree& part = parts[at(k)];
-        outer[at(k)].setZero(static_cast<Eigen::Index>(tree_.below(part.root()).size()), rhs.cols());
-        for (int s = part.begin; s < part.end; ++s) forward(s, x, outer[at(k)]);
-    });
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-        Eigen::Index place = 0;
-        for (int row : tree_.below(parts[k].root())) x.row(row) += outer[k].row(place++);
-    }
-    Eigen::MatrixXd unused;
-    for (int s : tree_.top()) forward(s, x, unused);
-    for (auto s = tree_.top().rbegin(); s != tree_.top().rend(); ++s) backward(*s, x);
-    run_pieces(static_cast<int>(parts.size()), [&](int k) {
-        for (int s = parts[at(k)].end; s-- > parts[at(k)].begin;) backward(s, x);
-    });
-    Eigen::MatrixXd result(rhs.rows(), rhs.cols());
-    for (std::size_t k = 0; k < order_.size(); ++k) result.row(order_[k]) = x.row(static_cast<Eigen::Index>(k));
-    return result;
+    const auto up = [this](int s, OwnRows own) -> Eigen::MatrixXd {
+        const auto front = panel(s);
+        const Eigen::Index columns = front.cols();
+        front.topRows(columns).triangularView<Eigen::Lower>().solveInPlace(own);
+        return front.bottomRows(front.rows() - columns) * own;
+    };
+    const auto down = [this](int s, OwnRows own, const Eigen::MatrixXd& below) {
+        const auto front = panel(s);
+        own.noalias() -= front.bottomRows(below.rows()).transpose() * below;
+        front.topRows(front.cols()).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
+    };
+    return solve_by_fronts(tree_, order_, rhs, {up, down});
 }
 
 }  // namespace fairing

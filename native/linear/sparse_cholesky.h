@@ -31,8 +31,6 @@ private:
     void scatter(const SparseMatrix& lower);
     void add_child(int child, int parent, Eigen::MatrixXd& parent_update);
     bool eliminate(int supernode, const WorkDone& work_done);
-    void forward(int supernode, Eigen::MatrixXd& x, Eigen::MatrixXd& outer) const;
-    void backward(int supernode, Eigen::MatrixXd& x) const;
     [[nodiscard]] Panel panel(int supernode);
     [[nodiscard]] ConstPanel panel(int supernode) const;
 

@@ -28,10 +28,7 @@ DirectedStep::DirectedStep(const Patch& patch, const RowWeights& weights, const 
     coupling_.resize(free_count_, fixed_points.cols());
     coupling_.setFromTriplets(couplings.begin(), couplings.end());
     hold(fixed_points);
-    factor_.analyzePattern(laplacian_);
-    progress.report(0.0, "the inner-fairness weights");
-    factor_.factorize(laplacian_);
-    if (factor_.info() != Eigen::Success) {
+    if (!factor_.factorise(laplacian_, "the inner-fairness weights", progress)) {
         throw SolverError("the inner-fairness weights give a singular matrix: some vertices hang on no fixed one");
     }
 }

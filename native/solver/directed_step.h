@@ -1,8 +1,7 @@
 // Tangential steps of λ that are not symmetric: shape preserving and custom ones.
 #pragma once
 
-#include <Eigen/SparseLU>
-
+#include "linear/sparse_lu.h"
 #include "solver/tangential_step.h"
 
 namespace fairing {
@@ -18,17 +17,15 @@ public:
     [[nodiscard]] Points displacement(const Points& points, const Points& normals, int max_cycles) const override;
 
 private:
-    using Matrix = Eigen::SparseMatrix<double>;
-
     // P (Λx − x) of the free vertices.
     [[nodiscard]] Points imbalance(const Points& points, const Points& normals) const;
     [[nodiscard]] Points solve(const Points& rhs) const;
 
     int free_count_;
-    Matrix laplacian_;  // 1 − Λ over the free vertices
-    Matrix coupling_;   // λ_ij of free i and fixed j
-    Points pull_;       // Σ λ_ij x_j over fixed neighbours j
-    Eigen::SparseLU<Matrix> factor_;
+    SparseMatrix laplacian_;  // 1 − Λ over the free vertices
+    SparseMatrix coupling_;   // λ_ij of free i and fixed j
+    Points pull_;             // Σ λ_ij x_j over fixed neighbours j
+    SparseLu factor_;
 };
 
 }  // namespace fairing

@@ -13,13 +13,13 @@
 #include "mesh/loops.h"
 #include "random_mesh.h"
 #include "random_options.h"
+#include "watchdog.h"
 
 namespace fairing::fuzz {
 
 namespace {
 
-// Says no at the call that was chosen (0: at none) and after a while: what the fuzzer sees as a hang is then a stretch
-// without a question.
+// Says no at the call that was chosen (0: at none) and after a while.
 struct Stopper {
     static constexpr std::clock_t patience = CLOCKS_PER_SEC / 4;  // of processor time
     int last;
@@ -28,6 +28,7 @@ struct Stopper {
     std::clock_t begin = std::clock();
 
     bool operator()(double now, std::string_view stage) {
+        restart_watchdog();
         require(now >= fraction && now <= 1.0 && !stage.empty(), "progress only grows");
         fraction = now;
         return ++calls != last && std::clock() - begin < patience;
@@ -171,6 +172,7 @@ void fuzz_surrounding_normals(FuzzedDataProvider& bytes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace fairing::fuzz;
+    restart_watchdog();
     FuzzedDataProvider bytes(data, size);
     switch (bytes.ConsumeIntegralInRange(0, 13)) {
         case 1: fuzz_mean_curvature(bytes); break;

@@ -1,11 +1,15 @@
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <random>
+#include <thread>
 
 #include "base/errors.h"
+#include "base/parallel.h"
 #include "linear/anderson.h"
 #include "linear/gmres.h"
 #include "linear/sparse_cholesky.h"
+#include "linear/sparse_lu.h"
 
 using namespace fairing;
 
@@ -27,6 +31,39 @@ SparseMatrix random_matrix(int n, int blocks, unsigned seed) {
     }
     for (int i = 0; i < n; ++i) entries.emplace_back(i, i, diagonal[i]);
     SparseMatrix matrix(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+}
+
+// Rows of random weights whose sums stay below the diagonal; one direction of many couplings is missing.
+SparseMatrix random_rows(int n, int blocks, unsigned seed) {
+    std::mt19937 random(seed);
+    std::vector<Eigen::Triplet<double>> entries;
+    VectorX diagonal = VectorX::Constant(n, 1e-3);
+    for (int k = 0; k < 6 * n; ++k) {
+        const int i = static_cast<int>(random() % static_cast<unsigned>(n));
+        const int j = static_cast<int>(random() % static_cast<unsigned>(n));
+        if (i == j || i % blocks != j % blocks) continue;
+        const double value = static_cast<double>(random() % 1000) / 1000.0;
+        entries.emplace_back(i, j, -value);
+        diagonal[i] += value;
+    }
+    for (int i = 0; i < n; ++i) entries.emplace_back(i, i, diagonal[i]);
+    SparseMatrix matrix(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+}
+
+// Weights of a grid's vertices, each towards two of its neighbours: a tree of many fronts.
+SparseMatrix grid_rows(int side) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int k = 0; k < side * side; ++k) {
+        entries.emplace_back(k, k, 1.0);
+        if (k % side > 0) entries.emplace_back(k, k - 1, -0.6);
+        if (k / side > 0) entries.emplace_back(k, k - side, -0.3);
+        if (k % side < side - 1) entries.emplace_back(k, k + 1, -0.1);
+    }
+    SparseMatrix matrix(side * side, side * side);
     matrix.setFromTriplets(entries.begin(), entries.end());
     return matrix;
 }
@@ -65,6 +102,59 @@ TEST_CASE("a factorisation can be cancelled and done again") {
     REQUIRE(factor.factorise(lower, "x", Progress()));
     const VectorX rhs = VectorX::Ones(200);
     CHECK((lower.selfadjointView<Eigen::Lower>() * factor.solve(rhs) - rhs).norm() < 1e-10);
+}
+
+TEST_CASE("the LU factor solves diagonally dominant systems that are not symmetric, connected or not") {
+    for (const int n : {1, 2, 17, 300}) {
+        for (const int blocks : {1, 3}) {
+            const SparseMatrix matrix = random_rows(n, blocks, static_cast<unsigned>(n + blocks));
+            SparseLu factor;
+            REQUIRE(factor.factorise(matrix, "a test matrix", Progress()));
+            const Eigen::MatrixXd rhs = Eigen::MatrixXd::Random(n, 3);
+            CHECK((matrix * factor.solve(rhs) - rhs).norm() < 1e-11 * rhs.norm());
+        }
+    }
+}
+
+TEST_CASE("the LU factor has the same bits for any number of threads") {
+    const SparseMatrix matrix = grid_rows(120);
+    const Eigen::MatrixXd rhs = Eigen::MatrixXd::Random(matrix.rows(), 3);
+    SparseLu alone;
+    REQUIRE(alone.factorise(matrix, "x", Progress()));
+    const Eigen::MatrixXd control = alone.solve(rhs);
+    CHECK((matrix * control - rhs).norm() < 1e-11 * rhs.norm());
+    const Threads threads(3);
+    SparseLu together;
+    REQUIRE(together.factorise(matrix, "x", Progress()));
+    CHECK(together.solve(rhs) == control);
+}
+
+TEST_CASE("the LU factor refuses a singular matrix") {
+    SparseMatrix matrix = random_rows(50, 1, 7);
+    matrix.prune([](Eigen::Index row, Eigen::Index, double) { return row != 20; });
+    SparseLu factor;
+    CHECK_FALSE(factor.factorise(matrix, "the weights", Progress()));
+}
+
+TEST_CASE("an LU factorisation can be cancelled between its fronts and done again") {
+    SparseLu factor;
+    const SparseMatrix matrix = grid_rows(60);
+    // So slow that a question is due at every checkpoint; those before the fronts are fewer.
+    constexpr int most_calls = 30;
+    int calls = 0;
+    const Progress progress([&](double, std::string_view) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(51));
+        return ++calls < most_calls;
+    });
+    const auto factorise = [&] {
+        const Checkpoints checkpoints(progress);
+        static_cast<void>(factor.factorise(matrix, "x", progress));
+    };
+    CHECK_THROWS_AS(factorise(), Cancelled);
+    CHECK(calls == most_calls);
+    REQUIRE(factor.factorise(matrix, "x", Progress()));
+    const VectorX rhs = VectorX::Ones(matrix.rows());
+    CHECK((matrix * factor.solve(rhs) - rhs).norm() < 1e-10);
 }
 
 TEST_CASE("Anderson acceleration ends a linear iteration within its dimension") {

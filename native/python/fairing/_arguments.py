@@ -47,13 +47,18 @@ def integers(name: str, value: npt.ArrayLike, columns: int | None) -> IntArray:
         raise ValueError(f"{name}: shape {wanted} is needed, not {array.shape}")
     outside = (array > _INT32.max) | (array < _INT32.min)
     if outside.any():
-        raise _index_range(name, int(np.argwhere(outside)[0, 0]))
+        raise _index_range(name, array, outside)
     return np.ascontiguousarray(array, dtype=np.int32)
 
 
-def _index_range(name: str, row: int) -> MeshError:
-    text = f"{name}: row {row} names a vertex that does not exist"
-    return MeshError(Diagnostic("INDEX_RANGE", text, np.array([row], dtype=np.int32), "triangle"))
+def _index_range(name: str, array: npt.NDArray[Any], outside: npt.NDArray[np.bool_]) -> MeshError:
+    """Its elements: rows of the triangles, otherwise the vertices named, in the caller's wider type."""
+    place = tuple(np.argwhere(outside)[0])
+    text = f"{name}: row {place[0]} names vertex {array[place]}, which does not exist"
+    if name == "triangles":
+        rows = np.flatnonzero(outside.any(axis=1)).astype(np.int32)
+        return MeshError(Diagnostic("INDEX_RANGE", text, rows, "triangle"))
+    return MeshError(Diagnostic("INDEX_RANGE", text, np.unique(array[outside]), "vertex"))
 
 
 def boundary(
