@@ -1,8 +1,13 @@
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <set>
+#include <thread>
 
+#include "base/errors.h"
 #include "fairness/intrinsic_delaunay.h"
+#include "fairness/ring_weights.h"
+#include "fairness/row_weights.h"
 #include "meshes.h"
 #include "solver/tangential_step.h"
 
@@ -18,6 +23,20 @@ Points imbalance(const Patch& patch, const InnerWeights& weights, const Points& 
         sum.col(j) += w * (x.col(j) - x.col(i));
     }
     return sum.leftCols(patch.free_count);
+}
+
+// Whether `work` asks, when it is due, to go on.
+template <typename Work>
+bool asks(const Work& work) {
+    const Progress progress([](double, std::string_view) { return false; });
+    const Checkpoints checkpoints(progress);
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    try {
+        work();
+    } catch (const Cancelled&) {
+        return true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -63,4 +82,20 @@ TEST_CASE("tangential displacements stay across the normals and lead to balance 
         x.leftCols(patch.free_count) += d;
     }
     CHECK(imbalance(patch, weights, x).cwiseAbs().maxCoeff() < 1e-13);
+}
+
+TEST_CASE("weights can be cancelled while they are made") {
+    const test::Single single = test::single_patch(test::grid(8, 0.2, test::sphere));
+    IntrinsicTriangulation triangulation(single.patch().triangles, single.points);
+    CHECK(asks([&] { triangulation.make_delaunay(); }));
+    CHECK(asks([&] { triangulation.cotangent_weights(); }));
+    CHECK(asks([&] { row_weights(single.patch(), single.points, InnerFairness::inverse_distance); }));
+    CHECK(asks([&] { row_weights(single.patch(), uniform_weights(single.patch()), "x"); }));
+}
+
+TEST_CASE("shape-preserving weights of a large ring can be cancelled") {
+    std::vector<Vector3> rim;
+    for (int k = 0; k < 3000; ++k) rim.emplace_back(std::cos(k * 2e-3), std::sin(k * 2e-3), 0.1);
+    std::vector<double> weights;
+    CHECK(asks([&] { shape_preserving_ring_weights({Vector3::Zero(), rim}, weights); }));
 }
