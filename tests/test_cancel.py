@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 
 import numpy as np
 import pytest
 
 import fairing
+import hard_inputs
 import shapes
 
 PATCH = shapes.catenoid(500)
@@ -75,3 +77,23 @@ def test_exceptions_of_the_callback_come_through() -> None:
 def test_cancelled_is_not_a_value_error() -> None:
     assert issubclass(fairing.Cancelled, Exception)
     assert not issubclass(fairing.Cancelled, ValueError)
+
+
+def longest_stretch(item: hard_inputs.Input, kind: str) -> float:
+    """Without a question, in seconds of the caller's own processor time; with one thread nobody else works."""
+    when = [time.thread_time()]
+    item.fair(inner_fairness=kind, threads=1, progress=lambda fraction, stage: when.append(time.thread_time()))
+    when.append(time.thread_time())
+    return float(np.diff(when).max())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", hard_inputs.KINDS)
+def test_questions_come_often_in_a_large_patch(kind: str) -> None:
+    assert longest_stretch(hard_inputs.of_patch(shapes.cap(100_000)), kind) < 0.3
+
+
+@pytest.mark.parametrize("kind", hard_inputs.KINDS)
+def test_questions_come_often_in_a_large_ring(kind: str) -> None:
+    """All of 5000 outline vertices are second neighbours of each other."""
+    assert longest_stretch(hard_inputs.single_fan(5000), kind) < 0.3

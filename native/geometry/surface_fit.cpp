@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 
+#include "base/progress.h"
 #include "geometry/frame.h"
 
 namespace fairing {
@@ -54,10 +55,12 @@ public:
         nearest_.clear();
         for (std::size_t k = 1; k < visited_.size(); ++k) nearest_.emplace_back(points_.col(visited_[k]));
         const Vector3 centre = points_.col(vertex);
-        std::sort(nearest_.begin(), nearest_.end(), [&](const Vector3& a, const Vector3& b) {
-            return (a - centre).squaredNorm() < (b - centre).squaredNorm();
-        });
-        if (nearest_.size() > wanted_points) nearest_.resize(wanted_points);
+        const std::size_t kept = std::min(nearest_.size(), wanted_points);
+        std::partial_sort(nearest_.begin(), nearest_.begin() + std::ptrdiff_t(kept), nearest_.end(),
+                          [&](const Vector3& a, const Vector3& b) {
+                              return (a - centre).squaredNorm() < (b - centre).squaredNorm();
+                          });
+        nearest_.resize(kept);
         return nearest_;
     }
 
@@ -164,6 +167,7 @@ SurroundingNormals surrounding_normals(const Points& points, const Triangles& tr
     SurroundingNormals result{Points(3, static_cast<Eigen::Index>(vertices.size())),
                               std::vector<char>(vertices.size(), 0)};
     for (std::size_t k = 0; k < vertices.size(); ++k) {
+        checkpoint();
         const int v = vertices[k];
         const auto fit = surface_fit_normal(points.col(v), neighbourhood.around(v), averaged.col(v));
         result.normals.col(static_cast<Eigen::Index>(k)) = fit ? *fit : Vector3(averaged.col(v));

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/progress.h"
 #include "geometry/face_geometry.h"
 #include "geometry/vertex_normal.h"
 
@@ -74,6 +75,7 @@ bool ProxyMesh::should_flip(Edge e) const {
 int ProxyMesh::flip_round() {
     int flips = 0;
     for (const Edge e : mesh_.edges()) {
+        checkpoint(e.idx());
         if (!should_flip(e)) continue;
         mesh_.flip(e);
         ++flips;
@@ -91,6 +93,7 @@ void ProxyMesh::smooth() {
     std::vector<Vector3> moved(mesh_.n_vertices());
     std::vector<Vector3> ring;
     for (const Vertex v : mesh_.vertices()) {
+        checkpoint(v.idx());
         if (fixed(v)) continue;
         ring.clear();
         for (const Vertex neighbour : mesh_.vv_ccw_range(v)) ring.push_back(point(neighbour));
@@ -167,6 +170,7 @@ int ProxyMesh::collapse_short(const std::vector<double>& target, bool keep_shape
     for (const Halfedge h : mesh_.halfedges()) push(h);
     int collapses = 0;
     for (; !queue.empty() && free_count_ > 1; queue.pop()) {
+        checkpoint();
         const Halfedge h(queue.top().halfedge);
         if (mesh_.status(h).deleted() || relative_length(h, target) != queue.top().length || !may_collapse(h)) continue;
         if (keep_shapes && !keeps_shape(h)) continue;
@@ -219,6 +223,7 @@ std::vector<double> ProxyMesh::target_lengths(const Sizing& sizing) const {
         }
     }
     while (!queue.empty()) {
+        checkpoint();
         const auto [length, v] = queue.top();
         queue.pop();
         if (length > target[at(v)]) continue;
@@ -242,6 +247,7 @@ int ProxyMesh::split_long(const std::vector<double>& target, int free_limit) {
     int splits = 0;
     for (const auto& [length, index] : long_edges) {
         if (free_count_ >= free_limit) break;
+        checkpoint();
         const Edge e(index);
         const Vertex middle = mesh_.add_vertex(mesh_.calc_edge_midpoint(e));
         mesh_.split(e, middle);
