@@ -28,7 +28,7 @@ struct Stopper {
     std::clock_t begin = std::clock();
 
     bool operator()(double now, std::string_view stage) {
-        restart_watchdog();
+        Watchdog::restart();
         require(now >= fraction && now <= 1.0 && !stage.empty(), "progress only grows");
         fraction = now;
         return ++calls != last && std::clock() - begin < patience;
@@ -172,7 +172,7 @@ void fuzz_surrounding_normals(FuzzedDataProvider& bytes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace fairing::fuzz;
-    restart_watchdog();
+    const Watchdog watchdog;
     FuzzedDataProvider bytes(data, size);
     switch (bytes.ConsumeIntegralInRange(0, 13)) {
         case 1: fuzz_mean_curvature(bytes); break;

@@ -20,12 +20,18 @@ extern "C" void bark(int /*signal*/) {
     std::abort();
 }
 
+void set_timer(time_t seconds) {
+    const itimerval timer{{0, 0}, {seconds, 0}};
+    setitimer(ITIMER_PROF, &timer, nullptr);
+}
+
 }  // namespace
 
-void restart_watchdog() {
+Watchdog::~Watchdog() { set_timer(0); }
+
+void Watchdog::restart() {
     [[maybe_unused]] static const auto previous = std::signal(SIGPROF, bark);
-    const itimerval timer{{0, 0}, {patience, 0}};
-    setitimer(ITIMER_PROF, &timer, nullptr);
+    set_timer(patience);
 }
 
 }  // namespace fairing::fuzz

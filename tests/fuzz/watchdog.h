@@ -4,7 +4,16 @@
 
 namespace fairing::fuzz {
 
-// Begins anew: at the start of each input, and whenever progress is asked.
-void restart_watchdog();
+// Counts while it lives.
+class Watchdog {
+public:
+    Watchdog() { restart(); }
+    ~Watchdog();
+    Watchdog(const Watchdog&) = delete;
+    Watchdog& operator=(const Watchdog&) = delete;
+
+    // Whenever progress is asked, within a watchdog's life.
+    static void restart();
+};
 
 }  // namespace fairing::fuzz
