@@ -144,13 +144,13 @@ bool SparseCholesky::factorise(const SparseMatrix& lower, const char* what, cons
 }
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& rhs) const {
-    const auto up = [this](int s, OwnRows own) -> Eigen::MatrixXd {
+    const auto up = [this](int s, OwnRows& own) -> Eigen::MatrixXd {
         const auto front = panel(s);
         const Eigen::Index columns = front.cols();
         front.topRows(columns).triangularView<Eigen::Lower>().solveInPlace(own);
         return front.bottomRows(front.rows() - columns) * own;
     };
-    const auto down = [this](int s, OwnRows own, const Eigen::MatrixXd& below) {
+    const auto down = [this](int s, OwnRows& own, const Eigen::MatrixXd& below) {
         const auto front = panel(s);
         own.noalias() -= front.bottomRows(below.rows()).transpose() * below;
         front.topRows(front.cols()).triangularView<Eigen::Lower>().transpose().solveInPlace(own);

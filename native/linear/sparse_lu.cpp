@@ -93,11 +93,11 @@ bool SparseLu::factorise(const SparseMatrix& matrix, const char* what, const Pro
 }
 
 Eigen::MatrixXd SparseLu::solve(const Eigen::MatrixXd& rhs) const {
-    const auto up = [this](int s, OwnRows own) -> Eigen::MatrixXd {
+    const auto up = [this](int s, OwnRows& own) -> Eigen::MatrixXd {
         own = fronts_[at(s)].pivot.solve(own).eval();
         return fronts_[at(s)].lower * own;
     };
-    const auto down = [this](int s, OwnRows own, const Eigen::MatrixXd& below) {
+    const auto down = [this](int s, OwnRows& own, const Eigen::MatrixXd& below) {
         own.noalias() -= fronts_[at(s)].upper * below;
     };
     return solve_by_fronts(tree_, order_, rhs, {up, down});

@@ -35,11 +35,12 @@ public:
     }
 
 private:
-    auto own_rows(int s) { return x_.middleRows(tree_.nodes().first[at(s)], tree_.nodes().column_count(s)); }
+    OwnRows own_rows(int s) { return x_.middleRows(tree_.nodes().first[at(s)], tree_.nodes().column_count(s)); }
 
     // Into `outer` outside the subtree: other subtrees pass to the same rows.
     void up(int s, Eigen::MatrixXd& outer) {
-        const Eigen::MatrixXd passed = sweeps_.up(s, own_rows(s));
+        OwnRows own = own_rows(s);
+        const Eigen::MatrixXd passed = sweeps_.up(s, own);
         const auto rows = tree_.below(s);
         const auto places = tree_.below_in_outer(s);
         for (Eigen::Index k = 0; k < passed.rows(); ++k) {
@@ -56,7 +57,8 @@ private:
         const auto rows = tree_.below(s);
         Eigen::MatrixXd below(static_cast<Eigen::Index>(rows.size()), x_.cols());
         for (Eigen::Index k = 0; k < below.rows(); ++k) below.row(k) = x_.row(rows[std::size_t(k)]);
-        sweeps_.down(s, own_rows(s), below);
+        OwnRows own = own_rows(s);
+        sweeps_.down(s, own, below);
     }
 
     const FrontTree& tree_;

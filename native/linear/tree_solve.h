@@ -13,9 +13,9 @@ using OwnRows = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 // What a front does to its own rows on either way.
 struct FrontSweeps {
     // Up: eliminates; what it returns is taken from the rows below.
-    std::function<Eigen::MatrixXd(int supernode, OwnRows own)> up;
+    std::function<Eigen::MatrixXd(int supernode, OwnRows& own)> up;
     // Down: `below` holds the solution in the rows below.
-    std::function<void(int supernode, OwnRows own, const Eigen::MatrixXd& below)> down;
+    std::function<void(int supernode, OwnRows& own, const Eigen::MatrixXd& below)> down;
 };
 
 // `rhs`: n × k, in the matrix's order; `order`: position in the factor → row of the matrix.
