@@ -61,6 +61,22 @@ def test_follows_the_winding() -> None:
     assert np.abs(normals + turned).max() < 1e-9
 
 
+@pytest.mark.parametrize("size", [1e-300, 1e-160, 3e-162, 1e160, 1e300])
+def test_size_does_not_matter(size: float) -> None:
+    """Products of such edges are denormal, zero or infinite: found by the fuzzer."""
+    vertices, triangles, equator = outside_of_a_hemisphere(60)
+    normals, fitted = fairing.surrounding_normals(size * vertices, triangles, equator)
+    assert fitted.all()
+    assert np.abs(normals - vertices[equator]).max() < 1e-9
+
+
+def test_a_sliver_has_a_unit_normal() -> None:
+    """Its area is denormal beside the largest coordinate: found by the fuzzer."""
+    vertices = np.array([[0, 0, 0], [1e-160, 0, 0], [0, 1e-162, 0], [1, 1, 1], [1, 2, 1], [2, 1, 1]])
+    normals, _ = fairing.surrounding_normals(vertices, np.array([[0, 1, 2], [3, 5, 4]]), np.arange(6))
+    assert np.abs(np.linalg.norm(normals, axis=1) - 1).max() < 1e-12
+
+
 def test_too_few_points_give_the_average() -> None:
     vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
     triangles = np.array([[0, 1, 2]])

@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 
+#include "base/direction.h"
+
 namespace fairing {
 
 namespace {
@@ -112,10 +114,7 @@ Points averaged_triangle_normals(const Points& points, const CutMesh& mesh) {
         if (!(length > 0.0)) continue;
         for (int k = 0; k < 3; ++k) sums.col(v(k)) += cross / length;
     }
-    for (auto column : sums.colwise()) {
-        const double length = column.norm();
-        if (length > 0.0) column /= length;
-    }
+    for (auto column : sums.colwise()) column = direction(column);
     return sums;
 }
 
@@ -124,16 +123,15 @@ void copy_given_normals(const MeshInput& input, CheckedMesh& mesh) {
         const int v = (*input.fixed)[k];
         if (!mesh.roles.used[at(v)] || mesh.roles.pin[at(v)]) continue;
         const Vector3 n = input.fixed_normals->col(static_cast<Eigen::Index>(k));
-        const double length = n.stableNorm();
         if (!n.allFinite()) {
             throw MeshError(
                 {Code::nonfinite, "the normal prescribed at vertex " + std::to_string(v) + " is NaN or infinite", {v}});
         }
-        if (!(length > 0.0)) {
+        mesh.normals.col(v) = direction(n);
+        if (mesh.normals.col(v).isZero()) {
             throw std::invalid_argument("fixed_normals: row " + std::to_string(k) + " (vertex " + std::to_string(v) +
                                         ") has length zero; a unit normal is needed there");
         }
-        mesh.normals.col(v) = n / length;
     }
 }
 

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "api/component.h"
+#include "base/direction.h"
 #include "geometry/mean_curvature.h"
 #include "geometry/one_ring_buffer.h"
 #include "geometry/surface_fit.h"
@@ -100,10 +101,7 @@ Points vertex_normals(const MeshInput& input, NormalKind kind) {
         }
         for (int v = 0; v < patch.vertex_count(); ++v) sum.col(patch.to_input[at(v)]) += normals.col(v);
     });
-    for (auto column : sum.colwise()) {
-        const double length = column.norm();
-        if (length > 0.0) column /= length;
-    }
+    for (auto column : sum.colwise()) column = direction(column);
     return sum;
 }
 

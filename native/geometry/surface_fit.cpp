@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 
+#include "base/direction.h"
 #include "base/progress.h"
 #include "geometry/frame.h"
 
@@ -113,6 +114,13 @@ std::optional<Eigen::Vector2d> height_gradient(const Vector3& centre, std::span<
     return Eigen::Vector2d(qr.solve(rhs).head<2>());
 }
 
+// Coordinates of the triangles' corners within ±1: no product of edges is infinite, and none is lost to denormals.
+Points of_unit_size(const Points& points, const Triangles& triangles) {
+    double largest = 0.0;
+    for (int v : triangles.reshaped()) largest = std::max(largest, points.col(v).cwiseAbs().maxCoeff());
+    return largest > 0.0 ? Points(points / largest) : points;
+}
+
 Points averaged_at(const Points& points, const Triangles& triangles) {
     Points sums = Points::Zero(3, points.cols());
     for (const auto t : triangles.colwise()) {
@@ -120,10 +128,7 @@ Points averaged_at(const Points& points, const Triangles& triangles) {
         const Vector3 cross = (points.col(t[1]) - a).cross(Vector3(points.col(t[2]) - a));
         for (int v : t) sums.col(v) += cross;
     }
-    for (auto column : sums.colwise()) {
-        const double length = column.norm();
-        if (length > 0.0) column /= length;
-    }
+    for (auto column : sums.colwise()) column = direction(column);
     return sums;
 }
 
@@ -160,7 +165,8 @@ std::optional<Vector3> surface_fit_normal(const Vector3& centre, std::span<const
     return spatial && spatial->dot(*planar) > cos_of_crease ? spatial : planar;
 }
 
-SurroundingNormals surrounding_normals(const Points& points, const Triangles& triangles, const Indices& vertices) {
+SurroundingNormals surrounding_normals(const Points& given, const Triangles& triangles, const Indices& vertices) {
+    const Points points = of_unit_size(given, triangles);
     const VertexAdjacency adjacency(triangles, static_cast<int>(points.cols()));
     const Points averaged = averaged_at(points, triangles);
     Neighbourhood neighbourhood(adjacency, points);
