@@ -1,10 +1,11 @@
 # Toolchain file: the platforms that the extension ships for, from any machine that runs zig.
 #   cmake -DCMAKE_TOOLCHAIN_FILE=native/cmake/zig.cmake -DFAIRING_ZIG=<zig> -DFAIRING_PLATFORM=<linux-x64 …>
 #         -DFAIRING_PYTHON_HEADERS=<folder with that platform's Python.h> [-DFAIRING_PYTHON_LIBRARY=<.lib, Windows>]
+#         [-DFAIRING_LINKER=<LLVM's ld64.lld, macOS>]
 # Floors: glibc 2.28 (manylinux_2_28), macOS 11.0, Windows with the universal C runtime.
 
 list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES
-  FAIRING_ZIG FAIRING_PLATFORM FAIRING_PYTHON_HEADERS FAIRING_PYTHON_LIBRARY)
+  FAIRING_ZIG FAIRING_PLATFORM FAIRING_PYTHON_HEADERS FAIRING_PYTHON_LIBRARY FAIRING_LINKER)
 if(FAIRING_PLATFORM STREQUAL "linux-x64")
   set(CMAKE_SYSTEM_NAME Linux)
   set(CMAKE_SYSTEM_PROCESSOR x86_64)

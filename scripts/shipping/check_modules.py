@@ -16,6 +16,7 @@ import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import macos_module
 import pefile
 from elftools.elf.elffile import ELFFile
 from macholib import mach_o
@@ -81,26 +82,27 @@ def oldest_macos(header: MachOHeader) -> tuple[int, int] | None:
 
 
 def read_macho(content: bytes) -> Module:
-    """macOS: also the signature, without which Apple's processors load nothing."""
+    """macOS: also the signature, and that no other module's functions can take the place of its own."""
     with tempfile.NamedTemporaryFile() as file:
         file.write(content)
         file.flush()
         image = MachO(file.name)
         (header,) = image.headers
         symbols = SymbolTable(image).nlists
-    visible = {
-        name.decode().removeprefix("_")
-        for symbol, name in symbols
-        if symbol.n_type & 0x0E and symbol.n_type & 0x01 and not symbol.n_type & 0x10
-    }
-    local = [name for symbol, name in symbols if symbol.n_type & 0xE0 or not symbol.n_type & 0x01]
-    faults = [f"{len(local)} local symbols are left in"] if local else []
+    shown = macos_module.exported(content, header)
+    left = sorted(macos_module.names_left_in(symbols, shown))
+    faults = [f"{left[:5]}, {len(left)} in all, are left in"] if left else []
     oldest = oldest_macos(header)
     if oldest != MACOS:
         faults.append(f"macOS {oldest} instead of {MACOS}")
-    if not any(load.cmd == mach_o.LC_CODE_SIGNATURE for load, _, _ in header.commands):
-        faults.append("no signature")
-    return Module([name for _, _, name in header.walkRelocatables()], visible, faults)
+    if not macos_module.is_signed(content, header):
+        faults.append("no signature that fits")
+    if macos_module.binds_weakly(content, header):
+        faults.append("shares functions with other modules")
+    asked = macos_module.asked_of_all(symbols)
+    faults += [f"asks for {name}" for name in asked if not name.startswith(("_Py", "__Py"))]
+    libraries = [name for _, _, name in header.walkRelocatables()]
+    return Module(libraries, {name.removeprefix("_") for name in shown}, faults)
 
 
 READERS: dict[str, Callable[[bytes], Module]] = {"linux": read_elf, "win": read_pe, "macosx": read_macho}

@@ -6,7 +6,7 @@ export ZIG_GLOBAL_CACHE_DIR=$build/zig-cache ZIG_LOCAL_CACHE_DIR=$build/zig-cach
 # One hash of all that a platform's modules are compiled from.
 inputs_of() {
     fingerprint native CMakeLists.txt pyproject.toml scripts/shipping/compile.sh scripts/locked/{"bpy-$bpy",zig}.txt \
-        "$cross/openmesh" "$cross"/python*/unix /usr/include/eigen3 -- "$1"
+        "$cross/openmesh" "$cross"/python*/unix /usr/include/eigen3 -- "$1" "$(dpkg-query -W "$lld" 2>/dev/null)"
 }
 
 # usage: build_module PLATFORM PYTHON: compiles and installs to build/cross/stage/PLATFORM-PYTHON.
@@ -29,6 +29,7 @@ build_module() {
         -U 'Python_*' -U '_Python_*' -U 'PYTHON_*' \
         -DCMAKE_TOOLCHAIN_FILE="$root/native/cmake/zig.cmake" -DFAIRING_ZIG="$zig" \
         -DFAIRING_PLATFORM="$platform" -DFAIRING_PYTHON_HEADERS="$headers" -DFAIRING_PYTHON_LIBRARY="$library" \
+        -DFAIRING_LINKER="ld64.$lld" \
         -DFAIRING_BUILD_TESTS=OFF -DFAIRING_OPENMESH_SOURCE="$cross/openmesh" \
         -DEigen3_DIR=/usr/share/eigen3/cmake -Dpybind11_DIR="$("$python" -m pybind11 --cmakedir)"
     quietly "compile-$platform-$version" cmake --build "$folder" --target _core --parallel "$(nproc)"

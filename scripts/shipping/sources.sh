@@ -108,6 +108,7 @@ get_sources() {
     local platform version
     get_zig
     get_openmesh
+    if [[ ${platforms[*]} == *macos-* ]]; then install_packages "$lld"; fi
     for platform in "${platforms[@]}"; do
         for version in "${pythons[@]}"; do
             if [[ $platform == windows-* ]]; then get_windows_headers "$version"; else get_headers "$version"; fi

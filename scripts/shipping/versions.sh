@@ -1,7 +1,8 @@
 # shellcheck shell=bash disable=SC2034
-# What scripts/package takes from PyPI besides scripts/setup's environments; scripts/pin writes it down with hashes.
+# What scripts/package takes besides scripts/setup's environments; scripts/pin writes down what PyPI has of it, with hashes.
 
 zig_version=0.17.1
+lld='lld-19' # Debian's package, the newest of Debian 12: links for macOS
 bpy_of_python313=5.2.3
 platforms_of_python313=(
     --platform manylinux_2_28_x86_64 --platform manylinux_2_27_x86_64
