@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC2034,SC2154,SC2164
-# The golden set (benchmarks/golden.py) by every compiler here, and on Windows' Python under wine;
-# sourced by scripts/package after checks.sh.
+# The golden set (benchmarks/golden.py) by every compiler here, on Windows' Python under wine, and by the module for
+# macOS; sourced by scripts/package after checks.sh.
 
 golden=$build/golden
 wine=/usr/lib/wine/wine64 # Debian's wrapper wants 32-bit wine too
@@ -23,6 +23,7 @@ check_golden() {
             solve_golden_in_wine "$version" && found+=("$golden/windows-$version.npz")
         done
     fi
+    if makes macos-x64; then solve_golden_as_on_macos && found+=("$golden/macos-x64.npz"); fi
     say "Golden set: largest distances over D"
     "$python" benchmarks/golden.py compare "${found[@]}"
 }
@@ -75,3 +76,16 @@ solve_golden_in_wine() {
 }
 
 in_wine() { timeout --kill-after 10 900 "$wine" "$@" </dev/null 2>&1 | cat; }
+
+# The module for macOS on Intel, with this machine's C library for Apple's.
+solve_golden_as_on_macos() {
+    local folder=$build/darwin wheel
+    rm -rf "$folder"
+    mkdir -p "$folder"
+    readarray -t wheel < <(wheels_of macos-x64 3.11)
+    "$python" -m zipfile --extract "${wheel[0]}" "$folder"
+    gcc -O2 -Wall -Wextra -Werror -shared -fPIC scripts/shipping/darwin.c -lm -o "$folder/darwin.so"
+    PYTHONPATH=$folder:$checking/lib/python3.11/site-packages quietly golden-macos-x64 \
+        "$python" scripts/shipping/darwin.py "$folder/darwin.so" "$folder"/fairing/_core.*.so \
+        benchmarks/golden.py solve "$golden/inputs" "$golden/macos-x64.npz"
+}

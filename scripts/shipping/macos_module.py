@@ -34,11 +34,12 @@ def variable_length(content: bytes, at: int) -> tuple[int, int]:
             return value, at
 
 
-def names_in_trie(trie: bytes, node: int = 0, prefix: bytes = b"") -> Iterator[str]:
-    """Yield the names below a node of the export trie, by which the system finds what a module shows."""
+def names_in_trie(trie: bytes, node: int = 0, prefix: bytes = b"") -> Iterator[tuple[str, int]]:
+    """Yield name and address of what stands below a node of the export trie, where the system looks for names."""
     size, at = variable_length(trie, node)
     if size:
-        yield prefix.decode()
+        _, place = variable_length(trie, at)
+        yield prefix.decode(), variable_length(trie, place)[0]
     at += size
     children, at = trie[at], at + 1
     for _ in range(children):
@@ -48,10 +49,10 @@ def names_in_trie(trie: bytes, node: int = 0, prefix: bytes = b"") -> Iterator[s
         yield from names_in_trie(trie, child, prefix + edge)
 
 
-def exported(content: bytes, header: MachOHeader) -> set[str]:
-    """Return the names that other modules can find."""
+def exported(content: bytes, header: MachOHeader) -> dict[str, int]:
+    """Return the names that other modules can find, with their addresses."""
     info = command(header, mach_o.LC_DYLD_INFO_ONLY)
-    return set(names_in_trie(content[info.export_off : info.export_off + info.export_size]))
+    return dict(names_in_trie(content[info.export_off : info.export_off + info.export_size]))
 
 
 def binds_weakly(content: bytes, header: MachOHeader) -> bool:

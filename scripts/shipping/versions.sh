@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC2034
-# What scripts/package takes besides scripts/setup's environments; scripts/pin writes down what PyPI has of it, with hashes.
+# What scripts/package takes besides scripts/setup's environments; scripts/pin writes down, with hashes, what PyPI has.
 
 zig_version=0.17.1
 lld='lld-19' # Debian's package, the newest of Debian 12: links for macOS
