@@ -16,10 +16,13 @@ trap 'rm -rf "$scratch"' EXIT
 
 # zig compiles its C++ library, and says where that lies, when it links something itself.
 touch "$scratch/empty.cpp"
-readarray -t libraries < <("${compiler[@]}" -dynamiclib -s --verbose "$scratch/empty.cpp" -o "$scratch/empty.dylib" 2>&1 |
-    tr ' ' '\n' | grep -E '/lib(c\+\+|c\+\+abi|compiler_rt)\.a$')
+said=$("${compiler[@]}" -dynamiclib -s --verbose "$scratch/empty.cpp" -o "$scratch/empty.dylib" 2>&1) || {
+    printf '%s\n' "$said" >&2
+    exit 1
+}
+readarray -t libraries < <(tr ' ' '\n' <<<"$said" | grep -E '/lib(c\+\+|c\+\+abi|compiler_rt)\.a$')
 
-# zig's list of what the system has names the newest processors, whose programs bind alike, and some that LLVM doesn't know.
+# zig's list of what the system has names the newest processors alone, and some that LLVM doesn't know; all bind alike.
 sed 's/arm64e\(\.x1\)\?-/arm64-/g' "$(dirname "${compiler[0]}")/lib/libc/darwin/libSystem.tbd" >"$scratch/libSystem.tbd"
 
 case ${compiler[*]} in
