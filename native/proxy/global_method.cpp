@@ -6,6 +6,7 @@
 #include "geometry/surface_fit.h"
 #include "multigrid/nested_solve.h"
 #include "proxy/placement.h"
+#include "proxy/polish.h"
 #include "proxy/proxy_solver.h"
 #include "solver/continuation.h"
 #include "solver/globalisation.h"
@@ -136,45 +137,66 @@ bool is_uniform(const Lambda& weights) {
                                 [&](const WeightedEdge& edge) { return edge.weight == edges->front().weight; });
 }
 
+// From coarse to fine where the patch is large enough for that to pay.
+std::optional<Solution> try_nested(const Problem& problem, const Progress& progress) {
+    if (!problem.options.nested || problem.patch.free_count <= nested_limit) return std::nullopt;
+    auto nested = solve_nested(problem, solve_global, progress);
+    if (!nested || has_poor_triangles(problem.patch, nested->points)) return std::nullopt;
+    return nested;
+}
+
+// With uniform weights, if the mesh carries the equation then.
+std::optional<Solution> solve_uniformly(const Problem& even, const Progress& progress) {
+    if (auto nested = try_nested(even, progress.range(0.0, 0.5))) return nested;
+    if (even.patch.free_count > direct_limit) return std::nullopt;
+    Solution direct = try_directly(even, progress.range(0.5, 1.0));
+    if (!is_trustworthy(even, direct)) return std::nullopt;
+    return direct;
+}
+
 // The shape doesn't depend on λ: where a mesh carries the equation with its vertices evenly placed only, that surface
 // is taken and λ places them on it. Nothing where even that doesn't converge.
 std::optional<Solution> solve_evenly(const Problem& problem, const Progress& progress) {
     if (is_uniform(problem.weights)) return std::nullopt;
     Problem even = problem;
     even.weights = uniform_weights(problem.patch);
-    Solution solution = try_directly(even, progress);
-    if (!is_trustworthy(even, solution)) return std::nullopt;
-    const SurfaceState state = measured_surface(even, solution.points);
+    auto solution = solve_uniformly(even, progress.range(0.0, 0.5));
+    if (!solution) return std::nullopt;
+    const SurfaceState state = measured_surface(even, solution->points);
     const TargetSurface target(problem.patch, state.points, state.normals);
     Placement placement = at_vertices(problem, target, state.points);
-    const auto tangential = make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here());
-    settle(problem, *tangential, target, placement, progress.here());
-    solution.mean_curvature = carried_over(placement, target, solution.mean_curvature, problem);
-    solution.points = std::move(placement.points);
-    solution.polished = false;
-    return solution;
+    Workspace work{make_normal_operator(problem),
+                   make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())};
+    settle(problem, *work.tangential, target, placement, progress.here());
+    solution->mean_curvature = carried_over(placement, target, solution->mean_curvature, problem);
+    solution->points = std::move(placement.points);
+    solution->polished = false;
+    return polish(problem, work, std::move(*solution), progress.range(0.5, 1.0));
 }
 
 }  // namespace
 
 Solution solve_global(const Problem& problem, const Progress& progress) {
     if (problem.options.equation == Equation::minimal) return solve_directly(problem, progress);
-    if (problem.options.nested && problem.patch.free_count > nested_limit) {
-        const auto nested = solve_nested(problem, solve_global, progress);
-        if (nested && !has_poor_triangles(problem.patch, nested->points)) return *nested;
+    // A large patch is resolved best by its own mesh, a small one by the proxy.
+    const bool large = problem.patch.free_count > nested_limit;
+    if (auto nested = try_nested(problem, progress)) return std::move(*nested);
+    if (large) {
+        if (auto even = solve_evenly(problem, progress.range(0.0, 0.3))) return std::move(*even);
     }
     if (problem.patch.free_count > direct_limit) {
         Solution on_proxy = solve_on_proxy(problem, std::nullopt, progress);
         if (on_proxy.termination == Termination::converged) return on_proxy;
         return better_of(problem, solve_directly(problem, progress), std::move(on_proxy));
     }
-    Solution direct = try_directly(problem, progress.range(0.0, 0.5));
+    Solution direct = try_directly(problem, progress.range(0.3, 0.5));
     if (is_trustworthy(problem, direct)) return direct;
     std::optional<Points> guess;
     if (direct.termination == Termination::converged) guess = direct.points;
     Solution on_proxy = solve_on_proxy(problem, guess, progress.range(0.5, 0.9));
-    if (on_proxy.termination != Termination::converged && direct.termination != Termination::converged) {
-        if (auto even = solve_evenly(problem, progress.range(0.9, 1.0))) return *even;
+    const bool neither = direct.termination != Termination::converged && on_proxy.termination != Termination::converged;
+    if (neither && !large) {
+        if (auto even = solve_evenly(problem, progress.range(0.9, 1.0))) return std::move(*even);
     }
     return better_of(problem, std::move(direct), std::move(on_proxy));
 }

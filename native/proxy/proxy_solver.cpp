@@ -6,6 +6,7 @@
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
 #include "proxy/placement.h"
+#include "proxy/polish.h"
 #include "proxy/proxy_mesh.h"
 #include "solver/continuation.h"
 #include "solver/minimal_start.h"
@@ -216,34 +217,9 @@ private:
         if (guess_) from_guess = near(placement, target, *guess_);
         const double merit = settle(problem_, *work.tangential, target, placement, progress_.here());
         if (from_guess && relax(problem_, *work.tangential, target, *from_guess) < merit) placement = *from_guess;
-        return polish(proxy, target, placement, work);
-    }
-
-    // The discrete equation on the user's own mesh, where it converges near the surface.
-    Solution polish(const SolvedProxy& proxy, const TargetSurface& target, const Placement& placement,
-                    Workspace& work) {
         Solution placed = placed_solution(proxy, target, placement);
         if (!proxy.converged()) return placed;
-        // From the surface itself few iterations are needed; after many, it is another solution.
-        constexpr int most_iterations = 40;
-        Problem polishing = problem_;
-        polishing.options.max_iterations = std::min(most_iterations, problem_.options.max_iterations);
-        Solution polished = iterate(polishing, work, placement.points, progress_.range(0.8, 1.0));
-        if (polished.termination != Termination::converged || !agree(polished, placed)) return placed;
-        polished.boundary_normals = one_sided_normals(problem_.patch, polished.points);
-        return polished;
-    }
-
-    // The user's mesh and the proxy discretise one surface. Where they differ by more than their own errors, the
-    // mesh is too poor to carry the equation: on crowded or needle-shaped triangles a step may be small and H nonsense.
-    [[nodiscard]] bool agree(const Solution& polished, const Solution& placed) const {
-        constexpr double farthest = 2e-4;        // units of D
-        constexpr double curvature_share = 0.1;  // of the largest |H|, or of 1/D where that is less
-        if (largest_length(polished.points - placed.points) > farthest) return false;
-        const Eigen::Index count = problem_.patch.free_count;
-        const VectorX difference = polished.mean_curvature.head(count) - placed.mean_curvature.head(count);
-        return difference.cwiseAbs().maxCoeff() <
-               curvature_share * std::max(1.0, placed.mean_curvature.cwiseAbs().maxCoeff());
+        return polish(problem_, work, std::move(placed), progress_.range(0.8, 1.0));
     }
 
     [[nodiscard]] Solution placed_solution(const SolvedProxy& proxy, const TargetSurface& target,
