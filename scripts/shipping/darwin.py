@@ -194,3 +194,6 @@ if __name__ == "__main__":
     sys.meta_path.insert(0, Importer(Path(sys.argv[1]), Path(sys.argv[2])))
     sys.argv = sys.argv[3:]
     runpy.run_path(sys.argv[0], run_name="__main__")
+    # Python would free the module's memory before the objects whose destructors lie there.
+    sys.stdout.flush()
+    os._exit(0)
