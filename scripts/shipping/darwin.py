@@ -193,7 +193,11 @@ class Importer:
 if __name__ == "__main__":
     sys.meta_path.insert(0, Importer(Path(sys.argv[1]), Path(sys.argv[2])))
     sys.argv = sys.argv[3:]
-    runpy.run_path(sys.argv[0], run_name="__main__")
+    try:
+        runpy.run_path(sys.argv[0], run_name="__main__")
+        status = 0
+    except SystemExit as end:
+        status = end.code if isinstance(end.code, int) else int(end.code is not None)
     # Python would free the module's memory before the objects whose destructors lie there.
     sys.stdout.flush()
-    os._exit(0)
+    os._exit(status)
