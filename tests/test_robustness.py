@@ -28,7 +28,7 @@ spikes, folds, noise    robustness_shape: the_interior_given_does_not_matter; in
 crease, fold-over       robustness_shape: a_creased_outline_is_told; warnings: a_surface_through_itself_is_told
 wrong arguments         errors: wrong_arguments_are_named; robustness_calls: wrong_arguments_of_every_kind_are_named, …
 cancel, exceptions      cancel (questions_come_often_in_… with --thorough); robustness_calls: interrupted_at_every_call
-memory, threads, fork   robustness_calls: without_memory_it_refuses_and_lives, two_threads_at_once_…, a_fork_goes_on
+memory, threads, fork   robustness_calls: without_memory_it_refuses_…, a_million_vertices, two_threads_…, a_fork_goes_on
 again, renumbered       robustness_calls: again_moves_nothing_…, renumbered_input_gives_the_same_shape; result
 at random               robustness_random; tests/fuzz (scripts/fuzz), whose finds are tests in boundary_loops
 

@@ -252,12 +252,34 @@ thread.join()
 """
 
 
-def run_alone(script: str) -> subprocess.CompletedProcess[str]:
+MILLION = """
+import resource, sys
+sys.path.insert(0, sys.argv[1])
+import numpy as np, fairing, shapes
+patch = shapes.cap(1_000_000)
+start = shapes.start_from_nothing(patch, "point")
+
+def fair():
+    return fairing.fair(start, patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals)
+
+used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (used + 1_000_000_000, resource.RLIM_INFINITY))
+try:
+    fair()
+except MemoryError as error:
+    print(error)
+resource.setrlimit(resource.RLIMIT_AS, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+result = fair()
+print(result.converged, patch.error(result.vertices))
+"""
+
+
+def run_alone(script: str, timeout: float = 120) -> subprocess.CompletedProcess[str]:
     """The script in a process of its own, with the tests' folder as its argument; one heap for all threads."""
     paths = os.pathsep.join(path for path in sys.path if path)
     return subprocess.run(
         [sys.executable, "-c", script, str(Path(__file__).parent)],
-        capture_output=True, text=True, check=False, timeout=120,
+        capture_output=True, text=True, check=False, timeout=timeout,
         env={**os.environ, "PYTHONPATH": paths, "MALLOC_ARENA_MAX": "1"},
     )  # fmt: skip
 
@@ -271,6 +293,19 @@ def test_without_memory_it_refuses_and_lives() -> None:
     assert len(words) == 42
     assert words[0] == "refused"
     assert words[-2:] == ["solved", "solved"]
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="RLIMIT_AS and /proc are Linux's")
+def test_a_million_vertices() -> None:
+    """With 1 GB to go an error and a living process, which then finds the sphere in 6 GB."""
+    done = run_alone(MILLION, timeout=1200)
+    assert done.returncode == 0, done.stderr
+    refusal, answer = done.stdout.splitlines()
+    assert "memory" in refusal
+    converged, error = answer.split()
+    assert converged == "True"
+    assert float(error) < 1e-6
 
 
 @in_all_ways
