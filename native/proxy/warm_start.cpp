@@ -100,7 +100,6 @@ void WarmStart::remember(const Problem& problem, const Solution& solution, const
     hold(problem, progress);
     points_ = solution.points;
     normals_ = prescribed(patch_, problem.fixed_normals);
-    is_minimal_ = problem.options.equation == Equation::minimal;
     ready_ = true;
 }
 
@@ -147,9 +146,8 @@ Solution WarmStart::iterate_from(const Problem& problem, const Points& start, co
 
 std::optional<Solution> WarmStart::solve(const Problem& problem, const Progress& progress) {
     // A minimal surface has another tangent plane at the outline: the last answer is a worse start than the outline.
-    if (!ready_ || is_minimal_ != (problem.options.equation == Equation::minimal)) return std::nullopt;
+    if (!ready_ || is_laplacian_ != (problem.options.equation == Equation::minimal)) return std::nullopt;
     Stopwatch watch;
-    choose_operator(problem);
     if (!work_.keeps_factor && !factorise(problem, points_, progress.here())) return std::nullopt;
     const std::optional<Points> start = moved_along(problem);
     if (!start) return std::nullopt;

@@ -37,13 +37,12 @@ private:
 
     const Patch& patch_;
     Workspace work_;
-    bool is_laplacian_ = false;    // `work_.normal`: of minimal surfaces
+    bool is_laplacian_ = false;    // `work_.normal`, and the last answer: of minimal surfaces
     Stiffness factorised_;         // what `work_.normal` holds the factor of
     int iterations_at_first_ = 0;  // of the first solve with that factor; 0: not known yet
     bool ready_ = false;
-    bool is_minimal_ = false;  // the last answer
-    Points points_;            // 3 × local vertices, units of D
-    Points normals_;           // 3 × fixed count
+    Points points_;   // 3 × local vertices, units of D
+    Points normals_;  // 3 × fixed count
 };
 
 }  // namespace fairing

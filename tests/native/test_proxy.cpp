@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "geometry/target_surface.h"
 #include "meshes.h"
 #include "proxy/proxy_mesh.h"
-#include "geometry/target_surface.h"
 
 using namespace fairing;
 
