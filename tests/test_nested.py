@@ -7,7 +7,7 @@ import pytest
 
 import fairing
 import shapes
-from cubes import cube_cap
+from cubes import CubeCap, cube_cap
 from shapes import Patch, Style
 from solving import fair_patch
 
@@ -17,6 +17,16 @@ PATCHES = {
     "pipe": lambda: shapes.cylinder(4000, Style(seed=2)),
     "clothoid cylinder": lambda: shapes.clothoid(4000),
 }
+
+
+def from_border(cap: CubeCap, tolerance: float) -> fairing.FairResult:
+    """The sphere's cap from its border alone."""
+    free = np.ones(len(cap.vertices), dtype=bool)
+    free[cap.fixed] = False
+    start = np.where(free[:, None], 0.0, cap.vertices)
+    return fairing.fair(
+        start, cap.triangles, fixed=cap.fixed, fixed_normals=cap.vertices[cap.fixed], tolerance=tolerance
+    )
 
 
 @pytest.mark.parametrize("name", PATCHES)
@@ -54,14 +64,41 @@ def test_few_iterations_remain_for_the_finest_level() -> None:
         assert result.iterations <= 8
 
 
+def test_the_split_operator_leads_to_the_same_sphere() -> None:
+    """Beyond 15,000 free vertices K is inverted to a few per cent only: the iteration ends where the equation does."""
+    patch = shapes.cap(18_000)
+    result = fair_patch(patch, tolerance=1e-11)
+    assert result.converged
+    assert len(result.levels) > 1
+    assert result.iterations <= 14
+    assert patch.error(result.vertices) <= 1e-8
+    again = fair_patch(patch, tolerance=1e-11, threads=1)
+    assert np.array_equal(again.vertices, result.vertices)
+
+
+@pytest.mark.slow
+def test_a_fold_between_levels_holds_no_vertex_back() -> None:
+    """Conformal weights shear the interpolated mesh until some triangles are folded: a walk must get past them."""
+    patch = shapes.cap(256_000)
+    result = fair_patch(patch, tolerance=1e-6, reference=patch.vertices, inner_fairness="conformal")
+    assert result.converged
+    assert len(result.levels) > 1
+    assert patch.error(result.vertices) <= 3e-6
+
+
+@pytest.mark.slow
+def test_clusters_of_tiny_triangles_do_not_end_the_iteration() -> None:
+    """Half a million vertices: at the corners of the cube the residual is noise, the steps are not."""
+    result = from_border(cube_cap(400), tolerance=1e-6)
+    assert result.converged
+    assert len(result.levels) > 1
+    assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max() <= 3e-6
+
+
 @pytest.mark.parametrize("quads", [30, 44, 60])
 def test_extraordinary_vertices_are_passed(quads: int) -> None:
     """Next to a cube's corners vertices move over several edges from one level to the next, within the surface."""
-    cap = cube_cap(quads)
-    free = np.ones(len(cap.vertices), dtype=bool)
-    free[cap.fixed] = False
-    start = np.where(free[:, None], 0.0, cap.vertices)
-    result = fairing.fair(start, cap.triangles, fixed=cap.fixed, fixed_normals=cap.vertices[cap.fixed], tolerance=1e-10)
+    result = from_border(cube_cap(quads), tolerance=1e-10)
     assert result.converged
     assert len(result.levels) > 1
     assert result.iterations <= 16

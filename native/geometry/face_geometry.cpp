@@ -68,4 +68,10 @@ void Stiffness::update(const FaceGeometry& faces, const Patch& patch) {
     mass = mass.cwiseMax(floor);
 }
 
+double Stiffness::diagonal(const Patch& patch, int vertex) const {
+    double sum = 0.0;
+    for (int edge : patch.ring(vertex).spokes) sum += weights[edge];
+    return sum;
+}
+
 }  // namespace fairing

@@ -32,6 +32,9 @@ struct Stiffness {
 
     void update(const FaceGeometry& faces, const Patch& patch);
 
+    // S_ii
+    [[nodiscard]] double diagonal(const Patch& patch, int vertex) const;
+
     // (S f)_i of a scalar (1 × n) or of points (3 × n), for vertices 0 … count − 1.
     template <typename Field>
     Field apply(const Patch& patch, const Field& field, int count) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -63,13 +64,39 @@ SurfacePoint TargetSurface::project(const Vector3& position, int start) const {
         if (weights.minCoeff(&outside) >= 0.0) return {triangle, weights};
         const auto [left, right] = patch_.edge_triangles[at(patch_.triangle_edges(outside, triangle))];
         const int next = left == triangle ? right : left;
-        if (next == none || next == previous) return {triangle, border_weights(position, points)};
+        if (next == none) return {triangle, border_weights(position, points)};
+        if (next == previous) break;
         previous = triangle;
         triangle = next;
     }
-    const auto corners = patch_.triangles.col(triangle);
-    return {triangle,
-            border_weights(position, {points_.col(corners[0]), points_.col(corners[1]), points_.col(corners[2])})};
+    return nearest_around(position, triangle);
+}
+
+SurfacePoint TargetSurface::nearest_around(const Vector3& position, int start) const {
+    constexpr std::size_t most_triangles = 64;
+    Indices found{start};
+    SurfacePoint best{start, Vector3::Zero()};
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        const int triangle = found[k];
+        const auto corners = patch_.triangles.col(triangle);
+        const std::array<Vector3, 3> points{points_.col(corners[0]), points_.col(corners[1]), points_.col(corners[2])};
+        Vector3 weights = plane_weights(position, points[0], points[1], points[2]);
+        if (!(weights.minCoeff() >= 0.0)) weights = border_weights(position, points);
+        const Vector3 foot = weights[0] * points[0] + weights[1] * points[1] + weights[2] * points[2];
+        const double distance = (position - foot).squaredNorm();
+        if (distance < least) {
+            least = distance;
+            best = {triangle, weights};
+        }
+        for (int edge : patch_.triangle_edges.col(triangle)) {
+            for (int next : patch_.edge_triangles[at(edge)]) {
+                if (next == none || found.size() == most_triangles) continue;
+                if (std::find(found.begin(), found.end(), next) == found.end()) found.push_back(next);
+            }
+        }
+    }
+    return best;
 }
 
 Vector3 TargetSurface::position(const SurfacePoint& where) const {

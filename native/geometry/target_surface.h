@@ -18,7 +18,8 @@ public:
     TargetSurface(const Patch& patch, const Points& points, const Points& normals);
 
     // The point of the mesh near `position` that a walk from `start` reaches: across edges towards the foot of the
-    // perpendicular, never over the border. Local: a surface that comes close to itself confuses it not.
+    // perpendicular, never over the border; where folded triangles send it to and fro, the nearest point of those
+    // around. Local: a surface that comes close to itself confuses it not.
     [[nodiscard]] SurfacePoint project(const Vector3& position, int start) const;
 
     [[nodiscard]] Vector3 position(const SurfacePoint& where) const;
@@ -29,6 +30,8 @@ public:
     [[nodiscard]] SurfacePoint at_vertex(int vertex) const;
 
 private:
+    [[nodiscard]] SurfacePoint nearest_around(const Vector3& position, int start) const;
+
     const Patch& patch_;
     const Points& points_;
     const Points& normals_;

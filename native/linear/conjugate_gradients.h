@@ -1,4 +1,5 @@
-// Preconditioned conjugate gradients over the columns of a field.
+// Preconditioned conjugate gradients over the columns of a field: numbers (1 × n) or vectors (3 × n), in either
+// precision.
 #pragma once
 
 #include "base/parallel.h"
@@ -6,7 +7,8 @@
 
 namespace fairing {
 
-inline double inner_product(const Points& a, const Points& b) {
+template <typename Field>
+double inner_product(const Field& a, const Field& b) {
     return sum_over_ranges(static_cast<int>(a.cols()), coarse_grain, [&](int begin, int end) {
         return a.middleCols(begin, end - begin).cwiseProduct(b.middleCols(begin, end - begin)).sum();
     });
@@ -15,22 +17,22 @@ inline double inner_product(const Points& a, const Points& b) {
 // x with A x ≈ r from x = 0, until the residual in the preconditioner's norm has fallen to `relative_tolerance` or
 // after `max_cycles`; earlier where A shows itself not to be positive definite. `apply(p, q)`: q ← A p;
 // `precondition(r, z)`: z ← about A⁻¹ r. Both get q and z in the right size.
-template <typename Apply, typename Precondition>
-Points conjugate_gradients(Points r, double relative_tolerance, int max_cycles, const Apply& apply,
-                           const Precondition& precondition) {
+template <typename Field, typename Apply, typename Precondition>
+Field conjugate_gradients(Field r, double relative_tolerance, int max_cycles, const Apply& apply,
+                          const Precondition& precondition) {
     const int count = static_cast<int>(r.cols());
-    Points x = Points::Zero(3, count);
-    Points z(3, count);
-    Points product(3, count);
+    Field x = Field::Zero(r.rows(), count);
+    Field z(r.rows(), count);
+    Field product(r.rows(), count);
     precondition(r, z);
-    Points p = z;
+    Field p = z;
     double rz = inner_product(r, z);
     const double target = relative_tolerance * relative_tolerance * rz;
     for (int cycle = 0; cycle < max_cycles && rz > target; ++cycle) {
         apply(p, product);
         const double curvature = inner_product(p, product);
         if (!(curvature > 0.0)) break;
-        const double alpha = rz / curvature;
+        const auto alpha = static_cast<typename Field::Scalar>(rz / curvature);
         for_ranges(count, coarse_grain, [&](int begin, int end) {
             const int size = end - begin;
             x.middleCols(begin, size) += alpha * p.middleCols(begin, size);
@@ -39,7 +41,7 @@ Points conjugate_gradients(Points r, double relative_tolerance, int max_cycles, 
         if (cycle + 1 == max_cycles) break;
         precondition(r, z);
         const double next = inner_product(r, z);
-        const double beta = next / rz;
+        const auto beta = static_cast<typename Field::Scalar>(next / rz);
         for_ranges(count, coarse_grain, [&](int begin, int end) {
             const int size = end - begin;
             p.middleCols(begin, size) = z.middleCols(begin, size) + beta * p.middleCols(begin, size);

@@ -55,6 +55,7 @@ void SparseCholesky::set_up(const SparseMatrix& lower) {
     const bool dissect = layout_.cols() == lower.cols() && lower.cols() >= least_dissected;
     Elimination elimination = analyse(lower, dissect ? nested_dissection(lower, layout_) : minimum_degree(lower));
     order_ = std::move(elimination.order);
+    position_ = std::move(elimination.position);
     tree_ = FrontTree(std::move(elimination.supernodes));
     const Supernodes& nodes = tree_.nodes();
     panel_begin_ = {0};
@@ -63,19 +64,19 @@ void SparseCholesky::set_up(const SparseMatrix& lower) {
     }
     panels_.resize(static_cast<Eigen::Index>(panel_begin_.back()));
     updates_.resize(at(nodes.size()));
-    find_slots(lower, elimination.position);
+    find_slots(lower);
     analysed_ = true;
 }
 
-void SparseCholesky::find_slots(const SparseMatrix& lower, const Indices& position) {
+void SparseCholesky::find_slots(const SparseMatrix& lower) {
     const Supernodes& nodes = tree_.nodes();
     entry_slot_.resize(static_cast<std::size_t>(lower.nonZeros()));
     for_ranges(static_cast<int>(lower.cols()), coarse_grain, [&](int first, int last) {
         auto slot = entry_slot_.begin() + lower.outerIndexPtr()[first];
         for (int j = first; j < last; ++j) {
             for (SparseMatrix::InnerIterator entry(lower, j); entry; ++entry) {
-                const int a = position[at(static_cast<int>(entry.row()))];
-                const int b = position[at(j)];
+                const int a = position_[at(static_cast<int>(entry.row()))];
+                const int b = position_[at(j)];
                 const int column = std::min(a, b);
                 const int s = nodes.column_to_supernode[at(column)];
                 const int* rows = nodes.row_list(s);
@@ -143,7 +144,10 @@ bool SparseCholesky::factorise(const SparseMatrix& lower, const char* what, cons
     return positive;
 }
 
+CholeskyFactor SparseCholesky::view() const { return {tree_, order_, position_, panels_.data(), panel_begin_.data()}; }
+
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& rhs) const {
+    if (rhs.cols() == 1) return solve_vector(view(), rhs.col(0), FrontReach(), FrontReach());
     const auto up = [this](int s, OwnRows& own) -> Eigen::MatrixXd {
         const auto front = panel(s);
         const Eigen::Index columns = front.cols();

@@ -5,6 +5,7 @@
 #include "base/progress.h"
 #include "linear/dense_front.h"
 #include "linear/front_tree.h"
+#include "linear/vector_solve.h"
 
 namespace fairing {
 
@@ -22,20 +23,24 @@ public:
     // Solves for one or several right-hand sides (n × k).
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
 
+    // For solves in part, valid as long as this factor.
+    [[nodiscard]] CholeskyFactor view() const;
+
 private:
     using Panel = Eigen::Map<Eigen::MatrixXd>;
     using ConstPanel = Eigen::Map<const Eigen::MatrixXd>;
 
     void set_up(const SparseMatrix& lower);
-    void find_slots(const SparseMatrix& lower, const Indices& position);
+    void find_slots(const SparseMatrix& lower);
     void scatter(const SparseMatrix& lower);
     void add_child(int child, int parent, Eigen::MatrixXd& parent_update);
     bool eliminate(int supernode, const WorkDone& work_done);
     [[nodiscard]] Panel panel(int supernode);
     [[nodiscard]] ConstPanel panel(int supernode) const;
 
-    Points layout_;  // empty: not known
-    Indices order_;  // position in the factor → row of the matrix
+    Points layout_;     // empty: not known
+    Indices order_;     // position in the factor → row of the matrix
+    Indices position_;  // its inverse
     FrontTree tree_;
     std::vector<std::size_t> panel_begin_;  // dense row_count × column_count blocks
     VectorX panels_;

@@ -152,8 +152,7 @@ private:
         set_up_tangential(k, std::move(laplacian));
         slide(problem, *level.work.tangential, normals, most_slides, points);
         progress.report(share_of_start, "refinement");
-        level.work.normal =
-            std::make_unique<BiharmonicOperator>(problem.patch, points.leftCols(problem.patch.free_count));
+        level.work.normal = make_normal_operator(problem, points.leftCols(problem.patch.free_count));
         // λ that aren't symmetric need a factorisation of their own; so far their symmetric part was good enough.
         if (k == 0 && std::holds_alternative<RowWeights>(problem.weights)) {
             level.work.tangential =
@@ -161,7 +160,9 @@ private:
             slide(problem, *level.work.tangential, max_normals(problem.patch, points, problem.fixed_normals),
                   most_slides, points);
         }
-        return iterate(problem, level.work, points, progress.range(share_of_start, 1.0));
+        Solution solution = iterate(problem, level.work, points, progress.range(share_of_start, 1.0));
+        level.work.normal.reset();  // the tangential step serves the finer levels
+        return solution;
     }
 
     [[nodiscard]] RingMatrix laplacian_of(std::size_t k) const {

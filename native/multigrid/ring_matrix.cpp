@@ -1,5 +1,7 @@
 #include "multigrid/ring_matrix.h"
 
+#include <algorithm>
+
 #include "base/progress.h"
 
 namespace fairing {
@@ -24,6 +26,12 @@ RingMatrix::RingMatrix(int vertex_count, const InnerWeights& edges)
         add(j, i, weight);
     }
 }
+
+SingleRingMatrix::SingleRingMatrix(const RingMatrix& matrix)
+    : matrix_(matrix),
+      largest_(matrix.weights.size() > 0 ? std::max(matrix.weights.maxCoeff(), 1e-300) : 1.0),
+      weights_((matrix.weights / largest_).cast<float>()),
+      diagonal_((matrix.diagonal / largest_).cast<float>()) {}
 
 void even_out(const RingMatrix& weights, int free_count, int sweeps, Points& points, Points& normals) {
     for (int sweep = 0; sweep < sweeps; ++sweep) {

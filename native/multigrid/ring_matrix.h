@@ -28,6 +28,34 @@ struct RingMatrix {
     }
 };
 
+// A RingMatrix over its largest weight, in single precision; refers to its columns.
+class SingleRingMatrix {
+public:
+    explicit SingleRingMatrix(const RingMatrix& matrix);
+
+    [[nodiscard]] double largest_weight() const { return largest_; }
+    [[nodiscard]] const Eigen::VectorXf& diagonal() const { return diagonal_; }
+
+    // write(i, (A x)_i) for the first `rows` vertices.
+    template <typename Write>
+    void apply(const SingleField& x, int rows, const Write& write) const {
+        for_ranges(rows, coarse_grain, [&](int first, int last) {
+            for (int i = first; i < last; ++i) {
+                Eigen::Vector4f sum = diagonal_[i] * x.col(i);
+                for (int k = matrix_.begin[at(i)]; k < matrix_.begin[at(i) + 1]; ++k)
+                    sum -= weights_[k] * x.col(matrix_.columns[at(k)]);
+                write(i, sum);
+            }
+        });
+    }
+
+private:
+    const RingMatrix& matrix_;
+    double largest_;
+    Eigen::VectorXf weights_;
+    Eigen::VectorXf diagonal_;
+};
+
 // Sweeps of x_i ← the lifted mean of its neighbours by the weights, for the first `free_count` vertices, normals
 // alongside: evens out an interpolated surface.
 void even_out(const RingMatrix& weights, int free_count, int sweeps, Points& points, Points& normals);

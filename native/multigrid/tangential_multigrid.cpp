@@ -1,5 +1,7 @@
 #include "multigrid/tangential_multigrid.h"
 
+#include <algorithm>
+
 #include "linear/conjugate_gradients.h"
 #include "solver/across.h"
 
@@ -10,13 +12,32 @@ namespace {
 constexpr int smoothing_degree = 2;
 
 // Of D⁻¹L where no weight is negative (Gershgorin).
-constexpr double largest_eigenvalue = 2.0;
+constexpr float largest_eigenvalue = 2.0F;
+
+void project_across(SingleField& field, const SingleField& normals) {
+    for_ranges(static_cast<int>(normals.cols()), coarse_grain, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i) field.col(i) -= normals.col(i).dot(field.col(i)) * normals.col(i);
+    });
+}
+
+SingleField to_single(const Points& field, Eigen::Index count) {
+    SingleField result = SingleField::Zero(4, count);
+    result.topRows<3>() = field.leftCols(count).cast<float>();
+    return result;
+}
 
 }  // namespace
 
-void FactorisedLaplacian::cycle(Points& r, Points& x) const {
-    x.leftCols(free_count()) = inverse(r.leftCols(free_count()));
-    x.rightCols(x.cols() - free_count()).setZero();
+FactorisedLaplacian::FactorisedLaplacian(const Patch& patch, const InnerWeights& weights, const Points& fixed_points,
+                                         const Progress& progress)
+    : SymmetricStep(patch, weights, fixed_points, progress) {
+    for (const WeightedEdge& edge : weights) scale_ = std::max(scale_, edge.weight);
+}
+
+void FactorisedLaplacian::cycle(SingleField& r, SingleField& x) const {
+    x.setZero();
+    const Points field = r.topLeftCorner(3, free_count()).cast<double>();
+    x.topLeftCorner(3, free_count()) = (scale_ * inverse(field)).cast<float>();
 }
 
 MultigridStep::MultigridStep(const Patch& patch, RingMatrix laplacian, const Points& fixed_points,
@@ -26,34 +47,38 @@ MultigridStep::MultigridStep(const Patch& patch, RingMatrix laplacian, const Poi
       transfer_(transfer),
       coarser_(coarser),
       laplacian_(std::move(laplacian)),
-      inverse_diagonal_(VectorX::Zero(patch.vertex_count())),
-      fine_(3, patch.vertex_count()),
-      coarse_r_(3, transfer.coarse_count()),
-      coarse_x_(3, transfer.coarse_count()) {
+      single_(laplacian_),
+      inverse_diagonal_(Eigen::VectorXf::Zero(patch.vertex_count())),
+      fine_(4, patch.vertex_count()),
+      coarse_r_(4, transfer.coarse_count()),
+      coarse_x_(4, transfer.coarse_count()) {
     inverse_diagonal_.head(patch.free_count) =
-        laplacian_.diagonal.head(patch.free_count).cwiseMax(1e-300).cwiseInverse();
+        single_.diagonal().head(patch.free_count).cwiseMax(1e-30F).cwiseInverse();
 }
 
-void MultigridStep::apply(const Points& x, Points& y) const {
-    laplacian_.apply(x, patch_.free_count, [&](int i, const Vector3& product) { y.col(i) = product; });
-    y.rightCols(fixed_points_.cols()).setZero();
+// −L x at all vertices, 0 at fixed ones.
+Points MultigridStep::pull(const Points& points) const {
+    Points result = Points::Zero(3, points.cols());
+    laplacian_.apply(points, patch_.free_count, [&](int i, const Vector3& product) { result.col(i) = -product; });
+    return result;
 }
 
-void MultigridStep::subtract_product(const Points& x, Points& r) const {
-    laplacian_.apply(x, patch_.free_count, [&](int i, const Vector3& product) { r.col(i) -= product; });
+void MultigridStep::subtract_product(const SingleField& x, SingleField& r) const {
+    single_.apply(x, patch_.free_count, [&](int i, const Eigen::Vector4f& product) { r.col(i) -= product; });
 }
 
 // Steps of the Chebyshev iteration of the fourth kind (Lottes 2022), which needs no lower bound of the spectrum:
 // x ← x + p(D⁻¹L) D⁻¹ r, with r kept as the residual of x if wanted.
-void MultigridStep::smooth(Points& x, Points& r, Residual last) const {
-    Points& z = fine_;
+void MultigridStep::smooth(SingleField& x, SingleField& r, Residual last) const {
+    SingleField& z = fine_;
     for (int k = 1; k <= smoothing_degree; ++k) {
-        const double keep = k == 1 ? 0.0 : (2.0 * k - 3.0) / (2.0 * k + 1.0);
-        const double add = (8.0 * k - 4.0) / (2.0 * k + 1.0) / largest_eigenvalue;
+        const auto step = static_cast<float>(k);
+        const float keep = (2.0F * step - 3.0F) / (2.0F * step + 1.0F);
+        const float add = (8.0F * step - 4.0F) / (2.0F * step + 1.0F) / largest_eigenvalue;
         for_ranges(static_cast<int>(x.cols()), coarse_grain, [&](int begin, int end) {
             for (int i = begin; i < end; ++i) {
-                const Vector3 fresh = add * inverse_diagonal_[i] * r.col(i);
-                z.col(i) = k == 1 ? fresh : Vector3(keep * z.col(i) + fresh);
+                const Eigen::Vector4f fresh = add * inverse_diagonal_[i] * r.col(i);
+                z.col(i) = k == 1 ? fresh : Eigen::Vector4f(keep * z.col(i) + fresh);
                 x.col(i) += z.col(i);
             }
         });
@@ -61,11 +86,12 @@ void MultigridStep::smooth(Points& x, Points& r, Residual last) const {
     }
 }
 
-void MultigridStep::cycle(Points& r, Points& x) const {
+void MultigridStep::cycle(SingleField& r, SingleField& x) const {
     x.setZero();
     smooth(x, r, Residual::kept);
     fine_ = r;
     transfer_.restrict(fine_, coarse_r_);
+    coarse_r_ *= static_cast<float>(scale() / coarser_.scale());
     coarser_.cycle(coarse_r_, coarse_x_);
     transfer_.prolong(coarse_x_, fine_);
     x += fine_;
@@ -73,48 +99,55 @@ void MultigridStep::cycle(Points& r, Points& x) const {
     smooth(x, r, Residual::left);
 }
 
-Points MultigridStep::harmonic_positions() const {
-    constexpr double relative_tolerance = 1e-8;
-    constexpr int most_cycles = 60;
-    Points start = Points::Zero(3, patch_.vertex_count());
-    start.rightCols(fixed_points_.cols()) = fixed_points_;
-    Points r = Points::Zero(3, patch_.vertex_count());
-    subtract_product(start, r);
-    Points residual;
-    const auto precondition = [&](const Points& field, Points& z) {
+// d with L d = pull; across the normals if there are any, as `pull` is then. In units of its own, far from the limits
+// of single precision.
+Points MultigridStep::solve(const Points& pull, const SingleField* normals, double tolerance, int most_cycles) const {
+    const double unit = pull.cwiseAbs().maxCoeff();
+    if (!(unit > 0.0)) return Points::Zero(3, patch_.free_count);
+    SingleField residual;
+    const auto apply = [&](const SingleField& p, SingleField& product) {
+        single_.apply(p, patch_.free_count, [&](int i, const Eigen::Vector4f& value) { product.col(i) = value; });
+        product.rightCols(fixed_points_.cols()).setZero();
+        if (normals) project_across(product, *normals);
+    };
+    const auto precondition = [&](const SingleField& field, SingleField& z) {
         residual = field;
         cycle(residual, z);
+        if (normals) project_across(z, *normals);
     };
-    return conjugate_gradients(
-               std::move(r), relative_tolerance, most_cycles, [&](const Points& p, Points& q) { apply(p, q); },
-               precondition)
-        .leftCols(patch_.free_count);
+    const SingleField d =
+        conjugate_gradients(to_single(pull / unit, pull.cols()), tolerance, most_cycles, apply, precondition);
+    return unit / scale() * d.topLeftCorner(3, patch_.free_count).cast<double>();
+}
+
+// What single precision leaves is solved for again.
+Points MultigridStep::harmonic_positions() const {
+    constexpr double tolerance = 1e-8;
+    constexpr double each_time = 1e-3;
+    constexpr int most_cycles = 30;
+    constexpr int most_times = 8;
+    Points points = Points::Zero(3, patch_.vertex_count());
+    points.rightCols(fixed_points_.cols()) = fixed_points_;
+    Points r = pull(points);
+    const double first = r.norm();
+    for (int k = 0; k < most_times && r.norm() > tolerance * first; ++k) {
+        points.leftCols(patch_.free_count) += solve(r, nullptr, each_time, most_cycles);
+        r = pull(points);
+    }
+    return points.leftCols(patch_.free_count);
 }
 
 double MultigridStep::merit(const Points& points, const Points& /*normals*/) const {
-    Points product(3, points.cols());
-    apply(points, product);
-    return 0.5 * inner_product(points, product);
+    return -0.5 * inner_product<Points>(points, pull(points));
 }
 
 Points MultigridStep::displacement(const Points& points, const Points& normals, int max_cycles) const {
     constexpr double relative_tolerance = 0.05;
-    const auto across = [&](Points& field) { project_across(field.leftCols(patch_.free_count), normals); };
-    Points r = Points::Zero(3, points.cols());
-    subtract_product(points, r);
-    across(r);
-    Points residual;
-    const auto apply_across = [&](const Points& p, Points& product) {
-        apply(p, product);
-        across(product);
-    };
-    const auto precondition = [&](const Points& field, Points& z) {
-        residual = field;
-        cycle(residual, z);
-        across(z);
-    };
-    return conjugate_gradients(std::move(r), relative_tolerance, max_cycles, apply_across, precondition)
-        .leftCols(patch_.free_count);
+    // In double precision: along the normals the pull is far larger than what steps towards the solution leave across.
+    Points across = pull(points);
+    project_across(across.leftCols(patch_.free_count), normals);
+    const SingleField single_normals = to_single(normals, patch_.free_count);
+    return solve(across, &single_normals, relative_tolerance, max_cycles);
 }
 
 }  // namespace fairing

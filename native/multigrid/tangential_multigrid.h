@@ -13,15 +13,22 @@ public:
     LaplaceCycle(const LaplaceCycle&) = delete;
     LaplaceCycle& operator=(const LaplaceCycle&) = delete;
     virtual ~LaplaceCycle() = default;
-    // `r` and `x`: 3 × vertices of the level, 0 at fixed ones; x in the right size, r is used up.
-    virtual void cycle(Points& r, Points& x) const = 0;
+    // The λ-Laplacian over this, about its largest weight, is what `cycle` inverts: single precision has its limits.
+    [[nodiscard]] virtual double scale() const = 0;
+    // `r` and `x`: a column for each vertex of the level, 0 at fixed ones; x in the right size, r is used up.
+    virtual void cycle(SingleField& r, SingleField& x) const = 0;
 };
 
 // Of the coarsest level, factorised.
 class FactorisedLaplacian : public SymmetricStep, public LaplaceCycle {
 public:
-    using SymmetricStep::SymmetricStep;
-    void cycle(Points& r, Points& x) const override;
+    FactorisedLaplacian(const Patch& patch, const InnerWeights& weights, const Points& fixed_points,
+                        const Progress& progress);
+    [[nodiscard]] double scale() const override { return scale_; }
+    void cycle(SingleField& r, SingleField& x) const override;
+
+private:
+    double scale_ = 1e-300;
 };
 
 // A V-cycle: Chebyshev smoothing, the coarser level's own λ.
@@ -34,25 +41,28 @@ public:
     [[nodiscard]] Points harmonic_positions() const override;
     [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
     [[nodiscard]] Points displacement(const Points& points, const Points& normals, int max_cycles = 10) const override;
-    void cycle(Points& r, Points& x) const override;
+    [[nodiscard]] double scale() const override { return single_.largest_weight(); }
+    void cycle(SingleField& r, SingleField& x) const override;
 
 private:
     enum class Residual { kept, left };
 
-    void apply(const Points& x, Points& y) const;
-    void subtract_product(const Points& x, Points& r) const;
-    void smooth(Points& x, Points& r, Residual last) const;
+    [[nodiscard]] Points pull(const Points& points) const;
+    [[nodiscard]] Points solve(const Points& pull, const SingleField* normals, double tolerance, int most_cycles) const;
+    void subtract_product(const SingleField& x, SingleField& r) const;
+    void smooth(SingleField& x, SingleField& r, Residual last) const;
 
     const Patch& patch_;
     Points fixed_points_;
     const Transfer& transfer_;
     const LaplaceCycle& coarser_;
     RingMatrix laplacian_;
-    VectorX inverse_diagonal_;  // 0 at fixed vertices
+    SingleRingMatrix single_;
+    Eigen::VectorXf inverse_diagonal_;  // 0 at fixed vertices
     // Scratch: fields of this level and of the coarser one.
-    mutable Points fine_;
-    mutable Points coarse_r_;
-    mutable Points coarse_x_;
+    mutable SingleField fine_;
+    mutable SingleField coarse_r_;
+    mutable SingleField coarse_x_;
 };
 
 }  // namespace fairing

@@ -2,22 +2,22 @@
 
 namespace fairing {
 
-void Transfer::prolong(const Points& coarse, Points& fine) const {
+void Transfer::prolong(const SingleField& coarse, SingleField& fine) const {
     fine.setZero();  // a coarse level may lack some of the fixed vertices
     for (int c = 0; c < coarse_count(); ++c) fine.col(coarse_in_fine[at(c)]) = coarse.col(c);
     for (int k = removals.size(); k-- > 0;) {
-        Vector3 sum = Vector3::Zero();
+        Eigen::Vector4f sum = Eigen::Vector4f::Zero();
         for (int j = removals.begin[at(k)]; j < removals.begin[at(k) + 1]; ++j)
-            sum += removals.weights[at(j)] * fine.col(removals.neighbours[at(j)]);
+            sum += static_cast<float>(removals.weights[at(j)]) * fine.col(removals.neighbours[at(j)]);
         fine.col(removals.vertex[at(k)]) = sum;
     }
 }
 
-void Transfer::restrict(Points& fine, Points& coarse) const {
+void Transfer::restrict(SingleField& fine, SingleField& coarse) const {
     for (int k = 0; k < removals.size(); ++k) {
-        const Vector3 value = fine.col(removals.vertex[at(k)]);
+        const Eigen::Vector4f value = fine.col(removals.vertex[at(k)]);
         for (int j = removals.begin[at(k)]; j < removals.begin[at(k) + 1]; ++j)
-            fine.col(removals.neighbours[at(j)]) += removals.weights[at(j)] * value;
+            fine.col(removals.neighbours[at(j)]) += static_cast<float>(removals.weights[at(j)]) * value;
     }
     for (int c = 0; c < coarse_free_count; ++c) coarse.col(c) = fine.col(coarse_in_fine[at(c)]);
     coarse.rightCols(coarse.cols() - coarse_free_count).setZero();

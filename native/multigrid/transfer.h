@@ -5,6 +5,10 @@
 
 namespace fairing {
 
+// Vectors in single precision with a fourth entry of zero: a column fits a vector register. Enough for what only has to
+// be solved to a few per cent.
+using SingleField = Eigen::Matrix<float, 4, Eigen::Dynamic>;
+
 // Fields have a column for each vertex of a level, fixed ones included (where corrections are zero).
 struct Transfer {
     int fine_count = 0;         // vertices of the fine level
@@ -15,10 +19,10 @@ struct Transfer {
     [[nodiscard]] int coarse_count() const { return static_cast<int>(coarse_in_fine.size()); }
 
     // Interpolation: removed vertices take the weighted mean of what was around them. `fine` in the right size.
-    void prolong(const Points& coarse, Points& fine) const;
+    void prolong(const SingleField& coarse, SingleField& fine) const;
 
     // Its transpose; nothing arrives at fixed vertices. `fine` is used up, `coarse` in the right size.
-    void restrict(Points& fine, Points& coarse) const;
+    void restrict(SingleField& fine, SingleField& coarse) const;
 
     // Positions and normals (3 × vertices): means lifted as in `lifted_mean`. `fine` comes with the fixed vertices.
     void prolong_surface(const Points& coarse, const Points& coarse_normals, int fine_free_count, Points& fine,

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <memory>
 
+#include "solver/biharmonic_operator.h"
 #include "solver/fill.h"
 #include "solver/globalisation.h"
+#include "solver/laplace_operator.h"
 #include "solver/minimal_start.h"
 #include "solver/willmore.h"
 

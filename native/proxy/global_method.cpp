@@ -165,7 +165,7 @@ std::optional<Solution> solve_evenly(const Problem& problem, const Progress& pro
     const SurfaceState state = measured_surface(even, solution->points);
     const TargetSurface target(problem.patch, state.points, state.normals);
     Placement placement = at_vertices(problem, target, state.points);
-    Workspace work{make_normal_operator(problem),
+    Workspace work{make_normal_operator(problem, placement.points.leftCols(problem.patch.free_count)),
                    make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())};
     settle(problem, *work.tangential, target, placement, progress.here());
     solution->mean_curvature = carried_over(placement, target, solution->mean_curvature, problem);

@@ -8,6 +8,7 @@
 #include "proxy/placement.h"
 #include "proxy/polish.h"
 #include "proxy/proxy_mesh.h"
+#include "solver/biharmonic_operator.h"
 #include "solver/continuation.h"
 #include "solver/minimal_start.h"
 #include "solver/normal_fill.h"

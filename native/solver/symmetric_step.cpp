@@ -43,7 +43,7 @@ Points SymmetricStep::harmonic_positions() const {
 
 double SymmetricStep::merit(const Points& points, const Points& /*normals*/) const {
     const auto free = points.leftCols(free_count_);
-    return 0.5 * inner_product(free, gradient(points) - pull_);
+    return 0.5 * inner_product<Points>(free, gradient(points) - pull_);
 }
 
 Points SymmetricStep::gradient(const Points& points) const {

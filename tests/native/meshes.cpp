@@ -53,14 +53,14 @@ Vector3 sphere(double u, double v) {
     return Vector3(x, y, 1.0).normalized();
 }
 
-Single single_patch(const Mesh& mesh) {
+Single single_patch(const Mesh& mesh, std::vector<char> given) {
     Single single;
     Diagnostics warnings;
     Indices kept;
     const Triangles triangles = drop_collapsed_triangles(mesh.triangles, kept, warnings);
     const auto count = static_cast<int>(mesh.points.cols());
-    single.roles =
-        classify_vertices(make_edges(triangles, count), std::vector<char>(static_cast<std::size_t>(count), 0));
+    given.resize(static_cast<std::size_t>(count), 0);
+    single.roles = classify_vertices(make_edges(triangles, count), given);
     single.cut = cut_mesh(triangles, kept, single.roles, warnings);
     single.patches = make_patches(single.cut, single.roles);
     const Patch& patch = single.patch();
@@ -69,6 +69,19 @@ Single single_patch(const Mesh& mesh) {
         single.points.col(v) = mesh.points.col(patch.to_input[static_cast<std::size_t>(v)]);
     }
     return single;
+}
+
+Stiffness stiffness_of(const Single& single) {
+    FaceGeometry faces;
+    faces.update(single.points, single.patch().triangles);
+    Stiffness stiffness;
+    stiffness.update(faces, single.patch());
+    return stiffness;
+}
+
+Eigen::MatrixXd dense(const Patch& patch, const Stiffness& stiffness) {
+    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(patch.vertex_count(), patch.vertex_count());
+    return stiffness.apply(patch, identity, patch.vertex_count()).transpose();
 }
 
 }  // namespace fairing::test

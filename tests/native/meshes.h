@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "geometry/face_geometry.h"
 #include "mesh/patch.h"
 
 namespace fairing::test {
@@ -22,7 +23,7 @@ Vector3 flat(double u, double v);
 // Part of the unit sphere around (0, 0, 1), normals outward.
 Vector3 sphere(double u, double v);
 
-// The only patch of a mesh whose border is fixed.
+// The only patch of a mesh whose border is fixed, and the vertices marked in `given`, if any.
 struct Single {
     VertexRoles roles;
     CutMesh cut;
@@ -30,6 +31,10 @@ struct Single {
     Points points;  // local
     [[nodiscard]] const Patch& patch() const { return patches.front(); }
 };
-Single single_patch(const Mesh& mesh);
+Single single_patch(const Mesh& mesh, std::vector<char> given = {});
+
+Stiffness stiffness_of(const Single& single);
+// S, all vertices.
+Eigen::MatrixXd dense(const Patch& patch, const Stiffness& stiffness);
 
 }  // namespace fairing::test

@@ -2,6 +2,7 @@
 
 #include "meshes.h"
 #include "solver/accelerated_iteration.h"
+#include "solver/biharmonic_operator.h"
 
 using namespace fairing;
 

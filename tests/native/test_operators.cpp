@@ -3,27 +3,12 @@
 #include <Eigen/Eigenvalues>
 
 #include "meshes.h"
-#include "solver/normal_operator.h"
+#include "solver/biharmonic_operator.h"
+#include "solver/laplace_operator.h"
 
 using namespace fairing;
-
-namespace {
-
-Stiffness stiffness_of(const test::Single& single) {
-    FaceGeometry faces;
-    faces.update(single.points, single.patch().triangles);
-    Stiffness stiffness;
-    stiffness.update(faces, single.patch());
-    return stiffness;
-}
-
-// S, all vertices, dense.
-Eigen::MatrixXd dense(const Patch& patch, const Stiffness& stiffness) {
-    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(patch.vertex_count(), patch.vertex_count());
-    return stiffness.apply(patch, identity, patch.vertex_count()).transpose();
-}
-
-}  // namespace
+using test::dense;
+using test::stiffness_of;
 
 TEST_CASE("S has constants and, on a plane, linear functions in its kernel; masses add up to the area") {
     const test::Single single = test::single_patch(test::grid(7, 0.3, test::flat));

@@ -1,0 +1,42 @@
+// What the biharmonic operator leaves to be solved on the outline, approximately inverted.
+#pragma once
+
+#include "linear/half_order.h"
+#include "mesh/patch.h"
+
+namespace fairing {
+
+// G = 4M_B + Cᵀ S_II⁻¹ 4M_I S_II⁻¹ C takes a curvature on the outline to the turn of the tangent plane there, an
+// operator of order −1. On a straight outline it is ℓ (c + 2/k): ℓ the length that falls to a vertex, c = 4M_B / ℓ
+// about twice the size of a triangle, k the frequency. With A, the Laplacian of the outline by arc length (eigenvalues
+// k²), that is inverted by (ℓ c)^-½ f(c/2 A c/2) (c ℓ)^-½, f as HalfOrder has it. ℓ enters as it is, since functions on
+// the outline are smooth in arc length; c without its noise.
+class OutlineSystem {
+public:
+    using Row = Eigen::RowVectorXd;  // a value for each fixed vertex
+
+    // `fixed_points`: 3 × fixed vertices.
+    OutlineSystem(const Patch& patch, const Points& fixed_points);
+
+    // `quarter_mass`: 4M of the fixed vertices. False where nothing can be made of them.
+    [[nodiscard]] bool update(const VectorX& quarter_mass);
+
+    // About G⁻¹, symmetric positive definite.
+    [[nodiscard]] Row approximate_inverse(const Row& values) const;
+
+private:
+    struct Edge {
+        int a;  // fixed vertices, counted from the first one
+        int b;
+        double length;
+    };
+
+    [[nodiscard]] VectorX even(VectorX values) const;
+
+    std::vector<Edge> edges_;
+    VectorX length_;  // ℓ; 0 where no edge between fixed vertices ends
+    Row scale_;       // (c ℓ)^-½
+    HalfOrder half_order_;
+};
+
+}  // namespace fairing
