@@ -87,9 +87,10 @@ def test_a_fold_between_levels_holds_no_vertex_back() -> None:
 
 
 @pytest.mark.slow
-def test_clusters_of_tiny_triangles_do_not_end_the_iteration() -> None:
-    """Half a million vertices: at the corners of the cube the residual is noise, the steps are not."""
-    result = from_border(cube_cap(400), tolerance=1e-6)
+@pytest.mark.parametrize("quads", [400, 568])
+def test_clusters_of_tiny_triangles_do_not_end_the_iteration(quads: int) -> None:
+    """Half a million and a million vertices: at the corners of the cube the residual is noise, the steps are not."""
+    result = from_border(cube_cap(quads), tolerance=1e-6)
     assert result.converged
     assert len(result.levels) > 1
     assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max() <= 3e-6

@@ -18,9 +18,10 @@ constexpr double largest_step = 0.1;  // units of D
 constexpr double undamped = 1.0;
 constexpr double damped = 0.4;
 // The residual may grow for a while: near clusters of valence 3 only the history tames a growing mode of the plain
-// map. Far above the best it is hopeless, unless the steps still shrink: in clusters of a large mesh triangles are so
-// small that the residual there is noise.
+// map. Far above the best it is hopeless, unless the steps still shrink now and then: in clusters of a large mesh
+// triangles are so small that the residual there is noise.
 constexpr double hopeless_growth = 1e4;
+constexpr int growth_patience = 2;  // iterations without a shorter step
 // Of the Willmore energy; a whole sphere has 16 π.
 constexpr double explosion_factor = 4.0;
 constexpr double explosion_rise = 60.0;
@@ -139,8 +140,9 @@ private:
             least_step_ = std::min(least_step_, largest);
             least_step_at_ = k;
         }
-        const bool grown = k != least_step_at_ && residual_ > hopeless_growth * best_residual_;
-        return !std::isfinite(largest) || grown || k - least_step_at_ > problem_.options.patience;
+        const int in_vain = k - least_step_at_;
+        const bool grown = in_vain > growth_patience && residual_ > hopeless_growth * best_residual_;
+        return !std::isfinite(largest) || grown || in_vain > problem_.options.patience;
     }
 
     void accelerate(const Points& d) {
