@@ -16,25 +16,23 @@ void subtract_columns(const double* column, std::ptrdiff_t rows, int width, cons
         const double* const c1 = c0 + rows;
         const double* const c2 = c1 + rows;
         const double* const c3 = c2 + rows;
-        for (int i = begin; i < end; ++i) b[i] -= (c0[i] * x[0] + c1[i] * x[1]) + (c2[i] * x[2] + c3[i] * x[3]);
+        const double x0 = x[0];  // copies: x is a part of b
+        const double x1 = x[1];
+        const double x2 = x[2];
+        const double x3 = x[3];
+        for (int i = begin; i < end; ++i) b[i] -= (c0[i] * x0 + c1[i] * x1) + (c2[i] * x2 + c3[i] * x3);
         return;
     }
     for (int k = 0; k < width; ++k) {
         const double* const c = column + k * rows;
-        for (int i = begin; i < end; ++i) b[i] -= c[i] * x[k];
+        const double xk = x[k];
+        for (int i = begin; i < end; ++i) b[i] -= c[i] * xk;
     }
 }
 
 double dot(const double* a, const double* b, int begin, int end) {
-    double even = 0.0;
-    double odd = 0.0;
-    int i = begin;
-    for (; i + 1 < end; i += 2) {
-        even += a[i] * b[i];
-        odd += a[i + 1] * b[i + 1];
-    }
-    if (i < end) even += a[i] * b[i];
-    return even + odd;
+    using Column = Eigen::Map<const VectorX>;
+    return Column(a + begin, end - begin).dot(Column(b + begin, end - begin));
 }
 
 // b ← L⁻¹ b for the front's own columns; the rows below get what is taken from them.

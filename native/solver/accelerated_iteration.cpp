@@ -27,7 +27,7 @@ constexpr double explosion_factor = 4.0;
 constexpr double explosion_rise = 60.0;
 constexpr double slow = 0.5;  // contraction over `refresh_after` iterations that asks for a new factor
 constexpr int refresh_after = 6;
-constexpr double share_of_factor = 0.35;  // of the time, in large problems
+constexpr double share_of_factor = 0.2;  // of the time, in large problems
 
 class AcceleratedIteration {
 public:
