@@ -44,6 +44,10 @@ string(APPEND CMAKE_CXX_FLAGS_INIT " -DPYBIND11_EXPORT_EXCEPTION=")  # else Wind
 set(CMAKE_CXX_FLAGS_RELEASE_INIT "-g0 -fno-sanitize=undefined")  # zig checks for undefined behaviour by default
 set(CMAKE_MODULE_LINKER_FLAGS_INIT "-s")
 
+# This machine's libraries are none of the target's: its libpython would decide which headers fit.
+set(CMAKE_FIND_ROOT_PATH "${FAIRING_PYTHON_HEADERS}")
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+
 # No Python of the target runs here: say what it would have said.
 file(STRINGS "${FAIRING_PYTHON_HEADERS}/patchlevel.h" python_minor REGEX "^#define PY_MINOR_VERSION")
 string(REGEX MATCH "[0-9]+$" python_minor "${python_minor}")
