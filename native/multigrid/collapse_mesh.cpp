@@ -40,6 +40,7 @@ void CollapseMesh::build_sides(const Patch& patch) {
     twin_.assign(at(side_count), none);
     Indices first(at(patch.edge_count()), none);
     for (int s = 0; s < side_count; ++s) {
+        checkpoint(s);
         int& other = first[at(patch.triangle_edges((s + 2) % 3, s / 3))];
         if (other == none) {
             other = s;
@@ -49,11 +50,13 @@ void CollapseMesh::build_sides(const Patch& patch) {
         }
     }
     for (int v = 0; v < patch.vertex_count(); ++v) {
+        checkpoint(v);
         const RingView ring = patch.ring(v);
         valence_[at(v)] = static_cast<int>(ring.valence());
         border_[at(v)] = !ring.closed();
     }
     for (int s = 0; s < side_count; ++s) {
+        checkpoint(s);
         int& side = first_side_[at(corner_[at(s)])];
         if (side == none || twin_[at(s)] == none) side = s;
     }
@@ -79,6 +82,7 @@ void CollapseMesh::set_weights(const Patch& patch, const InnerWeights& weights) 
     weight_.resize(corner_.size());
     for (std::size_t s = 0; s < corner_.size(); ++s) {
         const int side = static_cast<int>(s);
+        checkpoint(side);
         const double weight = of_edge[patch.triangle_edges((side + 2) % 3, side / 3)];
         weight_[s] = static_cast<float>(std::max(weight, least));
     }

@@ -9,6 +9,7 @@ namespace fairing {
 RingMatrix::RingMatrix(int vertex_count, const InnerWeights& edges)
     : begin(at(vertex_count) + 1, 0), diagonal(VectorX::Zero(vertex_count)) {
     for (const auto& edge : edges) {
+        checkpoint(edge.i);
         ++begin[at(edge.i) + 1];
         ++begin[at(edge.j) + 1];
     }
@@ -22,6 +23,7 @@ RingMatrix::RingMatrix(int vertex_count, const InnerWeights& edges)
         diagonal[i] += weight;
     };
     for (const auto& [i, j, weight] : edges) {
+        checkpoint(i);
         add(i, j, weight);
         add(j, i, weight);
     }
