@@ -65,7 +65,7 @@ def test_few_iterations_remain_for_the_finest_level() -> None:
 
 
 def test_the_split_operator_leads_to_the_same_sphere() -> None:
-    """Beyond 15,000 free vertices K is inverted to a few per cent only: the iteration ends where the equation does."""
+    """Beyond 15,000 free vertices K is inverted to parts in a thousand: the iteration ends where the equation does."""
     patch = shapes.cap(18_000)
     result = fair_patch(patch, tolerance=1e-11)
     assert result.converged

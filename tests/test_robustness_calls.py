@@ -298,7 +298,7 @@ def test_without_memory_it_refuses_and_lives() -> None:
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="RLIMIT_AS and /proc are Linux's")
 def test_a_million_vertices() -> None:
-    """With 1 GB to go an error and a living process, which then finds the sphere in 6 GB."""
+    """With 1 GB to go an error and a living process, which then finds the sphere in 3 GB."""
     done = run_alone(MILLION, timeout=1200)
     assert done.returncode == 0, done.stderr
     refusal, answer = done.stdout.splitlines()
