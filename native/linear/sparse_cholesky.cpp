@@ -7,7 +7,6 @@
 #include "base/parallel.h"
 #include "linear/dense_front.h"
 #include "linear/nested_dissection.h"
-#include "linear/tree_solve.h"
 
 namespace fairing {
 
@@ -46,7 +45,7 @@ SparseCholesky::Panel SparseCholesky::panel(int s) {
     return {panels_.data() + panel_begin_[at(s)], nodes.row_count(s), nodes.column_count(s)};
 }
 
-SparseCholesky::ConstPanel SparseCholesky::panel(int s) const {
+ConstPanel SparseCholesky::panel(int s) const {
     const Supernodes& nodes = tree_.nodes();
     return {panels_.data() + panel_begin_[at(s)], nodes.row_count(s), nodes.column_count(s)};
 }
@@ -144,22 +143,34 @@ bool SparseCholesky::factorise(const SparseMatrix& lower, const char* what, cons
     return positive;
 }
 
-CholeskyFactor SparseCholesky::view() const { return {tree_, order_, position_, panels_.data(), panel_begin_.data()}; }
+FrontReach SparseCholesky::reach(const Indices& rows) const {
+    Indices positions;
+    for (int row : rows) positions.push_back(position_[at(row)]);
+    return {tree_, positions};
+}
+
+VectorX SparseCholesky::solve_vector(const VectorX& rhs, const FrontReach& from, const FrontReach& to) const {
+    const auto up = [this](int s, Eigen::Map<VectorX>& b) { eliminate_vector(panel(s), b.data()); };
+    const auto down = [this](int s, Eigen::Map<VectorX>& b) { substitute_vector(panel(s), b.data()); };
+    return solve_by_fronts(tree_, order_, rhs, FrontSweeps{up, down}, from, to);
+}
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& rhs) const {
-    if (rhs.cols() == 1) return solve_vector(view(), rhs.col(0), FrontReach(), FrontReach());
-    const auto up = [this](int s, OwnRows& own) -> Eigen::MatrixXd {
+    if (rhs.cols() == 1) return solve_vector(rhs.col(0));
+    const auto up = [this](int s, Panel& b) {
         const auto front = panel(s);
-        const Eigen::Index columns = front.cols();
-        front.topRows(columns).triangularView<Eigen::Lower>().solveInPlace(own);
-        return front.bottomRows(front.rows() - columns) * own;
+        auto own = b.topRows(front.cols());
+        front.topRows(front.cols()).triangularView<Eigen::Lower>().solveInPlace(own);
+        b.bottomRows(b.rows() - own.rows()).noalias() -= front.bottomRows(b.rows() - own.rows()) * own;
     };
-    const auto down = [this](int s, OwnRows& own, const Eigen::MatrixXd& below) {
+    const auto down = [this](int s, Panel& b) {
         const auto front = panel(s);
+        auto own = b.topRows(front.cols());
+        const auto below = b.bottomRows(b.rows() - own.rows());
         own.noalias() -= front.bottomRows(below.rows()).transpose() * below;
         front.topRows(front.cols()).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
     };
-    return solve_by_fronts(tree_, order_, rhs, {up, down});
+    return solve_by_fronts(tree_, order_, rhs, FrontSweeps{up, down});
 }
 
 }  // namespace fairing

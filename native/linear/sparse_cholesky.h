@@ -5,7 +5,8 @@
 #include "base/progress.h"
 #include "linear/dense_front.h"
 #include "linear/front_tree.h"
-#include "linear/vector_solve.h"
+#include "linear/panel_solve.h"
+#include "linear/tree_solve.h"
 
 namespace fairing {
 
@@ -23,12 +24,16 @@ public:
     // Solves for one or several right-hand sides (n × k).
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
 
-    // For solves in part, valid as long as this factor.
-    [[nodiscard]] CholeskyFactor view() const;
+    // For one, in part. `from`: reach of the entries of `rhs` that aren't zero; `to`: where x is wanted, elsewhere
+    // it is left undefined.
+    [[nodiscard]] VectorX solve_vector(const VectorX& rhs, const FrontReach& from = FrontReach(),
+                                       const FrontReach& to = FrontReach()) const;
+    // Of some rows of the matrix, as long as the ordering is kept.
+    [[nodiscard]] FrontReach reach(const Indices& rows) const;
+    [[nodiscard]] const FrontTree& tree() const { return tree_; }
 
 private:
     using Panel = Eigen::Map<Eigen::MatrixXd>;
-    using ConstPanel = Eigen::Map<const Eigen::MatrixXd>;
 
     void set_up(const SparseMatrix& lower);
     void find_slots(const SparseMatrix& lower);

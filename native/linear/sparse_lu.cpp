@@ -93,14 +93,18 @@ bool SparseLu::factorise(const SparseMatrix& matrix, const char* what, const Pro
 }
 
 Eigen::MatrixXd SparseLu::solve(const Eigen::MatrixXd& rhs) const {
-    const auto up = [this](int s, OwnRows& own) -> Eigen::MatrixXd {
-        own = fronts_[at(s)].pivot.solve(own).eval();
-        return fronts_[at(s)].lower * own;
+    using Rows = Eigen::Map<Eigen::MatrixXd>;
+    const auto up = [this](int s, Rows& b) {
+        const Front& front = fronts_[at(s)];
+        auto own = b.topRows(front.upper.rows());
+        own = front.pivot.solve(own).eval();
+        b.bottomRows(front.lower.rows()).noalias() -= front.lower * own;
     };
-    const auto down = [this](int s, OwnRows& own, const Eigen::MatrixXd& below) {
-        own.noalias() -= fronts_[at(s)].upper * below;
+    const auto down = [this](int s, Rows& b) {
+        const Front& front = fronts_[at(s)];
+        b.topRows(front.upper.rows()).noalias() -= front.upper * b.bottomRows(front.lower.rows());
     };
-    return solve_by_fronts(tree_, order_, rhs, {up, down});
+    return solve_by_fronts(tree_, order_, rhs, FrontSweeps{up, down});
 }
 
 }  // namespace fairing

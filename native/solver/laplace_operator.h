@@ -14,7 +14,7 @@ public:
     [[nodiscard]] bool update(const Stiffness& stiffness, const Progress& progress) override;
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const override { return factor_.solve(rhs); }
     // Valid until the next update.
-    [[nodiscard]] CholeskyFactor factor() const { return factor_.view(); }
+    [[nodiscard]] const SparseCholesky& factor() const { return factor_; }
 
 private:
     const Patch& patch_;

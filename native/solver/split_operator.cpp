@@ -32,7 +32,7 @@ bool SplitBiharmonicOperator::update(const Stiffness& stiffness, const Progress&
     if (!outline_.update(fixed_mass_.transpose()) || !laplace_.update(stiffness, progress)) return false;
     Indices beside;
     for (const Coupling& coupling : couplings_) beside.push_back(coupling.i);
-    beside_outline_ = FrontReach(laplace_.factor(), beside);
+    beside_outline_ = laplace_.factor().reach(beside);
     return true;
 }
 
@@ -43,21 +43,18 @@ Eigen::MatrixXd SplitBiharmonicOperator::solve(const Eigen::MatrixXd& rhs) const
 }
 
 VectorX SplitBiharmonicOperator::solve_column(const VectorX& rhs) const {
-    const CholeskyFactor factor = laplace_.factor();
-    const FrontReach everywhere;
+    const SparseCholesky& factor = laplace_.factor();
     // S_II⁻¹ C
-    const auto harmonic = [&](const Row& outline) {
-        return solve_vector(factor, spread(outline), beside_outline_, everywhere);
-    };
+    const auto harmonic = [&](const Row& outline) { return factor.solve_vector(spread(outline), beside_outline_); };
     // Cᵀ S_II⁻¹ 4M_I
     const auto turned = [&](const VectorX& u) {
-        return gather(solve_vector(factor, u.cwiseProduct(free_mass_), everywhere, beside_outline_));
+        return gather(factor.solve_vector(u.cwiseProduct(free_mass_), FrontReach(), beside_outline_));
     };
     const auto apply = [&](const Row& p, Row& product) { product = p.cwiseProduct(fixed_mass_) + turned(harmonic(p)); };
     const auto precondition = [&](const Row& r, Row& z) { z = outline_.approximate_inverse(r); };
-    VectorX u = solve_vector(factor, rhs, everywhere, everywhere);
+    VectorX u = factor.solve_vector(rhs);
     u -= harmonic(conjugate_gradients(turned(u), relative_tolerance, most_cycles, apply, precondition));
-    return solve_vector(factor, u.cwiseProduct(free_mass_), everywhere, everywhere);
+    return factor.solve_vector(u.cwiseProduct(free_mass_));
 }
 
 // C: −w_ij of the edge between them.

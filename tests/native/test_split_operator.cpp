@@ -8,7 +8,6 @@
 
 #include "linear/conjugate_gradients.h"
 #include "linear/half_order.h"
-#include "linear/vector_solve.h"
 #include "meshes.h"
 #include "solver/biharmonic_operator.h"
 #include "solver/split_operator.h"
@@ -62,21 +61,20 @@ TEST_CASE("solves in part are those of the whole, where they are wanted") {
     const Patch& patch = single.patch();
     LaplaceOperator op(patch, layout_of(single));
     REQUIRE(op.update(stiffness_of(single), Progress()));
-    const CholeskyFactor factor = op.factor();
+    const SparseCholesky& factor = op.factor();
     const Indices some{3, 77, patch.free_count - 1};
     VectorX rhs = VectorX::Zero(patch.free_count);
     for (const int k : some) rhs[k] = 1.0 + k;
     const Eigen::MatrixXd twice = op.solve(rhs.replicate(1, 2));  // two columns at once go another way
-    const FrontReach all;
-    const FrontReach reach(factor, some);
-    const VectorX whole = solve_vector(factor, rhs, all, all);
+    const FrontReach reach = factor.reach(some);
+    const VectorX whole = factor.solve_vector(rhs);
     CHECK((whole - twice.col(1)).norm() < 1e-13 * whole.norm());
-    CHECK((solve_vector(factor, rhs, reach, all) - whole).norm() < 1e-14 * whole.norm());
-    const VectorX part = solve_vector(factor, rhs, all, reach);
+    CHECK((factor.solve_vector(rhs, reach) - whole).norm() < 1e-14 * whole.norm());
+    const VectorX part = factor.solve_vector(rhs, FrontReach(), reach);
     for (const int k : some) CHECK(part[k] == whole[k]);
     int reached = 0;
-    for (int s = 0; s < factor.tree.nodes().size(); ++s) reached += reach.has(s) ? 1 : 0;
-    CHECK(reached < factor.tree.nodes().size() / 3);
+    for (int s = 0; s < factor.tree().nodes().size(); ++s) reached += reach.has(s) ? 1 : 0;
+    CHECK(reached < factor.tree().nodes().size() / 3);
 }
 
 TEST_CASE("√A (1 + √A)⁻¹ by shifted inverses") {

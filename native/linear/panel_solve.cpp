@@ -1,0 +1,63 @@
+#include "linear/panel_solve.h"
+
+#include <algorithm>
+
+namespace fairing {
+
+namespace {
+
+constexpr int block = 4;  // columns of a panel at once
+
+// b ← b − Σ_k L_k x_k over rows begin … end − 1 of `width` columns that begin at `column`, `rows` long each.
+void subtract_columns(const double* column, std::ptrdiff_t rows, int width, const double* x, int begin, int end,
+                      double* b) {
+    if (width == block) {
+        const double* const c0 = column;
+        const double* const c1 = c0 + rows;
+        const double* const c2 = c1 + rows;
+        const double* const c3 = c2 + rows;
+        const double x0 = x[0];  // copies: x is a part of b
+        const double x1 = x[1];
+        const double x2 = x[2];
+        const double x3 = x[3];
+        for (int i = begin; i < end; ++i) b[i] -= (c0[i] * x0 + c1[i] * x1) + (c2[i] * x2 + c3[i] * x3);
+        return;
+    }
+    for (int k = 0; k < width; ++k) {
+        const double* const c = column + k * rows;
+        const double xk = x[k];
+        for (int i = begin; i < end; ++i) b[i] -= c[i] * xk;
+    }
+}
+
+double dot(const double* a, const double* b, int begin, int end) {
+    using Column = Eigen::Map<const Eigen::VectorXd>;
+    return Column(a + begin, end - begin).dot(Column(b + begin, end - begin));
+}
+
+}  // namespace
+
+void eliminate_vector(const ConstPanel& panel, double* b) {
+    const int rows = static_cast<int>(panel.rows());
+    const int columns = static_cast<int>(panel.cols());
+    for (int j = 0; j < columns; j += block) {
+        const int width = std::min(block, columns - j);
+        const double* const first = panel.data() + std::ptrdiff_t(j) * rows;
+        for (int k = j; k < j + width; ++k) {
+            const double* const column = panel.data() + std::ptrdiff_t(k) * rows;
+            b[k] /= column[k];
+            for (int i = k + 1; i < j + width; ++i) b[i] -= column[i] * b[k];
+        }
+        subtract_columns(first, rows, width, b + j, j + width, rows, b);
+    }
+}
+
+void substitute_vector(const ConstPanel& panel, double* b) {
+    const int rows = static_cast<int>(panel.rows());
+    for (int j = static_cast<int>(panel.cols()); j-- > 0;) {
+        const double* const column = panel.data() + std::ptrdiff_t(j) * rows;
+        b[j] = (b[j] - dot(column, b, j + 1, rows)) / column[j];
+    }
+}
+
+}  // namespace fairing
