@@ -121,3 +121,21 @@ install_sdist() {
     CXX=$1 quietly "install-$1" "$venv/bin/python" -m pip install \
         --no-index --no-deps --no-build-isolation "$packages"/*.tar.gz
 }
+
+# Packages once more, from a copy of the tree in another folder and as a user with other habits: the bytes are the same.
+check_reproduced() {
+    local copy=$build/packaged-again/from-a-copy platform
+    local -a choice=()
+    for platform in "${platforms[@]}"; do choice+=(--platform "$platform"); done
+    say "Everything once more, in $copy"
+    rm -rf "$copy"
+    mkdir -p "$copy"
+    git -c safe.directory="$root" ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents --target-directory "$copy"
+    (
+        umask 077
+        TZ=Asia/Kathmandu LC_ALL=C "$copy/scripts/package" "${choice[@]}" --zips-only
+    )
+    diff --recursive --brief "$packages" "$copy/build/release" || fail "the second build's bytes differ: see $copy/build"
+    say "The same bytes from both builds"
+    rm -rf "$copy"
+}
