@@ -1,23 +1,22 @@
 #include "geometry/surface_fit.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 
 #include "base/direction.h"
 #include "base/progress.h"
-#include "geometry/frame.h"
+#include "geometry/slope_fit.h"
 
 namespace fairing {
 
 namespace {
 
-constexpr std::size_t wanted_points = 22;
-constexpr std::size_t cubic_points = 16;
-constexpr std::size_t quadric_points = 8;
+constexpr int quadratic_rings = 2;
+constexpr int cubic_rings = 3;
 constexpr int most_rings = 5;
+constexpr std::size_t nearest_points = 22;
+constexpr std::size_t most_points = 60;
 
 // Adjacency of any triangle list, flat.
 struct VertexAdjacency {
@@ -38,80 +37,83 @@ struct VertexAdjacency {
     }
 };
 
-// Grows rings around a vertex until there are enough points, then keeps the nearest ones.
+// The vertices around one, ring by ring.
 class Neighbourhood {
 public:
     Neighbourhood(const VertexAdjacency& adjacency, const Points& points)
-        : adjacency_(adjacency), points_(points), seen_(static_cast<std::size_t>(points.cols()), none) {}
+        : adjacency_(adjacency), points_(points), mark_(static_cast<std::size_t>(points.cols()), none) {}
 
-    std::span<const Vector3> around(int vertex) {
-        visited_.assign(1, vertex);
-        seen_[at(vertex)] = vertex;
+    void gather(int vertex) {
+        ++stamp_;
+        std::vector<int> visited(1, vertex);
+        mark_[at(vertex)] = stamp_;
+        size_of_rings_.assign(1, 0);
         std::size_t ring_begin = 0;
-        for (int ring = 0; ring < most_rings && visited_.size() <= wanted_points; ++ring) {
-            const std::size_t ring_end = visited_.size();
-            for (std::size_t k = ring_begin; k < ring_end; ++k) visit_neighbours(visited_[k], vertex);
+        while (static_cast<int>(size_of_rings_.size()) <= cubic_rings ||
+               (visited.size() <= nearest_points && static_cast<int>(size_of_rings_.size()) <= most_rings)) {
+            const std::size_t ring_end = visited.size();
+            for (std::size_t k = ring_begin; k < ring_end; ++k) visit_neighbours(visited[k], visited);
             ring_begin = ring_end;
+            size_of_rings_.push_back(visited.size() - 1);
         }
-        nearest_.clear();
-        for (std::size_t k = 1; k < visited_.size(); ++k) nearest_.emplace_back(points_.col(visited_[k]));
-        const Vector3 centre = points_.col(vertex);
-        const std::size_t kept = std::min(nearest_.size(), wanted_points);
-        std::partial_sort(nearest_.begin(), nearest_.begin() + std::ptrdiff_t(kept), nearest_.end(),
-                          [&](const Vector3& a, const Vector3& b) {
-                              return (a - centre).squaredNorm() < (b - centre).squaredNorm();
-                          });
-        nearest_.resize(kept);
-        return nearest_;
+        by_ring_.clear();
+        for (std::size_t k = 1; k < visited.size(); ++k) by_ring_.emplace_back(points_.col(visited[k]));
+        sort_by_distance(points_.col(vertex));
+    }
+
+    // Few where a mesh is regular: most_points at fans.
+    [[nodiscard]] std::span<const Vector3> rings(int count) const {
+        return std::span(by_ring_).first(std::min(size_of_rings_[at(count)], most_points));
+    }
+
+    [[nodiscard]] std::span<const Vector3> nearest() const {
+        return std::span(by_distance_).first(std::min(by_distance_.size(), nearest_points));
     }
 
 private:
-    void visit_neighbours(int vertex, int mark) {
+    void visit_neighbours(int vertex, std::vector<int>& visited) {
         for (int k = adjacency_.begin[at(vertex)]; k < adjacency_.begin[at(vertex) + 1]; ++k) {
             const int other = adjacency_.neighbours[at(k)];
-            if (seen_[at(other)] == mark) continue;
-            seen_[at(other)] = mark;
-            visited_.push_back(other);
+            if (mark_[at(other)] == stamp_) continue;
+            mark_[at(other)] = stamp_;
+            visited.push_back(other);
         }
+    }
+
+    void sort_by_distance(const Vector3& centre) {
+        by_distance_ = by_ring_;
+        const std::size_t kept = std::min(by_distance_.size(), nearest_points);
+        std::partial_sort(by_distance_.begin(), by_distance_.begin() + std::ptrdiff_t(kept), by_distance_.end(),
+                          [&](const Vector3& a, const Vector3& b) {
+                              return (a - centre).squaredNorm() < (b - centre).squaredNorm();
+                          });
     }
 
     const VertexAdjacency& adjacency_;
     const Points& points_;
-    Indices seen_;
-    Indices visited_;
-    std::vector<Vector3> nearest_;
+    Indices mark_;
+    int stamp_ = none;
+    std::vector<std::size_t> size_of_rings_;  // of the first k rings together
+    std::vector<Vector3> by_ring_;
+    std::vector<Vector3> by_distance_;
 };
 
-// What the quadratic terms grow with (and the cubic ones likewise): the square of the distance in the plane, or that in
-// space, as normal curvatures by chords do (paper eq. 8): so a sphere is met exactly, whatever the points.
-enum class Terms { planar, spatial };
-
-// Gradient at the centre of the best height polynomial over the plane across `normal`; coordinates in units of `scale`.
-std::optional<Eigen::Vector2d> height_gradient(const Vector3& centre, std::span<const Vector3> points,
-                                               const Vector3& normal, double scale, Terms terms) {
-    const bool cubic = points.size() >= cubic_points;
-    const Frame frame(normal);
-    Eigen::MatrixXd A(static_cast<Eigen::Index>(points.size()), cubic ? 9 : 5);
-    VectorX rhs(A.rows());
-    for (Eigen::Index k = 0; k < A.rows(); ++k) {
-        const Vector3 d = (points[static_cast<std::size_t>(k)] - centre) / scale;
-        const double u = frame.u.dot(d);
-        const double v = frame.v.dot(d);
-        const double weight = std::exp(-d.squaredNorm());
-        const double stretch = terms == Terms::spatial ? d.norm() / std::max(std::hypot(u, v), 1e-12) : 1.0;
-        A.row(k).head<5>() << u, v, u * u, u * v, v * v;
-        A.row(k).segment<3>(2) *= stretch * stretch;
-        if (cubic) {
-            A.row(k).tail<4>() << u * u * u, u * u * v, u * v * v, v * v * v;
-            A.row(k).tail<4>() *= stretch * stretch * stretch;
-        }
-        A.row(k) *= weight;
-        rhs[k] = weight * normal.dot(d);
+// The fit whose slopes have the least standard error: it falls with more terms where the surface has them, and rises
+// where the points don't determine them. Two rings follow a coarse mesh whatever its quads' proportions; cubics are for
+// fine ones; many points for noisy ones.
+std::optional<Vector3> best_normal(const Vector3& centre, const Neighbourhood& around, const Vector3& start) {
+    struct Candidate {
+        std::span<const Vector3> points;
+        Degree degree;
+    };
+    std::optional<SlopeFit> best;
+    for (const auto& [points, degree] :
+         {Candidate{around.rings(quadratic_rings), Degree::quadratic}, Candidate{around.nearest(), Degree::quadratic},
+          Candidate{around.nearest(), Degree::cubic}, Candidate{around.rings(cubic_rings), Degree::cubic}}) {
+        const auto fit = fit_slopes(centre, points, start, degree);
+        if (fit && (!best || fit->error < best->error)) best = fit;
     }
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A);
-    qr.setThreshold(1e-6);
-    if (qr.rank() < A.cols()) return std::nullopt;
-    return Eigen::Vector2d(qr.solve(rhs).head<2>());
+    return best ? std::optional(best->normal) : std::nullopt;
 }
 
 // Coordinates of the triangles' corners within ±1: no product of edges is infinite, and none is lost to denormals.
@@ -132,38 +134,7 @@ Points averaged_at(const Points& points, const Triangles& triangles) {
     return sums;
 }
 
-std::optional<Vector3> fit_normal(const Vector3& centre, std::span<const Vector3> points, const Vector3& start,
-                                  Terms terms) {
-    constexpr int most_rounds = 8;
-    constexpr double settled = 1e-12;
-    constexpr double cos_of_widest_turn = 0.5;
-    if (points.size() < quadric_points || start.isZero()) return std::nullopt;
-    double scale = 0.0;
-    for (const Vector3& p : points) scale = std::max(scale, (p - centre).norm());
-    if (!(scale > 0.0)) return std::nullopt;
-    Vector3 normal = start;
-    for (int round = 0; round < most_rounds; ++round) {
-        const auto gradient = height_gradient(centre, points, normal, scale, terms);
-        if (!gradient || !gradient->allFinite()) return std::nullopt;
-        const Frame frame(normal);
-        normal = (normal - gradient->x() * frame.u - gradient->y() * frame.v).normalized();
-        if (gradient->norm() < settled) break;
-    }
-    if (normal.dot(start) < cos_of_widest_turn) return std::nullopt;
-    return normal;
-}
-
 }  // namespace
-
-std::optional<Vector3> surface_fit_normal(const Vector3& centre, std::span<const Vector3> points,
-                                          const Vector3& start) {
-    const auto planar = fit_normal(centre, points, start, Terms::planar);
-    if (!planar) return std::nullopt;
-    // Beyond a crease the distance in space misleads: there the two differ.
-    constexpr double cos_of_crease = 0.94;  // 20°
-    const auto spatial = fit_normal(centre, points, *planar, Terms::spatial);
-    return spatial && spatial->dot(*planar) > cos_of_crease ? spatial : planar;
-}
 
 SurroundingNormals surrounding_normals(const Points& given, const Triangles& triangles, const Indices& vertices) {
     const Points points = of_unit_size(given, triangles);
@@ -175,7 +146,8 @@ SurroundingNormals surrounding_normals(const Points& given, const Triangles& tri
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         checkpoint();
         const int v = vertices[k];
-        const auto fit = surface_fit_normal(points.col(v), neighbourhood.around(v), averaged.col(v));
+        neighbourhood.gather(v);
+        const auto fit = best_normal(points.col(v), neighbourhood, averaged.col(v));
         result.normals.col(static_cast<Eigen::Index>(k)) = fit ? *fit : Vector3(averaged.col(v));
         result.fitted[k] = fit.has_value();
     }

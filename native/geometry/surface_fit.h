@@ -1,17 +1,9 @@
-// Normals from a polynomial surface fitted to nearby points: for outlines, where the one-ring sees one side only.
+// Normals from surfaces fitted to nearby points: for outlines, where the one-ring sees one side only.
 #pragma once
-
-#include <optional>
-#include <span>
 
 #include "mesh/patch.h"
 
 namespace fairing {
-
-// Unit normal at `centre` of the height polynomial through it that fits `points` best (Gaussian weights, tangent frame
-// iterated); cubic from 16 points on, quadratic from 8. Exact on spheres. Nothing where there are fewer, where they
-// turn too far away from `start`, or where they don't determine the polynomial. Same side as `start`.
-std::optional<Vector3> surface_fit_normal(const Vector3& centre, std::span<const Vector3> points, const Vector3& start);
 
 // Normals at the fixed vertices (3 × fixed count) fitted to the patch's own side of the outline; averaged ones where
 // the fit has too few points.

@@ -3,7 +3,6 @@
 #include <numbers>
 
 #include "geometry/mean_curvature.h"
-#include "geometry/surface_fit.h"
 #include "geometry/vertex_normal.h"
 
 using namespace fairing;
@@ -142,33 +141,4 @@ TEST_CASE("the fitted normal fades back to its start continuously") {
     }
     CHECK(largest_jump < 0.01);
     CHECK((last - Vector3::UnitZ()).norm() < 1e-12);  // far beyond the fade: the start itself
-}
-
-TEST_CASE("a surface fit from one side finds normals to third order, and those of a sphere exactly") {
-    const auto error = [](double size, double (*height)(double, double)) {
-        std::vector<Vector3> points;
-        for (int i = 0; i < 6; ++i) {
-            for (int j = 0; j < 5; ++j) {
-                if (i == 0 && j == 2) continue;
-                const double x = size * i / 6.0;  // x ≥ 0 only
-                const double y = size * (j - 2) / 5.0;
-                points.emplace_back(x, y, height(x, y));
-            }
-        }
-        const Vector3 start = Vector3(-0.1, 0.05, 1.0).normalized();
-        const auto normal = surface_fit_normal(Vector3::Zero(), points, start);
-        REQUIRE(normal.has_value());
-        return (*normal - Vector3::UnitZ()).norm();
-    };
-    const auto wavy = [](double x, double y) { return std::sin(x) * std::sin(x) + 0.3 * x * y + 0.2 * y * y * y * y; };
-    CHECK(error(0.1, wavy) < 1e-3);
-    CHECK(error(0.1, wavy) / error(0.05, wavy) > 6.0);
-    CHECK(error(0.4, sphere_below) < 1e-12);
-}
-
-TEST_CASE("a surface fit needs points that determine it") {
-    std::vector<Vector3> line;
-    for (int k = 1; k < 20; ++k) line.emplace_back(0.1 * k, 0.0, 0.0);
-    CHECK_FALSE(surface_fit_normal(Vector3::Zero(), line, Vector3::UnitZ()).has_value());
-    CHECK_FALSE(surface_fit_normal(Vector3::Zero(), std::span(line).first(3), Vector3::UnitZ()).has_value());
 }
