@@ -6,6 +6,8 @@ import numpy as np
 
 import fairing
 import shapes
+from bad_inputs import closed_ball
+from meshing import IntArray
 from shapes import Patch, Style
 
 
@@ -54,3 +56,31 @@ def test_lobes_that_share_an_outline_vertex_are_solved_apart() -> None:
     )  # fmt: skip
     assert np.abs(result.vertices[free] - everything[free])[:, 0].max() < 1e-9
     assert np.array_equal(result.vertices[shared], patch.vertices[shared])
+
+
+def collapsing(fixed: IntArray) -> fairing.FairResult:
+    """A closed sphere that is held by a few of its vertices only."""
+    vertices, triangles, _ = closed_ball()
+    return fairing.fair(vertices, triangles, fixed=fixed, fixed_normals=vertices[fixed])
+
+
+def test_a_closed_surface_on_a_face_or_two_points_does_not_count_as_solved() -> None:
+    """All of it would lie on that face, inside out, or on the line: the equation holds there, the surface is none."""
+    _, triangles, _ = closed_ball()
+    edge = np.sort(triangles[0])[:2]
+    far = np.array([0, len(closed_ball()[0]) - 1])
+    for fixed in (edge, far, np.sort(triangles[0])):
+        result = collapsing(fixed)
+        assert not result.converged, fixed
+        assert result.termination == "stalled"
+        (text,) = (w.message for w in result.warnings if w.code == "NOT_CONVERGED")
+        assert "fell together" in text or "from behind" in text or "best that were found" in text
+
+
+def test_a_sphere_on_a_sixth_of_itself_is_solved() -> None:
+    """Four fifths of the surface free: what is left outside still says which way it goes."""
+    vertices, triangles, _ = closed_ball(300)
+    kept = np.unique(triangles[vertices[triangles].mean(axis=1)[:, 2] > 0.7])
+    result = fairing.fair(vertices, triangles, fixed=kept, fixed_normals=vertices[kept])
+    assert result.converged
+    assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 1e-4

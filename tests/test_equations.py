@@ -87,6 +87,27 @@ def test_a_load_without_a_solution_is_said() -> None:
     assert np.isfinite(result.vertices).all()
 
 
+@pytest.mark.parametrize("bulge", [1.3, 2.0, 4.0])
+def test_a_load_that_is_too_much_keeps_the_surface_of_the_last_one(bulge: float) -> None:
+    """Not the unloaded one: it is higher than that of the largest bulges that are surely solved, and its own H tells
+    the load that it solves."""
+    vertices, triangles, rim = flat_disc(700)
+    up = np.tile([0.0, 0.0, 1.0], (len(rim), 1))
+
+    def bulged(by: float) -> fairing.FairResult:
+        return fairing.fair(vertices, triangles, fixed=rim, fixed_normals=up, equation="constant", load=8 * by)
+
+    result = bulged(bulge)
+    assert not result.converged
+    (text,) = (w.message for w in result.warnings if w.code == "NOT_CONVERGED")
+    share = float(text.split(" % of the load")[0].split()[-1]) / 100
+    assert 0.9 < share * bulge < 1.25
+    reached = bulged(round(share * 32) / 32 * bulge)
+    assert reached.converged
+    # Stages of the load are solved to 1e-4 D.
+    assert np.abs(result.vertices - reached.vertices).max() < 2e-3
+
+
 def test_the_load_scales_with_length() -> None:
     """Load is length⁻³: ten times the size with a thousandth of the load is ten times the surface."""
     vertices, triangles, rim = flat_disc(300)

@@ -1,5 +1,6 @@
 #include "api/component_solver.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "api/diagnose.h"
@@ -17,7 +18,20 @@ constexpr int largest_warm = 50000;
 
 }  // namespace
 
-CallOptions::CallOptions(FairOptions options, bool keeps) : asked(std::move(options)), uniform(asked), repeated(keeps) {
+namespace {
+
+// Moves can't be told from rounding below: an iteration that waits for less ends by luck or not at all.
+constexpr double least_tolerance = 1e-15;
+
+FairOptions reachable(FairOptions options) {
+    options.solver.tolerance = std::max(options.solver.tolerance, least_tolerance);
+    return options;
+}
+
+}  // namespace
+
+CallOptions::CallOptions(FairOptions options, bool keeps)
+    : asked(reachable(std::move(options))), uniform(asked), repeated(keeps) {
     uniform.inner_fairness = InnerFairness::uniform;
 }
 

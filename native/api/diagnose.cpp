@@ -132,6 +132,19 @@ void warn_of_precision(const Patch& patch, const Points& input, const Precision&
                         {}});
 }
 
+std::optional<std::string> why_unusable(const Patch& patch, const Points& points, const VectorX& angles) {
+    constexpr double least_area = 1e-9;  // D²
+    constexpr double behind = 90.0;      // degrees
+    FaceGeometry faces;
+    faces.update(points, patch.triangles);
+    if (!(faces.areas.sum() > least_area)) return "fell together to a point or a line: fix more vertices around it";
+    const auto told = (angles.array() > 0.0).count();
+    const auto turned = (angles.array() > behind).count();
+    if (2 * turned <= told) return std::nullopt;
+    return "runs into its outline from behind at " + std::to_string(turned) + " of " + std::to_string(told) +
+           " vertices, which is not the surface asked for: where little of a shape is left outside, leave more of it";
+}
+
 void diagnose(const Patch& patch, const Points& points, const Points& prescribed, Diagnostics& warnings) {
     warn_of_flips(patch, points, warnings);
     warn_of_crossings(patch, points, warnings);

@@ -1,6 +1,9 @@
 // What is said about a patch before and after its solve.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "base/errors.h"
 #include "mesh/patch.h"
 
@@ -25,6 +28,10 @@ struct Precision {
 // PRECISION where neighbouring floating-point numbers lie farther apart than that, or than a thousandth of the border
 // edges. `input`: positions of all input vertices.
 void warn_of_precision(const Patch& patch, const Points& input, const Precision& wanted, Diagnostics& warnings);
+
+// Why what the equation's solver calls a solution (3 × local vertices, units of D) is none: no area is left, or most of
+// the `angles` at the outline are beyond 90°, from the other side. Nothing where it is one.
+std::optional<std::string> why_unusable(const Patch& patch, const Points& points, const VectorX& angles);
 
 // About a solved patch: flipped and crossing triangles, and an outline that turns more than 20° from vertex to vertex.
 void diagnose(const Patch& patch, const Points& points, const Points& prescribed, Diagnostics& warnings);

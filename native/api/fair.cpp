@@ -1,6 +1,7 @@
 #include "api/fair.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "api/diagnose.h"
 #include "api/measure.h"
@@ -38,10 +39,15 @@ public:
         result_.polished = result_.polished && solution.polished && solution.termination == Termination::converged;
         add_levels(solution.levels.empty() ? Indices{patch.vertex_count()} : solution.levels);
         for (const auto& [stage, seconds] : solution.seconds) result_.seconds[stage] += seconds;
-        if (solution.termination != Termination::converged) add_failure(patch, solution.termination);
         const bool has_normals = options_.solver.equation != Equation::minimal;
         const Points& prescribed = has_normals ? answer.problem.fixed_normals : solution.boundary_normals;
-        add_angles(patch, boundary_angles(patch, solution.boundary_normals, prescribed));
+        const VectorX angles = boundary_angles(patch, solution.boundary_normals, prescribed);
+        add_angles(patch, angles);
+        if (solution.termination != Termination::converged) {
+            add_failure(patch, solution.termination, reason_of(solution));
+        } else if (const auto reason = why_unusable(patch, solution.points, angles)) {
+            add_failure(patch, Termination::stalled, *reason);
+        }
         diagnose(patch, solution.points, prescribed, result_.warnings);
     }
 
@@ -81,12 +87,17 @@ private:
         for (std::size_t k = 1; k <= counts.size(); ++k) sum[sum.size() - k] += counts[counts.size() - k];
     }
 
-    void add_failure(const Patch& patch, Termination termination) {
+    static std::string reason_of(const Solution& solution) {
+        if (solution.reached_load == 0.0) return "did not converge; its positions are the best that were found";
+        return "was solved with " + std::to_string(std::lround(100.0 * solution.reached_load)) +
+               " % of the load only and keeps that surface; more load may have no solution";
+    }
+
+    void add_failure(const Patch& patch, Termination termination, const std::string& reason) {
         result_.converged = false;
         if (result_.termination != Termination::stalled) result_.termination = termination;
         result_.warnings.push_back({Code::not_converged,
-                                    "a component of " + std::to_string(patch.free_count) +
-                                        " free vertices did not converge; its positions are the best that were found",
+                                    "a component of " + std::to_string(patch.free_count) + " free vertices " + reason,
                                     Indices(free_vertices(patch).begin(), free_vertices(patch).end())});
     }
 

@@ -20,8 +20,7 @@ public:
         try {
             if (PyErr_CheckSignals() != 0) throw py::error_already_set();
             if (callback_.is_none()) return true;
-            const py::object answer = callback_(fraction, py::str(stage.data(), stage.size()));
-            return answer.is_none() || answer.cast<bool>();
+            return goes_on(callback_(fraction, py::str(stage.data(), stage.size())));
         } catch (...) {
             failure_ = std::current_exception();
             return false;
@@ -31,6 +30,18 @@ public:
     [[nodiscard]] const std::exception_ptr& failure() const { return failure_; }
 
 private:
+    // A callback that returns its fraction would cancel at 0: truth is asked of nothing but booleans, NumPy's included.
+    static bool goes_on(const py::object& answer) {
+        if (answer.is_none()) return true;
+        py::detail::make_caster<bool> boolean;
+        constexpr bool convert = false;
+        if (!boolean.load(answer, convert)) {
+            throw py::type_error("progress: the callback returned " + std::string(py::repr(answer)) +
+                                 "; False cancels, None or True goes on");
+        }
+        return py::detail::cast_op<bool>(boolean);
+    }
+
     py::object callback_;
     std::exception_ptr failure_;
 };

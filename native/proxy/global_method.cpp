@@ -68,9 +68,10 @@ Start make_start(const Problem& problem, Workspace& work, const Progress& progre
     return start;
 }
 
-// An iteration that fails may end anywhere: what is less bent is taken instead.
+// An iteration that fails may end anywhere: what is less bent is taken instead. A part of the load bends, too.
 void keep_less_bent(const Problem& problem, const Points& candidate, Solution& solution) {
     if (problem.options.equation == Equation::minimal || solution.termination == Termination::converged) return;
+    if (solution.reached_load > 0.0) return;
     if (willmore_energy(problem, solution.points) <= willmore_energy(problem, candidate)) return;
     const SurfaceState state = measured_surface(problem, candidate);
     solution.points = candidate;
@@ -103,6 +104,11 @@ bool is_trustworthy(const Problem& problem, const Solution& direct) {
     constexpr int most_iterations = 20;
     return direct.termination == Termination::converged && direct.iterations <= most_iterations &&
            !has_poor_triangles(problem.patch, direct.points);
+}
+
+// The mesh carries the equation, but not with the whole load: other meshes wouldn't either.
+bool ended_by_load(const Problem& problem, const Solution& direct) {
+    return direct.reached_load > 0.0 && !has_poor_triangles(problem.patch, direct.points);
 }
 
 // The direct solve as a fast path: left at the first sign of trouble, since the proxy comes next.
@@ -190,7 +196,7 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
         return better_of(problem, solve_directly(problem, progress), std::move(on_proxy));
     }
     Solution direct = try_directly(problem, progress.range(0.3, 0.5));
-    if (is_trustworthy(problem, direct)) return direct;
+    if (is_trustworthy(problem, direct) || ended_by_load(problem, direct)) return direct;
     std::optional<Points> guess;
     if (direct.termination == Termination::converged) guess = direct.points;
     Solution on_proxy = solve_on_proxy(problem, guess, progress.range(0.5, 0.9));

@@ -41,6 +41,7 @@ Solution continue_load(const Problem& problem, Workspace& work, const Points& st
     Solution given_up = iterate(whole, work, reached, progress);
     given_up.iterations = solution.iterations;
     given_up.termination = Termination::stalled;
+    given_up.reached_load = share;
     return given_up;
 }
 

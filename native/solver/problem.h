@@ -47,6 +47,7 @@ struct Solution {
     int iterations = 0;
     double residual = 0.0;          // largest |Δ_B H| (|H| for minimal) at free vertices
     double initial_residual = 0.0;  // of the fill
+    double reached_load = 0.0;      // share of the load for which `points` solve the equation, where not the whole
     std::vector<int> levels;        // vertex counts, coarse to fine; empty: only the patch itself
     std::map<std::string, double> seconds;
 };
