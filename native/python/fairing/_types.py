@@ -80,7 +80,7 @@ class FairResult:
     of the engine's own, and the vertices were placed on that surface; it is as fair, but ``residual`` may be large."""
     termination: Literal["converged", "iteration_limit", "stalled"]
     iterations: int
-    """Steps of the last iteration (largest of the components), not of all that was tried."""
+    """Steps of the iteration that led to the result (of the component with most), not of all that was tried."""
     residual: float
     """Largest |Δ_B H| D³ at a free vertex (|H| D for ``equation="minimal"``). Without a unit, but not without the
     mesh: the same surface has a larger one on a finer mesh, so there is no number that is good. Compare it with
@@ -90,6 +90,6 @@ class FairResult:
     levels: tuple[int, ...]
     """Vertex counts of the levels, coarse to fine."""
     seconds: dict[str, float]
-    """Wall-clock time of each stage and in ``"total"``. Stages need not add up to it: what lies between them isn't
-    counted, and some stages run within others."""
+    """Wall-clock time of each stage and in ``"total"``. Stages need not add up to it: attempts that were given up are
+    not listed."""
     warnings: tuple[Diagnostic, ...]
