@@ -44,7 +44,7 @@ def test_the_tube_comes_back(page: dict[str, Any]) -> None:
         assert result.converged and result.polished, name
         assert not result.warnings, name
         assert abs(radius(result.vertices) - 1).max() < 5e-5, name
-        assert result.residual < 1e-3 * result.initial_residual, name
+        assert result.residual < 1e-2 * result.initial_residual, name
     unused = np.setdiff1d(np.arange(len(page["vertices"])), page["inside"])
     assert np.array_equal(page["result"].vertices[unused], page["vertices"][unused])
     assert np.array_equal(page["first"].vertices, page["result"].vertices)
