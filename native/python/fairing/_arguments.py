@@ -15,7 +15,9 @@ _INT32 = np.iinfo(np.int32)
 
 
 def _array(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
-    """What numpy makes of it, or a ValueError that names the argument."""
+    """What numpy makes of it, or a ValueError that names the argument; masked entries are refused."""
+    if isinstance(value, np.ma.MaskedArray) and np.any(value.mask):
+        raise ValueError(f"{name}: has masked entries; leave them out or fill them first, e.g. with filled()")
     try:
         return np.asarray(value)
     except (ValueError, TypeError) as error:
@@ -40,6 +42,11 @@ def integers(name: str, value: npt.ArrayLike, columns: int | None) -> IntArray:
     array = _array(name, value)
     if array.size == 0 and array.ndim == 1:
         array = array.reshape((0,) if columns is None else (0, columns)).astype(np.int32)
+    if array.dtype.kind == "b" and columns is None:
+        raise ValueError(f"{name}: vertex indices are needed, not a boolean mask: pass np.flatnonzero(mask)")
+    if array.dtype.kind == "f":
+        hint = "convert with astype(int) if they are whole numbers"
+        raise ValueError(f"{name}: integers are needed, not {array.dtype}; {hint}")
     if array.dtype.kind not in "iu":
         raise ValueError(f"{name}: integers are needed, not {array.dtype}")
     wanted = "(k,)" if columns is None else f"(n, {columns})"
@@ -74,14 +81,34 @@ def boundary(
 
 
 def indices_within(name: str, array: IntArray, count: int) -> IntArray:
-    """The array itself, or MeshError INDEX_RANGE where an index is outside 0 … count − 1."""
-    bad = np.flatnonzero((array < 0) | (array >= count))
-    if bad.size:
-        index = int(array.reshape(-1)[bad[0]])
-        text = f"{name}: vertex {index} is outside 0 … {count - 1}"
-        elements = np.unique(array.reshape(-1)[bad]).astype(np.int32)
-        raise MeshError(Diagnostic("INDEX_RANGE", text, elements, "vertex"))
-    return array
+    """The array itself, or MeshError INDEX_RANGE where an index is outside 0 … count − 1.
+
+    Its elements: rows of the triangles, otherwise the vertices named.
+    """
+    outside = (array < 0) | (array >= count)
+    if not outside.any():
+        return array
+    place = tuple(np.argwhere(outside)[0])
+    there_are = f"outside 0 … {count - 1}" if count else "but there are no vertices"
+    text = f"{name}: row {place[0]} names vertex {array[place]}, {there_are}{_reason(array, count)}"
+    if name == "triangles":
+        rows = np.flatnonzero(outside.any(axis=1)).astype(np.int32)
+        raise MeshError(Diagnostic("INDEX_RANGE", text, rows, "triangle"))
+    raise MeshError(Diagnostic("INDEX_RANGE", text, np.unique(array[outside]), "vertex"))
+
+
+def _reason(array: IntArray, count: int) -> str:
+    """What such indices usually come from, to be added to the message."""
+    if array.min() < 0:
+        return "; negative indices do not count from the end"
+    if array.min() >= 1 and array.max() == count:
+        return "; indices count from 0: subtract 1 from those of an OBJ file, which count from 1"
+    return "; indices count from 0 (those of an OBJ file from 1)"
+
+
+def triangles_within(value: npt.ArrayLike, count: int) -> IntArray:
+    """Triangles of ``count`` vertices, (m, 3); ValueError, or MeshError INDEX_RANGE."""
+    return indices_within("triangles", integers("triangles", value, 3), count)
 
 
 def choice(name: str, value: Any, accepted: Sequence[str]) -> str:

@@ -57,8 +57,10 @@ def fair(
         Curves of fixed vertices inside the mesh are cut: the patches on both sides end there. A fixed vertex
         without fixed neighbours is a pin: its position counts, its normal does not.
     fixed_normals : (k, 3) float
-        Normals at ``fixed``, on the side from which the triangles are counter-clockwise. Default: the average
-        of the adjacent triangle normals (§7.5), which makes the result depend on the interior.
+        Normals at ``fixed``, any length but zero, on the side from which the triangles are counter-clockwise.
+        Default: the average of the adjacent triangle normals (§7.5), which makes the result depend on the interior.
+        So do border vertices that are left out of ``fixed``: they stay fixed, and take that average.
+        :func:`fairing.surrounding_normals` gives zero where no triangle lies outside; leave these vertices out.
     reference : (n, 3) float
         The original mesh M0 of all weights but the uniform ones; default: ``vertices``.
     equation : "harmonic" | "constant" | "minimal_energy" | "minimal"
@@ -78,13 +80,16 @@ def fair(
     tolerance : float
         "global": stop when an iteration moves no vertex by more than ``tolerance`` × D. "paper": see ``epsilon``.
     max_iterations : int
-        "paper": updates of the finest mesh; coarser ones may take more.
+        "global": steps of each single iteration on one mesh. A solve consists of several: coarser levels, other
+        starts, and the engine's own mesh where the one given fails. A small number may therefore take longer; only
+        ``progress`` bounds the time. "paper": updates of the finest mesh; coarser ones may take more.
     normals : "fitted" | "averaged"
         Vertex normal behind H. "paper" always averages.
     threads : int
         0: one for each core, eight at most. The result has the same bits for every number of threads.
     progress : callable(fraction, stage) -> None | bool
-        Called every 50 ms or so, by the calling thread; returning False cancels.
+        Called every 50 ms or so, by the calling thread, with the part done (0 … 1, never less than before) and what
+        is being done. None or True goes on, False cancels; exceptions come out of the call.
     damping : float in (0, 1]
         "paper": s of §7.5, default 0.9.
     cg_steps : int
@@ -125,7 +130,7 @@ def fair(
     """
     points = _arguments.floats("vertices", vertices)
     count = points.shape[0]
-    faces = _arguments.integers("triangles", triangles, 3)
+    faces = _arguments.triangles_within(triangles, count)
     fixed_list, given_normals = _arguments.boundary(fixed, fixed_normals)
     m0 = None if reference is None else _arguments.floats("reference", reference, count)
     edges = _options.neighbour_edges(neighbours, count)

@@ -26,6 +26,6 @@ def hierarchy(
     level is the mesh itself. Errors as in :func:`fairing.fair`.
     """
     points = _arguments.floats("vertices", vertices)
-    faces = _arguments.integers("triangles", triangles, 3)
+    faces = _arguments.triangles_within(triangles, points.shape[0])
     held = None if fixed is None else _arguments.integers("fixed", fixed, None)
     return _core.hierarchy(points, faces, held, _arguments.whole("levels", levels, 0))

@@ -25,7 +25,7 @@ def mean_curvature(
     Errors as in :func:`fairing.fair`.
     """
     points = _arguments.floats("vertices", vertices)
-    faces = _arguments.integers("triangles", triangles, 3)
+    faces = _arguments.triangles_within(triangles, points.shape[0])
     held, given = _arguments.boundary(fixed, fixed_normals)
     kind = _arguments.choice("normals", normals, NORMALS)
     return _core.mean_curvature(points, faces, held, given, kind)
@@ -38,7 +38,7 @@ def vertex_normals(vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, normals
     vertices without triangles.
     """
     points = _arguments.floats("vertices", vertices)
-    faces = _arguments.integers("triangles", triangles, 3)
+    faces = _arguments.triangles_within(triangles, points.shape[0])
     return _core.vertex_normals(points, faces, _arguments.choice("normals", normals, NORMALS))
 
 
@@ -48,18 +48,18 @@ def cotan_laplacian(vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> tuple[
     S_ij = −(cot α + cot β), without ½; rows sum to zero; positive semidefinite.
     """
     points = _arguments.floats("vertices", vertices)
-    faces = _arguments.integers("triangles", triangles, 3)
-    _arguments.indices_within("triangles", faces, points.shape[0])
+    faces = _arguments.triangles_within(triangles, points.shape[0])
     return _core.cotan_laplacian(points, faces)
 
 
 def boundary_loops(triangles: npt.ArrayLike) -> list[IntArray]:
     """Closed loops of border vertices, each with the mesh on its left, starting at its smallest vertex.
 
-    Memory grows with the largest index.
+    A list of (k,) vertex indices, one for each loop; empty for a closed mesh. Where the border touches itself in a
+    vertex (a pinch), that vertex stands in the list as often as the border passes through it. ``fixed`` takes each
+    vertex once: give it ``np.unique(np.concatenate(loops))``. Memory grows with the largest index.
     """
-    faces = _arguments.integers("triangles", triangles, 3)
-    _arguments.indices_within("triangles", faces, np.iinfo(np.int32).max)  # one more is counted
+    faces = _arguments.triangles_within(triangles, np.iinfo(np.int32).max)  # one more is counted
     return _core.boundary_loops(faces)
 
 
@@ -70,8 +70,7 @@ def conformal_distortion(reference: npt.ArrayLike, vertices: npt.ArrayLike, tria
     """
     points = _arguments.floats("vertices", vertices)
     m0 = _arguments.floats("reference", reference, points.shape[0])
-    faces = _arguments.integers("triangles", triangles, 3)
-    _arguments.indices_within("triangles", faces, points.shape[0])
+    faces = _arguments.triangles_within(triangles, points.shape[0])
     return _core.conformal_distortion(m0, points, faces)
 
 
@@ -82,13 +81,19 @@ def surrounding_normals(
 
     Made for the outline of a patch: ``triangles`` are those outside it. A polynomial is fitted to the nearest
     of their vertices, a few rings wide. Returns ((k, 3) unit normals, (k,) bool); where the second is False
-    there were too few points and the normal is the average of the adjacent triangles', zero without any.
-    Triangles with a corner that is NaN or infinite are left out.
+    there were too few points and the normal is the average of the adjacent triangles'. Rows of vertices without any
+    of these triangles are zero, as along a border of the whole mesh: leave them out of ``fixed`` and ``fixed_normals``,
+    where a normal of length zero is refused. Triangles with a corner that is NaN or infinite are left out.
     """
     points = _arguments.floats("vertices", vertices)
-    faces = _arguments.integers("triangles", triangles, 3)
-    _arguments.indices_within("triangles", faces, points.shape[0])
+    faces = _arguments.triangles_within(triangles, points.shape[0])
     where = _arguments.integers("at", at, None)
     _arguments.indices_within("at", where, points.shape[0])
     bounded = faces[np.isfinite(points[faces]).all(axis=(1, 2))]
-    return _core.surrounding_normals(points, bounded, where)
+    once, place = np.unique(where, return_inverse=True)
+    if once.size == where.size:
+        return _core.surrounding_normals(points, bounded, where)
+    normals, fitted = _core.surrounding_normals(points, bounded, once.astype(np.int32))
+    repeated = normals[place]
+    repeated.setflags(write=False)
+    return repeated, fitted[place]

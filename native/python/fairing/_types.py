@@ -74,16 +74,22 @@ class FairResult:
     boundary_angle: FloatArray
     """(k',) degrees between prescribed and obtained normals, in the order of ``fixed``."""
     converged: bool
+    """Whether every component's iteration came to its end; where not, the best positions found are given."""
     polished: bool
-    """The discrete equation holds on the connectivity given."""
+    """Whether the discrete equation holds on the connectivity given. False, with ``converged``: it was solved on a mesh
+    of the engine's own, and the vertices were placed on that surface; it is as fair, but ``residual`` may be large."""
     termination: Literal["converged", "iteration_limit", "stalled"]
     iterations: int
+    """Steps of the iteration that led to the result (of the component with most), not of all that was tried."""
     residual: float
-    """Largest |Δ_B H| D³ at a free vertex (|H| D for ``equation="minimal"``)."""
+    """Largest |Δ_B H| D³ at a free vertex (|H| D for ``equation="minimal"``). Without a unit, but not without the
+    mesh: the same surface has a larger one on a finer mesh, so there is no number that is good. Compare it with
+    ``initial_residual``, and judge by ``converged``."""
     initial_residual: float
-    """The same for the fill that the solve starts from."""
+    """The same for the rough fill that the solve starts from."""
     levels: tuple[int, ...]
     """Vertex counts of the levels, coarse to fine."""
     seconds: dict[str, float]
-    """Wall-clock time of each stage and in ``"total"``."""
+    """Wall-clock time of each stage and in ``"total"``. Stages need not add up to it: attempts that were given up are
+    not listed."""
     warnings: tuple[Diagnostic, ...]
