@@ -158,14 +158,3 @@ def test_too_few_points_give_the_average() -> None:
     assert not fitted.any()
     assert np.allclose(normals[0], face_normals(vertices, triangles)[0])
     assert np.array_equal(normals[1], np.zeros(3))
-
-
-def test_a_vertex_may_be_named_twice() -> None:
-    """As a pinch is by boundary_loops; its own second copy must not count as a neighbour."""
-    vertices, triangles, equator = outside_of_a_hemisphere(200)
-    normals, fitted = fairing.surrounding_normals(vertices, triangles, np.concatenate([equator, equator[::-1]]))
-    once, _ = fairing.surrounding_normals(vertices, triangles, equator)
-    assert fitted.all()
-    assert np.abs(normals[: len(equator)] - once).max() < 1e-9
-    assert np.array_equal(normals[len(equator) :], normals[: len(equator)][::-1])
-    assert not normals.flags.writeable

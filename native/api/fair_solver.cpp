@@ -1,12 +1,37 @@
 #include "api/fair_solver.h"
 
+#include <algorithm>
+#include <cstdint>
+
 #include "api/prepared_mesh.h"
 
 namespace fairing {
 
+namespace {
+
+// Of the vertices that are named, if they are numbered without great gaps; each would take memory.
+std::optional<int> vertex_count(const MeshInput& input) {
+    constexpr std::int64_t widest_gap = 100;
+    std::int64_t last = input.triangles.size() > 0 ? input.triangles.maxCoeff() : -1;
+    std::int64_t named = input.triangles.size();
+    if (input.fixed && !input.fixed->empty()) {
+        last = std::max<std::int64_t>(last, *std::max_element(input.fixed->begin(), input.fixed->end()));
+        named += static_cast<std::int64_t>(input.fixed->size());
+    }
+    if (last >= widest_gap * (named + 1)) return std::nullopt;
+    return static_cast<int>(last + 1);
+}
+
+}  // namespace
+
 FairSolver::FairSolver(Triangles triangles, std::optional<Indices> fixed, FairOptions options)
     : input_{{}, std::move(triangles), std::move(fixed), {}},
-      options_(std::make_unique<CallOptions>(std::move(options), true)) {}
+      options_(std::make_unique<CallOptions>(std::move(options), true)) {
+    const auto count = vertex_count(input_);
+    if (!count) return;
+    input_.vertices = Points::Zero(3, *count);  // connectivity is the same for any
+    prepared_ = prepare(input_, *options_);
+}
 
 FairSolver::~FairSolver() = default;
 

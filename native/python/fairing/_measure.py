@@ -90,10 +90,4 @@ def surrounding_normals(
     where = _arguments.integers("at", at, None)
     _arguments.indices_within("at", where, points.shape[0])
     bounded = faces[np.isfinite(points[faces]).all(axis=(1, 2))]
-    once, place = np.unique(where, return_inverse=True)
-    if once.size == where.size:
-        return _core.surrounding_normals(points, bounded, where)
-    normals, fitted = _core.surrounding_normals(points, bounded, once.astype(np.int32))
-    repeated = normals[place]
-    repeated.setflags(write=False)
-    return repeated, fitted[place]
+    return _core.surrounding_normals(points, bounded, where)

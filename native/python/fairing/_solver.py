@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from fairing import _arguments, _core, _options
 from fairing._fair import Progress
-from fairing._types import FairResult, FloatArray, IntArray, MeshError
+from fairing._types import FairResult, FloatArray, IntArray
 
 _ANY_COUNT = int(np.iinfo(np.int32).max)
 _SHARED = ("equation", "load", "normals", "tolerance", "max_iterations", "threads")
@@ -17,32 +17,6 @@ _PAPER = (
     "damping", "cg_steps", "sweeps", "vertex_sweeps", "epsilon", "acceleration", "virtual_points", "start",
 )  # fmt: skip
 _CHANGEABLE = (*_SHARED, *_PAPER, "inner_fairness", "neighbours", "method", "levels")
-
-
-def _check_connectivity(triangles: IntArray, fixed: IntArray | None) -> None:
-    """Raises what fairing.fair does for any positions at all.
-
-    The engine checks connectivity first. All positions here are so large that their sum overflows, which it tells
-    as NONFINITE right after that, before anything else is done.
-    """
-    _arguments.indices_within("triangles", triangles, _ANY_COUNT)
-    if fixed is not None:
-        _arguments.indices_within("fixed", fixed, _ANY_COUNT)
-    used = triangles.ravel() if fixed is None else np.concatenate([triangles.ravel(), fixed])
-    count = 1 + int(used.max(initial=-1))
-    if count > 100 * (used.size + 1):
-        return
-    paper = _options.paper_choices("global", 0, {})
-    options = _options.engine_options(
-        equation="harmonic", load=0.0, fairness="uniform", method="global", normals="fitted",
-        tolerance=1e-6, max_iterations=1, threads=1,
-    )  # fmt: skip
-    points = np.full((count, 3), np.finfo(np.float64).max)
-    try:
-        _core.fair(points, triangles, fixed, None, None, None, None, options, paper, None)
-    except MeshError as error:
-        if error.code != "NONFINITE":
-            raise
 
 
 class Solver:
@@ -104,7 +78,6 @@ class Solver:
         self._fixed, _ = _arguments.boundary(fixed, None)
         self._options = {name: given[name] for name in _CHANGEABLE}
         self._neighbours, self._weights, options = self._checked(self._options)
-        _check_connectivity(faces, self._fixed)
         self._engine = _core.Solver(faces, self._fixed, self._neighbours, self._weights, options)
 
     def change(self, **options: Any) -> None:
