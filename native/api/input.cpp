@@ -18,12 +18,13 @@ void check_indices(const MeshInput& input) {
         const auto corners = input.triangles.col(t);
         if (corners.minCoeff() < 0 || corners.maxCoeff() >= count) offenders.push_back(t);
     }
-    if (!offenders.empty()) {
-        throw MeshError({Code::index_range,
-                         "triangle " + std::to_string(offenders.front()) + " names a vertex outside 0 … " +
-                             std::to_string(count - 1),
-                         std::move(offenders), ElementKind::triangle});
-    }
+    if (offenders.empty()) return;
+    const auto corners = input.triangles.col(offenders.front());
+    const int vertex = corners.minCoeff() < 0 ? corners.minCoeff() : corners.maxCoeff();
+    throw MeshError({Code::index_range,
+                     "triangles: row " + std::to_string(offenders.front()) + " names vertex " + std::to_string(vertex) +
+                         ", outside 0 … " + std::to_string(count - 1),
+                     std::move(offenders), ElementKind::triangle});
 }
 
 std::vector<char> mark_fixed(const MeshInput& input) {
