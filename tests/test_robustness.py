@@ -153,6 +153,24 @@ def test_windings_do_not_matter(method: str, kind: str) -> None:
         assert set(warning.elements) == set(np.flatnonzero(turned))
 
 
+@pytest.mark.parametrize("kept", [1, 2, 3])
+def test_the_winding_at_the_outline_counts(kept: int) -> None:
+    """Most of the patch is wound the other way, all but some rows along the outline, whose normals are given."""
+    patch = shapes.cap(300)
+    rows = np.isin(patch.triangles, patch.fixed).any(axis=1)
+    for _ in range(kept - 1):
+        rows = np.isin(patch.triangles, patch.triangles[rows]).any(axis=1)
+    assert 0 < rows.sum() < len(rows)
+    triangles = np.where(rows[:, None], patch.triangles, patch.triangles[:, ::-1])
+    result = fairing.fair(patch.vertices, triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals)
+    assert result.converged
+    expected = fairing.fair(patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals)
+    assert np.abs(result.vertices - expected.vertices).max() < 1e-9
+    (warning,) = result.warnings
+    assert warning.code == "INCONSISTENT_WINDING"
+    assert set(warning.elements) == set(np.flatnonzero(~rows))
+
+
 @pytest.mark.parametrize("method", ["global", "paper"])
 def test_a_moebius_strip_that_does_not_move_is_ignored(method: str) -> None:
     strip = bad_inputs.moebius_strip()

@@ -166,17 +166,35 @@ Joints join_or_take_apart(const Triangles& triangles, const EdgeTable& edges, co
     return join_triangles(triangles, edges, cut);
 }
 
-// Triangles to turn round, so that each piece follows the majority of its triangles.
-std::vector<char> minority_triangles(int count, UnionFind& orientation) {
-    Indices balance(at(count), 0);
-    for (int t = 0; t < count; ++t) {
-        const auto [root, opposite] = orientation.find(t);
-        balance[at(root)] += opposite ? -1 : 1;
+// Those that move and have an edge of the outline.
+std::vector<char> outline_triangles(const Triangles& triangles, const VertexRoles& roles) {
+    std::vector<char> marks;
+    for (const auto t : triangles.colwise()) {
+        const auto fixed = std::count_if(t.begin(), t.end(), [&](int v) { return roles.fixed[at(v)]; });
+        marks.push_back(fixed == 2 ? 1 : 0);
     }
-    std::vector<char> flipped(at(count), 0);
+    return marks;
+}
+
+// Triangles to turn round, so that each piece follows the majority of those that `vote`, of all where they are even.
+std::vector<char> minority_triangles(const std::vector<char>& vote, UnionFind& orientation) {
+    struct Balance {
+        int voters = 0;
+        int all = 0;
+        [[nodiscard]] bool reversed() const { return voters != 0 ? voters < 0 : all < 0; }
+    };
+    const auto count = static_cast<int>(vote.size());
+    std::vector<Balance> balances(vote.size());
     for (int t = 0; t < count; ++t) {
         const auto [root, opposite] = orientation.find(t);
-        flipped[at(t)] = (balance[at(root)] < 0) != opposite;
+        Balance& balance = balances[at(root)];
+        balance.all += opposite ? -1 : 1;
+        if (vote[at(t)]) balance.voters += opposite ? -1 : 1;
+    }
+    std::vector<char> flipped(vote.size(), 0);
+    for (int t = 0; t < count; ++t) {
+        const auto [root, opposite] = orientation.find(t);
+        flipped[at(t)] = balances[at(root)].reversed() != opposite;
     }
     return flipped;
 }
@@ -271,7 +289,9 @@ CutMesh cut_mesh(const Triangles& triangles, const Indices& input_triangle, cons
     mesh.input_triangle = input_triangle;
     mesh.input_vertex = std::move(fans.input_vertex);
     checkpoint();
-    mesh.flipped = minority_triangles(static_cast<int>(triangles.cols()), windings.orientation);
+    // The outline's normals are meant for the triangles there, and continue what surrounds them.
+    const std::vector<char> along_outline = outline_triangles(triangles, roles);
+    mesh.flipped = minority_triangles(along_outline, windings.orientation);
     warn_of_windings(mesh, warnings);
     mesh.triangles.resize(3, triangles.cols());
     for (int c = 0; c < 3 * triangles.cols(); ++c) mesh.triangles(c % 3, c / 3) = fans.of_corner[at(c)];

@@ -36,7 +36,8 @@ VertexRoles classify_vertices(const EdgeTable& edges, const std::vector<char>& g
 // Throws NONMANIFOLD_EDGE where more than two triangles meet at an edge whose ends the caller has not both fixed.
 std::vector<char> find_cut_edges(const Triangles& triangles, const EdgeTable& edges, const VertexRoles& roles);
 
-// Cuts, orients (the majority of triangles wins in each piece and across its curves, with a warning), numbers pieces.
+// Cuts, orients (in each piece and across its curves the majority of the moving triangles along the outline wins, with
+// a warning), numbers pieces.
 // Pieces without free vertices that can't be joined (single-sided, or pockets of two triangles on the same three
 // vertices) are taken apart. Throws NONMANIFOLD_VERTEX (several fans at a free vertex), and where something moves
 // NONMANIFOLD_EDGE (a pocket) and NOT_ORIENTABLE.
