@@ -39,6 +39,7 @@ class Task:
     mesh: MeshArrays
     matrix: Floats  # (4, 4) to world space
     free_count: int
+    key: str = ""  # the shape key that was read, as mesh_io.writable_key names it
 
 
 def read(context: bpy.types.Context, options: FairOptions) -> list[Task]:
@@ -56,12 +57,10 @@ def read(context: bpy.types.Context, options: FairOptions) -> list[Task]:
 
 def read_object(obj: bpy.types.Object, options: FairOptions) -> Task:
     """Read one object in edit mode; raises ValueError where it can't be faired."""
-    key = obj.active_shape_key
-    if key is not None and key.lock_shape:
-        raise ValueError(f"The active shape key {key.name!r} is locked")
+    key = mesh_io.writable_key(obj)
     mesh = mesh_io.read_edit_mesh(obj, options)
     matrix = np.array(obj.matrix_world, dtype=np.float64)
-    return Task(obj.name, mesh, matrix, int(np.count_nonzero(free_vertices(mesh))))
+    return Task(obj.name, mesh, matrix, int(np.count_nonzero(free_vertices(mesh))), key)
 
 
 def size(tasks: list[Task]) -> int:
@@ -93,12 +92,19 @@ def objects_in_mode(context: bpy.types.Context) -> dict[str, bpy.types.Object]:
 
 
 def is_current(context: bpy.types.Context, tasks: list[Task]) -> bool:
-    """Tell whether the objects are still in edit mode, with the vertices and faces that were read."""
+    """Tell whether the objects are still in edit mode, with the vertices, faces and shape key that were read."""
     objects = objects_in_mode(context)
     return context.mode == "EDIT_MESH" and all(
-        task.object_name in objects and mesh_io.is_unchanged(objects[task.object_name].data, task.mesh)
-        for task in tasks
+        task.object_name in objects and _is_unchanged(objects[task.object_name], task) for task in tasks
     )
+
+
+def _is_unchanged(obj: bpy.types.Object, task: Task) -> bool:
+    try:
+        same_key = mesh_io.writable_key(obj) == task.key
+    except ValueError:  # locked meanwhile
+        return False
+    return same_key and mesh_io.is_unchanged(obj.data, task.mesh)
 
 
 def write(context: bpy.types.Context, tasks: list[Task], outcomes: list[Fairing]) -> None:

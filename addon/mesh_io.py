@@ -75,6 +75,17 @@ def read_shown_mesh(obj: bpy.types.Object, options: FairOptions) -> MeshArrays:
         evaluated.to_mesh_clear()
 
 
+def writable_key(obj: bpy.types.Object) -> str:
+    """Return the name of the shape key that an object in edit mode shows; empty for the Basis, and without keys.
+
+    Raises ValueError where that key is locked.
+    """
+    key = obj.active_shape_key
+    if key is not None and key.lock_shape:
+        raise ValueError(f"The active shape key {key.name!r} is locked")
+    return "" if key is None or key == obj.data.shape_keys.reference_key else key.name
+
+
 def edit_face_count(mesh: bpy.types.Mesh) -> int:
     """Return the number of faces of a mesh in edit mode, at no cost."""
     return len(bmesh.from_edit_mesh(mesh).faces)
