@@ -24,10 +24,12 @@ class MESH_OT_fair_curvature(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Needs a mesh, in object or edit mode."""
+        """Needs a mesh that can be changed, in object or edit mode."""
         obj = context.active_object
-        return require(cls, obj is not None and obj.type == "MESH", "Make a mesh object active") and require(
-            cls, context.mode in ("OBJECT", "EDIT_MESH"), "In object or edit mode"
+        return (
+            require(cls, obj is not None and obj.type == "MESH", "Make a mesh object active")
+            and require(cls, context.mode in ("OBJECT", "EDIT_MESH"), "In object or edit mode")
+            and require(cls, mesh_io.is_editable(obj.data), "The mesh is linked from another file: make it local first")
         )
 
     def execute(self, context: bpy.types.Context) -> set[str]:

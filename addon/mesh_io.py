@@ -41,6 +41,11 @@ def _snapshot(mesh: bpy.types.Mesh) -> Iterator[bpy.types.Mesh]:
         bpy.data.meshes.remove(copy)
 
 
+def is_editable(mesh: bpy.types.Mesh) -> bool:
+    """Tell whether changes of the mesh are kept: not in one that is linked from another file, overridden or not."""
+    return bool(mesh.is_editable and mesh.override_library is None)
+
+
 def read_edit_mesh(obj: bpy.types.Object, options: FairOptions, region: str = "") -> MeshArrays:
     """Read the mesh of an object in edit mode; the patch is its selected, visible faces.
 
@@ -112,8 +117,10 @@ def is_unchanged(mesh: bpy.types.Mesh, arrays: MeshArrays) -> bool:
 def read_mesh(mesh: bpy.types.Mesh, faces: Ints, options: FairOptions) -> MeshArrays:
     """Read a mesh in object mode; the patch is those of the polygons `faces` that are visible.
 
-    Raises IndexError for a polygon that is not there, ValueError for a mesh in edit mode.
+    Raises IndexError for a polygon that is not there, ValueError for a mesh that is in edit mode or not editable.
     """
+    if not is_editable(mesh):
+        raise ValueError(f"{mesh.name} can't be edited: it is linked from another file. Make it local first")
     if mesh.is_editmode:
         raise ValueError(f"{mesh.name} is in edit mode: leave it, or use bpy.ops.mesh.fair_region")
     selected = np.zeros(len(mesh.polygons), dtype=bool)

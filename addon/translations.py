@@ -60,6 +60,9 @@ _GERMAN = {
     "No vertex is free to move: a vertex is when all its faces are selected and visible": (
         "Kein Vertex ist frei: das ist er, wenn all seine Flächen ausgewählt und sichtbar sind"
     ),
+    "The mesh is linked from another file: make it local first": (
+        "Das Netz ist aus einer anderen Datei verknüpft: zuerst lokal machen"
+    ),
     "Select faces of a mesh in edit mode": "Im Bearbeitungsmodus Flächen eines Netzes auswählen",
 }
 
