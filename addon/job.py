@@ -44,13 +44,18 @@ class Task:
 
 def read(context: bpy.types.Context, options: FairOptions) -> list[Task]:
     """Read every object in edit mode that has free vertices; raises Refused."""
+    return [task for task in read_selected(context, options) if task.free_count]
+
+
+def read_selected(context: bpy.types.Context, options: FairOptions) -> list[Task]:
+    """Read every object in edit mode that has selected faces, free vertices or not; raises Refused."""
     tasks = []
     for obj in context.objects_in_mode_unique_data:
         try:
             task = read_object(obj, options)
         except ValueError as cause:
             raise Refused(obj.name, cause) from cause
-        if task.free_count:
+        if task.mesh.in_patch.any():
             tasks.append(task)
     return tasks
 

@@ -13,8 +13,9 @@ from . import live_mesh
 from .engine import REFUSALS
 from .inspection import last_options
 from .live import live
-from .polling import SELECT_FACES, require, require_edit_mode
+from .polling import NO_FACE, SELECT_FACES, require, require_edit_mode
 from .signals import live_changed
+from .translations import translated
 
 
 class FairLive(bpy.types.PropertyGroup):
@@ -48,7 +49,7 @@ class MESH_OT_fair_live_region(bpy.types.Operator):
         options = last_options(context)
         chosen = [obj for obj in context.objects_in_mode_unique_data if obj.data.total_face_sel]
         if not chosen:
-            self.report({"ERROR"}, "No face is selected")
+            self.report({"ERROR"}, translated(NO_FACE))
             return {"CANCELLED"}
         for obj in chosen:
             try:

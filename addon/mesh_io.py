@@ -13,7 +13,7 @@ import numpy as np
 
 from .arrays import Floats, Ints, Mask
 from .options import FairOptions
-from .region import MeshArrays
+from .region import MeshArrays, free_vertices
 
 # Read and written as float32, which is what Blender stores; doubles in between.
 
@@ -151,13 +151,8 @@ def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: Fa
     corner_faces = np.repeat(np.arange(len(sizes)), sizes)
     in_patch = selected & ~_column(mesh.polygons, "hide", 1, bool)
     edges = _indices(mesh.edges, "vertices", 2)
-    pinned = np.zeros(len(mesh.vertices), dtype=bool)
-    pinned[edges[_marked_edges(mesh, options.pin_edges)]] = True
-    if group is not None:
-        touched = np.unique(corner_vertices[in_patch[corner_faces]])
-        pinned[_members(mesh, touched, group)] = True
     custom = options.boundary_normals == "CUSTOM"
-    return MeshArrays(
+    arrays = MeshArrays(
         positions=_column(mesh.vertices, "co", 3, np.float32).astype(np.float64),
         edges=edges,
         corner_vertices=corner_vertices,
@@ -166,9 +161,27 @@ def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: Fa
         triangles=_indices(mesh.loop_triangles, "vertices", 3),
         triangle_faces=_indices(mesh.loop_triangle_polygons, "value"),
         in_patch=in_patch,
-        pinned=pinned,
+        pinned=np.zeros(len(mesh.vertices), dtype=bool),
         corner_normals=_corner_normals(mesh) if custom else None,
     )
+    return _pinned(arrays, mesh, group, options)
+
+
+def _pinned(arrays: MeshArrays, mesh: bpy.types.Mesh, group: int | None, options: FairOptions) -> MeshArrays:
+    """Return the arrays with their pins, and a note on a vertex group that holds none of the vertices inside."""
+    pinned = arrays.pinned.copy()
+    pinned[arrays.edges[_marked_edges(mesh, options.pin_edges)]] = True
+    if group is None:
+        return replace(arrays, pinned=pinned)
+    touched = np.unique(arrays.corner_vertices[arrays.in_patch[arrays.corner_faces]])
+    members = _members(mesh, touched, group)
+    pinned[members] = True
+    if not len(touched) or free_vertices(arrays)[members].any():
+        return replace(arrays, pinned=pinned)
+    note = (
+        f"The pin group {options.pin_group!r} has no vertex inside the selection with a weight above 0: it pins nothing"
+    )
+    return replace(arrays, pinned=pinned, notes=(note,))
 
 
 def _corner_normals(mesh: bpy.types.Mesh) -> Floats:

@@ -15,7 +15,7 @@ import fairing
 from . import compare, job, mesh_io
 from .engine import Progress
 from .options import FairOptions
-from .polling import SELECT_FACES, require, require_edit_mode
+from .polling import NO_FACE, NO_FREE, SELECT_FACES, require, require_edit_mode
 from .preferences import background_from
 from .properties import FairProperties
 from .redo_panel import draw_options
@@ -24,6 +24,7 @@ from .report_properties import store
 from .runner import Run
 from .solve import Fairing
 from .status import hide_progress, show_progress
+from .translations import translated
 
 TICK = 0.05  # seconds between two looks at the thread
 
@@ -46,6 +47,7 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
     _timer: Any = None
     _tasks: list[job.Task]
     _options: FairOptions
+    _notes: tuple[str, ...] = ()  # on objects that there is nothing to do for
     _begin: float
 
     @classmethod
@@ -93,10 +95,16 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
         context.view_layer.update()  # a script may just have changed an object's matrix
         try:
             self._options = FairOptions.of(self)
-            self._tasks = job.read(context, self._options)
+            selected = job.read_selected(context, self._options)
+            self._tasks = [task for task in selected if task.free_count]
             if not self._tasks:
-                self.report({"INFO"}, "No vertex inside the selection is free to move")
+                self.report({"INFO"}, translated(NO_FREE if selected else NO_FACE))
                 return {"CANCELLED"}
+            self._notes = tuple(
+                f"{task.object_name} was left as it is: no vertex inside its selection is free to move"
+                for task in selected
+                if not task.free_count
+            )
             answer: set[str] = go_on(context)
             return answer
         except job.Refused as refusal:
@@ -148,7 +156,7 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
         job.write(context, self._tasks, outcomes)
         compare.remember(self._tasks, outcomes)
         named = [(task.object_name, outcome) for task, outcome in zip(self._tasks, outcomes, strict=True)]
-        report = make_report(named, self._options, time.perf_counter() - self._begin)
+        report = make_report(named, self._options, time.perf_counter() - self._begin, self._notes)
         store(context.window_manager.fairing_report, report)
         for warning in report.warnings:
             self.report({"WARNING"}, warning)

@@ -10,6 +10,7 @@ import fairing
 
 from .options import FairOptions
 from .solve import Fairing
+from .warnings_text import counted
 
 SMOOTH_ANGLE = 2.0  # degrees at the outline that the eye takes for tangent
 ANGLE = "Angle at the outline"
@@ -42,8 +43,10 @@ class Report:
     warnings: tuple[str, ...]
 
 
-def make_report(named: list[tuple[str, Fairing]], options: FairOptions, seconds: float) -> Report:
-    """Sum up the outcomes of one run, by object name; `seconds` as the user waited."""
+def make_report(
+    named: list[tuple[str, Fairing]], options: FairOptions, seconds: float, notes: tuple[str, ...] = ()
+) -> Report:
+    """Sum up the outcomes of one run, by object name; `seconds` as the user waited, `notes` on other objects."""
     outcomes = [outcome for _, outcome in named]
     results = [outcome.result for outcome in outcomes]
     sizes = [len(outcome.vertices) for outcome in outcomes]
@@ -56,7 +59,7 @@ def make_report(named: list[tuple[str, Fairing]], options: FairOptions, seconds:
         distortion=float(np.average([outcome.distortion for outcome in outcomes], weights=sizes)),
         seconds=seconds,
         checks=_checks(outcomes, options),
-        warnings=_warnings(named) + _bulge_note(named, options),
+        warnings=_warnings(named) + _bulge_note(named, options) + notes,
     )
 
 
@@ -142,7 +145,7 @@ def angle_text(degrees: float) -> str:
 def summary(report: Report) -> str:
     """Return the one line that the status bar shows."""
     state = "Faired" if report.converged else "Not converged:"
-    text = f"{state} {report.free_vertices} vertices in {report.seconds:.2f} s"
+    text = f"{state} {counted(report.free_vertices, 'vertex', 'vertices')} in {report.seconds:.2f} s"
     if all(check.name != ANGLE for check in report.checks):
         return text
     return f"{text}, largest angle at the outline {angle_text(report.boundary_angle)}"

@@ -25,7 +25,7 @@ def started(obj: bpy.types.Object, faces: Any, go_on: threading.Event) -> Any:
         modal, cancel = original.modal, original.cancel
         _collect, _apply, _refuse = original._collect, original._apply, original._refuse
         _stop_watching = original._stop_watching
-        _timer, _begin, _options = None, 0.0, options
+        _timer, _begin, _options, _notes = None, 0.0, options, ()
 
         def report(self, kinds: set[str], text: str) -> None:
             told.append((kinds, text))
