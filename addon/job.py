@@ -12,6 +12,7 @@ import numpy as np
 
 from . import mesh_io
 from .arrays import Floats
+from .context import edited_objects
 from .engine import REFUSALS, KeptSolver, Progress, sub_range
 from .memory import Memory
 from .options import FairOptions
@@ -50,7 +51,7 @@ def read(context: bpy.types.Context, options: FairOptions) -> list[Task]:
 def read_selected(context: bpy.types.Context, options: FairOptions) -> list[Task]:
     """Read every object in edit mode that has selected faces, free vertices or not; raises Refused."""
     tasks = []
-    for obj in context.objects_in_mode_unique_data:
+    for obj in edited_objects(context):
         try:
             task = read_object(obj, options)
         except ValueError as cause:
@@ -93,7 +94,7 @@ def solve(tasks: list[Task], options: FairOptions, progress: Progress, ahead: bo
 
 def objects_in_mode(context: bpy.types.Context) -> dict[str, bpy.types.Object]:
     """Return the objects in edit mode by name; undo replaces objects, so that only names last."""
-    return {obj.name: obj for obj in context.objects_in_mode_unique_data}
+    return {obj.name: obj for obj in edited_objects(context)}
 
 
 def is_current(context: bpy.types.Context, tasks: list[Task]) -> bool:
