@@ -10,6 +10,7 @@ from .arrays import Floats, Ints, Mask
 from .outline import turned_over
 from .region import MeshArrays, Patch
 from .vectors import area_vectors, sum_at, unit
+from .warnings_text import counted
 
 RINGS = 4  # of outside faces handed to the engine's fit, which uses the nearest of them
 
@@ -83,5 +84,9 @@ def prescribed_normals(mesh: MeshArrays, patch: Patch, source: str) -> tuple[Flo
     alone = int(np.count_nonzero(~found & ~mesh.pinned[fixed]))
     if alone == 0:
         return normals, ()
-    text = f"{alone} border vertices have no faces outside: their normals come from the patch"
+    text = counted(
+        alone,
+        "border vertex has no faces outside: its normal comes from the patch",
+        "border vertices have no faces outside: their normals come from the patch",
+    )
     return normals, (text,)

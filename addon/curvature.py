@@ -8,6 +8,7 @@ import numpy as np
 import fairing
 
 from . import mesh_io
+from .context import active_object
 from .options import FairOptions
 from .polling import require
 
@@ -24,15 +25,17 @@ class MESH_OT_fair_curvature(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Needs a mesh, in object or edit mode."""
-        obj = context.active_object
-        return require(cls, obj is not None and obj.type == "MESH", "Make a mesh object active") and require(
-            cls, context.mode in ("OBJECT", "EDIT_MESH"), "In object or edit mode"
+        """Needs a mesh that can be changed, in object or edit mode."""
+        obj = active_object(context)
+        return (
+            require(cls, obj is not None and obj.type == "MESH", "Make a mesh object active")
+            and require(cls, context.mode in ("OBJECT", "EDIT_MESH"), "In object or edit mode")
+            and require(cls, mesh_io.is_editable(obj.data), "The mesh is linked from another file: make it local first")
         )
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Measure and write; positions and all other layers stay."""
-        obj = context.active_object
+        obj = active_object(context)
         context.view_layer.update()
         try:
             mesh = mesh_io.read_own_mesh(obj, FairOptions())

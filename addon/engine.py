@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -85,8 +86,9 @@ class KeptSolver:
     """Solves one patch for options that change while the mesh stays, each time from the last answer."""
 
     def __init__(self, patch: Patch) -> None:
-        """Solve nothing yet."""
-        self._solver = fairing.Solver(patch.triangles, fixed=patch.fixed, neighbours=patch.neighbours)
+        """Solve nothing yet; raises fairing.MeshError where the patch can't be."""
+        with _mesh_indices(patch):
+            self._solver = fairing.Solver(patch.triangles, fixed=patch.fixed, neighbours=patch.neighbours)
 
     def __call__(self, problem: Problem, options: FairOptions, progress: Progress | None) -> fairing.FairResult:
         """Fair the patch, which must be the one given, as `solve` does; raises the same."""
@@ -117,16 +119,19 @@ class RepeatedSolve:
         self._pieces = components(patch) if self._bulges else ()
         parts = [_part(whole, piece)[0] for piece in self._pieces] or [whole]
         self._references = [part.points for part in parts]
-        self._solvers = [
-            fairing.Solver(
-                part.patch.triangles,
-                fixed=part.patch.fixed,
-                neighbours=part.patch.neighbours,
-                load=8.0 * options.bulge if self._bulges else 0.0,
+        load = 8.0 * options.bulge if self._bulges else 0.0
+        self._solvers = [self._solver(part.patch, load, options) for part in parts]
+
+    @staticmethod
+    def _solver(patch: Patch, load: float, options: FairOptions) -> fairing.Solver:
+        with _mesh_indices(patch):
+            return fairing.Solver(
+                patch.triangles,
+                fixed=patch.fixed,
+                neighbours=patch.neighbours,
+                load=load,
                 **options.engine_arguments(),
             )
-            for part in parts
-        ]
 
     def __call__(self, problem: Problem, progress: Progress | None = None) -> fairing.FairResult:
         """Fair the patch as `solve` does; raises the same. `progress` begins anew with each piece."""
@@ -149,13 +154,32 @@ class RepeatedSolve:
 
 @contextmanager
 def _mesh_indices(patch: Patch) -> Iterator[None]:
-    """Make the elements of a MeshError vertices of the whole mesh instead of the patch's."""
+    """Make the vertices that an error names, and the elements of a MeshError, those of the whole mesh."""
     try:
         yield
     except fairing.MeshError as error:
-        elements = mesh_vertices(error.diagnostic, patch).astype(np.int32)
-        diagnostic = replace(error.diagnostic, elements=elements, kind="vertex")
-        raise fairing.MeshError(diagnostic) from error
+        diagnostic = error.diagnostic
+        elements = mesh_vertices(diagnostic, patch).astype(np.int32)
+        text = _in_mesh_numbers(diagnostic.message, patch)
+        raise fairing.MeshError(replace(diagnostic, message=text, elements=elements, kind="vertex")) from error
+    except ValueError as error:
+        raise ValueError(_in_mesh_numbers(str(error), patch)) from error
+
+
+def _in_mesh_numbers(text: str, patch: Patch) -> str:
+    """Return a sentence of the engine in numbers that the mesh knows: triangles, which it doesn't, by their corners."""
+
+    def in_mesh(number: re.Match[str]) -> str:
+        return str(patch.vertices[int(number[0])])
+
+    def corners(name: re.Match[str]) -> str:
+        return "the triangle " + "–".join(str(patch.vertices[v]) for v in patch.triangles[int(name[1])])
+
+    text = re.sub(r"\brow \d+ \((vertex \d+)\)", r"\1", text)
+    text = re.sub(
+        r"\b(?:vertex|vertices|edge) \d+(?:(?:, |–)\d+)*", lambda name: re.sub(r"\d+", in_mesh, name[0]), text
+    )
+    return re.sub(r"\btriangle (\d+)", corners, text)
 
 
 def mesh_vertices(diagnostic: fairing.Diagnostic, patch: Patch) -> Ints:

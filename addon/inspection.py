@@ -12,9 +12,8 @@ import fairing
 from . import engine, job
 from .components import components
 from .options import FairOptions, option_names
+from .polling import NO_FACE, NO_FREE
 from .solve import pose
-
-NO_FREE = "No vertex is free to move: a vertex is when all its faces are selected and visible"
 
 
 @dataclass(frozen=True)
@@ -42,7 +41,7 @@ def inspect(obj: bpy.types.Object, options: FairOptions) -> Inspection:
     """Look at the selection of an object in edit mode; the engine checks it, but solves nothing."""
     faces = obj.data.total_face_sel
     if not faces:
-        return Inspection(obj.name, 0, refusal="No face is selected")
+        return Inspection(obj.name, 0, refusal=NO_FACE)
     try:
         return _inspect_task(job.read_object(obj, options), options)
     except ValueError as cause:

@@ -12,6 +12,7 @@ import numpy as np
 
 from . import mesh_io
 from .arrays import Floats
+from .context import edited_objects
 from .engine import REFUSALS, KeptSolver, Progress, sub_range
 from .memory import Memory
 from .options import FairOptions
@@ -39,29 +40,33 @@ class Task:
     mesh: MeshArrays
     matrix: Floats  # (4, 4) to world space
     free_count: int
+    key: str = ""  # the shape key that was read, as mesh_io.writable_key names it
 
 
 def read(context: bpy.types.Context, options: FairOptions) -> list[Task]:
     """Read every object in edit mode that has free vertices; raises Refused."""
+    return [task for task in read_selected(context, options) if task.free_count]
+
+
+def read_selected(context: bpy.types.Context, options: FairOptions) -> list[Task]:
+    """Read every object in edit mode that has selected faces, free vertices or not; raises Refused."""
     tasks = []
-    for obj in context.objects_in_mode_unique_data:
+    for obj in edited_objects(context):
         try:
             task = read_object(obj, options)
         except ValueError as cause:
             raise Refused(obj.name, cause) from cause
-        if task.free_count:
+        if task.mesh.in_patch.any():
             tasks.append(task)
     return tasks
 
 
 def read_object(obj: bpy.types.Object, options: FairOptions) -> Task:
     """Read one object in edit mode; raises ValueError where it can't be faired."""
-    key = obj.active_shape_key
-    if key is not None and key.lock_shape:
-        raise ValueError(f"The active shape key {key.name!r} is locked")
+    key = mesh_io.writable_key(obj)
     mesh = mesh_io.read_edit_mesh(obj, options)
     matrix = np.array(obj.matrix_world, dtype=np.float64)
-    return Task(obj.name, mesh, matrix, int(np.count_nonzero(free_vertices(mesh))))
+    return Task(obj.name, mesh, matrix, int(np.count_nonzero(free_vertices(mesh))), key)
 
 
 def size(tasks: list[Task]) -> int:
@@ -89,16 +94,23 @@ def solve(tasks: list[Task], options: FairOptions, progress: Progress, ahead: bo
 
 def objects_in_mode(context: bpy.types.Context) -> dict[str, bpy.types.Object]:
     """Return the objects in edit mode by name; undo replaces objects, so that only names last."""
-    return {obj.name: obj for obj in context.objects_in_mode_unique_data}
+    return {obj.name: obj for obj in edited_objects(context)}
 
 
 def is_current(context: bpy.types.Context, tasks: list[Task]) -> bool:
-    """Tell whether the objects are still in edit mode, with the vertices and faces that were read."""
+    """Tell whether the objects are still in edit mode, with the vertices, faces and shape key that were read."""
     objects = objects_in_mode(context)
     return context.mode == "EDIT_MESH" and all(
-        task.object_name in objects and mesh_io.is_unchanged(objects[task.object_name].data, task.mesh)
-        for task in tasks
+        task.object_name in objects and _is_unchanged(objects[task.object_name], task) for task in tasks
     )
+
+
+def _is_unchanged(obj: bpy.types.Object, task: Task) -> bool:
+    try:
+        same_key = mesh_io.writable_key(obj) == task.key
+    except ValueError:  # locked meanwhile
+        return False
+    return same_key and mesh_io.is_unchanged(obj.data, task.mesh)
 
 
 def write(context: bpy.types.Context, tasks: list[Task], outcomes: list[Fairing]) -> None:

@@ -5,6 +5,8 @@ changed, O(region), solves from the last answer and writes the free vertices. Bl
 once more after a handler that changed something, without calling handlers again; and what is written is
 remembered, so that seeing it again is no change.
 
+A region belongs to the shape key that it was made in: while another one is active, nothing is followed.
+
 Undo needs nothing of its own: the region is a function of its surroundings, so that after a step back it is
 made fair for those.
 """
@@ -70,7 +72,7 @@ class Live:
         answer = region.answer(live_mesh.positions(obj.data, region.vertices), matrix)
         if answer is None:
             raise fairing.SolverError("The region's surface did not converge")
-        live_mesh.mark_selection(obj.data, options)
+        live_mesh.mark_selection(obj.data, options, mesh_io.writable_key(obj))
         session = self.sessions[obj.data.name] = _session(obj, region)
         self._write(obj, session, answer)
 
@@ -107,11 +109,19 @@ class Live:
         return session is not None and session.seconds > SLOW
 
     def _current(self, obj: bpy.types.Object) -> Session | None:
-        """Return the session of the mesh, opened anew where its connectivity or its region has changed."""
+        """Return the session of the mesh, opened anew where its connectivity or its region has changed.
+
+        Raises ValueError, and closes the session, while the region's shape key is not the one to be written.
+        """
         mesh = obj.data
         if not live_mesh.has_region(mesh):
             self.sessions.pop(mesh.name, None)
             return None
+        try:
+            _check_key(obj)
+        except ValueError:
+            self.sessions.pop(mesh.name, None)
+            raise
         session = self.sessions.get(mesh.name)
         if session is None or not _fits(session, mesh):
             session = self.sessions[mesh.name] = _session(obj, _read(obj, live_mesh.region_options(mesh), mesh))
@@ -143,15 +153,24 @@ def _matrix(obj: bpy.types.Object) -> Floats:
 
 def _read(obj: bpy.types.Object, options: FairOptions, marked: bpy.types.Mesh | None) -> LiveRegion:
     """Read the object's mesh with its selection, or the region that is marked, as the patch."""
-    key = obj.active_shape_key
-    if key is not None and key.lock_shape:
-        raise ValueError(f"The active shape key {key.name!r} is locked")
+    mesh_io.writable_key(obj)
     if options.boundary_normals == "CUSTOM":
         raise ValueError("Custom normals along the outline can't be followed: choose Surroundings or Average")
     mesh = mesh_io.read_edit_mesh(obj, options, live_mesh.LAYER if marked is not None else "")
     if not free_vertices(mesh).any():
         raise ValueError("No vertex inside the region is free to move")
     return LiveRegion(mesh, _matrix(obj), options)
+
+
+def _check_key(obj: bpy.types.Object) -> None:
+    """Raise ValueError while another shape key is active than the one that the region was made in, or it is locked."""
+    active, own = mesh_io.writable_key(obj), live_mesh.region_key(obj.data)
+    if active != own:
+        own = f"the shape key {own!r}" if own else "the Basis"
+        raise ValueError(
+            f"Live rests while another shape key is active: its region belongs to {own}. "
+            "Go back there, or make the region anew here"
+        )
 
 
 def _session(obj: bpy.types.Object, region: LiveRegion) -> Session:

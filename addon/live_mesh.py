@@ -19,15 +19,17 @@ from .options import FairOptions
 
 LAYER = "fair_live"  # integer face attribute, not zero in the region: bmesh of Blender 4.2 has no booleans
 OPTIONS = "fair_live_options"  # custom property of the mesh: FairOptions as JSON
+KEY = "fair_live_key"  # custom property of the mesh: the shape key that the region is in; empty for the Basis
 
 
-def mark_selection(mesh: bpy.types.Mesh, options: FairOptions) -> None:
-    """Make the selected visible faces of a mesh in edit mode its region, with these options."""
+def mark_selection(mesh: bpy.types.Mesh, options: FairOptions, key: str) -> None:
+    """Make the selected visible faces of a mesh in edit mode its region, with these options, in that shape key."""
     bm = bmesh.from_edit_mesh(mesh)
     layer = bm.faces.layers.int.get(LAYER) or bm.faces.layers.int.new(LAYER)
     for face in bm.faces:
         face[layer] = int(face.select and not face.hide)
     mesh[OPTIONS] = json.dumps(asdict(options))
+    mesh[KEY] = key
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
 
 
@@ -36,6 +38,7 @@ def forget_region(mesh: bpy.types.Mesh) -> bool:
     bm = bmesh.from_edit_mesh(mesh)
     layer = bm.faces.layers.int.get(LAYER)
     mesh.pop(OPTIONS, None)
+    mesh.pop(KEY, None)
     if layer is None:
         return False
     bm.faces.layers.int.remove(layer)
@@ -61,6 +64,11 @@ def region_options(mesh: bpy.types.Mesh) -> FairOptions:
         return FairOptions(**json.loads(mesh[OPTIONS]))
     except (KeyError, TypeError, ValueError):  # none, or of another version
         return FairOptions()
+
+
+def region_key(mesh: bpy.types.Mesh) -> str:
+    """Return the name of the shape key that the region is in; empty for the Basis, and without keys."""
+    return str(mesh.get(KEY, ""))
 
 
 def region_faces(mesh: bpy.types.Mesh) -> Ints | None:

@@ -10,11 +10,13 @@ import bpy
 from bpy.props import BoolProperty
 
 from . import live_mesh
+from .context import edited_objects
 from .engine import REFUSALS
 from .inspection import last_options
 from .live import live
-from .polling import SELECT_FACES, require, require_edit_mode
+from .polling import NO_FACE, SELECT_FACES, require, require_edit_mode
 from .signals import live_changed
+from .translations import translated
 
 
 class FairLive(bpy.types.PropertyGroup):
@@ -46,9 +48,9 @@ class MESH_OT_fair_live_region(bpy.types.Operator):
         """Take the selection of every object in edit mode that has one, and turn Live on."""
         context.view_layer.update()
         options = last_options(context)
-        chosen = [obj for obj in context.objects_in_mode_unique_data if obj.data.total_face_sel]
+        chosen = [obj for obj in edited_objects(context) if obj.data.total_face_sel]
         if not chosen:
-            self.report({"ERROR"}, "No face is selected")
+            self.report({"ERROR"}, translated(NO_FACE))
             return {"CANCELLED"}
         for obj in chosen:
             try:
@@ -63,7 +65,7 @@ class MESH_OT_fair_live_region(bpy.types.Operator):
 def _require_region(operator: Any, context: bpy.types.Context) -> bool:
     return require_edit_mode(operator, context) and require(
         operator,
-        any(live_mesh.has_region(obj.data) for obj in context.objects_in_mode_unique_data),
+        any(live_mesh.has_region(obj.data) for obj in edited_objects(context)),
         "There is no live region",
     )
 
@@ -83,7 +85,7 @@ class MESH_OT_fair_live_select(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Select in face mode: the other modes would select faces between the region's vertices too."""
         context.tool_settings.mesh_select_mode = (False, False, True)
-        for obj in context.objects_in_mode_unique_data:
+        for obj in edited_objects(context):
             live_mesh.select_region(obj.data)
         return {"FINISHED"}
 
@@ -102,6 +104,6 @@ class MESH_OT_fair_live_forget(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Forget them all."""
-        for obj in context.objects_in_mode_unique_data:
+        for obj in edited_objects(context):
             live_mesh.forget_region(obj.data)
         return {"FINISHED"}

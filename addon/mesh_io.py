@@ -13,7 +13,7 @@ import numpy as np
 
 from .arrays import Floats, Ints, Mask
 from .options import FairOptions
-from .region import MeshArrays
+from .region import MeshArrays, free_vertices
 
 # Read and written as float32, which is what Blender stores; doubles in between.
 
@@ -39,6 +39,11 @@ def _snapshot(mesh: bpy.types.Mesh) -> Iterator[bpy.types.Mesh]:
         yield copy
     finally:
         bpy.data.meshes.remove(copy)
+
+
+def is_editable(mesh: bpy.types.Mesh) -> bool:
+    """Tell whether changes of the mesh are kept: not in one that is linked from another file, overridden or not."""
+    return bool(mesh.is_editable and mesh.override_library is None)
 
 
 def read_edit_mesh(obj: bpy.types.Object, options: FairOptions, region: str = "") -> MeshArrays:
@@ -75,6 +80,17 @@ def read_shown_mesh(obj: bpy.types.Object, options: FairOptions) -> MeshArrays:
         evaluated.to_mesh_clear()
 
 
+def writable_key(obj: bpy.types.Object) -> str:
+    """Return the name of the shape key that an object in edit mode shows; empty for the Basis, and without keys.
+
+    Raises ValueError where that key is locked.
+    """
+    key = obj.active_shape_key
+    if key is not None and key.lock_shape:
+        raise ValueError(f"The active shape key {key.name!r} is locked")
+    return "" if key is None or key == obj.data.shape_keys.reference_key else key.name
+
+
 def edit_face_count(mesh: bpy.types.Mesh) -> int:
     """Return the number of faces of a mesh in edit mode, at no cost."""
     return len(bmesh.from_edit_mesh(mesh).faces)
@@ -101,8 +117,10 @@ def is_unchanged(mesh: bpy.types.Mesh, arrays: MeshArrays) -> bool:
 def read_mesh(mesh: bpy.types.Mesh, faces: Ints, options: FairOptions) -> MeshArrays:
     """Read a mesh in object mode; the patch is those of the polygons `faces` that are visible.
 
-    Raises IndexError for a polygon that is not there, ValueError for a mesh in edit mode.
+    Raises IndexError for a polygon that is not there, ValueError for a mesh that is in edit mode or not editable.
     """
+    if not is_editable(mesh):
+        raise ValueError(f"{mesh.name} can't be edited: it is linked from another file. Make it local first")
     if mesh.is_editmode:
         raise ValueError(f"{mesh.name} is in edit mode: leave it, or use bpy.ops.mesh.fair_region")
     selected = np.zeros(len(mesh.polygons), dtype=bool)
@@ -133,13 +151,8 @@ def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: Fa
     corner_faces = np.repeat(np.arange(len(sizes)), sizes)
     in_patch = selected & ~_column(mesh.polygons, "hide", 1, bool)
     edges = _indices(mesh.edges, "vertices", 2)
-    pinned = np.zeros(len(mesh.vertices), dtype=bool)
-    pinned[edges[_marked_edges(mesh, options.pin_edges)]] = True
-    if group is not None:
-        touched = np.unique(corner_vertices[in_patch[corner_faces]])
-        pinned[_members(mesh, touched, group)] = True
     custom = options.boundary_normals == "CUSTOM"
-    return MeshArrays(
+    arrays = MeshArrays(
         positions=_column(mesh.vertices, "co", 3, np.float32).astype(np.float64),
         edges=edges,
         corner_vertices=corner_vertices,
@@ -148,9 +161,27 @@ def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: Fa
         triangles=_indices(mesh.loop_triangles, "vertices", 3),
         triangle_faces=_indices(mesh.loop_triangle_polygons, "value"),
         in_patch=in_patch,
-        pinned=pinned,
+        pinned=np.zeros(len(mesh.vertices), dtype=bool),
         corner_normals=_corner_normals(mesh) if custom else None,
     )
+    return _pinned(arrays, mesh, group, options)
+
+
+def _pinned(arrays: MeshArrays, mesh: bpy.types.Mesh, group: int | None, options: FairOptions) -> MeshArrays:
+    """Return the arrays with their pins, and a note on a vertex group that holds none of the vertices inside."""
+    pinned = arrays.pinned.copy()
+    pinned[arrays.edges[_marked_edges(mesh, options.pin_edges)]] = True
+    if group is None:
+        return replace(arrays, pinned=pinned)
+    touched = np.unique(arrays.corner_vertices[arrays.in_patch[arrays.corner_faces]])
+    members = _members(mesh, touched, group)
+    pinned[members] = True
+    if not len(touched) or free_vertices(arrays)[members].any():
+        return replace(arrays, pinned=pinned)
+    note = (
+        f"The pin group {options.pin_group!r} has no vertex inside the selection with a weight above 0: it pins nothing"
+    )
+    return replace(arrays, pinned=pinned, notes=(note,))
 
 
 def _corner_normals(mesh: bpy.types.Mesh) -> Floats:

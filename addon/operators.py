@@ -1,4 +1,4 @@
-"""The operator: at once for small patches and scripts, in the background for large ones.
+"""The operator: at once for scripts and where it takes but a moment, else in the background.
 
 What it does is in job.py and solve.py, the thread in runner.py.
 """
@@ -15,7 +15,7 @@ import fairing
 from . import compare, job, mesh_io
 from .engine import Progress
 from .options import FairOptions
-from .polling import SELECT_FACES, require, require_edit_mode
+from .polling import NO_FACE, NO_FREE, SELECT_FACES, require, require_edit_mode
 from .preferences import background_from
 from .properties import FairProperties
 from .redo_panel import draw_options
@@ -24,14 +24,21 @@ from .report_properties import store
 from .runner import Run
 from .solve import Fairing
 from .status import hide_progress, show_progress
+from .translations import translated
 
 TICK = 0.05  # seconds between two looks at the thread
+MOMENT = 0.3  # seconds that Blender may stand still for an answer
 
 # Looking around does no harm while the engine works; all else would.
 _VIEW_EVENTS = {
     "MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "MOUSEROTATE",
     "NUMPAD_1", "NUMPAD_3", "NUMPAD_5", "NUMPAD_7", "NUMPAD_PERIOD", "NDOF_MOTION",
 }  # fmt: skip
+
+
+def _has_events(context: bpy.types.Context) -> bool:
+    """Tell whether there is a window whose events could watch a run."""
+    return not bpy.app.background and context.window is not None
 
 
 class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
@@ -46,6 +53,7 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
     _timer: Any = None
     _tasks: list[job.Task]
     _options: FairOptions
+    _notes: tuple[str, ...] = ()  # on objects that there is nothing to do for
     _begin: float
 
     @classmethod
@@ -66,7 +74,7 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
         return self._begin_with(context, self._solve_at_once)
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        """Fair in the background where that takes long enough to be noticed."""
+        """Fair in the background where that takes long enough to be noticed: by the size, or as it turns out."""
         return self._begin_with(context, self._solve_or_start)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -93,24 +101,30 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
         context.view_layer.update()  # a script may just have changed an object's matrix
         try:
             self._options = FairOptions.of(self)
-            self._tasks = job.read(context, self._options)
+            selected = job.read_selected(context, self._options)
+            self._tasks = [task for task in selected if task.free_count]
             if not self._tasks:
-                self.report({"INFO"}, "No vertex inside the selection is free to move")
+                self.report({"INFO"}, translated(NO_FREE if selected else NO_FACE))
                 return {"CANCELLED"}
+            self._notes = tuple(
+                f"{task.object_name} was left as it is: no vertex inside its selection is free to move"
+                for task in selected
+                if not task.free_count
+            )
             answer: set[str] = go_on(context)
             return answer
         except job.Refused as refusal:
             return self._refuse(context, refusal)
 
     def _solve_or_start(self, context: bpy.types.Context) -> set[str]:
-        if bpy.app.background or job.size(self._tasks) < background_from(context):
+        if not _has_events(context):
             return self._solve_at_once(context)
-        manager = context.window_manager
-        self._run = Run(partial(job.solve, self._tasks, self._options, ahead=True))
-        self._timer = manager.event_timer_add(TICK, window=context.window)
-        manager.progress_begin(0.0, 1.0)
-        manager.modal_handler_add(self)
-        show_progress(context, 0.0, "")
+        # The size tells the least time only: a selection without a fair surface may be searched for minutes.
+        large = job.size(self._tasks) >= background_from(context)
+        self._run = Run(partial(job.solve, self._tasks, self._options, ahead=large))
+        if not large and self._run.wait(MOMENT):
+            return self._apply(context, self._run.result())
+        self._start_watching(context)
         return {"RUNNING_MODAL"}
 
     def _solve_at_once(self, context: bpy.types.Context) -> set[str]:
@@ -137,6 +151,13 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
             return {"CANCELLED"}
         return self._apply(context, outcomes)
 
+    def _start_watching(self, context: bpy.types.Context) -> None:
+        manager = context.window_manager
+        self._timer = manager.event_timer_add(TICK, window=context.window)
+        manager.progress_begin(0.0, 1.0)
+        manager.modal_handler_add(self)
+        show_progress(context, 0.0, "")
+
     def _stop_watching(self, context: bpy.types.Context) -> None:
         if self._timer is not None:
             context.window_manager.event_timer_remove(self._timer)
@@ -148,7 +169,7 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
         job.write(context, self._tasks, outcomes)
         compare.remember(self._tasks, outcomes)
         named = [(task.object_name, outcome) for task, outcome in zip(self._tasks, outcomes, strict=True)]
-        report = make_report(named, self._options, time.perf_counter() - self._begin)
+        report = make_report(named, self._options, time.perf_counter() - self._begin, self._notes)
         store(context.window_manager.fairing_report, report)
         for warning in report.warnings:
             self.report({"WARNING"}, warning)

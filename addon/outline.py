@@ -9,6 +9,7 @@ import numpy as np
 from .arrays import Floats, Ints, Mask
 from .region import MeshArrays, fins, vertices_of
 from .vectors import area_vectors, sum_at, unit
+from .warnings_text import counted
 
 SHARP = 60.0  # degrees between two faces at the outline that are worth telling
 COARSE = 1e-3  # of an edge: steps between neighbouring coordinates that are worth telling
@@ -92,7 +93,8 @@ def _winding_note(sides: Sides) -> str:
     count = int(np.count_nonzero(sides.alike))
     if not count:
         return ""
-    return f"The faces on both sides of {count} outline edges are wound against each other: recalculate normals"
+    edges = counted(count, "outline edge", "outline edges")
+    return f"The faces on both sides of {edges} are wound against each other: recalculate normals"
 
 
 def _folded_note(mesh: MeshArrays, outline: Mask) -> str:
@@ -114,7 +116,11 @@ def _lone_face_note(mesh: MeshArrays, outline: Mask) -> str:
     alone = int(np.count_nonzero((touching == sizes) & ~mesh.in_patch & (sizes > 0)))
     if not alone:
         return ""
-    return f"{alone} single faces are left out of the selection: the surface is tangent to each of them"
+    return counted(
+        alone,
+        "single face is left out of the selection: the surface is tangent to it",
+        "single faces are left out of the selection: the surface is tangent to each of them",
+    )
 
 
 def _seam_note(mesh: MeshArrays) -> str:
@@ -126,14 +132,23 @@ def _seam_note(mesh: MeshArrays) -> str:
     doubled = len(places) - len(np.unique(places, axis=0))
     if not doubled:
         return ""
-    return f"{doubled} vertices of an open seam lie on others and stay where they are: use Merge by Distance first"
+    held = counted(
+        doubled,
+        "vertex of an open seam lies on another and stays where it is",
+        "vertices of an open seam lie on others and stay where they are",
+    )
+    return f"{held}: use Merge by Distance first"
 
 
 def _fin_note(mesh: MeshArrays) -> str:
     count = int(np.count_nonzero(fins(mesh)))
     if not count:
         return ""
-    return f"{count} faces stand on edges with more than two faces and were left out"
+    return counted(
+        count,
+        "face stands on an edge with more than two faces and was left out",
+        "faces stand on edges with more than two faces and were left out",
+    )
 
 
 def precision_note(mesh: MeshArrays) -> str:

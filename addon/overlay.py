@@ -13,6 +13,7 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 
 from . import mesh_io, signals
+from .context import active_object, edited_objects
 from .handlers import call_later, call_off, listen, unlisten
 from .options import FairOptions
 from .overlay_data import Surface, make_surface
@@ -76,8 +77,8 @@ overlay = Overlay()
 
 def _shown(context: bpy.types.Context) -> list[bpy.types.Object]:
     if context.mode == "EDIT_MESH":
-        return list(context.objects_in_mode_unique_data)
-    obj = context.active_object
+        return edited_objects(context)
+    obj = active_object(context)
     return [obj] if obj is not None and obj.type == "MESH" else []
 
 

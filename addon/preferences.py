@@ -18,7 +18,8 @@ class FairPreferences(bpy.types.AddonPreferences):
 
     background_from: IntProperty(
         name="In the Background From",
-        description="Selections with so many free vertices are faired in the background, with progress and Esc",
+        description="Selections with so many free vertices are faired in the background from the start, with progress "
+        "and Esc; smaller ones as soon as they take longer than a moment",
         default=BACKGROUND_FROM,
         min=0,
         soft_max=100_000,

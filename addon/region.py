@@ -28,6 +28,7 @@ class MeshArrays:
     corner_normals: Floats | None = None  # (c, 3), where they were asked for
     mirrored: bool = False  # the corners go clockwise, seen from outside
     mirror_x: bool = False  # the mesh asks for symmetric results
+    notes: tuple[str, ...] = ()  # what turned out odd when it was read
 
     def transformed(self, matrix: Floats) -> MeshArrays:
         """Return the mesh under a 4×4 affine map, wound so that outside stays outside.

@@ -10,8 +10,10 @@ import fairing
 
 from .options import FairOptions
 from .solve import Fairing
+from .warnings_text import counted
 
 SMOOTH_ANGLE = 2.0  # degrees at the outline that the eye takes for tangent
+ANGLE = "Angle at the outline"
 CURVATURE_SLACK = 1.01  # of the outline's largest |H|: discretisation
 
 MET, MISSED, TOLD = "MET", "MISSED", "TOLD"
@@ -41,8 +43,10 @@ class Report:
     warnings: tuple[str, ...]
 
 
-def make_report(named: list[tuple[str, Fairing]], options: FairOptions, seconds: float) -> Report:
-    """Sum up the outcomes of one run, by object name; `seconds` as the user waited."""
+def make_report(
+    named: list[tuple[str, Fairing]], options: FairOptions, seconds: float, notes: tuple[str, ...] = ()
+) -> Report:
+    """Sum up the outcomes of one run, by object name; `seconds` as the user waited, `notes` on other objects."""
     outcomes = [outcome for _, outcome in named]
     results = [outcome.result for outcome in outcomes]
     sizes = [len(outcome.vertices) for outcome in outcomes]
@@ -55,7 +59,7 @@ def make_report(named: list[tuple[str, Fairing]], options: FairOptions, seconds:
         distortion=float(np.average([outcome.distortion for outcome in outcomes], weights=sizes)),
         seconds=seconds,
         checks=_checks(outcomes, options),
-        warnings=_warnings(named) + _bulge_note(named, options),
+        warnings=_warnings(named) + _bulge_note(named, options) + notes,
     )
 
 
@@ -80,9 +84,10 @@ def _state(met: bool) -> str:
 
 def _checks(outcomes: list[Fairing], options: FairOptions) -> tuple[Check, ...]:
     results = [outcome.result for outcome in outcomes]
+    widest = max(float(result.boundary_angle.max(initial=0.0)) for result in results)
     return (
         Check("Equation solved", _endings(outcomes), _state(all(result.converged for result in results))),
-        _angle_check(max(float(result.boundary_angle.max(initial=0.0)) for result in results), options),
+        *((_angle_check(widest),) if options.equation != "MINIMAL" else ()),  # a soap film promises positions only
         _curvature_check(outcomes, options),
         Check("Residual", _residual_text(max(results, key=lambda result: result.residual)), TOLD),
         _count_check("Flipped triangles", [(o.before.flipped, o.after.flipped) for o in outcomes]),
@@ -105,10 +110,8 @@ def _residual_text(result: fairing.FairResult) -> str:
     return f"{result.initial_residual:.0e} → {result.residual:.0e}"
 
 
-def _angle_check(degrees: float, options: FairOptions) -> Check:
-    if options.equation == "MINIMAL":  # promises positions only
-        return Check("Angle at the outline", angle_text(degrees), TOLD)
-    return Check("Angle at the outline", angle_text(degrees), _state(degrees <= SMOOTH_ANGLE))
+def _angle_check(degrees: float) -> Check:
+    return Check(ANGLE, angle_text(degrees), _state(degrees <= SMOOTH_ANGLE))
 
 
 def _curvature_check(outcomes: list[Fairing], options: FairOptions) -> Check:
@@ -130,14 +133,19 @@ def _count_check(name: str, counts: list[tuple[int | None, int | None]]) -> Chec
 
 
 def angle_text(degrees: float) -> str:
-    """Return an angle with two digits that count."""
-    return f"{degrees:.2g}°" if degrees < 10.0 else f"{degrees:.0f}°"
+    """Return an angle with two digits that count, and with more where it would look like the limit that it misses."""
+    if degrees >= 10.0:
+        return f"{degrees:.0f}°"
+    digits = 2
+    while degrees > SMOOTH_ANGLE >= float(f"{degrees:.{digits}g}"):
+        digits += 1
+    return f"{degrees:.{digits}g}°"
 
 
 def summary(report: Report) -> str:
     """Return the one line that the status bar shows."""
     state = "Faired" if report.converged else "Not converged:"
-    return (
-        f"{state} {report.free_vertices} vertices in {report.seconds:.2f} s, "
-        f"largest angle at the outline {angle_text(report.boundary_angle)}"
-    )
+    text = f"{state} {counted(report.free_vertices, 'vertex', 'vertices')} in {report.seconds:.2f} s"
+    if all(check.name != ANGLE for check in report.checks):
+        return text
+    return f"{text}, largest angle at the outline {angle_text(report.boundary_angle)}"

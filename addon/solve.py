@@ -19,6 +19,7 @@ from .outline import outline_notes, precision_note
 from .quality import Quality
 from .region import MeshArrays, Patch, make_patch
 from .symmetry import mirror_map, symmetrised
+from .warnings_text import sentences
 
 
 @dataclass(frozen=True)
@@ -89,7 +90,7 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
         patch = make_patch(world, even=options.inner_fairness != "CONFORMAL")
         normals, warnings = prescribed_normals(world, patch, options.boundary_normals)
         precision = precision_note(mesh)
-        notes = outline_notes(world) + ((precision,) if precision else ())
+        notes = outline_notes(world) + ((precision,) if precision else ()) + mesh.notes
     return engine.Problem(patch, world.positions[patch.vertices], normals), warnings + notes
 
 
@@ -112,8 +113,7 @@ def _solve_again(
 
 
 def _solved(problem: engine.Problem, result: fairing.FairResult, warnings: tuple[str, ...]) -> Solved:
-    texts = tuple(str(diagnostic) for diagnostic in result.warnings)
-    return Solved(problem, result, warnings + texts)
+    return Solved(problem, result, warnings + sentences(result.warnings))
 
 
 def _finish(mesh: MeshArrays, matrix: Floats, factor: float, solved: Solved) -> Fairing:

@@ -56,9 +56,14 @@ _GERMAN = {
     "Show Quality": "Qualität anzeigen",
     "Stripes": "Streifen",
     "Direction": "Richtung",
-    "No face is selected": "Keine Fläche ausgewählt",
-    "No vertex is free to move: a vertex is when all its faces are selected and visible": (
-        "Kein Vertex ist frei: das ist er, wenn all seine Flächen ausgewählt und sichtbar sind"
+    "No face is selected: select the faces to be faired; vertices or edges alone don't count": (
+        "Keine Fläche ausgewählt: die zu glättenden Flächen auswählen; Vertices oder Kanten allein zählen nicht"
+    ),
+    "No vertex is free to move: a vertex is when all its faces are selected and visible, and it is not pinned": (
+        "Kein Vertex ist frei: das ist er, wenn all seine Flächen ausgewählt und sichtbar sind und er nicht fixiert ist"
+    ),
+    "The mesh is linked from another file: make it local first": (
+        "Das Netz ist aus einer anderen Datei verknüpft: zuerst lokal machen"
     ),
     "Select faces of a mesh in edit mode": "Im Bearbeitungsmodus Flächen eines Netzes auswählen",
 }

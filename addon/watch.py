@@ -10,6 +10,7 @@ import time
 
 import bpy
 
+from .context import edited_objects
 from .handlers import call_later, call_off, listen, unlisten
 from .inspection import Inspection, inspect, last_options
 from .mesh_io import edit_face_count
@@ -31,7 +32,7 @@ class Watch:
     def look(self, context: bpy.types.Context) -> None:
         """Inspect every object in edit mode now."""
         options = last_options(context)
-        self.found = tuple(inspect(obj, options) for obj in context.objects_in_mode_unique_data)
+        self.found = tuple(inspect(obj, options) for obj in edited_objects(context))
         self.stale = False
 
     def forget(self) -> None:
@@ -44,7 +45,7 @@ watch = Watch()
 
 def is_large(context: bpy.types.Context) -> bool:
     """Tell whether a look would be felt."""
-    faces = sum(edit_face_count(obj.data) for obj in context.objects_in_mode_unique_data)
+    faces = sum(edit_face_count(obj.data) for obj in edited_objects(context))
     return bool(faces > inspect_up_to(context))
 
 

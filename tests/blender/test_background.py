@@ -127,6 +127,22 @@ def test_a_mesh_that_changed_meanwhile_is_noticed() -> None:
     assert not job.is_current(bpy.context, tasks)
 
 
+def test_another_shape_key_is_noticed() -> None:
+    """Of the same shape even: what was computed for the Basis must not end up in a key."""
+    job = module("job")
+    obj, faces = meshes.domed_grid()
+    for name in ("Basis", "Smile"):
+        obj.shape_key_add(name=name, from_mix=False)
+    obj.active_shape_key_index = 0
+    tasks, _ = tasks_of(obj, faces)
+    assert job.is_current(bpy.context, tasks)
+    obj.data.shape_keys.key_blocks["Basis"].lock_shape = True
+    assert not job.is_current(bpy.context, tasks)
+    obj.data.shape_keys.key_blocks["Basis"].lock_shape = False
+    obj.active_shape_key_index = 1
+    assert not job.is_current(bpy.context, tasks)
+
+
 def test_scripts_run_at_once_whatever_the_size() -> None:
     obj, faces = meshes.domed_grid()
     preferences = bpy.context.preferences.addons[module().__name__].preferences

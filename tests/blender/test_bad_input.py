@@ -88,7 +88,7 @@ def test_a_fin_on_the_outline_changes_nothing() -> None:
     spoiled.raise_fin(obj, (0.625, 0.75))
     with_fin = np.append(faces, True)
     text = solved(obj, with_fin, np.append(meshes.free_vertices(clean, faces), False))
-    assert "1 faces stand on edges with more than two faces" in text
+    assert "1 face stands on an edge with more than two faces" in text
     np.testing.assert_allclose(meshes.positions(obj)[:-1], meshes.positions(clean), atol=1e-6)
 
 

@@ -131,6 +131,31 @@ def test_fair_mesh_keeps_every_other_bit() -> None:
     assert meshes.contents(obj)["POINT position"] == after["POINT position"]
 
 
+@pytest.mark.parametrize("named", [False, True])
+def test_operator_without_a_window(named: bool) -> None:
+    """In a context that a script has put together; Blender names no objects there by itself."""
+    expected, faces = meshes.domed_grid()
+    other, _ = meshes.domed_grid()
+    obj, _ = meshes.domed_grid()
+    twin = bpy.data.objects.new("Twin", obj.data)
+    bpy.context.collection.objects.link(twin)
+    meshes.fair(expected, faces)
+    for chosen in (obj, other):
+        meshes.select(chosen, faces)
+    before = meshes.positions(other)
+    meshes.edit(obj, other, twin)
+    keywords = {"objects_in_mode": [obj, twin]} if named else {}
+    with bpy.context.temp_override(window=None, area=None, region=None, edit_object=obj, **keywords):
+        assert bpy.ops.mesh.fair_region.poll()
+        assert bpy.ops.mesh.fair_region() == {"FINISHED"}
+        assert not bpy.ops.mesh.fair_curvature.poll()  # not even an active object
+        with pytest.raises(RuntimeError, match="pin_group"):
+            bpy.ops.mesh.fair_region(pin_group="Missing")
+    meshes.leave()
+    assert meshes.positions(obj).tobytes() == meshes.positions(expected).tobytes()
+    assert meshes.positions(other).tobytes() == before.tobytes()
+
+
 def test_fair_mesh_refuses() -> None:
     from bl_ext.user_default.intrinsic_fairing import fair_mesh
 

@@ -283,6 +283,69 @@ def test_a_slow_answer_waits_for_the_end_of_the_drag(live: Any, monkeypatch: pyt
     assert_fair(faces)
 
 
+def with_keys() -> tuple[bpy.types.Object, Any]:
+    """Add a bumpy grid in edit mode with a live region in its Basis, and another key of the very same shape."""
+    obj = meshes.grid(16)
+    points = meshes.positions(obj)
+    points[:, 2] = 0.3 * np.cos(2.0 * points[:, 0]) * np.cos(1.5 * points[:, 1])
+    meshes.move(obj, points)
+    for name in ("Basis", "Smile"):
+        obj.shape_key_add(name=name, from_mix=False)
+    obj.active_shape_key_index = 0
+    meshes.select(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6))
+    meshes.edit(obj)
+    smile = obj.data.shape_keys.key_blocks["Smile"]
+    points[:, 2] += 0.2 * np.cos(5.0 * points[:, 0])
+    smile.data.foreach_set("co", points.astype(np.float32).ravel())
+    assert bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True) == {"FINISHED"}
+    return obj, smile
+
+
+@pytest.mark.parametrize("locked", [False, True])
+def test_another_shape_key_is_never_written(live: Any, locked: bool) -> None:
+    obj, smile = with_keys()
+    smile.lock_shape = locked
+    basis = now()
+    obj.active_shape_key_index = 1
+    shown = now()
+    bpy.context.view_layer.update()
+    drag([], (0.0, 0.0, 0.0))
+    assert np.array_equal(now(), shown)
+    assert ("locked" if locked else "belongs to the Basis") in live.message
+    assert live.sessions == {}
+    drag(flank(shown), (0.0, 0.0, 0.05))
+    assert set(np.flatnonzero(np.abs(now() - shown).max(axis=1))) == set(flank(shown))
+    obj.active_shape_key_index = 0  # and back: it goes on
+    np.testing.assert_allclose(now(), basis, atol=1e-6)
+    drag(flank(basis), (0.0, 0.0, 0.05))
+    assert live.message == ""
+    assert np.abs(now() - basis).max(axis=1)[middle_of(basis)].max() > 1e-3
+
+
+def middle_of(points: Any) -> Any:
+    """The grid's vertices well inside the region."""
+    return np.abs(points[:, :2]).max(axis=1) < 0.4
+
+
+def test_a_key_that_gets_locked_is_left_alone(live: Any) -> None:
+    obj, _ = with_keys()
+    before = now()
+    obj.data.shape_keys.key_blocks["Basis"].lock_shape = True
+    drag(flank(before), (0.0, 0.0, 0.05))
+    assert set(np.flatnonzero(np.abs(now() - before).max(axis=1))) == set(flank(before))
+    assert "locked" in live.message
+
+
+def test_a_region_can_be_in_any_key(live: Any) -> None:
+    obj, _ = with_keys()
+    obj.active_shape_key_index = 1
+    assert bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True) == {"FINISHED"}
+    before = now()
+    drag(flank(before), (0.0, 0.0, 0.05))
+    assert live.message == ""
+    assert np.abs(now() - before).max(axis=1)[middle_of(before)].max() > 1e-3
+
+
 def test_scale_of_the_object_counts(live: Any) -> None:
     obj, faces = table_mountain()
     before = now()
@@ -349,6 +412,7 @@ def test_forgetting_leaves_no_trace(live: Any) -> None:
     meshes.leave()
     assert module("live_mesh").LAYER not in obj.data.attributes
     assert module("live_mesh").OPTIONS not in obj.data
+    assert module("live_mesh").KEY not in obj.data
     meshes.edit(obj)
     assert not bpy.ops.mesh.fair_live_forget.poll()
     assert not bpy.ops.mesh.fair_live_select.poll()

@@ -25,7 +25,7 @@ def started(obj: bpy.types.Object, faces: Any, go_on: threading.Event) -> Any:
         modal, cancel = original.modal, original.cancel
         _collect, _apply, _refuse = original._collect, original._apply, original._refuse
         _stop_watching = original._stop_watching
-        _timer, _begin, _options = None, 0.0, options
+        _timer, _begin, _options, _notes = None, 0.0, options, ()
 
         def report(self, kinds: set[str], text: str) -> None:
             told.append((kinds, text))
@@ -66,6 +66,60 @@ def test_escape_leaves_every_bit(go_on: threading.Event) -> None:
     assert operator._run.wait(10.0)
     meshes.leave()
     assert meshes.contents(obj) == before
+
+
+@pytest.mark.parametrize("quick", [True, False])
+def test_few_vertices_go_to_the_background_when_they_take_long(
+    quick: bool, go_on: threading.Event, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A selection without a fair surface keeps the engine busy however small it is."""
+    job, operators = module("job"), module("operators")
+    scripted, faces = meshes.domed_grid()
+    meshes.fair(scripted, faces)
+    obj, _ = meshes.domed_grid()
+    job.memory.clear()
+    original, solve = operators.MESH_OT_fair_region, job.solve
+    ahead: list[bool] = []
+    watched: list[Any] = []
+
+    def slow(*arguments: Any, **rest: Any) -> Any:
+        ahead.append(rest["ahead"])
+        assert quick or go_on.wait(10.0)
+        return solve(*arguments, **rest)
+
+    class Stand:
+        invoke, _begin_with, _solve_or_start = original.invoke, original._begin_with, original._solve_or_start
+        modal, cancel, _collect, _apply = original.modal, original.cancel, original._collect, original._apply
+        _stop_watching, _refuse, _timer = original._stop_watching, original._refuse, None
+
+        def _start_watching(self, _context: Any) -> None:
+            watched.append(self)
+
+        def report(self, _kinds: set[str], _text: str) -> None:
+            pass
+
+    operator: Any = Stand()
+    options = module("options")
+    for name in options.option_names():
+        setattr(operator, name, getattr(options.FairOptions(), name))
+    monkeypatch.setattr(operators.job, "solve", slow)
+    monkeypatch.setattr(operators, "_has_events", lambda _context: True)
+    monkeypatch.setattr(operators, "MOMENT", 10.0 if quick else 0.01)
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    status = operator.invoke(bpy.context, event("LEFTMOUSE"))
+    if not quick:
+        assert (status, watched) == ({"RUNNING_MODAL"}, [operator])
+        assert operator.modal(bpy.context, event("TIMER")) == {"RUNNING_MODAL"}
+        assert bpy.context.window_manager.fairing_progress.running
+        go_on.set()
+        assert operator._run.wait(10.0)
+        status = operator.modal(bpy.context, event("TIMER"))
+    assert status == {"FINISHED"}
+    assert watched == ([] if quick else [operator])
+    assert ahead == [False]
+    meshes.leave()
+    assert meshes.positions(obj).tobytes() == meshes.positions(scripted).tobytes()
 
 
 def test_only_looking_around_passes_through(go_on: threading.Event) -> None:

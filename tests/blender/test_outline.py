@@ -55,7 +55,7 @@ def test_hole_of_a_single_face() -> None:
     obj = meshes.grid(9)
     hole = meshes.faces_where(obj, lambda c: c.length < 0.05)
     assert hole.sum() == 1
-    assert "1 single faces" in warnings_of(obj, centre(obj) & ~hole)
+    assert "1 single face is left out" in warnings_of(obj, centre(obj) & ~hole)
 
 
 def flip_lower_half(obj: bpy.types.Object) -> None:

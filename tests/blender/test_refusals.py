@@ -84,6 +84,68 @@ def test_mesh_error_selects_its_vertices() -> None:
     assert selected == np.flatnonzero(np.isnan(points).any(axis=1)).tolist()
 
 
+def join_fans(obj: bpy.types.Object) -> tuple[int, ...]:
+    """Stand a double fan on a vertex in the middle: two fans meet there."""
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    foot = min(bm.verts, key=lambda v: v.co.xy.length)
+    ring = [bm.verts.new((x, y, 1.0)) for x, y in ((0.1, 0.0), (0.0, 0.1), (-0.1, 0.0), (0.0, -0.1))]
+    for a, b in zip(ring, ring[1:] + ring[:1], strict=True):
+        bm.faces.new((foot, a, b))
+    bm.verts.index_update()
+    named = (foot.index,)
+    bm.to_mesh(obj.data)
+    bm.free()
+    return named
+
+
+def spoil_middle(obj: bpy.types.Object) -> tuple[int, ...]:
+    add_nan(obj)
+    return tuple(np.flatnonzero(np.isnan(meshes.positions(obj)).any(axis=1)).tolist())
+
+
+# By name, for the reason that test_panel.py gives for its SPOILERS.
+NAMERS = {"NONFINITE: vertex": spoil_middle, "NONMANIFOLD_VERTEX: free vertex": join_fans}
+
+
+@pytest.mark.parametrize("ahead", [False, True])
+@pytest.mark.parametrize("text", sorted(NAMERS))
+def test_messages_name_the_meshs_vertices(text: str, ahead: bool) -> None:
+    job, options = module("job"), module("options").FairOptions()
+    obj, _ = meshes.domed_grid()
+    (vertex,) = NAMERS[text](obj)
+    faces = meshes.faces_where(obj, lambda c: not max(abs(c.x), abs(c.y)) >= 0.7)
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    with pytest.raises(job.Refused, match=f"{text} {vertex} ") as refusal:
+        job.solve(job.read(bpy.context, options), options, lambda *_: True, ahead=ahead)
+    assert refusal.value.cause.elements.tolist() == [vertex]
+
+
+def test_every_form_of_numbers_is_the_meshs() -> None:
+    """As the engine's messages have them: vertices one or several, edges, triangles, rows of an argument."""
+    engine = module("engine")
+    obj, faces = meshes.domed_grid()
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    options = module("options").FairOptions()
+    (task,) = module("job").read(bpy.context, options)
+    patch = module("region").make_patch(task.mesh)
+    a, b, c = patch.vertices[[1, 2, 3]]
+    corners = "–".join(map(str, patch.vertices[patch.triangles[7]]))
+    for text, expected in {
+        "free vertex 1 (and 3 more) joins": f"free vertex {a} (and 3 more) joins",
+        "vertices 1, 2, 3: delete one": f"vertices {a}, {b}, {c}: delete one",
+        "at the edge 1–2: delete": f"at the edge {a}–{b}: delete",
+        "through triangle 7: cut": f"through the triangle {corners}: cut",
+        "fixed_normals: row 5 (vertex 1) has": f"fixed_normals: vertex {a} has",
+        "turn by up to 30° from one vertex to the next": "turn by up to 30° from one vertex to the next",
+    }.items():
+        with pytest.raises(ValueError) as caught, engine._mesh_indices(patch):
+            raise ValueError(text)
+        assert str(caught.value) == expected
+
+
 def test_edge_with_four_faces() -> None:
     obj, _ = meshes.domed_grid()
     add_tent(obj)

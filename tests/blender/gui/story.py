@@ -161,6 +161,33 @@ def cancel_a_long_run() -> Story:
     assert not progress.running
 
 
+def cancel_a_hopeless_run() -> Story:
+    """Few vertices that take long: Blender waits a moment, then goes on in the background."""
+    scenes.hopeless()
+    set_options(tolerance=1e-14)
+    open_tab()
+    yield 1.0
+    before = scenes.contents()
+    progress = bpy.context.window_manager.fairing_progress
+    begin = time.perf_counter()
+    run_operator()
+
+    def running() -> bool:
+        return bool(progress.running)
+
+    yield from wait_until(running, 20.0)
+    tell(f"hopeless: in the background after {time.perf_counter() - begin:.2f} s")
+    yield 0.1
+    press("ESC", *middle())
+
+    def stopped() -> bool:
+        return not progress.running
+
+    yield from wait_until(stopped, 5.0)
+    yield 1.0
+    assert scenes.contents() == before, "the cancelled run left a trace"
+
+
 def finish_a_long_run() -> Story:
     report().free_vertices = 0
     begin = time.perf_counter()
@@ -274,6 +301,7 @@ def story() -> Story:
         told_before_running,
         fair_it,
         adjust_in_redo_panel,
+        cancel_a_hopeless_run,
         cancel_a_long_run,
         finish_a_long_run,
         redo_after_a_long_run,

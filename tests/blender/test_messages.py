@@ -1,0 +1,143 @@
+"""What is said to the user: nothing in silence, nothing twice, and one of a kind in the singular."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+import meshes
+import numpy as np
+import pytest
+from extension import inspect, module
+
+
+def told(*objects: bpy.types.Object, **properties: Any) -> list[str]:
+    """Return the infos and warnings of a run, from and to object mode."""
+    original = module("operators").MESH_OT_fair_region
+    said: list[str] = []
+
+    class Stand:
+        execute, _begin_with, _solve_at_once = original.execute, original._begin_with, original._solve_at_once
+        _apply, _refuse = original._apply, original._refuse
+
+        def report(self, _kinds: set[str], text: str) -> None:
+            said.append(text)
+
+    stand: Any = Stand()
+    options = module("options")
+    for name in options.option_names():
+        setattr(stand, name, properties.get(name, getattr(options.FairOptions(), name)))
+    meshes.edit(*objects)
+    try:
+        stand.execute(bpy.context)
+    finally:
+        meshes.leave()
+    return said
+
+
+@pytest.mark.parametrize("mode", [(True, False, False), (False, True, False), (False, False, True)])
+def test_no_face_selected(mode: tuple[bool, bool, bool]) -> None:
+    obj, faces = meshes.domed_grid()
+    meshes.select(obj, np.zeros_like(faces))
+    if not mode[2]:  # a single edge, its vertices with it
+        obj.data.edges[5].select = True
+        for vertex in obj.data.edges[5].vertices:
+            obj.data.vertices[vertex].select = True
+    bpy.context.tool_settings.mesh_select_mode = mode
+    (text,) = told(obj)
+    assert text.startswith("No face is selected: select the faces")
+    assert inspect(obj, np.zeros_like(faces)).refusal == text
+
+
+def test_no_free_vertex() -> None:
+    obj, faces = meshes.domed_grid()
+    one = np.zeros_like(faces)
+    one[9] = True
+    meshes.select(obj, one)
+    (text,) = told(obj)
+    assert text.startswith("No vertex is free to move")
+    assert inspect(obj, one).refusal == text
+
+
+def test_an_object_without_free_vertices_is_named() -> None:
+    first, faces = meshes.domed_grid()
+    second, _ = meshes.domed_grid()
+    third, _ = meshes.domed_grid()
+    one = np.zeros_like(faces)
+    one[9] = True
+    for obj, chosen in ((first, faces), (second, one), (third, np.zeros_like(faces))):
+        meshes.select(obj, chosen)
+    said = told(first, second, third)
+    note = f"{second.name} was left as it is: no vertex inside its selection is free to move"
+    assert note in said
+    assert note in meshes.report().warnings
+    assert not any(third.name in text for text in said)  # nothing was asked for there
+
+
+@pytest.mark.parametrize("weight", [None, 0.0, 1.0])
+def test_a_pin_group_that_pins_nothing(weight: float | None) -> None:
+    obj, faces = meshes.domed_grid()
+    group = obj.vertex_groups.new(name="Pin")
+    outside = np.flatnonzero(~meshes.free_vertices(obj, faces)).tolist()
+    inside = np.flatnonzero(meshes.free_vertices(obj, faces)).tolist()
+    group.add(outside, 1.0, "REPLACE")
+    if weight is not None:
+        group.add(inside[:1], weight, "REPLACE")
+    meshes.select(obj, faces)
+    notes = [text for text in told(obj, pin_group="Pin") if "pins nothing" in text]
+    assert len(notes) == (0 if weight else 1)
+    assert ("'Pin' has no vertex inside" in "".join(inspect(obj, faces, pin_group="Pin").notes)) == bool(notes)
+
+
+def warnings(*given: tuple[str, str]) -> tuple[str, ...]:
+    import fairing
+
+    none = np.empty(0, dtype=np.int32)
+    diagnostics = tuple(fairing.Diagnostic(code, text, none, "vertex") for code, text in given)
+    found: tuple[str, ...] = module("warnings_text").sentences(diagnostics)
+    return found
+
+
+FLIPPED = "triangles of the result are turned over"
+SHARP = "the normals along the outline turn by up to {}° from one vertex to the next"
+LOST = "a component of {} free vertices did not converge; its positions are the best that were found"
+
+
+def test_warnings_of_several_islands_are_one() -> None:
+    assert warnings(
+        ("FLIPPED_TRIANGLES", f"3 {FLIPPED}"),
+        ("SHARP_BOUNDARY", SHARP.format(24)),
+        ("FLIPPED_TRIANGLES", f"18 {FLIPPED}"),
+        ("NOT_CONVERGED", LOST.format(5)),
+        ("SHARP_BOUNDARY", SHARP.format(31)),
+        ("PRECISION", "this far from the origin"),
+        ("SHARP_BOUNDARY", SHARP.format(22)),
+        ("NOT_CONVERGED", LOST.format(70)),
+        ("PRECISION", "this far from the origin"),
+    ) == (
+        f"FLIPPED_TRIANGLES: 21 {FLIPPED} (2 islands)",
+        f"SHARP_BOUNDARY: {SHARP.format(31)} (3 islands)",
+        "NOT_CONVERGED: 2 islands, of 75 free vertices in all, did not converge; their positions are the best found",
+        "PRECISION: this far from the origin (2 islands)",
+    )
+
+
+def test_one_of_a_kind() -> None:
+    assert warnings(("FLIPPED_TRIANGLES", f"1 {FLIPPED}")) == (
+        "FLIPPED_TRIANGLES: 1 triangle of the result is turned over",
+    )
+    assert warnings(("FLIPPED_TRIANGLES", f"11 {FLIPPED}")) == (f"FLIPPED_TRIANGLES: 11 {FLIPPED}",)
+    (text,) = warnings(("NOT_CONVERGED", LOST.format(1)))
+    assert "of 1 free vertex did not" in text
+
+
+def test_islands_of_a_run_are_told_once() -> None:
+    obj = meshes.grid(24)
+    points = meshes.grid_points(24)
+    points[:, 2] = 0.4 * np.cos(12.0 * points[:, 0]) * np.cos(11.0 * points[:, 1])
+    meshes.move(obj, points)
+    faces = meshes.faces_where(obj, lambda c: 0.15 < abs(c.x) < 0.8 and 0.15 < abs(c.y) < 0.8)
+    meshes.select(obj, faces)
+    said = [text for text in told(obj) if text.startswith("SHARP_BOUNDARY")]
+    assert len(said) == 1
+    assert said[0].endswith("(4 islands)")
