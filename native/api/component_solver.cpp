@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "api/diagnose.h"
+#include "base/text.h"
 #include "geometry/surface_fit.h"
 #include "proxy/global_method.h"
 
@@ -130,8 +131,9 @@ Solution ComponentSolver::injective(ComponentAnswer& answer, const Solution& sol
                         flipped_triangles(patch_, uniform.points).size() < flipped.size();
     if (!better) return solution;
     answer.warnings.push_back({Code::flipped_triangles,
-                               "the inner fairness asked for turns " + std::to_string(flipped.size()) +
-                                   " triangles over; uniform inner fairness was used",
+                               "the inner fairness asked for turns " +
+                                   counted(flipped.size(), "triangle", "triangles") +
+                                   " over; uniform inner fairness was used",
                                std::move(flipped), ElementKind::triangle});
     return uniform;
 }

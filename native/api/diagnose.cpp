@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/text.h"
 #include "geometry/face_geometry.h"
 #include "geometry/self_intersection.h"
 #include "geometry/vertex_normal.h"
@@ -27,9 +28,10 @@ bool touches_free(const Patch& patch, int vertex) {
 void warn_of_flips(const Patch& patch, const Points& points, Diagnostics& warnings) {
     Indices flipped = flipped_triangles(patch, points);
     if (flipped.empty()) return;
-    warnings.push_back({Code::flipped_triangles,
-                        std::to_string(flipped.size()) + " triangles of the result are turned over", std::move(flipped),
-                        ElementKind::triangle});
+    warnings.push_back(
+        {Code::flipped_triangles,
+         counted(flipped.size(), "triangle of the result is turned over", "triangles of the result are turned over"),
+         std::move(flipped), ElementKind::triangle});
 }
 
 void warn_of_sharp_outline(const Patch& patch, const Points& prescribed, Diagnostics& warnings) {
@@ -55,7 +57,8 @@ void warn_of_crossings(const Patch& patch, const Points& points, Diagnostics& wa
     if (crossing.empty()) return;
     for (int& t : crossing) t = patch.input_triangle[at(t)];
     warnings.push_back({Code::self_intersection,
-                        std::to_string(crossing.size()) + " triangles of the result pass through others of the patch",
+                        counted(crossing.size(), "triangle of the result passes through others of the patch",
+                                "triangles of the result pass through others of the patch"),
                         std::move(crossing), ElementKind::triangle});
 }
 
@@ -104,9 +107,9 @@ bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostic
     bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
     if (!collapsed && static_cast<double>(bad.size()) <= tolerated_share * patch.triangle_count()) return true;
     warnings.push_back({Code::reference_unusable,
-                        std::to_string(bad.size()) +
-                            " triangles of the reference mesh are needles or turned over, so that no distribution of "
-                            "vertices can be read off it; uniform inner fairness was used",
+                        counted(bad.size(), "triangle of the reference mesh is a needle or turned over",
+                                "triangles of the reference mesh are needles or turned over") +
+                            ", so that no distribution of vertices can be read off it; uniform inner fairness was used",
                         std::move(bad), ElementKind::triangle});
     return false;
 }

@@ -9,6 +9,7 @@
 #include "api/prepared_mesh.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "base/text.h"
 
 namespace fairing {
 
@@ -96,9 +97,10 @@ private:
     void add_failure(const Patch& patch, Termination termination, const std::string& reason) {
         result_.converged = false;
         if (result_.termination != Termination::stalled) result_.termination = termination;
-        result_.warnings.push_back({Code::not_converged,
-                                    "a component of " + std::to_string(patch.free_count) + " free vertices " + reason,
-                                    Indices(free_vertices(patch).begin(), free_vertices(patch).end())});
+        result_.warnings.push_back(
+            {Code::not_converged,
+             "a component of " + counted(at(patch.free_count), "free vertex ", "free vertices ") + reason,
+             Indices(free_vertices(patch).begin(), free_vertices(patch).end())});
     }
 
     void add_angles(const Patch& patch, const VectorX& angles) {

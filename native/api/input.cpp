@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "base/direction.h"
+#include "base/text.h"
 
 namespace fairing {
 
@@ -62,11 +63,12 @@ Triangles drop_unbounded_triangles(const MeshInput& input, const Triangles& tria
     }
     kept = std::move(kept_input);
     if (!dropped.empty()) {
-        warnings.push_back({Code::degenerate_face,
-                            std::to_string(dropped.size()) +
-                                " triangles between fixed vertices have a corner that is NaN or infinite and were left "
-                                "out",
-                            std::move(dropped), ElementKind::triangle});
+        warnings.push_back(
+            {Code::degenerate_face,
+             counted(dropped.size(), "triangle between fixed vertices has a corner that is NaN or infinite and was",
+                     "triangles between fixed vertices have a corner that is NaN or infinite and were") +
+                 " left out",
+             std::move(dropped), ElementKind::triangle});
     }
     return triangles(Eigen::all, kept_columns);
 }
@@ -95,9 +97,9 @@ Indices all_fixed(const MeshInput& input, const VertexRoles& roles, Diagnostics&
     if (input.fixed && !added.empty()) {
         warnings.push_back(
             {Code::open_border_in_selection,
-             std::to_string(added.size()) +
-                 " vertices on an open border were not given as fixed and stay where they are; where this is a "
-                 "seam of doubled vertices, use Merge by Distance first",
+             counted(added.size(), "vertex on an open border was not given as fixed and stays where it is",
+                     "vertices on an open border were not given as fixed and stay where they are") +
+                 "; where this is a seam of doubled vertices, use Merge by Distance first",
              std::move(added)});
     }
     return fixed;
@@ -151,10 +153,11 @@ void warn_of_normals(const MeshInput& input, CheckedMesh& mesh) {
             pins.push_back(v);
     }
     if (pins.empty()) return;
-    mesh.warnings.push_back({Code::pin_normal_ignored,
-                             std::to_string(pins.size()) +
-                                 " fixed vertices have no fixed neighbour: their position counts, their normal doesn't",
-                             std::move(pins)});
+    mesh.warnings.push_back(
+        {Code::pin_normal_ignored,
+         counted(pins.size(), "fixed vertex has no fixed neighbour: its position counts, its normal doesn't",
+                 "fixed vertices have no fixed neighbour: their position counts, their normal doesn't"),
+         std::move(pins)});
 }
 
 // Normals that point to the side from which the triangles given are clockwise. The interior given may be noise, and a
@@ -170,9 +173,9 @@ void warn_of_opposed_normals(const CheckedMesh& mesh, const Points& averaged, Di
     if (static_cast<double>(opposed.size()) <= least_share * static_cast<double>(mesh.fixed.size())) return;
     warnings.push_back(
         {Code::normals_oppose_winding,
-         std::to_string(opposed.size()) +
-             " prescribed normals point against the winding of their triangles: turn them round, or flip the "
-             "triangles",
+         counted(opposed.size(), "prescribed normal points against the winding of its triangles: turn it round",
+                 "prescribed normals point against the winding of their triangles: turn them round") +
+             ", or flip the triangles",
          std::move(opposed)});
 }
 
@@ -187,7 +190,8 @@ void warn_of_flat_triangles(const MeshInput& input, const CutMesh& mesh, Diagnos
         if (!(cross.norm() > 1e-12)) offenders.push_back(t);
     }
     if (offenders.empty()) return;
-    warnings.push_back({Code::degenerate_face, std::to_string(offenders.size()) + " triangles have no area",
+    warnings.push_back({Code::degenerate_face,
+                        counted(offenders.size(), "triangle given has no area", "triangles given have no area"),
                         std::move(offenders), ElementKind::triangle});
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/progress.h"
+#include "base/text.h"
 #include "mesh/fans.h"
 #include "mesh/union_find.h"
 
@@ -205,10 +206,11 @@ void warn_of_windings(const CutMesh& mesh, Diagnostics& warnings) {
         if (mesh.flipped[t]) offenders.push_back(mesh.input_triangle[t]);
     }
     if (offenders.empty()) return;
-    warnings.push_back({Code::inconsistent_winding,
-                        std::to_string(offenders.size()) +
-                            " triangles are wound against the others; solved on a copy with one winding",
-                        std::move(offenders), ElementKind::triangle});
+    warnings.push_back(
+        {Code::inconsistent_winding,
+         counted(offenders.size(), "triangle is wound against the others", "triangles are wound against the others") +
+             "; solved on a copy with one winding",
+         std::move(offenders), ElementKind::triangle});
 }
 
 void number_pieces(CutMesh& mesh, UnionFind& pieces) {
@@ -235,7 +237,8 @@ Triangles drop_collapsed_triangles(const Triangles& triangles, Indices& kept, Di
     for (std::size_t k = 0; k < kept.size(); ++k) result.col(static_cast<Eigen::Index>(k)) = triangles.col(kept[k]);
     if (!dropped.empty()) {
         warnings.push_back({Code::degenerate_face,
-                            std::to_string(dropped.size()) + " triangles name a vertex twice and were left out",
+                            counted(dropped.size(), "triangle names a vertex twice and was left out",
+                                    "triangles name a vertex twice and were left out"),
                             std::move(dropped), ElementKind::triangle});
     }
     return result;
