@@ -125,6 +125,32 @@ def adjust_in_redo_panel() -> Story:
     screenshot("redo")
 
 
+def seconds_to_background() -> Generator[float, None, float]:
+    """Call the operator and wait until it runs in the background."""
+    progress = bpy.context.window_manager.fairing_progress
+    begin = time.perf_counter()
+    run_operator()
+
+    def running() -> bool:
+        return bool(progress.running)
+
+    yield from wait_until(running, 20.0)
+    return time.perf_counter() - begin
+
+
+def seconds_to_stop() -> Generator[float, None, float]:
+    """Press Esc and wait until nothing runs any more."""
+    progress = bpy.context.window_manager.fairing_progress
+    begin = time.perf_counter()
+    press("ESC", *middle())
+
+    def stopped() -> bool:
+        return not progress.running
+
+    yield from wait_until(stopped, 5.0)
+    return time.perf_counter() - begin
+
+
 def cancel_a_long_run() -> Story:
     faces = scenes.large()
     set_options()
@@ -136,24 +162,11 @@ def cancel_a_long_run() -> Story:
     tell(f"large: {faces} faces; a redraw takes {redraw:.2f} s here")
     before = scenes.contents()
     progress = bpy.context.window_manager.fairing_progress
-    begin = time.perf_counter()
-    run_operator()
-
-    def running() -> bool:
-        return bool(progress.running)
-
-    yield from wait_until(running, 20.0)
-    tell(f"background run began after {time.perf_counter() - begin:.2f} s")
+    waited = yield from seconds_to_background()
+    tell(f"background run began after {waited:.2f} s")
     yield 0.3
     assert progress.running, "the run was too short to be cancelled"
-    begin = time.perf_counter()
-    press("ESC", *middle())
-
-    def stopped() -> bool:
-        return not progress.running
-
-    yield from wait_until(stopped, 5.0)
-    seconds = time.perf_counter() - begin
+    seconds = yield from seconds_to_stop()
     tell(f"Esc: Blender was free again after {seconds:.2f} s")
     assert seconds < 0.3 + 2 * redraw
     yield 2.0
@@ -168,22 +181,10 @@ def cancel_a_hopeless_run() -> Story:
     open_tab()
     yield 1.0
     before = scenes.contents()
-    progress = bpy.context.window_manager.fairing_progress
-    begin = time.perf_counter()
-    run_operator()
-
-    def running() -> bool:
-        return bool(progress.running)
-
-    yield from wait_until(running, 20.0)
-    tell(f"hopeless: in the background after {time.perf_counter() - begin:.2f} s")
+    waited = yield from seconds_to_background()
+    tell(f"hopeless: in the background after {waited:.2f} s")
     yield 0.1
-    press("ESC", *middle())
-
-    def stopped() -> bool:
-        return not progress.running
-
-    yield from wait_until(stopped, 5.0)
+    yield from seconds_to_stop()
     yield 1.0
     assert scenes.contents() == before, "the cancelled run left a trace"
 
