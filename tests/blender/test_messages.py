@@ -122,13 +122,11 @@ def test_warnings_of_several_islands_are_one() -> None:
     )
 
 
-def test_one_of_a_kind() -> None:
-    assert warnings(("FLIPPED_TRIANGLES", f"1 {FLIPPED}")) == (
-        "FLIPPED_TRIANGLES: 1 triangle of the result is turned over",
+def test_islands_with_a_part_of_their_load_tell_the_largest_part() -> None:
+    partly = "a component of {} free vertices was solved with {} % of the load only and keeps that surface"
+    assert warnings(("NOT_CONVERGED", partly.format(70, 50)), ("NOT_CONVERGED", partly.format(61, 75))) == (
+        f"NOT_CONVERGED: {partly.format(70, 75)} (2 islands)",
     )
-    assert warnings(("FLIPPED_TRIANGLES", f"11 {FLIPPED}")) == (f"FLIPPED_TRIANGLES: 11 {FLIPPED}",)
-    (text,) = warnings(("NOT_CONVERGED", LOST.format(1)))
-    assert "of 1 free vertex did not" in text
 
 
 def test_islands_of_a_run_are_told_once() -> None:
