@@ -25,6 +25,8 @@ struct FrontSweeps {
     Up up;      // up(supernode, b): eliminates its own; where zeros were below leaves what is to be added there
     Down down;  // down(supernode, b): finds the solution below, and puts its own on top
 };
+template <typename Up, typename Down>
+FrontSweeps(Up, Down) -> FrontSweeps<Up, Down>;  // clang 14 deduces no aggregates by itself
 
 // The sweeps over right-hand sides x in the factor's order, Field = VectorX or MatrixXd (n × k).
 template <typename Field, typename Sweeps>
