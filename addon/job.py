@@ -44,11 +44,6 @@ class Task:
 
 
 def read(context: bpy.types.Context, options: FairOptions) -> list[Task]:
-    """Read every object in edit mode that has free vertices; raises Refused."""
-    return [task for task in read_selected(context, options) if task.free_count]
-
-
-def read_selected(context: bpy.types.Context, options: FairOptions) -> list[Task]:
     """Read every object in edit mode that has selected faces, free vertices or not; raises Refused."""
     tasks = []
     for obj in edited_objects(context):

@@ -101,7 +101,7 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
         context.view_layer.update()  # a script may just have changed an object's matrix
         try:
             self._options = FairOptions.of(self)
-            selected = job.read_selected(context, self._options)
+            selected = job.read(context, self._options)
             self._tasks = [task for task in selected if task.free_count]
             if not self._tasks:
                 self.report({"INFO"}, translated(NO_FREE if selected else NO_FACE))

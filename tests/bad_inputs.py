@@ -172,6 +172,24 @@ def closed_ball(n_free: int = 60) -> tuple[FloatArray, IntArray, IntArray]:
     return np.vstack([upper.vertices, mirrored]), triangles, upper.fixed
 
 
+def ball_of_meridians(segments: int, rings: int) -> tuple[FloatArray, IntArray]:
+    """The unit sphere as Blender makes it, quads cut in two; the first two triangles are one of them."""
+    polar = np.pi * np.arange(1, rings) / rings
+    around = 2 * np.pi * np.arange(segments) / segments
+    inner = [(np.sin(t) * np.cos(p), np.sin(t) * np.sin(p), np.cos(t)) for t in polar for p in around]
+    vertices = np.array([(0, 0, 1), *inner, (0, 0, -1)])
+    last = len(vertices) - 1
+    triangles = []
+    for i in range(segments):
+        j = (i + 1) % segments
+        for k in range(rings - 2):
+            a, b = 1 + k * segments, 1 + (k + 1) * segments
+            triangles += [(a + i, b + i, b + j), (a + i, b + j, a + j)]
+        end = 1 + (rings - 2) * segments
+        triangles += [(0, 1 + i, 1 + j), (end + i, last, end + j)]
+    return vertices, np.array(triangles)
+
+
 def folded_winding() -> Case:
     """One triangle is wound the other way."""
     patch = _base()

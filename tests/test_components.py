@@ -6,7 +6,7 @@ import numpy as np
 
 import fairing
 import shapes
-from bad_inputs import closed_ball
+from bad_inputs import ball_of_meridians, closed_ball
 from meshing import IntArray
 from shapes import Patch, Style
 
@@ -75,6 +75,20 @@ def test_a_closed_surface_on_a_face_or_two_points_does_not_count_as_solved() -> 
         assert result.termination == "stalled"
         (text,) = (w.message for w in result.warnings if w.code == "NOT_CONVERGED")
         assert "fell together" in text or "from behind" in text or "best that were found" in text
+
+
+def test_a_sphere_that_covers_one_face_from_behind_does_not_count_as_solved() -> None:
+    """All but one quad is free, and comes to lie on it, inside out."""
+    vertices, triangles = ball_of_meridians(12, 8)
+    kept = triangles[:2]
+    fixed = np.unique(kept)
+    normals, _ = fairing.surrounding_normals(vertices, kept, fixed)
+    result = fairing.fair(vertices, triangles[2:], fixed=fixed, fixed_normals=normals)
+    assert result.boundary_angle.min() > 150
+    assert not result.converged
+    assert result.termination == "stalled"
+    (text,) = (w.message for w in result.warnings if w.code == "NOT_CONVERGED")
+    assert "from behind at 4 of 4 vertices" in text
 
 
 def test_a_sphere_on_a_sixth_of_itself_is_solved() -> None:

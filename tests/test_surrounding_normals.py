@@ -48,20 +48,7 @@ def test_a_hemisphere_comes_back_from_its_surroundings() -> None:
 
 def grid_sphere(segments: int, rings: int, axis: int) -> tuple[FloatArray, IntArray, IntArray]:
     """A sphere of meridians and parallels, the triangles on one side of a plane across an axis, and its rim."""
-    polar = np.pi * np.arange(1, rings) / rings
-    around = 2 * np.pi * np.arange(segments) / segments
-    inner = [(np.sin(t) * np.cos(p), np.sin(t) * np.sin(p), np.cos(t)) for t in polar for p in around]
-    vertices = np.array([(0, 0, 1), *inner, (0, 0, -1)])
-    last = len(vertices) - 1
-    triangles = []
-    for i in range(segments):
-        j = (i + 1) % segments
-        for k in range(rings - 2):
-            a, b = 1 + k * segments, 1 + (k + 1) * segments
-            triangles += [(a + i, b + i, b + j), (a + i, b + j, a + j)]
-        end = 1 + (rings - 2) * segments
-        triangles += [(0, 1 + i, 1 + j), (end + i, last, end + j)]
-    faces = np.array(triangles)
+    vertices, faces = bad_inputs.ball_of_meridians(segments, rings)
     outside = vertices[faces].mean(axis=1)[:, axis] < 0
     return vertices, faces[outside], np.intersect1d(faces[outside], faces[~outside])
 

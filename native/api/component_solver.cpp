@@ -17,10 +17,6 @@ bool reads_reference(InnerFairness kind) { return kind != InnerFairness::uniform
 // The warm start of a component this large would cost more than it saves: one factorisation takes longer than a solve.
 constexpr int largest_warm = 50000;
 
-}  // namespace
-
-namespace {
-
 // Moves can't be told from rounding below: an iteration that waits for less ends by luck or not at all.
 constexpr double least_tolerance = 1e-15;
 
