@@ -50,7 +50,8 @@ Flaw flaw_of(const Problem& problem, Solution& solution) {
     if (solution.termination != Termination::converged) return Flaw::not_converged;
     if (!has_area(problem, solution.points)) return Flaw::collapsed;
     if (is_behind(problem, solution)) return Flaw::behind;
-    Indices flipped = flipped_by_solution(problem.patch, solution.points);
+    // Placed vertices were compared with the surface that they lie on.
+    Indices flipped = solution.polished ? flipped_by_solution(problem.patch, solution.points) : Indices{};
     if (flipped.size() > problem.tolerated_folds) {
         solution.bad_triangles = std::move(flipped);
         return Flaw::folded;

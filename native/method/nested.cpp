@@ -7,6 +7,7 @@
 #include "geometry/flips.h"
 #include "geometry/surface_fit.h"
 #include "method/one_level.h"
+#include "method/sizes.h"
 #include "multigrid/coarsening.h"
 #include "multigrid/tangential_multigrid.h"
 #include "solver/accelerated_iteration.h"
@@ -85,7 +86,7 @@ public:
         std::map<std::string, double> seconds{{"hierarchy", watch.lap()}};
         progress_.report(begin, "hierarchy");
         const std::size_t coarsest = coarse_.size();
-        Solution solution = solve_on_one_level(coarsest_problem(), progress_.range(begin, done_after(coarsest)));
+        Solution solution = solve_coarsest(progress_.range(begin, done_after(coarsest)));
         seconds["coarsest"] = watch.lap();
         const double initial_residual = solution.initial_residual;
         solution = solution.flaw == Flaw::none ? refined(std::move(solution)) : given_up(coarsest, solution.points);
@@ -98,6 +99,13 @@ public:
     }
 
 private:
+    // A patch that is small enough for a proxy of its own is not worth one of its coarsest level.
+    [[nodiscard]] Solution solve_coarsest(const Progress& progress) const {
+        const Problem problem = coarsest_problem();
+        if (problem_.patch.free_count > largest_direct) return solve_on_one_level(problem, progress);
+        return solve_on_own_mesh(problem, progress);
+    }
+
     // Fine to coarse; levels_[0] is the caller's.
     void make_levels(InnerWeights weights) {
         levels_.reserve(coarse_.size() + 1);

@@ -33,4 +33,8 @@ Solution solve_on_one_level(const Problem& problem, const Progress& progress) {
     return run_ways(ways, problem, progress);
 }
 
+Solution solve_on_own_mesh(const Problem& problem, const Progress& progress) {
+    return run_ways(std::span(&directly, 1), problem, progress);
+}
+
 }  // namespace fairing

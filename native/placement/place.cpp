@@ -33,7 +33,12 @@ public:
 
 private:
     bool keep_untangled(Placement placement) {
-        Indices folded = untangle(problem_, target_, placement);
+        Indices folded = folded_triangles(problem_, target_, placement);
+        if (!folded.empty()) {
+            untangle(problem_, target_, placement);
+            relax(problem_, tangential_, target_, placement, Folds::held_back);
+            folded = folds_of_placement(problem_, target_, placement);
+        }
         const bool done = folded.empty();
         const double merit = tangential_.merit(placement.points, normals_at(placement, target_));
         if (!best_ || folded.size() < best_->folded.size() ||

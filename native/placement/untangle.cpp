@@ -1,9 +1,12 @@
 #include "placement/untangle.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 
 #include "base/progress.h"
 #include "geometry/frame.h"
@@ -15,38 +18,61 @@ namespace {
 
 using Vector2 = Eigen::Vector2d;
 
-// Points p with ⟨normal, p⟩ ≥ offset lie on the inner side of a line.
-struct HalfPlane {
-    Vector2 normal;  // unit
-    double offset;
+// Triangle between a vertex at the origin and a side of its ring; `up`: unit normal of the surface there.
+struct Corner {
+    Vector3 a;
+    Vector3 b;
+    Vector3 up;
 };
 
-double clearance(const std::vector<HalfPlane>& sides, const Vector2& p) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const HalfPlane& side : sides) least = std::min(least, side.normal.dot(p) - side.offset);
-    return least;
-}
+// The triangles around a vertex as it moves in its tangent plane.
+struct LocalEnergy {
+    Frame frame;
+    std::vector<Corner> corners;
+    double area;  // the mean one
+    double epsilon;
 
-// The point of greatest clearance: a linear program in (x, y, clearance), whose optimum lies where three sides bind.
-Vector2 deepest_point(const std::vector<HalfPlane>& sides, const Vector2& start) {
-    Vector2 best = start;
-    double most = clearance(sides, start);
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-        for (std::size_t j = i + 1; j < sides.size(); ++j) {
-            for (std::size_t k = j + 1; k < sides.size(); ++k) {
-                Eigen::Matrix3d rows;
-                rows << sides[i].normal.transpose(), -1.0, sides[j].normal.transpose(), -1.0,
-                    sides[k].normal.transpose(), -1.0;
-                const Vector3 x = rows.inverse() * Vector3(sides[i].offset, sides[j].offset, sides[k].offset);
-                if (!(x[2] > most) || !x.allFinite()) continue;
-                const double reached = clearance(sides, x.head<2>());
-                if (reached <= most) continue;
-                most = reached;
-                best = x.head<2>();
-            }
+    [[nodiscard]] double operator()(double x, double y) const {
+        const Vector3 p = x * frame.u + y * frame.v;
+        double sum = 0.0;
+        for (const Corner& corner : corners) {
+            const Vector3 a = corner.a - p;
+            const Vector3 b = corner.b - p;
+            const double delta = 0.5 * a.cross(b).dot(corner.up) / area;
+            const double squares = a.squaredNorm() + b.squaredNorm() + (b - a).squaredNorm();
+            sum += (squares / (4.0 * std::numbers::sqrt3 * area) + 0.25 * (delta * delta + 1.0)) / barrier(delta);
         }
+        return sum;
     }
-    return best;
+
+    [[nodiscard]] double barrier(double delta) const {
+        return 0.5 * (delta + std::sqrt(epsilon * epsilon + delta * delta));
+    }
+};
+
+// One damped Newton step from the origin; derivatives by central differences, which are exact enough for a step.
+Vector2 lower(const LocalEnergy& f) {
+    const double h = 1e-4 * std::sqrt(f.area);
+    const double f0 = f(0, 0);
+    const double xp = f(h, 0);
+    const double xm = f(-h, 0);
+    const double yp = f(0, h);
+    const double ym = f(0, -h);
+    const Vector2 gradient((xp - xm) / (2 * h), (yp - ym) / (2 * h));
+    Eigen::Matrix2d hessian;
+    const double mixed = (f(h, h) - f(h, -h) - f(-h, h) + f(-h, -h)) / (4 * h * h);
+    hessian << (xp - 2 * f0 + xm) / (h * h), mixed, mixed, (yp - 2 * f0 + ym) / (h * h);
+    const bool convex = hessian.determinant() > 0.0 && hessian.trace() > 0.0;
+    Vector2 step = convex ? Vector2(-hessian.llt().solve(gradient))
+                          : Vector2(-gradient / std::max(std::abs(hessian.trace()), 1e-12));
+    const double longest = 2.0 * std::sqrt(f.area);
+    if (!step.allFinite()) return Vector2::Zero();
+    if (step.norm() > longest) step *= longest / step.norm();
+    constexpr int most_halvings = 6;
+    for (int k = 0; k < most_halvings; ++k, step *= 0.5) {
+        if (f(step.x(), step.y()) < f0) return step;
+    }
+    return Vector2::Zero();
 }
 
 class Untangling {
@@ -54,87 +80,106 @@ public:
     Untangling(const Problem& problem, const TargetSurface& target, Placement& placement)
         : problem_(problem), patch_(problem.patch), target_(target), placement_(placement) {}
 
-    Indices run() {
-        constexpr int most_sweeps = 20;
-        constexpr int plain_sweeps = 3;  // then the vertices around take part, too
-        Indices folded = folded_triangles(problem_, target_, placement_);
-        for (int sweep = 0; sweep < most_sweeps && !folded.empty(); ++sweep) {
-            bool any = false;
-            for (const int v : vertices_of(folded, sweep >= plain_sweeps)) {
-                checkpoint();
-                if (improve(v)) any = true;
-            }
-            folded = folded_triangles(problem_, target_, placement_);
-            if (!any && sweep >= plain_sweeps) break;
+    void run() {
+        for (const int rings : {3, 6, 12}) {
+            const Indices folded = folded_triangles(problem_, target_, placement_);
+            if (folded.empty()) return;
+            spread(region(folded, rings));
         }
-        return folded;
     }
 
 private:
-    [[nodiscard]] Indices vertices_of(const Indices& triangles, bool around) const {
-        Indices result;
+    struct Region {
+        Indices vertices;   // free, ascending
+        Indices triangles;  // all at these
+    };
+
+    [[nodiscard]] Region region(const Indices& folded, int rings) const {
+        std::vector<char> inside(at(patch_.vertex_count()), 0);
+        Indices front;
         const auto add = [&](int v) {
-            if (patch_.is_free(v)) result.push_back(v);
+            if (inside[at(v)] || !patch_.is_free(v)) return;
+            inside[at(v)] = 1;
+            front.push_back(v);
         };
-        for (const int t : triangles) {
-            for (const int v : patch_.triangles.col(t)) {
-                add(v);
-                if (!around) continue;
+        for (const int t : folded) {
+            for (const int v : patch_.triangles.col(t)) add(v);
+        }
+        for (int k = 0; k < rings; ++k) {
+            Indices last = std::move(front);
+            front.clear();
+            for (const int v : last) {
                 for (const int w : patch_.ring(v).vertices) add(w);
             }
         }
-        std::sort(result.begin(), result.end());
-        result.erase(std::unique(result.begin(), result.end()), result.end());
+        Region result;
+        for (int v = 0; v < patch_.free_count; ++v) {
+            if (inside[at(v)]) result.vertices.push_back(v);
+        }
+        for (int t = 0; t < patch_.triangle_count(); ++t) {
+            const auto corners = patch_.triangles.col(t);
+            if (std::any_of(corners.begin(), corners.end(), [&](int v) { return inside[at(v)] != 0; }))
+                result.triangles.push_back(t);
+        }
         return result;
     }
 
-    bool improve(int v) {
-        const SurfacePoint old = placement_.where[at(v)];
-        const Frame frame(target_.normal(old));
-        const Vector3 centre = placement_.points.col(v);
-        const std::vector<HalfPlane> sides = sides_of_ring(v, frame, centre);
-        const Vector2 goal = deepest_point(sides, Vector2::Zero());
-        if (goal.isZero()) return false;
-        const int before = folded_around(v);
-        const Vector3 wanted = centre + goal.x() * frame.u + goal.y() * frame.v;
-        put(placement_, v, target_, target_.project(wanted, old.triangle));
-        const int after = folded_around(v);
-        if (after < before || (after == before && before > 0)) return true;
-        put(placement_, v, target_, old);
-        return false;
+    void spread(const Region& where) {
+        constexpr int most_sweeps = 60;
+        constexpr int settling_sweeps = 3;  // once nothing is folded
+        int settled = 0;
+        for (int sweep = 0; sweep < most_sweeps && settled < settling_sweeps; ++sweep) {
+            const double area = mean_area(where);
+            const double epsilon = smoothing(where, area);
+            for (const int v : where.vertices) {
+                checkpoint(v);
+                move(v, area, epsilon);
+            }
+            const bool any = std::any_of(where.triangles.begin(), where.triangles.end(),
+                                         [&](int t) { return is_folded(problem_, target_, placement_, t); });
+            settled = any ? 0 : settled + 1;
+        }
     }
 
-    // The lines of the ring's edges in the tangent plane, with the vertex at the origin.
-    [[nodiscard]] std::vector<HalfPlane> sides_of_ring(int v, const Frame& frame, const Vector3& centre) const {
-        const auto flat = [&](int w) {
-            const Vector3 d = placement_.points.col(w) - centre;
-            return Vector2(d.dot(frame.u), d.dot(frame.v));
-        };
-        std::vector<HalfPlane> sides;
+    [[nodiscard]] double mean_area(const Region& where) const {
+        double sum = 0.0;
+        for (const int t : where.triangles) sum += 0.5 * area_vector(patch_, placement_.points, t).norm();
+        return std::max(sum / static_cast<double>(where.triangles.size()), std::numeric_limits<double>::min());
+    }
+
+    [[nodiscard]] double smoothing(const Region& where, double area) const {
+        constexpr double least = 1e-3;
+        constexpr double share = 0.2;
+        double most_negative = 0.0;
+        for (const int t : where.triangles) {
+            if (!is_folded(problem_, target_, placement_, t)) continue;
+            most_negative = std::max(most_negative, 0.5 * area_vector(patch_, placement_.points, t).norm() / area);
+        }
+        return std::hypot(least, share * most_negative);
+    }
+
+    void move(int v, double area, double epsilon) {
+        const SurfacePoint old = placement_.where[at(v)];
+        const Vector3 centre = placement_.points.col(v);
+        LocalEnergy energy{Frame(target_.normal(old)), {}, area, epsilon};
         const auto ring = patch_.ring(v).vertices;
         for (std::size_t k = 0; k < ring.size(); ++k) {
-            const Vector2 a = flat(ring[k]);
-            const Vector2 along = flat(ring[(k + 1) % ring.size()]) - a;
-            const double length = along.norm();
-            if (!(length > 0.0)) continue;
-            const Vector2 inner = Vector2(-along.y(), along.x()) / length;
-            sides.push_back({inner, inner.dot(a)});
+            const int a = ring[k];
+            const int b = ring[(k + 1) % ring.size()];
+            const Vector3 up = upwards(v) + upwards(a) + upwards(b);
+            energy.corners.push_back(
+                {placement_.points.col(a) - centre, placement_.points.col(b) - centre, up.normalized()});
         }
-        return sides;
+        const Vector2 step = lower(energy);
+        if (step.isZero()) return;
+        const Vector3 wanted = centre + step.x() * energy.frame.u + step.y() * energy.frame.v;
+        put(placement_, v, target_, target_.project(wanted, old.triangle));
     }
 
-    [[nodiscard]] int folded_around(int v) const {
-        int count = 0;
-        for (const int edge : patch_.ring(v).rim) {
-            for (const int t : patch_.edge_triangles[at(edge)]) {
-                if (t == none || !has_corner(t, v)) continue;
-                count += is_folded(problem_, target_, placement_, t) ? 1 : 0;
-            }
-        }
-        return count;
+    // As is_folded measures it.
+    [[nodiscard]] Vector3 upwards(int v) const {
+        return patch_.is_free(v) ? target_.face_normal(placement_.where[at(v)].triangle) : Vector3::Zero();
     }
-
-    [[nodiscard]] bool has_corner(int t, int v) const { return (patch_.triangles.col(t).array() == v).any(); }
 
     const Problem& problem_;
     const Patch& patch_;
@@ -144,8 +189,8 @@ private:
 
 }  // namespace
 
-Indices untangle(const Problem& problem, const TargetSurface& target, Placement& placement) {
-    return Untangling(problem, target, placement).run();
+void untangle(const Problem& problem, const TargetSurface& target, Placement& placement) {
+    Untangling(problem, target, placement).run();
 }
 
 }  // namespace fairing
