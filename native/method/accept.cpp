@@ -73,7 +73,7 @@ bool is_final(const Problem& problem, const Solution& solution) {
 
 bool agree(const Problem& problem, const Solution& own, const Solution& placed, double proxy_edge) {
     constexpr double farthest = 2e-4;        // units of D
-    constexpr double edge_share = 0.1;       // of the proxy's edges
+    constexpr double edge_share = 1.0;       // of the proxy's edges
     constexpr double curvature_share = 0.1;  // of the largest |H|, or of 1/D where that is less
     const double away = largest_length(own.points - placed.points);
     if (away <= edge_share * proxy_edge && proxy_edge > mean_edge(problem.patch, own.points)) return true;

@@ -55,7 +55,7 @@ Points with_fixed(const Patch& patch, const Points& fixed) {
 
 // Of a level's start: the iteration irons single ones out.
 std::size_t tolerated_folds(const Problem& problem) {
-    constexpr std::size_t share = 500;
+    constexpr std::size_t share = 100;
     return problem.tolerated_folds + at(problem.patch.triangle_count()) / share;
 }
 

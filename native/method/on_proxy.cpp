@@ -50,7 +50,6 @@ Solution solve_on_proxy(const Problem& problem, const std::optional<Points>& gue
     const Placed placed = place(problem, *work.tangential, proxy, target, guess, progress.range(0.6, 0.8));
     Solution solution = placed_solution(problem, proxy, target, placed);
     const double placement_seconds = watch.lap();
-    if (getenv("FDBG")) fprintf(stderr, "proxy conv=%d n=%d flips=%zu crosses=%d | placed folds=%zu ownflips=%zu cross=%zu\n", proxy.converged(), proxy.mesh.patch.free_count, flipped_by_solution(proxy.mesh.patch, proxy.mesh.points).size(), int(solution.crosses), placed.folded.size(), flipped_by_solution(problem.patch, solution.points).size(), crossing_triangles(problem.patch.triangles, solution.points).size());
     if (solution.termination == Termination::converged) {
         solution = polish(problem, work, std::move(solution), mean_edge(proxy.mesh.patch, proxy.mesh.points),
                           progress.range(0.8, 1.0));

@@ -9,14 +9,6 @@ namespace fairing {
 
 namespace {
 
-std::vector<char> folded_mask(const Problem& problem, const TargetSurface& target, const Placement& placement) {
-    std::vector<char> folded(at(problem.patch.triangle_count()), 0);
-    for_ranges(problem.patch.triangle_count(), coarse_grain, [&](int begin, int end) {
-        for (int t = begin; t < end; ++t) folded[at(t)] = is_folded(problem, target, placement, t) ? 1 : 0;
-    });
-    return folded;
-}
-
 Indices numbers(const std::vector<char>& mask) {
     Indices result;
     for (std::size_t t = 0; t < mask.size(); ++t) {
@@ -41,6 +33,14 @@ bool is_folded(const Problem& problem, const TargetSurface& target, const Placem
         if (problem.patch.is_free(v)) around += target.face_normal(placement.where[at(v)].triangle);
     }
     return area_vector(problem.patch, placement.points, t).dot(around) < 0.0;
+}
+
+std::vector<char> folded_mask(const Problem& problem, const TargetSurface& target, const Placement& placement) {
+    std::vector<char> folded(at(problem.patch.triangle_count()), 0);
+    for_ranges(problem.patch.triangle_count(), coarse_grain, [&](int begin, int end) {
+        for (int t = begin; t < end; ++t) folded[at(t)] = is_folded(problem, target, placement, t) ? 1 : 0;
+    });
+    return folded;
 }
 
 Indices folded_triangles(const Problem& problem, const TargetSurface& target, const Placement& placement) {

@@ -13,6 +13,9 @@ Vector3 area_vector(const Patch& patch, const Points& points, int t);
 // no placement turns such a triangle.
 bool is_folded(const Problem& problem, const TargetSurface& target, const Placement& placement, int t);
 
+// All of them, as a mask.
+std::vector<char> folded_mask(const Problem& problem, const TargetSurface& target, const Placement& placement);
+
 // All of them, and those that are turned over against their neighbours in the placed mesh itself; ascending.
 Indices folded_triangles(const Problem& problem, const TargetSurface& target, const Placement& placement);
 

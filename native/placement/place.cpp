@@ -22,22 +22,18 @@ public:
         return keep_untangled(std::move(placement));
     }
 
-    // Springs that hold folds back are good from a start that is nearly free of them, and harmful from a folded one.
-    bool by_held_springs(Placement start) {
-        untangle(problem_, target_, start);
-        relax(problem_, tangential_, target_, start, Folds::held_back);
-        return keep_untangled(std::move(start));
-    }
+    // From where the start is, not from where the springs would take it.
+    bool as_it_is(Placement start) { return keep_untangled(std::move(start)); }
 
     [[nodiscard]] Placed best() && { return std::move(*best_); }
 
 private:
     bool keep_untangled(Placement placement) {
-        Indices folded = folded_triangles(problem_, target_, placement);
-        if (!folded.empty()) {
+        Indices folded = folds_of_placement(problem_, target_, placement);
+        constexpr int most_rounds = 3;
+        for (int round = 0; round < most_rounds && !folded.empty(); ++round) {
             untangle(problem_, target_, placement);
-            relax(problem_, tangential_, target_, placement, Folds::held_back);
-            folded = folds_of_placement(problem_, target_, placement);
+            folded = relax_unfolded(placement);
         }
         const bool done = folded.empty();
         const double merit = tangential_.merit(placement.points, normals_at(placement, target_));
@@ -47,6 +43,17 @@ private:
             merit_ = merit;
         }
         return done;
+    }
+
+    // As even as the springs get without new folds; gives the folds.
+    Indices relax_unfolded(Placement& placement) const {
+        Indices before = folds_of_placement(problem_, target_, placement);
+        Placement relaxed = placement;
+        relax(problem_, tangential_, target_, relaxed, Folds::held_back);
+        Indices after = folds_of_placement(problem_, target_, relaxed);
+        if (after.size() > before.size()) return before;
+        placement = std::move(relaxed);
+        return after;
     }
 
     const Problem& problem_;
@@ -68,7 +75,7 @@ Placed place(const Problem& problem, const TangentialStep& tangential, const Sol
     starts.push_back(by_history(problem, proxy.history, proxy.mesh, target));
     if (placing.by_springs(starts.back())) return std::move(placing).best();
     for (Placement& start : starts) {
-        if (placing.by_held_springs(std::move(start))) break;
+        if (placing.as_it_is(std::move(start))) break;
     }
     return std::move(placing).best();
 }

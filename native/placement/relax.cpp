@@ -11,6 +11,7 @@ namespace fairing {
 namespace {
 
 constexpr int most_steps = 60;
+constexpr int most_held_steps = 15;  // what is held back comes no further
 constexpr double largest_step = 0.1;  // units of D
 constexpr double done = 1e-7;
 constexpr int most_halvings = 8;
@@ -27,11 +28,12 @@ public:
           placement_(placement),
           merit_(merit_of(placement)),
           anderson_(3L * problem.patch.free_count, history_depth) {
-        if (folds_ == Folds::held_back) folded_ = mask(placement_);
+        if (folds_ == Folds::held_back) folded_ = folded_mask(problem_, target_, placement_);
     }
 
     double run() {
-        for (int step = 0; step < most_steps; ++step) {
+        const int most = folds_ == Folds::allowed ? most_steps : most_held_steps;
+        for (int step = 0; step < most; ++step) {
             const Points d = tangential_.displacement(placement_.points, normals_at(placement_, target_));
             const double largest = largest_length(d);
             if (largest < done || !improve(d, largest)) break;
@@ -64,33 +66,32 @@ private:
         if (!(reached < merit_)) return false;
         merit_ = reached;
         placement_ = std::move(trial);
-        if (folds_ == Folds::held_back) folded_ = mask(placement_);
+        if (folds_ == Folds::held_back) folded_ = folded_mask(problem_, target_, placement_);
         return true;
     }
 
     // Takes back the moves at newly folded triangles, which may fold others; false where that comes to no end.
     [[nodiscard]] bool hold_back(Placement& trial) const {
-        constexpr int most_rounds = 12;
+        constexpr int most_rounds = 5;
         for (int round = 0; round < most_rounds; ++round) {
+            const std::vector<char> folded = folded_mask(problem_, target_, trial);
             bool held = false;
-            for (const int t : folded_triangles(problem_, target_, trial)) {
-                if (folded_[at(t)]) continue;
+            for (int t = 0; t < problem_.patch.triangle_count(); ++t) {
+                if (!folded[at(t)] || folded_[at(t)]) continue;
                 held = true;
-                for (const int v : problem_.patch.triangles.col(t)) {
-                    if (!problem_.patch.is_free(v)) continue;
-                    trial.where[at(v)] = placement_.where[at(v)];
-                    trial.points.col(v) = placement_.points.col(v);
-                }
+                hold(trial, t);
             }
             if (!held) return true;
         }
         return false;
     }
 
-    [[nodiscard]] std::vector<char> mask(const Placement& placement) const {
-        std::vector<char> result(at(problem_.patch.triangle_count()), 0);
-        for (const int t : folded_triangles(problem_, target_, placement)) result[at(t)] = 1;
-        return result;
+    void hold(Placement& trial, int t) const {
+        for (const int v : problem_.patch.triangles.col(t)) {
+            if (!problem_.patch.is_free(v)) continue;
+            trial.where[at(v)] = placement_.where[at(v)];
+            trial.points.col(v) = placement_.points.col(v);
+        }
     }
 
     const Problem& problem_;
