@@ -4,16 +4,16 @@ from typing import Any
 
 import bpy
 
-from .compare import MESH_OT_fair_compare
-from .curvature import MESH_OT_fair_curvature
-from .inspection import Inspection
-from .live import live
-from .live_operators import MESH_OT_fair_live_forget, MESH_OT_fair_live_region, MESH_OT_fair_live_select
-from .operators import MESH_OT_fair_region
+from ..follow.inspection import Inspection
+from ..follow.live import live
+from ..follow.live_operators import MESH_OT_fair_live_forget, MESH_OT_fair_live_region, MESH_OT_fair_live_select
+from ..follow.watch import MESH_OT_fair_inspect, is_large, request, watch
+from ..host.text import draw_text
+from ..run.compare import MESH_OT_fair_compare
+from ..run.curvature import MESH_OT_fair_curvature
+from ..run.operators import MESH_OT_fair_region
+from ..translations import translated
 from .overlay import overlay
-from .text import draw_text
-from .translations import translated
-from .watch import MESH_OT_fair_inspect, is_large, request, watch
 
 _ICONS = {"MET": "CHECKMARK", "MISSED": "ERROR", "TOLD": "BLANK1"}
 

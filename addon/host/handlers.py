@@ -48,6 +48,19 @@ def call_off(function: Callable[[], float | None]) -> None:
         bpy.app.timers.unregister(function)
 
 
+def is_edited(depsgraph: bpy.types.Depsgraph) -> bool:
+    """Tell whether a mesh changed, its selection included, or an object was moved.
+
+    Copies that are made for reading show up as other kinds of updates, which must not count: each look
+    would be the reason for the next one.
+    """
+    return any(
+        isinstance(update.id, bpy.types.Mesh)
+        or (isinstance(update.id, bpy.types.Object) and (update.is_updated_transform or update.is_updated_geometry))
+        for update in depsgraph.updates
+    )
+
+
 def stop() -> None:
     """Take all functions back."""
     for events, function in tuple(_listening):

@@ -1,4 +1,4 @@
-"""Arrays in, arrays out: the one path from a mesh to its fair positions, for all callers."""
+"""From a mesh to the engine's answer for its patch, asked anew or remembered."""
 
 from __future__ import annotations
 
@@ -8,32 +8,15 @@ import numpy as np
 
 import fairing
 
-from . import engine, quality
-from .arrays import Floats, Ints
+from . import engine
+from .arrays import Floats
 from .boundary import prescribed_normals
-from .components import components
 from .engine import Progress
 from .memory import Memory, digest
 from .options import FairOptions
 from .outline import outline_notes, precision_note
-from .quality import Quality
-from .region import MeshArrays, Patch, make_patch
-from .symmetry import mirror_map, symmetrised
+from .region import MeshArrays, make_patch
 from .warnings_text import sentences
-
-
-@dataclass(frozen=True)
-class Fairing:
-    """New positions for the free vertices, in the mesh's own coordinates, and what they are worth."""
-
-    vertices: Ints  # (k,) mesh indices, ascending
-    positions: Floats  # (k, 3)
-    result: fairing.FairResult  # for the patch, in world space
-    warnings: tuple[str, ...]
-    before: Quality
-    after: Quality
-    distortion: float  # area-weighted mean of the conformal distortion − 1
-    curvature: tuple[float, float]  # largest |H| inside and on the outline, in 1/length
 
 
 @dataclass(frozen=True)
@@ -54,14 +37,14 @@ class Kept:
     ahead: bool = False  # make a solver at the first call already, whose start for the next one takes a while
 
 
-def fair_arrays(
+def solve(
     mesh: MeshArrays,
     matrix: Floats,
     options: FairOptions,
     progress: Progress | None = None,
     kept: Kept | None = None,
-) -> Fairing:
-    """Fair the patch of `mesh` in the space that the 4×4 `matrix` leads to.
+) -> Solved:
+    """Solve for the patch of `mesh` in the space that the 4×4 `matrix` leads to.
 
     kept: what former calls left.
     Raises fairing.MeshError (its `elements` are vertices of `mesh` here), ValueError,
@@ -78,7 +61,7 @@ def fair_arrays(
             kept.results.put(key, solved)
         else:
             solved = _solved(problem, engine.solve(problem, options, progress), warnings)
-    return _finish(mesh, matrix, options.factor, solved)
+    return solved
 
 
 def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine.Problem, tuple[str, ...]]:
@@ -114,57 +97,3 @@ def _solve_again(
 
 def _solved(problem: engine.Problem, result: fairing.FairResult, warnings: tuple[str, ...]) -> Solved:
     return Solved(problem, result, warnings + sentences(result.warnings))
-
-
-def _finish(mesh: MeshArrays, matrix: Floats, factor: float, solved: Solved) -> Fairing:
-    patch, result = solved.problem.patch, solved.result
-    fair, warnings = _mirrored(mesh, patch, to_local(result.vertices, matrix))
-    free = patch.vertices[patch.free]
-    original = mesh.positions[free]
-    # Blended in local space, so that factor 0 gives the very bits that were there.
-    blended = original + factor * (fair[patch.free] - original)
-    positions: Floats = fair[patch.free] if factor == 1.0 else blended
-    before = solved.problem.points
-    after = before.copy()
-    after[patch.free] = positions @ matrix[:3, :3].T + matrix[:3, 3]
-    clear = factor == 1.0 and not mesh.mirror_x and _is_clear(patch, result)
-    quality_before, quality_after = quality.compare(before, after, patch.triangles, clear)
-    return Fairing(
-        vertices=free,
-        positions=positions,
-        result=result,
-        warnings=solved.warnings + warnings,
-        before=quality_before,
-        after=quality_after,
-        distortion=quality.texture_distortion(before, after, patch.triangles),
-        curvature=_largest_curvatures(patch, result),
-    )
-
-
-def _is_clear(patch: Patch, result: fairing.FairResult) -> bool:
-    """Tell whether the engine, which looks at each piece, has found that no triangle passes through another."""
-    found = any(diagnostic.code == "SELF_INTERSECTION" for diagnostic in result.warnings)
-    return not found and len(components(patch)) <= 1
-
-
-def _mirrored(mesh: MeshArrays, patch: Patch, fair: Floats) -> tuple[Floats, tuple[str, ...]]:
-    """Make the local positions (p, 3) symmetric where the mesh asks for that."""
-    if not mesh.mirror_x:
-        return fair, ()
-    image = mirror_map(mesh, patch)
-    if image is None:
-        return fair, ("X mirror is on, but the selection is not symmetric: it was faired as it is",)
-    return symmetrised(fair, image), ()
-
-
-def _largest_curvatures(patch: Patch, result: fairing.FairResult) -> tuple[float, float]:
-    sizes = np.abs(result.mean_curvature)
-    return float(sizes[patch.free].max(initial=0.0)), float(sizes[patch.outline].max(initial=0.0))
-
-
-def to_local(positions: Floats, matrix: Floats) -> Floats:
-    """Take world positions (k, 3) back; raises SolverError rather than pass on a NaN."""
-    local: Floats = np.linalg.solve(matrix[:3, :3], (positions - matrix[:3, 3]).T).T
-    if not np.isfinite(local).all():
-        raise fairing.SolverError("The solution is not finite; the mesh was left as it was")
-    return local

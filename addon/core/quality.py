@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from mathutils.bvhtree import BVHTree
 
 import fairing
 
 from .arrays import Floats, Ints, Mask
 from .vectors import area_vectors, sum_at, unit
+
+Count = Callable[[Floats, Ints], int]  # pairs of triangles (m, 3) that run into each other at positions (n, 3)
 
 LARGE = 50_000  # triangles
 FLATTEST = 1e-3  # height over longest side, below which a triangle counts as degenerate
@@ -25,20 +27,18 @@ class Quality:
     intersections: int | None  # pairs; None: not looked for
 
 
-def compare(before: Floats, after: Floats, triangles: Ints, clear: bool) -> tuple[Quality, Quality]:
-    """Measure the triangles (m, 3) at both sets of positions (n, 3), all finite.
+def compare(
+    positions: tuple[Floats, Floats], triangles: Ints, clear: bool, crossings: Count
+) -> tuple[Quality, Quality]:
+    """Measure the triangles (m, 3) at the positions (n, 3) before and after, all finite.
 
     clear: known not to run into itself afterwards. In a large patch that doesn't, whether it did before stays open: to
     look takes as long as a tenth of the solve.
     """
-    result = measure(after, triangles, clear)
+    before, after = positions
+    result = _measured(after, triangles, 0 if clear else crossings(after, triangles))
     look = len(triangles) <= LARGE or result.intersections != 0
-    return measure(before, triangles) if look else _measured(before, triangles, None), result
-
-
-def measure(positions: Floats, triangles: Ints, clear: bool = False) -> Quality:
-    """Count the bad ones of the triangles (m, 3); `clear`: they are known not to run into each other."""
-    return _measured(positions, triangles, 0 if clear else intersections(positions, triangles))
+    return _measured(before, triangles, crossings(before, triangles) if look else None), result
 
 
 def _measured(positions: Floats, triangles: Ints, crossings: int | None) -> Quality:
@@ -68,16 +68,6 @@ def degenerate(positions: Floats, triangles: Ints) -> Mask:
     doubled = np.linalg.norm(area_vectors(positions, triangles), axis=1)
     flat: Mask = ~(doubled > FLATTEST * longest_squared)
     return flat
-
-
-def intersections(positions: Floats, triangles: Ints) -> int:
-    """Count the pairs of triangles without a common vertex that run into each other."""
-    tree = BVHTree.FromPolygons(positions.tolist(), triangles.tolist(), all_triangles=True)
-    found = np.array(tree.overlap(tree), dtype=np.int64).reshape(-1, 2)
-    found = found[found[:, 0] < found[:, 1]]
-    first, second = triangles[found[:, 0]], triangles[found[:, 1]]
-    apart = (first[:, :, None] != second[:, None, :]).all(axis=(1, 2))
-    return int(np.count_nonzero(apart))
 
 
 def texture_distortion(before: Floats, after: Floats, triangles: Ints) -> float:

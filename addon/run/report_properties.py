@@ -6,7 +6,7 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
-from .report import MET, MISSED, TOLD, Report
+from ..core.report import MET, MISSED, TOLD, Report
 
 _STATES = ((MET, "Met", ""), (MISSED, "Missed", ""), (TOLD, "Told", ""))
 

@@ -1,6 +1,6 @@
 """What Live reads from a mesh in edit mode at every change, and where its region is kept.
 
-Beside mesh_io the only file with bmesh. Without a temporary copy: that would be a change of its own, each time.
+Without a temporary copy: that would be a change of its own, each time.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ import bmesh
 import bpy
 import numpy as np
 
-from .arrays import Floats, Ints
-from .options import FairOptions
+from ..core.arrays import Floats, Ints
+from ..core.options import FairOptions
 
 LAYER = "fair_live"  # integer face attribute, not zero in the region: bmesh of Blender 4.2 has no booleans
 OPTIONS = "fair_live_options"  # custom property of the mesh: FairOptions as JSON

@@ -10,8 +10,7 @@ from .arrays import Floats, Ints, Mask
 from .boundary import RINGS, prescribed_normals
 from .engine import Problem, Progress, RepeatedSolve
 from .options import FairOptions
-from .region import MeshArrays, Patch, make_patch
-from .solve import to_local
+from .region import MeshArrays, Patch, make_patch, to_local
 from .symmetry import mirror_map, symmetrised
 
 

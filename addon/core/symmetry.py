@@ -1,4 +1,4 @@
-"""Blender's X mirror: which vertex of a patch is the mirror image of which. Plain numpy and a tree.
+"""Blender's X mirror: which vertex of a patch is the mirror image of which.
 
 Positions decide on the outline alone. Inside, connectivity does: what lies there may be anything.
 """
@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator, Sequence
+from itertools import product
 
 import numpy as np
-from mathutils.kdtree import KDTree
 
 from .arrays import Floats, Ints
 from .region import MeshArrays, Patch
@@ -19,6 +19,7 @@ FLIP = np.array([-1.0, 1.0, 1.0])
 
 Loop = Sequence[int]
 Edge = tuple[int, int]
+Box = tuple[float, ...]
 
 
 def mirror_map(mesh: MeshArrays, patch: Patch) -> Ints | None:
@@ -49,18 +50,31 @@ def symmetrised(positions: Floats, image: Ints) -> Floats:
 
 
 def _outline_images(points: Floats, outline: Ints) -> dict[int, int] | None:
-    """Return the mirror image of each outline vertex, None where one is missing."""
-    tree = KDTree(len(points))
-    for k, point in enumerate(points.tolist()):
-        tree.insert(point, k)
-    tree.balance()
+    """Return the mirror image of each outline vertex, the nearest one to it, None where one is missing."""
+    mirrored = points * FLIP
+    box = _boxes(points)
     images = {}
-    for vertex, point in zip(outline.tolist(), (points * FLIP).tolist(), strict=True):
-        _, k, distance = tree.find(point)
-        if k is None or distance > NEAR:
+    for vertex, point in zip(outline.tolist(), mirrored, strict=True):
+        near = [k for corner in _corners(point) for k in box.get(corner, ())]
+        distances = np.linalg.norm(points[near] - point, axis=1)
+        if not (distances <= NEAR).any():
             return None
-        images[vertex] = int(outline[k])
+        images[vertex] = int(outline[near[int(distances.argmin())]])
     return images
+
+
+def _boxes(points: Floats) -> dict[Box, list[int]]:
+    """Sort the points (k, 3) into boxes that are twice NEAR wide."""
+    found: dict[Box, list[int]] = {}
+    for k, row in enumerate(np.floor(points / (2.0 * NEAR)).tolist()):
+        found.setdefault(tuple(row), []).append(k)
+    return found
+
+
+def _corners(point: Floats) -> set[Box]:
+    """Return the boxes that may hold points within NEAR of a point (3,)."""
+    low, high = (np.floor((point + shift) / (2.0 * NEAR)).tolist() for shift in (-NEAR, NEAR))
+    return set(product(*zip(low, high, strict=True)))
 
 
 def _faces(mesh: MeshArrays, patch: Patch) -> list[Loop]:

@@ -9,7 +9,7 @@ import numpy as np
 import fairing
 
 from .options import FairOptions
-from .solve import Fairing
+from .outcome import Fairing
 from .warnings_text import counted
 
 SMOOTH_ANGLE = 2.0  # degrees at the outline that the eye takes for tangent

@@ -10,13 +10,13 @@ import time
 
 import bpy
 
-from .context import edited_objects
-from .handlers import call_later, call_off, listen, unlisten
+from ..host.context import edited_objects
+from ..host.handlers import call_later, call_off, is_edited, listen, unlisten
+from ..host.polling import require_edit_mode
+from ..host.status import redraw_sidebars
+from ..mesh.mesh_io import edit_face_count
+from ..preferences import inspect_up_to
 from .inspection import Inspection, inspect, last_options
-from .mesh_io import edit_face_count
-from .polling import require_edit_mode
-from .preferences import inspect_up_to
-from .status import redraw_sidebars
 
 DELAY = 0.2  # seconds without a change, before the look: never in the middle of a drag
 
@@ -53,19 +53,6 @@ def request(context: bpy.types.Context) -> None:
     """Have the selection looked at soon, if it has changed; for drawing code."""
     if watch.stale and not is_large(context):
         call_later(_look_later, DELAY)
-
-
-def is_edited(depsgraph: bpy.types.Depsgraph) -> bool:
-    """Tell whether a mesh changed, its selection included, or an object was moved.
-
-    Copies that are made for reading show up as other kinds of updates, which must not count: each look
-    would be the reason for the next one.
-    """
-    return any(
-        isinstance(update.id, bpy.types.Mesh)
-        or (isinstance(update.id, bpy.types.Object) and (update.is_updated_transform or update.is_updated_geometry))
-        for update in depsgraph.updates
-    )
 
 
 def _look_later() -> float | None:

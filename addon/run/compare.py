@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from . import mesh_io
-from .arrays import Floats, Ints
+from ..core.arrays import Floats, Ints
+from ..core.outcome import Fairing
+from ..host.polling import require, require_edit_mode
+from ..mesh import mesh_io
 from .job import Task, objects_in_mode
-from .polling import require, require_edit_mode
-from .solve import Fairing
 
 
 @dataclass(frozen=True)

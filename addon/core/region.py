@@ -170,3 +170,11 @@ def face_sizes(mesh: MeshArrays) -> Ints:
 
 def _all_triangles(mesh: MeshArrays) -> bool:
     return bool((face_sizes(mesh)[mesh.in_patch] == 3).all())
+
+
+def to_local(positions: Floats, matrix: Floats) -> Floats:
+    """Take world positions (k, 3) back; raises SolverError rather than pass on a NaN."""
+    local: Floats = np.linalg.solve(matrix[:3, :3], (positions - matrix[:3, 3]).T).T
+    if not np.isfinite(local).all():
+        raise fairing.SolverError("The solution is not finite; the mesh was left as it was")
+    return local

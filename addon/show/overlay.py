@@ -12,14 +12,14 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from . import mesh_io, signals
-from .context import active_object, edited_objects
-from .handlers import call_later, call_off, listen, unlisten
-from .options import FairOptions
-from .overlay_data import Surface, make_surface
+from ..core import signals
+from ..core.options import FairOptions
+from ..core.overlay_data import Surface, make_surface
+from ..host.context import active_object, edited_objects
+from ..host.handlers import call_later, call_off, is_edited, listen, unlisten
+from ..host.status import redraw_views
+from ..mesh import mesh_io
 from .overlay_shader import make_shader
-from .status import redraw_views
-from .watch import is_edited
 
 DELAY = 0.02  # seconds from a change to the next measurement
 

@@ -1,4 +1,4 @@
-"""Blender meshes to arrays and positions back: the only file that touches bmesh."""
+"""Blender meshes to arrays and positions back; together with live_mesh all that touches bmesh."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ import bmesh
 import bpy
 import numpy as np
 
-from .arrays import Floats, Ints, Mask
-from .options import FairOptions
-from .region import MeshArrays, free_vertices
+from ..core.arrays import Floats, Ints, Mask
+from ..core.options import FairOptions
+from ..core.region import MeshArrays, free_vertices
 
 # Read and written as float32, which is what Blender stores; doubles in between.
 

@@ -10,10 +10,11 @@ import numpy as np
 
 import fairing
 
-from . import mesh_io
-from .engine import Progress
-from .options import FairOptions
-from .solve import Fairing, fair_arrays
+from ..core.engine import Progress
+from ..core.options import FairOptions
+from ..core.outcome import Fairing
+from ..mesh import mesh_io
+from .fair_arrays import fair_arrays
 
 
 def fair_mesh(

@@ -7,7 +7,7 @@ No postponed annotations here: Blender reads them as property definitions.
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty
 
-from .signals import content_changed, look_changed
+from ..core.signals import content_changed, look_changed
 
 _MODES = (
     ("ZEBRA", "Reflection Lines", "Stripes of light mirrored in the surface: they break at creases, bend at bad joins"),

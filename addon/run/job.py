@@ -10,14 +10,16 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from . import mesh_io
-from .arrays import Floats
-from .context import edited_objects
-from .engine import REFUSALS, KeptSolver, Progress, sub_range
-from .memory import Memory
-from .options import FairOptions
-from .region import MeshArrays, free_vertices
-from .solve import Fairing, Kept, Solved, fair_arrays
+from ..core.arrays import Floats
+from ..core.engine import REFUSALS, KeptSolver, Progress, sub_range
+from ..core.memory import Memory
+from ..core.options import FairOptions
+from ..core.outcome import Fairing
+from ..core.region import MeshArrays, free_vertices
+from ..core.solve import Kept, Solved
+from ..host.context import edited_objects
+from ..mesh import mesh_io
+from .fair_arrays import fair_arrays
 
 memory: Memory[Solved] = Memory(4)  # enough for the objects of one redo panel; forgotten at unregistering
 solvers: Memory[KeptSolver | None] = Memory(2)  # likewise; larger, as they hold factorisations

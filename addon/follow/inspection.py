@@ -9,11 +9,12 @@ import numpy as np
 
 import fairing
 
-from . import engine, job
-from .components import components
-from .options import FairOptions, option_names
-from .polling import NO_FACE, NO_FREE
-from .solve import pose
+from ..core import engine
+from ..core.components import components
+from ..core.options import FairOptions, option_names
+from ..core.solve import pose
+from ..host.polling import NO_FACE, NO_FREE
+from ..run import job
 
 
 @dataclass(frozen=True)

@@ -9,14 +9,14 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty
 
-from . import live_mesh
-from .context import edited_objects
-from .engine import REFUSALS
+from ..core.engine import REFUSALS
+from ..core.signals import live_changed
+from ..host.context import edited_objects
+from ..host.polling import NO_FACE, SELECT_FACES, require, require_edit_mode
+from ..mesh import live_mesh
+from ..translations import translated
 from .inspection import last_options
 from .live import live
-from .polling import NO_FACE, SELECT_FACES, require, require_edit_mode
-from .signals import live_changed
-from .translations import translated
 
 
 class FairLive(bpy.types.PropertyGroup):

@@ -7,10 +7,10 @@ import numpy as np
 
 import fairing
 
-from . import mesh_io
-from .context import active_object
-from .options import FairOptions
-from .polling import require
+from ..core.options import FairOptions
+from ..host.context import active_object
+from ..host.polling import require
+from ..mesh import mesh_io
 
 NAME = "mean_curvature"
 

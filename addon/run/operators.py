@@ -1,6 +1,6 @@
 """The operator: at once for scripts and where it takes but a moment, else in the background.
 
-What it does is in job.py and solve.py, the thread in runner.py.
+What it does is in job.py and fair_arrays.py, the thread in core's runner.py.
 """
 
 import time
@@ -12,19 +12,20 @@ import numpy as np
 
 import fairing
 
-from . import compare, job, mesh_io
-from .engine import Progress
-from .options import FairOptions
-from .polling import NO_FACE, NO_FREE, SELECT_FACES, require, require_edit_mode
-from .preferences import background_from
+from ..core.engine import Progress
+from ..core.options import FairOptions
+from ..core.outcome import Fairing
+from ..core.report import make_report, summary
+from ..core.runner import Run
+from ..host.polling import NO_FACE, NO_FREE, SELECT_FACES, require, require_edit_mode
+from ..host.status import hide_progress, show_progress
+from ..mesh import mesh_io
+from ..preferences import background_from
+from ..translations import translated
+from . import compare, job
 from .properties import FairProperties
 from .redo_panel import draw_options
-from .report import make_report, summary
 from .report_properties import store
-from .runner import Run
-from .solve import Fairing
-from .status import hide_progress, show_progress
-from .translations import translated
 
 TICK = 0.05  # seconds between two looks at the thread
 MOMENT = 0.3  # seconds that Blender may stand still for an answer

@@ -11,10 +11,10 @@ from typing import Any
 import bpy
 import numpy as np
 
-from .engine import REFUSALS
+from ..core.engine import REFUSALS
+from ..core.options import FairOptions, option_names
+from ..core.report import Report, make_report, summary
 from .fair_mesh import fair_faces
-from .options import FairOptions, option_names
-from .report import Report, make_report, summary
 
 CONVERGED, NOT_CONVERGED, REFUSED = 0, 1, 2
 

@@ -23,14 +23,15 @@ import numpy as np
 
 import fairing
 
-from . import live_mesh, mesh_io, signals
-from .arrays import Floats, Ints
-from .engine import REFUSALS
-from .handlers import call_later, call_off, listen, unlisten
-from .live_region import LiveRegion
-from .options import FairOptions
-from .region import free_vertices
-from .status import redraw_sidebars
+from ..core import signals
+from ..core.arrays import Floats, Ints
+from ..core.engine import REFUSALS
+from ..core.live_region import LiveRegion
+from ..core.options import FairOptions
+from ..core.region import free_vertices
+from ..host.handlers import call_later, call_off, listen, unlisten
+from ..host.status import redraw_sidebars
+from ..mesh import live_mesh, mesh_io
 
 SLOW = 0.25  # seconds of the last answer from which the next one waits for the end of the changes
 PATIENCE = 0.5  # seconds after which an answer in the middle of changes is given up, to be asked for at their end
