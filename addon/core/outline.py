@@ -174,4 +174,4 @@ def turned_over(mesh: MeshArrays) -> Mask:
     right = wrong.copy()
     wrong[mesh.edges[sides.edges[sides.alike]]] = True
     right[mesh.edges[sides.edges[~sides.alike]]] = True
-    return wrong & ~right & vertices_of(mesh, ~mesh.in_patch)
+    return wrong & ~right

@@ -9,7 +9,7 @@ import pytest
 
 from core.components import components, connected, outline_radius
 from core.region import make_patch
-from polygon_mesh import grid
+from polygon_mesh import grid, grid_points, grid_quads, polygon_mesh
 
 
 def test_groups_and_radius_of_known_sets() -> None:
@@ -33,6 +33,17 @@ def test_a_pinned_point_divides_nothing() -> None:
     pinned[13 * 6 + 6] = True
     (piece,) = components(make_patch(replace(mesh, pinned=pinned)))
     assert len(piece.outline) == 40  # a point within is no part of the outline
+
+
+def test_the_triangle_in_a_corner_stays_with_its_patch() -> None:
+    """A diagonal between two vertices of the border cuts a corner off a square, which is no piece of its own."""
+    quads = grid_quads(4)
+    diagonals = [(loop[0], loop[1], loop[3]) for loop in quads], [(loop[1], loop[2], loop[3]) for loop in quads]
+    patch = make_patch(polygon_mesh(grid_points(4), [*diagonals[0], *diagonals[1]], [True] * 32))
+    assert any(not np.isin(triangle, patch.free).any() for triangle in patch.triangles)
+    (piece,) = components(patch)
+    assert len(piece.triangles) == 32
+    assert 0 in piece.outline
 
 
 def test_a_patch_that_is_pinned_has_no_pieces() -> None:
