@@ -5,7 +5,7 @@ from . import loading
 if loading.problem():
     from .loading_panel import register, unregister
 else:
-    from .fair_mesh import fair_mesh
     from .registration import register, unregister
+    from .run.fair_mesh import fair_mesh
 
 __all__ = ["fair_mesh", "register", "unregister"]

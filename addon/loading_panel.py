@@ -5,7 +5,7 @@ from typing import Any
 import bpy
 
 from . import loading
-from .text import draw_text
+from .host.text import draw_text
 
 ADVICE = (
     "Remove the extension, restart Blender, and install the zip for this platform.",

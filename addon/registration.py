@@ -5,18 +5,23 @@ from typing import Any
 
 import bpy
 
-from . import cli, compare, handlers, job, live, overlay, runner, translations, ui, watch
-from .curvature import MESH_OT_fair_curvature
-from .live_operators import (
+from . import translations
+from .core import runner
+from .follow import live, watch
+from .follow.live_operators import (
     FairLive,
     MESH_OT_fair_live_forget,
     MESH_OT_fair_live_region,
     MESH_OT_fair_live_select,
 )
-from .operators import MESH_OT_fair_region
-from .overlay_settings import FairOverlay
+from .host import handlers
 from .preferences import FairPreferences
-from .report_properties import FairCheck, FairProgress, FairReport
+from .run import cli, compare, job
+from .run.curvature import MESH_OT_fair_curvature
+from .run.operators import MESH_OT_fair_region
+from .run.report_properties import FairCheck, FairProgress, FairReport
+from .show import overlay, ui
+from .show.overlay_settings import FairOverlay
 
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(
     (

@@ -1,4 +1,4 @@
-# shellcheck shell=bash disable=SC2034
+# shellcheck shell=bash disable=SC2034,SC2154
 # Shared by the scripts beside it; sourced, never run.
 set -euo pipefail
 
@@ -58,6 +58,19 @@ fingerprint() {
 # True when the stamp file says that this very input has been dealt with.
 is_done() { [[ -f $1 && $(<"$1") == "$2" ]]; }
 
+# Runs a step, unless it has passed with this very input already.
+# usage: once NAME INPUT COMMAND…
+once() {
+    local stamp=$build/stamps/$1 input=$2
+    if is_done "$stamp" "$input"; then
+        printf '   %s: passed before, and nothing has changed\n' "$1"
+        return
+    fi
+    "${@:3}"
+    mkdir -p "$build/stamps"
+    printf '%s' "$input" >"$stamp"
+}
+
 venv_python() { printf '%s/venv-%s/bin/python' "$build" "$1"; }
 
 manifest_version() { sed -n 's/^version = "\(.*\)"/\1/p' addon/blender_manifest.toml; }
@@ -95,6 +108,16 @@ install_packages() {
     quietly apt-install "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive \
         apt-get install --yes --no-install-recommends "${missing[@]}"
 }
+
+# Of the two below: $python is the environment's, which knows where pybind11 is.
+# usage: configure PRESET [OPTION…]
+configure() {
+    quietly "$1-configure" cmake --preset "$@" \
+        -Dpybind11_DIR="$("$python" -m pybind11 --cmakedir)" -DPython_EXECUTABLE="$python"
+}
+
+# usage: compile PRESET [OPTION…]
+compile() { quietly "$1-compile" cmake --build --preset "$@" --parallel "$(nproc)"; }
 
 # Puts the module that a preset has built beside its Python package: build/PRESET/package.
 stage_module() {

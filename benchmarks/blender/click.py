@@ -44,8 +44,8 @@ def scene(free_vertices: int) -> bpy.types.Object:
 
 def forget() -> None:
     """Leave nothing to answer from."""
-    module("job").memory.clear()
-    module("job").solvers.clear()
+    module("run.job").memory.clear()
+    module("run.job").solvers.clear()
 
 
 def at_once() -> None:
@@ -55,9 +55,9 @@ def at_once() -> None:
 
 def in_background() -> None:
     """What the operator does after a click, without Blender's events in between."""
-    job, options = module("job"), module("options").FairOptions()
+    job, options = module("run.job"), module("core.options").FairOptions()
     tasks = job.read(bpy.context, options)
-    outcomes = module("runner").Run(partial(job.solve, tasks, options, ahead=True)).result()
+    outcomes = module("core.runner").Run(partial(job.solve, tasks, options, ahead=True)).result()
     job.write(bpy.context, tasks, outcomes)
     bpy.ops.ed.undo_push(message="fair")
 

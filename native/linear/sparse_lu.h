@@ -24,7 +24,7 @@ private:
         Eigen::PartialPivLU<Eigen::MatrixXd> pivot;  // of D
         Eigen::MatrixXd lower;                       // B
         Eigen::MatrixXd upper;                       // D⁻¹U
-        Eigen::MatrixXd update;  // −B D⁻¹U and the children's, freed when the parent has taken it
+        Eigen::MatrixXd update;                      // −B D⁻¹U and the children's, freed when the parent has taken it
     };
 
     [[nodiscard]] Eigen::MatrixXd gather(int supernode, const SparseMatrix& matrix, const SparseMatrix& transposed);

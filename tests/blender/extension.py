@@ -20,6 +20,6 @@ def inspect(obj: Any, faces: Any, **options: Any) -> Any:
     meshes.select(obj, faces)
     meshes.edit(obj)
     try:
-        return module("inspection").inspect(obj, module("options").FairOptions(**options))
+        return module("follow.inspection").inspect(obj, module("core.options").FairOptions(**options))
     finally:
         meshes.leave()

@@ -1,4 +1,4 @@
-"""Runs in a thread: progress, cancel, errors. The events around it are for the GUI tests."""
+"""Objects faired in a thread, and what the redo panel answers from. The events around it are for the GUI tests."""
 
 from __future__ import annotations
 
@@ -14,70 +14,18 @@ from extension import module
 
 
 def run(work: Any) -> Any:
-    return module("runner").Run(work)
-
-
-def test_returns_what_the_work_returns() -> None:
-    assert run(lambda _progress: 42).result() == 42
-
-
-def test_raises_what_the_work_raises() -> None:
-    def work(_progress: Any) -> int:
-        raise ValueError("spoilt")
-
-    with pytest.raises(ValueError, match="spoilt"):
-        run(work).result()
-
-
-def test_shows_progress_and_ends() -> None:
-    told, go_on = threading.Event(), threading.Event()
-
-    def work(progress: Any) -> int:
-        assert progress(0.25, "descent")
-        told.set()
-        assert go_on.wait(10.0)
-        return 1
-
-    background = run(work)
-    assert told.wait(10.0)
-    assert not background.finished
-    assert (background.fraction, background.stage) == (0.25, "descent")
-    go_on.set()
-    assert background.wait(10.0)
-    assert background.result() == 1
-
-
-def test_cancel_returns_at_once_and_the_work_hears_of_it() -> None:
-    answers: list[bool] = []
-    started, go_on = threading.Event(), threading.Event()
-
-    def work(progress: Any) -> int:
-        answers.append(progress(0.0, "first"))
-        started.set()
-        assert go_on.wait(10.0)
-        answers.append(progress(0.5, "second"))
-        return 0
-
-    background = run(work)
-    assert started.wait(10.0)
-    background.cancel()
-    assert not background.finished  # the work is still busy: cancelling did not wait for it
-    assert not module("runner").wait_for_all(0.0)
-    go_on.set()
-    assert background.wait(10.0)
-    assert answers == [True, False]
-    assert module("runner").wait_for_all(10.0)
+    return module("core.runner").Run(work)
 
 
 def tasks_of(obj: Any, faces: Any) -> tuple[Any, Any]:
-    options = module("options").FairOptions()
+    options = module("core.options").FairOptions()
     meshes.select(obj, faces)
     meshes.edit(obj)
-    return module("job").read(bpy.context, options), options
+    return module("run.job").read(bpy.context, options), options
 
 
 def test_engine_in_a_thread_is_the_engine() -> None:
-    job = module("job")
+    job = module("run.job")
     obj, faces = meshes.domed_grid()
     tasks, options = tasks_of(obj, faces)
     job.memory.clear()
@@ -94,7 +42,7 @@ def test_engine_in_a_thread_is_the_engine() -> None:
 def test_cancelled_engine_leaves_every_bit() -> None:
     import fairing
 
-    job = module("job")
+    job = module("run.job")
     obj, faces = meshes.domed_grid()
     before = meshes.in_edit_mode_once(obj, faces)
     tasks, options = tasks_of(obj, faces)
@@ -116,7 +64,7 @@ def test_cancelled_engine_leaves_every_bit() -> None:
 
 
 def test_a_mesh_that_changed_meanwhile_is_noticed() -> None:
-    job = module("job")
+    job = module("run.job")
     obj, faces = meshes.domed_grid()
     tasks, _ = tasks_of(obj, faces)
     assert job.is_current(bpy.context, tasks)
@@ -129,7 +77,7 @@ def test_a_mesh_that_changed_meanwhile_is_noticed() -> None:
 
 def test_another_shape_key_is_noticed() -> None:
     """Of the same shape even: what was computed for the Basis must not end up in a key."""
-    job = module("job")
+    job = module("run.job")
     obj, faces = meshes.domed_grid()
     for name in ("Basis", "Smile"):
         obj.shape_key_add(name=name, from_mix=False)
@@ -155,7 +103,7 @@ def test_scripts_run_at_once_whatever_the_size() -> None:
 
 
 def test_factor_is_answered_from_memory_with_the_same_bits() -> None:
-    job = module("job")
+    job = module("run.job")
     obj, faces = meshes.domed_grid()
     start = meshes.positions(obj)
     tasks, options = tasks_of(obj, faces)
@@ -183,38 +131,9 @@ def test_factor_is_answered_from_memory_with_the_same_bits() -> None:
     assert asked  # another space is another problem
 
 
-def test_memory_keeps_what_was_used_last() -> None:
-    memory = module("memory").Memory(2)
-    memory.put("a", 1)
-    memory.put("b", 2)
-    assert memory.get("a") == 1  # now "b" is the one not used for longest
-    memory.put("c", 3)
-    assert [memory.get(key) for key in "abc"] == [1, None, 3]
-    memory.clear()
-    assert memory.get("a") is None
-
-
-def test_digest_tells_inputs_apart() -> None:
-    digest = module("memory").digest
-    options = module("options").FairOptions
-    zeros, ones = np.zeros((2, 3)), np.ones((2, 3))
-    inputs: list[tuple[Any, ...]] = [
-        (zeros,),
-        (ones,),
-        (zeros.reshape(3, 2),),
-        (zeros.astype(np.float32),),
-        (zeros, zeros),
-        (zeros, options()),
-        (zeros, options(tolerance=1e-7)),
-        (zeros, "a"),
-    ]
-    assert len({digest(*given) for given in inputs}) == len(inputs)
-    assert digest(zeros, options()) == digest(np.zeros((2, 3)), options())
-
-
 def test_redo_with_other_options_starts_from_the_last_answer() -> None:
     """After a run in the background; the answer is the one from scratch, to the tolerance."""
-    job, options = module("job"), module("options").FairOptions
+    job, options = module("run.job"), module("core.options").FairOptions
     obj, faces = meshes.domed_grid()
     meshes.select(obj, faces)
     meshes.edit(obj)
@@ -247,7 +166,7 @@ def test_redo_with_other_options_starts_from_the_last_answer() -> None:
 
 def test_a_single_run_prepares_nothing() -> None:
     """The second run on the same mesh makes the solver that the third one starts from."""
-    job, options = module("job"), module("options").FairOptions
+    job, options = module("run.job"), module("core.options").FairOptions
     obj, faces = meshes.domed_grid()
     meshes.select(obj, faces)
     meshes.edit(obj)

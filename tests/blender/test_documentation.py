@@ -82,7 +82,7 @@ def test_every_choice_is_explained() -> None:
 
 def test_command_is_documented() -> None:
     text = (DOCS / "blender.md").read_text()
-    names = module("options").option_names()
+    names = module("core.options").option_names()
     assert "--command fair" in text
     assert "--report json" in text
     assert all(f"`{name}`" in text for name in names)

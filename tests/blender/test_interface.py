@@ -70,7 +70,7 @@ def test_every_button_says_that_it_needs_edit_mode(name: str) -> None:
 
 
 def test_every_button_says_what_it_lacks() -> None:
-    module("compare").forget()
+    module("run.compare").forget()
     meshes.edit(meshes.grid())
     for name, lack in (("fair_live_forget", "no live region"), ("fair_compare", "Nothing has been faired")):
         with pytest.raises(RuntimeError, match=lack):
@@ -179,14 +179,14 @@ def test_fair_mesh_refuses() -> None:
 
 
 def test_fair_mesh_has_the_operators_defaults() -> None:
-    from bl_ext.user_default.intrinsic_fairing import options
+    from bl_ext.user_default.intrinsic_fairing.core import options
 
     parameters = inspect.signature(options.FairOptions).parameters
     assert {name: p.default for name, p in parameters.items()} == DEFAULTS
 
 
 def command(*arguments: str) -> int:
-    from bl_ext.user_default.intrinsic_fairing import cli
+    from bl_ext.user_default.intrinsic_fairing.run import cli
 
     status: int = cli.execute(list(arguments))
     return status

@@ -8,7 +8,7 @@ import bpy
 import meshes
 import numpy as np
 import pytest
-from extension import inspect, module
+from extension import inspect
 from test_bulge import LIFT, disc
 
 
@@ -54,13 +54,3 @@ def test_pinned_loop_divides_the_selection(equation: str) -> None:
     assert result[loop].tobytes() == points[loop].tobytes()
     inspection = inspect(obj, faces, pin_group="Pin")
     assert (inspection.islands, inspection.loops) == (2, 1)
-
-
-def test_components_of_known_patches() -> None:
-    components = module("components")
-    labels = components.connected(7, np.array([[5, 6], [0, 2], [2, 4], [6, 1]]))
-    assert labels.tolist() == [0, 1, 0, 3, 0, 1, 1]
-    radius = components.outline_radius(
-        np.array([[1.0, 1.0, 0.0], [-1.0, 1.0, 0.0], [-1.0, -1.0, 0.0], [1.0, -1.0, 0.0]])
-    )
-    assert radius == pytest.approx(np.sqrt(2.0))

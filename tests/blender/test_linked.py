@@ -48,7 +48,7 @@ def test_command_refuses_linked_data(
     linked: tuple[bpy.types.Object, list[int]], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     output = tmp_path / "fair.blend"
-    assert module("cli").execute(["--object", linked[0].name, "--output", str(output)]) == 2
+    assert module("run.cli").execute(["--object", linked[0].name, "--output", str(output)]) == 2
     assert "linked from another file" in capsys.readouterr().err
     assert not output.exists()
 

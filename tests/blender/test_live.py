@@ -19,7 +19,7 @@ from extension import module
 
 @pytest.fixture
 def live() -> Iterator[Any]:
-    found = module("live")
+    found = module("follow.live")
     yield found.live
     bpy.context.window_manager.fairing_live.on = False
     assert not found.live.on
@@ -169,10 +169,10 @@ def test_region_is_undone_too(live: Any) -> None:
     meshes.edit(obj)
     bpy.ops.ed.undo_push(message="start")
     bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True)
-    assert module("live_mesh").has_region(bpy.data.objects["Grid"].data)
+    assert module("mesh.live_mesh").has_region(bpy.data.objects["Grid"].data)
     bpy.ops.ed.undo()
     bpy.context.view_layer.update()
-    assert not module("live_mesh").has_region(bpy.data.objects["Grid"].data)
+    assert not module("mesh.live_mesh").has_region(bpy.data.objects["Grid"].data)
     count = live.updates
     drag(flank(now()), (0.0, 0.0, 0.05))
     assert live.updates == count
@@ -220,7 +220,7 @@ def test_options_are_those_of_the_last_run(live: Any) -> None:
     faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6)
     meshes.select(obj, faces)
     meshes.edit(obj)
-    module("live").live.take(obj, module("options").FairOptions(equation="CONSTANT", bulge=0.4))
+    module("follow.live").live.take(obj, module("core.options").FairOptions(equation="CONSTANT", bulge=0.4))
     switch(True)
     height = now()[:, 2].max()
     assert height > 0.02
@@ -239,7 +239,7 @@ def test_new_connectivity_is_read_anew(live: Any) -> None:
     mesh = bpy.data.objects["Grid"].data
     bm = bmesh.from_edit_mesh(mesh)
     bm.faces.ensure_lookup_table()
-    layer = bm.faces.layers.int[module("live_mesh").LAYER]
+    layer = bm.faces.layers.int[module("mesh.live_mesh").LAYER]
     inside = [face for face in bm.faces if face[layer]]
     bmesh.ops.poke(bm, faces=[inside[len(inside) // 2]])
     bmesh.update_edit_mesh(mesh)
@@ -262,7 +262,7 @@ def test_a_spoilt_outline_is_told_and_leaves_the_mesh(live: Any) -> None:
 
 def test_a_slow_answer_waits_for_the_end_of_the_drag(live: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """Out of patience at once: the engine is stopped at its first question, and asked again when all is quiet."""
-    home = module("live")
+    home = module("follow.live")
     monkeypatch.setattr(home, "PATIENCE", -1.0)
     monkeypatch.setattr(home, "SLOW", -2.0)
     _, faces = table_mountain()
@@ -376,7 +376,7 @@ def test_what_cannot_be_live_is_refused() -> None:
     meshes.edit(obj)
     with pytest.raises(RuntimeError, match="No face is selected"):
         bpy.ops.mesh.fair_live_region()
-    live_module, options = module("live"), module("options")
+    live_module, options = module("follow.live"), module("core.options")
     meshes.leave()
     meshes.select(obj, meshes.faces_where(obj, lambda c: abs(c.x) < 0.7 and abs(c.y) < 0.7))
     meshes.edit(obj)
@@ -384,7 +384,7 @@ def test_what_cannot_be_live_is_refused() -> None:
     with pytest.raises(ValueError, match="can't be followed"):
         live_module.live.take(obj, options.FairOptions(boundary_normals="CUSTOM"))
     assert np.array_equal(now(), before)
-    assert not module("live_mesh").has_region(obj.data)
+    assert not module("mesh.live_mesh").has_region(obj.data)
 
 
 @pytest.mark.parametrize("mode", [(True, False, False), (False, False, True)])
@@ -410,9 +410,9 @@ def test_forgetting_leaves_no_trace(live: Any) -> None:
     assert bpy.ops.mesh.fair_live_forget() == {"FINISHED"}
     bpy.context.view_layer.update()
     meshes.leave()
-    assert module("live_mesh").LAYER not in obj.data.attributes
-    assert module("live_mesh").OPTIONS not in obj.data
-    assert module("live_mesh").KEY not in obj.data
+    assert module("mesh.live_mesh").LAYER not in obj.data.attributes
+    assert module("mesh.live_mesh").OPTIONS not in obj.data
+    assert module("mesh.live_mesh").KEY not in obj.data
     meshes.edit(obj)
     assert not bpy.ops.mesh.fair_live_forget.poll()
     assert not bpy.ops.mesh.fair_live_select.poll()

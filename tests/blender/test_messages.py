@@ -13,7 +13,7 @@ from extension import inspect, module
 
 def told(*objects: bpy.types.Object, **properties: Any) -> list[str]:
     """Return the infos and warnings of a run, from and to object mode."""
-    original = module("operators").MESH_OT_fair_region
+    original = module("run.operators").MESH_OT_fair_region
     said: list[str] = []
 
     class Stand:
@@ -24,7 +24,7 @@ def told(*objects: bpy.types.Object, **properties: Any) -> list[str]:
             said.append(text)
 
     stand: Any = Stand()
-    options = module("options")
+    options = module("core.options")
     for name in options.option_names():
         setattr(stand, name, properties.get(name, getattr(options.FairOptions(), name)))
     meshes.edit(*objects)
@@ -87,46 +87,6 @@ def test_a_pin_group_that_pins_nothing(weight: float | None) -> None:
     notes = [text for text in told(obj, pin_group="Pin") if "pins nothing" in text]
     assert len(notes) == (0 if weight else 1)
     assert ("'Pin' has no vertex inside" in "".join(inspect(obj, faces, pin_group="Pin").notes)) == bool(notes)
-
-
-def warnings(*given: tuple[str, str]) -> tuple[str, ...]:
-    import fairing
-
-    none = np.empty(0, dtype=np.int32)
-    diagnostics = tuple(fairing.Diagnostic(code, text, none, "vertex") for code, text in given)
-    found: tuple[str, ...] = module("warnings_text").sentences(diagnostics)
-    return found
-
-
-FLIPPED = "triangles of the result are turned over"
-SHARP = "the normals along the outline turn by up to {}° from one vertex to the next"
-LOST = "a component of {} free vertices did not converge; its positions are the best that were found"
-
-
-def test_warnings_of_several_islands_are_one() -> None:
-    assert warnings(
-        ("FLIPPED_TRIANGLES", f"3 {FLIPPED}"),
-        ("SHARP_BOUNDARY", SHARP.format(24)),
-        ("FLIPPED_TRIANGLES", f"18 {FLIPPED}"),
-        ("NOT_CONVERGED", LOST.format(5)),
-        ("SHARP_BOUNDARY", SHARP.format(31)),
-        ("PRECISION", "this far from the origin"),
-        ("SHARP_BOUNDARY", SHARP.format(22)),
-        ("NOT_CONVERGED", LOST.format(70)),
-        ("PRECISION", "this far from the origin"),
-    ) == (
-        f"FLIPPED_TRIANGLES: 21 {FLIPPED} (2 islands)",
-        f"SHARP_BOUNDARY: {SHARP.format(31)} (3 islands)",
-        "NOT_CONVERGED: 2 islands, of 75 free vertices in all, did not converge; their positions are the best found",
-        "PRECISION: this far from the origin (2 islands)",
-    )
-
-
-def test_islands_with_a_part_of_their_load_tell_the_largest_part() -> None:
-    partly = "a component of {} free vertices was solved with {} % of the load only and keeps that surface"
-    assert warnings(("NOT_CONVERGED", partly.format(70, 50)), ("NOT_CONVERGED", partly.format(61, 75))) == (
-        f"NOT_CONVERGED: {partly.format(70, 75)} (2 islands)",
-    )
 
 
 def test_islands_of_a_run_are_told_once() -> None:

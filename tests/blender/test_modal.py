@@ -18,8 +18,8 @@ def event(kind: str, value: str = "PRESS") -> Any:
 
 def started(obj: bpy.types.Object, faces: Any, go_on: threading.Event) -> Any:
     """Return an operator whose run has begun and waits for `go_on`; a stand-in with its methods."""
-    job, options = module("job"), module("options").FairOptions()
-    original = module("operators").MESH_OT_fair_region
+    job, options = module("run.job"), module("core.options").FairOptions()
+    original = module("run.operators").MESH_OT_fair_region
 
     class Stand:
         modal, cancel = original.modal, original.cancel
@@ -42,7 +42,7 @@ def started(obj: bpy.types.Object, faces: Any, go_on: threading.Event) -> Any:
 
     stand = Stand()
     stand.told, stand._tasks = told, tasks
-    stand._run = module("runner").Run(work)
+    stand._run = module("core.runner").Run(work)
     return stand
 
 
@@ -51,7 +51,7 @@ def go_on() -> Any:
     gate = threading.Event()
     yield gate
     gate.set()
-    assert module("runner").wait_for_all(10.0)
+    assert module("core.runner").wait_for_all(10.0)
 
 
 def test_escape_leaves_every_bit(go_on: threading.Event) -> None:
@@ -73,7 +73,7 @@ def test_few_vertices_go_to_the_background_when_they_take_long(
     quick: bool, go_on: threading.Event, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A selection without a fair surface keeps the engine busy however small it is."""
-    job, operators = module("job"), module("operators")
+    job, operators = module("run.job"), module("run.operators")
     scripted, faces = meshes.domed_grid()
     meshes.fair(scripted, faces)
     obj, _ = meshes.domed_grid()
@@ -99,7 +99,7 @@ def test_few_vertices_go_to_the_background_when_they_take_long(
             pass
 
     operator: Any = Stand()
-    options = module("options")
+    options = module("core.options")
     for name in options.option_names():
         setattr(operator, name, getattr(options.FairOptions(), name))
     monkeypatch.setattr(operators.job, "solve", slow)
@@ -167,9 +167,9 @@ def test_refusal_at_the_end_is_told(go_on: threading.Event) -> None:
     operator._run.cancel()
 
     def refused(_progress: Any) -> Any:
-        raise module("job").Refused(obj.name, ValueError("no"))
+        raise module("run.job").Refused(obj.name, ValueError("no"))
 
-    operator._run = module("runner").Run(refused)
+    operator._run = module("core.runner").Run(refused)
     assert operator._run.wait(10.0)
     assert operator.modal(bpy.context, event("TIMER")) == {"CANCELLED"}
     assert operator.told == [({"ERROR"}, f"{obj.name}: no")]

@@ -15,7 +15,7 @@ from test_refusals import add_tent
 
 @pytest.fixture
 def overlay() -> Any:
-    found = module("overlay")
+    found = module("show.overlay")
     yield found.overlay
     found.stop()
 
@@ -71,13 +71,13 @@ def test_follows_edits(overlay: Any) -> None:
     before = overlay.surfaces[0].curvature.copy()
     meshes.run()
     bpy.context.view_layer.update()
-    module("overlay")._measure_later()  # the timer's function; a background process runs no timers
+    module("show.overlay")._measure_later()  # the timer's function; a background process runs no timers
     assert np.abs(overlay.surfaces[0].curvature - before).max() > 0.1
-    assert bpy.app.timers.is_registered(module("overlay")._measure_later)
+    assert bpy.app.timers.is_registered(module("show.overlay")._measure_later)
 
 
 def test_measuring_is_no_change(overlay: Any) -> None:
-    later = module("overlay")._measure_later
+    later = module("show.overlay")._measure_later
     obj, faces = meshes.domed_grid()
     meshes.select(obj, faces)
     meshes.edit(obj)

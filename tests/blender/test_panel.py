@@ -46,7 +46,7 @@ def drawn(panel: str) -> str:
         layout = Layout()
 
     shown = Shown()
-    getattr(module("ui"), panel).draw(shown, bpy.context)
+    getattr(module("show.ui"), panel).draw(shown, bpy.context)
     return "\n".join(shown.layout.told)
 
 
@@ -103,7 +103,7 @@ def test_inspection_without_free_vertices() -> None:
 
 
 def test_drawing_the_panel_never_looks(monkeypatch: pytest.MonkeyPatch) -> None:
-    watch = module("watch")
+    watch = module("follow.watch")
     obj, faces = meshes.domed_grid()
     meshes.select(obj, faces)
     meshes.edit(obj)
@@ -122,7 +122,7 @@ def test_drawing_the_panel_never_looks(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_selecting_makes_the_last_look_stale() -> None:
-    watch = module("watch").watch
+    watch = module("follow.watch").watch
     obj, faces = meshes.domed_grid()
     meshes.select(obj, faces)
     meshes.edit(obj)
@@ -138,7 +138,7 @@ def test_selecting_makes_the_last_look_stale() -> None:
 
 
 def test_no_look_in_the_middle_of_a_drag() -> None:
-    watch = module("watch")
+    watch = module("follow.watch")
     obj, faces = meshes.domed_grid()
     meshes.select(obj, faces)
     meshes.edit(obj)
@@ -154,7 +154,7 @@ def test_no_look_in_the_middle_of_a_drag() -> None:
 
 
 def test_large_meshes_are_looked_at_on_demand() -> None:
-    watch = module("watch")
+    watch = module("follow.watch")
     obj, faces = meshes.domed_grid()
     meshes.select(obj, faces)
     meshes.edit(obj)
@@ -181,10 +181,10 @@ def test_report_is_drawn() -> None:
 
 def test_redo_panel_shows_every_option() -> None:
     obj = meshes.grid()
-    options = module("options").FairOptions()
+    options = module("core.options").FairOptions()
     layout = Layout()
-    module("redo_panel").draw_options(layout, options, obj)
-    names = module("options").option_names()
+    module("run.redo_panel").draw_options(layout, options, obj)
+    names = module("core.options").option_names()
     assert [text for text in layout.told if text in names] == [n for n in ORDER if n in names]
     assert set(ORDER) == set(names)
 
@@ -207,7 +207,7 @@ def test_presets_hold_valid_options() -> None:
     for path in found:
         values = dict(line.split(" = ") for line in path.read_text().splitlines() if line.startswith("op."))
         options = {name.removeprefix("op."): eval(value) for name, value in values.items()}
-        module("options").FairOptions(**options)
+        module("core.options").FairOptions(**options)
         obj, faces = meshes.domed_grid()
         assert meshes.fair(obj, faces, **options) == {"FINISHED"}
 
@@ -227,7 +227,7 @@ def test_texts_in_another_language() -> None:
 
 def test_every_text_that_is_translated_exists() -> None:
     folder = Path(module().__file__).parent
-    sources = "".join(path.read_text() for path in folder.glob("*.py") if path.name != "translations.py")
+    sources = "".join(path.read_text() for path in folder.rglob("*.py") if path.name != "translations.py")
     missing = [text for text in module("translations")._GERMAN if f'"{text}"' not in sources]
     assert missing == []
 

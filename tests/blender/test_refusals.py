@@ -111,7 +111,7 @@ NAMERS = {"NONFINITE: vertex": spoil_middle, "NONMANIFOLD_VERTEX: free vertex": 
 @pytest.mark.parametrize("ahead", [False, True])
 @pytest.mark.parametrize("text", sorted(NAMERS))
 def test_messages_name_the_meshs_vertices(text: str, ahead: bool) -> None:
-    job, options = module("job"), module("options").FairOptions()
+    job, options = module("run.job"), module("core.options").FairOptions()
     obj, _ = meshes.domed_grid()
     (vertex,) = NAMERS[text](obj)
     faces = meshes.faces_where(obj, lambda c: not max(abs(c.x), abs(c.y)) >= 0.7)
@@ -124,13 +124,13 @@ def test_messages_name_the_meshs_vertices(text: str, ahead: bool) -> None:
 
 def test_every_form_of_numbers_is_the_meshs() -> None:
     """As the engine's messages have them: vertices one or several, edges, triangles, rows of an argument."""
-    engine = module("engine")
+    engine = module("core.engine")
     obj, faces = meshes.domed_grid()
     meshes.select(obj, faces)
     meshes.edit(obj)
-    options = module("options").FairOptions()
-    (task,) = module("job").read(bpy.context, options)
-    patch = module("region").make_patch(task.mesh)
+    options = module("core.options").FairOptions()
+    (task,) = module("run.job").read(bpy.context, options)
+    patch = module("core.region").make_patch(task.mesh)
     a, b, c = patch.vertices[[1, 2, 3]]
     corners = "–".join(map(str, patch.vertices[patch.triangles[7]]))
     for text, expected in {
@@ -165,7 +165,7 @@ def test_too_little_memory_is_a_refusal(monkeypatch: pytest.MonkeyPatch) -> None
     def refuse(*_: Any, **__: Any) -> None:
         raise MemoryError("about 7.0 GB of memory are needed")
 
-    monkeypatch.setattr(module("engine").fairing, "fair", refuse)
+    monkeypatch.setattr(module("core.engine").fairing, "fair", refuse)
     obj, faces = meshes.domed_grid()
     before = meshes.in_edit_mode_once(obj, faces)
     with pytest.raises(RuntimeError, match=r"7\.0 GB"):

@@ -62,7 +62,7 @@ def test_kink_of_a_soap_film_is_no_fault() -> None:
 
 
 def test_an_angle_that_misses_the_limit_does_not_look_like_it() -> None:
-    report = module("report")
+    report = module("core.report")
     texts = {
         1.96: "2°",
         2.0: "2°",
@@ -78,9 +78,9 @@ def test_an_angle_that_misses_the_limit_does_not_look_like_it() -> None:
 
 @pytest.mark.parametrize(("equation", "told"), [("MINIMAL", False), ("HARMONIC", True)])
 def test_summary_of_a_soap_film_tells_no_angle(equation: str, told: bool) -> None:
-    job, report = module("job"), module("report")
+    job, report = module("run.job"), module("core.report")
     obj, faces = meshes.domed_grid()
-    options = module("options").FairOptions(equation=equation)
+    options = module("core.options").FairOptions(equation=equation)
     meshes.select(obj, faces)
     meshes.edit(obj)
     (outcome,) = job.solve(job.read(bpy.context, options), options, lambda *_: True)
@@ -95,37 +95,14 @@ def test_unfinished_run_is_missed() -> None:
     assert checks()["Equation solved"][1] == "MISSED"
 
 
-def test_flipped_triangles() -> None:
-    quality = module("quality")
-    # a fan of six triangles around the origin; two of them turned over by moving a corner across
-    angles = np.radians(np.arange(6) * 60.0)
-    fan = np.vstack([[0.0, 0.0, 0.0], np.column_stack([np.cos(angles), np.sin(angles), np.zeros(6)])])
-    triangles = np.array([[0, 1 + k, 1 + (k + 1) % 6] for k in range(6)])
-    assert quality.flipped(fan, triangles).sum() == 0
-    fan[1, :2] = (-0.4, 0.6)  # crosses the next spoke
-    turned = module("vectors").area_vectors(fan, triangles)[:, 2] < 0.0
-    assert turned.any()
-    np.testing.assert_array_equal(quality.flipped(fan, triangles), turned)
-
-
-def test_degenerate_triangles() -> None:
-    quality = module("quality")
-    assert quality.degenerate(QUAD, TWO).sum() == 0
-    flat = QUAD.copy()
-    flat[1] = (0.5, 0.5 - 1e-4, 0.0)  # next to the diagonal
-    np.testing.assert_array_equal(quality.degenerate(flat, TWO), [True, False])
-    flat[1] = np.nan
-    assert quality.degenerate(flat, TWO)[0]
-
-
 def test_self_intersections() -> None:
-    quality = module("quality")
+    intersections = module("mesh.crossings").intersections
     # two parallel strips of two triangles, then one of them stood through the other
     other = QUAD + np.array([0.0, 0.0, 1.0])
     triangles = np.vstack([TWO, TWO + 4])
-    assert quality.intersections(np.vstack([QUAD, other]), triangles) == 0
+    assert intersections(np.vstack([QUAD, other]), triangles) == 0
     upright = QUAD[:, [0, 2, 1]] + np.array([0.0, 0.4, -0.5])
-    pairs = quality.intersections(np.vstack([QUAD, upright]), triangles)
+    pairs = intersections(np.vstack([QUAD, upright]), triangles)
     # the line y = 0.4, z = 0 crosses both triangles of each: four pairs, one of which meets at most in a point
     assert pairs in (3, 4)
 
@@ -165,19 +142,10 @@ def test_a_patch_that_runs_into_itself_is_counted(factor: float) -> None:
     assert int(crossings()) > 0
 
 
-@pytest.mark.parametrize(("stretch", "distortion"), [(1.0, 0.0), (2.0, 1.0), (0.5, 1.0), (1.5, 0.5)])
-def test_texture_distortion_of_a_stretched_square(stretch: float, distortion: float) -> None:
-    quality = module("quality")
-    stretched = QUAD * (stretch, 1.0, 1.0)  # singular values 1 and stretch: ratio max/min − 1
-    assert quality.texture_distortion(QUAD, stretched, TWO) == pytest.approx(distortion, abs=1e-12)
-    turned = 3.0 * QUAD[:, [1, 2, 0]] + 7.0  # a similarity
-    assert quality.texture_distortion(QUAD, turned, TWO) == pytest.approx(0.0, abs=1e-12)
-
-
 def test_before_and_after() -> None:
     obj, faces = meshes.domed_grid()
     start = meshes.in_edit_mode_once(obj, faces)
-    module("compare").forget()
+    module("run.compare").forget()
     meshes.edit(obj)
     assert not bpy.ops.mesh.fair_compare.poll()
     meshes.run()

@@ -67,3 +67,26 @@ TEST_CASE("damped, it finds the same surface by shorter steps") {
     CHECK(whole.norm() > 0.0);
     CHECK(distance(first_step(iterate_damped), 0.4 * whole) < 1e-12);
 }
+
+TEST_CASE("however far off the surface is, no step is longer than a tenth of the diameter") {
+    Ball far;
+    for (int v = 0; v < far.patch().free_count; ++v) {
+        const Vector3 p = far.single.points.col(v);
+        const double x = 2.0 * p.x() / p.z();  // −1 … 1
+        const double y = 2.0 * p.y() / p.z();
+        far.start.col(v) = (1.0 + 0.4 * (1.0 - x * x) * (1.0 - y * y)) * p;
+    }
+    far.problem.options.max_iterations = 2;  // the second one measures where the first has led
+    const Points step = far.solve(iterate).points - far.start;
+    CHECK(step.colwise().norm().maxCoeff() == doctest::Approx(0.1));
+}
+
+TEST_CASE("an iteration whose steps no longer shrink is given up") {
+    Ball ball;
+    ball.problem.options.tolerance = 0.0;  // nobody reaches that: round-off keeps the steps above
+    ball.problem.options.max_iterations = 500;
+    const Solution solution = ball.solve(iterate);
+    CHECK(solution.termination == Termination::stalled);
+    CHECK(solution.iterations < 150);
+    CHECK(off_the_sphere(solution.points) < 1e-6);  // the best of all is kept
+}

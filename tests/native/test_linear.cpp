@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <chrono>
+#include <cmath>
 #include <random>
 #include <thread>
 
@@ -184,4 +185,19 @@ TEST_CASE("GMRES solves systems that are not symmetric, at the latest after as m
         last = left;
     }
     CHECK(gmres(apply, precondition, VectorX::Zero(n), 1e-12, n).norm() == 0.0);
+}
+
+TEST_CASE("GMRES keeps its directions at right angles where the system is nearly singular") {
+    // With one pass of orthogonalisation the residual stays at 1e-4.
+    const int n = 30;
+    const VectorX b = VectorX::Ones(n);
+    const LinearMap apply = [](const VectorX& x) {
+        const Eigen::Index last = x.size() - 1;
+        VectorX y = x;
+        y.head(last) += 0.1 * x.tail(last);
+        for (Eigen::Index i = 0; i <= last; ++i) y[i] *= std::pow(10.0, -10.0 * double(i) / double(last));
+        return y;
+    };
+    const LinearMap same = [](const VectorX& x) { return x; };
+    CHECK((apply(gmres(apply, same, b, 0.0, n)) - b).norm() < 1e-6 * b.norm());
 }

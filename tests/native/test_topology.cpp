@@ -59,7 +59,8 @@ TEST_CASE("an open curve of two edges is slit: its middle is doubled, its ends a
 }
 
 TEST_CASE("the triangle in a corner of the border stays with its patch") {
-    const test::Single single = test::single_patch(test::grid(4, 0.0, test::flat));
+    // All diagonals point one way: at two corners of the square they are chords between vertices of the border.
+    const test::Single single = test::single_patch(test::grid(4, 0.0, test::flat, false));
     CHECK(single.patches.size() == 1);
     CHECK(single.patch().triangle_count() == 32);
 }

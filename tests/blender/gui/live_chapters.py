@@ -38,7 +38,7 @@ def live_follows_a_pin() -> Story:
 
 
 def _live() -> Any:
-    return module("live").live
+    return module("follow.live").live
 
 
 def _session() -> Any:
@@ -120,7 +120,7 @@ def _timed_drag(free: Any, by: tuple[int, int], axis: str, without: float) -> St
 @contextmanager
 def _answers() -> Iterator[list[tuple[float, float]]]:
     """Give the seconds that each change costs Live, from reading to writing: by the wall, of the processor."""
-    home = module("live")
+    home = module("follow.live")
     follow, spent = home.follow, list[tuple[float, float]]()
 
     def timed(obj: Any, *patience: float) -> bool:

@@ -58,7 +58,7 @@ def run_operator() -> None:
 def set_options(**options: Any) -> None:
     """Have the operator start with its defaults next time, apart from these."""
     last = bpy.context.window_manager.operator_properties_last("mesh.fair_region")
-    for name in module("options").option_names():
+    for name in module("core.options").option_names():
         last.property_unset(name)
     for name, value in options.items():
         setattr(last, name, value)

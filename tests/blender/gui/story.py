@@ -47,7 +47,7 @@ def look_before_running() -> Story:
     with in_view():
         bpy.ops.view3d.view_selected()
     open_tab()
-    watch = module("watch").watch
+    watch = module("follow.watch").watch
 
     def looked() -> bool:
         return bool(not watch.stale and watch.found)
@@ -67,7 +67,7 @@ def told_before_running() -> Story:
     """The panel says why nothing would happen, and running says the same and changes nothing."""
     scenes.single_face()
     open_tab()
-    watch = module("watch").watch
+    watch = module("follow.watch").watch
 
     def told() -> bool:
         return bool(not watch.stale and watch.found and "No vertex is free" in watch.found[0].refusal)
@@ -212,7 +212,7 @@ def finish_a_long_run() -> Story:
 
 def redo_after_a_long_run() -> Story:
     """Another way to spread the vertices, chosen in the redo panel: answered by the solver that the run left."""
-    solvers = module("job").solvers
+    solvers = module("run.job").solvers
     *_, solver = solvers._values.values()
     assert solver is not None
     first, before = report().seconds, scenes.positions()

@@ -1,0 +1,113 @@
+"""A live region on arrays alone: what is kept of the mesh, and the next answer for other positions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .arrays import Floats, Ints, Mask
+from .boundary import RINGS, prescribed_normals
+from .engine import Problem, Progress, RepeatedSolve
+from .options import FairOptions
+from .region import MeshArrays, Patch, make_patch, to_local
+from .symmetry import mirror_map, symmetrised
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """The faces that decide the answer, as a mesh of their own, and its patch."""
+
+    vertices: Ints  # (n,) of the whole mesh, ascending: those whose positions are read
+    mesh: MeshArrays  # of these faces and vertices
+    patch: Patch  # in the numbers of `mesh`
+
+
+def surroundings(mesh: MeshArrays, patch: Patch) -> Surroundings:
+    """Cut the patch and the faces around it out of a mesh, as far as normals are fitted to them."""
+    near = np.zeros(len(mesh.positions), dtype=bool)
+    near[patch.vertices] = True
+    faces = mesh.in_patch.copy()
+    for _ in range(RINGS):
+        faces[mesh.corner_faces[near[mesh.corner_vertices]]] = True
+        near[mesh.corner_vertices[faces[mesh.corner_faces]]] = True
+    vertices = np.flatnonzero(near)
+    number = _numbers(near)
+    return Surroundings(
+        vertices=vertices,
+        mesh=_part(mesh, faces, near),
+        patch=replace(patch, vertices=number[patch.vertices]),
+    )
+
+
+def _numbers(chosen: Mask) -> Ints:
+    number = np.full(len(chosen), -1, dtype=np.int64)
+    number[chosen] = np.arange(np.count_nonzero(chosen))
+    return number
+
+
+def _part(mesh: MeshArrays, faces: Mask, vertices: Mask) -> MeshArrays:
+    """Return the mesh of these faces and vertices alone, renumbered."""
+    corners = faces[mesh.corner_faces]
+    triangles = faces[mesh.triangle_faces]
+    used_edges = np.zeros(len(mesh.edges), dtype=bool)
+    used_edges[mesh.corner_edges[corners]] = True
+    vertex, edge, face = _numbers(vertices), _numbers(used_edges), _numbers(faces)
+    normals = mesh.corner_normals
+    return replace(
+        mesh,
+        positions=mesh.positions[vertices],
+        edges=vertex[mesh.edges[used_edges]],
+        corner_vertices=vertex[mesh.corner_vertices[corners]],
+        corner_edges=edge[mesh.corner_edges[corners]],
+        corner_faces=face[mesh.corner_faces[corners]],
+        triangles=vertex[mesh.triangles[triangles]],
+        triangle_faces=face[mesh.triangle_faces[triangles]],
+        in_patch=mesh.in_patch[faces],
+        pinned=mesh.pinned[vertices],
+        corner_normals=None if normals is None else normals[corners],
+    )
+
+
+class LiveRegion:
+    """Answers for one region while its surroundings move. Knows nothing of Blender."""
+
+    def __init__(self, mesh: MeshArrays, matrix: Floats, options: FairOptions) -> None:
+        """Prepare for the patch of `mesh`; raises ValueError where it can't be faired."""
+        world = mesh.transformed(matrix)
+        # Conformal weights belong to the shape that the region has now, and so do its triangles.
+        patch = make_patch(world, even=options.inner_fairness != "CONFORMAL")
+        self._around = surroundings(mesh, patch)
+        self._options = options
+        self._image = mirror_map(mesh, patch) if mesh.mirror_x else None
+        self._solve = RepeatedSolve(patch, world.positions[patch.vertices], options)
+
+    @property
+    def vertices(self) -> Ints:
+        """Mesh indices of the vertices whose positions count, ascending."""
+        return self._around.vertices
+
+    @property
+    def free(self) -> Ints:
+        """Mesh indices of the vertices that answers are for, ascending."""
+        patch = self._around.patch
+        free: Ints = self._around.vertices[patch.vertices[patch.free]]
+        return free
+
+    def answer(self, positions: Floats, matrix: Floats, progress: Progress | None = None) -> Floats | None:
+        """Return the free vertices' positions (k, 3) in the mesh's own coordinates; None where there is no convergence.
+
+        positions: (n, 3) of `vertices`, in the mesh's own coordinates. Raises what engine.solve does.
+        """
+        patch = self._around.patch
+        with np.errstate(invalid="ignore", over="ignore"):
+            world = replace(self._around.mesh, positions=positions).transformed(matrix)
+            normals, _ = prescribed_normals(world, patch, self._options.boundary_normals)
+        result = self._solve(Problem(patch, world.positions[patch.vertices], normals), progress)
+        if not result.converged:
+            return None
+        fair = to_local(result.vertices, matrix)
+        if self._image is not None:
+            fair = symmetrised(fair, self._image)
+        answer: Floats = fair[patch.free]
+        return answer

@@ -1,0 +1,177 @@
+"""What is odd about a selection's outline, told before and after fairing. Plain numpy, no bpy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .arrays import Floats, Ints, Mask
+from .region import MeshArrays, fins, vertices_of
+from .vectors import area_vectors, sum_at, unit
+from .warnings_text import counted
+
+SHARP = 60.0  # degrees between two faces at the outline that are worth telling
+COARSE = 1e-3  # of an edge: steps between neighbouring coordinates that are worth telling
+FOLDED = 150.0  # degrees between two faces around the outline that lie on each other
+
+
+@dataclass(frozen=True)
+class Sides:
+    """Edges with exactly two faces: k of them."""
+
+    edges: Ints  # (k,)
+    faces: Ints  # (k, 2)
+    alike: Mask  # (k,) both faces run along the edge in the same direction: one is turned over
+
+
+def two_sided_edges(mesh: MeshArrays, wanted: Mask) -> Sides:
+    """Return those of the (e,) mask of edges that have exactly two faces."""
+    corners = np.flatnonzero(wanted[mesh.corner_edges])
+    corners = corners[np.argsort(mesh.corner_edges[corners], kind="stable")]
+    edges, starts, counts = np.unique(mesh.corner_edges[corners], return_index=True, return_counts=True)
+    pairs = corners[starts[counts == 2][:, None] + np.arange(2)]
+    origins = mesh.corner_vertices[pairs]
+    return Sides(edges[counts == 2], mesh.corner_faces[pairs], origins[:, 0] == origins[:, 1])
+
+
+def face_normals(mesh: MeshArrays, faces: Ints) -> Floats:
+    """Return the (k, 3) unit normals of the faces (k,); zero where a face has no area."""
+    used = np.isin(mesh.triangle_faces, faces)
+    vectors = area_vectors(mesh.positions, mesh.triangles[used])
+    return unit(sum_at(np.searchsorted(faces, mesh.triangle_faces[used]), vectors, len(faces)))
+
+
+def turns(mesh: MeshArrays, sides: Sides) -> Floats:
+    """Return (k,): degrees between the two faces' normals, windings made alike; 0 without area."""
+    faces, at = np.unique(sides.faces, return_inverse=True)
+    normals = face_normals(mesh, faces)[at.reshape(-1, 2)]
+    normals[sides.alike, 1] *= -1.0
+    cosines = (normals[:, 0] * normals[:, 1]).sum(axis=1)
+    known = (np.abs(normals).sum(axis=2) > 0.0).all(axis=1)
+    angles: Floats = np.where(known, np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0))), 0.0)
+    return angles
+
+
+def outline_edges(mesh: MeshArrays) -> Mask:
+    """Return the (e,) mask of the edges between the patch and faces outside it."""
+    inside = np.zeros(len(mesh.edges), dtype=bool)
+    outside = inside.copy()
+    chosen = mesh.in_patch[mesh.corner_faces]
+    inside[mesh.corner_edges[chosen]] = True
+    outside[mesh.corner_edges[~chosen]] = True
+    between: Mask = inside & outside
+    return between
+
+
+def outline_notes(mesh: MeshArrays) -> tuple[str, ...]:
+    """Return one sentence for each thing that may surprise about the outline of the patch.
+
+    mesh: in world space, as angles there are what counts.
+    """
+    outline = outline_edges(mesh)
+    sides = two_sided_edges(mesh, outline)
+    found = (
+        _sharp_note(mesh, sides),
+        _winding_note(sides),
+        _folded_note(mesh, outline),
+        _lone_face_note(mesh, outline),
+        _seam_note(mesh),
+        _fin_note(mesh),
+    )
+    return tuple(note for note in found if note)
+
+
+def _sharp_note(mesh: MeshArrays, sides: Sides) -> str:
+    widest = turns(mesh, sides).max(initial=0.0)
+    if widest < SHARP:
+        return ""
+    return f"The outline runs along an edge of up to {widest:.0f}°: the surface will be tangent to the faces outside"
+
+
+def _winding_note(sides: Sides) -> str:
+    count = int(np.count_nonzero(sides.alike))
+    if not count:
+        return ""
+    edges = counted(count, "outline edge", "outline edges")
+    return f"The faces on both sides of {edges} are wound against each other: recalculate normals"
+
+
+def _folded_note(mesh: MeshArrays, outline: Mask) -> str:
+    """Tell of outside faces at the outline that lie on each other."""
+    ends = np.zeros(len(mesh.positions), dtype=bool)
+    ends[mesh.edges[outline]] = True
+    sides = two_sided_edges(mesh, ends[mesh.edges].any(axis=1))
+    outside = ~mesh.in_patch[sides.faces].any(axis=1)
+    widest = turns(mesh, sides)[outside].max(initial=0.0)
+    if widest < FOLDED:
+        return ""
+    return f"Faces around the outline are folded over by up to {widest:.0f}°: their normals may mislead"
+
+
+def _lone_face_note(mesh: MeshArrays, outline: Mask) -> str:
+    """Tell of single unselected faces: an outline of one face has one face's normal all around."""
+    sizes = np.bincount(mesh.corner_faces, minlength=len(mesh.in_patch))
+    touching = np.bincount(mesh.corner_faces, outline[mesh.corner_edges], len(mesh.in_patch))
+    alone = int(np.count_nonzero((touching == sizes) & ~mesh.in_patch & (sizes > 0)))
+    if not alone:
+        return ""
+    return counted(
+        alone,
+        "single face is left out of the selection: the surface is tangent to it",
+        "single faces are left out of the selection: the surface is tangent to each of them",
+    )
+
+
+def _seam_note(mesh: MeshArrays) -> str:
+    """Tell of open borders inside the patch that lie on each other: the surface is held there."""
+    single = np.bincount(mesh.corner_edges, minlength=len(mesh.edges)) == 1
+    border = np.zeros(len(mesh.positions), dtype=bool)
+    border[mesh.edges[single]] = True
+    places = mesh.positions[border & vertices_of(mesh, mesh.in_patch)]
+    doubled = len(places) - len(np.unique(places, axis=0))
+    if not doubled:
+        return ""
+    held = counted(
+        doubled,
+        "vertex of an open seam lies on another and stays where it is",
+        "vertices of an open seam lie on others and stay where they are",
+    )
+    return f"{held}: use Merge by Distance first"
+
+
+def _fin_note(mesh: MeshArrays) -> str:
+    count = int(np.count_nonzero(fins(mesh)))
+    if not count:
+        return ""
+    return counted(
+        count,
+        "face stands on an edge with more than two faces and was left out",
+        "faces stand on edges with more than two faces and were left out",
+    )
+
+
+def precision_note(mesh: MeshArrays) -> str:
+    """Tell where float32, in which Blender stores the mesh's own coordinates, is too coarse for the patch."""
+    used = np.zeros(len(mesh.edges), dtype=bool)
+    used[mesh.corner_edges[mesh.in_patch[mesh.corner_faces]]] = True
+    ends = mesh.positions[mesh.edges[used]]
+    spacing = float(np.spacing(np.abs(ends).max(initial=0.0).astype(np.float32)))
+    edge = float(np.median(np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1))) if len(ends) else 0.0
+    if spacing <= COARSE * edge:
+        return ""
+    return (
+        f"PRECISION: so far from the object's origin Blender's coordinates are {spacing:.2g} apart, edges {edge:.2g} "
+        "long: move the origin nearer"
+    )
+
+
+def turned_over(mesh: MeshArrays) -> Mask:
+    """Return the (n,) mask of outline vertices whose faces outside are wound against the patch."""
+    outline = outline_edges(mesh)
+    sides = two_sided_edges(mesh, outline)
+    wrong = np.zeros(len(mesh.positions), dtype=bool)
+    right = wrong.copy()
+    wrong[mesh.edges[sides.edges[sides.alike]]] = True
+    right[mesh.edges[sides.edges[~sides.alike]]] = True
+    return wrong & ~right

@@ -1,0 +1,180 @@
+"""From polygons and a selection to the patch that the engine solves. Plain numpy, no bpy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+import fairing
+
+from .arrays import Floats, Ints, Mask
+from .triangulation import split_quads, zigzag
+
+
+@dataclass(frozen=True)
+class MeshArrays:
+    """A polygon mesh: n vertices, e edges, f faces, c corners, t triangles of Blender's own."""
+
+    positions: Floats  # (n, 3)
+    edges: Ints  # (e, 2)
+    corner_vertices: Ints  # (c,)
+    corner_edges: Ints  # (c,) the edge from this corner to the next one
+    corner_faces: Ints  # (c,)
+    triangles: Ints  # (t, 3) vertices, counter-clockwise from outside
+    triangle_faces: Ints  # (t,)
+    in_patch: Mask  # (f,) selected and visible
+    pinned: Mask  # (n,)
+    corner_normals: Floats | None = None  # (c, 3), where they were asked for
+    mirrored: bool = False  # the corners go clockwise, seen from outside
+    mirror_x: bool = False  # the mesh asks for symmetric results
+    notes: tuple[str, ...] = ()  # what turned out odd when it was read
+
+    def transformed(self, matrix: Floats) -> MeshArrays:
+        """Return the mesh under a 4×4 affine map, wound so that outside stays outside.
+
+        Raises ValueError where the map flattens the mesh: there is no way back then.
+        """
+        linear = matrix[:3, :3]
+        if not np.isfinite(matrix).all() or np.linalg.cond(linear) > 1e7:
+            raise ValueError("The object's scale is zero or not finite: apply or mend it first")
+        mirrored = np.linalg.det(linear) < 0.0
+        normals = self.corner_normals
+        return replace(
+            self,
+            positions=self.positions @ linear.T + matrix[:3, 3],
+            triangles=self.triangles[:, ::-1] if mirrored else self.triangles,
+            corner_normals=None if normals is None else normals @ np.linalg.inv(linear),
+            mirrored=self.mirrored != mirrored,
+        )
+
+
+@dataclass(frozen=True)
+class Patch:
+    """The selected faces alone, vertices numbered 0 … p−1 in the order of the mesh."""
+
+    vertices: Ints  # (p,) mesh indices, ascending
+    triangles: Ints  # (m, 3) patch indices
+    free: Ints  # patch indices, ascending
+    fixed: Ints  # patch indices, ascending: all that are not free
+    outline: Ints  # patch indices of the vertices on edges with one face of the patch
+    neighbours: Ints | None  # (e, 2) patch indices; None where all faces are triangles
+
+
+def vertices_of(mesh: MeshArrays, faces: Mask) -> Mask:
+    """Return the (n,) mask of the vertices of the faces in the (f,) mask."""
+    touched = np.zeros(len(mesh.positions), dtype=bool)
+    touched[mesh.corner_vertices[faces[mesh.corner_faces]]] = True
+    return touched
+
+
+def _ends(mesh: MeshArrays, edges: Mask) -> Mask:
+    ends = np.zeros(len(mesh.positions), dtype=bool)
+    ends[mesh.edges[edges]] = True
+    return ends
+
+
+def _edge_uses(mesh: MeshArrays, corners: Mask | slice) -> Ints:
+    return np.bincount(mesh.corner_edges[corners], minlength=len(mesh.edges))
+
+
+def free_vertices(mesh: MeshArrays) -> Mask:
+    """Return the (n,) mask of vertices with only patch faces, on no open border, not pinned."""
+    open_border = _ends(mesh, _edge_uses(mesh, slice(None)) == 1)
+    inside = vertices_of(mesh, mesh.in_patch)
+    outside = vertices_of(mesh, ~mesh.in_patch)
+    return inside & ~outside & ~open_border & ~mesh.pinned
+
+
+def fins(mesh: MeshArrays) -> Mask:
+    """Return the (f,) mask of patch faces without free vertices at edges with more than two faces.
+
+    They stand on the outline; without the faces outside they would look like corners of the patch.
+    """
+    many = _edge_uses(mesh, slice(None)) > 2
+    hang = np.zeros(len(mesh.in_patch), dtype=bool)
+    hang[mesh.corner_faces[many[mesh.corner_edges]]] = True
+    hang[mesh.corner_faces[free_vertices(mesh)[mesh.corner_vertices]]] = False
+    return hang & mesh.in_patch
+
+
+def _check_edges(mesh: MeshArrays) -> None:
+    """Refuse edges where three faces of the patch meet: a fin's foot lies on an open border, which is no excuse."""
+    many = _edge_uses(mesh, mesh.in_patch[mesh.corner_faces]) > 2
+    offenders = mesh.edges[many & ~mesh.pinned[mesh.edges].all(axis=1)]
+    if len(offenders):
+        a, b = offenders[0]
+        text = f"more than two selected faces meet at the edge {a}–{b}: delete the extra ones, or pin both ends"
+        raise fairing.MeshError(
+            fairing.Diagnostic("NONMANIFOLD_EDGE", text, np.unique(offenders).astype(np.int32), "vertex")
+        )
+
+
+def make_patch(mesh: MeshArrays, even: bool = True) -> Patch:
+    """Cut the selected visible faces out of the mesh.
+
+    even: split quads and n-gons by connectivity (see triangulation), not by present shape.
+    Raises fairing.MeshError where more than two of them meet at an edge.
+    """
+    _check_edges(mesh)
+    inside = vertices_of(mesh, mesh.in_patch)
+    vertices = np.flatnonzero(inside)
+    number = np.full(len(inside), -1, dtype=np.int64)
+    number[vertices] = np.arange(len(vertices))
+    free = free_vertices(mesh)
+    mesh = replace(mesh, in_patch=mesh.in_patch & ~fins(mesh))
+    uses = _edge_uses(mesh, mesh.in_patch[mesh.corner_faces])
+    edges = mesh.edges[uses > 0]
+    return Patch(
+        vertices=vertices,
+        triangles=number[_triangles(mesh, edges, free, even)],
+        free=number[free],
+        fixed=number[inside & ~free],
+        outline=number[_ends(mesh, uses == 1)],
+        neighbours=None if _all_triangles(mesh) else number[edges],
+    )
+
+
+def _triangles(mesh: MeshArrays, edges: Ints, free: Mask, even: bool) -> Ints:
+    """Return the triangles of the patch, as vertices of the mesh."""
+    sizes = face_sizes(mesh) * even
+    by_shape = mesh.in_patch.copy()  # faces that stay split as they are
+    pieces = []
+    for size in np.unique(sizes[mesh.in_patch & (sizes > 4)]):
+        faces, polygons = _polygons(mesh, mesh.in_patch & (sizes == size))
+        movable = free[polygons].all(axis=1)  # the shape of the others counts
+        by_shape[faces[movable]] = False
+        pieces.append(zigzag(polygons[movable]))
+    faces, quads = _polygons(mesh, mesh.in_patch & (sizes == 4))
+    movable = free[quads].any(axis=1)
+    by_shape[faces[movable]] = False
+    pieces.append(mesh.triangles[by_shape[mesh.triangle_faces]])
+    return np.concatenate([*pieces, split_quads(quads[movable], edges, free)])
+
+
+def _polygons(mesh: MeshArrays, faces: Mask) -> tuple[Ints, Ints]:
+    """Return the chosen faces (k,) and their vertices (k, n), counter-clockwise from outside.
+
+    All of them must have the same number n of corners.
+    """
+    chosen = np.flatnonzero(faces)
+    size = np.count_nonzero(mesh.corner_faces == chosen[0]) if len(chosen) else 4
+    polygons = mesh.corner_vertices[faces[mesh.corner_faces]].reshape(-1, size)
+    return chosen, polygons[:, ::-1] if mesh.mirrored else polygons
+
+
+def face_sizes(mesh: MeshArrays) -> Ints:
+    """Return (f,): the corners of each face."""
+    return np.bincount(mesh.corner_faces, minlength=len(mesh.in_patch)).astype(np.int64)
+
+
+def _all_triangles(mesh: MeshArrays) -> bool:
+    return bool((face_sizes(mesh)[mesh.in_patch] == 3).all())
+
+
+def to_local(positions: Floats, matrix: Floats) -> Floats:
+    """Take world positions (k, 3) back; raises SolverError rather than pass on a NaN."""
+    local: Floats = np.linalg.solve(matrix[:3, :3], (positions - matrix[:3, 3]).T).T
+    if not np.isfinite(local).all():
+        raise fairing.SolverError("The solution is not finite; the mesh was left as it was")
+    return local

@@ -1,0 +1,99 @@
+"""From a mesh to the engine's answer for its patch, asked anew or remembered."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+import fairing
+
+from . import engine
+from .arrays import Floats
+from .boundary import prescribed_normals
+from .engine import Progress
+from .memory import Memory, digest
+from .options import FairOptions
+from .outline import outline_notes, precision_note
+from .region import MeshArrays, make_patch
+from .warnings_text import sentences
+
+
+@dataclass(frozen=True)
+class Solved:
+    """What the engine gave, before blending: the factor changes nothing here."""
+
+    problem: engine.Problem
+    result: fairing.FairResult
+    warnings: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Kept:
+    """What the redo panel answers from."""
+
+    results: Memory[Solved]  # where nothing but the factor changed since a former call
+    solvers: Memory[engine.KeptSolver | None]  # where only options changed; None: a mesh that was solved once
+    ahead: bool = False  # make a solver at the first call already, whose start for the next one takes a while
+
+
+def solve(
+    mesh: MeshArrays,
+    matrix: Floats,
+    options: FairOptions,
+    progress: Progress | None = None,
+    kept: Kept | None = None,
+) -> Solved:
+    """Solve for the patch of `mesh` in the space that the 4×4 `matrix` leads to.
+
+    kept: what former calls left.
+    Raises fairing.MeshError (its `elements` are vertices of `mesh` here), ValueError,
+    fairing.SolverError and fairing.Cancelled. `mesh` is never changed.
+    """
+    # Of two results for the same input the bits are the same, so that a former one is as good.
+    key = digest(mesh, matrix, replace(options, factor=1.0)) if kept is not None else ""
+    solved = kept.results.get(key) if kept is not None else None
+    if solved is None:
+        problem, warnings = pose(mesh, matrix, options)
+        if kept is not None:
+            result = _solve_again(digest(mesh, matrix, problem.patch), problem, options, progress, kept)
+            solved = _solved(problem, result, warnings)
+            kept.results.put(key, solved)
+        else:
+            solved = _solved(problem, engine.solve(problem, options, progress), warnings)
+    return solved
+
+
+def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine.Problem, tuple[str, ...]]:
+    """Return the patch with its boundary data in world space, and warnings."""
+    # What is not finite outside the patch is none of our business, and the engine looks inside.
+    with np.errstate(invalid="ignore", over="ignore"):
+        world = mesh.transformed(matrix)
+        # Conformal weights belong to the present shape, and so do its triangles.
+        patch = make_patch(world, even=options.inner_fairness != "CONFORMAL")
+        normals, warnings = prescribed_normals(world, patch, options.boundary_normals)
+        precision = precision_note(mesh)
+        notes = outline_notes(world) + ((precision,) if precision else ()) + mesh.notes
+    return engine.Problem(patch, world.positions[patch.vertices], normals), warnings + notes
+
+
+def _solve_again(
+    key: str, problem: engine.Problem, options: FairOptions, progress: Progress | None, kept: Kept
+) -> fairing.FairResult:
+    """Solve with the solver of a former call for the same patch, if there was one: other options move less."""
+    if not engine.is_one_load(problem, options):
+        return engine.solve(problem, options, progress)
+    was_here = key in kept.solvers
+    solver = kept.solvers.take(key)
+    if not was_here and not kept.ahead:
+        kept.solvers.put(key, None)
+        return engine.solve(problem, options, progress)
+    solver = solver or engine.KeptSolver(problem.patch)
+    try:
+        return solver(problem, options, progress)
+    finally:
+        kept.solvers.put(key, solver)  # errors leave it usable
+
+
+def _solved(problem: engine.Problem, result: fairing.FairResult, warnings: tuple[str, ...]) -> Solved:
+    return Solved(problem, result, warnings + sentences(result.warnings))

@@ -1,0 +1,63 @@
+"""What is selected, and what would be refused: told before anything runs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+import fairing
+
+from ..core import engine
+from ..core.components import components
+from ..core.options import FairOptions, option_names
+from ..core.solve import pose
+from ..host.polling import NO_FACE, NO_FREE
+from ..run import job
+
+
+@dataclass(frozen=True)
+class Inspection:
+    """One object's selection."""
+
+    object_name: str
+    faces: int
+    free_vertices: int = 0
+    loops: int = 0  # of the selection's outline
+    islands: int = 0  # pieces that are solved each on its own
+    refusal: str = ""  # why the operator would say no, or do nothing; empty where it would not
+    notes: tuple[str, ...] = ()  # what may surprise about the result
+
+
+def last_options(context: bpy.types.Context) -> FairOptions:
+    """Return the options that the operator would start with."""
+    last = context.window_manager.operator_properties_last("mesh.fair_region")
+    if last is None:
+        return FairOptions()
+    return FairOptions(**{name: getattr(last, name) for name in option_names()})
+
+
+def inspect(obj: bpy.types.Object, options: FairOptions) -> Inspection:
+    """Look at the selection of an object in edit mode; the engine checks it, but solves nothing."""
+    faces = obj.data.total_face_sel
+    if not faces:
+        return Inspection(obj.name, 0, refusal=NO_FACE)
+    try:
+        return _inspect_task(job.read_object(obj, options), options)
+    except ValueError as cause:
+        return Inspection(obj.name, faces, refusal=str(cause))
+
+
+def _inspect_task(task: job.Task, options: FairOptions) -> Inspection:
+    faces = int(np.count_nonzero(task.mesh.in_patch))
+    if not task.free_count:
+        return Inspection(task.object_name, faces, refusal=NO_FREE)
+    try:
+        problem, notes = pose(task.mesh, task.matrix, options)
+        engine.check(problem, options)
+    except engine.REFUSALS as cause:
+        return Inspection(task.object_name, faces, task.free_count, refusal=str(cause))
+    pieces = components(problem.patch)
+    loops = fairing.boundary_loops(problem.patch.triangles)
+    return Inspection(task.object_name, faces, task.free_count, len(loops), len(pieces), notes=notes)

@@ -1,0 +1,109 @@
+"""What Live reads from a mesh in edit mode at every change, and where its region is kept.
+
+Without a temporary copy: that would be a change of its own, each time.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from itertools import chain
+from typing import Any
+
+import bmesh
+import bpy
+import numpy as np
+
+from ..core.arrays import Floats, Ints
+from ..core.options import FairOptions
+
+LAYER = "fair_live"  # integer face attribute, not zero in the region: bmesh of Blender 4.2 has no booleans
+OPTIONS = "fair_live_options"  # custom property of the mesh: FairOptions as JSON
+KEY = "fair_live_key"  # custom property of the mesh: the shape key that the region is in; empty for the Basis
+
+
+def mark_selection(mesh: bpy.types.Mesh, options: FairOptions, key: str) -> None:
+    """Make the selected visible faces of a mesh in edit mode its region, with these options, in that shape key."""
+    bm = bmesh.from_edit_mesh(mesh)
+    layer = bm.faces.layers.int.get(LAYER) or bm.faces.layers.int.new(LAYER)
+    for face in bm.faces:
+        face[layer] = int(face.select and not face.hide)
+    mesh[OPTIONS] = json.dumps(asdict(options))
+    mesh[KEY] = key
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+def forget_region(mesh: bpy.types.Mesh) -> bool:
+    """Remove the region from a mesh in edit mode; tell whether there was one."""
+    bm = bmesh.from_edit_mesh(mesh)
+    layer = bm.faces.layers.int.get(LAYER)
+    mesh.pop(OPTIONS, None)
+    mesh.pop(KEY, None)
+    if layer is None:
+        return False
+    bm.faces.layers.int.remove(layer)
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+    return True
+
+
+def select_region(mesh: bpy.types.Mesh) -> None:
+    """Select exactly the faces of the region of a mesh in edit mode; needs face mode."""
+    bm = bmesh.from_edit_mesh(mesh)
+    layer = bm.faces.layers.int.get(LAYER)
+    for element in (*bm.faces, *bm.edges, *bm.verts):
+        element.select = False
+    for face in bm.faces if layer is not None else ():
+        face.select_set(bool(face[layer]) and not face.hide)
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+def region_options(mesh: bpy.types.Mesh) -> FairOptions:
+    """Return the options of the region; the defaults where they can't be read."""
+    try:
+        return FairOptions(**json.loads(mesh[OPTIONS]))
+    except (KeyError, TypeError, ValueError):  # none, or of another version
+        return FairOptions()
+
+
+def region_key(mesh: bpy.types.Mesh) -> str:
+    """Return the name of the shape key that the region is in; empty for the Basis, and without keys."""
+    return str(mesh.get(KEY, ""))
+
+
+def region_faces(mesh: bpy.types.Mesh) -> Ints | None:
+    """Return the faces of the region of a mesh in edit mode, ascending; None where there is none."""
+    bm = bmesh.from_edit_mesh(mesh)
+    layer = bm.faces.layers.int.get(LAYER)
+    if layer is None:
+        return None
+    return np.array([k for k, face in enumerate(bm.faces) if face[layer] and not face.hide], dtype=np.int64)
+
+
+def has_region(mesh: bpy.types.Mesh) -> bool:
+    """Tell at no cost whether a mesh in edit mode has a region."""
+    return bmesh.from_edit_mesh(mesh).faces.layers.int.get(LAYER) is not None
+
+
+def counts(mesh: bpy.types.Mesh) -> tuple[int, int, int]:
+    """Return the numbers of vertices, edges and faces of a mesh in edit mode."""
+    bm = bmesh.from_edit_mesh(mesh)
+    return len(bm.verts), len(bm.edges), len(bm.faces)
+
+
+def corners(mesh: bpy.types.Mesh, faces: Ints) -> Ints:
+    """Return the vertices of these faces one after the other."""
+    bm = bmesh.from_edit_mesh(mesh)
+    bm.faces.ensure_lookup_table()
+    bm.verts.index_update()
+    table: Any = bm.faces
+    return np.array([vertex.index for face in faces.tolist() for vertex in table[face].verts], dtype=np.int64)
+
+
+def positions(mesh: bpy.types.Mesh, vertices: Ints) -> Floats:
+    """Return the positions (k, 3) of some vertices (k,) of a mesh in edit mode."""
+    bm = bmesh.from_edit_mesh(mesh)
+    bm.verts.ensure_lookup_table()
+    table: Any = bm.verts
+    flat = chain.from_iterable(table[vertex].co for vertex in vertices.tolist())
+    return np.fromiter(flat, dtype=np.float64, count=3 * len(vertices)).reshape(-1, 3)

@@ -1,0 +1,297 @@
+"""Blender meshes to arrays and positions back; together with live_mesh all that touches bmesh."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import Any
+
+import bmesh
+import bpy
+import numpy as np
+
+from ..core.arrays import Floats, Ints, Mask
+from ..core.options import FairOptions
+from ..core.region import MeshArrays, free_vertices
+
+# Read and written as float32, which is what Blender stores; doubles in between.
+
+
+def _column(items: Any, name: str, width: int, dtype: Any) -> Any:
+    """Read one property of a Blender collection: (k,) for width 1, else (k, width)."""
+    values = np.empty(len(items) * width, dtype=dtype)
+    items.foreach_get(name, values)
+    return values if width == 1 else values.reshape(-1, width)
+
+
+def _indices(items: Any, name: str, width: int = 1) -> Ints:
+    values: Ints = _column(items, name, width, np.int32).astype(np.int64)
+    return values
+
+
+@contextmanager
+def _snapshot(mesh: bpy.types.Mesh) -> Iterator[bpy.types.Mesh]:
+    """Give a temporary object-mode copy of a mesh in edit mode, active shape key included."""
+    copy = bpy.data.meshes.new("fairing snapshot")
+    try:
+        bmesh.from_edit_mesh(mesh).to_mesh(copy)
+        yield copy
+    finally:
+        bpy.data.meshes.remove(copy)
+
+
+def is_editable(mesh: bpy.types.Mesh) -> bool:
+    """Tell whether changes of the mesh are kept: not in one that is linked from another file, overridden or not."""
+    return bool(mesh.is_editable and mesh.override_library is None)
+
+
+def read_edit_mesh(obj: bpy.types.Object, options: FairOptions, region: str = "") -> MeshArrays:
+    """Read the mesh of an object in edit mode; the patch is its selected, visible faces.
+
+    region: an integer face attribute that stands in for the selection.
+    Raises ValueError where `options` name a vertex group that the object does not have.
+    """
+    with _snapshot(obj.data) as mesh:
+        if region:
+            selected = _column(mesh.attributes[region].data, "value", 1, np.int32).astype(bool)
+        else:
+            selected = _column(mesh.polygons, "select", 1, bool)
+        arrays = _arrays(mesh, selected, _group_index(obj, options.pin_group), options)
+        return replace(arrays, mirror_x=obj.data.use_mirror_x)
+
+
+def read_own_mesh(obj: bpy.types.Object, options: FairOptions) -> MeshArrays:
+    """Read the mesh of an object in whichever mode, without modifiers."""
+    if obj.data.is_editmode:
+        return read_edit_mesh(obj, options)
+    return _arrays(obj.data, _column(obj.data.polygons, "select", 1, bool), None, options)
+
+
+def read_shown_mesh(obj: bpy.types.Object, options: FairOptions) -> MeshArrays:
+    """Read what is seen of an object: in edit mode its own mesh, else the one that its modifiers make."""
+    if obj.data.is_editmode:
+        return read_edit_mesh(obj, options)
+    evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    mesh = evaluated.to_mesh()
+    try:
+        return _arrays(mesh, np.ones(len(mesh.polygons), dtype=bool), None, options)
+    finally:
+        evaluated.to_mesh_clear()
+
+
+def writable_key(obj: bpy.types.Object) -> str:
+    """Return the name of the shape key that an object in edit mode shows; empty for the Basis, and without keys.
+
+    Raises ValueError where that key is locked.
+    """
+    key = obj.active_shape_key
+    if key is not None and key.lock_shape:
+        raise ValueError(f"The active shape key {key.name!r} is locked")
+    return "" if key is None or key == obj.data.shape_keys.reference_key else key.name
+
+
+def edit_face_count(mesh: bpy.types.Mesh) -> int:
+    """Return the number of faces of a mesh in edit mode, at no cost."""
+    return len(bmesh.from_edit_mesh(mesh).faces)
+
+
+def edit_positions(mesh: bpy.types.Mesh) -> Floats:
+    """Return the (n, 3) positions of a mesh in edit mode."""
+    with _snapshot(mesh) as now:
+        positions: Floats = _column(now.vertices, "co", 3, np.float32).astype(np.float64)
+        return positions
+
+
+def is_unchanged(mesh: bpy.types.Mesh, arrays: MeshArrays) -> bool:
+    """Tell whether a mesh in edit mode still has the positions and corners that were read from it."""
+    with _snapshot(mesh) as now:
+        if len(now.vertices) != len(arrays.positions) or len(now.loops) != len(arrays.corner_vertices):
+            return False
+        positions = _column(now.vertices, "co", 3, np.float32)
+        corners = _indices(now.loops, "vertex_index")
+        same = np.array_equal(positions, arrays.positions, equal_nan=True)
+        return bool(same and np.array_equal(corners, arrays.corner_vertices))
+
+
+def read_mesh(mesh: bpy.types.Mesh, faces: Ints, options: FairOptions) -> MeshArrays:
+    """Read a mesh in object mode; the patch is those of the polygons `faces` that are visible.
+
+    Raises IndexError for a polygon that is not there, ValueError for a mesh that is in edit mode or not editable.
+    """
+    if not is_editable(mesh):
+        raise ValueError(f"{mesh.name} can't be edited: it is linked from another file. Make it local first")
+    if mesh.is_editmode:
+        raise ValueError(f"{mesh.name} is in edit mode: leave it, or use bpy.ops.mesh.fair_region")
+    selected = np.zeros(len(mesh.polygons), dtype=bool)
+    if faces.size and not 0 <= faces.min() <= faces.max() < len(selected):
+        raise IndexError(f"faces: expected polygon indices below {len(selected)}")
+    selected[faces] = True
+    group = _group_index(_user_of(mesh), options.pin_group) if options.pin_group else None
+    return replace(_arrays(mesh, selected, group, options), mirror_x=mesh.use_mirror_x)
+
+
+def _user_of(mesh: bpy.types.Mesh) -> bpy.types.Object | None:
+    """Return an object that shows the mesh: vertex groups have their names there."""
+    return next((obj for obj in bpy.data.objects if obj.data == mesh), None)
+
+
+def _group_index(obj: bpy.types.Object | None, name: str) -> int | None:
+    if not name:
+        return None
+    if obj is None or name not in obj.vertex_groups:
+        raise ValueError(f"pin_group: there is no vertex group named {name!r}")
+    return int(obj.vertex_groups[name].index)
+
+
+def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: FairOptions) -> MeshArrays:
+    mesh.calc_loop_triangles()
+    sizes = _indices(mesh.polygons, "loop_total")
+    corner_vertices = _indices(mesh.loops, "vertex_index")
+    corner_faces = np.repeat(np.arange(len(sizes)), sizes)
+    in_patch = selected & ~_column(mesh.polygons, "hide", 1, bool)
+    edges = _indices(mesh.edges, "vertices", 2)
+    custom = options.boundary_normals == "CUSTOM"
+    arrays = MeshArrays(
+        positions=_column(mesh.vertices, "co", 3, np.float32).astype(np.float64),
+        edges=edges,
+        corner_vertices=corner_vertices,
+        corner_edges=_indices(mesh.loops, "edge_index"),
+        corner_faces=corner_faces,
+        triangles=_indices(mesh.loop_triangles, "vertices", 3),
+        triangle_faces=_indices(mesh.loop_triangle_polygons, "value"),
+        in_patch=in_patch,
+        pinned=np.zeros(len(mesh.vertices), dtype=bool),
+        corner_normals=_corner_normals(mesh) if custom else None,
+    )
+    return _pinned(arrays, mesh, group, options)
+
+
+def _pinned(arrays: MeshArrays, mesh: bpy.types.Mesh, group: int | None, options: FairOptions) -> MeshArrays:
+    """Return the arrays with their pins, and a note on a vertex group that holds none of the vertices inside."""
+    pinned = arrays.pinned.copy()
+    pinned[arrays.edges[_marked_edges(mesh, options.pin_edges)]] = True
+    if group is None:
+        return replace(arrays, pinned=pinned)
+    touched = np.unique(arrays.corner_vertices[arrays.in_patch[arrays.corner_faces]])
+    members = _members(mesh, touched, group)
+    pinned[members] = True
+    if not len(touched) or free_vertices(arrays)[members].any():
+        return replace(arrays, pinned=pinned)
+    note = (
+        f"The pin group {options.pin_group!r} has no vertex inside the selection with a weight above 0: it pins nothing"
+    )
+    return replace(arrays, pinned=pinned, notes=(note,))
+
+
+def _corner_normals(mesh: bpy.types.Mesh) -> Floats:
+    normals: Floats = _column(mesh.corner_normals, "vector", 3, np.float32).astype(np.float64)
+    return normals
+
+
+def _marked_edges(mesh: bpy.types.Mesh, kind: str) -> Mask:
+    """Return the (e,) mask of the edges that one of options.PIN_EDGES names."""
+    if kind in ("SHARP", "SEAM"):
+        name = "use_edge_sharp" if kind == "SHARP" else "use_seam"
+        marked: Mask = _column(mesh.edges, name, 1, bool)
+        return marked
+    crease = mesh.attributes.get("crease_edge") if kind == "CREASE" else None
+    if crease is None:
+        return np.zeros(len(mesh.edges), dtype=bool)
+    positive: Mask = _column(crease.data, "value", 1, np.float32) > 0.0
+    return positive
+
+
+def _members(mesh: bpy.types.Mesh, vertices: Ints, group: int) -> list[int]:
+    """Return those of the vertices that are in the vertex group with a weight above zero."""
+    return [
+        vertex
+        for vertex in vertices.tolist()
+        if any(e.group == group and e.weight > 0.0 for e in mesh.vertices[vertex].groups)
+    ]
+
+
+def write_edit_mesh(mesh: bpy.types.Mesh, vertices: Ints, positions: Floats) -> None:
+    """Move the vertices (k,) of a mesh in edit mode to `positions` (k, 3), and only them."""
+    bm = bmesh.from_edit_mesh(mesh)
+    bm.verts.ensure_lookup_table()
+    table = bm.verts
+    for vertex, position in zip(vertices.tolist(), positions.tolist(), strict=True):
+        table[vertex].co = position
+    bm.normal_update()
+    bmesh.update_edit_mesh(mesh, destructive=False)
+
+
+def write_mesh(mesh: bpy.types.Mesh, vertices: Ints, positions: Floats) -> None:
+    """Move the vertices of a mesh in object mode.
+
+    With shape keys the Basis moves, and the keys relative to it follow, as they do
+    when Blender's own tools edit the Basis.
+    """
+    before = _column(mesh.vertices, "co", 3, np.float32)
+    after = before.copy()
+    after[vertices] = positions
+    mesh.vertices.foreach_set("co", after.ravel())
+    if mesh.shape_keys is not None:
+        _move_keys(mesh.shape_keys, vertices, after[vertices] - before[vertices], after)
+    mesh.update()
+
+
+def _move_keys(keys: bpy.types.Key, vertices: Ints, offsets: Any, basis: Any) -> None:
+    keys.reference_key.data.foreach_set("co", basis.ravel())
+    if not keys.use_relative:
+        return
+    for block in keys.key_blocks:
+        if _follows(block, keys.reference_key):
+            moved = _column(block.data, "co", 3, np.float32)
+            moved[vertices] += offsets
+            block.data.foreach_set("co", moved.ravel())
+
+
+def _follows(block: bpy.types.ShapeKey, basis: bpy.types.ShapeKey) -> bool:
+    """Tell whether a chain of relative keys leads from the block to the basis."""
+    seen = set()
+    while block != basis and block.name not in seen:
+        seen.add(block.name)
+        block = block.relative_key
+        if block == basis:
+            return True
+    return False
+
+
+def select_vertices(mesh: bpy.types.Mesh, vertices: Ints) -> None:
+    """Select exactly these vertices of a mesh in edit mode; nothing else about it changes."""
+    bm = bmesh.from_edit_mesh(mesh)
+    bm.select_mode = {"VERT"}
+    bm.verts.ensure_lookup_table()
+    for element in (*bm.faces, *bm.edges, *bm.verts):
+        element.select = False
+    for vertex in vertices.tolist():
+        bm.verts[vertex].select = True
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+def write_attribute(mesh: bpy.types.Mesh, name: str, values: Floats) -> None:
+    """Write one number per vertex (n,) to the vertex attribute `name`, in whichever mode.
+
+    Raises ValueError where the mesh has an attribute of that name for something else.
+    """
+    present = mesh.attributes.get(name)
+    if present is not None and (present.data_type, present.domain) != ("FLOAT", "POINT"):
+        raise ValueError(f"The mesh has another attribute named {name!r}: rename or remove it")
+    if mesh.is_editmode:
+        _write_edit_attribute(mesh, name, values)
+        return
+    layer = present or mesh.attributes.new(name, "FLOAT", "POINT")
+    layer.data.foreach_set("value", values.astype(np.float32))
+    mesh.update()
+
+
+def _write_edit_attribute(mesh: bpy.types.Mesh, name: str, values: Floats) -> None:
+    bm = bmesh.from_edit_mesh(mesh)
+    layers = bm.verts.layers.float
+    layer = layers.get(name) or layers.new(name)
+    for vertex, value in zip(bm.verts, values.tolist(), strict=True):
+        vertex[layer] = value
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)

@@ -1,0 +1,1 @@
+"""One run: read, solve, write, report; by operator, script or command line."""

@@ -1,0 +1,111 @@
+"""Before and after: the last run's free vertices go back and forth between the two."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ..core.arrays import Floats, Ints
+from ..core.outcome import Fairing
+from ..host.polling import require, require_edit_mode
+from ..mesh import mesh_io
+from .job import Task, objects_in_mode
+
+
+@dataclass(frozen=True)
+class Pair:
+    """What one run did to one object: k vertices, float32 positions as Blender keeps them."""
+
+    object_name: str
+    vertex_count: int
+    vertices: Ints  # (k,)
+    before: Floats  # (k, 3)
+    after: Floats  # (k, 3)
+
+
+class _Last:
+    """The pairs of the last run."""
+
+    def __init__(self) -> None:
+        self.pairs: tuple[Pair, ...] = ()
+
+
+_last = _Last()
+
+
+def remember(tasks: list[Task], outcomes: list[Fairing]) -> None:
+    """Keep both states of a run that was written."""
+    _last.pairs = tuple(
+        Pair(
+            object_name=task.object_name,
+            vertex_count=len(task.mesh.positions),
+            vertices=outcome.vertices,
+            before=task.mesh.positions[outcome.vertices],
+            after=outcome.positions.astype(np.float32).astype(np.float64),
+        )
+        for task, outcome in zip(tasks, outcomes, strict=True)
+    )
+
+
+def forget() -> None:
+    """Drop what was kept."""
+    _last.pairs = ()
+
+
+def is_available() -> bool:
+    """Tell whether there was a run."""
+    return bool(_last.pairs)
+
+
+class Changed(Exception):
+    """The vertices are neither where they were before the run nor where it left them."""
+
+
+def toggle(context: bpy.types.Context) -> bool:
+    """Swap before and after; return whether the result shows now. Raises Changed."""
+    objects = objects_in_mode(context)
+    shown = []
+    for pair in _last.pairs:
+        if pair.object_name not in objects:
+            raise Changed(f"{pair.object_name} is not in edit mode")
+        shown.append(_is_after(objects[pair.object_name].data, pair))
+    show_after = not all(shown)
+    for pair in _last.pairs:
+        positions = pair.after if show_after else pair.before
+        mesh_io.write_edit_mesh(objects[pair.object_name].data, pair.vertices, positions)
+    return show_after
+
+
+def _is_after(mesh: bpy.types.Mesh, pair: Pair) -> bool:
+    now = mesh_io.edit_positions(mesh)
+    if len(now) == pair.vertex_count:
+        if np.array_equal(now[pair.vertices], pair.after):
+            return True
+        if np.array_equal(now[pair.vertices], pair.before):
+            return False
+    raise Changed(f"{pair.object_name} has been edited since")
+
+
+class MESH_OT_fair_compare(bpy.types.Operator):
+    """Switch between the shape before the last fairing and the result"""
+
+    bl_idname = "mesh.fair_compare"
+    bl_label = "Before / After"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """There must be something to compare, in edit mode."""
+        return require_edit_mode(cls, context) and require(cls, is_available(), "Nothing has been faired yet")
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Swap, unless the vertices were moved by anything else."""
+        try:
+            shows_result = toggle(context)
+        except Changed as change:
+            self.report({"ERROR"}, str(change))
+            return {"CANCELLED"}
+        self.report({"INFO"}, "Shown: the result" if shows_result else "Shown: the shape before")
+        return {"FINISHED"}

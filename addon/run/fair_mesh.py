@@ -1,0 +1,49 @@
+"""Fairing for scripts: a mesh and its faces, without edit mode, operators or a context."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import bpy
+import numpy as np
+
+import fairing
+
+from ..core.engine import Progress
+from ..core.options import FairOptions
+from ..core.outcome import Fairing
+from ..mesh import mesh_io
+from .fair_arrays import fair_arrays
+
+
+def fair_mesh(
+    mesh: bpy.types.Mesh, faces: Sequence[int], *, matrix: Any = None, **properties: Any
+) -> fairing.FairResult:
+    """Make the polygons `faces` of `mesh` the fair surface of their surroundings.
+
+    matrix: 4×4, to the space in which the surface is fair; default: the mesh's own.
+    properties: those of `mesh.fair_region`, with the same names and defaults.
+    Returns the `fairing` result for the patch: its vertices are those of the visible `faces`, in
+    ascending order, in the space of `matrix`.
+    Raises fairing.MeshError (elements: vertices of `mesh`), ValueError, TypeError for a property
+    that does not exist, IndexError, fairing.SolverError and MemoryError; the mesh is untouched then.
+    """
+    return fair_faces(mesh, faces, matrix, FairOptions(**properties)).result
+
+
+def fair_faces(
+    mesh: bpy.types.Mesh,
+    faces: Sequence[int],
+    matrix: Any,
+    options: FairOptions,
+    progress: Progress | None = None,
+) -> Fairing:
+    """Do the work of `fair_mesh`, with its errors, and return the whole Fairing."""
+    arrays = mesh_io.read_mesh(mesh, np.asarray(faces, dtype=np.int64), options)
+    world = np.eye(4) if matrix is None else np.array(matrix, dtype=np.float64)
+    if world.shape != (4, 4):
+        raise ValueError(f"matrix: expected 4×4 numbers, got shape {world.shape}")
+    outcome = fair_arrays(arrays, world, options, progress)
+    mesh_io.write_mesh(mesh, outcome.vertices, outcome.positions)
+    return outcome

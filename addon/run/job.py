@@ -1,0 +1,117 @@
+"""One run over all objects in edit mode: read, solve (on arrays, in any thread), write.
+
+Nothing is written unless all objects can be done.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ..core.arrays import Floats
+from ..core.engine import REFUSALS, KeptSolver, Progress, sub_range
+from ..core.memory import Memory
+from ..core.options import FairOptions
+from ..core.outcome import Fairing
+from ..core.region import MeshArrays, free_vertices
+from ..core.solve import Kept, Solved
+from ..host.context import edited_objects
+from ..mesh import mesh_io
+from .fair_arrays import fair_arrays
+
+memory: Memory[Solved] = Memory(4)  # enough for the objects of one redo panel; forgotten at unregistering
+solvers: Memory[KeptSolver | None] = Memory(2)  # likewise; larger, as they hold factorisations
+
+
+class Refused(Exception):
+    """One object can't be faired; nothing has been written yet."""
+
+    def __init__(self, name: str, cause: Exception) -> None:
+        super().__init__(f"{name}: {cause}")
+        self.object_name = name
+        self.cause = cause
+
+
+@dataclass(frozen=True)
+class Task:
+    """One object's mesh, as it was read."""
+
+    object_name: str
+    mesh: MeshArrays
+    matrix: Floats  # (4, 4) to world space
+    free_count: int
+    key: str = ""  # the shape key that was read, as mesh_io.writable_key names it
+
+
+def read(context: bpy.types.Context, options: FairOptions) -> list[Task]:
+    """Read every object in edit mode that has selected faces, free vertices or not; raises Refused."""
+    tasks = []
+    for obj in edited_objects(context):
+        try:
+            task = read_object(obj, options)
+        except ValueError as cause:
+            raise Refused(obj.name, cause) from cause
+        if task.mesh.in_patch.any():
+            tasks.append(task)
+    return tasks
+
+
+def read_object(obj: bpy.types.Object, options: FairOptions) -> Task:
+    """Read one object in edit mode; raises ValueError where it can't be faired."""
+    key = mesh_io.writable_key(obj)
+    mesh = mesh_io.read_edit_mesh(obj, options)
+    matrix = np.array(obj.matrix_world, dtype=np.float64)
+    return Task(obj.name, mesh, matrix, int(np.count_nonzero(free_vertices(mesh))), key)
+
+
+def size(tasks: list[Task]) -> int:
+    """Count the free vertices of all tasks."""
+    return sum(task.free_count for task in tasks)
+
+
+def solve(tasks: list[Task], options: FairOptions, progress: Progress, ahead: bool = False) -> list[Fairing]:
+    """Solve task after task, on arrays alone; raises Refused and fairing.Cancelled.
+
+    ahead: prepare for a change of options, which takes a while: in the background.
+    """
+    kept = Kept(memory, solvers, ahead)
+    outcomes: list[Fairing] = []
+    done, total = 0, size(tasks)
+    for task in tasks:
+        part = sub_range(progress, done / total, (done + task.free_count) / total)
+        try:
+            outcomes.append(fair_arrays(task.mesh, task.matrix, options, part, kept))
+        except REFUSALS as cause:
+            raise Refused(task.object_name, cause) from cause
+        done += task.free_count
+    return outcomes
+
+
+def objects_in_mode(context: bpy.types.Context) -> dict[str, bpy.types.Object]:
+    """Return the objects in edit mode by name; undo replaces objects, so that only names last."""
+    return {obj.name: obj for obj in edited_objects(context)}
+
+
+def is_current(context: bpy.types.Context, tasks: list[Task]) -> bool:
+    """Tell whether the objects are still in edit mode, with the vertices, faces and shape key that were read."""
+    objects = objects_in_mode(context)
+    return context.mode == "EDIT_MESH" and all(
+        task.object_name in objects and _is_unchanged(objects[task.object_name], task) for task in tasks
+    )
+
+
+def _is_unchanged(obj: bpy.types.Object, task: Task) -> bool:
+    try:
+        same_key = mesh_io.writable_key(obj) == task.key
+    except ValueError:  # locked meanwhile
+        return False
+    return same_key and mesh_io.is_unchanged(obj.data, task.mesh)
+
+
+def write(context: bpy.types.Context, tasks: list[Task], outcomes: list[Fairing]) -> None:
+    """Move the free vertices of every task's object."""
+    objects = objects_in_mode(context)
+    for task, outcome in zip(tasks, outcomes, strict=True):
+        mesh_io.write_edit_mesh(objects[task.object_name].data, outcome.vertices, outcome.positions)

@@ -1,0 +1,52 @@
+# mypy: disable-error-code="valid-type"
+"""The last run and the run under way, on the window manager: no part of the file or its undo."""
+
+from typing import Any
+
+import bpy
+from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+
+from ..core.report import MET, MISSED, TOLD, Report
+
+_STATES = ((MET, "Met", ""), (MISSED, "Missed", ""), (TOLD, "Told", ""))
+
+
+class FairCheck(bpy.types.PropertyGroup):
+    """One line of the report."""
+
+    value: StringProperty()
+    state: EnumProperty(items=_STATES)
+
+
+class FairReport(bpy.types.PropertyGroup):
+    """What the last run did."""
+
+    objects: StringProperty()
+    free_vertices: IntProperty()
+    seconds: FloatProperty()
+    residual: FloatProperty()
+    boundary_angle: FloatProperty()
+    distortion: FloatProperty()
+    converged: BoolProperty()
+    warnings: StringProperty()
+    checks: CollectionProperty(type=FairCheck)
+
+
+class FairProgress(bpy.types.PropertyGroup):
+    """The run under way."""
+
+    running: BoolProperty()
+    fraction: FloatProperty()
+    stage: StringProperty()
+
+
+def store(shown: Any, report: Report) -> None:
+    """Copy a report to the FairReport that the panel shows."""
+    shown.objects = ", ".join(report.objects)
+    for name in ("free_vertices", "seconds", "residual", "boundary_angle", "distortion", "converged"):
+        setattr(shown, name, getattr(report, name))
+    shown.warnings = "\n".join(report.warnings)
+    shown.checks.clear()
+    for check in report.checks:
+        line = shown.checks.add()
+        line.name, line.value, line.state = check.name, check.value, check.state

@@ -1,0 +1,167 @@
+"""The quality overlay: when to measure, when to draw.
+
+Measured after each change of the mesh (a timer on the main thread), drawn at each redraw.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+import gpu
+import numpy as np
+from gpu_extras.batch import batch_for_shader
+
+from ..core import signals
+from ..core.options import FairOptions
+from ..core.overlay_data import Surface, make_surface
+from ..host.context import active_object, edited_objects
+from ..host.handlers import call_later, call_off, is_edited, listen, unlisten
+from ..host.status import redraw_views
+from ..mesh import mesh_io
+from .overlay_shader import make_shader
+
+DELAY = 0.02  # seconds from a change to the next measurement
+
+
+class Overlay:
+    """Surfaces measured, their batches on the GPU, and what is to be told about them."""
+
+    def __init__(self) -> None:
+        self.surfaces: tuple[Surface, ...] = ()
+        self.message = ""
+        self.handle: Any = None
+        self._shader: Any = None
+        self._batches: list[Any] = []
+
+    def measure(self, context: bpy.types.Context) -> None:
+        """Measure what the settings ask for."""
+        whole = context.mode != "EDIT_MESH" or context.window_manager.fairing_overlay.scope == "OBJECT"
+        self.message = ""
+        self._batches = []
+        self.surfaces = tuple(s for obj in _shown(context) if (s := self._surface(obj, whole)) is not None)
+
+    def _surface(self, obj: bpy.types.Object, whole: bool) -> Surface | None:
+        mesh = mesh_io.read_shown_mesh(obj, FairOptions())
+        try:
+            return make_surface(mesh, np.array(obj.matrix_world, dtype=np.float64), whole)
+        except ValueError as cause:  # no surface: a message instead of a wrong picture
+            self.message = f"{obj.name}: {cause}"
+            return None
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the surfaces into the 3D view that is being drawn."""
+        if not self.surfaces:
+            return
+        if self._shader is None:
+            self._shader = make_shader()
+        if not self._batches:
+            self._batches = [_batch(self._shader, surface) for surface in self.surfaces]
+        settings = context.window_manager.fairing_overlay
+        gpu.state.depth_test_set("LESS_EQUAL")
+        gpu.state.blend_set("ALPHA")
+        for surface, batch in zip(self.surfaces, self._batches, strict=True):
+            self._shader.bind()
+            _set_constants(self._shader, settings, context.region_data, surface)
+            batch.draw(self._shader)
+        gpu.state.blend_set("NONE")
+        gpu.state.depth_test_set("NONE")
+
+    def clear(self) -> None:
+        """Drop everything measured."""
+        self.surfaces, self._batches, self.message = (), [], ""
+
+
+overlay = Overlay()
+
+
+def _shown(context: bpy.types.Context) -> list[bpy.types.Object]:
+    if context.mode == "EDIT_MESH":
+        return edited_objects(context)
+    obj = active_object(context)
+    return [obj] if obj is not None and obj.type == "MESH" else []
+
+
+def _batch(shader: Any, surface: Surface) -> Any:
+    content = {
+        "position": surface.positions.astype(np.float32),
+        "normal": surface.normals.astype(np.float32),
+        "curvature": surface.curvature.astype(np.float32),
+    }
+    return batch_for_shader(shader, "TRIS", content, indices=surface.triangles.astype(np.int32))
+
+
+def _set_constants(shader: Any, settings: Any, view: Any, surface: Surface) -> None:
+    inverse = view.view_matrix.inverted()
+    perspective = view.is_perspective
+    shader.uniform_float("view_projection", view.perspective_matrix)
+    # Where one looks from; without perspective the direction towards it, the same everywhere.
+    eye = inverse.translation if perspective else inverse.col[2].xyz
+    shader.uniform_float("eye", (*eye, float(perspective)))
+    shader.uniform_float("lights", (*settings.axis.normalized(), float(settings.stripes)))
+    full_colour = max(surface.largest_curvature, 1e-9) if settings.automatic else settings.range
+    shader.uniform_float("look", (float(settings.mode == "CURVATURE"), full_colour, settings.opacity, 0.0))
+
+
+def _draw() -> None:
+    overlay.draw(bpy.context)
+
+
+def settings_changed(context: bpy.types.Context) -> None:
+    """Start or stop drawing, as the settings say."""
+    if context.window_manager.fairing_overlay.show:
+        overlay.measure(context)
+        start()
+    else:
+        stop()
+    redraw_views(context)
+
+
+def start() -> None:
+    """Draw from now on, and follow changes."""
+    if overlay.handle is None:
+        overlay.handle = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
+        listen(bpy.app.handlers.depsgraph_update_post, _on_change)
+
+
+def stop() -> None:
+    """Draw no more."""
+    if overlay.handle is not None:
+        unlisten(bpy.app.handlers.depsgraph_update_post, _on_change)
+        bpy.types.SpaceView3D.draw_handler_remove(overlay.handle, "WINDOW")
+        overlay.handle = None
+    call_off(_measure_later)
+    overlay.clear()
+
+
+def _on_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    if is_edited(depsgraph):
+        call_later(_measure_later, DELAY)
+
+
+def _measure_later() -> None:
+    context = bpy.context
+    if overlay.handle is not None and context.window_manager.fairing_overlay.show:
+        overlay.measure(context)
+        redraw_views(context)
+
+
+def _on_load(_path: str) -> None:
+    """Another file: what was measured belonged to the last one."""
+    overlay.clear()
+    if bpy.context.window_manager.fairing_overlay.show:
+        overlay.measure(bpy.context)
+
+
+def register() -> None:
+    """Follow the settings and the opening of files."""
+    signals.listeners.update(content=settings_changed, look=redraw_views)
+    listen(bpy.app.handlers.load_post, _on_load)
+
+
+def unregister() -> None:
+    """Leave nothing behind."""
+    stop()
+    for kind in ("content", "look"):
+        signals.listeners.pop(kind, None)
+    unlisten(bpy.app.handlers.load_post, _on_load)

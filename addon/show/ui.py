@@ -1,0 +1,197 @@
+"""Where everything is found: sidebar panels, Face menu, context menu."""
+
+from typing import Any
+
+import bpy
+
+from ..follow.inspection import Inspection
+from ..follow.live import live
+from ..follow.live_operators import MESH_OT_fair_live_forget, MESH_OT_fair_live_region, MESH_OT_fair_live_select
+from ..follow.watch import MESH_OT_fair_inspect, is_large, request, watch
+from ..host.text import draw_text
+from ..run.compare import MESH_OT_fair_compare
+from ..run.curvature import MESH_OT_fair_curvature
+from ..run.operators import MESH_OT_fair_region
+from ..translations import translated
+from .overlay import overlay
+
+_ICONS = {"MET": "CHECKMARK", "MISSED": "ERROR", "TOLD": "BLANK1"}
+
+
+class _Panel:
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Fairing"
+
+
+class VIEW3D_PT_fairing(_Panel, bpy.types.Panel):
+    """The operator, or how far it is"""
+
+    bl_label = "Intrinsic Fairing"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the button and the progress."""
+        layout = self.layout
+        progress = context.window_manager.fairing_progress
+        if progress.running:
+            layout.progress(factor=progress.fraction, text=f"{progress.fraction:.0%}  {progress.stage}")
+            layout.label(text="cancels", icon="EVENT_ESC")
+            return
+        column = layout.column(align=True)
+        column.scale_y = 1.3
+        column.operator(MESH_OT_fair_region.bl_idname, icon="MOD_SMOOTH")
+        layout.operator(MESH_OT_fair_compare.bl_idname, icon="ARROW_LEFTRIGHT")
+
+
+class VIEW3D_PT_fairing_selection(_Panel, bpy.types.Panel):
+    """What is selected, and what would be refused"""
+
+    bl_label = "Selection"
+    bl_parent_id = "VIEW3D_PT_fairing"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Only edit mode has a selection."""
+        return bool(context.mode == "EDIT_MESH")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw what the last look found; never look here."""
+        request(context)
+        if watch.stale and is_large(context):
+            self.layout.operator(MESH_OT_fair_inspect.bl_idname, icon="VIEWZOOM")
+            return
+        for found in watch.found:
+            _draw_inspection(self.layout, found, len(watch.found) > 1)
+
+
+class VIEW3D_PT_fairing_report(_Panel, bpy.types.Panel):
+    """What the last run did"""
+
+    bl_label = "Last Run"
+    bl_parent_id = "VIEW3D_PT_fairing"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """There must have been one."""
+        return bool(context.window_manager.fairing_report.free_vertices)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the report: what was met, what was missed."""
+        _draw_report(self.layout, context.window_manager.fairing_report)
+
+
+class VIEW3D_PT_fairing_live(_Panel, bpy.types.Panel):
+    """A region that follows its surroundings"""
+
+    bl_label = "Live"
+    bl_parent_id = "VIEW3D_PT_fairing"
+    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012 - the form that Blender asks for
+
+    def draw_header(self, context: bpy.types.Context) -> None:
+        """Draw the switch."""
+        self.layout.prop(context.window_manager.fairing_live, "on", text="")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the operators, what is followed and how quickly."""
+        row = self.layout.row(align=True)
+        row.operator(MESH_OT_fair_live_region.bl_idname)
+        row.operator(MESH_OT_fair_live_select.bl_idname, text="", icon="RESTRICT_SELECT_OFF")
+        row.operator(MESH_OT_fair_live_forget.bl_idname, text="", icon="X")
+        column = self.layout.column(align=True)
+        for name, session in live.sessions.items():
+            column.label(text=name, icon="MESH_DATA", translate=False)
+            _pair(column, "Free Vertices", str(len(session.region.free)), "BLANK1")
+            _pair(column, "Seconds", f"{session.seconds:.3f}", "BLANK1")
+        if live.message:
+            draw_text(self.layout, translated(live.message), "ERROR")
+
+
+class VIEW3D_PT_fairing_overlay(_Panel, bpy.types.Panel):
+    """Reflection lines and curvature colours"""
+
+    bl_label = "Quality Overlay"
+    bl_parent_id = "VIEW3D_PT_fairing"
+    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012 - the form that Blender asks for
+
+    def draw_header(self, context: bpy.types.Context) -> None:
+        """Draw the switch."""
+        self.layout.prop(context.window_manager.fairing_overlay, "show", text="")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the settings."""
+        _draw_overlay(self.layout, context.window_manager.fairing_overlay)
+        self.layout.operator(MESH_OT_fair_curvature.bl_idname, icon="RNDCURVE")
+
+
+def _pair(layout: Any, name: str, value: str, icon: str = "NONE") -> None:
+    row = layout.split(factor=0.62)
+    row.label(text=name, icon=icon)
+    row.label(text=value, translate=False)
+
+
+def _draw_inspection(layout: Any, found: Inspection, named: bool) -> None:
+    column = layout.column(align=True)
+    if named:
+        column.label(text=found.object_name, icon="OBJECT_DATA", translate=False)
+    _pair(column, "Faces", str(found.faces))
+    _pair(column, "Free Vertices", str(found.free_vertices))
+    if found.refusal:
+        draw_text(layout, translated(found.refusal), "CANCEL")
+        return
+    _pair(column, "Outlines", str(found.loops))
+    _pair(column, "Islands", str(found.islands))
+    for note in found.notes:
+        draw_text(layout, note, "INFO")
+
+
+def _draw_report(layout: Any, report: Any) -> None:
+    layout.label(text=report.objects, icon="OBJECT_DATA", translate=False)
+    column = layout.column(align=True)
+    for check in report.checks:
+        row = column.row()
+        row.alert = check.state == "MISSED"
+        _pair(row, check.name, check.value, _ICONS[check.state])
+    _pair(column, "Free Vertices", str(report.free_vertices), "BLANK1")
+    _pair(column, "Seconds", f"{report.seconds:.2f}", "BLANK1")
+    for warning in report.warnings.splitlines():
+        draw_text(layout, warning, "ERROR")
+
+
+def _draw_overlay(layout: Any, settings: Any) -> None:
+    layout.use_property_split = True
+    column = layout.column()
+    column.active = settings.show
+    column.prop(settings, "mode")
+    column.prop(settings, "scope")
+    if settings.mode == "ZEBRA":
+        column.prop(settings, "stripes")
+        column.prop(settings, "axis")
+    else:
+        column.prop(settings, "automatic")
+        row = column.row()
+        row.active = not settings.automatic
+        row.prop(settings, "range")
+    column.prop(settings, "opacity")
+    if overlay.message:
+        draw_text(layout, overlay.message, "ERROR")
+
+
+def draw_menu(menu: Any, _context: bpy.types.Context) -> None:
+    """Add the operator to a menu."""
+    menu.layout.separator()
+    menu.layout.operator(MESH_OT_fair_region.bl_idname)
+
+
+def draw_context_menu(menu: Any, context: bpy.types.Context) -> None:
+    """Add the operator to the context menu of faces, which vertices and edges share."""
+    if context.tool_settings.mesh_select_mode[2]:
+        draw_menu(menu, context)
+
+
+PANELS = (
+    VIEW3D_PT_fairing,
+    VIEW3D_PT_fairing_selection,
+    VIEW3D_PT_fairing_report,
+    VIEW3D_PT_fairing_live,
+    VIEW3D_PT_fairing_overlay,
+)

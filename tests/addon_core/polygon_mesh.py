@@ -1,0 +1,62 @@
+"""Polygon meshes as the add-on reads them: grids, and whatever is listed face by face."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from core.arrays import Floats, Mask
+from core.region import MeshArrays
+
+Polygons = Sequence[Sequence[int]]
+
+
+def polygon_mesh(positions: Floats, polygons: Polygons, selected: Mask | Sequence[bool]) -> MeshArrays:
+    """Number edges as they come, split faces into fans round their first corner."""
+    sides = [(a, b) for loop in polygons for a, b in zip(loop, (*loop[1:], loop[0]), strict=True)]
+    edges, corner_edges = np.unique(np.sort(np.array(sides), axis=1), axis=0, return_inverse=True)
+    sizes = [len(loop) for loop in polygons]
+    fans = [(loop[0], loop[k], loop[k + 1]) for loop in polygons for k in range(1, len(loop) - 1)]
+    return MeshArrays(
+        positions=np.asarray(positions, dtype=np.float64),
+        edges=edges,
+        corner_vertices=np.concatenate([np.array(loop) for loop in polygons]),
+        corner_edges=corner_edges.reshape(-1),
+        corner_faces=np.repeat(np.arange(len(polygons)), sizes),
+        triangles=np.array(fans),
+        triangle_faces=np.repeat(np.arange(len(polygons)), np.array(sizes) - 2),
+        in_patch=np.asarray(selected, dtype=bool),
+        pinned=np.zeros(len(positions), dtype=bool),
+    )
+
+
+def grid_points(size: int) -> Floats:
+    """The ((size + 1)², 3) points of a grid from −1 to 1 in the plane z = 0; vertex row · (size + 1) + column."""
+    steps = np.linspace(-1.0, 1.0, size + 1)
+    x, y = np.meshgrid(steps, steps)
+    return np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)])
+
+
+def grid_quads(size: int) -> list[list[int]]:
+    """Its size² quads, seen counter-clockwise from above; face row · size + column."""
+    rows = size + 1
+    return [
+        [rows * row + column, rows * row + column + 1, rows * (row + 1) + column + 1, rows * (row + 1) + column]
+        for row in range(size)
+        for column in range(size)
+    ]
+
+
+def grid(size: int, half: float, shape: Callable[[Floats], Floats] = lambda points: points) -> MeshArrays:
+    """A grid of quads, of which those with a centre within `half` of the middle (largest norm) are selected."""
+    flat = grid_points(size)
+    quads = grid_quads(size)
+    centres = flat[np.array(quads)].mean(axis=1)
+    return polygon_mesh(shape(flat), quads, np.abs(centres).max(axis=1) < half)
+
+
+def on_sphere(points: Floats) -> Floats:
+    """The points over the plane z = 0, from −1 to 1, on the unit sphere around the origin: a cube's upper side."""
+    lifted = points + np.array([0.0, 0.0, 1.0])
+    return lifted / np.linalg.norm(lifted, axis=1, keepdims=True)

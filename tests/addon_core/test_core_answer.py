@@ -1,0 +1,151 @@
+"""The add-on's way from a mesh to new positions, on a sphere, whose answer is the sphere."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import fairing
+from core import engine
+from core.arrays import Floats, Ints
+from core.engine import KeptSolver
+from core.memory import Memory
+from core.options import FairOptions
+from core.outcome import Fairing, outcome
+from core.region import MeshArrays
+from core.solve import Kept, Solved, pose, solve
+from polygon_mesh import grid, on_sphere
+
+EYE = np.eye(4)
+
+
+def none_cross(_positions: Floats, _triangles: Ints) -> int:
+    return 0
+
+
+def spoilt_sphere(size: int = 16) -> MeshArrays:
+    """A side of a cubic sphere, its selected middle pushed in and shaken."""
+    mesh = grid(size, 0.6, on_sphere)
+    points = mesh.positions.copy()
+    inside, _ = pose(mesh, EYE, FairOptions())
+    free = inside.patch.vertices[inside.patch.free]
+    points[free] = 0.8 * points[free] + 0.05 * np.random.default_rng(5).normal(size=(len(free), 3))
+    return replace(mesh, positions=points)
+
+
+def fair(mesh: MeshArrays, matrix: Floats = EYE, **options: object) -> Fairing:
+    chosen = FairOptions(**options)
+    return outcome(mesh, matrix, chosen.factor, solve(mesh, matrix, chosen), none_cross)
+
+
+def test_the_sphere_comes_back() -> None:
+    done = fair(spoilt_sphere())
+    assert done.result.converged
+    np.testing.assert_allclose(np.linalg.norm(done.positions, axis=1), 1.0, atol=1e-6)
+    assert done.curvature == pytest.approx((1.0, 1.0), abs=2e-2)
+    assert done.before.flipped > 0
+    assert (done.after.flipped, done.after.degenerate) == (0, 0)
+
+
+def test_it_is_fair_in_the_space_that_the_matrix_leads_to() -> None:
+    """In a mesh that is a sphere only after its object's shear, turn and shift."""
+    matrix = np.array([[0.0, -2.0, 0.3, 1.0], [1.5, 0.0, 0.0, -2.0], [0.0, 0.4, 0.7, 3.0], [0.0, 0.0, 0.0, 1.0]])
+    sphere = spoilt_sphere()
+    local = np.linalg.solve(matrix[:3, :3], (sphere.positions - matrix[:3, 3]).T).T
+    done = fair(replace(sphere, positions=local), matrix)
+    world = done.positions @ matrix[:3, :3].T + matrix[:3, 3]
+    np.testing.assert_allclose(np.linalg.norm(world, axis=1), 1.0, atol=1e-6)
+
+
+def test_the_factor_blends_between_the_mesh_and_the_answer() -> None:
+    mesh = spoilt_sphere()
+    whole, half, nothing = (fair(mesh, factor=factor) for factor in (1.0, 0.5, 0.0))
+    start = mesh.positions[whole.vertices]
+    assert nothing.positions.tobytes() == start.tobytes()
+    np.testing.assert_allclose(half.positions, 0.5 * (start + whole.positions), atol=1e-15)
+
+
+def test_a_symmetric_mesh_gets_a_symmetric_answer() -> None:
+    mesh = replace(spoilt_sphere(), mirror_x=True)
+    done = fair(mesh)
+    where = {tuple(point) for point in done.positions.tolist()}
+    assert all((-x, y, z) in where for x, y, z in where)
+    lopsided = mesh.in_patch.copy()
+    lopsided[np.flatnonzero(lopsided)[0]] = False
+    told = fair(replace(mesh, in_patch=lopsided)).warnings
+    assert any("not symmetric" in text for text in told)
+
+
+def test_a_bulge_lifts_a_flat_disc_by_a_quarter_of_its_radius() -> None:
+    """The biharmonic plate: w = bulge (a² − r²)² / (4 a³) where it is small."""
+
+    def rings(points: Floats) -> Floats:
+        lengths = np.linalg.norm(points, axis=1, keepdims=True)
+        return points * np.abs(points).max(axis=1, keepdims=True) / np.maximum(lengths, 1e-9)
+
+    bulge = 0.02
+    done = fair(grid(40, 0.5, rings), equation="CONSTANT", bulge=bulge)
+    squared = (done.positions[:, :2] ** 2).sum(axis=1)  # of a plate with the radius a half
+    np.testing.assert_allclose(done.positions[:, 2], 0.25 * bulge * (0.25 - squared) ** 2 / 0.5**3, atol=5e-5)
+    assert done.positions[:, 2].max() == pytest.approx(0.25 * bulge * 0.5, rel=0.02)
+
+
+def counting_kept(ahead: bool = False) -> Kept:
+    results: Memory[Solved] = Memory(2)
+    solvers: Memory[KeptSolver | None] = Memory(2)
+    return Kept(results, solvers, ahead)
+
+
+def test_a_former_result_is_not_computed_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    mesh, kept = spoilt_sphere(), counting_kept()
+    first = solve(mesh, EYE, FairOptions(), kept=kept)
+    monkeypatch.setattr(fairing, "fair", lambda *_args, **_options: pytest.fail("solved again"))
+    assert solve(mesh, EYE, FairOptions(factor=0.5), kept=kept) is first
+
+
+def test_other_options_start_from_the_solver_that_was_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    mesh, kept = spoilt_sphere(), counting_kept(ahead=True)
+    solve(mesh, EYE, FairOptions(), kept=kept)
+    monkeypatch.setattr(fairing, "fair", lambda *_args, **_options: pytest.fail("a call without its solver"))
+    monkeypatch.setattr(engine, "KeptSolver", lambda *_args: pytest.fail("another solver"))
+    other = FairOptions(inner_fairness="INVERSE_DISTANCE")
+    again = outcome(mesh, EYE, 1.0, solve(mesh, EYE, other, kept=kept), none_cross)
+    np.testing.assert_allclose(np.linalg.norm(again.positions, axis=1), 1.0, atol=1e-6)
+    moved = replace(mesh, positions=1.5 * mesh.positions)
+    with pytest.raises(pytest.fail.Exception, match="another solver"):
+        solve(moved, EYE, FairOptions(), kept=kept)
+
+
+def test_a_cancelled_call_leaves_nothing_behind() -> None:
+    mesh, kept = spoilt_sphere(), counting_kept()
+    with pytest.raises(fairing.Cancelled):
+        solve(mesh, EYE, FairOptions(), lambda *_: False, kept)
+    assert solve(mesh, EYE, FairOptions(), kept=kept).result.converged
+
+
+def test_errors_name_the_vertices_of_the_mesh() -> None:
+    mesh = spoilt_sphere()
+    broken = mesh.positions.copy()
+    vertex = 17 * 8 + 8  # in the middle
+    broken[vertex] = np.nan
+    with pytest.raises(fairing.MeshError) as refusal:
+        solve(replace(mesh, positions=broken), EYE, FairOptions())
+    assert refusal.value.diagnostic.elements.tolist() == [vertex]
+    assert f"vertex {vertex}" in str(refusal.value)
+
+
+def test_a_patch_that_may_cross_is_counted_and_a_clear_one_is_not() -> None:
+    mesh = spoilt_sphere()
+    solved = solve(mesh, EYE, FairOptions())
+    asked: list[float] = []
+
+    def seven(positions: Floats, _triangles: Ints) -> int:
+        asked.append(float(positions.sum()))
+        return 7
+
+    clear = outcome(mesh, EYE, 1.0, solved, seven)
+    assert (clear.before.intersections, clear.after.intersections, len(asked)) == (7, 0, 1)
+    blended = outcome(mesh, EYE, 0.5, solved, seven)  # nobody knows of what lies half-way
+    assert (blended.before.intersections, blended.after.intersections, len(asked)) == (7, 7, 3)

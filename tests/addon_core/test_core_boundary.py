@@ -1,0 +1,82 @@
+"""Normals along the outline: known ones on planes and spheres, from each source."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core.boundary import average_normals, prescribed_normals
+from core.region import make_patch
+from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh
+
+
+def test_normals_of_the_surroundings_are_the_spheres_however_the_patch_lies() -> None:
+    mesh = grid(16, 0.6, on_sphere)
+    patch = make_patch(mesh)
+    spoilt = mesh.positions.copy()
+    spoilt[patch.vertices[patch.free]] *= 3.0
+    normals, told = prescribed_normals(replace(mesh, positions=spoilt), patch, "SURROUNDING")
+    rim = mesh.positions[patch.vertices[patch.fixed]]
+    assert told == ()
+    np.testing.assert_allclose(normals, rim, atol=1e-9)  # spheres are met exactly
+
+
+def test_average_normals_of_a_plane_and_of_a_corner() -> None:
+    assert np.allclose(average_normals(grid(4, 0.6)), [0.0, 0.0, 1.0])
+    quads = [[0, 1, 2, 3], [0, 3, 4, 5], [0, 5, 6, 1]]  # three sides of a cube around the vertex 0
+    cube = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 1, 1], [0, 0, 1], [1, 0, 1]], dtype=np.float64)
+    normals = average_normals(polygon_mesh(cube, quads, [True] * 3))
+    np.testing.assert_allclose(normals[0], np.ones(3) / np.sqrt(3.0))
+    np.testing.assert_allclose(normals[2], [0.0, 0.0, 1.0])
+
+
+def test_average_normals_take_each_face_once_whatever_its_size() -> None:
+    """A large and a small face at a right angle: half-way between, not nearer to the large one."""
+    points = np.array([[0, 0, 0], [0, 1, 0], [-9, 1, 0], [-9, 0, 0], [0, 0, 1], [0, 1, 1]], dtype=np.float64)
+    mesh = polygon_mesh(points, [[0, 1, 2, 3], [0, 4, 5, 1]], [True, False])
+    expected = np.array([-1.0, 0.0, 1.0]) / np.sqrt(2.0)
+    np.testing.assert_allclose(average_normals(mesh)[[0, 1]], [expected, expected], atol=1e-15)
+
+
+def test_custom_normals_are_the_mean_of_the_corners() -> None:
+    mesh = grid(6, 0.67)
+    patch = make_patch(mesh)
+    tilted = np.tile([0.6, 0.0, 0.8], (len(mesh.corner_vertices), 1))
+    normals, told = prescribed_normals(replace(mesh, corner_normals=tilted), patch, "CUSTOM")
+    assert told == ()
+    np.testing.assert_allclose(normals, np.tile([0.6, 0.0, 0.8], (len(patch.fixed), 1)))
+    with pytest.raises(ValueError, match="without its corner normals"):
+        prescribed_normals(mesh, patch, "CUSTOM")
+
+
+def test_a_border_without_faces_outside_is_told_and_takes_the_patch_average() -> None:
+    mesh = grid(4, 2.0)  # all of it
+    patch = make_patch(mesh)
+    normals, told = prescribed_normals(mesh, patch, "SURROUNDING")
+    assert told == ("16 border vertices have no faces outside: their normals come from the patch",)
+    assert np.allclose(normals, [0.0, 0.0, 1.0])
+    pinned = np.zeros(25, dtype=bool)
+    pinned[12] = True
+    inner = replace(mesh, pinned=pinned)
+    assert prescribed_normals(inner, make_patch(inner), "SURROUNDING")[1] == told  # a pin is none of them
+
+
+def test_surroundings_wound_against_the_patch_are_turned_round() -> None:
+    selected = grid(16, 0.6).in_patch
+    quads = [loop if k else loop[::-1] for loop, k in zip(grid_quads(16), selected, strict=True)]
+    mesh = polygon_mesh(on_sphere(grid_points(16)), quads, selected)
+    patch = make_patch(mesh)
+    normals, _ = prescribed_normals(mesh, patch, "SURROUNDING")
+    np.testing.assert_allclose(normals, mesh.positions[patch.vertices[patch.fixed]], atol=1e-9)
+
+
+def test_what_is_not_finite_outside_is_left_out() -> None:
+    mesh = grid(16, 0.6, on_sphere)
+    patch = make_patch(mesh)
+    broken = mesh.positions.copy()
+    broken[17 * 2 + 8] = np.nan  # next to the outline
+    with np.errstate(invalid="ignore"):
+        normals, _ = prescribed_normals(replace(mesh, positions=broken), patch, "SURROUNDING")
+    np.testing.assert_allclose(normals, mesh.positions[patch.vertices[patch.fixed]], atol=1e-9)

@@ -1,0 +1,105 @@
+"""A live region on arrays: what it reads, and that its answers are the fair ones for where its surroundings are."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import fairing
+from core.arrays import Floats
+from core.boundary import RINGS, prescribed_normals
+from core.live_region import LiveRegion, surroundings
+from core.options import FairOptions
+from core.region import MeshArrays, make_patch
+from polygon_mesh import grid, on_sphere
+
+EYE = np.eye(4)
+SIZE = 24
+
+
+def sphere() -> MeshArrays:
+    return grid(SIZE, 0.35, on_sphere)  # 8 × 8 of 24 × 24 quads, eight rings of faces around them
+
+
+def test_surroundings_are_the_rings_that_normals_are_fitted_to() -> None:
+    mesh = sphere()
+    around = surroundings(mesh, make_patch(mesh))
+    assert len(around.mesh.in_patch) == (8 + 2 * RINGS) ** 2
+    assert len(around.vertices) == (8 + 2 * RINGS + 1) ** 2
+    assert np.count_nonzero(around.mesh.in_patch) == 64
+
+
+@pytest.mark.parametrize("source", ["SURROUNDING", "AVERAGE"])
+def test_normals_from_the_part_are_those_from_the_whole(source: str) -> None:
+    mesh = grid(SIZE, 0.35, lambda points: on_sphere(points) * (1.0 + 0.1 * points[:, :1] ** 2))
+    patch = make_patch(mesh)
+    around = surroundings(mesh, patch)
+    part, _ = prescribed_normals(around.mesh, around.patch, source)
+    whole, _ = prescribed_normals(mesh, patch, source)
+    np.testing.assert_allclose(part, whole, atol=1e-13)
+
+
+def answer_after(move: Floats, **options: object) -> tuple[LiveRegion, Floats, MeshArrays]:
+    """The answer of a region that was made on the sphere, for positions under a 3×3 map."""
+    mesh = sphere()
+    region = LiveRegion(mesh, EYE, FairOptions(**options))
+    moved = mesh.positions @ move.T
+    answer = region.answer(moved[region.vertices], EYE)
+    assert answer is not None
+    return region, answer, replace(mesh, positions=moved)
+
+
+def test_a_sphere_that_grows_stays_a_sphere() -> None:
+    _, answer, _ = answer_after(1.3 * np.eye(3))
+    np.testing.assert_allclose(np.linalg.norm(answer, axis=1), 1.3, atol=1e-6)
+
+
+def test_answers_do_not_depend_on_what_came_before() -> None:
+    mesh = sphere()
+    stretch = np.diag([1.0, 1.2, 0.9])
+    region, direct, moved = answer_after(stretch)
+    wandering = LiveRegion(mesh, EYE, FairOptions())
+    for size in (1.1, 0.7, 1.4):
+        wandering.answer(size * mesh.positions[region.vertices], EYE)
+    again = wandering.answer(moved.positions[region.vertices], EYE)
+    assert again is not None
+    np.testing.assert_allclose(again, direct, atol=1e-5)
+
+
+def test_the_free_vertices_own_positions_do_not_count() -> None:
+    mesh = sphere()
+    region = LiveRegion(mesh, EYE, FairOptions())
+    dented = mesh.positions.copy()
+    dented[region.free] *= 0.9
+    answer = region.answer(dented[region.vertices], EYE)
+    assert answer is not None
+    np.testing.assert_allclose(np.linalg.norm(answer, axis=1), 1.0, atol=1e-6)
+
+
+def test_answers_are_in_the_meshs_own_coordinates() -> None:
+    mesh = sphere()
+    matrix = np.diag([2.0, 2.0, 2.0, 1.0])
+    matrix[:3, 3] = (5.0, -1.0, 0.5)
+    region = LiveRegion(mesh, matrix, FairOptions())
+    answer = region.answer(mesh.positions[region.vertices], matrix)
+    assert answer is not None
+    np.testing.assert_allclose(np.linalg.norm(answer, axis=1), 1.0, atol=1e-6)
+
+
+def test_a_bulge_grows_with_its_region() -> None:
+    _, small, _ = answer_after(np.eye(3), equation="CONSTANT", bulge=0.05)
+    _, large, _ = answer_after(2.0 * np.eye(3), equation="CONSTANT", bulge=0.05)
+    np.testing.assert_allclose(large, 2.0 * small, atol=1e-5)
+    assert np.linalg.norm(small, axis=1).max() > 1.0 + 1e-3
+
+
+def test_no_convergence_is_no_answer_and_a_stop_is_heard() -> None:
+    mesh = grid(SIZE, 0.35, lambda points: on_sphere(points) * (1.0 + 0.2 * np.sin(3.0 * points[:, :1])))
+    region = LiveRegion(mesh, EYE, FairOptions(max_iterations=1, tolerance=1e-13))
+    assert region.answer(mesh.positions[region.vertices], EYE) is None
+    patient = LiveRegion(mesh, EYE, FairOptions())
+    with pytest.raises(fairing.Cancelled):
+        patient.answer(mesh.positions[patient.vertices], EYE, lambda *_: False)
+    assert patient.answer(mesh.positions[patient.vertices], EYE) is not None

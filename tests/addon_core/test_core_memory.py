@@ -1,0 +1,48 @@
+"""What is remembered: the values used last, by what they belong to."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from core.memory import Memory, digest
+from core.options import FairOptions
+
+
+def test_memory_keeps_what_was_used_last() -> None:
+    memory: Memory[int] = Memory(2)
+    memory.put("a", 1)
+    memory.put("b", 2)
+    assert memory.get("a") == 1  # now "b" is the one not used for longest
+    memory.put("c", 3)
+    assert [memory.get(key) for key in "abc"] == [1, None, 3]
+    memory.clear()
+    assert memory.get("a") is None
+
+
+def test_what_is_taken_is_gone() -> None:
+    memory: Memory[int | None] = Memory(2)
+    memory.put("a", 1)
+    assert memory.take("a") == 1
+    assert memory.take("a") is None
+    assert "a" not in memory
+    memory.put("a", None)  # nothing is something to remember
+    assert "a" in memory
+
+
+def test_digest_tells_inputs_apart() -> None:
+    zeros, ones = np.zeros((2, 3)), np.ones((2, 3))
+    inputs: list[tuple[Any, ...]] = [
+        (zeros,),
+        (ones,),
+        (zeros.reshape(3, 2),),
+        (zeros.astype(np.float32),),
+        (zeros, zeros),
+        (zeros, FairOptions()),
+        (zeros, FairOptions(tolerance=1e-7)),
+        (zeros, "a"),
+    ]
+    assert len({digest(*given) for given in inputs}) == len(inputs)
+    assert digest(zeros, FairOptions()) == digest(np.zeros((2, 3)), FairOptions())
+    assert digest(zeros[::-1]) == digest(zeros)  # the same values, laid out otherwise

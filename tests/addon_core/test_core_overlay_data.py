@@ -1,0 +1,56 @@
+"""What the overlay draws: curvature and normals of a sphere, at its borders too."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core.overlay_data import Surface, make_surface
+from polygon_mesh import grid, on_sphere
+
+EYE = np.eye(4)
+
+
+def drawn(surface: Surface) -> np.ndarray:
+    return np.unique(surface.triangles)
+
+
+def test_curvature_of_a_selection_is_that_of_the_sphere_up_to_its_border() -> None:
+    surface = make_surface(grid(24, 0.35, on_sphere), 2.0 * EYE + np.diag([0.0, 0.0, 0.0, -1.0]), whole=False)
+    shown = drawn(surface)
+    assert len(surface.triangles) == 2 * 8**2
+    assert len(shown) == 9**2
+    np.testing.assert_allclose(surface.curvature[shown], -0.5, rtol=2e-2)  # convex, radius 2
+    np.testing.assert_allclose(surface.normals[shown], surface.positions[shown] / 2.0, atol=1e-2)
+    assert surface.largest_curvature == pytest.approx(0.5, rel=2e-2)
+
+
+def test_a_selection_is_measured_with_what_surrounds_it() -> None:
+    mesh = grid(24, 0.35, lambda points: points + 0.1 * np.sin(5.0 * points[:, [2, 2, 0]]))
+    part, whole = make_surface(mesh, EYE, whole=False), make_surface(mesh, EYE, whole=True)
+    for vertex in drawn(part):
+        (same,) = np.flatnonzero((whole.positions == part.positions[vertex]).all(axis=1))
+        assert part.curvature[vertex] == pytest.approx(whole.curvature[same], abs=1e-9)
+        np.testing.assert_allclose(part.normals[vertex], whole.normals[same], atol=1e-9)
+
+
+def test_all_of_an_object() -> None:
+    surface = make_surface(grid(24, 0.35, on_sphere), EYE, whole=True)
+    assert len(surface.triangles) == 2 * 24**2
+    assert len(drawn(surface)) == 25**2
+
+
+def test_nothing_selected_draws_nothing() -> None:
+    mesh = grid(6, 0.67)
+    surface = make_surface(replace(mesh, in_patch=np.zeros(36, dtype=bool)), EYE, whole=False)
+    assert len(surface.triangles) == 0
+    assert surface.largest_curvature == 0.0
+
+
+def test_a_few_spikes_do_not_set_the_range() -> None:
+    curvature = np.ones(100)
+    curvature[:5] = 1e6
+    triangles = np.arange(99).reshape(-1, 3)
+    assert Surface(np.zeros((100, 3)), triangles, np.zeros((100, 3)), curvature).largest_curvature == 1.0
