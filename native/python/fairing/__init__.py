@@ -8,9 +8,9 @@ from fairing._measure import (
     conformal_distortion,
     cotan_laplacian,
     mean_curvature,
-    surrounding_normals,
     vertex_normals,
 )
+from fairing._outline import MendedOutline, SurroundingNormals, bad_outline, mend_outline, surrounding_normals
 from fairing._solver import Solver
 from fairing._types import Cancelled, Diagnostic, FairResult, MeshError, SolverError
 
@@ -18,16 +18,20 @@ __all__ = [
     "Cancelled",
     "Diagnostic",
     "FairResult",
+    "MendedOutline",
     "MeshError",
     "Solver",
     "SolverError",
+    "SurroundingNormals",
     "__version__",
+    "bad_outline",
     "boundary_loops",
     "conformal_distortion",
     "cotan_laplacian",
     "fair",
     "hierarchy",
     "mean_curvature",
+    "mend_outline",
     "surrounding_normals",
     "vertex_normals",
 ]
