@@ -37,7 +37,6 @@ std::vector<Candidate> candidates(const Neighbourhood& around, Centre at_centres
         list.push_back({around.rings(wide_rings), degree});
         list.push_back({around.nearest(wide_points), degree});
     }
-    list.push_back({around.rings(cubic_rings), Degree::quadratic});
     return list;
 }
 

@@ -15,22 +15,23 @@ constexpr double least_error = 1e-10;  // of a slope: exact fits have rounding f
 constexpr double accuracy = 1e-12;
 constexpr int most_cycles = 500;
 
-// By how much the normals found at both ends of an edge differ beyond what the fits predict, if the first end is i:
-// n̂_i − n̂_j − g_ij.
-Vector3 disagreement(const SurroundingFit& fit, int i, int j) {
+struct Pair {
+    int i;
+    int j;
+    Vector3 disagreement;  // of the normals found at both ends with the predicted turn: n̂_i − n̂_j − g_ij
+    double weight;         // times σ_i σ_j: μ where both fits predict the same turn
+};
+
+Pair make_pair(const SurroundingFit& fit, const VectorX& errors, int i, int j) {
     const SlopeFit& first = *fit.fits[at(i)];
     const SlopeFit& second = *fit.fits[at(j)];
     const Vector3 step = fit.centres.col(j) - fit.centres.col(i);
     const Vector3 turn_by_first = first.normal - first.normal_at(step);
     const Vector3 turn_by_second = second.normal_at(-step) - second.normal;
-    return first.normal - second.normal - 0.5 * (turn_by_first + turn_by_second);
+    const double variance = (turn_by_first - turn_by_second).squaredNorm();
+    return {i, j, first.normal - second.normal - 0.5 * (turn_by_first + turn_by_second),
+            strength / (1.0 + variance / (errors[i] * errors[j]))};
 }
-
-struct Pair {
-    int i;
-    int j;
-    Vector3 disagreement;
-};
 
 // The equations for m, n_i = n̂_i + σ_i m_i: a symmetric M-matrix of moderate size whatever the σ.
 class FilterSystem {
@@ -43,9 +44,10 @@ public:
         }
         for (const auto& [i, j] : fit.edges) {
             if (!fit.fits[at(i)] || !fit.fits[at(j)]) continue;
-            pairs_.push_back({i, j, disagreement(fit, i, j)});
-            diagonal_[i] += strength * errors_[i] / errors_[j];
-            diagonal_[j] += strength * errors_[j] / errors_[i];
+            const Pair pair = make_pair(fit, errors_, i, j);
+            pairs_.push_back(pair);
+            diagonal_[i] += pair.weight * errors_[i] / errors_[j];
+            diagonal_[j] += pair.weight * errors_[j] / errors_[i];
         }
     }
 
@@ -61,8 +63,8 @@ private:
     [[nodiscard]] Points right_hand_side() const {
         Points result = Points::Zero(3, errors_.size());
         for (const Pair& pair : pairs_) {
-            result.col(pair.i) -= strength / errors_[pair.j] * pair.disagreement;
-            result.col(pair.j) += strength / errors_[pair.i] * pair.disagreement;
+            result.col(pair.i) -= pair.weight / errors_[pair.j] * pair.disagreement;
+            result.col(pair.j) += pair.weight / errors_[pair.i] * pair.disagreement;
         }
         return result;
     }
@@ -70,8 +72,8 @@ private:
     void apply(const Points& p, Points& q) const {
         q = p * diagonal_.asDiagonal();
         for (const Pair& pair : pairs_) {
-            q.col(pair.i) -= strength * p.col(pair.j);
-            q.col(pair.j) -= strength * p.col(pair.i);
+            q.col(pair.i) -= pair.weight * p.col(pair.j);
+            q.col(pair.j) -= pair.weight * p.col(pair.i);
         }
     }
 
@@ -87,7 +89,7 @@ Points filtered_normals(const SurroundingFit& fit) {
     Points normals = fit.averaged;
     for (Eigen::Index k = 0; k < normals.cols(); ++k) {
         const auto& here = fit.fits[at(static_cast<int>(k))];
-        if (here) normals.col(k) = direction(here->normal + turns.col(k));
+        if (here) normals.col(k) = direction(here->normal + turns.col(fit.first[at(static_cast<int>(k))]));
     }
     return normals;
 }

@@ -58,14 +58,17 @@ VectorX edge_lengths(const Points& points, const Triangles& triangles, const Ind
 SurroundingFit fit_surroundings(const Points& given, const Triangles& triangles, const Indices& vertices) {
     const auto [points, size] = to_unit_size(given, triangles);
     SurfaceFits fits(points, triangles, Centre::free);
+    const Indices place = first_places(vertices, points.cols());
     SurroundingFit result{{},
                           points(Eigen::all, vertices),
                           Points(3, static_cast<Eigen::Index>(vertices.size())),
                           edge_lengths(points, triangles, vertices),
-                          border_edges(triangles, first_places(vertices, points.cols())),
+                          {},
+                          border_edges(triangles, place),
                           size};
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         checkpoint();
+        result.first.push_back(place[at(vertices[k])]);
         result.fits.push_back(fits.at_vertex(vertices[k]));
         result.averaged.col(static_cast<Eigen::Index>(k)) = fits.averaged(vertices[k]);
     }

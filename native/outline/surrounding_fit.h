@@ -16,11 +16,12 @@ struct SurroundingFit {
     Points centres;                             // 3 × k, likewise
     Points averaged;                            // 3 × k: unit mean normals of the adjacent triangles, zero without any
     VectorX lengths;                            // k: mean lengths of the adjacent edges, likewise; zero without any
-    OutlineEdges edges;                         // border edges between vertices asked for, each once
+    Indices first;                              // k: the first place of the same vertex
+    OutlineEdges edges;                         // border edges between first places, each once
     double size = 1.0;                          // of the coordinates
 };
 
-// Fits with free centres. A vertex that is named twice takes part in `edges` by its first place.
+// Fits with free centres.
 SurroundingFit fit_surroundings(const Points& points, const Triangles& triangles, const Indices& vertices);
 
 struct SurroundingNormals {

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -12,7 +14,7 @@ from fairing._types import FloatArray, IntArray
 
 
 @dataclass(frozen=True, eq=False)
-class SurroundingNormals:
+class _OutlineNormals:
     """Normals along an outline, fitted to the triangles outside it. All arrays are read-only."""
 
     normals: FloatArray
@@ -24,7 +26,15 @@ class SurroundingNormals:
 
 
 @dataclass(frozen=True, eq=False)
-class MendedOutline(SurroundingNormals):
+class SurroundingNormals(_OutlineNormals):
+    """What :func:`surrounding_normals` gives back; unpacks as ``normals, fitted``. All arrays are read-only."""
+
+    def __iter__(self) -> Iterator[npt.NDArray[Any]]:
+        return iter((self.normals, self.fitted))
+
+
+@dataclass(frozen=True, eq=False)
+class MendedOutline(_OutlineNormals):
     """A noisy outline, moved onto the fit of its surroundings. All arrays are read-only."""
 
     vertices: FloatArray
