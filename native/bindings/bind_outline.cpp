@@ -2,6 +2,7 @@
 #include "bindings/topics.h"
 #include "outline/bad_outline.h"
 #include "outline/mended_outline.h"
+#include "outline/visible_join.h"
 
 namespace fairing::bindings {
 
@@ -43,6 +44,13 @@ py::dict mended_outline_arrays(const DoubleArray& vertices, const IntArray& tria
     return dict;
 }
 
+py::array visible_join_array(const DoubleArray& vertices, const IntArray& inside, const IntArray& outside,
+                             const IntArray& outline, const std::optional<DoubleArray>& before) {
+    const JoinedMesh mesh{to_points(vertices), to_triangles(inside), to_triangles(outside),
+                          to_optional(before, to_points)};
+    return from_vector(visible_join(mesh, to_indices(outline)));
+}
+
 }  // namespace
 
 void bind_outline(py::module_& module) {
@@ -50,6 +58,8 @@ void bind_outline(py::module_& module) {
                py::arg("at"));
     module.def("bad_outline", &bad_outline_array, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
     module.def("mend_outline", &mended_outline_arrays, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
+    module.def("visible_join", &visible_join_array, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
+               py::arg("outline"), py::arg("before"));
 }
 
 }  // namespace fairing::bindings

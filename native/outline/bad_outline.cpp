@@ -3,23 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <utility>
+
+#include "base/median.h"
 
 namespace fairing {
 
 namespace {
 
-constexpr double least_error = 0.15;   // radians
-constexpr double least_height = 0.3;   // edges
+constexpr double least_error = 0.15;  // radians
+constexpr double least_height = 0.3;  // edges
 constexpr double times_median = 4.0;
 constexpr double largest_share = 0.15;  // of the outline
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 // Of the places with triangles: standard errors and heights over the fit, in edges; infinite without a fit.
 struct Doubts {

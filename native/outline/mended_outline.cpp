@@ -5,13 +5,14 @@
 #include <Eigen/Geometry>
 
 #include "base/direction.h"
+#include "base/median.h"
 
 namespace fairing {
 
 namespace {
 
-constexpr double least_noise = 0.01;    // edges
-constexpr double farthest = 0.25;       // edges
+constexpr double least_noise = 0.02;  // edges
+constexpr double farthest = 0.25;     // edges
 constexpr int rings_outside = 2;
 
 // How much of the way each vertex goes: 1 on the outline, ⅔ and ⅓ on the rings outside, 0 beyond.
@@ -29,13 +30,6 @@ VectorX shares(const Triangles& triangles, const Indices& outline, Eigen::Index 
         }
     }
     return share;
-}
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 double noise_of(const SurroundingFit& fit) {

@@ -15,7 +15,7 @@ struct MendedOutline {
 
 // Moves each vertex of `outline` onto the fit of `triangles` (those outside it), and the two rings of vertices outside
 // by ⅔ and ⅓ of the way to theirs; none by more than a quarter of its edges' mean length. Nothing moves where the noise
-// is less than a hundredth of an edge: heights there are the fit's error, not the mesh's. Vertices whose move turns a
+// is less than a fiftieth of an edge: heights there are the fit's error, not the mesh's. Vertices whose move turns a
 // triangle over are held.
 MendedOutline mend_outline(const Points& points, const Triangles& triangles, const Indices& outline);
 

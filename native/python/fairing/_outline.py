@@ -44,7 +44,7 @@ class MendedOutline(_OutlineNormals):
     held: IntArray
     """Vertices that stay although the fit lies elsewhere: the move would turn triangles over."""
     noise: float
-    """Median distance of the vertices near the outline from their fits, in edges. Below 0.01 nothing is moved."""
+    """Median distance of the vertices near the outline from their fits, in edges. Below 0.02 nothing is moved."""
 
 
 def _bounded(
@@ -86,8 +86,29 @@ def mend_outline(vertices: npt.ArrayLike, outside: npt.ArrayLike, outline: npt.A
     """Move a noisy outline onto the surface that the triangles outside it suggest.
 
     The vertices of ``outline`` go onto their fits, those of the two rings outside by two thirds and one third of the
-    way, all by no more than a quarter of their edges' mean length. Nothing moves where the noise is less than 0.01
+    way, all by no more than a quarter of their edges' mean length. Nothing moves where the noise is less than 0.02
     edges. Moves that would turn a triangle over are left out (``held``). No argument is changed.
     """
     points, faces, where = _bounded(vertices, ("outside", outside), ("outline", outline))
     return MendedOutline(**_core.mend_outline(points, faces, where))
+
+
+def visible_join(
+    vertices: npt.ArrayLike,
+    inside: npt.ArrayLike,
+    outside: npt.ArrayLike,
+    outline: npt.ArrayLike,
+    *,
+    before: npt.ArrayLike | None = None,
+) -> FloatArray:
+    """(k,) degrees at each vertex of ``outline``: how visible the join of the two lists of triangles is there.
+
+    By how much the signed dihedral angles of the outline's edges exceed what is usual within three rings on either side
+    (the middle half of the angles, by length), and what the same edge had in ``before`` (n, 3), the positions before
+    fairing; the mean over the outline's edges at the vertex. 0 on a sphere or tube however coarse, and on a crease that
+    goes on on either side. From about 12 on a kink can be seen.
+    """
+    points, within, where = _bounded(vertices, ("inside", inside), ("outline", outline))
+    _, beyond, _ = _bounded(vertices, ("outside", outside), ("outline", outline))
+    earlier = None if before is None else _arguments.floats("before", before, points.shape[0])
+    return _core.visible_join(points, within, beyond, where, earlier)
