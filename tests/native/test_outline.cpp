@@ -71,6 +71,13 @@ Indices seam_vertices() {
     return outline;
 }
 
+// Heights of this standard deviation.
+Points rough_plane(unsigned seed, double noise) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal(0.0, noise);
+    return grid_points(columns, rows, [&](int, int) { return normal(random); });
+}
+
 template <typename Height>
 VectorX joined(const Height& height, const std::optional<Points>& before = std::nullopt) {
     const JoinedMesh mesh{grid_points(columns, rows, height), grid_triangles(columns, rows, 0, seam),
@@ -167,9 +174,7 @@ TEST_CASE("coarse curved surfaces have no visible join, but a kink the other way
 }
 
 TEST_CASE("mended: noise is moved out of the outline and two rings, by a quarter of an edge at most") {
-    std::mt19937 random(3);
-    std::normal_distribution<double> normal(0.0, 0.15);
-    const Points noisy = grid_points(columns, rows, [&](int, int) { return normal(random); });
+    const Points noisy = rough_plane(3, 0.15);
     const Triangles outside = grid_triangles(columns, rows, seam, columns - 1);
     const MendedOutline mended = mend_outline(noisy, outside, seam_vertices());
     CHECK(mended.noise == doctest::Approx(0.13).epsilon(0.3));

@@ -137,15 +137,15 @@ TEST_CASE("with a free centre spheres and cylinders are still exact, and all of 
 }
 
 TEST_CASE("noise: the standard error is what the normals err by, the scatter is the noise") {
-    std::mt19937 random(7);
     const double noise = 0.01;
-    std::normal_distribution<double> normal(0.0, noise);
     double squared_angle = 0.0;
     double squared_error = 0.0;
     double squared_scatter = 0.0;
     double squared_by_met = 0.0;
-    constexpr int trials = 200;
-    for (int k = 0; k < trials; ++k) {
+    constexpr unsigned trials = 200;
+    for (unsigned seed = 0; seed < trials; ++seed) {
+        std::mt19937 random(seed);
+        std::normal_distribution<double> normal(0.0, noise);
         const auto bowl = [&](double x, double y) { return 0.3 * x * x + 0.1 * x * y - 0.2 * y * y + normal(random); };
         const std::vector<Vector3> points = half_grid(1.0, 5, 7, bowl);
         const Vector3 centre(0.0, 0.0, normal(random));

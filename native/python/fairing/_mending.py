@@ -25,32 +25,35 @@ class Boundary:
 
 @dataclass(frozen=True)
 class Surroundings:
-    """Triangles between free vertices, and those that stay: the ones given, and those whose corners are all fixed."""
+    """Triangles between free vertices, and those around them that stay."""
 
     inside: IntArray
     outside: IntArray
-    given: bool  # whether the caller named triangles outside
-    held_inside: int  # number of fixed vertices of the triangles inside
+    rim: IntArray
+    """Vertices of both, ascending."""
 
     @classmethod
     def of(cls, vertices: FloatArray, triangles: IntArray, fixed: IntArray | None, given: Any) -> Surroundings:
-        """``given``: what the caller passes as ``outside``."""
-        outside = np.empty((0, 3), np.int32)
+        """Outside are the triangles ``given``; without these those of the patch's whose corners are all fixed.
+
+        None are where that leaves most fixed vertices without any: single triangles at the outline's corners.
+        """
         if given is not None:
-            outside = _arguments.indices_within("outside", _arguments.integers("outside", given, 3), vertices.shape[0])
+            named = _arguments.integers("outside", given, 3)
+            outside = _arguments.indices_within("outside", named, vertices.shape[0])
+            return cls._between(vertices, triangles, outside)
         held = np.zeros(vertices.shape[0], dtype=bool)
         held[_within(fixed, vertices.shape[0])] = True
         idle = held[triangles].all(axis=1)
-        outside = np.concatenate([outside, triangles[idle]])
-        finite = np.isfinite(vertices[outside]).all(axis=(1, 2))
-        inside = triangles[~idle]
-        return cls(inside, outside[finite], given is not None, int(held[np.unique(inside)].sum()))
+        around = cls._between(vertices, triangles[~idle], triangles[idle])
+        if 2 * len(around.rim) < held[np.unique(around.inside)].sum():
+            return cls._between(vertices, triangles, triangles[:0])
+        return around
 
-    @property
-    def rim(self) -> IntArray:
-        """Vertices of both, ascending; none where these are only the ends of single triangles cut off at corners."""
-        shared = np.intersect1d(self.inside, self.outside).astype(np.int32)
-        return shared if self.given or 2 * len(shared) >= self.held_inside else shared[:0]
+    @classmethod
+    def _between(cls, vertices: FloatArray, inside: IntArray, outside: IntArray) -> Surroundings:
+        finite = outside[np.isfinite(vertices[outside]).all(axis=(1, 2))]
+        return cls(inside, finite, np.intersect1d(inside, finite).astype(np.int32))
 
 
 def _within(fixed: IntArray | None, count: int) -> IntArray:
