@@ -194,6 +194,18 @@ TEST_CASE("mended: noise is moved out of the outline and two rings, by a quarter
     CHECK(spread(mended.vertices) < 0.7 * spread(noisy));
 }
 
+TEST_CASE("mended: a vertex far off its fit moves by a quarter of its edges' mean length") {
+    Points noisy = rough_plane(3, 0.05);
+    const int far = 4 * columns + seam;
+    noisy(2, far) += 2.0;
+    const Triangles outside = grid_triangles(columns, rows, seam, columns - 1);
+    const SurroundingFit fit = fit_surroundings(noisy, outside, {far});
+    const MendedOutline mended = mend_outline(noisy, outside, seam_vertices());
+    const double length = fit.size * fit.lengths[0];
+    CHECK((mended.vertices.col(far) - noisy.col(far)).norm() == doctest::Approx(0.25 * length));
+    CHECK(mended.vertices(2, far) < noisy(2, far));
+}
+
 TEST_CASE("mended: what is not noisy stays") {
     const auto bowl = [](int i, int j) { return 0.01 * (i * i + j * j); };
     const Points clean = grid_points(columns, rows, bowl);
