@@ -8,6 +8,7 @@ the flat Y are as wide as half a circumference, so edges keep about their length
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -98,7 +99,7 @@ def between(start: FloatArray, end: FloatArray, h: float) -> FloatArray:
     return start + share * (end - start)
 
 
-def _inside(outline: FloatArray, points: FloatArray) -> NDArray[np.bool_]:
+def inside(outline: FloatArray, points: FloatArray) -> NDArray[np.bool_]:
     """Even-odd test of points (k, 2) in a polygon."""
     x, y = points[:, 0], points[:, 1]
     inside = np.zeros(len(points), dtype=bool)
@@ -120,7 +121,7 @@ def sheet(outline: FloatArray, h: float, jitter: float, rng: np.random.Generator
     refined = np.vstack([outline + s * (np.roll(outline, -1, 0) - outline) for s in (0, 0.33, 0.67)])
     clear = cKDTree(refined).query(points)[0] > 0.6 * h
     points = points[clear]
-    points = points[_inside(outline, points)]
+    points = points[inside(outline, points)]
     return np.asarray(points[thinned(points, np.full(len(points), 0.6 * h))])
 
 
@@ -139,7 +140,7 @@ def triangulated(outline: FloatArray, inner: FloatArray) -> IntArray:
     a, b, c = (points[triangles[:, k]] for k in range(3))
     doubled = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
     triangles[doubled < 0] = triangles[doubled < 0][:, [0, 2, 1]]
-    keep = _inside(outline, points[triangles].mean(axis=1)) & (np.abs(doubled) > 1e-9)
+    keep = inside(outline, points[triangles].mean(axis=1)) & (np.abs(doubled) > 1e-9)
     return np.asarray(triangles[keep])
 
 
@@ -173,15 +174,26 @@ def blend_with_rectangle(n_free: int, rectangle: Rectangle, *, rim: int, seed: i
 
 def _blend(h: float, jitter: float, seed: int, reach: float, regular: tuple[Rectangle, int] | None = None) -> Blend:
     rng = np.random.default_rng(seed)
-    flat = _outline(reach, h)
-    sheets = [sheet(flat.points, h, jitter, rng) for _ in range(2)]
-    if regular is not None:
+
+    def sheets_of(flat: Outline) -> list[FloatArray]:
+        sheets = [sheet(flat.points, h, jitter, rng) for _ in range(2)]
+        if regular is None:
+            return sheets
         sheets[0] = _with_rectangle(sheets[0], regular[0])
         free = np.flatnonzero(flat.rim < 0)
         surplus = len(free) + len(sheets[0]) + len(sheets[1]) - regular[1]
         if surplus < 0:
             raise ValueError(f"{-surplus} vertices short: the regular patch has to have more")
         sheets[1] = np.delete(sheets[1], rng.choice(len(sheets[1]), surplus, replace=False), axis=0)
+        return sheets
+
+    return of_sheets(h, reach, sheets_of)
+
+
+def of_sheets(h: float, reach: float, make: Callable[[Outline], list[FloatArray]]) -> Blend:
+    """The blend whose outline has edges of about h, with the points inside that `make` gives for each sheet."""
+    flat = _outline(reach, h)
+    sheets = make(flat)
     upper, lower = (triangulated(flat.points, inner) for inner in sheets)
     corners = len(flat.points)
     blend = _glued(flat, upper, lower, (corners, len(sheets[0]), len(sheets[1])), reach)

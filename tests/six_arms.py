@@ -6,6 +6,7 @@ planes, which it shares with its neighbours. It is triangulated flat, and the ei
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import product
 
 import numpy as np
@@ -20,9 +21,10 @@ QUARTER = 0.5 * np.pi
 
 def six_arms(n_free: int, *, jitter: float = 0.6, seed: int = 0, reach: float = 2.5) -> Blend:
     """An irregular mesh with about n_free free vertices; jitter 0 gives the regular kind."""
-    h = float(np.sqrt(8 * _area(reach) / (0.5 * np.sqrt(3) * n_free)))
+    h = float(np.sqrt(8 * area(reach) / (0.5 * np.sqrt(3) * n_free)))
     for _ in range(8):
-        made = _glued(h, jitter, seed, reach)
+        rng = np.random.default_rng(seed)
+        made = of_octants(h, reach, lambda flat, spacing=h: sheet(flat, spacing, jitter, rng))
         count = len(made.vertices) - len(made.fixed)
         if abs(count - n_free) < 0.01 * n_free:
             break
@@ -35,7 +37,7 @@ def _side(reach: float) -> float:
     return 1.8 * (reach - 1.0)
 
 
-def _area(reach: float) -> float:
+def area(reach: float) -> float:
     """Of the equiangular hexagon whose sides are a quarter circle and `_side` in turn."""
     a, b = QUARTER, _side(reach)
     return float(0.25 * np.sqrt(3) * (a * a + 4 * a * b + b * b))
@@ -64,14 +66,14 @@ def _outline(reach: float, h: float) -> tuple[FloatArray, FloatArray, IntArray]:
     return np.vstack(flat), np.vstack(places), np.concatenate(axes)
 
 
-def _glued(h: float, jitter: float, seed: int, reach: float) -> Blend:
-    rng = np.random.default_rng(seed)
+def of_octants(h: float, reach: float, make: Callable[[FloatArray], FloatArray]) -> Blend:
+    """The blend whose outlines have edges of about h; `make` gives the points inside each flat octant in turn."""
     flat, places, axes = _outline(reach, h)
     # The first corner of a rim closes the side before it, which lies in another plane: both know it by its place.
     shared, triangles, owners = [], [], []
     count = 8 * len(flat)
     for octant, signs in enumerate(product((1.0, -1.0), repeat=3)):
-        inside = sheet(flat, h, jitter, rng)
+        inside = make(flat)
         faces = triangulated(flat, inside)
         rows = np.concatenate([octant * len(flat) + np.arange(len(flat)), count + np.arange(len(inside))])
         count += len(inside)

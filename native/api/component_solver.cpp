@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include "api/diagnose.h"
+#include "base/stopwatch.h"
 #include "base/text.h"
+#include "geometry/flips.h"
 #include "geometry/surface_fit.h"
-#include "proxy/global_method.h"
+#include "method/accept.h"
+#include "method/ladder.h"
 
 namespace fairing {
 
@@ -23,6 +26,13 @@ constexpr double least_tolerance = 1e-15;
 FairOptions reachable(FairOptions options) {
     options.solver.tolerance = std::max(options.solver.tolerance, least_tolerance);
     return options;
+}
+
+void warn_of_even_weights(Diagnostics& warnings) {
+    warnings.push_back({Code::flipped_triangles,
+                        "the inner fairness asked for turns triangles over; uniform inner fairness was used",
+                        {},
+                        ElementKind::triangle});
 }
 
 }  // namespace
@@ -77,25 +87,26 @@ void ComponentSolver::read_reference(const Points& reference, const Normalisatio
 }
 
 Solution ComponentSolver::solve_by_paper(const Problem& problem, const Progress& progress) const {
+    const Stopwatch watch;
     Solution solution = solve_paper({problem, options().paper, options().inner_fairness, reference_,
                                      make_row_weights(patch_, reference_, options())},
                                     progress);
     solution.boundary_normals = one_sided_normals(patch_, solution.points);
+    solution.ways = {{"paper", watch.seconds()}};
+    solution.flaw = flaw_of(problem, solution);
     return solution;
 }
 
 Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Progress& progress) {
     Problem& problem = answer.problem;
     problem.weights = lambda_;
-    std::optional<Solution> near_last = solve_warm(problem, progress);
+    problem.tolerated_folds = tolerated_folds();
+    std::optional<Solution> near_last = keeps() ? warm_.solve(problem, progress) : std::nullopt;
     Solution solution = near_last ? std::move(*near_last) : solve_global(problem, progress);
-    const std::size_t told = answer.warnings.size();
-    if (!near_last && options_.asked.inner_fairness != InnerFairness::uniform) {
-        solution = injective(answer, solution, progress);
-    }
+    if (solution.even_weights) warn_of_even_weights(answer.warnings);
     if (!keeps()) return solution;
     // Other weights than those asked for were used: the next solve has to try again.
-    if (answer.warnings.size() > told) {
+    if (solution.even_weights) {
         warm_.forget();
     } else {
         warm_.remember(problem, solution, progress.here());
@@ -103,35 +114,9 @@ Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Progress
     return solution;
 }
 
-// Only an answer without folds counts as the one that a solve from the boundary alone would give.
-std::optional<Solution> ComponentSolver::solve_warm(const Problem& problem, const Progress& progress) {
-    if (!keeps()) return std::nullopt;
-    std::optional<Solution> solution = warm_.solve(problem, progress);
-    if (solution && !flipped_triangles(patch_, solution->points).empty()) return std::nullopt;
-    return solution;
-}
-
 // Needles across a curvature count as turned over in the reference already.
-std::size_t ComponentSolver::tolerated_flips() const {
-    return reads_reference(options_.asked.inner_fairness) ? flipped_triangles(patch_, reference_).size() : 0;
-}
-
-// λ may turn triangles over although the surface is smooth: uniform ones then, where they do better.
-Solution ComponentSolver::injective(ComponentAnswer& answer, const Solution& solution, const Progress& progress) {
-    if (solution.termination != Termination::converged) return solution;
-    Indices flipped = flipped_triangles(patch_, solution.points);
-    if (flipped.size() <= tolerated_flips()) return solution;
-    answer.problem.weights = make_lambda(patch_, reference_, options_.uniform);
-    Solution uniform = solve_global(answer.problem, progress.here());
-    const bool better = uniform.termination == Termination::converged &&
-                        flipped_triangles(patch_, uniform.points).size() < flipped.size();
-    if (!better) return solution;
-    answer.warnings.push_back({Code::flipped_triangles,
-                               "the inner fairness asked for turns " +
-                                   counted(flipped.size(), "triangle", "triangles") +
-                                   " over; uniform inner fairness was used",
-                               std::move(flipped), ElementKind::triangle});
-    return uniform;
+std::size_t ComponentSolver::tolerated_folds() const {
+    return reads_reference(options().inner_fairness) ? flipped_by_solution(patch_, reference_).size() : 0;
 }
 
 }  // namespace fairing

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "api/component.h"
-#include "proxy/warm_start.h"
+#include "method/warm_start.h"
 
 namespace fairing {
 
@@ -48,9 +48,7 @@ private:
     [[nodiscard]] const FairOptions& options() const { return usable_ ? options_.asked : options_.uniform; }
     [[nodiscard]] Solution solve_by_paper(const Problem& problem, const Progress& progress) const;
     [[nodiscard]] Solution solve_globally(ComponentAnswer& answer, const Progress& progress);
-    [[nodiscard]] std::optional<Solution> solve_warm(const Problem& problem, const Progress& progress);
-    [[nodiscard]] Solution injective(ComponentAnswer& answer, const Solution& solution, const Progress& progress);
-    [[nodiscard]] std::size_t tolerated_flips() const;
+    [[nodiscard]] std::size_t tolerated_folds() const;
 
     const Patch& patch_;
     const CallOptions& options_;

@@ -9,24 +9,18 @@
 
 #include "base/text.h"
 #include "geometry/face_geometry.h"
+#include "geometry/flips.h"
+#include "geometry/outline_angles.h"
 #include "geometry/self_intersection.h"
-#include "geometry/vertex_normal.h"
 
 namespace fairing {
 
 namespace {
 
-double degrees_between(const Vector3& a, const Vector3& b) {
-    return std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / std::numbers::pi;
-}
-
-bool touches_free(const Patch& patch, int vertex) {
-    const auto ring = patch.ring(vertex).vertices;
-    return std::any_of(ring.begin(), ring.end(), [&](int v) { return patch.is_free(v); });
-}
+constexpr double behind = 90.0;  // degrees
 
 void warn_of_flips(const Patch& patch, const Points& points, Diagnostics& warnings) {
-    Indices flipped = flipped_triangles(patch, points);
+    Indices flipped = input_numbers(patch, flipped_triangles(patch, points));
     if (flipped.empty()) return;
     warnings.push_back(
         {Code::flipped_triangles,
@@ -55,7 +49,7 @@ void warn_of_sharp_outline(const Patch& patch, const Points& prescribed, Diagnos
 void warn_of_crossings(const Patch& patch, const Points& points, Diagnostics& warnings) {
     Indices crossing = crossing_triangles(patch.triangles, points);
     if (crossing.empty()) return;
-    for (int& t : crossing) t = patch.input_triangle[at(t)];
+    crossing = input_numbers(patch, std::move(crossing));
     warnings.push_back({Code::self_intersection,
                         counted(crossing.size(), "triangle of the result passes through others of the patch",
                                 "triangles of the result pass through others of the patch"),
@@ -64,34 +58,15 @@ void warn_of_crossings(const Patch& patch, const Points& points, Diagnostics& wa
 
 }  // namespace
 
-VectorX boundary_angles(const Patch& patch, const Points& actual, const Points& prescribed) {
-    VectorX angles = VectorX::Zero(prescribed.cols());
-    for (int k = 0; k < prescribed.cols(); ++k) {
-        const int v = patch.free_count + k;
-        if (patch.pin[at(v)] || !touches_free(patch, v)) continue;
-        angles[k] = degrees_between(prescribed.col(k), actual.col(k));
-    }
-    return angles;
-}
-
-Indices flipped_triangles(const Patch& patch, const Points& points) {
-    FaceGeometry faces;
-    faces.update(points, patch.triangles);
-    const Points no_normals = Points::Zero(3, patch.vertex_count() - patch.free_count);
-    const Points normals = max_normals(patch, points, no_normals);
-    Indices flipped;
-    for (int t = 0; t < patch.triangle_count(); ++t) {
-        Vector3 around = Vector3::Zero();
-        for (int v : patch.triangles.col(t)) around += normals.col(v);
-        if (around.dot(faces.normals.col(t)) < 0.0) flipped.push_back(patch.input_triangle[at(t)]);
-    }
-    return flipped;
+Indices input_numbers(const Patch& patch, Indices triangles) {
+    for (int& t : triangles) t = patch.input_triangle[at(t)];
+    return triangles;
 }
 
 bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostics& warnings) {
     constexpr double needle = 0.02;  // a right triangle of 90 : 1
     constexpr double tolerated_share = 0.1;
-    Indices bad = flipped_triangles(patch, reference);
+    Indices bad = input_numbers(patch, flipped_triangles(patch, reference));
     std::vector<char> has_area(at(patch.vertex_count()), 0);
     for (int t = 0; t < patch.triangle_count(); ++t) {
         const auto corners = patch.triangles.col(t);
@@ -135,17 +110,25 @@ void warn_of_precision(const Patch& patch, const Points& input, const Precision&
                         {}});
 }
 
-std::optional<std::string> why_unusable(const Patch& patch, const Points& points, const VectorX& angles) {
-    constexpr double least_area = 1e-9;  // D²
-    constexpr double behind = 90.0;      // degrees
-    FaceGeometry faces;
-    faces.update(points, patch.triangles);
-    if (!(faces.areas.sum() > least_area)) return "fell together to a point or a line: fix more vertices around it";
-    const auto told = (angles.array() > 0.0).count();
-    const auto turned = (angles.array() > behind).count();
-    if (2 * turned <= told) return std::nullopt;
-    return "runs into its outline from behind at " + std::to_string(turned) + " of " + std::to_string(told) +
-           " vertices, which is not the surface asked for: where little of a shape is left outside, leave more of it";
+std::string reason_of(const Solution& solution, const VectorX& angles) {
+    if (solution.reached_load > 0.0) {
+        return "was solved with " + std::to_string(std::lround(100.0 * solution.reached_load)) +
+               " % of the load only and keeps that surface; more load may have no solution";
+    }
+    switch (solution.flaw) {
+        case Flaw::collapsed: return "fell together to a point or a line: fix more vertices around it";
+        case Flaw::behind:
+            return "runs into its outline from behind at " + std::to_string((angles.array() > behind).count()) +
+                   " of " + std::to_string((angles.array() > 0.0).count()) +
+                   " vertices, which is not the surface asked for: where little of a shape is left outside, leave "
+                   "more of it";
+        case Flaw::folded:
+        case Flaw::crossing:
+            return "has a surface, but its vertices can't be placed on it without folds: " +
+                   counted(solution.bad_triangles.size(), "triangle is", "triangles are") +
+                   (solution.flaw == Flaw::folded ? " turned over" : " passing through others");
+        default: return "did not converge; its positions are the best that were found";
+    }
 }
 
 void diagnose(const Patch& patch, const Points& points, const Points& prescribed, Diagnostics& warnings) {

@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
+#include "geometry/outline_angles.h"
 #include "outline/visible_join.h"
 
 namespace fairing {
@@ -39,18 +40,17 @@ public:
         result_.residual = std::max(result_.residual, solution.residual);
         result_.initial_residual = std::max(result_.initial_residual, solution.initial_residual);
         result_.iterations = std::max(result_.iterations, solution.iterations);
-        result_.polished = result_.polished && solution.polished && solution.termination == Termination::converged;
+        result_.polished = result_.polished && solution.polished && end_of(solution) == Termination::converged;
         add_levels(solution.levels.empty() ? Indices{patch.vertex_count()} : solution.levels);
         for (const auto& [stage, seconds] : solution.seconds) result_.seconds[stage] += seconds;
+        result_.ways.insert(result_.ways.end(), solution.ways.begin(), solution.ways.end());
         const bool has_normals = options_.solver.equation != Equation::minimal;
         const Points& prescribed = has_normals ? answer.problem.fixed_normals : solution.boundary_normals;
         const VectorX angles = boundary_angles(patch, solution.boundary_normals, prescribed);
         add_largest(patch, angles, side_angles_);
         add_largest(patch, one_sided_join(patch, solution.points, prescribed), side_joins_);
-        if (solution.termination != Termination::converged) {
-            add_failure(patch, solution.termination, reason_of(solution));
-        } else if (const auto reason = why_unusable(patch, solution.points, angles)) {
-            add_failure(patch, Termination::stalled, *reason);
+        if (const Termination end = end_of(solution); end != Termination::converged) {
+            add_failure(patch, solution, end, reason_of(solution, angles));
         }
         diagnose(patch, solution.points, prescribed, result_.warnings);
     }
@@ -89,19 +89,28 @@ private:
         for (std::size_t k = 1; k <= counts.size(); ++k) sum[sum.size() - k] += counts[counts.size() - k];
     }
 
-    static std::string reason_of(const Solution& solution) {
-        if (solution.reached_load == 0.0) return "did not converge; its positions are the best that were found";
-        return "was solved with " + std::to_string(std::lround(100.0 * solution.reached_load)) +
-               " % of the load only and keeps that surface; more load may have no solution";
+    // What converged counts as solved unless it is no answer.
+    static Termination end_of(const Solution& solution) {
+        if (solution.termination != Termination::converged) return solution.termination;
+        switch (solution.flaw) {
+            case Flaw::folded:
+            case Flaw::crossing: return Termination::folded;
+            case Flaw::behind:
+            case Flaw::collapsed: return Termination::stalled;
+            default: return Termination::converged;
+        }
     }
 
-    void add_failure(const Patch& patch, Termination termination, const std::string& reason) {
+    void add_failure(const Patch& patch, const Solution& solution, Termination end, const std::string& reason) {
         result_.converged = false;
-        if (result_.termination != Termination::stalled) result_.termination = termination;
+        if (result_.termination != Termination::stalled) result_.termination = end;
+        const bool folded = end == Termination::folded;
+        Indices elements(free_vertices(patch).begin(), free_vertices(patch).end());
+        if (folded) elements = input_numbers(patch, solution.bad_triangles);
         result_.warnings.push_back(
-            {Code::not_converged,
+            {folded ? Code::folded : Code::not_converged,
              "a component of " + counted(at(patch.free_count), "free vertex ", "free vertices ") + reason,
-             Indices(free_vertices(patch).begin(), free_vertices(patch).end())});
+             std::move(elements), folded ? ElementKind::triangle : ElementKind::vertex});
     }
 
     // `values`: at the patch's fixed vertices; `largest`: of all sides so far, at input vertices.

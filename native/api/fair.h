@@ -33,6 +33,7 @@ struct FairResult {
     double initial_residual = 0.0;
     Indices levels;
     std::map<std::string, double> seconds;
+    std::vector<WayTaken> ways;  // of all components, in their order
     Diagnostics warnings;
 };
 

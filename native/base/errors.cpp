@@ -19,6 +19,7 @@ std::string_view code_name(Code code) {
         case Code::pin_normal_ignored: return "PIN_NORMAL_IGNORED";
         case Code::sharp_boundary: return "SHARP_BOUNDARY";
         case Code::flipped_triangles: return "FLIPPED_TRIANGLES";
+        case Code::folded: return "FOLDED";
         case Code::self_intersection: return "SELF_INTERSECTION";
         case Code::reference_unusable: return "REFERENCE_UNUSABLE";
         case Code::not_converged: return "NOT_CONVERGED";

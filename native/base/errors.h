@@ -27,6 +27,7 @@ enum class Code {
     pin_normal_ignored,
     sharp_boundary,
     flipped_triangles,
+    folded,
     self_intersection,
     reference_unusable,
     not_converged,

@@ -51,6 +51,7 @@ const char* termination_name(Termination termination) {
         case Termination::converged: return "converged";
         case Termination::iteration_limit: return "iteration_limit";
         case Termination::stalled: return "stalled";
+        case Termination::folded: return "folded";
     }
     return "stalled";
 }
@@ -58,6 +59,8 @@ const char* termination_name(Termination termination) {
 py::dict to_dict(const FairResult& result) {
     py::list warnings;
     for (const Diagnostic& warning : result.warnings) warnings.append(from_diagnostic(warning));
+    py::list ways;
+    for (const WayTaken& way : result.ways) ways.append(py::make_tuple(way.name, way.seconds));
     py::dict dict;
     dict["vertices"] = from_points(result.vertices);
     dict["fixed"] = from_indices(result.fixed);
@@ -72,6 +75,7 @@ py::dict to_dict(const FairResult& result) {
     dict["initial_residual"] = result.initial_residual;
     dict["levels"] = py::tuple(py::cast(result.levels));
     dict["seconds"] = py::cast(result.seconds);
+    dict["way"] = py::tuple(ways);
     dict["warnings"] = py::tuple(warnings);
     return dict;
 }

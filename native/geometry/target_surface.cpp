@@ -46,9 +46,16 @@ Vector3 border_weights(const Vector3& p, const std::array<Vector3, 3>& corners) 
 }  // namespace
 
 TargetSurface::TargetSurface(const Patch& patch, const Points& points, const Points& normals)
-    : patch_(patch), points_(points), normals_(normals), triangle_of_vertex_(at(patch.vertex_count()), 0) {
+    : patch_(patch),
+      points_(points),
+      normals_(normals),
+      face_normals_(3, patch.triangle_count()),
+      triangle_of_vertex_(at(patch.vertex_count()), 0) {
     for (int t = 0; t < patch.triangle_count(); ++t) {
-        for (int v : patch.triangles.col(t)) triangle_of_vertex_[at(v)] = t;
+        const auto corners = patch.triangles.col(t);
+        const Vector3 a = points.col(corners[0]);
+        face_normals_.col(t) = (points.col(corners[1]) - a).cross(points.col(corners[2]) - a).normalized();
+        for (int v : corners) triangle_of_vertex_[at(v)] = t;
     }
 }
 

@@ -24,6 +24,8 @@ public:
 
     [[nodiscard]] Vector3 position(const SurfacePoint& where) const;
     [[nodiscard]] Vector3 normal(const SurfacePoint& where) const;
+    // Unit normal of a flat triangle of the mesh; zero where it has no area.
+    [[nodiscard]] Vector3 face_normal(int triangle) const { return face_normals_.col(triangle); }
     // Linear interpolation of a value per vertex.
     [[nodiscard]] double interpolate(const VectorX& values, const SurfacePoint& where) const;
     // A vertex as a point of one of its triangles.
@@ -35,6 +37,7 @@ private:
     const Patch& patch_;
     const Points& points_;
     const Points& normals_;
+    Points face_normals_;
     Indices triangle_of_vertex_;
 };
 

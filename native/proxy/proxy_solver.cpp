@@ -3,11 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/stopwatch.h"
-#include "geometry/surface_fit.h"
-#include "proxy/placement.h"
-#include "proxy/polish.h"
-#include "proxy/proxy_mesh.h"
 #include "solver/biharmonic_operator.h"
 #include "solver/continuation.h"
 #include "solver/minimal_start.h"
@@ -67,56 +62,38 @@ double mean_outline_edge(const Problem& problem) {
     return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
-// The fitted surface of a solution, as a target for other vertices.
-struct SolvedProxy {
-    ProxyMesh::Snapshot mesh;
-    Solution solution;
-    Points normals;
-    double energy;  // Willmore
-
-    [[nodiscard]] bool converged() const { return solution.termination == Termination::converged; }
-};
-
 class ProxySolve {
 public:
-    ProxySolve(const Problem& problem, const std::optional<Points>& guess, const Progress& progress)
+    ProxySolve(const Problem& problem, const Progress& progress)
         : problem_(problem),
-          guess_(guess),
           progress_(progress),
           free_limit_(
               std::clamp(free_limit_per_vertex * problem.patch.free_count, least_free_limit, largest_free_limit)) {}
 
-    Solution run(const Points& start) {
-        if (guess_) {
-            Attempt attempt{ProxyMesh(problem_.patch, *guess_), {}};
-            attempt.proxy.emplace(solve_fine(attempt.mesh, {finest_growth, longest_fine, free_limit_}, true));
-            if (attempt.proxy->converged()) return place(attempt);
-        }
-        std::optional<Attempt> least_bent;
-        // Lengths that grow slowly need more vertices but resolve more. Where the outline is coarse, the needles
-        // between it and a fine interior may keep the iteration from converging: then the interior is coarse, too.
+    SolvedProxy from_surface(const Points& surface) {
+        return solve_fine(ProxyMesh(problem_.patch, surface), {finest_growth, longest_fine, free_limit_}, true);
+    }
+
+    // Lengths that grow slowly need more vertices but resolve more. Where the outline is coarse, the needles between
+    // it and a fine interior may keep the iteration from converging: then the interior is coarse, too.
+    SolvedProxy from_membrane(const Points& membrane) {
+        std::optional<SolvedProxy> least_bent;
         for (const auto& [growth, share_of_outline] :
              {std::pair(0.5, 0.0), std::pair(0.25, 0.35), std::pair(0.12, 0.35)}) {
-            Attempt attempt{ProxyMesh(problem_.patch, start), {}};
-            attempt.mesh.adapt({growth, longest_coarse, free_limit_});
-            const bool converged = solve_coarse(attempt.mesh, growth);
+            ProxyMesh mesh(problem_.patch, membrane);
+            mesh.adapt({growth, longest_coarse, free_limit_});
+            const bool converged = solve_coarse(mesh, growth);
             const double longest =
                 std::clamp(share_of_outline * mean_outline_edge(problem_), longest_fine, longest_coarse);
             const Sizing fine{std::min(growth, finest_growth), longest, free_limit_};
-            attempt.proxy.emplace(solve_fine(attempt.mesh, fine, converged));
-            if (attempt.proxy->converged()) return place(attempt);
-            if (!least_bent || attempt.proxy->energy < least_bent->proxy->energy)
-                least_bent.emplace(std::move(attempt));
+            SolvedProxy proxy = solve_fine(std::move(mesh), fine, converged);
+            if (proxy.converged()) return proxy;
+            if (!least_bent || proxy.energy < least_bent->energy) least_bent.emplace(std::move(proxy));
         }
-        return place(*least_bent);
+        return std::move(*least_bent);
     }
 
 private:
-    struct Attempt {
-        ProxyMesh mesh;
-        std::optional<SolvedProxy> proxy;
-    };
-
     struct Coarse {
         ProxyMesh mesh;
         bool converged;
@@ -188,7 +165,7 @@ private:
     }
 
     // Not converged: the least bent surface of the fine proxy instead of the iteration's last one.
-    SolvedProxy solve_fine(ProxyMesh& mesh, const Sizing& sizing, bool from_converged) {
+    SolvedProxy solve_fine(ProxyMesh mesh, const Sizing& sizing, bool from_converged) {
         mesh.adapt(sizing);
         auto snapshot = mesh.snapshot();
         const Problem problem = proxy_problem(problem_, snapshot.patch);
@@ -206,62 +183,31 @@ private:
         solution.mean_curvature = state.curvature.mean;
         solution.residual = largest_residual(problem, state, outer_residual(problem, state));
         const double energy = willmore_energy(problem, state.points);
-        return {{std::move(snapshot.patch), state.points}, std::move(solution), state.normals, energy};
-    }
-
-    Solution place(const Attempt& attempt) {
-        const SolvedProxy& proxy = *attempt.proxy;
-        const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
-        Placement placement = first_placement(problem_, attempt.mesh, proxy.mesh, target);
-        Workspace work = make_workspace(problem_, progress_);
-        std::optional<Placement> from_guess;
-        if (guess_) from_guess = near(placement, target, *guess_);
-        const double merit = settle(problem_, *work.tangential, target, placement, progress_.here());
-        if (from_guess && relax(problem_, *work.tangential, target, *from_guess) < merit) placement = *from_guess;
-        Solution placed = placed_solution(proxy, target, placement);
-        if (!proxy.converged()) return placed;
-        return polish(problem_, work, std::move(placed), progress_.range(0.8, 1.0));
-    }
-
-    [[nodiscard]] Solution placed_solution(const SolvedProxy& proxy, const TargetSurface& target,
-                                           const Placement& placement) const {
-        Solution placed = proxy.solution;
-        placed.polished = false;
-        placed.points = placement.points;
-        placed.boundary_normals = one_sided_normals(proxy.mesh.patch, proxy.mesh.points);
-        placed.mean_curvature = carried_over(placement, target, proxy.solution.mean_curvature, problem_);
-        return placed;
+        return {
+            std::move(mesh), {std::move(snapshot.patch), state.points}, std::move(solution), state.normals, energy};
     }
 
     const Problem& problem_;
-    const std::optional<Points>& guess_;
     const Progress& progress_;
     int free_limit_;
 };
 
 }  // namespace
 
-bool has_poor_triangles(const Patch& patch, const Points& points) {
-    constexpr double poor_shape = 0.25;  // a right triangle of 7 : 1
-    constexpr double tolerated_share = 0.1;
-    int poor = 0;
-    for (const auto triangle : patch.triangles.colwise()) {
-        if (triangle_shape(points.col(triangle[0]), points.col(triangle[1]), points.col(triangle[2])) < poor_shape)
-            ++poor;
+SolvedProxy solve_proxy(const Problem& problem, const std::optional<Points>& guess, const Points& membrane,
+                        const Progress& progress) {
+    ProxySolve solve(problem, progress);
+    if (guess) {
+        SolvedProxy proxy = solve.from_surface(*guess);
+        if (proxy.converged()) return proxy;
     }
-    return poor > tolerated_share * patch.triangle_count();
+    return solve.from_membrane(membrane);
 }
 
-Solution solve_on_proxy(const Problem& problem, const std::optional<Points>& guess, const Progress& progress) {
-    Stopwatch watch;
+Points proxy_membrane(const Problem& problem, const Progress& progress) {
     const Problem uniform = proxy_problem(problem, problem.patch);
     const Workspace work = make_workspace(uniform, progress);
-    const SurfaceState start = measured_surface(problem, membrane(uniform, work));
-    const double fill_seconds = watch.lap();
-    Solution solution = ProxySolve(problem, guess, progress).run(start.points);
-    solution.initial_residual = largest_residual(problem, start, outer_residual(problem, start));
-    solution.seconds = {{"fill", fill_seconds}, {"proxy", watch.lap()}};
-    return solution;
+    return membrane(uniform, work);
 }
 
 }  // namespace fairing

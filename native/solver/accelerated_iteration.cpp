@@ -58,6 +58,8 @@ public:
             const Points d = plain_step();
             const double largest = largest_length(d);
             solution_.iterations = k + 1;
+            if (k == 0) solution_.first_step = largest;
+            solution_.last_step = largest;
             if (largest <= problem_.options.tolerance) {
                 solution_.termination = Termination::converged;
                 keep();

@@ -17,7 +17,20 @@ enum class Equation {
     minimal,         // H = 0 with G0 boundary data
 };
 
-enum class Termination { converged, iteration_limit, stalled };
+// `folded`: the surface was found, the vertices don't lie on it without folds.
+enum class Termination { converged, iteration_limit, stalled, folded };
+
+// What is wrong with a solution, from the least to the worst (method/accept).
+enum class Flaw {
+    none,
+    many_iterations,  // converged, but so slowly that it may be another solution than the surface's
+    poor_triangles,   // converged on triangles that can't carry the equation
+    crossing,         // triangles pass through each other, and the surface does not
+    folded,           // triangles are turned over
+    behind,           // most of the outline is met from the other side
+    collapsed,        // no area is left
+    not_converged,
+};
 
 struct SolverOptions {
     Equation equation = Equation::harmonic;
@@ -36,6 +49,13 @@ struct Problem {
     Points fixed_normals;  // 3 × fixed count, unit; ignored at pins
     Lambda weights;
     SolverOptions options;
+    std::size_t tolerated_folds = 0;  // as many triangles are turned over where the weights come from
+};
+
+// A way that was tried (method/ways), and how long it took.
+struct WayTaken {
+    std::string name;
+    double seconds;
 };
 
 struct Solution {
@@ -50,6 +70,14 @@ struct Solution {
     double reached_load = 0.0;      // share of the load for which `points` solve the equation, where not the whole
     std::vector<int> levels;        // vertex counts, coarse to fine; empty: only the patch itself
     std::map<std::string, double> seconds;
+    std::vector<WayTaken> ways;
+    Flaw flaw = Flaw::none;
+    Indices bad_triangles;      // of the patch: folded or crossing ones, for those flaws
+    bool from_surface = false;  // its iteration began on the solved surface of a proxy
+    bool crosses = false;       // the surface passes through itself, whatever the mesh
+    double first_step = 0.0;    // largest moves of the first and the last iteration, units of D
+    double last_step = 0.0;
+    bool even_weights = false;  // uniform weights were taken instead of the problem's
 };
 
 }  // namespace fairing

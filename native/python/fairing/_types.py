@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int32]
-FOLDS = ("FLIPPED_TRIANGLES", "SELF_INTERSECTION")  # codes of warnings about the surface itself
+FOLDS = ("FOLDED", "FLIPPED_TRIANGLES", "SELF_INTERSECTION")  # codes of warnings about the surface itself
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,11 +78,14 @@ class FairResult:
     """(k',) degrees, in the order of ``fixed``: how visible the join is (see :func:`fairing.visible_join`). Where no
     triangles outside were given, they are taken for the patch's mirror image across the prescribed tangent planes."""
     converged: bool
-    """Whether every component's iteration came to its end; where not, the best positions found are given."""
+    """Whether every component has its surface: the equation is solved to the tolerance, and the vertices lie on the
+    solution without folds. Where not, the best positions found are given."""
     polished: bool
     """Whether the discrete equation holds on the connectivity given. False, with ``converged``: it was solved on a mesh
     of the engine's own, and the vertices were placed on that surface; it is as fair, but ``residual`` may be large."""
-    termination: Literal["converged", "iteration_limit", "stalled"]
+    termination: Literal["converged", "iteration_limit", "stalled", "folded"]
+    """"folded": the surface was found, but the vertices could not be placed on it without triangles that are turned
+    over or pass through others."""
     iterations: int
     """Steps of the iteration that led to the result (of the component with most), not of all that was tried."""
     residual: float
@@ -96,6 +99,10 @@ class FairResult:
     seconds: dict[str, float]
     """Wall-clock time of each stage and in ``"total"``. Stages need not add up to it: attempts that were given up are
     not listed."""
+    way: tuple[tuple[str, float], ...]
+    """Name and seconds of each way that was tried, the one that led to the result last unless it failed: "warm" from the
+    last answer, "nested" from coarse to fine, "direct" on the mesh given, "proxy" on a mesh of the engine's own, "even"
+    and "uniform" by uniform weights first or only, "minimal", "patient", "paper". Several components follow each other."""
     warnings: tuple[Diagnostic, ...]
     moved: IntArray = field(default_factory=lambda: np.empty(0, np.int32))
     """Fixed and outside vertices that ``outline="mended"`` has moved, ascending."""

@@ -6,7 +6,7 @@
 namespace fairing {
 
 // Solves the outer equation from the boundary data alone; the caller's interior is not looked at. Deterministic.
-// The positions with the lowest residual come back, converged or not.
+// Where no way is accepted (method/accept), the best that was found comes back with its flaw.
 // Throws SolverError when a factorisation breaks down at the start, Cancelled.
 Solution solve_global(const Problem& problem, const Progress& progress);
 

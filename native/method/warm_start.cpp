@@ -1,4 +1,4 @@
-#include "proxy/warm_start.h"
+#include "method/warm_start.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
-#include "proxy/proxy_solver.h"
+#include "method/accept.h"
 #include "solver/accelerated_iteration.h"
 #include "solver/fill.h"
 #include "solver/surface_state.h"
@@ -21,7 +21,7 @@ namespace {
 // Moves of the boundary, its rotation apart, up to which the last answer is worth starting from.
 constexpr double farthest_move = 0.05;  // units of D
 constexpr double cos_of_widest_turn = 0.7;
-// More iterations than a solve from the boundary takes are a sign of trouble (global_method.cpp).
+// More iterations than a solve from the boundary takes are a sign of trouble (method/accept).
 constexpr int most_iterations = 20;
 constexpr int patience = 6;
 // This many more than the first solve with a factor took: it is time for a new one.
@@ -92,10 +92,7 @@ void WarmStart::hold(const Problem& problem, const Progress& progress) {
 void WarmStart::remember(const Problem& problem, const Solution& solution, const Progress& progress) {
     ready_ = false;
     choose_operator(problem);
-    if (solution.termination != Termination::converged || !solution.polished ||
-        has_poor_triangles(patch_, solution.points)) {
-        return;
-    }
+    if (!solution.polished || solution.flaw != Flaw::none || has_poor_triangles(patch_, solution.points)) return;
     if (!work_.keeps_factor && !factorise(problem, solution.points, progress.here())) return;
     hold(problem, progress);
     points_ = solution.points;
@@ -158,12 +155,14 @@ std::optional<Solution> WarmStart::solve(const Problem& problem, const Progress&
         if (!factorise(problem, *start, progress.here())) return std::nullopt;
         solution = iterate_from(problem, *start, progress.range(0.5, 1.0));
     }
-    if (solution.termination != Termination::converged || has_poor_triangles(patch_, solution.points)) {
-        return std::nullopt;
-    }
+    if (solution.termination != Termination::converged) return std::nullopt;
     watch_factor(solution.iterations);
     solution.boundary_normals = one_sided_normals(patch_, solution.points);
+    // Only an answer without folds counts as the one that a solve from the boundary alone would give.
+    solution.flaw = flaw_of(problem, solution);
+    if (solution.flaw != Flaw::none) return std::nullopt;
     solution.seconds = {{"prediction", prediction}, {"iteration", watch.lap()}};
+    solution.ways = {{"warm", prediction + solution.seconds["iteration"]}};
     return solution;
 }
 

@@ -1,10 +1,13 @@
-#include "multigrid/nested_solve.h"
+#include "method/nested.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/stopwatch.h"
+#include "geometry/flips.h"
 #include "geometry/surface_fit.h"
+#include "method/one_level.h"
+#include "method/sizes.h"
 #include "multigrid/coarsening.h"
 #include "multigrid/tangential_multigrid.h"
 #include "solver/accelerated_iteration.h"
@@ -50,6 +53,12 @@ Points with_fixed(const Patch& patch, const Points& fixed) {
     return points;
 }
 
+// Of a level's start: the iteration irons single ones out.
+std::size_t tolerated_folds(const Problem& problem) {
+    constexpr std::size_t share = 500;
+    return problem.tolerated_folds + at(problem.patch.triangle_count()) / share;
+}
+
 // The fraction of all that is done after level k: each level takes about a quarter of the next finer one.
 double done_after(std::size_t k) { return begin + (1.0 - begin) * std::pow(0.25, static_cast<double>(k)); }
 
@@ -68,7 +77,7 @@ public:
           fixed_points_(with_fixed(problem.patch, problem.fixed_points)),
           fixed_normals_(with_fixed(problem.patch, problem.fixed_normals)) {}
 
-    std::optional<Solution> run(const CoarseSolver& solve_coarsest) {
+    std::optional<Solution> run() {
         Stopwatch watch;
         InnerWeights weights = symmetric_weights(problem_.weights);
         coarse_ = coarsen(problem_.patch, weights, {fixed_points_, fixed_normals_}, coarsest_size);
@@ -76,18 +85,11 @@ public:
         make_levels(std::move(weights));
         std::map<std::string, double> seconds{{"hierarchy", watch.lap()}};
         progress_.report(begin, "hierarchy");
-        Solution solution = solve_coarsest(coarsest_problem(), progress_.range(begin, done_after(coarse_.size())));
-        if (solution.termination != Termination::converged) return std::nullopt;
-        const double initial_residual = solution.initial_residual;
-        set_up_tangential(coarse_.size(), laplacian_of(coarse_.size()));
+        const std::size_t coarsest = coarse_.size();
+        Solution solution = solve_coarsest(progress_.range(begin, done_after(coarsest)));
         seconds["coarsest"] = watch.lap();
-        for (std::size_t k = coarse_.size(); k-- > 0;) {
-            solution = refine(k, solution.points, progress_.range(done_after(k + 1), done_after(k)));
-            const bool good =
-                k == 0 ? solution.termination == Termination::converged : solution.termination != Termination::stalled;
-            if (!good) return std::nullopt;
-        }
-        solution.boundary_normals = one_sided_normals(problem_.patch, solution.points);
+        const double initial_residual = solution.initial_residual;
+        solution = solution.flaw == Flaw::none ? refined(std::move(solution)) : given_up(coarsest, solution.points);
         solution.initial_residual = initial_residual;
         for (std::size_t k = levels_.size(); k-- > 0;)
             solution.levels.push_back(levels_[k].problem.patch.vertex_count());
@@ -97,6 +99,13 @@ public:
     }
 
 private:
+    // A patch that is small enough for a proxy of its own is not worth one of its coarsest level.
+    [[nodiscard]] Solution solve_coarsest(const Progress& progress) const {
+        const Problem problem = coarsest_problem();
+        if (problem_.patch.free_count > largest_direct) return solve_on_one_level(problem, progress);
+        return solve_on_own_mesh(problem, progress);
+    }
+
     // Fine to coarse; levels_[0] is the caller's.
     void make_levels(InnerWeights weights) {
         levels_.reserve(coarse_.size() + 1);
@@ -142,7 +151,40 @@ private:
         }
     }
 
-    // The solution of level k from that of the coarser one.
+    // All levels from the coarsest one's solution.
+    Solution refined(Solution solution) {
+        set_up_tangential(coarse_.size(), laplacian_of(coarse_.size()));
+        for (std::size_t k = coarse_.size(); k-- > 0;) {
+            const Points coarser = solution.points;
+            solution = refine(k, coarser, progress_.range(done_after(k + 1), done_after(k)));
+            if (!is_good(k, solution)) return given_up(k + 1, coarser);
+        }
+        solution.boundary_normals = one_sided_normals(problem_.patch, solution.points);
+        return solution;
+    }
+
+    // Levels between are good enough as starts where their steps shrink, even if single poor triangles keep them from
+    // converging.
+    [[nodiscard]] static bool is_good(std::size_t k, const Solution& solution) {
+        constexpr double shrinks = 1.0 / 3.0;
+        if (solution.termination == Termination::converged) return true;
+        return k > 0 && solution.termination == Termination::iteration_limit &&
+               solution.last_step <= shrinks * solution.first_step;
+    }
+
+    // The surface of level k on the finest one.
+    [[nodiscard]] Solution given_up(std::size_t k, const Points& points) const {
+        Solution solution;
+        solution.points = points;
+        while (k-- > 0) solution.points = interpolated(k, solution.points, laplacian_of(k)).points;
+        const SurfaceState state = measured_surface(problem_, solution.points);
+        solution.mean_curvature = state.curvature.mean;
+        solution.residual = largest_residual(problem_, state, outer_residual(problem_, state));
+        solution.boundary_normals = one_sided_normals(problem_.patch, solution.points);
+        return solution;
+    }
+
+    // The solution of level k from that of the coarser one; stalled where its start is folded.
     Solution refine(std::size_t k, const Points& coarse, const Progress& progress) {
         Level& level = levels_[k];
         const Problem& problem = level.problem;
@@ -160,6 +202,7 @@ private:
             slide(problem, *level.work.tangential, max_normals(problem.patch, points, problem.fixed_normals),
                   most_slides, points);
         }
+        if (flipped_by_solution(problem.patch, points).size() > tolerated_folds(problem)) return {};
         Solution solution = iterate(problem, level.work, points, progress.range(share_of_start, 1.0));
         level.work.normal.reset();  // the tangential step serves the finer levels
         return solution;
@@ -194,9 +237,8 @@ private:
 
 }  // namespace
 
-std::optional<Solution> solve_nested(const Problem& problem, const CoarseSolver& solve_coarsest,
-                                     const Progress& progress) {
-    return NestedSolve(problem, progress).run(solve_coarsest);
+std::optional<Solution> solve_nested(const Problem& problem, const Progress& progress) {
+    return NestedSolve(problem, progress).run();
 }
 
 }  // namespace fairing

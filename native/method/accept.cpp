@@ -1,0 +1,93 @@
+#include "method/accept.h"
+
+#include <algorithm>
+
+#include "geometry/face_geometry.h"
+#include "geometry/flips.h"
+#include "geometry/outline_angles.h"
+#include "geometry/self_intersection.h"
+#include "solver/surface_state.h"
+
+namespace fairing {
+
+namespace {
+
+// From the outline alone 8 to 20 iterations are usual. On graded meshes the discrete equation may have solutions that
+// are none of the surface's: 1e-3 D off a sphere after 100 iterations, 2e-3 D off a cylinder after 29.
+constexpr int most_iterations = 20;
+
+bool has_area(const Problem& problem, const Points& points) {
+    constexpr double least_area = 1e-9;  // D²
+    FaceGeometry faces;
+    faces.update(points, problem.patch.triangles);
+    return faces.areas.sum() > least_area;
+}
+
+// Met from the other side at most of the outline's vertices: a bulge that has turned inside out.
+bool is_behind(const Problem& problem, const Solution& solution) {
+    constexpr double behind = 90.0;  // degrees
+    if (problem.options.equation == Equation::minimal) return false;
+    const VectorX angles = boundary_angles(problem.patch, solution.boundary_normals, problem.fixed_normals);
+    return 2 * (angles.array() > behind).count() > (angles.array() > 0.0).count();
+}
+
+}  // namespace
+
+bool has_poor_triangles(const Patch& patch, const Points& points) {
+    constexpr double poor_shape = 0.25;  // a right triangle of 7 : 1
+    constexpr double tolerated_share = 0.1;
+    int poor = 0;
+    for (const auto triangle : patch.triangles.colwise()) {
+        if (triangle_shape(points.col(triangle[0]), points.col(triangle[1]), points.col(triangle[2])) < poor_shape)
+            ++poor;
+    }
+    return poor > tolerated_share * patch.triangle_count();
+}
+
+Flaw flaw_of(const Problem& problem, Solution& solution) {
+    const bool folded_on_proxy = solution.termination == Termination::folded;
+    if (folded_on_proxy) return Flaw::folded;
+    if (solution.termination != Termination::converged) return Flaw::not_converged;
+    if (!has_area(problem, solution.points)) return Flaw::collapsed;
+    if (is_behind(problem, solution)) return Flaw::behind;
+    // Placed vertices were compared with the surface that they lie on.
+    Indices flipped = solution.polished ? flipped_by_solution(problem.patch, solution.points) : Indices{};
+    if (flipped.size() > problem.tolerated_folds) {
+        solution.bad_triangles = std::move(flipped);
+        return Flaw::folded;
+    }
+    if (!solution.crosses) {
+        solution.bad_triangles = crossing_triangles(problem.patch.triangles, solution.points);
+        if (!solution.bad_triangles.empty()) return Flaw::crossing;
+    }
+    if (!solution.polished || solution.from_surface) return Flaw::none;
+    if (has_poor_triangles(problem.patch, solution.points)) return Flaw::poor_triangles;
+    return solution.iterations > most_iterations ? Flaw::many_iterations : Flaw::none;
+}
+
+bool is_final(const Problem& problem, const Solution& solution) {
+    if (solution.flaw == Flaw::none) return true;
+    // The mesh carries the equation, but not with the whole load: other meshes wouldn't either.
+    return solution.reached_load > 0.0 && !has_poor_triangles(problem.patch, solution.points);
+}
+
+bool agree(const Problem& problem, const Solution& own, const Solution& placed, double proxy_edge) {
+    constexpr double farthest = 2e-4;        // units of D
+    constexpr double edge_share = 0.1;       // of the proxy's edges
+    constexpr double curvature_share = 0.1;  // of the largest |H|, or of 1/D where that is less
+    const double away = largest_length(own.points - placed.points);
+    if (away <= edge_share * proxy_edge && proxy_edge > mean_edge(problem.patch, own.points)) return true;
+    if (away > farthest) return false;
+    const Eigen::Index count = problem.patch.free_count;
+    const VectorX difference = own.mean_curvature.head(count) - placed.mean_curvature.head(count);
+    return difference.cwiseAbs().maxCoeff() <
+           curvature_share * std::max(1.0, placed.mean_curvature.cwiseAbs().maxCoeff());
+}
+
+double mean_edge(const Patch& patch, const Points& points) {
+    double sum = 0.0;
+    for (const auto& [a, b] : patch.edge_ends) sum += (points.col(a) - points.col(b)).norm();
+    return sum / patch.edge_count();
+}
+
+}  // namespace fairing

@@ -1,0 +1,28 @@
+// The one rule by which a solution is accepted.
+#pragma once
+
+#include "solver/problem.h"
+
+namespace fairing {
+
+// What is wrong with a solution, if anything, whatever the way it came by: an iteration that did not converge, no area
+// left, an outline that is met from behind, folds, crossings that the surface itself has not, triangles that can't
+// carry the equation, more iterations than an answer needs that is one. Names the bad triangles in the solution.
+Flaw flaw_of(const Problem& problem, Solution& solution);
+
+// Whether no other way could do better: accepted, or solved for as much of the load as the surface carries.
+bool is_final(const Problem& problem, const Solution& solution);
+
+// Whether the discrete equation on the problem's mesh (`own`) and the surface of a proxy of mean edge `proxy_edge`
+// (`placed` on it) discretise one surface. A mesh that is finer than the proxy carries the equation better: there the
+// proxy's error decides, elsewhere the two have to be as close as both are to the surface on good meshes.
+bool agree(const Problem& problem, const Solution& own, const Solution& placed, double proxy_edge);
+
+// Whether more than a tenth of the triangles are so flat that the discrete equation on them can't be trusted even where
+// it converges. `points`: 3 × local vertices.
+bool has_poor_triangles(const Patch& patch, const Points& points);
+
+// Mean length of a patch's edges.
+double mean_edge(const Patch& patch, const Points& points);
+
+}  // namespace fairing

@@ -1,0 +1,96 @@
+#include "method/direct.h"
+
+#include <algorithm>
+
+#include "base/stopwatch.h"
+#include "geometry/surface_fit.h"
+#include "method/least_bent.h"
+#include "placement/relax.h"
+#include "solver/continuation.h"
+#include "solver/globalisation.h"
+#include "solver/minimal_start.h"
+#include "solver/normal_fill.h"
+#include "solver/surface_state.h"
+
+namespace fairing {
+
+namespace {
+
+double residual_of(const Problem& problem, const Points& points) {
+    const SurfaceState state = measured_surface(problem, points);
+    return largest_residual(problem, state, outer_residual(problem, state));
+}
+
+// The vertices of a surface, placed on it by their inner fairness.
+Points settled(const Problem& problem, const Workspace& work, const Points& points) {
+    const SurfaceState state = measured_surface(problem, points);
+    const TargetSurface target(problem.patch, points, state.normals);
+    Placement placement = at_vertices(problem, target, points);
+    relax(problem, *work.tangential, target, placement);
+    return placement.points;
+}
+
+// The start of the accurate iteration and what is reported about it.
+struct Start {
+    Points points;
+    Points membrane;
+    double initial_residual = 0.0;
+    double fill_seconds = 0.0;
+};
+
+// The membrane depends on the outline's positions alone; the normals come in with the Willmore descent.
+Start make_start(const Problem& problem, Workspace& work, const Progress& progress) {
+    const Stopwatch watch;
+    Start start{membrane(problem, work), {}};
+    start.membrane = start.points;
+    start.initial_residual = residual_of(problem, start.points);
+    start.fill_seconds = watch.seconds();
+    if (problem.options.equation == Equation::minimal) {
+        start.points = descend_area(problem, work, start.points, progress);
+        return start;
+    }
+    start.points = globalise(problem, work, start.points, progress);
+    if (problem.patch.loop_count() < 2) return start;
+    // Between loops the G1 data may admit several surfaces (a pipe longer than 2 π r): the one whose curvatures vary
+    // least is wanted, so the start that varies least goes first.
+    const auto along_normals = normal_fill(problem, progress.here());
+    if (along_normals && curvature_variation(problem, *along_normals) < curvature_variation(problem, start.points)) {
+        start.points = settled(problem, work, *along_normals);
+    }
+    return start;
+}
+
+}  // namespace
+
+Solution solve_directly(const Problem& problem, const Progress& progress) {
+    Stopwatch watch;
+    Workspace work{
+        make_normal_operator(problem),
+        make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.range(0.0, 0.05))};
+    const Start start = make_start(problem, work, progress.range(0.05, 0.6));
+    const double start_seconds = watch.lap();
+    Solution solution = solve_equation(problem, work, start.points, progress.range(0.6, 1.0));
+    for (const Points* candidate : {&start.points, &start.membrane}) keep_less_bent(problem, *candidate, solution);
+    solution.boundary_normals = one_sided_normals(problem.patch, solution.points);
+    solution.initial_residual = start.initial_residual;
+    solution.seconds = {{"fill", start.fill_seconds},
+                        {"globalisation", start_seconds - start.fill_seconds},
+                        {"iteration", watch.lap()}};
+    return solution;
+}
+
+Solution try_directly(const Problem& problem, const Progress& progress) {
+    constexpr int patience = 12;  // near clusters of valence 3 it took up to 7
+    constexpr int most_iterations = 60;
+    Problem attempt = problem;
+    attempt.options.patience = patience;
+    attempt.options.max_iterations = std::min(problem.options.max_iterations, most_iterations);
+    Solution solution = solve_directly(attempt, progress);
+    const bool by_own_limit = attempt.options.max_iterations < problem.options.max_iterations;
+    if (solution.termination == Termination::iteration_limit && by_own_limit) {
+        solution.termination = Termination::stalled;
+    }
+    return solution;
+}
+
+}  // namespace fairing

@@ -1,0 +1,15 @@
+// The solve on the user's mesh alone, from the outline.
+#pragma once
+
+#include "solver/problem.h"
+
+namespace fairing {
+
+// From the membrane by Willmore descent to the accurate iteration; between loops the start that follows the normals
+// goes first where it varies less. With all the patience of the problem's options.
+Solution solve_directly(const Problem& problem, const Progress& progress);
+
+// The same as a fast path: left at the first sign of trouble, since other ways come next.
+Solution try_directly(const Problem& problem, const Progress& progress);
+
+}  // namespace fairing

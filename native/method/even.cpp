@@ -1,0 +1,51 @@
+#include "method/even.h"
+
+#include <algorithm>
+
+#include "method/accept.h"
+#include "method/nested.h"
+#include "method/one_level.h"
+#include "method/polish.h"
+#include "method/sizes.h"
+#include "placement/relax.h"
+#include "solver/surface_state.h"
+
+namespace fairing {
+
+namespace {
+
+std::optional<Solution> solve_uniformly(const Problem& even, const Progress& progress) {
+    std::optional<Solution> solution;
+    if (is_large(even)) solution = solve_nested(even, progress);
+    if (!solution) solution = directly.solve(even, {}, progress);
+    if (flaw_of(even, *solution) != Flaw::none) return std::nullopt;
+    return solution;
+}
+
+}  // namespace
+
+bool is_uniform(const Lambda& weights) {
+    const auto* edges = std::get_if<InnerWeights>(&weights);
+    return edges && std::all_of(edges->begin(), edges->end(),
+                                [&](const WeightedEdge& edge) { return edge.weight == edges->front().weight; });
+}
+
+std::optional<Solution> solve_evenly(const Problem& problem, const Progress& progress) {
+    Problem even = problem;
+    even.weights = uniform_weights(problem.patch);
+    auto solution = solve_uniformly(even, progress.range(0.0, 0.5));
+    if (!solution) return std::nullopt;
+    const SurfaceState state = measured_surface(even, solution->points);
+    const TargetSurface target(problem.patch, state.points, state.normals);
+    Placement placement = at_vertices(problem, target, state.points);
+    Workspace work{make_normal_operator(problem, placement.points.leftCols(problem.patch.free_count)),
+                   make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())};
+    settle(problem, *work.tangential, target, placement, progress.here());
+    solution->mean_curvature = carried_over(placement, target, solution->mean_curvature, problem);
+    solution->points = std::move(placement.points);
+    solution->polished = false;
+    return polish(problem, work, std::move(*solution), mean_edge(problem.patch, state.points),
+                  progress.range(0.5, 1.0));
+}
+
+}  // namespace fairing

@@ -1,0 +1,79 @@
+#include "method/ladder.h"
+
+#include <algorithm>
+#include <array>
+
+#include "method/accept.h"
+#include "method/direct.h"
+#include "method/even.h"
+#include "method/nested.h"
+#include "method/one_level.h"
+#include "method/sizes.h"
+
+namespace fairing {
+
+namespace {
+
+using Found = std::optional<Solution>;
+
+bool is_minimal(const Problem& problem) { return problem.options.equation == Equation::minimal; }
+
+// What a coarse level has refused, the full size would only refuse later.
+bool takes_direct(const Problem& problem, const Situation& situation) {
+    return !is_minimal(problem) && problem.patch.free_count <= largest_direct && !situation.tried("nested");
+}
+
+bool takes_patience(const Problem& problem, const Situation& situation) {
+    return !is_minimal(problem) && problem.patch.free_count > largest_direct && !situation.tried("nested");
+}
+
+bool takes_even(const Problem& problem, const Situation& situation) {
+    return !is_minimal(problem) && !is_uniform(problem.weights) && !situation.tried("even");
+}
+
+Found evenly(const Problem& problem, const Situation& /*situation*/, const Progress& progress) {
+    return solve_evenly(problem, progress);
+}
+
+Found with_uniform_weights(const Problem& problem, const Situation& /*situation*/, const Progress& progress) {
+    Problem even = problem;
+    even.weights = uniform_weights(problem.patch);
+    even.tolerated_folds = 0;
+    Solution solution = solve_global(even, progress);
+    if (solution.flaw != Flaw::none) return std::nullopt;
+    solution.even_weights = true;
+    return solution;
+}
+
+bool is_folded(const Situation& situation) {
+    return std::any_of(situation.found.begin(), situation.found.end(),
+                       [](const Solution& s) { return s.flaw == Flaw::folded || s.flaw == Flaw::crossing; });
+}
+
+}  // namespace
+
+Solution solve_global(const Problem& problem, const Progress& progress) {
+    static const std::array<Way, 8> ways{{
+        {"minimal", [](const Problem& p, const Situation&) { return is_minimal(p); },
+         [](const Problem& p, const Situation&, const Progress& part) { return Found(solve_directly(p, part)); }, 0.0,
+         1.0},
+        {"nested", [](const Problem& p, const Situation&) { return !is_minimal(p) && is_large(p); },
+         [](const Problem& p, const Situation&, const Progress& part) { return solve_nested(p, part); }, 0.0, 1.0},
+        {"even", [](const Problem& p, const Situation& s) { return takes_even(p, s) && is_large(p); }, evenly, 0.0,
+         0.3},
+        {directly.name, takes_direct, directly.solve, directly.begin, directly.end},
+        {on_proxy.name, [](const Problem& p, const Situation&) { return !is_minimal(p); }, on_proxy.solve,
+         on_proxy.begin, on_proxy.end},
+        {"patient", takes_patience,
+         [](const Problem& p, const Situation&, const Progress& part) { return Found(solve_directly(p, part)); }, 0.8,
+         0.9},
+        {"even", [](const Problem& p, const Situation& s) { return takes_even(p, s) && !is_large(p); }, evenly, 0.9,
+         1.0},
+        // λ may turn triangles over although the surface is smooth: uniform ones then.
+        {"uniform", [](const Problem& p, const Situation& s) { return !is_uniform(p.weights) && is_folded(s); },
+         with_uniform_weights, 0.9, 1.0},
+    }};
+    return run_ways(ways, problem, progress);
+}
+
+}  // namespace fairing

@@ -1,0 +1,15 @@
+// What is kept where nothing converges: an iteration that fails may end anywhere.
+#pragma once
+
+#include "solver/problem.h"
+
+namespace fairing {
+
+// Whether the surface of `a` has less Willmore energy than that of `b`; no number counts as most.
+bool less_bent(const Problem& problem, const Solution& a, const Solution& b);
+
+// Takes the candidate (3 × local vertices) instead where `solution` did not converge and is more bent. A part of the
+// load bends, too, and minimal surfaces are none: these stay.
+void keep_less_bent(const Problem& problem, const Points& candidate, Solution& solution);
+
+}  // namespace fairing

@@ -1,0 +1,16 @@
+// The robust way: the surface on a mesh of the engine's own, the user's vertices placed on it, the equation polished.
+#pragma once
+
+#include <optional>
+
+#include "solver/problem.h"
+
+namespace fairing {
+
+// `guess`: positions of all vertices near the surface, on the right sheets, or nothing. Where the discrete equation
+// holds on the user's own mesh near the placed vertices, that is the solution; else the placed vertices with the proxy's
+// H. Where no placement without folds is found, or the placed mesh crosses itself and the proxy's surface does not,
+// `folded`. Where no proxy converges, the least bent of their surfaces, not converged.
+Solution solve_on_proxy(const Problem& problem, const std::optional<Points>& guess, const Progress& progress);
+
+}  // namespace fairing

@@ -1,0 +1,40 @@
+#include "method/one_level.h"
+
+#include <array>
+
+#include "method/direct.h"
+#include "method/on_proxy.h"
+
+namespace fairing {
+
+namespace {
+
+std::optional<Points> guess_from(const Situation& situation) {
+    const Points* own = situation.own_surface();
+    return own && own->allFinite() ? std::optional(*own) : std::nullopt;
+}
+
+}  // namespace
+
+const Way directly{"direct", [](const Problem&, const Situation&) { return true; },
+                   [](const Problem& problem, const Situation&, const Progress& progress) {
+                       return std::optional(try_directly(problem, progress));
+                   },
+                   0.3, 0.5};
+
+const Way on_proxy{"proxy", [](const Problem&, const Situation&) { return true; },
+                   [](const Problem& problem, const Situation& situation, const Progress& progress) {
+                       return std::optional(solve_on_proxy(problem, guess_from(situation), progress));
+                   },
+                   0.5, 0.9};
+
+Solution solve_on_one_level(const Problem& problem, const Progress& progress) {
+    static const std::array ways{directly, on_proxy};
+    return run_ways(ways, problem, progress);
+}
+
+Solution solve_on_own_mesh(const Problem& problem, const Progress& progress) {
+    return run_ways(std::span(&directly, 1), problem, progress);
+}
+
+}  // namespace fairing

@@ -1,0 +1,18 @@
+// The ways for a patch whose size needs no levels.
+#pragma once
+
+#include "method/ways.h"
+
+namespace fairing {
+
+// Directly on its own mesh, on a proxy where that fails.
+Solution solve_on_one_level(const Problem& problem, const Progress& progress);
+
+// Directly only.
+Solution solve_on_own_mesh(const Problem& problem, const Progress& progress);
+
+// The same ways for a table of more.
+extern const Way directly;
+extern const Way on_proxy;
+
+}  // namespace fairing

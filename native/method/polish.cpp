@@ -1,0 +1,31 @@
+#include "method/polish.h"
+
+#include <algorithm>
+
+#include "geometry/surface_fit.h"
+#include "method/accept.h"
+#include "solver/accelerated_iteration.h"
+
+namespace fairing {
+
+namespace {
+
+// From the surface itself few iterations are needed; after many, it is another solution.
+constexpr int most_iterations = 40;
+constexpr int patience = 12;
+
+}  // namespace
+
+Solution polish(const Problem& problem, Workspace& work, Solution placed, double proxy_edge, const Progress& progress) {
+    Problem polishing = problem;
+    polishing.options.max_iterations = std::min(most_iterations, problem.options.max_iterations);
+    polishing.options.patience = std::min(patience, problem.options.patience);
+    Solution own = iterate(polishing, work, placed.points, progress);
+    if (own.termination != Termination::converged || !agree(problem, own, placed, proxy_edge)) return placed;
+    own.boundary_normals = one_sided_normals(problem.patch, own.points);
+    own.from_surface = true;
+    own.crosses = placed.crosses;
+    return flaw_of(problem, own) == Flaw::none ? own : placed;
+}
+
+}  // namespace fairing

@@ -1,0 +1,13 @@
+// From a surface that was solved on other vertices to the equation on the user's own.
+#pragma once
+
+#include "solver/globalisation.h"
+
+namespace fairing {
+
+// The discrete equation on the problem's mesh from `placed`, whose vertices lie on the solved surface of a mesh of mean
+// edge `proxy_edge`, where it converges, agrees with that surface and is accepted; `placed` itself otherwise. `work`:
+// of the problem.
+Solution polish(const Problem& problem, Workspace& work, Solution placed, double proxy_edge, const Progress& progress);
+
+}  // namespace fairing

@@ -1,0 +1,52 @@
+#include "method/ways.h"
+
+#include <algorithm>
+
+#include "base/stopwatch.h"
+#include "method/accept.h"
+#include "method/least_bent.h"
+
+namespace fairing {
+
+namespace {
+
+// Converged ones come first, by what is wrong with them.
+Solution best_of(const Problem& problem, std::vector<Solution> found) {
+    const auto best = std::min_element(found.begin(), found.end(), [&](const Solution& a, const Solution& b) {
+        if (a.flaw != b.flaw) return a.flaw < b.flaw;
+        return a.flaw == Flaw::not_converged && less_bent(problem, a, b);
+    });
+    return std::move(*best);
+}
+
+}  // namespace
+
+const Points* Situation::own_surface() const {
+    const auto last = std::find_if(found.rbegin(), found.rend(), [](const Solution& s) { return s.polished; });
+    return last == found.rend() ? nullptr : &last->points;
+}
+
+bool Situation::tried(std::string_view way) const {
+    return std::any_of(found.begin(), found.end(), [&](const Solution& s) { return s.ways.back().name == way; });
+}
+
+Solution run_ways(std::span<const Way> ways, const Problem& problem, const Progress& progress) {
+    Situation situation;
+    std::vector<WayTaken> taken;
+    for (const Way& way : ways) {
+        if (!way.suits(problem, situation)) continue;
+        const Stopwatch watch;
+        auto solution = way.solve(problem, situation, progress.range(way.begin, way.end));
+        taken.push_back({way.name, watch.seconds()});
+        if (!solution) continue;
+        solution->ways = taken;
+        solution->flaw = flaw_of(problem, *solution);
+        if (is_final(problem, *solution)) return std::move(*solution);
+        situation.found.push_back(std::move(*solution));
+    }
+    Solution best = best_of(problem, std::move(situation.found));
+    best.ways = std::move(taken);
+    return best;
+}
+
+}  // namespace fairing

@@ -1,0 +1,34 @@
+// The ways to a surface, in the order in which they are tried.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "solver/problem.h"
+
+namespace fairing {
+
+// What the ways before have come to.
+struct Situation {
+    std::vector<Solution> found;  // none of them accepted
+
+    // The latest surface on the user's own connectivity, converged or not: it has the right sheets. Or none.
+    [[nodiscard]] const Points* own_surface() const;
+    [[nodiscard]] bool tried(std::string_view way) const;
+};
+
+struct Way {
+    const char* name;
+    bool (*suits)(const Problem& problem, const Situation& situation);
+    // Nothing where it finds at once that it is not for this problem.
+    std::optional<Solution> (*solve)(const Problem& problem, const Situation& situation, const Progress& progress);
+    double begin;  // shares of the time, for the progress
+    double end;
+};
+
+// The first solution that is accepted (method/accept); where none is, the best that was found: one that converged
+// before one that did not, of these the least bent. Its `ways` list all that were tried.
+Solution run_ways(std::span<const Way> ways, const Problem& problem, const Progress& progress);
+
+}  // namespace fairing

@@ -1,0 +1,23 @@
+// Triangles that a placement turns over.
+#pragma once
+
+#include "placement/placement.h"
+
+namespace fairing {
+
+// Twice the area of triangle `t` along its normal. `points`: 3 × local vertices.
+Vector3 area_vector(const Patch& patch, const Points& points, int t);
+
+// Whether the normal of triangle `t` of the problem's patch points against the surface that its free corners lie on
+// (the triangles of the target, so that noise of the outline's normals doesn't matter). False without a free corner:
+// no placement turns such a triangle.
+bool is_folded(const Problem& problem, const TargetSurface& target, const Placement& placement, int t);
+
+// All of them, and those that are turned over against their neighbours in the placed mesh itself; ascending.
+Indices folded_triangles(const Problem& problem, const TargetSurface& target, const Placement& placement);
+
+// The same without triangles at the outline that only their neighbours speak against: where the outline itself turns
+// sharply, no placement gives them other neighbours.
+Indices folds_of_placement(const Problem& problem, const TargetSurface& target, const Placement& placement);
+
+}  // namespace fairing
