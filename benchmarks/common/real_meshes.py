@@ -153,12 +153,12 @@ def make_patch(label: str, name: str, seed: int, radius: float) -> RealPatch | N
 
 def outline_normals(whole: Mesh, outside: IntArray, at: IntArray) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Normals fitted to the outside; averages of all faces where no outside face is adjacent."""
-    normals, fitted = fairing.surrounding_normals(whole.vertices, outside, at)
-    missing = np.linalg.norm(normals, axis=1) < 0.5
-    result = np.array(normals)
+    found = fairing.surrounding_normals(whole.vertices, outside, at)
+    missing = np.linalg.norm(found.normals, axis=1) < 0.5
+    result = np.array(found.normals)
     if missing.any():
         result[missing] = fairing.vertex_normals(whole.vertices, whole.triangles, normals="averaged")[at[missing]]
-    return result, fitted
+    return result, found.fitted
 
 
 def listed_patches() -> Iterator[RealPatch]:

@@ -11,6 +11,7 @@
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "geometry/outline_angles.h"
+#include "outline/visible_join.h"
 
 namespace fairing {
 
@@ -26,7 +27,8 @@ public:
              {&prepared.mesh.topology_warnings, &prepared.mesh.warnings, &prepared.closed_components}) {
             add_warnings(*list);
         }
-        side_angles_.assign(at(static_cast<int>(input.vertices.cols())), 0.0);
+        side_angles_.setZero(input.vertices.cols());
+        side_joins_.setZero(input.vertices.cols());
         solved_curvature_.setZero(input.vertices.cols());
         solved_sides_.setZero(input.vertices.cols());
     }
@@ -45,7 +47,8 @@ public:
         const bool has_normals = options_.solver.equation != Equation::minimal;
         const Points& prescribed = has_normals ? answer.problem.fixed_normals : solution.boundary_normals;
         const VectorX angles = boundary_angles(patch, solution.boundary_normals, prescribed);
-        add_angles(patch, angles);
+        add_largest(patch, angles, side_angles_);
+        add_largest(patch, one_sided_join(patch, solution.points, prescribed), side_joins_);
         if (const Termination end = end_of(solution); end != Termination::converged) {
             add_failure(patch, solution, end, reason_of(solution, angles));
         }
@@ -57,10 +60,8 @@ public:
         for (int v = 0; v < solved_sides_.size(); ++v) {
             if (solved_sides_[v] > 0.0) result_.mean_curvature[v] = solved_curvature_[v] / solved_sides_[v];
         }
-        result_.boundary_angle.resize(static_cast<Eigen::Index>(result_.fixed.size()));
-        for (std::size_t k = 0; k < result_.fixed.size(); ++k) {
-            result_.boundary_angle[static_cast<Eigen::Index>(k)] = side_angles_[at(result_.fixed[k])];
-        }
+        result_.boundary_angle = side_angles_(result_.fixed);
+        result_.join = side_joins_(result_.fixed);
         return std::move(result_);
     }
 
@@ -112,10 +113,11 @@ private:
              std::move(elements), folded ? ElementKind::triangle : ElementKind::vertex});
     }
 
-    void add_angles(const Patch& patch, const VectorX& angles) {
-        for (int k = 0; k < angles.size(); ++k) {
-            double& angle = side_angles_[at(fixed_vertices(patch)[at(k)])];
-            angle = std::max(angle, angles[k]);
+    // `values`: at the patch's fixed vertices; `largest`: of all sides so far, at input vertices.
+    static void add_largest(const Patch& patch, const VectorX& values, VectorX& largest) {
+        for (int k = 0; k < values.size(); ++k) {
+            double& here = largest[fixed_vertices(patch)[at(k)]];
+            here = std::max(here, values[k]);
         }
     }
 
@@ -139,8 +141,9 @@ private:
     const PreparedMesh& prepared_;
     const FairOptions& options_;
     FairResult result_;
-    std::vector<double> side_angles_;  // per input vertex, the larger of its sides
-    VectorX solved_curvature_;         // per input vertex, summed over the sides that were solved
+    VectorX side_angles_;       // per input vertex, the larger of its sides
+    VectorX side_joins_;        // likewise
+    VectorX solved_curvature_;  // per input vertex, summed over the sides that were solved
     VectorX solved_sides_;
 };
 

@@ -66,6 +66,7 @@ py::dict to_dict(const FairResult& result) {
     dict["fixed"] = from_indices(result.fixed);
     dict["mean_curvature"] = from_vector(result.mean_curvature);
     dict["boundary_angle"] = from_vector(result.boundary_angle);
+    dict["join"] = from_vector(result.join);
     dict["converged"] = result.converged;
     dict["polished"] = result.polished;
     dict["termination"] = termination_name(result.termination);

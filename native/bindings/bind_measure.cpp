@@ -1,7 +1,6 @@
 #include "api/measure.h"
 #include "bindings/convert.h"
 #include "bindings/topics.h"
-#include "geometry/surface_fit.h"
 #include "mesh/loops.h"
 
 namespace fairing::bindings {
@@ -42,15 +41,6 @@ py::array conformal_distortion_array(const DoubleArray& reference, const DoubleA
     return from_vector(conformal_distortion(to_points(reference), to_points(vertices), to_triangles(triangles)));
 }
 
-py::tuple surrounding_normal_arrays(const DoubleArray& vertices, const IntArray& triangles, const IntArray& at) {
-    const SurroundingNormals result = surrounding_normals(to_points(vertices), to_triangles(triangles), to_indices(at));
-    py::array_t<bool> fitted(static_cast<py::ssize_t>(result.fitted.size()));
-    for (std::size_t k = 0; k < result.fitted.size(); ++k) {
-        fitted.mutable_at(static_cast<py::ssize_t>(k)) = result.fitted[k] != 0;
-    }
-    return py::make_tuple(from_points(result.normals), fitted);
-}
-
 }  // namespace
 
 void bind_measure(py::module_& module) {
@@ -61,8 +51,6 @@ void bind_measure(py::module_& module) {
     module.def("boundary_loops", &boundary_loop_arrays, py::arg("triangles"));
     module.def("conformal_distortion", &conformal_distortion_array, py::arg("reference"), py::arg("vertices"),
                py::arg("triangles"));
-    module.def("surrounding_normals", &surrounding_normal_arrays, py::arg("vertices"), py::arg("triangles"),
-               py::arg("at"));
 }
 
 }  // namespace fairing::bindings

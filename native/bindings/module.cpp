@@ -8,4 +8,5 @@ PYBIND11_MODULE(_core, module) {
     fairing::bindings::bind_fair(module);
     fairing::bindings::bind_hierarchy(module);
     fairing::bindings::bind_measure(module);
+    fairing::bindings::bind_outline(module);
 }

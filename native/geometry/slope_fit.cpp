@@ -19,14 +19,17 @@ constexpr int most_rounds = 10;
 constexpr double settled = 1e-12;
 constexpr double cos_of_widest_turn = 0.5;
 
-// Columns of the system: quadratic and cubic terms, then x and y; the heights stand in the last one.
+// Columns of the system: quadratic and cubic terms, the constant where the centre is free, then x and y; the heights
+// stand in the last one.
 constexpr Eigen::Index quadratic_terms = 3;
 constexpr Eigen::Index cubic_terms = 4;
 
 struct Round {
-    Eigen::Vector2d slopes;     // along the frame's u and v
-    Eigen::Vector3d quadratic;  // of x², xy, y²
+    Eigen::Vector2d slopes;  // along the frame's u and v
+    Eigen::Vector<double, 7> terms;
+    double constant;
     double error;
+    double scatter;
 };
 
 // The axes in which the quadratic terms are written. Where the direction isn't known yet, chords stretch all of them.
@@ -38,71 +41,91 @@ struct Axes {
 
 class Fit {
 public:
-    Fit(const Vector3& centre, std::span<const Vector3> points, Degree degree)
-        : offsets_(3, static_cast<Eigen::Index>(points.size())),
-          terms_(degree == Degree::cubic ? quadratic_terms + cubic_terms : quadratic_terms),
-          system_(offsets_.cols(), terms_ + 3) {
+    Fit(const Vector3& centre, std::span<const Vector3> points, Degree degree, Centre at_centre)
+        : terms_(degree == Degree::cubic ? quadratic_terms + cubic_terms : quadratic_terms),
+          constants_(at_centre == Centre::free ? 1 : 0),
+          offsets_(3, static_cast<Eigen::Index>(points.size()) + constants_),
+          system_(offsets_.cols(), terms_ + constants_ + 3) {
+        offsets_.rightCols(constants_).setZero();  // the centre itself
         for (std::size_t k = 0; k < points.size(); ++k) {
             offsets_.col(static_cast<Eigen::Index>(k)) = points[k] - centre;
         }
-        const double scale = std::sqrt(offsets_.colwise().squaredNorm().maxCoeff());
-        if (scale > 0.0) offsets_ /= scale;
-        usable_ = scale > 0.0 && offsets_.cols() > terms_ + 2;
+        scale_ = std::sqrt(offsets_.colwise().squaredNorm().maxCoeff());
+        if (scale_ > 0.0) offsets_ /= scale_;
     }
 
-    [[nodiscard]] bool usable() const { return usable_; }
+    [[nodiscard]] bool usable() const { return scale_ > 0.0 && offsets_.cols() > unknowns(); }
+    [[nodiscard]] double scale() const { return scale_; }
 
-    std::optional<Round> round(const Vector3& normal, const Axes& axes) {
-        for (Eigen::Index k = 0; k < offsets_.cols(); ++k) fill_row(k, offsets_.col(k), normal, axes);
+    // `constant`: c₀ of the round before.
+    std::optional<Round> round(const Vector3& normal, const Axes& axes, double constant) {
+        for (Eigen::Index k = 0; k < offsets_.cols(); ++k) fill_row(k, normal, axes, constant);
         const Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> qr(system_);
         return solve();
     }
 
 private:
-    void fill_row(Eigen::Index k, const Vector3& d, const Vector3& normal, const Axes& axes) {
+    [[nodiscard]] Eigen::Index unknowns() const { return terms_ + constants_ + 2; }
+
+    [[nodiscard]] double weight(Eigen::Index k) const {
+        return std::exp(-offsets_.col(k).squaredNorm() / (width_of_weights * width_of_weights));
+    }
+
+    void fill_row(Eigen::Index k, const Vector3& normal, const Axes& axes, double constant) {
+        const Vector3 d = offsets_.col(k);
         const double x = axes.x.dot(d);
         const double y = axes.y.dot(d);
         const double height = normal.dot(d);
         auto row = system_.row(k);
         row.head<3>() << x * x, x * y, y * y;
         if (axes.known) {
-            row[0] += height * height;
+            row[0] += (height - constant) * (height - constant);
         } else {
             row.head<3>() *= d.squaredNorm() / std::max(x * x + y * y, 1e-24);
         }
         if (terms_ > quadratic_terms) row.segment<4>(3) << x * x * x, x * x * y, x * y * y, y * y * y;
+        row.segment(terms_, constants_).setOnes();
         row.tail<3>() << x, y, height;
-        row *= std::exp(-d.squaredNorm() / (width_of_weights * width_of_weights));
+        row *= weight(k);
     }
 
     // From the triangular factor in place of the system. The slopes are the last unknowns: their covariance needs the
     // last block of the factor only.
     [[nodiscard]] std::optional<Round> solve() const {
-        const Eigen::Index unknowns = terms_ + 2;
-        const auto factor = system_.topLeftCorner(unknowns, unknowns);
+        const auto factor = system_.topLeftCorner(unknowns(), unknowns());
         const VectorX pivots = factor.diagonal().cwiseAbs();
         if (!(pivots.minCoeff() > least_pivot * pivots.maxCoeff())) return std::nullopt;
-        VectorX solution = system_.col(unknowns).head(unknowns);
+        VectorX solution = system_.col(unknowns()).head(unknowns());
         factor.triangularView<Eigen::Upper>().solveInPlace(solution);
         const Eigen::Matrix2d last = factor.bottomRightCorner<2, 2>();
         const Eigen::Matrix2d inverse = last.triangularView<Eigen::Upper>().solve(Eigen::Matrix2d::Identity());
-        const auto spare = static_cast<double>(offsets_.cols() - unknowns);
-        const double residual = system_(unknowns, unknowns);
-        Round result{solution.tail<2>(), solution.head<3>(), inverse.norm() * std::abs(residual) / std::sqrt(spare)};
+        const auto spare = static_cast<double>(offsets_.cols() - unknowns());
+        const double residual = std::abs(system_(unknowns(), unknowns())) / std::sqrt(spare);
+        Round result{solution.tail<2>(), {}, constants_ > 0 ? solution[terms_] : 0.0, inverse.norm() * residual,
+                     residual / root_mean_square_weight()};
+        result.terms.setZero();
+        result.terms.head(terms_) = solution.head(terms_);
         if (!result.slopes.allFinite() || !std::isfinite(result.error)) return std::nullopt;
         return result;
     }
 
-    Points offsets_;  // in units of the farthest
+    [[nodiscard]] double root_mean_square_weight() const {
+        double sum = 0.0;
+        for (Eigen::Index k = 0; k < offsets_.cols(); ++k) sum += weight(k) * weight(k);
+        return std::sqrt(sum / static_cast<double>(offsets_.cols()));
+    }
+
     Eigen::Index terms_;
+    Eigen::Index constants_;
+    Points offsets_;  // in units of the farthest
     Eigen::MatrixXd system_;
-    bool usable_;
+    double scale_ = 0.0;
 };
 
 // The direction of the larger principal curvature, in space.
-Vector3 most_curved(const Eigen::Vector3d& quadratic, const Axes& axes) {
+Vector3 most_curved(const Eigen::Vector<double, 7>& terms, const Axes& axes) {
     Eigen::Matrix2d form;
-    form << quadratic[0], 0.5 * quadratic[1], 0.5 * quadratic[1], quadratic[2];
+    form << terms[0], 0.5 * terms[1], 0.5 * terms[1], terms[2];
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
     eigen.computeDirect(form);
     const int larger = std::abs(eigen.eigenvalues()[0]) > std::abs(eigen.eigenvalues()[1]) ? 0 : 1;
@@ -115,27 +138,52 @@ Axes turned_into(const Vector3& direction, const Vector3& normal) {
     return {x, normal.cross(x), true};
 }
 
+// What a round found, as a fit whose normal it turns.
+void take(SlopeFit& fit, const Round& round, const Axes& axes) {
+    const double scale = fit.scale;
+    fit.normal = (fit.normal - round.slopes.x() * axes.x - round.slopes.y() * axes.y).normalized();
+    fit.error = round.error + round.slopes.norm();
+    fit.height = scale * round.constant;
+    fit.scatter = scale * round.scatter;
+    fit.x = axes.x;
+    fit.y = axes.y;
+    fit.terms = round.terms;
+}
+
 }  // namespace
 
 std::optional<SlopeFit> fit_slopes(const Vector3& centre, std::span<const Vector3> points, const Vector3& start,
-                                   Degree degree) {
+                                   Degree degree, Centre at_centre) {
     if (points.empty() || start.isZero()) return std::nullopt;
-    Fit fit(centre, points, degree);
+    Fit fit(centre, points, degree, at_centre);
     if (!fit.usable()) return std::nullopt;
-    SlopeFit result{start, 0.0};
+    SlopeFit result{.normal = start, .scale = fit.scale()};
     const Frame first(start);
     Axes axes{first.u, first.v, false};
+    double constant = 0.0;
     for (int k = 0; k < most_rounds; ++k) {
-        const auto round = fit.round(result.normal, axes);
+        const auto round = fit.round(result.normal, axes, constant);
         if (!round) return std::nullopt;
-        const Vector3 direction = most_curved(round->quadratic, axes);
-        result.normal = (result.normal - round->slopes.x() * axes.x - round->slopes.y() * axes.y).normalized();
-        result.error = round->error + round->slopes.norm();
+        const double change = round->slopes.norm() + std::abs(round->constant - constant);
+        constant = round->constant;
+        const Vector3 direction = most_curved(round->terms, axes);
+        take(result, *round, axes);
         axes = turned_into(direction, result.normal);
-        if (k + 1 >= least_rounds && round->slopes.norm() < settled) break;
+        if (k + 1 >= least_rounds && change < settled) break;
     }
     if (!(result.normal.dot(start) > cos_of_widest_turn)) return std::nullopt;
     return result;
+}
+
+Vector3 SlopeFit::normal_at(const Vector3& offset) const {
+    const double across = x.dot(offset) / scale;
+    const double along = y.dot(offset) / scale;
+    const double above = (normal.dot(offset) - height) / scale;
+    const double slope_x = 2.0 * terms[0] * across + terms[1] * along + 3.0 * terms[3] * across * across +
+                           2.0 * terms[4] * across * along + terms[5] * along * along;
+    const double slope_y = terms[1] * across + 2.0 * terms[2] * along + terms[4] * across * across +
+                           2.0 * terms[5] * across * along + 3.0 * terms[6] * along * along;
+    return ((1.0 - 2.0 * terms[0] * above) * normal - slope_x * x - slope_y * y).normalized();
 }
 
 }  // namespace fairing

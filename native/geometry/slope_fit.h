@@ -8,19 +8,33 @@
 
 namespace fairing {
 
+enum class Degree { quadratic, cubic };
+// Whether the surface passes through the centre, or the centre is a noisy point like the others.
+enum class Centre { met, free };
+
 struct SlopeFit {
-    Vector3 normal;  // unit
-    double error;    // of the slopes: their standard error, and what the last round still changed
+    Vector3 normal;        // unit
+    double error = 0.0;    // of the slopes: their standard error, and what the last round still changed
+    double height = 0.0;   // of the surface over the centre, along the normal; 0 where the centre is met
+    double scatter = 0.0;  // standard deviation of the points' heights from the surface
+
+    // Unit, of the fitted surface beside the point at this offset from the centre.
+    [[nodiscard]] Vector3 normal_at(const Vector3& offset) const;
+
+    // The terms belong to x², xy, y², x³, x²y, xy², y³ along `x` and `y`, all in units of `scale`.
+    Vector3 x = Vector3::Zero();
+    Vector3 y = Vector3::Zero();
+    double scale = 1.0;
+    Eigen::Vector<double, 7> terms = Eigen::Vector<double, 7>::Zero();
 };
 
-enum class Degree { quadratic, cubic };
-
-// Fits ⟨d, n⟩ = κ₁ (x² + ⟨d, n⟩²)/2 + b xy + κ₂ y²/2 (and cubic terms) to d = p − centre with tangential coordinates x,
-// y along and across the direction that is curved most: a circle there, so that spheres and cylinders are met exactly
-// by any points, however far around they reach (chords as in paper eq. 8 do so for spheres). Least squares with
-// Gaussian weights; n and the direction are iterated from `start`. Nothing where the points are too few to tell an
-// error (6 and 10), don't determine the terms, or lead more than 60° away from `start`.
+// Fits h = a (x² + h²) + b xy + c y² (and cubic terms), h = ⟨d, n⟩ − c₀, to d = p − centre with tangential coordinates
+// x, y along and across the direction that is curved most: a circle there, so that spheres and cylinders are met
+// exactly by any points, however far around they reach (chords as in paper eq. 8 do so for spheres). c₀ = 0 where the
+// centre is met; where it is free, c₀ is fitted and the centre is a point of weight 1. Least squares with Gaussian
+// weights; n, the direction and c₀ are iterated from `start`. Nothing where the points are too few to tell an error (6
+// and 10), don't determine the terms, or lead more than 60° away from `start`.
 std::optional<SlopeFit> fit_slopes(const Vector3& centre, std::span<const Vector3> points, const Vector3& start,
-                                   Degree degree);
+                                   Degree degree, Centre at_centre = Centre::met);
 
 }  // namespace fairing

@@ -1,20 +1,42 @@
-// Normals from surfaces fitted to nearby points: for outlines, where the one-ring sees one side only.
+// Surfaces fitted to nearby vertices: for outlines, where the one-ring sees one side only.
 #pragma once
 
+#include "geometry/neighbourhood.h"
+#include "geometry/slope_fit.h"
 #include "mesh/patch.h"
 
 namespace fairing {
 
-// Normals at the fixed vertices (3 × fixed count) fitted to the patch's own side of the outline; averaged ones where
-// the fit has too few points.
-Points one_sided_normals(const Patch& patch, const Points& points);
+// The best fits at vertices of a surface formed by triangles. Where the centres are met, four fits of up to three rings
+// compete; where they are free, fits of up to four rings and the 40 nearest vertices do, too, against noise.
+class SurfaceFits {
+public:
+    // Coordinates beyond ±1e100 or within ±1e-100 lose their digits: scale them. Keeps references.
+    SurfaceFits(const Points& points, const Triangles& triangles, Centre at_centres);
 
-struct SurroundingNormals {
-    Points normals;            // 3 × k, unit; zero where there is no triangle
-    std::vector<char> fitted;  // 0: averaged, for want of points
+    // The fit whose slopes have the least standard error; nothing where the points are too few.
+    std::optional<SlopeFit> at_vertex(int vertex);
+    // The normalised sum of the adjacent triangles' cross products; zero where there are none.
+    [[nodiscard]] Vector3 averaged(int vertex) const { return averaged_.col(vertex); }
+
+private:
+    const Points& points_;
+    VertexAdjacency adjacency_;
+    Neighbourhood around_;
+    Points averaged_;
+    Centre at_centres_;
 };
 
-// Normals at `vertices` of the surface formed by `triangles` alone (the surroundings of a patch).
-SurroundingNormals surrounding_normals(const Points& points, const Triangles& triangles, const Indices& vertices);
+// Coordinates of the triangles' corners divided by `size`, the largest of them: no product of edges is infinite, and
+// none is lost to denormals.
+struct UnitSized {
+    Points points;
+    double size;
+};
+UnitSized to_unit_size(const Points& points, const Triangles& triangles);
+
+// Normals at the fixed vertices (3 × fixed count) of the surface through them that fits the patch's own side of the
+// outline; averaged ones where the fit has too few points.
+Points one_sided_normals(const Patch& patch, const Points& points);
 
 }  // namespace fairing

@@ -8,9 +8,9 @@
 
 #include "api/fair_solver.h"
 #include "api/measure.h"
-#include "geometry/surface_fit.h"
 #include "law.h"
 #include "mesh/loops.h"
+#include "outline/surrounding_fit.h"
 #include "random_mesh.h"
 #include "random_options.h"
 #include "watchdog.h"

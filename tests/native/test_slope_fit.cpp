@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include "geometry/slope_fit.h"
@@ -96,4 +97,68 @@ TEST_CASE("a fit that leads far from its start is none") {
     const auto fit = fit_slopes(Vector3::Zero(), steep, normal, Degree::quadratic);
     REQUIRE(fit.has_value());
     CHECK((fit->normal - normal).norm() < 1e-12);
+}
+
+TEST_CASE("a free centre may lie off the surface, and the fit tells how far") {
+    const auto sphere = [](double x, double y) { return std::sqrt(1.0 - x * x - y * y) - 1.0; };
+    const Vector3 lifted(0.0, 0.0, 0.02);
+    for (const double unit : {1.0, 1000.0}) {
+        std::vector<Vector3> points = half_grid(0.5, 6, 9, sphere);
+        for (Vector3& point : points) point *= unit;
+        const auto free = fit_slopes(unit * lifted, points, tilted, Degree::quadratic, Centre::free);
+        const auto met = fit_slopes(unit * lifted, points, tilted, Degree::quadratic);
+        REQUIRE(free.has_value());
+        REQUIRE(met.has_value());
+        CHECK((free->normal - Vector3::UnitZ()).norm() < 0.5 * (met->normal - Vector3::UnitZ()).norm());
+        CHECK(free->height / unit < -0.01);
+        CHECK(free->height / unit > -0.02);
+        CHECK(met->height == 0.0);
+    }
+}
+
+TEST_CASE("with a free centre spheres and cylinders are still exact, and all of their normals are predicted") {
+    const auto sphere = [](double x, double y) { return std::sqrt(1.0 - x * x - y * y) - 1.0; };
+    const auto cylinder = [](double x, double) { return std::sqrt(1.0 - x * x) - 1.0; };
+    for (const Degree degree : {Degree::quadratic, Degree::cubic}) {
+        const auto round = fit_slopes(Vector3::Zero(), half_grid(0.8, 6, 5, sphere), tilted, degree, Centre::free);
+        const auto tube = fit_slopes(Vector3::Zero(), half_grid(0.8, 6, 5, cylinder), tilted, degree, Centre::free);
+        REQUIRE(round.has_value());
+        REQUIRE(tube.has_value());
+        CHECK((round->normal - Vector3::UnitZ()).norm() < 1e-11);
+        CHECK((tube->normal - Vector3::UnitZ()).norm() < 1e-11);
+        CHECK(std::abs(round->height) < 1e-12);
+        for (const double x : {-0.4, 0.3, 0.6}) {
+            const Vector3 offset(x, 0.1, cylinder(x, 0.1));
+            CHECK((tube->normal_at(offset) - Vector3(x, 0.0, 1.0 + offset.z())).norm() < 1e-10);
+            const Vector3 beside(x, 0.0, sphere(x, 0.0));
+            CHECK((round->normal_at(beside) - Vector3(x, 0.0, 1.0 + beside.z())).norm() < 1e-10);
+        }
+    }
+}
+
+TEST_CASE("noise: the standard error is what the normals err by, the scatter is the noise") {
+    const double noise = 0.01;
+    double squared_angle = 0.0;
+    double squared_error = 0.0;
+    double squared_scatter = 0.0;
+    double squared_by_met = 0.0;
+    constexpr unsigned trials = 200;
+    for (unsigned seed = 0; seed < trials; ++seed) {
+        std::mt19937 random(seed);
+        std::normal_distribution<double> normal(0.0, noise);
+        const auto bowl = [&](double x, double y) { return 0.3 * x * x + 0.1 * x * y - 0.2 * y * y + normal(random); };
+        const std::vector<Vector3> points = half_grid(1.0, 5, 7, bowl);
+        const Vector3 centre(0.0, 0.0, normal(random));
+        const auto free = fit_slopes(centre, points, tilted, Degree::quadratic, Centre::free);
+        const auto met = fit_slopes(centre, points, tilted, Degree::quadratic);
+        REQUIRE(free.has_value());
+        REQUIRE(met.has_value());
+        squared_angle += (free->normal - Vector3::UnitZ()).squaredNorm();
+        squared_by_met += (met->normal - Vector3::UnitZ()).squaredNorm();
+        squared_error += free->error * free->error;
+        squared_scatter += free->scatter * free->scatter;
+    }
+    CHECK(std::sqrt(squared_angle / squared_error) == doctest::Approx(1.0).epsilon(0.3));
+    CHECK(std::sqrt(squared_scatter / trials) == doctest::Approx(noise).epsilon(0.3));
+    CHECK(squared_by_met > 1.5 * squared_angle);
 }

@@ -2,14 +2,22 @@
 
 from fairing._core import __version__
 from fairing._fair import fair
+from fairing._growing import GrownOutline, grown_outline
 from fairing._hierarchy import hierarchy
 from fairing._measure import (
     boundary_loops,
     conformal_distortion,
     cotan_laplacian,
     mean_curvature,
-    surrounding_normals,
     vertex_normals,
+)
+from fairing._outline import (
+    MendedOutline,
+    SurroundingNormals,
+    bad_outline,
+    mend_outline,
+    surrounding_normals,
+    visible_join,
 )
 from fairing._solver import Solver
 from fairing._types import Cancelled, Diagnostic, FairResult, MeshError, SolverError
@@ -18,16 +26,23 @@ __all__ = [
     "Cancelled",
     "Diagnostic",
     "FairResult",
+    "GrownOutline",
+    "MendedOutline",
     "MeshError",
     "Solver",
     "SolverError",
+    "SurroundingNormals",
     "__version__",
+    "bad_outline",
     "boundary_loops",
     "conformal_distortion",
     "cotan_laplacian",
     "fair",
+    "grown_outline",
     "hierarchy",
     "mean_curvature",
+    "mend_outline",
     "surrounding_normals",
     "vertex_normals",
+    "visible_join",
 ]

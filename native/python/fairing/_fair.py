@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _options
+from fairing import _arguments, _core, _mending, _options
 from fairing._types import FairResult
 
 Progress = Callable[[float, str], "bool | None"]
@@ -39,6 +39,8 @@ def fair(
     acceleration: str | None = None,
     virtual_points: str | None = None,
     start: str | None = None,
+    outline: str = "given",
+    outside: npt.ArrayLike | None = None,
 ) -> FairResult:
     """Replace the free vertices of a mesh by the fairest surface with the given boundary data.
 
@@ -110,6 +112,13 @@ def fair(
     start : "improved" | "linear"
         "paper": fill of the coarsest level: the linear bilaplacian, or made fair by mixed finite elements (default).
         With ``levels=1, max_iterations=1`` it is what comes back.
+    outline : "given" | "mended"
+        "mended": a noisy outline is moved onto the fit of its surroundings first, and the two rings outside with it, as
+        :func:`fairing.mend_outline` does; the normals there are the fit's. The result names what ``moved``. Where that
+        gives folds or no solution, and the outline as given does not, the latter is kept (warning OUTLINE_KEPT).
+    outside : (o, 3) int
+        Triangles around the patch, which stay: what "mended" and ``join`` look at. Triangles whose corners are all
+        ``fixed`` count among them.
 
     Returns
     -------
@@ -146,6 +155,14 @@ def fair(
         equation=equation, load=load, fairness=kind, method=method, normals=normals,
         tolerance=tolerance, max_iterations=max_iterations, threads=threads,
     )  # fmt: skip
-    return FairResult(
-        **_core.fair(points, faces, fixed_list, given_normals, m0, edges, weights, options, paper, progress)
-    )
+    as_given = _mending.Boundary(points, fixed_list, given_normals)
+    around = _mending.Surroundings.of(points, faces, fixed_list, outside)
+
+    def call(boundary: _mending.Boundary) -> dict[str, Any]:
+        return _core.fair(
+            boundary.vertices, faces, boundary.fixed, boundary.normals, m0, edges, weights, options, paper, progress
+        )
+
+    mended = _arguments.choice("outline", outline, _options.OUTLINES) == "mended"
+    answer = _mending.solve_mended(call, as_given, faces, around) if mended else call(as_given)
+    return FairResult(**_mending.with_join(answer, around))

@@ -72,22 +72,3 @@ def conformal_distortion(reference: npt.ArrayLike, vertices: npt.ArrayLike, tria
     m0 = _arguments.floats("reference", reference, points.shape[0])
     faces = _arguments.triangles_within(triangles, points.shape[0])
     return _core.conformal_distortion(m0, points, faces)
-
-
-def surrounding_normals(
-    vertices: npt.ArrayLike, triangles: npt.ArrayLike, at: npt.ArrayLike
-) -> tuple[FloatArray, npt.NDArray[np.bool_]]:
-    """Normals at the vertices ``at`` of the surface that ``triangles`` alone form.
-
-    Made for the outline of a patch: ``triangles`` are those outside it. A polynomial is fitted to the nearest
-    of their vertices, a few rings wide. Returns ((k, 3) unit normals, (k,) bool); where the second is False
-    there were too few points and the normal is the average of the adjacent triangles'. Rows of vertices without any
-    of these triangles are zero, as along a border of the whole mesh: leave them out of ``fixed`` and ``fixed_normals``,
-    where a normal of length zero is refused. Triangles with a corner that is NaN or infinite are left out.
-    """
-    points = _arguments.floats("vertices", vertices)
-    faces = _arguments.triangles_within(triangles, points.shape[0])
-    where = _arguments.integers("at", at, None)
-    _arguments.indices_within("at", where, points.shape[0])
-    bounded = faces[np.isfinite(points[faces]).all(axis=(1, 2))]
-    return _core.surrounding_normals(points, bounded, where)

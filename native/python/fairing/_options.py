@@ -12,6 +12,7 @@ from fairing._types import FloatArray, IntArray
 
 METHODS = ("global", "paper")
 NORMALS = ("fitted", "averaged")
+OUTLINES = ("given", "mended")
 EQUATIONS = ("harmonic", "constant", "minimal_energy", "minimal")
 INNER_FAIRNESS = ("uniform", "conformal", "inverse_distance", "shape_preserving")
 VIRTUAL_POINTS = ("sparse", "coarse", "everywhere")

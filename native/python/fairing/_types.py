@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int32]
+FOLDS = ("FOLDED", "FLIPPED_TRIANGLES", "SELF_INTERSECTION")  # codes of warnings about the surface itself
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,13 +67,16 @@ class FairResult:
     """
 
     vertices: FloatArray
-    """(n, 3) positions; vertices that are not free keep their bits."""
+    """(n, 3) positions; vertices that are neither free nor in ``moved`` keep their bits."""
     fixed: IntArray
     """(k',) all fixed vertices: those given, in their order, then the other border vertices."""
     mean_curvature: FloatArray
     """(n,) H, in length⁻¹: −1/R on a sphere of radius R with outward normals (eq. 8)."""
     boundary_angle: FloatArray
     """(k',) degrees between prescribed and obtained normals, in the order of ``fixed``."""
+    join: FloatArray
+    """(k',) degrees, in the order of ``fixed``: how visible the join is (see :func:`fairing.visible_join`). Where no
+    triangles outside were given, they are taken for the patch's mirror image across the prescribed tangent planes."""
     converged: bool
     """Whether every component has its surface: the equation is solved to the tolerance, and the vertices lie on the
     solution without folds. Where not, the best positions found are given."""
@@ -100,3 +104,5 @@ class FairResult:
     last answer, "nested" from coarse to fine, "direct" on the mesh given, "proxy" on a mesh of the engine's own, "even"
     and "uniform" by uniform weights first or only, "minimal", "patient", "paper". Several components follow each other."""
     warnings: tuple[Diagnostic, ...]
+    moved: IntArray = field(default_factory=lambda: np.empty(0, np.int32))
+    """Fixed and outside vertices that ``outline="mended"`` has moved, ascending."""

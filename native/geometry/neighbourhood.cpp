@@ -1,0 +1,73 @@
+#include "geometry/neighbourhood.h"
+
+#include <algorithm>
+
+namespace fairing {
+
+namespace {
+
+constexpr int most_rings = 5;
+constexpr std::size_t most_points = 60;
+
+}  // namespace
+
+VertexAdjacency::VertexAdjacency(const Triangles& triangles, int vertex_count) : begin(at(vertex_count) + 1, 0) {
+    for (int v : triangles.reshaped()) begin[at(v) + 1] += 2;
+    for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
+    neighbours.resize(at(begin.back()));
+    Indices cursor(begin.begin(), begin.end());
+    for (const auto triangle : triangles.colwise()) {
+        for (int k = 0; k < 3; ++k) {
+            neighbours[at(cursor[at(triangle[k])]++)] = triangle[(k + 1) % 3];
+            neighbours[at(cursor[at(triangle[k])]++)] = triangle[(k + 2) % 3];
+        }
+    }
+}
+
+Neighbourhood::Neighbourhood(const VertexAdjacency& adjacency, const Points& points, Reach reach)
+    : adjacency_(adjacency), points_(points), reach_(reach), mark_(static_cast<std::size_t>(points.cols()), none) {}
+
+void Neighbourhood::gather(int vertex) {
+    ++stamp_;
+    Indices visited(1, vertex);
+    mark_[at(vertex)] = stamp_;
+    size_of_rings_.assign(1, 0);
+    std::size_t ring_begin = 0;
+    while (static_cast<int>(size_of_rings_.size()) <= reach_.rings ||
+           (visited.size() <= reach_.points && static_cast<int>(size_of_rings_.size()) <= most_rings)) {
+        const std::size_t ring_end = visited.size();
+        for (std::size_t k = ring_begin; k < ring_end; ++k) visit_neighbours(visited[k], visited);
+        ring_begin = ring_end;
+        size_of_rings_.push_back(visited.size() - 1);
+    }
+    by_ring_.clear();
+    for (std::size_t k = 1; k < visited.size(); ++k) by_ring_.emplace_back(points_.col(visited[k]));
+    sort_by_distance(points_.col(vertex));
+}
+
+std::span<const Vector3> Neighbourhood::rings(int count) const {
+    return std::span(by_ring_).first(std::min(size_of_rings_[at(count)], most_points));
+}
+
+std::span<const Vector3> Neighbourhood::nearest(std::size_t count) const {
+    return std::span(by_distance_).first(std::min(by_distance_.size(), count));
+}
+
+void Neighbourhood::visit_neighbours(int vertex, Indices& visited) {
+    for (int k = adjacency_.begin[at(vertex)]; k < adjacency_.begin[at(vertex) + 1]; ++k) {
+        const int other = adjacency_.neighbours[at(k)];
+        if (mark_[at(other)] == stamp_) continue;
+        mark_[at(other)] = stamp_;
+        visited.push_back(other);
+    }
+}
+
+void Neighbourhood::sort_by_distance(const Vector3& centre) {
+    by_distance_ = by_ring_;
+    const std::size_t kept = std::min(by_distance_.size(), reach_.points);
+    std::partial_sort(
+        by_distance_.begin(), by_distance_.begin() + std::ptrdiff_t(kept), by_distance_.end(),
+        [&](const Vector3& a, const Vector3& b) { return (a - centre).squaredNorm() < (b - centre).squaredNorm(); });
+}
+
+}  // namespace fairing

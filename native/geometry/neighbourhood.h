@@ -1,0 +1,50 @@
+// The vertices around one in a triangle list, by rings and by distance.
+#pragma once
+
+#include <span>
+
+#include "base/types.h"
+
+namespace fairing {
+
+// Adjacency of any triangle list, flat. A neighbour across a two-sided edge stands there twice.
+struct VertexAdjacency {
+    Indices begin;
+    Indices neighbours;
+
+    VertexAdjacency(const Triangles& triangles, int vertex_count);
+};
+
+// Rings are gathered up to `rings`, and on (to five) until there are more points than `points`.
+struct Reach {
+    int rings;
+    std::size_t points;
+};
+
+class Neighbourhood {
+public:
+    // Keeps references.
+    Neighbourhood(const VertexAdjacency& adjacency, const Points& points, Reach reach);
+
+    void gather(int vertex);
+
+    // Few where a mesh is regular: 60 at fans.
+    [[nodiscard]] std::span<const Vector3> rings(int count) const;
+    // `count` ≤ reach.points.
+    [[nodiscard]] std::span<const Vector3> nearest(std::size_t count) const;
+
+private:
+    void visit_neighbours(int vertex, Indices& visited);
+    void sort_by_distance(const Vector3& centre);
+
+    const VertexAdjacency& adjacency_;
+    const Points& points_;
+    Reach reach_;
+    Indices mark_;
+    int stamp_ = none;
+    std::vector<std::size_t> size_of_rings_;  // of the first k rings together
+    std::vector<Vector3> by_ring_;
+    std::vector<Vector3> by_distance_;
+};
+
+}  // namespace fairing

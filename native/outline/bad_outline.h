@@ -1,0 +1,13 @@
+// Outline vertices whose surroundings say little about the surface.
+#pragma once
+
+#include "outline/surrounding_fit.h"
+
+namespace fairing {
+
+// Places in the list of vertices, ascending, where the fit's standard error is above .15 rad and four times the median,
+// or the vertex lies farther from its fit than .3 edges and four times the median: noise everywhere is none. Where
+// more than 15 % of the outline is bad, the worst of it. Vertices without triangles don't count.
+Indices bad_vertices(const SurroundingFit& fit);
+
+}  // namespace fairing

@@ -1,0 +1,128 @@
+#include "outline/dihedral_bands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "base/direction.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr int rings = 3;
+constexpr double usual_share = 0.75;  // of the length has less, and the same share has more than the lower bound
+
+struct WeightedAngle {
+    double angle;
+    double length;
+};
+
+// The angle that this share of the length doesn't exceed. `sorted` isn't empty.
+double quantile(const std::vector<WeightedAngle>& sorted, double share) {
+    double total = 0.0;
+    for (const WeightedAngle& entry : sorted) total += entry.length;
+    double sum = 0.0;
+    for (const WeightedAngle& entry : sorted) {
+        sum += entry.length;
+        if (sum >= share * total) return entry.angle;
+    }
+    return sorted.back().angle;
+}
+
+}  // namespace
+
+double AngleRange::excess(double angle) const { return std::max({0.0, low - angle, angle - high}); }
+
+void AngleRange::include(double angle) {
+    low = std::min(low, angle);
+    high = std::max(high, angle);
+}
+
+void AngleRange::include(const AngleRange& other) {
+    include(other.low);
+    include(other.high);
+}
+
+double dihedral_angle(const Vector3& first, const Vector3& second, const Vector3& a, const Vector3& opposite) {
+    const double angle = std::atan2(first.cross(second).norm(), first.dot(second)) * 180.0 / std::numbers::pi;
+    return first.dot(opposite - a) > 0.0 ? -angle : angle;
+}
+
+DihedralBands::DihedralBands(const Points& points, const Triangles& triangles)
+    : points_(points),
+      triangles_(triangles),
+      edges_(make_edges(triangles, static_cast<int>(points.cols()))),
+      normals_(3, triangles.cols()),
+      begin_(static_cast<std::size_t>(points.cols()) + 1, 0),
+      at_vertex_(static_cast<std::size_t>(triangles.size())),
+      triangle_mark_(static_cast<std::size_t>(triangles.cols()), 0),
+      edge_mark_(static_cast<std::size_t>(edges_.size()), 0) {
+    for (int v : triangles.reshaped()) ++begin_[at(v) + 1];
+    for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
+    Indices cursor(begin_.begin(), begin_.end() - 1);
+    for (int t = 0; t < triangles.cols(); ++t) {
+        for (int v : triangles.col(t)) at_vertex_[at(cursor[at(v)]++)] = t;
+        const Vector3 a = points.col(triangles(0, t));
+        const Vector3 side = points.col(triangles(1, t)) - a;
+        normals_.col(t) = direction(side.cross(Vector3(points.col(triangles(2, t)) - a)));
+    }
+    measure_edges();
+}
+
+void DihedralBands::measure_edges() {
+    angles_ = VectorX::Zero(edges_.size());
+    lengths_ = VectorX::Zero(edges_.size());
+    for (int e = 0; e < edges_.size(); ++e) {
+        const auto [a, b] = edges_.ends[at(e)];
+        lengths_[e] = (points_.col(a) - points_.col(b)).norm();
+        if (edges_.side_count(e) != 2) continue;
+        const int side = edges_.side(e, 1);
+        const int opposite = triangles_((side % 3 + 2) % 3, side / 3);
+        angles_[e] = dihedral_angle(normals_.col(edges_.side(e, 0) / 3), normals_.col(side / 3), points_.col(a),
+                                    points_.col(opposite));
+    }
+}
+
+Indices DihedralBands::triangles_near(int a, int b) {
+    ++stamp_;
+    Indices found;
+    Indices front{a, b};
+    for (int ring = 0; ring < rings; ++ring) {
+        Indices next;
+        for (int v : front) {
+            for (int k = begin_[at(v)]; k < begin_[at(v) + 1]; ++k) {
+                const int t = at_vertex_[at(k)];
+                if (triangle_mark_[at(t)] == stamp_) continue;
+                triangle_mark_[at(t)] = stamp_;
+                found.push_back(t);
+                next.insert(next.end(), triangles_.col(t).begin(), triangles_.col(t).end());
+            }
+        }
+        front = std::move(next);
+    }
+    return found;
+}
+
+AngleRange DihedralBands::usual(int a, int b) {
+    std::vector<WeightedAngle> near;
+    for (int t : triangles_near(a, b)) {
+        for (int k = 0; k < 3; ++k) {
+            const int e = edges_.edge_of_side[at(3 * t + k)];
+            if (edges_.side_count(e) != 2 || edge_mark_[at(e)] == stamp_) continue;
+            edge_mark_[at(e)] = stamp_;
+            near.push_back({angles_[e], lengths_[e]});
+        }
+    }
+    if (near.empty()) return {};
+    std::sort(near.begin(), near.end(),
+              [](const WeightedAngle& first, const WeightedAngle& second) { return first.angle < second.angle; });
+    AngleRange range;
+    range.include(quantile(near, 1.0 - usual_share));
+    range.include(quantile(near, usual_share));
+    return range;
+}
+
+}  // namespace fairing

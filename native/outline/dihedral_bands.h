@@ -1,0 +1,53 @@
+// Dihedral angles of a triangle list and what is usual among them near a place.
+#pragma once
+
+#include "mesh/edges.h"
+
+namespace fairing {
+
+// Lowest and highest angle that is no surprise, degrees.
+struct AngleRange {
+    double low = 0.0;
+    double high = 0.0;
+
+    // By how much an angle lies outside.
+    [[nodiscard]] double excess(double angle) const;
+    void include(double angle);
+    void include(const AngleRange& other);
+};
+
+// Degrees between the faces of an edge from a on: positive where the surface is convex, seen from the side of the
+// normals. `first` and `second` are the unit normals, `opposite` the third corner of the second triangle.
+double dihedral_angle(const Vector3& first, const Vector3& second, const Vector3& a, const Vector3& opposite);
+
+class DihedralBands {
+public:
+    // Precondition: three different indices in each triangle. Keeps references.
+    DihedralBands(const Points& points, const Triangles& triangles);
+
+    [[nodiscard]] const EdgeTable& edges() const { return edges_; }
+    [[nodiscard]] const Points& normals() const { return normals_; }  // of the triangles; zero without area
+    // Of edge e; zero where it has not two triangles.
+    [[nodiscard]] double angle(int edge) const { return angles_[edge]; }
+    // The middle half, by the edges' lengths, of the angles within three rings of triangles around an edge (a, b), and
+    // zero.
+    [[nodiscard]] AngleRange usual(int a, int b);
+
+private:
+    void measure_edges();
+    [[nodiscard]] Indices triangles_near(int a, int b);
+
+    const Points& points_;
+    const Triangles& triangles_;
+    EdgeTable edges_;
+    Points normals_;
+    VectorX angles_;
+    VectorX lengths_;
+    Indices begin_;  // of each vertex in `at_vertex_`
+    Indices at_vertex_;
+    Indices triangle_mark_;
+    Indices edge_mark_;
+    int stamp_ = 0;
+};
+
+}  // namespace fairing

@@ -1,0 +1,104 @@
+#include "outline/mended_outline.h"
+
+#include <algorithm>
+
+#include <Eigen/Geometry>
+
+#include "base/direction.h"
+#include "base/median.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr double least_noise = 0.02;  // edges
+constexpr double farthest = 0.25;     // edges
+constexpr int rings_outside = 2;
+
+// How much of the way each vertex goes: 1 on the outline, ⅔ and ⅓ on the rings outside, 0 beyond.
+VectorX shares(const Triangles& triangles, const Indices& outline, Eigen::Index count) {
+    VectorX share = VectorX::Zero(count);
+    share(outline).setOnes();
+    for (int ring = 1; ring <= rings_outside; ++ring) {
+        const VectorX before = share;
+        const double here = 1.0 - ring / (rings_outside + 1.0);
+        for (const auto t : triangles.colwise()) {
+            if (!(before(t).maxCoeff() > 0.0)) continue;
+            for (int v : t) {
+                if (before[v] == 0.0) share[v] = here;
+            }
+        }
+    }
+    return share;
+}
+
+double noise_of(const SurroundingFit& fit) {
+    std::vector<double> scatters;
+    for (std::size_t k = 0; k < fit.fits.size(); ++k) {
+        const double length = fit.lengths[static_cast<Eigen::Index>(k)];
+        if (fit.fits[k] && length > 0.0) scatters.push_back(fit.fits[k]->scatter / length);
+    }
+    return median(std::move(scatters));
+}
+
+// The moves of the vertices with a share, 3 × n, in the caller's units.
+Points moves(const Points& points, const Triangles& triangles, const VectorX& share) {
+    Indices moving;
+    for (int v = 0; v < share.size(); ++v) {
+        if (share[v] > 0.0) moving.push_back(v);
+    }
+    const SurroundingFit fit = fit_surroundings(points, triangles, moving);
+    Points result = Points::Zero(3, points.cols());
+    for (std::size_t k = 0; k < moving.size(); ++k) {
+        if (!fit.fits[k]) continue;
+        const double bound = farthest * fit.lengths[static_cast<Eigen::Index>(k)];
+        const double height = std::clamp(fit.fits[k]->height, -bound, bound);
+        result.col(moving[k]) = share[moving[k]] * fit.size * height * fit.fits[k]->normal;
+    }
+    return result;
+}
+
+Vector3 face_normal(const Points& points, const Eigen::Vector3i& t) {
+    const Vector3 a = points.col(t[0]);
+    return direction((points.col(t[1]) - a).cross(Vector3(points.col(t[2]) - a)));
+}
+
+// Takes back the moves at triangles that turn by more than 90°, until there are none. Returns the vertices.
+Indices hold_folds(const Points& points, const Triangles& triangles, Points& move) {
+    Indices held;
+    for (bool folded = true; folded;) {
+        folded = false;
+        const Points moved = points + move;
+        for (const auto t : triangles.colwise()) {
+            const bool moves = std::any_of(t.begin(), t.end(), [&](int v) { return !move.col(v).isZero(0.0); });
+            if (!moves || face_normal(moved, t).dot(face_normal(points, t)) >= 0.0) continue;
+            for (int v : t) {
+                if (move.col(v).isZero(0.0)) continue;
+                move.col(v).setZero();
+                held.push_back(v);
+            }
+            folded = true;
+        }
+    }
+    std::sort(held.begin(), held.end());
+    held.erase(std::unique(held.begin(), held.end()), held.end());
+    return held;
+}
+
+}  // namespace
+
+MendedOutline mend_outline(const Points& points, const Triangles& triangles, const Indices& outline) {
+    const SurroundingFit fit = fit_surroundings(points, triangles, outline);
+    MendedOutline result{points, {}, {}, noise_of(fit), normals_of(fit)};
+    if (result.noise < least_noise) return result;
+    Points move = moves(points, triangles, shares(triangles, outline, points.cols()));
+    result.held = hold_folds(points, triangles, move);
+    for (int v = 0; v < move.cols(); ++v) {
+        if (move.col(v).isZero(0.0)) continue;
+        result.vertices.col(v) += move.col(v);
+        result.moved.push_back(v);
+    }
+    return result;
+}
+
+}  // namespace fairing

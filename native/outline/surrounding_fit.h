@@ -1,0 +1,38 @@
+// Surfaces fitted at the vertices of an outline to the triangles outside it, and the normals that follow from them.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "geometry/slope_fit.h"
+
+namespace fairing {
+
+// Edges of an outline, as places in the list of vertices that were asked for.
+using OutlineEdges = std::vector<std::array<int, 2>>;
+
+struct SurroundingFit {
+    std::vector<std::optional<SlopeFit>> fits;  // of each vertex asked for, in units of `size`
+    Points centres;                             // 3 × k, likewise
+    Points averaged;                            // 3 × k: unit mean normals of the adjacent triangles, zero without any
+    VectorX lengths;                            // k: mean lengths of the adjacent edges, likewise; zero without any
+    Indices first;                              // k: the first place of the same vertex
+    OutlineEdges edges;                         // border edges between first places, each once
+    double size = 1.0;                          // of the coordinates
+};
+
+// Fits with free centres.
+SurroundingFit fit_surroundings(const Points& points, const Triangles& triangles, const Indices& vertices);
+
+struct SurroundingNormals {
+    Points normals;            // 3 × k, unit; zero where there is no triangle
+    std::vector<char> fitted;  // 0: averaged, for want of points
+    VectorX errors;            // k, radians: standard errors of the fits; infinite where not fitted
+};
+
+// Normals at `vertices` of the surface formed by `triangles` alone (the surroundings of a patch), filtered along the
+// outline.
+SurroundingNormals surrounding_normals(const Points& points, const Triangles& triangles, const Indices& vertices);
+SurroundingNormals normals_of(const SurroundingFit& fit);
+
+}  // namespace fairing

@@ -1,0 +1,27 @@
+// How visible the join of a patch with its surroundings is: dihedral angles along the outline against those nearby.
+#pragma once
+
+#include <optional>
+
+#include "mesh/patch.h"
+
+namespace fairing {
+
+// A mesh in two parts that meet in an outline; `before`: positions of all its vertices before the patch was faired.
+struct JoinedMesh {
+    Points vertices;
+    Triangles inside;
+    Triangles outside;
+    std::optional<Points> before;
+};
+
+// At each vertex of `outline`, degrees: by how much the signed dihedral angles of its outline edges exceed what is usual
+// within three rings inside and outside, and what the same edge had before; the mean over these edges, by their
+// lengths. 0 where no outline edge ends. Triangles that name a vertex twice are left out.
+VectorX visible_join(const JoinedMesh& mesh, const Indices& outline);
+
+// The same from the patch's side alone, at its fixed vertices (local order): the surroundings are taken for the patch's
+// mirror image across the prescribed tangent planes.
+VectorX one_sided_join(const Patch& patch, const Points& points, const Points& prescribed);
+
+}  // namespace fairing

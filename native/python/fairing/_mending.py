@@ -1,0 +1,118 @@
+"""``outline="mended"``: solve with the outline moved onto the fit of its surroundings, or with the one given."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from fairing import _arguments, _core
+from fairing._types import FOLDS, Diagnostic, FloatArray, IntArray
+
+Answer = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Boundary:
+    """What a solve is given: vertices (n, 3), ``fixed`` (k,) and its normals (k, 3), None where left out."""
+
+    vertices: FloatArray
+    fixed: IntArray | None
+    normals: FloatArray | None
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """Triangles between free vertices, and those around them that stay."""
+
+    inside: IntArray
+    outside: IntArray
+    rim: IntArray
+    """Vertices of both, ascending."""
+
+    @classmethod
+    def of(cls, vertices: FloatArray, triangles: IntArray, fixed: IntArray | None, given: Any) -> Surroundings:
+        """Outside are the triangles ``given``; without these those of the patch's whose corners are all fixed.
+
+        None are where that leaves most fixed vertices without any: single triangles at the outline's corners.
+        """
+        if given is not None:
+            named = _arguments.integers("outside", given, 3)
+            outside = _arguments.indices_within("outside", named, vertices.shape[0])
+            return cls._between(vertices, triangles, outside)
+        held = np.zeros(vertices.shape[0], dtype=bool)
+        held[_within(fixed, vertices.shape[0])] = True
+        idle = held[triangles].all(axis=1)
+        around = cls._between(vertices, triangles[~idle], triangles[idle])
+        if 2 * len(around.rim) < held[np.unique(around.inside)].sum():
+            return cls._between(vertices, triangles, triangles[:0])
+        return around
+
+    @classmethod
+    def _between(cls, vertices: FloatArray, inside: IntArray, outside: IntArray) -> Surroundings:
+        finite = outside[np.isfinite(vertices[outside]).all(axis=(1, 2))]
+        return cls(inside, finite, np.intersect1d(inside, finite).astype(np.int32))
+
+
+def _within(fixed: IntArray | None, count: int) -> IntArray:
+    """Those that exist: the engine names the others."""
+    if fixed is None:
+        return np.empty(0, np.int32)
+    return fixed[(fixed >= 0) & (fixed < count)]
+
+
+def solve_mended(
+    call: Callable[[Boundary], Answer], given: Boundary, triangles: IntArray, around: Surroundings
+) -> Answer:
+    """The better of both answers: the mended outline's, unless it has folds or no solution where the given one does."""
+    if not len(around.rim):
+        raise ValueError(
+            "outline: 'mended' needs the triangles outside: pass them as `outside`, or among the triangles with all "
+            "their vertices in `fixed`"
+        )
+    mended = _core.mend_outline(given.vertices, around.outside, around.rim)
+    if not len(mended["moved"]):
+        return call(given)
+    answer = call(_moved(given, triangles, around.rim, mended))
+    if not answer["converged"] or _folds(answer):
+        kept = call(given)
+        if (kept["converged"], -_folds(kept)) > (answer["converged"], -_folds(answer)):
+            return _told(kept, mended["moved"], "its mended place gives folds or no solution")
+    answer["moved"] = mended["moved"]
+    return _told(answer, mended["held"], "moving it would turn triangles over")
+
+
+def _moved(given: Boundary, triangles: IntArray, rim: IntArray, mended: Answer) -> Boundary:
+    """The mended positions, and the fitted normals at the rim."""
+    fixed = rim if given.fixed is None else given.fixed
+    if given.normals is None:
+        normals = _core.vertex_normals(given.vertices, triangles, "averaged")[fixed]
+    else:
+        normals = given.normals.copy()
+    place = np.searchsorted(rim, fixed).clip(max=len(rim) - 1)
+    found = (rim[place] == fixed) & mended["fitted"][place]
+    normals[found] = mended["normals"][place[found]]
+    return replace(given, vertices=mended["vertices"], fixed=fixed, normals=normals)
+
+
+def _folds(answer: Answer) -> int:
+    return sum(len(warning.elements) for warning in answer["warnings"] if warning.code in FOLDS)
+
+
+def _told(answer: Answer, vertices: IntArray, why: str) -> Answer:
+    if len(vertices):
+        text = f"{len(vertices)} vertices of a noisy outline keep their place: {why}"
+        answer["warnings"] += (Diagnostic("OUTLINE_KEPT", text, vertices, "vertex"),)
+    return answer
+
+
+def with_join(answer: Answer, around: Surroundings) -> Answer:
+    """The join measured on the triangles outside, at the vertices that have some."""
+    if len(around.rim):
+        fixed = answer["fixed"]
+        seen = _core.visible_join(answer["vertices"], around.inside, around.outside, fixed, None)
+        answer["join"] = np.where(np.isin(fixed, around.rim), seen, answer["join"])
+        answer["join"].flags.writeable = False
+    return answer

@@ -1,0 +1,114 @@
+"""The outline of a patch: what its surroundings say about it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from fairing import _arguments, _core
+from fairing._types import FloatArray, IntArray
+
+
+@dataclass(frozen=True, eq=False)
+class _OutlineNormals:
+    """Normals along an outline, fitted to the triangles outside it. All arrays are read-only."""
+
+    normals: FloatArray
+    """(k, 3) unit normals; rows of zeros where no triangle is adjacent."""
+    fitted: npt.NDArray[np.bool_]
+    """(k,) False where there were too few points: the normal is the average of the adjacent triangles' then."""
+    errors: FloatArray
+    """(k,) standard error of each fit's normal, radians; infinite where ``fitted`` is False."""
+
+
+@dataclass(frozen=True, eq=False)
+class SurroundingNormals(_OutlineNormals):
+    """What :func:`surrounding_normals` gives back; unpacks as ``normals, fitted``. All arrays are read-only."""
+
+    def __iter__(self) -> Iterator[npt.NDArray[Any]]:
+        return iter((self.normals, self.fitted))
+
+
+@dataclass(frozen=True, eq=False)
+class MendedOutline(_OutlineNormals):
+    """A noisy outline, moved onto the fit of its surroundings. All arrays are read-only."""
+
+    vertices: FloatArray
+    """(n, 3) positions; vertices that are not in ``moved`` keep their bits."""
+    moved: IntArray
+    """Vertices that were moved, ascending: of the outline and the two rings outside."""
+    held: IntArray
+    """Vertices that stay although the fit lies elsewhere: the move would turn triangles over."""
+    noise: float
+    """Median distance of the vertices near the outline from their fits, in edges. Below 0.02 nothing is moved."""
+
+
+def _bounded(
+    vertices: npt.ArrayLike, triangles: tuple[str, npt.ArrayLike], places: tuple[str, npt.ArrayLike]
+) -> tuple[FloatArray, IntArray, IntArray]:
+    """The arguments, checked; triangles with a corner that is NaN or infinite are left out."""
+    points = _arguments.floats("vertices", vertices)
+    name, given = triangles
+    faces = _arguments.indices_within(name, _arguments.integers(name, given, 3), points.shape[0])
+    name, given = places
+    where = _arguments.indices_within(name, _arguments.integers(name, given, None), points.shape[0])
+    return points, faces[np.isfinite(points[faces]).all(axis=(1, 2))], where
+
+
+def surrounding_normals(vertices: npt.ArrayLike, triangles: npt.ArrayLike, at: npt.ArrayLike) -> SurroundingNormals:
+    """Normals at the vertices ``at`` of the surface that ``triangles`` alone form.
+
+    Made for the outline of a patch: ``triangles`` are those outside it. A polynomial is fitted to the nearest
+    of their vertices, a few rings wide; fits along the outline are reconciled with each other. Rows of vertices without
+    any of these triangles are zero, as along a border of the whole mesh: leave them out of ``fixed`` and
+    ``fixed_normals``, where a normal of length zero is refused. Triangles with a corner that is NaN or infinite are
+    left out.
+    """
+    return SurroundingNormals(**_core.surrounding_normals(*_bounded(vertices, ("triangles", triangles), ("at", at))))
+
+
+def bad_outline(vertices: npt.ArrayLike, outside: npt.ArrayLike, outline: npt.ArrayLike) -> IntArray:
+    """Vertices of ``outline`` whose surroundings say little about the surface, in the order of ``outline``.
+
+    There the standard error of the normal that is fitted to the triangles ``outside`` is above 0.15 rad and four times
+    the outline's median, or the vertex lies off its fit by more than 0.3 edges and four times the median: one vertex in
+    a fold is bad, noise everywhere is not. 15 % of the outline at most. Select the faces outside them, too, and fair
+    again.
+    """
+    return _core.bad_outline(*_bounded(vertices, ("outside", outside), ("outline", outline)))
+
+
+def mend_outline(vertices: npt.ArrayLike, outside: npt.ArrayLike, outline: npt.ArrayLike) -> MendedOutline:
+    """Move a noisy outline onto the surface that the triangles outside it suggest.
+
+    The vertices of ``outline`` go onto their fits, those of the two rings outside by two thirds and one third of the
+    way, all by no more than a quarter of their edges' mean length. Nothing moves where the noise is less than 0.02
+    edges. Moves that would turn a triangle over are left out (``held``). No argument is changed.
+    """
+    points, faces, where = _bounded(vertices, ("outside", outside), ("outline", outline))
+    return MendedOutline(**_core.mend_outline(points, faces, where))
+
+
+def visible_join(
+    vertices: npt.ArrayLike,
+    inside: npt.ArrayLike,
+    outside: npt.ArrayLike,
+    outline: npt.ArrayLike,
+    *,
+    before: npt.ArrayLike | None = None,
+) -> FloatArray:
+    """(k,) degrees at each vertex of ``outline``: how visible the join of the two lists of triangles is there.
+
+    By how much the signed dihedral angles of the outline's edges exceed what is usual within three rings on either side
+    (the middle half of the angles, by length), and what the same edge had in ``before`` (n, 3), the positions before
+    fairing; the mean over the outline's edges at the vertex. 0 on a sphere or tube however coarse, and on a crease that
+    goes on on either side. From about 12 on a kink can be seen.
+    """
+    points, within, where = _bounded(vertices, ("inside", inside), ("outline", outline))
+    _, beyond, _ = _bounded(vertices, ("outside", outside), ("outline", outline))
+    earlier = None if before is None else _arguments.floats("before", before, points.shape[0])
+    return _core.visible_join(points, within, beyond, where, earlier)

@@ -1,0 +1,235 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "outline/bad_outline.h"
+#include "outline/mended_outline.h"
+#include "outline/normal_filter.h"
+#include "outline/visible_join.h"
+
+using namespace fairing;
+
+namespace {
+
+constexpr double degrees = 180.0 / std::numbers::pi;
+
+Vector3 leaning(double angle) { return {std::sin(angle), 0.0, std::cos(angle)}; }
+
+// Fits of planes at points along y, with these normals (angles from z) and standard errors.
+SurroundingFit row_of_planes(const std::vector<double>& angles, const std::vector<double>& errors) {
+    SurroundingFit fit;
+    const auto count = static_cast<Eigen::Index>(angles.size());
+    fit.centres = Points::Zero(3, count);
+    fit.averaged = Vector3::UnitZ().replicate(1, count);
+    fit.lengths = VectorX::Ones(count);
+    for (int k = 0; k < static_cast<int>(angles.size()); ++k) {
+        fit.fits.emplace_back(SlopeFit{.normal = leaning(angles[at(k)]), .error = errors[at(k)]});
+        fit.centres(1, k) = k;
+        fit.first.push_back(k);
+        if (k > 0) fit.edges.push_back({k - 1, k});
+    }
+    return fit;
+}
+
+double lean(const Vector3& normal) { return std::atan2(normal.x(), normal.z()); }
+
+// Quads of unit size, cut in two, with corners at (i, j) on z = height(i, j).
+template <typename Height>
+Points grid_points(int columns, int rows, const Height& height) {
+    Points points(3, columns * rows);
+    for (int k = 0; k < points.cols(); ++k) {
+        const int i = k % columns;
+        const int j = k / columns;
+        points.col(k) = Vector3(i, j, height(i, j));
+    }
+    return points;
+}
+
+// Of the quads whose column lies in [first, last).
+Triangles grid_triangles(int columns, int rows, int first, int last) {
+    Triangles triangles(3, 2 * (last - first) * (rows - 1));
+    int t = 0;
+    for (int j = 0; j + 1 < rows; ++j) {
+        for (int i = first; i < last; ++i) {
+            const int a = j * columns + i;
+            triangles.col(t++) << a, a + 1, a + columns + 1;
+            triangles.col(t++) << a, a + columns + 1, a + columns;
+        }
+    }
+    return triangles;
+}
+
+constexpr int columns = 9;
+constexpr int rows = 9;
+constexpr int seam = 4;
+
+Indices seam_vertices() {
+    Indices outline;
+    for (int j = 0; j < rows; ++j) outline.push_back(j * columns + seam);
+    return outline;
+}
+
+// Heights of this standard deviation.
+Points rough_plane(unsigned seed, double noise) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal(0.0, noise);
+    return grid_points(columns, rows, [&](int, int) { return normal(random); });
+}
+
+template <typename Height>
+VectorX joined(const Height& height, const std::optional<Points>& before = std::nullopt) {
+    const JoinedMesh mesh{grid_points(columns, rows, height), grid_triangles(columns, rows, 0, seam),
+                          grid_triangles(columns, rows, seam, columns - 1), before};
+    return visible_join(mesh, seam_vertices());
+}
+
+}  // namespace
+
+TEST_CASE("two planes are reconciled as least squares say") {
+    const double angle = 1e-4;
+    const auto filtered = [&](double first, double second) {
+        return filtered_normals(row_of_planes({0.0, angle}, {first, second}));
+    };
+    // μ = 16: the difference falls to 1/(1 + 16 (σ₁² + σ₂²)/(σ₁σ₂)), and each gives way by its variance.
+    const Points alike = filtered(0.1, 0.1);
+    CHECK(lean(alike.col(1)) - lean(alike.col(0)) == doctest::Approx(angle / 33.0).epsilon(1e-6));
+    CHECK(lean(alike.col(0)) == doctest::Approx(angle * 16.0 / 33.0).epsilon(1e-6));
+    const Points unlike = filtered(0.1, 0.02);
+    CHECK(lean(unlike.col(1)) - lean(unlike.col(0)) == doctest::Approx(angle / (1.0 + 16.0 * 5.2)).epsilon(1e-6));
+    CHECK(lean(unlike.col(0)) / (angle - lean(unlike.col(1))) == doctest::Approx(25.0).epsilon(1e-5));
+}
+
+TEST_CASE("fits that predict each other's normals are left alone") {
+    const double curvature = 0.2;  // around x: y² terms, in units of scale 1
+    SurroundingFit fit = row_of_planes({0.0, 0.0, 0.0}, {0.1, 0.03, 0.2});
+    for (int k = 0; k < 3; ++k) {
+        SlopeFit& here = *fit.fits[at(k)];
+        const double turn = std::asin(curvature * (k - 1.0));
+        fit.centres.col(k) = Vector3(0.0, std::sin(turn), std::cos(turn)) / curvature;
+        here.normal = Vector3(0.0, std::sin(turn), std::cos(turn));
+        here.x = Vector3(0.0, std::cos(turn), -std::sin(turn));
+        here.y = Vector3(-1.0, 0.0, 0.0);
+        here.terms[0] = -0.5 * curvature;
+    }
+    const Points filtered = filtered_normals(fit);
+    for (int k = 0; k < 3; ++k) CHECK((filtered.col(k) - fit.fits[at(k)]->normal).norm() < 1e-12);
+}
+
+TEST_CASE("fits that predict different turns have less to tell each other") {
+    SurroundingFit fit = row_of_planes({0.0, 0.01}, {0.01, 0.01});
+    const double smooth = lean(filtered_normals(fit).col(0));
+    fit.fits[1]->y = Vector3::UnitY();
+    fit.fits[1]->x = Vector3::UnitX();
+    fit.fits[1]->terms[1] = 2.0;  // a twist: the other end's normal would lean by 63°
+    CHECK(std::abs(lean(filtered_normals(fit).col(0))) < 0.15);
+    CHECK(smooth > 0.004);
+    fit.edges.clear();
+    CHECK(lean(filtered_normals(fit).col(0)) == doctest::Approx(0.0));
+}
+
+TEST_CASE("bad is what stands out by four medians and by an absolute bound, the worst 15 % at most") {
+    std::vector<double> errors(20, 0.01);
+    const std::vector<double> angles(20, 0.0);
+    CHECK(bad_vertices(row_of_planes(angles, errors)).empty());
+    errors[7] = 0.14;  // fourteen medians, but small
+    CHECK(bad_vertices(row_of_planes(angles, errors)).empty());
+    errors[7] = 0.16;
+    CHECK(bad_vertices(row_of_planes(angles, errors)) == Indices{7});
+    CHECK(bad_vertices(row_of_planes(angles, std::vector<double>(20, 0.5))).empty());  // noise everywhere
+    for (int k = 0; k < 5; ++k) errors[at(k)] = 0.3 + 0.1 * k;
+    CHECK(bad_vertices(row_of_planes(angles, errors)) == Indices{2, 3, 4});
+}
+
+TEST_CASE("a vertex far off its fit, or without one, is bad; one without triangles is not") {
+    SurroundingFit fit = row_of_planes(std::vector<double>(20, 0.0), std::vector<double>(20, 0.01));
+    for (auto& here : fit.fits) here->height = 0.02;
+    fit.fits[3]->height = -0.31;
+    CHECK(bad_vertices(fit) == Indices{3});
+    fit.lengths[3] = 2.0;  // edges twice as long
+    CHECK(bad_vertices(fit).empty());
+    fit.fits[5].reset();
+    CHECK(bad_vertices(fit) == Indices{5});
+    fit.lengths[5] = 0.0;
+    CHECK(bad_vertices(fit).empty());
+}
+
+TEST_CASE("a kink between planes is as visible as its angle") {
+    const double slope = 0.2;
+    const auto ridge = [&](int i, int) { return i > seam ? -slope * (i - seam) : 0.0; };
+    const VectorX join = joined(ridge);
+    for (double value : join) CHECK(value == doctest::Approx(std::atan(slope) * degrees).epsilon(1e-9));
+    CHECK(joined(ridge, grid_points(columns, rows, ridge)).maxCoeff() < 1e-9);  // it was there before
+    const auto valley = [&](int i, int j) { return -ridge(i, j); };
+    CHECK(joined(valley, grid_points(columns, rows, ridge)).minCoeff() ==
+          doctest::Approx(std::atan(slope) * degrees).epsilon(1e-9));
+}
+
+TEST_CASE("coarse curved surfaces have no visible join, but a kink the other way shows") {
+    const auto tube = [](int i, int) { return std::sqrt(100.0 - (i - seam) * (i - seam)); };
+    CHECK(joined(tube).maxCoeff() < 0.5);
+    const auto dented = [&](int i, int j) { return tube(i, j) - (i == seam ? 0.2 : 0.0); };
+    CHECK(joined(dented).minCoeff() > 15.0);
+}
+
+TEST_CASE("mended: noise is moved out of the outline and two rings, by a quarter of an edge at most") {
+    const Points noisy = rough_plane(3, 0.15);
+    const Triangles outside = grid_triangles(columns, rows, seam, columns - 1);
+    const MendedOutline mended = mend_outline(noisy, outside, seam_vertices());
+    CHECK(mended.noise == doctest::Approx(0.13).epsilon(0.3));
+    const Points move = mended.vertices - noisy;
+    for (int v = 0; v < noisy.cols(); ++v) {
+        const int ring = v % columns - seam;
+        const bool moves = ring >= 0 && ring <= 2;
+        CHECK(move.col(v).isZero(0.0) != moves);
+        if (moves) CHECK(move.col(v).norm() <= (3 - ring) / 3.0 * 0.25 * 1.35);  // diagonals are edges, too
+    }
+    CHECK(mended.moved.size() == 3 * rows);
+    const auto spread = [&](const Points& points) {
+        double sum = 0.0;
+        for (int v : seam_vertices()) sum += points(2, v) * points(2, v);
+        return std::sqrt(sum / rows);
+    };
+    CHECK(spread(mended.vertices) < 0.7 * spread(noisy));
+}
+
+TEST_CASE("mended: a vertex far off its fit moves by a quarter of its edges' mean length") {
+    Points noisy = rough_plane(3, 0.05);
+    const int far = 4 * columns + seam;
+    noisy(2, far) += 2.0;
+    const Triangles outside = grid_triangles(columns, rows, seam, columns - 1);
+    const SurroundingFit fit = fit_surroundings(noisy, outside, {far});
+    const MendedOutline mended = mend_outline(noisy, outside, seam_vertices());
+    const double length = fit.size * fit.lengths[0];
+    CHECK((mended.vertices.col(far) - noisy.col(far)).norm() == doctest::Approx(0.25 * length));
+    CHECK(mended.vertices(2, far) < noisy(2, far));
+}
+
+TEST_CASE("mended: what is not noisy stays") {
+    const auto bowl = [](int i, int j) { return 0.01 * (i * i + j * j); };
+    const Points clean = grid_points(columns, rows, bowl);
+    const MendedOutline mended = mend_outline(clean, grid_triangles(columns, rows, seam, columns - 1), seam_vertices());
+    CHECK(mended.moved.empty());
+    CHECK(mended.vertices == clean);
+}
+
+TEST_CASE("mended: no triangle turns over, vertices that would turn one are held") {
+    const Triangles outside = grid_triangles(columns, rows, seam, columns - 1);
+    const auto normal_of = [](const Points& points, const Eigen::Vector3i& t) -> Vector3 {
+        const Vector3 a = points.col(t[0]);
+        return (points.col(t[1]) - a).cross(Vector3(points.col(t[2]) - a));
+    };
+    std::size_t held = 0;
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        std::mt19937 random(seed);
+        std::normal_distribution<double> normal(0.0, 0.3);
+        Points noisy = grid_points(columns, rows, [](int, int) { return 0.0; });
+        for (double& coordinate : noisy.reshaped()) coordinate += normal(random);
+        const MendedOutline mended = mend_outline(noisy, outside, seam_vertices());
+        for (const auto t : outside.colwise()) CHECK(normal_of(noisy, t).dot(normal_of(mended.vertices, t)) >= 0.0);
+        for (int v : mended.held) CHECK(mended.vertices.col(v) == noisy.col(v));
+        held += mended.held.size();
+    }
+    CHECK(held > 0);
+}
