@@ -7,8 +7,6 @@
 
 namespace fairing {
 
-bool is_uniform(const Lambda& weights);
-
 // The shape doesn't depend on λ: where a mesh carries the equation with its vertices evenly placed only, that surface
 // is taken and λ places them on it. Nothing where even that is not accepted.
 std::optional<Solution> solve_evenly(const Problem& problem, const Progress& progress);

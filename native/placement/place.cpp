@@ -1,5 +1,8 @@
 #include "placement/place.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "placement/first_placement.h"
 #include "placement/folds.h"
 #include "placement/relax.h"
@@ -19,13 +22,18 @@ public:
     bool by_springs(const Placement& start) {
         Placement placement = start;
         settle(problem_, tangential_, target_, placement, progress_.here());
+        const std::size_t folded = folds_of_placement(problem_, target_, placement).size();
+        folded_by_springs_ = std::min(folded_by_springs_, folded);
         return keep_untangled(std::move(placement));
     }
 
     // From where the start is, not from where the springs would take it.
     bool as_it_is(Placement start) { return keep_untangled(std::move(start)); }
 
-    [[nodiscard]] Placed best() && { return std::move(*best_); }
+    [[nodiscard]] Placed best() && {
+        best_->folded_by_springs = folded_by_springs_;
+        return std::move(*best_);
+    }
 
 private:
     bool keep_untangled(Placement placement) {
@@ -39,7 +47,7 @@ private:
         const double merit = tangential_.merit(placement.points, normals_at(placement, target_));
         if (!best_ || folded.size() < best_->folded.size() ||
             (folded.size() == best_->folded.size() && merit < merit_)) {
-            best_ = Placed{std::move(placement), std::move(folded)};
+            best_ = Placed{std::move(placement), std::move(folded), 0};
             merit_ = merit;
         }
         return done;
@@ -62,6 +70,7 @@ private:
     const Progress& progress_;
     std::optional<Placed> best_;
     double merit_ = 0.0;
+    std::size_t folded_by_springs_ = std::numeric_limits<std::size_t>::max();
 };
 
 }  // namespace
@@ -77,6 +86,14 @@ Placed place(const Problem& problem, const TangentialStep& tangential, const Sol
     for (Placement& start : starts) {
         if (placing.as_it_is(std::move(start))) break;
     }
+    return std::move(placing).best();
+}
+
+Placed place_own(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
+                 const Points& points, const Progress& progress) {
+    const Placement start = at_vertices(problem, target, points);
+    Placing placing(problem, tangential, target, progress);
+    if (!placing.by_springs(start)) placing.as_it_is(start);
     return std::move(placing).best();
 }
 

@@ -9,7 +9,8 @@ namespace fairing {
 
 struct Placed {
     Placement placement;
-    Indices folded;  // triangles of the problem's patch that no way of placing turned back
+    Indices folded;                     // triangles of the problem's patch that no way of placing turned back
+    std::size_t folded_by_springs = 0;  // triangles that the least folded minimum of the springs alone turns over
 };
 
 // Of several placements the one with the fewest folds, of those the one with the least merit (tangential_step.h). They
@@ -18,5 +19,9 @@ struct Placed {
 // as far as nothing folds.
 Placed place(const Problem& problem, const TangentialStep& tangential, const SolvedProxy& proxy,
              const TargetSurface& target, const std::optional<Points>& guess, const Progress& progress);
+
+// The same from where the vertices of a surface of the problem's own patch are (3 × local vertices; the target's).
+Placed place_own(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
+                 const Points& points, const Progress& progress);
 
 }  // namespace fairing
