@@ -13,6 +13,7 @@
 #include "solver/minimal_start.h"
 #include "solver/normal_fill.h"
 #include "solver/surface_state.h"
+#include "variation/least_variation.h"
 
 namespace fairing {
 
@@ -183,6 +184,7 @@ std::optional<Solution> solve_evenly(const Problem& problem, const Progress& pro
 }  // namespace
 
 Solution solve_global(const Problem& problem, const Progress& progress) {
+    if (problem.options.equation == Equation::least_variation) return solve_least_variation(problem, progress);
     if (problem.options.equation == Equation::minimal) return solve_directly(problem, progress);
     // A large patch is resolved best by its own mesh, a small one by the proxy.
     const bool large = problem.patch.free_count > nested_limit;

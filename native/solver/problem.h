@@ -15,6 +15,7 @@ enum class Equation {
     constant,        // Δ_B H = load
     minimal_energy,  // Δ_B H = −2 H (H² − K): least ∫ κ₁² + κ₂²
     minimal,         // H = 0 with G0 boundary data
+    least_variation, // least variation of the normal curvatures with G1 boundary data (variation/least_variation.h)
 };
 
 enum class Termination { converged, iteration_limit, stalled };
@@ -36,6 +37,9 @@ struct Problem {
     Points fixed_normals;  // 3 × fixed count, unit; ignored at pins
     Lambda weights;
     SolverOptions options;
+    // Of least_variation: the outline's normals cost Σ w_i |n_i − n̂_i|²; fixed count. ∞: met exactly, 0: the slope is
+    // free. Empty: ∞. Pins count as 0.
+    VectorX normal_weights = {};
 };
 
 struct Solution {

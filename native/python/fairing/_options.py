@@ -12,7 +12,7 @@ from fairing._types import FloatArray, IntArray
 
 METHODS = ("global", "paper")
 NORMALS = ("fitted", "averaged")
-EQUATIONS = ("harmonic", "constant", "minimal_energy", "minimal")
+EQUATIONS = ("harmonic", "constant", "minimal_energy", "minimal", "least_variation")
 INNER_FAIRNESS = ("uniform", "conformal", "inverse_distance", "shape_preserving")
 VIRTUAL_POINTS = ("sparse", "coarse", "everywhere")
 STARTS = ("improved", "linear")
