@@ -5,7 +5,10 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include <cstdlib>
 namespace fairing {
+double experimental_mu = 0.0;
+static double env(const char* n, double d) { const char* e = std::getenv(n); return e ? std::atof(e) : d; }
 
 namespace {
 
@@ -23,9 +26,13 @@ constexpr double flattest = 1e-6;  // sine of a triangle's angle, share of a pai
 
 // Lᵀ L = Q, cᵀ Q c the mean of C(t, t, t)² over all directions: ⟨cos⁶⟩ = 5/16, ⟨cos⁴ sin²⟩ = 1/16.
 CubicMatrix mean_square_root() {
-    const double large = std::sqrt(5.0) / 4.0;
-    const double mixed = 1.0 / (4.0 * std::sqrt(5.0));
-    const double small = std::sqrt(0.8) / 4.0;
+    // beta: share of the tracefree part; Q = alpha (trace)^2 + beta (tracefree)^2; default .5/16, 4.5/16
+    static const double beta = env("V_BETA", 0.5) / 16.0, alpha = env("V_ALPHA", 4.5) / 16.0;
+    // a = c0, b = c2/3 : alpha (a+b)^2 + beta (a-3b)^2
+    const double q00 = alpha + beta, q02 = alpha / 3 - beta, q22 = alpha / 9 + beta;
+    const double large = std::sqrt(q00);
+    const double mixed = q02 / large;
+    const double small = std::sqrt(q22 - mixed * mixed);
     CubicMatrix root = CubicMatrix::Zero();
     root(0, 0) = root(3, 3) = large;
     root(0, 2) = root(3, 1) = mixed;
@@ -64,7 +71,10 @@ public:
         fit();
     }
 
-    [[nodiscard]] double energy() const { return residual_.squaredNorm(); }
+    [[nodiscard]] double energy() const { return residual_.squaredNorm() + experimental_mu * area_; }
+    double area() const { return area_; }
+
+    [[nodiscard]] LocalCubic cubic() const { return {cubic_, e1_, e2_}; }
 
     [[nodiscard]] ElementTerms terms() const {
         ElementTerms result;
@@ -74,7 +84,16 @@ public:
         result.gradient = 2.0 * (J.transpose() * residual_);
         result.hessian = 2.0 * (J.transpose() * J);
         const PairVector g = 2.0 * (by_derivative.transpose() * residual_);
-        for (int p = 0; p < count_; ++p) add_bending(pairs_[at(p)], g[p] * scale(pairs_[at(p)]), result.hessian);
+        result.gradient += experimental_mu * area_by_motion();
+        if (experimental_mu > 0) for (int k = 0; k < 3; ++k) {
+            const int i = (k + 1) % 3, j = (k + 2) % 3;
+            const Vector3 a = x_.col(i) - x_.col(k), b = x_.col(j) - x_.col(k);
+            const double w = experimental_mu * 0.5 * std::max(0.0, a.dot(b) / (2 * area_));
+            result.hessian(3 * i, 3 * i) += w; result.hessian(3 * j, 3 * j) += w;
+            const double nn = w * n_.col(i).dot(n_.col(j));
+            result.hessian(3 * i, 3 * j) -= nn; result.hessian(3 * j, 3 * i) -= nn;
+        }
+        for (int p = 0; p < count_; ++p) add_bending(pairs_[at(p)], g[p] * scale(pairs_[at(p)]), result.bending);
         return result;
     }
 
@@ -235,6 +254,17 @@ private:
 
 double element_energy(const Sheet& sheet, const Stencil& stencil) { return Element(sheet, stencil).energy(); }
 
+double experimental_area(const Sheet& sheet, const Stencil& stencil) { return Element(sheet, stencil).area(); }
+double experimental_env(const char* n, double d) { return env(n, d); }
 ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil) { return Element(sheet, stencil).terms(); }
+
+LocalCubic local_cubic(const Sheet& sheet, const Stencil& stencil) { return Element(sheet, stencil).cubic(); }
+
+double LocalCubic::along(const Vector3& chord) const {
+    const Eigen::Vector2d direction = Eigen::Vector2d(chord.dot(e1), chord.dot(e2)).normalized();
+    const double c = direction[0];
+    const double s = direction[1];
+    return coefficients.dot(Eigen::Vector4d(c * c * c, c * c * s, c * s * s, s * s * s));
+}
 
 }  // namespace fairing

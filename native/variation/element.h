@@ -12,6 +12,7 @@ using ElementMatrix = Eigen::Matrix<double, 18, 18>;
 struct ElementTerms {
     double energy = 0.0;
     ElementVector gradient = ElementVector::Zero();
+    ElementMatrix bending = ElementMatrix::Zero();
     ElementMatrix hessian = ElementMatrix::Zero();  // without the second derivatives of lengths, angles and area
 };
 
@@ -21,5 +22,14 @@ struct ElementTerms {
 // a cubic form C(t, t, t) is fitted to the pairs of the stencil. What doesn't fit counts a little, too.
 double element_energy(const Sheet& sheet, const Stencil& stencil);
 ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil);
+
+// The cubic form C of a triangle in its plane.
+struct LocalCubic {
+    Eigen::Vector4d coefficients;
+    Vector3 e1, e2;
+    // C(t, t, t), t the direction of `chord` in the plane.
+    [[nodiscard]] double along(const Vector3& chord) const;
+};
+LocalCubic local_cubic(const Sheet& sheet, const Stencil& stencil);
 
 }  // namespace fairing

@@ -10,15 +10,20 @@
 #include "solver/biharmonic_operator.h"
 #include "solver/globalisation.h"
 #include "solver/minimal_start.h"
-#include "solver/normal_fill.h"
+#include "solver/fill.h"
+#include "solver/laplace_operator.h"
 #include "solver/surface_state.h"
+#include "variation/lift.h"
 #include "variation/newton.h"
 
 namespace fairing {
 
 namespace {
 
-constexpr double coarse_growth = 0.5;
+constexpr double coarse_growth = 0.2;
+double v_damp() { const char* e = std::getenv("V_DAMP"); return e ? std::atof(e) : 1.0; }
+double v_edge() { const char* e = std::getenv("V_EDGE"); return e ? std::atof(e) : 1.0; }
+
 constexpr double fine_growth = 0.15;
 constexpr double turn = 0.7;
 
@@ -49,28 +54,51 @@ double mean_outline_edge(const Problem& problem) {
     return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
-// The problem with the common lean of each loop's normals taken away: its tubes begin straight.
-Problem upright(const Problem& problem) {
-    constexpr double most_lean = 0.6;
-    Problem result = problem;
-    for (const Indices& loop : problem.patch.loops()) {
-        Vector3 mean = Vector3::Zero();
-        double total = 0.0;
-        const auto size = loop.size();
-        const auto fixed = [&](std::size_t k) { return loop[k % size] - problem.patch.free_count; };
-        for (std::size_t k = 0; k < size; ++k) {
-            const double share = (problem.fixed_points.col(fixed(k + 1)) - problem.fixed_points.col(fixed(k + size - 1))).norm();
-            mean += share * problem.fixed_normals.col(fixed(k));
-            total += share;
-        }
-        mean /= std::max(total, 1e-300);
-        if (mean.norm() > most_lean) continue;
-        for (std::size_t k = 0; k < size; ++k) {
-            const Vector3 normal = problem.fixed_normals.col(fixed(k)) - mean;
-            if (normal.norm() > 1e-3) result.fixed_normals.col(fixed(k)) = normal.normalized();
+// Lengths at all vertices: those of the outline's edges, continued harmonically (of their logarithms).
+VectorX spacing_of(const Problem& problem, const Stiffness& stiffness, const LaplaceOperator& laplace) {
+    const Patch& patch = problem.patch;
+    VectorX logarithms = VectorX::Zero(patch.vertex_count());
+    for (const Indices& loop : patch.loops()) {
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            const auto place = [&](std::size_t m) { return problem.fixed_points.col(loop[m % loop.size()] - patch.free_count); };
+            const double length = 0.5 * ((place(k + 1) - place(k)).norm() + (place(k) - place(k + loop.size() - 1)).norm());
+            logarithms[loop[k]] = std::log(length + 1e-12);
         }
     }
-    return result;
+    const Eigen::RowVectorXd row = logarithms.transpose();
+    logarithms.head(patch.free_count) = -laplace.solve(stiffness.apply(patch, row, patch.free_count).transpose());
+    return logarithms.array().exp();
+}
+
+// Tubes that have collapsed are opened: edges shorter than a share of the spacing want that length.
+Points inflated(const Problem& problem, const Points& start, const Progress& progress) {
+    constexpr double share = 0.8;
+    constexpr int rounds = 60;
+    const Patch& patch = problem.patch;
+    const Stiffness stiffness = uniform_stiffness(patch);
+    LaplaceOperator laplace(patch);
+    if (!laplace.update(stiffness, progress.here())) return start;
+    const VectorX spacing = spacing_of(problem, stiffness, laplace);
+    Points points = start;
+    for (int k = 0; k < rounds; ++k) {
+        Points rhs = Points::Zero(3, patch.free_count);
+        double longest = 0.0;
+        for (int e = 0; e < patch.edge_count(); ++e) {
+            const auto [i, j] = patch.edge_ends[at(e)];
+            const Vector3 edge = points.col(j) - points.col(i);
+            const double wanted = share * std::sqrt(spacing[i] * spacing[j]);
+            const double stretch = std::max(1.0, wanted / (edge.norm() + 1e-12)) - 1.0;
+            const Vector3 pull = stiffness.weights[e] * stretch * edge;
+            if (patch.is_free(i)) rhs.col(i) -= pull;
+            if (patch.is_free(j)) rhs.col(j) += pull;
+        }
+        // L (x + d) = L x + div(stretch): from the present x, whose L x is kept
+        const Points d = laplace.solve(rhs.transpose()).transpose();
+        points.leftCols(patch.free_count) += d;
+        longest = d.cwiseAbs().maxCoeff();
+        if (longest < 1e-3) break;
+    }
+    return points;
 }
 
 struct Solved {
@@ -79,15 +107,95 @@ struct Solved {
     NewtonResult result;
 };
 
-Solved solve_on(ProxyMesh& mesh, const Problem& original, const NewtonLimits& limits, const Progress& progress) {
+// A solved surface at the vertices of a later state of its mesh.
+Sheet resampled(const Solved& solved, const ProxyMesh::Snapshot& fresh) {
+    const TargetSurface target(solved.mesh.patch, solved.sheet.points, solved.sheet.normals);
+    const Lift lift(solved.mesh.patch, solved.sheet);
+    std::vector<int> old_of;
+    for (int v = 0; v < solved.mesh.patch.vertex_count(); ++v) {
+        const int number = solved.mesh.patch.to_input[at(v)];
+        if (number >= static_cast<int>(old_of.size())) old_of.resize(at(number) + 1, none);
+        old_of[at(number)] = v;
+    }
+    const int count = fresh.patch.vertex_count();
+    std::vector<int> triangle(at(count), none);
+    Indices queue;
+    for (int v = 0; v < count; ++v) {
+        const int number = fresh.patch.to_input[at(v)];
+        if (number < static_cast<int>(old_of.size()) && old_of[at(number)] != none) {
+            triangle[at(v)] = target.at_vertex(old_of[at(number)]).triangle;
+            queue.push_back(v);
+        }
+    }
+    for (std::size_t k = 0; k < queue.size(); ++k) {
+        const int v = queue[k];
+        for (int u : fresh.patch.ring(v).vertices) {
+            if (triangle[at(u)] != none) continue;
+            triangle[at(u)] = triangle[at(v)];
+            queue.push_back(u);
+        }
+    }
+    Sheet sheet{fresh.points, Points(3, count)};
+    const Eigen::Index fixed = count - fresh.patch.free_count;
+    sheet.normals.rightCols(fixed) = solved.sheet.normals.rightCols(fixed);
+    for (int v = 0; v < fresh.patch.free_count; ++v) {
+        const SurfaceSample sample = lift.sample(target, target.project(fresh.points.col(v), triangle[at(v)]));
+        sheet.points.col(v) = sample.point;
+        sheet.normals.col(v) = sample.normal;
+    }
+    return sheet;
+}
+
+Solved solve_on(ProxyMesh& mesh, const Problem& original, const std::optional<Solved>& last, const NewtonLimits& limits, const Progress& progress) {
     auto snapshot = mesh.snapshot();
     const Problem problem = on_mesh(original, snapshot.patch);
-    Sheet sheet{snapshot.points, fitted_normals(problem, snapshot.points, progress)};
+    Sheet sheet = last ? resampled(*last, snapshot) : Sheet{snapshot.points, fitted_normals(problem, snapshot.points, progress)};
     const VariationEnergy energy(problem, Moving::points_and_normals);
     if (debug()) std::fprintf(stderr, " mesh of %d free\n", snapshot.patch.free_count);
     const NewtonResult result = minimise(energy, sheet, limits, progress);
     mesh.read_back(snapshot.patch, sheet.points);
     return {std::move(snapshot), std::move(sheet), result};
+}
+
+// Normals of vertices that were there before.
+bool take_normals(const Solved& last, const Patch& patch, Points& normals) {
+    std::vector<int> old_of;
+    for (int v = 0; v < last.mesh.patch.vertex_count(); ++v) {
+        const int number = last.mesh.patch.to_input[at(v)];
+        if (number >= static_cast<int>(old_of.size())) old_of.resize(at(number) + 1, none);
+        old_of[at(number)] = v;
+    }
+    normals.resize(3, patch.vertex_count());
+    for (int v = 0; v < patch.vertex_count(); ++v) {
+        const int number = patch.to_input[at(v)];
+        if (number >= static_cast<int>(old_of.size()) || old_of[at(number)] == none) return false;
+        normals.col(v) = last.sheet.normals.col(old_of[at(number)]);
+    }
+    return true;
+}
+
+void far_descent(ProxyMesh& mesh, const Problem& original, const Sizing& sizing, const Progress& progress) {
+    static const int most = std::getenv("V_FAR") ? std::atoi(std::getenv("V_FAR")) : 40;
+    static const double damping0 = std::getenv("V_DAMP") ? std::atof(std::getenv("V_DAMP")) : 1e-3;
+    double damping = damping0;
+    std::optional<Solved> last;
+    for (int k = 0; k < most; ++k) {
+        auto snapshot = mesh.snapshot();
+        const Problem problem = on_mesh(original, snapshot.patch);
+        Sheet sheet{snapshot.points, {}};
+        if (!last || !take_normals(*last, snapshot.patch, sheet.normals)) sheet.normals = fitted_normals(problem, snapshot.points, progress);
+        const VariationEnergy energy(problem, Moving::points_and_normals);
+        const NewtonResult result = minimise(energy, sheet, {1e-3, 1, false, damping}, progress);
+        damping = std::clamp(result.share > 0.2 ? 0.3 * damping : 3.0 * damping, 1e-7, 1e-1);
+        mesh.read_back(snapshot.patch, sheet.points);
+        last.emplace(Solved{std::move(snapshot), std::move(sheet), result});
+        if (debug()) std::fprintf(stderr, "far %d free %d E %g rise %g share %g\n", k, last->mesh.patch.free_count, result.energy, result.rise, result.share);
+        if (result.share == 1.0 && result.rise < 0.1 && result.energy < 1e3) return;
+        if (k % 6 == 5) {
+            mesh.adapt(sizing);
+            last.reset();
+        } else mesh.remesh(2, 2);
+    }
 }
 
 }  // namespace
@@ -97,31 +205,19 @@ Solution solve_least_variation(const Problem& problem, const Progress& progress)
     const Problem uniform = on_mesh(problem, problem.patch);
     Workspace work = make_workspace(uniform, progress);
     const double edge = mean_outline_edge(problem);
-    const double longest_coarse = std::clamp(2.0 * edge, 0.04, 0.15);
-    const auto filled = problem.patch.loop_count() > 1 ? normal_fill(upright(uniform), progress.here()) : std::nullopt;
-    ProxyMesh mesh(problem.patch, filled ? *filled : membrane(uniform, work));
+    const double longest_coarse = std::clamp(v_edge() * edge, 0.02, 0.15);
+    Points first = best_fill(uniform, work, progress.here());
+    if (problem.patch.loop_count() > 1) first = inflated(uniform, first, progress);
+    ProxyMesh mesh(problem.patch, first);
     const int limit = std::clamp(3 * problem.patch.free_count, 3000, 20000);
-    mesh.adapt({coarse_growth, longest_coarse, limit});
-    const char* kind = std::getenv("VARIATION_START");
-    if (problem.patch.loop_count() > 1 && !(kind && kind[0] == 'w')) {
-        for (int k = 0; k < 3; ++k) {
-            const auto snapshot = mesh.snapshot();
-            const auto points = normal_fill(upright(on_mesh(problem, snapshot.patch)), progress.here());
-            if (!points) break;
-            mesh.read_back(snapshot.patch, *points);
-            mesh.adapt({coarse_growth, longest_coarse, limit, turn});
-        }
-    } else {
-        const auto snapshot = mesh.snapshot();
-        const Problem coarse = on_mesh(problem, snapshot.patch);
-        Workspace coarse_work = make_workspace(coarse, progress);
-        mesh.read_back(snapshot.patch, best_fill(coarse, coarse_work, progress.here()));
-        mesh.adapt({coarse_growth, longest_coarse, limit, turn});
-    }
+    mesh.adapt({coarse_growth, longest_coarse, limit, turn});
+    if (std::getenv("VARIATION_STOP")) { Solution s; s.points = first; s.mean_curvature = VectorX::Zero(first.cols()); s.boundary_normals=problem.fixed_normals; return s; }
     const double start_seconds = watch.lap();
-    for (int k = 0; k < 6; ++k) {
-        const Solved solved = solve_on(mesh, problem, {1e-3, 12}, progress.here());
-        const bool done = solved.result.converged && solved.result.steps <= 2;
+    std::optional<Solved> last;
+    far_descent(mesh, problem, {coarse_growth, longest_coarse, limit, turn}, progress);
+    for (int k = 0; k < 12; ++k) {
+        last.emplace(solve_on(mesh, problem, last, {1e-3, k == 0 ? 30 : 15, true, k == 0 ? v_damp() : 1e-3}, progress.here()));
+        const bool done = last->result.converged && last->result.steps <= 2;
         mesh.adapt({coarse_growth, longest_coarse, limit, turn});
         if (done) break;
     }
@@ -129,10 +225,8 @@ Solution solve_least_variation(const Problem& problem, const Progress& progress)
     const char* scale = std::getenv("VARIATION_FINE");
     const Sizing fine{fine_growth, std::clamp((scale ? std::atof(scale) : 1.0) * edge, 0.01, 0.15), limit, turn};
     mesh.adapt(fine);
-    solve_on(mesh, problem, {1e-3, 6}, progress.here());
-    mesh.remesh(3, 5);
     const Solved solved =
-        solve_on(mesh, problem, {problem.options.tolerance, problem.options.max_iterations}, progress.range(0.5, 0.9));
+        solve_on(mesh, problem, last, {problem.options.tolerance, problem.options.max_iterations, false, 1e-6, 1.0}, progress.range(0.5, 0.9));
     const double fine_seconds = watch.lap();
     const TargetSurface target(solved.mesh.patch, solved.sheet.points, solved.sheet.normals);
     Placement placement = first_placement(problem, mesh, solved.mesh, target);
@@ -142,6 +236,8 @@ Solution solve_least_variation(const Problem& problem, const Progress& progress)
     const SurfaceState state = measured_surface(proxy, solved.sheet.points);
     Solution solution;
     solution.points = placement.points;
+    const Lift lift(solved.mesh.patch, solved.sheet);
+    for (int v = 0; v < problem.patch.free_count; ++v) solution.points.col(v) = lift.sample(target, placement.where[at(v)]).point;
     solution.mean_curvature = carried_over(placement, target, state.curvature.mean, problem);
     solution.boundary_normals = one_sided_normals(solved.mesh.patch, solved.sheet.points);
     solution.termination = solved.result.converged ? Termination::converged : Termination::stalled;

@@ -9,12 +9,18 @@ namespace fairing {
 struct NewtonLimits {
     double tolerance;  // of the largest height of a step, units of D
     int most_steps;
+    bool leave_when_stuck = false;
+    double damping = 1e-6;
+    double scale = 0.0;
 };
 
 struct NewtonResult {
     bool converged = false;
     int steps = 0;
     double energy = 0.0;
+    double damping = 0.0;
+    double rise = 0.0;
+    double share = 0.0;
     double gradient = 0.0;   // largest |∂E/∂h|
 };
 

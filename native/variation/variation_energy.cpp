@@ -50,6 +50,7 @@ double VariationEnergy::value(const Sheet& sheet) const {
 void VariationEnergy::update(const Sheet& sheet, QuadraticModel& model) const {
     if (model.hessian.nonZeros() == 0) model.hessian = unknowns_.pattern();
     std::fill_n(model.hessian.valuePtr(), model.hessian.nonZeros(), 0.0);
+    model.stretching = VectorX::Zero(model.hessian.nonZeros());
     model.gradient = VectorX::Zero(unknowns_.count());
     model.energy = 0.0;
     add_elements(sheet, model);
@@ -87,7 +88,9 @@ void VariationEnergy::add(const ElementTerms& terms, int element, QuadraticModel
             const int row = unknown[at(r)];
             if (row < column) continue;
             const int block = blocks_[at(element)][at(stencil_size * (r / 3) + c / 3)];
-            values[unknowns_.slot(row, column, block)] += terms.hessian(r, c);
+            const int slot = unknowns_.slot(row, column, block);
+            values[slot] += terms.bending(r, c);
+            model.stretching[slot] += terms.hessian(r, c);
         }
     }
 }
@@ -116,7 +119,7 @@ void VariationEnergy::add_outline(const Sheet& sheet, QuadraticModel& model) con
         for (int m = 0; m < 2; ++m) {
             const int unknown = unknowns_.of(v, m + 1);
             model.gradient[unknown] -= 2.0 * weight * slope[at(m)];
-            model.hessian.valuePtr()[unknowns_.slot(unknown, unknown, 0)] +=
+            model.stretching[unknowns_.slot(unknown, unknown, 0)] +=
                 2.0 * weight * std::max(normal.dot(wanted), 0.0);
         }
     }

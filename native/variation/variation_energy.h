@@ -15,6 +15,7 @@ enum class Moving { points_and_normals, normals };
 struct QuadraticModel {
     double energy = 0.0;
     VectorX gradient;
+    VectorX stretching;  // Gauss–Newton values on the pattern of hessian
     SparseMatrix hessian;  // lower triangle; symmetric, not always positive definite
 };
 
