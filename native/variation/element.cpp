@@ -1,14 +1,12 @@
 #include "variation/element.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
-#include <cstdlib>
 namespace fairing {
-double experimental_mu = 0.0;
-static double env(const char* n, double d) { const char* e = std::getenv(n); return e ? std::atof(e) : d; }
 
 namespace {
 
@@ -26,13 +24,9 @@ constexpr double flattest = 1e-6;  // sine of a triangle's angle, share of a pai
 
 // Lᵀ L = Q, cᵀ Q c the mean of C(t, t, t)² over all directions: ⟨cos⁶⟩ = 5/16, ⟨cos⁴ sin²⟩ = 1/16.
 CubicMatrix mean_square_root() {
-    // beta: share of the tracefree part; Q = alpha (trace)^2 + beta (tracefree)^2; default .5/16, 4.5/16
-    static const double beta = env("V_BETA", 0.5) / 16.0, alpha = env("V_ALPHA", 4.5) / 16.0;
-    // a = c0, b = c2/3 : alpha (a+b)^2 + beta (a-3b)^2
-    const double q00 = alpha + beta, q02 = alpha / 3 - beta, q22 = alpha / 9 + beta;
-    const double large = std::sqrt(q00);
-    const double mixed = q02 / large;
-    const double small = std::sqrt(q22 - mixed * mixed);
+    const double large = std::sqrt(5.0) / 4.0;
+    const double mixed = 1.0 / (4.0 * std::sqrt(5.0));
+    const double small = std::sqrt(0.8) / 4.0;
     CubicMatrix root = CubicMatrix::Zero();
     root(0, 0) = root(3, 3) = large;
     root(0, 2) = root(3, 1) = mixed;
@@ -47,12 +41,12 @@ const CubicMatrix& root_of_mean_square() {
 
 // A pair of the stencil in the plane of its triangle.
 struct Pair {
-    int i, j;            // places in the stencil
-    Vector3 along;       // x_j − x_i
+    int i, j;           // places in the stencil
+    Vector3 along;      // x_j − x_i
     double length;
     Eigen::Vector2d in_plane;
-    double across;       // component along the triangle's normal
-    double derivative;   // of the normal curvature
+    double across;      // component along the triangle's normal
+    double derivative;  // of the normal curvature
 };
 
 class Element {
@@ -71,28 +65,19 @@ public:
         fit();
     }
 
-    [[nodiscard]] double energy() const { return residual_.squaredNorm() + experimental_mu * area_; }
-    double area() const { return area_; }
+    [[nodiscard]] ElementSums sums() const { return {residual_.squaredNorm(), area_}; }
 
     [[nodiscard]] LocalCubic cubic() const { return {cubic_, e1_, e2_}; }
 
-    [[nodiscard]] ElementTerms terms() const {
+    [[nodiscard]] ElementTerms terms(const ElementSums& factors) const {
         ElementTerms result;
-        result.energy = energy();
         const Eigen::Matrix<double, 10, 6> by_derivative = residual_by_derivative();
         const Eigen::Matrix<double, 10, 18> J = jacobian(by_derivative);
-        result.gradient = 2.0 * (J.transpose() * residual_);
-        result.hessian = 2.0 * (J.transpose() * J);
-        const PairVector g = 2.0 * (by_derivative.transpose() * residual_);
-        result.gradient += experimental_mu * area_by_motion();
-        if (experimental_mu > 0) for (int k = 0; k < 3; ++k) {
-            const int i = (k + 1) % 3, j = (k + 2) % 3;
-            const Vector3 a = x_.col(i) - x_.col(k), b = x_.col(j) - x_.col(k);
-            const double w = experimental_mu * 0.5 * std::max(0.0, a.dot(b) / (2 * area_));
-            result.hessian(3 * i, 3 * i) += w; result.hessian(3 * j, 3 * j) += w;
-            const double nn = w * n_.col(i).dot(n_.col(j));
-            result.hessian(3 * i, 3 * j) -= nn; result.hessian(3 * j, 3 * i) -= nn;
-        }
+        result.area_gradient = area_by_motion();
+        result.gradient = 2.0 * factors.variation * (J.transpose() * residual_) + factors.area * result.area_gradient;
+        result.stretching = 2.0 * factors.variation * (J.transpose() * J);
+        add_area(factors.area, result.stretching);
+        const PairVector g = 2.0 * factors.variation * (by_derivative.transpose() * residual_);
         for (int p = 0; p < count_; ++p) add_bending(pairs_[at(p)], g[p] * scale(pairs_[at(p)]), result.bending);
         return result;
     }
@@ -214,6 +199,21 @@ private:
         return result;
     }
 
+    // The part of the area's second derivatives that every height field has, ½ ∫ |∇h|²; blunt angles left out.
+    void add_area(double factor, ElementMatrix& hessian) const {
+        for (int k = 0; k < 3; ++k) {
+            const int i = (k + 1) % 3;
+            const int j = (k + 2) % 3;
+            const double cotangent = (x_.col(i) - x_.col(k)).dot(x_.col(j) - x_.col(k)) / (2.0 * area_);
+            const double weight = 0.5 * factor * std::max(0.0, cotangent);
+            const double turned = weight * n_.col(i).dot(n_.col(j));
+            hessian(3 * i, 3 * i) += weight;
+            hessian(3 * j, 3 * j) += weight;
+            hessian(3 * i, 3 * j) -= turned;
+            hessian(3 * j, 3 * i) -= turned;
+        }
+    }
+
     // Second derivatives of ⟨n_i + n_j, x_j − x_i⟩, times `factor`.
     void add_bending(const Pair& pair, double factor, ElementMatrix& hessian) const {
         for (const auto& [k, other, sign] :
@@ -252,11 +252,11 @@ private:
 
 }  // namespace
 
-double element_energy(const Sheet& sheet, const Stencil& stencil) { return Element(sheet, stencil).energy(); }
+ElementSums element_sums(const Sheet& sheet, const Stencil& stencil) { return Element(sheet, stencil).sums(); }
 
-double experimental_area(const Sheet& sheet, const Stencil& stencil) { return Element(sheet, stencil).area(); }
-double experimental_env(const char* n, double d) { return env(n, d); }
-ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil) { return Element(sheet, stencil).terms(); }
+ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil, const ElementSums& factors) {
+    return Element(sheet, stencil).terms(factors);
+}
 
 LocalCubic local_cubic(const Sheet& sheet, const Stencil& stencil) { return Element(sheet, stencil).cubic(); }
 
@@ -264,7 +264,7 @@ double LocalCubic::along(const Vector3& chord) const {
     const Eigen::Vector2d direction = Eigen::Vector2d(chord.dot(e1), chord.dot(e2)).normalized();
     const double c = direction[0];
     const double s = direction[1];
-    return coefficients.dot(Eigen::Vector4d(c * c * c, c * c * s, c * s * s, s * s * s));
+    return coefficients.dot(Cubic(c * c * c, c * c * s, c * s * s, s * s * s));
 }
 
 }  // namespace fairing

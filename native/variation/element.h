@@ -9,21 +9,30 @@ namespace fairing {
 using ElementVector = Eigen::Matrix<double, 18, 1>;  // motions (sheet.h) of the six vertices, one after the other
 using ElementMatrix = Eigen::Matrix<double, 18, 18>;
 
-struct ElementTerms {
-    double energy = 0.0;
-    ElementVector gradient = ElementVector::Zero();
-    ElementMatrix bending = ElementMatrix::Zero();
-    ElementMatrix hessian = ElementMatrix::Zero();  // without the second derivatives of lengths, angles and area
+// Of a triangle, or of a whole surface: ∫ ⟨(dκ/ds)²⟩ dA, in units of length⁻², and ∫ dA. κ is the normal curvature along a
+// direction, s the arc length there, ⟨⟩ the mean over all directions.
+struct ElementSums {
+    double variation = 0.0;
+    double area = 0.0;
 };
 
-// About ∫ ⟨(dκ/ds)²⟩ dA over the triangle: κ the normal curvature along a direction, s the arc length there, ⟨⟩ the mean
-// over all directions; in units of length⁻². The normal curvature's derivative along a pair of vertices is
-// 6 ⟨n_i + n_j, x_j − x_i⟩ / |x_j − x_i|³ + O(h²), zero on planes, spheres and circular cylinders for any pair;
-// a cubic form C(t, t, t) is fitted to the pairs of the stencil. What doesn't fit counts a little, too.
-double element_energy(const Sheet& sheet, const Stencil& stencil);
-ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil);
+// The derivative of the normal curvature along a pair of vertices is 6 ⟨n_i + n_j, x_j − x_i⟩ / |x_j − x_i|³ + O(h²): zero
+// on planes, spheres and circular cylinders for any pair. A cubic form C(t, t, t) is fitted to the pairs of the
+// stencil; what doesn't fit counts a little, too.
+ElementSums element_sums(const Sheet& sheet, const Stencil& stencil);
 
-// The cubic form C of a triangle in its plane.
+// Derivatives of factors.variation · variation + factors.area · area by the motions. The second ones are split:
+// `stretching` is positive semidefinite (Gauss–Newton), `bending` what the pairs' own second derivatives add; those of
+// lengths and angles are left out.
+struct ElementTerms {
+    ElementVector gradient = ElementVector::Zero();
+    ElementVector area_gradient = ElementVector::Zero();
+    ElementMatrix stretching = ElementMatrix::Zero();
+    ElementMatrix bending = ElementMatrix::Zero();
+};
+ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil, const ElementSums& factors);
+
+// The cubic form of a triangle in its plane.
 struct LocalCubic {
     Eigen::Vector4d coefficients;
     Vector3 e1, e2;

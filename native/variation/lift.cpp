@@ -12,17 +12,26 @@ namespace {
 
 constexpr int most_steps = 4;
 constexpr double at_vertex = 1.0 - 1e-9;  // barycentric weight
+constexpr double farthest = 0.1;          // of an edge, from the curved triangle
 
-// Rows of one Gauss–Newton step for the motion of a sample.
-struct Fit {
+// One Gauss–Newton step for the motion of a sample.
+Motion fitted_motion(const SurfaceSample& sample, const Sheet& sheet, const Stencil& stencil, const LocalCubic& cubic) {
+    const Frame frame(sample.normal);
     Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
     Vector3 rhs = Vector3::Zero();
-
-    void add(const Vector3& row, double residual, double weight) {
+    for (int vertex : stencil) {
+        if (vertex == none) continue;
+        const Vector3 along = sheet.points.col(vertex) - sample.point;
+        const double length = along.norm();
+        const Vector3 sum = sheet.normals.col(vertex) + sample.normal;
+        const double residual = sum.dot(along) - length * length * length / 6.0 * cubic.along(along);
+        const Vector3 row(-sum.dot(sample.normal), frame.u.dot(along), frame.v.dot(along));
+        const double weight = std::pow(length, -4);  // of what is left of the next order, squared
         matrix += weight * row * row.transpose();
         rhs -= weight * residual * row;
     }
-};
+    return matrix.ldlt().solve(rhs);
+}
 
 }  // namespace
 
@@ -34,28 +43,18 @@ SurfaceSample Lift::sample(const TargetSurface& target, const SurfacePoint& wher
         const int corner = stencil[at(k)];
         if (where.weights[k] > at_vertex) return {sheet_.points.col(corner), sheet_.normals.col(corner)};
     }
-    SurfaceSample first{target.position(where), target.normal(where)};
-    SurfaceSample best = first;
+    const SurfaceSample first{target.position(where), target.normal(where)};
     const LocalCubic cubic = local_cubic(sheet_, stencil);
+    SurfaceSample best = first;
     for (int step = 0; step < most_steps; ++step) {
-        const Frame frame(best.normal);
-        Fit fit;
-        for (int vertex : stencil) {
-            if (vertex == none) continue;
-            const Vector3 along = sheet_.points.col(vertex) - best.point;
-            const double length = along.norm();
-            const Vector3 sum = sheet_.normals.col(vertex) + best.normal;
-            const double residual = sum.dot(along) - length * length * length / 6.0 * cubic.along(along);
-            fit.add({-sum.dot(best.normal), frame.u.dot(along), frame.v.dot(along)}, residual,
-                    1.0 / std::pow(length, 4));
-        }
-        const Vector3 motion = fit.matrix.ldlt().solve(fit.rhs);
+        const Motion motion = fitted_motion(best, sheet_, stencil, cubic);
         if (!motion.allFinite()) return first;
+        const Frame frame(best.normal);
         best.point += motion[0] * best.normal;
         best.normal = (best.normal + motion[1] * frame.u + motion[2] * frame.v).normalized();
     }
-    const double reach = (sheet_.points.col(stencil[1]) - sheet_.points.col(stencil[0])).norm();
-    return (best.point - first.point).norm() < 0.1 * reach ? best : first;
+    const double edge = (sheet_.points.col(stencil[1]) - sheet_.points.col(stencil[0])).norm();
+    return (best.point - first.point).norm() < farthest * edge ? best : first;
 }
 
 }  // namespace fairing

@@ -1,8 +1,7 @@
 #include "variation/newton.h"
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -10,18 +9,16 @@
 #include "linear/sparse_cholesky.h"
 
 namespace fairing {
-extern double experimental_mu;
-double experimental_area(const Sheet& sheet, const Stencil& stencil);
-double experimental_env(const char* n, double d);
 
 namespace {
 
-constexpr double first_damping = 1e-3;
-constexpr double least_damping = 1e-9;
+constexpr double raised_damping = 1e-3;  // where no step is found without
+constexpr double least_damping = 1e-9;   // below, none
 constexpr double largest_damping = 1e3;
-constexpr double largest_turn = 0.7;    // tangent of the angle of a normal in one step
+constexpr double largest_turn = 0.7;  // tangent of the angle of a normal in one step
 constexpr double largest_rise = 0.5;  // of the mean edge at a vertex
-constexpr double folded = 0.1;         // cosine between a triangle and its vertices' normals
+constexpr double folded = 0.1;        // cosine between a triangle and its vertices' normals
+constexpr double roundoff = 1e-14;
 
 // The place of each unknown, for the order of elimination.
 Points layout_of(const VariationEnergy& energy, const Sheet& sheet) {
@@ -35,6 +32,16 @@ Points layout_of(const VariationEnergy& energy, const Sheet& sheet) {
     return layout;
 }
 
+VectorX mean_edges(const Patch& patch, const Points& points) {
+    VectorX result(patch.vertex_count());
+    for (int v = 0; v < patch.vertex_count(); ++v) {
+        double sum = 0.0;
+        for (int u : patch.ring(v).vertices) sum += (points.col(u) - points.col(v)).norm();
+        result[v] = sum / static_cast<double>(patch.ring(v).valence());
+    }
+    return result;
+}
+
 double lean(const Sheet& sheet, const Triangles& triangles, int t) {
     const auto corner = triangles.col(t);
     const Vector3 cross = (sheet.points.col(corner[1]) - sheet.points.col(corner[0]))
@@ -43,7 +50,7 @@ double lean(const Sheet& sheet, const Triangles& triangles, int t) {
     return cross.dot(sum) / (cross.norm() * sum.norm() + 1e-300);
 }
 
-// Whether a triangle that agreed with its normals no longer does.
+// Whether a triangle that agreed with its normals no longer does. Healthy triangles feel nothing of it.
 bool folds(const Patch& patch, const Sheet& before, const Sheet& after) {
     for (int t = 0; t < patch.triangle_count(); ++t) {
         if (lean(after, patch.triangles, t) < folded && lean(before, patch.triangles, t) >= folded) return true;
@@ -53,91 +60,93 @@ bool folds(const Patch& patch, const Sheet& before, const Sheet& after) {
 
 class Newton {
 public:
-    Newton(const VariationEnergy& energy, Sheet& sheet, const Progress& progress)
-        : energy_(energy), sheet_(sheet), progress_(progress), factor_(layout_of(energy, sheet)) {
-        for (int v = 0; v < energy.patch().vertex_count(); ++v) {
-            double sum = 0.0;
-            for (int u : energy.patch().ring(v).vertices) sum += (sheet.points.col(u) - sheet.points.col(v)).norm();
-            spacing_.push_back(sum / static_cast<double>(energy.patch().ring(v).valence()));
-        }
-    }
+    Newton(const VariationEnergy& energy, Sheet& sheet, const NewtonLimits& limits, const Progress& progress)
+        : energy_(energy),
+          sheet_(sheet),
+          limits_(limits),
+          progress_(progress),
+          factor_(layout_of(energy, sheet)),
+          spacing_(mean_edges(energy.patch(), sheet.points)),
+          damping_(limits.damping) {}
 
-    NewtonResult run(const NewtonLimits& limits) {
+    NewtonResult run() {
         NewtonResult result;
-        damping_ = limits.damping;
-        for (; result.steps < limits.most_steps && !result.converged; ++result.steps) {
-            progress_.report(static_cast<double>(result.steps) / limits.most_steps, "least variation");
-            {
-                experimental_mu = 0.0;
-                const double e = energy_.value(sheet_);
-                double area = 0.0;
-                for (const Stencil& st : stencils(energy_.patch())) area += experimental_area(sheet_, st);
-                const double c = limits.scale;
-                experimental_mu = c * e / area;
-            }
+        while (result.steps < limits_.most_steps && !result.converged) {
+            progress_.report(static_cast<double>(result.steps) / limits_.most_steps, "least variation");
             energy_.update(sheet_, model_);
             if (!step()) break;
-            if (limits.leave_when_stuck && share_ < 0.05) break;
-            static const bool debug = std::getenv("VARIATION_DEBUG") != nullptr;
-            if (debug) std::fprintf(stderr, "  step %d E %.9g rise %.3g share %.3g damping %.2g bending %g\n", result.steps, model_.energy, largest_height_, share_, damping_, bending_);
-            result.converged = share_ == 1.0 && damping_ <= 1e-8 && largest_height_ < limits.tolerance;
+            ++result.steps;
+            result.converged = share_ == 1.0 && damping_ < 1e-6 && largest_height_ < limits_.tolerance;
+            if (share_ < limits_.shortest_share) break;
         }
         energy_.update(sheet_, model_);
-        result.energy = model_.energy;
-        result.damping = damping_;
-        result.rise = largest_rise_;
-        result.share = share_;
-        result.gradient = largest_height_gradient();
+        result.merit = model_.merit;
+        result.gradient = largest_gradient();
         return result;
     }
 
 private:
-    // One step of less energy; false where none is found.
+    // One step of less merit; false where none is found. Where the second derivatives are not positive definite, less of
+    // their indefinite part is taken before damping is: damping slows what is smooth most.
     bool step() {
         bending_ = std::min(1.0, 2.0 * std::max(bending_, 0.125));
         while (damping_ <= largest_damping) {
-            const auto motions = damped_motions();
+            const auto motions = solved();
             if (!motions && bending_ > 0.0) {
                 bending_ = bending_ > 0.2 ? 0.5 * bending_ : 0.0;
                 continue;
             }
             if (motions && search(*motions)) {
-                if (share_ == 1.0) damping_ = damping_ > least_damping ? 0.15 * damping_ : 0.0;
-                if (share_ < 0.5) damping_ = std::max(5.0 * damping_, least_damping);
+                adapt_damping();
                 return true;
             }
-            damping_ = std::max(10.0 * damping_, first_damping);
+            damping_ = std::max(10.0 * damping_, raised_damping);
         }
         return false;
     }
 
-    std::optional<VectorX> damped_motions() {
-        SparseMatrix matrix = model_.hessian;
+    void adapt_damping() {
+        if (share_ == 1.0) damping_ = damping_ > least_damping ? 0.15 * damping_ : 0.0;
+        if (share_ < 0.5) damping_ = std::max(5.0 * damping_, least_damping);
+    }
+
+    std::optional<VectorX> solved() {
+        SparseMatrix matrix = model_.bending;
         Eigen::Map<VectorX> values(matrix.valuePtr(), matrix.nonZeros());
         values = bending_ * values + model_.stretching;
         for (int k = 0; k < matrix.cols(); ++k) {
-            double& diagonal = matrix.valuePtr()[matrix.outerIndexPtr()[k]];
-            diagonal += (damping_ + 1e-14) * std::abs(diagonal);
+            double& diagonal = values[matrix.outerIndexPtr()[k]];
+            diagonal += (damping_ + roundoff) * std::abs(diagonal);
         }
         if (!factor_.factorise(matrix, "least variation", progress_.here())) return std::nullopt;
         VectorX motions = -factor_.solve_vector(model_.gradient);
+        if (bending_ == 1.0 && model_.area_factor > 0.0) motions += area_correction(motions);
         if (!motions.allFinite()) return std::nullopt;
         return motions;
     }
 
-    // The longest share of the step that lowers the energy and folds nothing.
+    // For the rank-one part of the second derivatives, by Sherman and Morrison.
+    [[nodiscard]] VectorX area_correction(const VectorX& motions) const {
+        constexpr double least_pivot = 0.2;
+        const VectorX response = factor_.solve_vector(model_.area);
+        const double pivot = 1.0 - model_.area_factor * model_.area.dot(response);
+        const double factor = model_.area_factor / std::max(pivot, least_pivot);
+        return factor * model_.area.dot(motions) * response;
+    }
+
+    // The longest share of the step that lowers the merit and folds nothing.
     bool search(const VectorX& motions) {
         constexpr int most_halvings = 6;
-        constexpr double roundoff = 1e-13;
+        constexpr double armijo = 1e-4;
+        constexpr double noise = 1e-13;
         measure(motions);
         const double slope = model_.gradient.dot(motions);
         if (!(slope <= 0.0)) return false;
         share_ = std::min({1.0, largest_turn / largest_turn_, largest_rise / largest_rise_});
         for (int k = 0; k <= most_halvings; ++k, share_ *= 0.5) {
             Sheet tried = energy_.moved(sheet_, motions, share_);
-            if (!(energy_.value(tried) <= model_.energy + 1e-4 * share_ * slope + roundoff * model_.energy)) continue;
-            static const bool guard = !std::getenv("V_NOGUARD");
-            if (guard && folds(energy_.patch(), sheet_, tried)) continue;
+            if (!(energy_.merit(tried) <= model_.merit + armijo * share_ * slope + noise * model_.merit)) continue;
+            if (folds(energy_.patch(), sheet_, tried)) continue;
             sheet_ = std::move(tried);
             return true;
         }
@@ -147,17 +156,17 @@ private:
     void measure(const VectorX& motions) {
         largest_height_ = largest_turn_ = largest_rise_ = 1e-300;
         for (int v = 0; v < energy_.patch().vertex_count(); ++v) {
-            for (int k = 0; k < 3; ++k) {
+            const auto size = [&](int k) {
                 const int unknown = energy_.unknowns().of(v, k);
-                if (unknown == none) continue;
-                double& largest = k == 0 ? largest_height_ : largest_turn_;
-                largest = std::max(largest, std::abs(motions[unknown]));
-                if (k == 0) largest_rise_ = std::max(largest_rise_, std::abs(motions[unknown]) / spacing_[at(v)]);
-            }
+                return unknown == none ? 0.0 : std::abs(motions[unknown]);
+            };
+            largest_height_ = std::max(largest_height_, size(0));
+            largest_rise_ = std::max(largest_rise_, size(0) / spacing_[v]);
+            largest_turn_ = std::max({largest_turn_, size(1), size(2)});
         }
     }
 
-    [[nodiscard]] double largest_height_gradient() const {
+    [[nodiscard]] double largest_gradient() const {
         double largest = 0.0;
         for (int v = 0; v < energy_.patch().free_count; ++v) {
             if (const int unknown = energy_.unknowns().of(v, 0); unknown != none)
@@ -168,29 +177,30 @@ private:
 
     const VariationEnergy& energy_;
     Sheet& sheet_;
+    const NewtonLimits& limits_;
     const Progress& progress_;
     SparseCholesky factor_;
+    VectorX spacing_;
     QuadraticModel model_;
-    double bending_ = 1.0;
-    double damping_ = 1e-6;
+    double damping_;
+    double bending_ = 1.0;  // share of the indefinite part
     double share_ = 0.0;
     double largest_height_ = 0.0;
+    double largest_rise_ = 0.0;  // in edges
     double largest_turn_ = 0.0;
-    double largest_rise_ = 0.0;
-    std::vector<double> spacing_;
 };
 
 }  // namespace
 
 NewtonResult minimise(const VariationEnergy& energy, Sheet& sheet, const NewtonLimits& limits,
                       const Progress& progress) {
-    return Newton(energy, sheet, progress).run(limits);
+    return Newton(energy, sheet, limits, progress).run();
 }
 
 Points fitted_normals(const Problem& problem, const Points& points, const Progress& progress) {
     constexpr int most_steps = 3;
     Sheet sheet{points, max_normals(problem.patch, points, problem.fixed_normals)};
-    const VariationEnergy energy(problem, Moving::normals);
+    const VariationEnergy energy(problem, Moving::normals, Measure::plain);
     if (energy.unknowns().count() > 0) minimise(energy, sheet, {0.0, most_steps}, progress);
     return sheet.normals;
 }

@@ -1,4 +1,4 @@
-// Minimises the variation energy over motions of the vertices of one mesh.
+// Minimises the variation of curvature over motions of the vertices of one mesh.
 #pragma once
 
 #include "base/progress.h"
@@ -7,30 +7,26 @@
 namespace fairing {
 
 struct NewtonLimits {
-    double tolerance;  // of the largest height of a step, units of D
+    double tolerance;  // of the largest height of a full step, units of D
     int most_steps;
-    bool leave_when_stuck = false;
-    double damping = 1e-6;
-    double scale = 0.0;
+    double damping = 1e-6;        // at first; large damping removes roughness before anything moves far
+    double shortest_share = 0.0;  // of a step; where less of it can be taken, the mesh is in the way
 };
 
 struct NewtonResult {
     bool converged = false;
     int steps = 0;
-    double energy = 0.0;
-    double damping = 0.0;
-    double rise = 0.0;
-    double share = 0.0;
-    double gradient = 0.0;   // largest |∂E/∂h|
+    double merit = 0.0;
+    double gradient = 0.0;  // largest derivative of the merit by a height
 };
 
-// Newton's steps with Levenberg–Marquardt damping and a line search on the energy; a step that would fold triangles is
+// Newton's steps with Levenberg–Marquardt damping and a line search; a step that would fold triangles is
 // shortened. `sheet`: start and result. Throws Cancelled.
 NewtonResult minimise(const VariationEnergy& energy, Sheet& sheet, const NewtonLimits& limits,
                       const Progress& progress);
 
-// Unit normals that suit points best: of least energy while the points stay, those of the problem where given exactly.
-// Begins at Max's normals.
+// Unit normals that suit points best: of least variation while the points stay, those of the problem where given
+// exactly. Begins at Max's normals.
 Points fitted_normals(const Problem& problem, const Points& points, const Progress& progress);
 
 }  // namespace fairing

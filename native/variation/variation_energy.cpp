@@ -22,8 +22,11 @@ Freedom freedom_of(const Problem& problem, Moving moving) {
 
 }  // namespace
 
-VariationEnergy::VariationEnergy(const Problem& problem, Moving moving)
-    : problem_(problem), stencils_(stencils(problem.patch)), unknowns_(freedom_of(problem, moving), stencils_) {
+VariationEnergy::VariationEnergy(const Problem& problem, Moving moving, Measure measure)
+    : problem_(problem),
+      measure_(measure),
+      stencils_(stencils(problem.patch)),
+      unknowns_(freedom_of(problem, moving), stencils_) {
     blocks_.reserve(stencils_.size());
     for (const Stencil& stencil : stencils_) {
         Blocks blocks{};
@@ -37,35 +40,49 @@ VariationEnergy::VariationEnergy(const Problem& problem, Moving moving)
     }
 }
 
-double VariationEnergy::value(const Sheet& sheet) const {
-    const double elements =
-        sum_over_ranges(static_cast<int>(stencils_.size()), fine_grain, [&](int begin, int end) {
-            double sum = 0.0;
-            for (int k = begin; k < end; ++k) sum += element_energy(sheet, stencils_[at(k)]);
-            return sum;
-        });
-    return elements + outline_energy(sheet);
+ElementSums VariationEnergy::sums(const Sheet& sheet) const {
+    std::vector<ElementSums> parts(stencils_.size());
+    for_ranges(static_cast<int>(stencils_.size()), fine_grain, [&](int begin, int end) {
+        for (int k = begin; k < end; ++k) parts[at(k)] = element_sums(sheet, stencils_[at(k)]);
+    });
+    ElementSums total;
+    for (const ElementSums& part : parts) {
+        total.variation += part.variation;
+        total.area += part.area;
+    }
+    return total;
 }
 
+double VariationEnergy::merit_of(const ElementSums& sums, const Sheet& sheet) const {
+    return sums.variation * (measure_ == Measure::plain ? 1.0 : sums.area) + outline_energy(sheet);
+}
+
+double VariationEnergy::merit(const Sheet& sheet) const { return merit_of(sums(sheet), sheet); }
+
 void VariationEnergy::update(const Sheet& sheet, QuadraticModel& model) const {
-    if (model.hessian.nonZeros() == 0) model.hessian = unknowns_.pattern();
-    std::fill_n(model.hessian.valuePtr(), model.hessian.nonZeros(), 0.0);
-    model.stretching = VectorX::Zero(model.hessian.nonZeros());
+    const ElementSums present = sums(sheet);
+    if (model.bending.nonZeros() == 0) model.bending = unknowns_.pattern();
+    std::fill_n(model.bending.valuePtr(), model.bending.nonZeros(), 0.0);
+    model.stretching = VectorX::Zero(model.bending.nonZeros());
     model.gradient = VectorX::Zero(unknowns_.count());
-    model.energy = 0.0;
-    add_elements(sheet, model);
+    model.area = VectorX::Zero(unknowns_.count());
+    model.merit = merit_of(present, sheet);
+    // d²(V A) = A d²V + V d²A + dV dA + dA dV, where dV ≈ −(V / A) dA near the minimum.
+    const bool plain = measure_ == Measure::plain;
+    model.area_factor = plain ? 0.0 : 2.0 * present.variation / present.area;
+    add_elements(sheet, plain ? ElementSums{1.0, 0.0} : ElementSums{present.area, present.variation}, model);
     add_outline(sheet, model);
 }
 
 // Elements are measured on all threads, some thousand at once, and added up in their order.
-void VariationEnergy::add_elements(const Sheet& sheet, QuadraticModel& model) const {
+void VariationEnergy::add_elements(const Sheet& sheet, const ElementSums& factors, QuadraticModel& model) const {
     constexpr int at_once = 2048;
     const int count = static_cast<int>(stencils_.size());
     std::vector<ElementTerms> terms(at(std::min(at_once, count)));
     for (int first = 0; first < count; first += at_once) {
         const int some = std::min(at_once, count - first);
         for_ranges(some, fine_grain, [&](int begin, int end) {
-            for (int k = begin; k < end; ++k) terms[at(k)] = element_terms(sheet, stencils_[at(first + k)]);
+            for (int k = begin; k < end; ++k) terms[at(k)] = element_terms(sheet, stencils_[at(first + k)], factors);
         });
         for (int k = 0; k < some; ++k) add(terms[at(k)], first + k, model);
     }
@@ -73,14 +90,15 @@ void VariationEnergy::add_elements(const Sheet& sheet, QuadraticModel& model) co
 
 void VariationEnergy::add(const ElementTerms& terms, int element, QuadraticModel& model) const {
     const Stencil& stencil = stencils_[at(element)];
-    model.energy += terms.energy;
     std::array<int, 3 * stencil_size> unknown{};
     for (int k = 0; k < 3 * stencil_size; ++k) {
         const int vertex = stencil[at(k / 3)];
         unknown[at(k)] = vertex == none ? none : unknowns_.of(vertex, k % 3);
-        if (unknown[at(k)] != none) model.gradient[unknown[at(k)]] += terms.gradient[k];
+        if (unknown[at(k)] == none) continue;
+        model.gradient[unknown[at(k)]] += terms.gradient[k];
+        model.area[unknown[at(k)]] += terms.area_gradient[k];
     }
-    double* values = model.hessian.valuePtr();
+    double* values = model.bending.valuePtr();
     for (int c = 0; c < 3 * stencil_size; ++c) {
         const int column = unknown[at(c)];
         if (column == none) continue;
@@ -90,7 +108,7 @@ void VariationEnergy::add(const ElementTerms& terms, int element, QuadraticModel
             const int block = blocks_[at(element)][at(stencil_size * (r / 3) + c / 3)];
             const int slot = unknowns_.slot(row, column, block);
             values[slot] += terms.bending(r, c);
-            model.stretching[slot] += terms.hessian(r, c);
+            model.stretching[slot] += terms.stretching(r, c);
         }
     }
 }
@@ -107,7 +125,6 @@ double VariationEnergy::outline_energy(const Sheet& sheet) const {
 
 // |n − n̂|² = 2 − 2 ⟨n, n̂⟩ with n turned by (a, b).
 void VariationEnergy::add_outline(const Sheet& sheet, QuadraticModel& model) const {
-    model.energy += outline_energy(sheet);
     for (Eigen::Index k = 0; k < problem_.fixed_points.cols(); ++k) {
         const double weight = normal_weight(problem_, k);
         if (weight == 0.0 || !std::isfinite(weight)) continue;
