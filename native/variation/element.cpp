@@ -16,10 +16,8 @@ using PairVector = Eigen::Matrix<double, 6, 1>;
 using PairMatrix = Eigen::Matrix<double, 6, 4>;
 using Residual = Eigen::Matrix<double, 10, 1>;  // of the cubic's size, then of its fit
 
-// Pairs that a cubic doesn't meet: makes the fit's misses cost something, which vanishes with h².
-constexpr double misfit_weight = 0.04;
 // Of the cubic's size in the fit, for stencils at the border with too few pairs (six pairs weigh about 6).
-constexpr double ridge = 0.01;
+constexpr double ridge = 1e-4;
 constexpr double flattest = 1e-6;  // sine of a triangle's angle, share of a pair's length within the plane
 
 // Lᵀ L = Q, cᵀ Q c the mean of C(t, t, t)² over all directions: ⟨cos⁶⟩ = 5/16, ⟨cos⁴ sin²⟩ = 1/16.
@@ -51,7 +49,7 @@ struct Pair {
 
 class Element {
 public:
-    Element(const Sheet& sheet, const Stencil& stencil) {
+    Element(const Sheet& sheet, const Stencil& stencil, double misfit_weight) : misfit_weight_(misfit_weight) {
         for (std::size_t k = 0; k < stencil_size; ++k) {
             present_[k] = stencil[k] != none;
             if (!present_[k]) continue;
@@ -120,7 +118,7 @@ private:
         inverse_ = G.llt().solve(CubicMatrix::Identity());
         cubic_ = inverse_ * (V_.transpose() * derivatives_);
         misfit_ = derivatives_ - V_ * cubic_;
-        residual_ << L * cubic_, std::sqrt(misfit_weight) * misfit_;
+        residual_ << L * cubic_, std::sqrt(misfit_weight_) * misfit_;
         residual_ *= std::sqrt(area_);
     }
 
@@ -141,7 +139,7 @@ private:
     [[nodiscard]] Eigen::Matrix<double, 10, 6> stacked(const Eigen::Matrix<double, 4, 6>& cubic,
                                                        const Eigen::Matrix<double, 6, 6>& misfit) const {
         Eigen::Matrix<double, 10, 6> result;
-        result << root_of_mean_square() * cubic, std::sqrt(misfit_weight) * misfit;
+        result << root_of_mean_square() * cubic, std::sqrt(misfit_weight_) * misfit;
         return std::sqrt(area_) * result;
     }
 
@@ -232,6 +230,7 @@ private:
         }
     }
 
+    double misfit_weight_;
     std::array<bool, stencil_size> present_{};
     Eigen::Matrix<double, 3, 6> x_ = Eigen::Matrix<double, 3, 6>::Zero();
     Eigen::Matrix<double, 3, 6> n_ = Eigen::Matrix<double, 3, 6>::Zero();
@@ -252,13 +251,16 @@ private:
 
 }  // namespace
 
-ElementSums element_sums(const Sheet& sheet, const Stencil& stencil) { return Element(sheet, stencil).sums(); }
-
-ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil, const ElementSums& factors) {
-    return Element(sheet, stencil).terms(factors);
+ElementSums element_sums(const Sheet& sheet, const Stencil& stencil, double misfit_weight) {
+    return Element(sheet, stencil, misfit_weight).sums();
 }
 
-LocalCubic local_cubic(const Sheet& sheet, const Stencil& stencil) { return Element(sheet, stencil).cubic(); }
+ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil, double misfit_weight,
+                           const ElementSums& factors) {
+    return Element(sheet, stencil, misfit_weight).terms(factors);
+}
+
+LocalCubic local_cubic(const Sheet& sheet, const Stencil& stencil) { return Element(sheet, stencil, 0.0).cubic(); }
 
 double LocalCubic::along(const Vector3& chord) const {
     const Eigen::Vector2d direction = Eigen::Vector2d(chord.dot(e1), chord.dot(e2)).normalized();

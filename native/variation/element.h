@@ -18,8 +18,9 @@ struct ElementSums {
 
 // The derivative of the normal curvature along a pair of vertices is 6 ⟨n_i + n_j, x_j − x_i⟩ / |x_j − x_i|³ + O(h²): zero
 // on planes, spheres and circular cylinders for any pair. A cubic form C(t, t, t) is fitted to the pairs of the
-// stencil; what doesn't fit counts a little, too.
-ElementSums element_sums(const Sheet& sheet, const Stencil& stencil);
+// stencil, and what doesn't fit counts `misfit_weight` times. That is O(h²), and it ties the normals to the surface: normals
+// that lean by −(h²/12) C cancel C along pairs of length h, but not along longer ones. Without it the normals would lean.
+ElementSums element_sums(const Sheet& sheet, const Stencil& stencil, double misfit_weight);
 
 // Derivatives of factors.variation · variation + factors.area · area by the motions. The second ones are split:
 // `stretching` is positive semidefinite (Gauss–Newton), `bending` what the pairs' own second derivatives add; those of
@@ -30,7 +31,8 @@ struct ElementTerms {
     ElementMatrix stretching = ElementMatrix::Zero();
     ElementMatrix bending = ElementMatrix::Zero();
 };
-ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil, const ElementSums& factors);
+ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil, double misfit_weight,
+                           const ElementSums& factors);
 
 // The cubic form of a triangle in its plane.
 struct LocalCubic {

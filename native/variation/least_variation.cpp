@@ -70,7 +70,8 @@ SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Progress
         if (std::abs(last->result.merit - merit) <= settled * merit || last->result.merit < tolerance) break;
         merit = last->result.merit;
     }
-    return std::move(*last);
+    mesh.adapt(sizing);
+    return solve_on(mesh, problem, last, Measure::scale_free, {tolerance, 30, 1e-4}, progress.range(0.8, 1.0));
 }
 
 SolvedSheet solve_fine(ProxyMesh& mesh, const Problem& problem, const SolvedSheet& coarse, const Progress& progress) {
@@ -129,7 +130,7 @@ Solution solve_least_variation(const Problem& problem, const Progress& progress)
 }
 
 double variation_energy(const Problem& problem, const Points& points) {
-    const Sheet sheet{points, fitted_normals(problem, points, Progress())};
+    const Sheet sheet{points, fitted_normals(problem, points, Measure::scale_free, Progress())};
     return VariationEnergy(problem, Moving::normals, Measure::scale_free).merit(sheet);
 }
 

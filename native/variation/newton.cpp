@@ -197,10 +197,10 @@ NewtonResult minimise(const VariationEnergy& energy, Sheet& sheet, const NewtonL
     return Newton(energy, sheet, limits, progress).run();
 }
 
-Points fitted_normals(const Problem& problem, const Points& points, const Progress& progress) {
-    constexpr int most_steps = 3;
+Points fitted_normals(const Problem& problem, const Points& points, Measure measure, const Progress& progress) {
+    const int most_steps = measure == Measure::plain ? 3 : 20;  // a start needs no more
     Sheet sheet{points, max_normals(problem.patch, points, problem.fixed_normals)};
-    const VariationEnergy energy(problem, Moving::normals, Measure::plain);
+    const VariationEnergy energy(problem, Moving::normals, measure);
     if (energy.unknowns().count() > 0) minimise(energy, sheet, {0.0, most_steps}, progress);
     return sheet.normals;
 }

@@ -27,6 +27,6 @@ NewtonResult minimise(const VariationEnergy& energy, Sheet& sheet, const NewtonL
 
 // Unit normals that suit points best: of least variation while the points stay, those of the problem where given
 // exactly. Begins at Max's normals.
-Points fitted_normals(const Problem& problem, const Points& points, const Progress& progress);
+Points fitted_normals(const Problem& problem, const Points& points, Measure measure, const Progress& progress);
 
 }  // namespace fairing

@@ -72,7 +72,7 @@ SolvedSheet solve_on(ProxyMesh& mesh, const Problem& problem, const std::optiona
     auto snapshot = mesh.snapshot();
     const Problem here = on_patch(problem, snapshot.patch);
     Sheet sheet = last ? resampled(*last, snapshot)
-                       : Sheet{snapshot.points, fitted_normals(here, snapshot.points, progress.here())};
+                       : Sheet{snapshot.points, fitted_normals(here, snapshot.points, measure, progress.here())};
     const VariationEnergy energy(here, Moving::points_and_normals, measure);
     const NewtonResult result = minimise(energy, sheet, limits, progress);
     mesh.read_back(snapshot.patch, sheet.points);

@@ -6,6 +6,10 @@ namespace fairing {
 
 namespace {
 
+// Of a cubic's misses (element.h). On regular meshes the share of the spin-one part of C that is left is 3w / (1 + 3w):
+// 0.97 with 10. The rough energy of starts is content with little.
+double misfit_weight(Measure measure) { return measure == Measure::plain ? 0.04 : 10.0; }
+
 double normal_weight(const Problem& problem, Eigen::Index fixed) {
     if (problem.patch.pin[at(problem.patch.free_count) + static_cast<std::size_t>(fixed)]) return 0.0;
     return problem.normal_weights.size() == 0 ? HUGE_VAL : problem.normal_weights[fixed];
@@ -43,7 +47,7 @@ VariationEnergy::VariationEnergy(const Problem& problem, Moving moving, Measure 
 ElementSums VariationEnergy::sums(const Sheet& sheet) const {
     std::vector<ElementSums> parts(stencils_.size());
     for_ranges(static_cast<int>(stencils_.size()), fine_grain, [&](int begin, int end) {
-        for (int k = begin; k < end; ++k) parts[at(k)] = element_sums(sheet, stencils_[at(k)]);
+        for (int k = begin; k < end; ++k) parts[at(k)] = element_sums(sheet, stencils_[at(k)], misfit_weight(measure_));
     });
     ElementSums total;
     for (const ElementSums& part : parts) {
@@ -82,7 +86,7 @@ void VariationEnergy::add_elements(const Sheet& sheet, const ElementSums& factor
     for (int first = 0; first < count; first += at_once) {
         const int some = std::min(at_once, count - first);
         for_ranges(some, fine_grain, [&](int begin, int end) {
-            for (int k = begin; k < end; ++k) terms[at(k)] = element_terms(sheet, stencils_[at(first + k)], factors);
+            for (int k = begin; k < end; ++k) terms[at(k)] = element_terms(sheet, stencils_[at(first + k)], misfit_weight(measure_), factors);
         });
         for (int k = 0; k < some; ++k) add(terms[at(k)], first + k, model);
     }
