@@ -76,7 +76,7 @@ public:
             energy_.update(sheet_, model_);
             if (!step()) break;
             ++result.steps;
-            result.converged = share_ == 1.0 && damping_ < 1e-6 && largest_height_ < limits_.tolerance;
+            result.converged = share_ == 1.0 && used_damping_ <= least_damping && largest_height_ < limits_.tolerance;
             if (share_ < limits_.shortest_share) break;
         }
         energy_.update(sheet_, model_);
@@ -106,6 +106,7 @@ private:
     }
 
     void adapt_damping() {
+        used_damping_ = damping_;
         if (share_ == 1.0) damping_ = damping_ > least_damping ? 0.15 * damping_ : 0.0;
         if (share_ < 0.5) damping_ = std::max(5.0 * damping_, least_damping);
     }
@@ -114,15 +115,30 @@ private:
         SparseMatrix matrix = model_.bending;
         Eigen::Map<VectorX> values(matrix.valuePtr(), matrix.nonZeros());
         values = bending_ * values + model_.stretching;
-        for (int k = 0; k < matrix.cols(); ++k) {
-            double& diagonal = values[matrix.outerIndexPtr()[k]];
-            diagonal += (damping_ + roundoff) * std::abs(diagonal);
-        }
+        damp(matrix);
         if (!factor_.factorise(matrix, "least variation", progress_.here())) return std::nullopt;
         VectorX motions = -factor_.solve_vector(model_.gradient);
         if (bending_ == 1.0 && model_.area_factor > 0.0) motions += area_correction(motions);
         if (!motions.allFinite()) return std::nullopt;
         return motions;
+    }
+
+    // By shares of the diagonal; of its mean where a normal turns, which no choice of axes changes.
+    void damp(SparseMatrix& matrix) const {
+        const Unknowns& unknowns = energy_.unknowns();
+        const auto diagonal = [&](int unknown) -> double& {
+            return matrix.valuePtr()[matrix.outerIndexPtr()[unknown]];
+        };
+        const double share = damping_ + roundoff;
+        for (int v = 0; v < energy_.patch().vertex_count(); ++v) {
+            if (const int h = unknowns.of(v, 0); h != none) diagonal(h) += share * std::abs(diagonal(h));
+            if (unknowns.of(v, 1) == none) continue;
+            double& first = diagonal(unknowns.of(v, 1));
+            double& second = diagonal(unknowns.of(v, 2));
+            const double added = 0.5 * share * (std::abs(first) + std::abs(second));
+            first += added;
+            second += added;
+        }
     }
 
     // For the rank-one part of the second derivatives, by Sherman and Morrison.
@@ -138,14 +154,16 @@ private:
     bool search(const VectorX& motions) {
         constexpr int most_halvings = 6;
         constexpr double armijo = 1e-4;
-        constexpr double noise = 1e-13;
+        constexpr double noise = 1e-13;  // of the merit, and where that is zero
+        constexpr double nothing = 1e-20;
         measure(motions);
         const double slope = model_.gradient.dot(motions);
         if (!(slope <= 0.0)) return false;
         share_ = std::min({1.0, largest_turn / largest_turn_, largest_rise / largest_rise_});
         for (int k = 0; k <= most_halvings; ++k, share_ *= 0.5) {
             Sheet tried = energy_.moved(sheet_, motions, share_);
-            if (!(energy_.merit(tried) <= model_.merit + armijo * share_ * slope + noise * model_.merit)) continue;
+            if (!(energy_.merit(tried) <= model_.merit + armijo * share_ * slope + noise * model_.merit + nothing))
+                continue;
             if (folds(energy_.patch(), sheet_, tried)) continue;
             sheet_ = std::move(tried);
             return true;
@@ -183,6 +201,7 @@ private:
     VectorX spacing_;
     QuadraticModel model_;
     double damping_;
+    double used_damping_ = 0.0;
     double bending_ = 1.0;  // share of the indefinite part
     double share_ = 0.0;
     double largest_height_ = 0.0;

@@ -9,7 +9,7 @@ namespace fairing {
 struct NewtonLimits {
     double tolerance;  // of the largest height of a full step, units of D
     int most_steps;
-    double damping = 1e-6;        // at first; large damping removes roughness before anything moves far
+    double damping = 0.0;         // at first; large damping removes roughness before anything moves far
     double shortest_share = 0.0;  // of a step; where less of it can be taken, the mesh is in the way
 };
 

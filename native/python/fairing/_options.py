@@ -70,6 +70,8 @@ def engine_options(
 ) -> _core.Options:
     """Checks the options that both methods have; ``fairness`` is the engine's word for it."""
     _arguments.choice("normals", normals, NORMALS)
+    if method == "paper" and equation == "least_variation":
+        raise ValueError("equation: 'least_variation' is not accepted by method 'paper'; accepted with 'global'")
     return _core.Options(
         equation=_arguments.choice("equation", equation, EQUATIONS),
         load=load_number(equation, load),

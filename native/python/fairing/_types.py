@@ -82,7 +82,8 @@ class FairResult:
     iterations: int
     """Steps of the iteration that led to the result (of the component with most), not of all that was tried."""
     residual: float
-    """Largest |Δ_B H| D³ at a free vertex (|H| D for ``equation="minimal"``). Without a unit, but not without the
+    """Largest |Δ_B H| D³ at a free vertex (|H| D for ``equation="minimal"``; for "least_variation" the
+    largest derivative of its energy by a height, times D). Without a unit, but not without the
     mesh: the same surface has a larger one on a finer mesh, so there is no number that is good. Compare it with
     ``initial_residual``, and judge by ``converged``."""
     initial_residual: float
