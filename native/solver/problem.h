@@ -11,11 +11,11 @@
 namespace fairing {
 
 enum class Equation {
-    harmonic,        // Δ_B H = 0 with G1 boundary data
-    constant,        // Δ_B H = load
-    minimal_energy,  // Δ_B H = −2 H (H² − K): least ∫ κ₁² + κ₂²
-    minimal,         // H = 0 with G0 boundary data
-    least_variation, // least variation of the normal curvatures with G1 boundary data (variation/least_variation.h)
+    harmonic,         // Δ_B H = 0 with G1 boundary data
+    constant,         // Δ_B H = load
+    minimal_energy,   // Δ_B H = −2 H (H² − K): least ∫ κ₁² + κ₂²
+    minimal,          // H = 0 with G0 boundary data
+    least_variation,  // least variation of the normal curvatures with G1 boundary data (variation/least_variation.h)
 };
 
 enum class Termination { converged, iteration_limit, stalled };

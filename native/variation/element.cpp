@@ -39,8 +39,8 @@ const CubicMatrix& root_of_mean_square() {
 
 // A pair of the stencil in the plane of its triangle.
 struct Pair {
-    int i, j;           // places in the stencil
-    Vector3 along;      // x_j − x_i
+    int i, j;       // places in the stencil
+    Vector3 along;  // x_j − x_i
     double length;
     Eigen::Vector2d in_plane;
     double across;      // component along the triangle's normal
@@ -214,8 +214,7 @@ private:
 
     // Second derivatives of ⟨n_i + n_j, x_j − x_i⟩, times `factor`.
     void add_bending(const Pair& pair, double factor, ElementMatrix& hessian) const {
-        for (const auto& [k, other, sign] :
-             {std::tuple(pair.i, pair.j, 1.0), std::tuple(pair.j, pair.i, -1.0)}) {
+        for (const auto& [k, other, sign] : {std::tuple(pair.i, pair.j, 1.0), std::tuple(pair.j, pair.i, -1.0)}) {
             const Frame frame(Vector3(n_.col(k)));
             const Vector3 n = n_.col(other);
             const double u = sign * factor * frame.u.dot(n);
@@ -235,8 +234,8 @@ private:
     Eigen::Matrix<double, 3, 6> x_ = Eigen::Matrix<double, 3, 6>::Zero();
     Eigen::Matrix<double, 3, 6> n_ = Eigen::Matrix<double, 3, 6>::Zero();
     double area_ = 0.0;
-    double base_ = 0.0;    // |ab|
-    Eigen::Vector2d c_;    // of corner c seen from a
+    double base_ = 0.0;  // |ab|
+    Eigen::Vector2d c_;  // of corner c seen from a
     Vector3 normal_, e1_, e2_;
     std::array<Pair, 6> pairs_;
     int count_ = 0;

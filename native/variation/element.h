@@ -9,17 +9,18 @@ namespace fairing {
 using ElementVector = Eigen::Matrix<double, 18, 1>;  // motions (sheet.h) of the six vertices, one after the other
 using ElementMatrix = Eigen::Matrix<double, 18, 18>;
 
-// Of a triangle, or of a whole surface: ∫ ⟨(dκ/ds)²⟩ dA, in units of length⁻², and ∫ dA. κ is the normal curvature along a
-// direction, s the arc length there, ⟨⟩ the mean over all directions.
+// Of a triangle, or of a whole surface: ∫ ⟨(dκ/ds)²⟩ dA, in units of length⁻², and ∫ dA. κ is the normal curvature
+// along a direction, s the arc length there, ⟨⟩ the mean over all directions.
 struct ElementSums {
     double variation = 0.0;
     double area = 0.0;
 };
 
-// The derivative of the normal curvature along a pair of vertices is 6 ⟨n_i + n_j, x_j − x_i⟩ / |x_j − x_i|³ + O(h²): zero
-// on planes, spheres and circular cylinders for any pair. A cubic form C(t, t, t) is fitted to the pairs of the
-// stencil, and what doesn't fit counts `misfit_weight` times. That is O(h²), and it ties the normals to the surface: normals
-// that lean by −(h²/12) C cancel C along pairs of length h, but not along longer ones. Without it the normals would lean.
+// The derivative of the normal curvature along a pair of vertices is 6 ⟨n_i + n_j, x_j − x_i⟩ / |x_j − x_i|³ + O(h²):
+// zero on planes, spheres and circular cylinders for any pair. A cubic form C(t, t, t) is fitted to the pairs of the
+// stencil, and what doesn't fit counts `misfit_weight` times. That is O(h²), and it ties the normals to the surface:
+// normals that lean by −(h²/12) C cancel C along pairs of length h, but not along longer ones. Without it the normals
+// would lean.
 ElementSums element_sums(const Sheet& sheet, const Stencil& stencil, double misfit_weight);
 
 // Derivatives of factors.variation · variation + factors.area · area by the motions. The second ones are split:

@@ -86,8 +86,8 @@ public:
     }
 
 private:
-    // One step of less merit; false where none is found. Where the second derivatives are not positive definite, less of
-    // their indefinite part is taken before damping is: damping slows what is smooth most.
+    // One step of less merit; false where none is found. Where the second derivatives are not positive definite, less
+    // of their indefinite part is taken before damping is: damping slows what is smooth most.
     bool step() {
         bending_ = std::min(1.0, 2.0 * std::max(bending_, 0.125));
         while (damping_ <= largest_damping) {

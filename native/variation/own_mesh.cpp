@@ -47,7 +47,7 @@ Indices triangles_nearby(const SolvedSheet& solved, const Patch& later, const Ta
 }  // namespace
 
 Problem on_patch(const Problem& problem, const Patch& patch) {
-    return {patch,           problem.fixed_points, problem.fixed_normals, uniform_weights(patch),
+    return {patch,           problem.fixed_points,  problem.fixed_normals, uniform_weights(patch),
             problem.options, problem.normal_weights};
 }
 
@@ -59,8 +59,7 @@ Sheet resampled(const SolvedSheet& solved, const ProxyMesh::Snapshot& later) {
     const Eigen::Index fixed = later.patch.vertex_count() - later.patch.free_count;
     sheet.normals.rightCols(fixed) = solved.sheet.normals.rightCols(fixed);
     for (int v = 0; v < later.patch.free_count; ++v) {
-        const SurfaceSample sample =
-            lift.sample(target, target.project(later.points.col(v), triangle[at(v)]));
+        const SurfaceSample sample = lift.sample(target, target.project(later.points.col(v), triangle[at(v)]));
         sheet.points.col(v) = sample.point;
         sheet.normals.col(v) = sample.normal;
     }

@@ -86,7 +86,8 @@ void VariationEnergy::add_elements(const Sheet& sheet, const ElementSums& factor
     for (int first = 0; first < count; first += at_once) {
         const int some = std::min(at_once, count - first);
         for_ranges(some, fine_grain, [&](int begin, int end) {
-            for (int k = begin; k < end; ++k) terms[at(k)] = element_terms(sheet, stencils_[at(first + k)], misfit_weight(measure_), factors);
+            for (int k = begin; k < end; ++k)
+                terms[at(k)] = element_terms(sheet, stencils_[at(first + k)], misfit_weight(measure_), factors);
         });
         for (int k = 0; k < some; ++k) add(terms[at(k)], first + k, model);
     }
@@ -122,7 +123,8 @@ double VariationEnergy::outline_energy(const Sheet& sheet) const {
     for (Eigen::Index k = 0; k < problem_.fixed_points.cols(); ++k) {
         const double weight = normal_weight(problem_, k);
         if (weight == 0.0 || !std::isfinite(weight)) continue;
-        sum += weight * (sheet.normals.col(problem_.patch.free_count + k) - problem_.fixed_normals.col(k)).squaredNorm();
+        sum +=
+            weight * (sheet.normals.col(problem_.patch.free_count + k) - problem_.fixed_normals.col(k)).squaredNorm();
     }
     return sum;
 }
@@ -140,8 +142,7 @@ void VariationEnergy::add_outline(const Sheet& sheet, QuadraticModel& model) con
         for (int m = 0; m < 2; ++m) {
             const int unknown = unknowns_.of(v, m + 1);
             model.gradient[unknown] -= 2.0 * weight * slope[at(m)];
-            model.stretching[unknowns_.slot(unknown, unknown, 0)] +=
-                2.0 * weight * std::max(normal.dot(wanted), 0.0);
+            model.stretching[unknowns_.slot(unknown, unknown, 0)] += 2.0 * weight * std::max(normal.dot(wanted), 0.0);
         }
     }
 }

@@ -11,8 +11,8 @@ namespace fairing {
 // What may move: the free vertices and all normals that are not given exactly, or the normals alone.
 enum class Moving { points_and_normals, normals };
 
-// With V = ∫ ⟨(dκ/ds)²⟩ dA and A the area: V A, which no scaling changes; or V alone, in units of D⁻², which is lower on
-// larger surfaces and easier to descend from far away: there V A would shrink the area of a rough start.
+// With V = ∫ ⟨(dκ/ds)²⟩ dA and A the area: V A, which no scaling changes; or V alone, in units of D⁻², which is lower
+// on larger surfaces and easier to descend from far away: there V A would shrink the area of a rough start.
 enum class Measure { scale_free, plain };
 
 // A merit near a sheet, by the unknown motions of its vertices.

@@ -97,7 +97,8 @@ TEST_CASE("derivatives are those of differences") {
             const double slope =
                 (energy.merit(energy.moved(sheet, motion, step)) - energy.merit(energy.moved(sheet, motion, -step))) /
                 (2.0 * step);
-            CHECK(model.gradient[k] == doctest::Approx(slope).epsilon(1e-5).scale(model.gradient.cwiseAbs().maxCoeff()));
+            CHECK(model.gradient[k] ==
+                  doctest::Approx(slope).epsilon(1e-5).scale(model.gradient.cwiseAbs().maxCoeff()));
         }
     }
 }
@@ -141,8 +142,9 @@ TEST_CASE("normals of small weight give way to the surface, those of large weigh
 
 TEST_CASE("fitted normals are exact on spheres, and the energy of points alone is that of the best normals") {
     const Exact exact(test::grid(10, 0.3, test::sphere), [](const Vector3& p) { return p; });
-    CHECK((fitted_normals(exact.problem, exact.sheet.points, Measure::plain, Progress()) - exact.sheet.points).cwiseAbs().maxCoeff() <
-          1e-6);
+    CHECK((fitted_normals(exact.problem, exact.sheet.points, Measure::plain, Progress()) - exact.sheet.points)
+              .cwiseAbs()
+              .maxCoeff() < 1e-6);
     CHECK(variation_energy(exact.problem, exact.sheet.points) < 1e-9);
     const Exact ring = torus_patch(16);
     CHECK(variation_energy(ring.problem, ring.sheet.points) < 1.0001 * ring.merit(Measure::scale_free));
