@@ -56,7 +56,7 @@ def _chart(around: int, length: float, seed: int) -> tuple[FloatArray, IntArray,
     rims = [np.column_stack([column + shift, np.full(around, v)]) for shift, v in ((0.0, 0.0), (0.4, length))]
     points = np.concatenate([*inner, *rims])
     points[:, 0] %= around
-    copies = np.concatenate([points + [k * around, 0.0] for k in (-1, 0, 1)])
+    copies = np.concatenate([points + np.array([k * around, 0.0]) for k in (-1, 0, 1)])
     simplices = Delaunay(copies).simplices
     corners = copies[simplices]
     twice = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

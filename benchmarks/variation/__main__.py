@@ -1,4 +1,4 @@
-"""Surfaces of least variation against their goals: pipes, tapers, elbows, bends, a joint of three arms, mesh independence.
+"""Surfaces of least variation against their goals: pipes, tapers, elbows, bends, joints, mesh independence.
 
     python benchmarks/variation [pipe | taper | elbow | bend | joint | agreement | order | functional …]
 
