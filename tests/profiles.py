@@ -1,8 +1,8 @@
 """Surfaces of revolution of least variation, in one dimension: a reference for the two-dimensional solver.
 
-The profile (r, z) has the tangent angle φ: r′ = cos φ, z′ = sin φ. Its principal curvatures are φ′ along it and
-sin φ / r around, their derivatives along it a = φ″ and b = (cos φ / r)(φ′ − sin φ / r), and the mean over all directions
-of the squared derivative of the normal curvature is (5a² + 6ab + 9b²) / 16.
+The profile (r, z) has the tangent angle φ: r′ = cos φ, z′ = sin φ. Its principal curvatures are φ′ along it
+and sin φ / r around, their derivatives along it a = φ″ and b = (cos φ / r)(φ′ − sin φ / r), and the mean over all
+directions of the squared derivative of the normal curvature is (5a² + 6ab + 9b²) / 16.
 """
 
 from __future__ import annotations
