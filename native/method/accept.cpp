@@ -65,15 +65,6 @@ Flaw flaw_of(const Problem& problem, Solution& solution) {
     return solution.iterations > most_iterations ? Flaw::many_iterations : Flaw::none;
 }
 
-void refuse_folds(const Problem& problem, const Placed& placed, Solution& solution) {
-    constexpr double tolerated_share = 0.05;
-    const bool senseless = !is_uniform(problem.weights) && static_cast<double>(placed.folded_by_springs) >
-                                                               tolerated_share * problem.patch.triangle_count();
-    if (!senseless && placed.folded.size() <= problem.tolerated_folds) return;
-    solution.termination = Termination::folded;
-    solution.bad_triangles = placed.folded;
-}
-
 bool is_final(const Problem& problem, const Solution& solution) {
     if (solution.flaw == Flaw::none) return true;
     // The mesh carries the equation, but not with the whole load: other meshes wouldn't either.

@@ -1,7 +1,7 @@
 // The one rule by which a solution is accepted.
 #pragma once
 
-#include "placement/place.h"
+#include "solver/problem.h"
 
 namespace fairing {
 
@@ -9,10 +9,6 @@ namespace fairing {
 // left, an outline that is met from behind, folds, crossings that the surface itself has not, triangles that can't
 // carry the equation, more iterations than an answer needs that is one. Names the bad triangles in the solution.
 Flaw flaw_of(const Problem& problem, Solution& solution);
-
-// Ends a placed solution as `folded` where the placement is, or where the weights' own minimum is that folded that they
-// say nothing about these vertices.
-void refuse_folds(const Problem& problem, const Placed& placed, Solution& solution);
 
 // Whether no other way could do better: accepted, or solved for as much of the load as the surface carries.
 bool is_final(const Problem& problem, const Solution& solution);

@@ -75,13 +75,14 @@ private:
 
 }  // namespace
 
-Placed place(const Problem& problem, const TangentialStep& tangential, const SolvedProxy& proxy,
-             const TargetSurface& target, const std::optional<Points>& guess, const Progress& progress) {
+Placed place(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
+             const std::optional<Points>& guess, const Progress& progress) {
+    const TargetSurface& target = surface.target;
     std::vector<Placement> starts;
-    if (guess) starts.push_back(by_surface(problem, *guess, proxy.mesh.patch, target));
+    if (guess) starts.push_back(by_surface(problem, *guess, surface.mesh.patch, target));
     Placing placing(problem, tangential, target, progress);
     if (!starts.empty() && placing.by_springs(starts.front())) return std::move(placing).best();
-    starts.push_back(by_history(problem, proxy.history, proxy.mesh, target));
+    starts.push_back(by_history(problem, surface.history, surface.mesh, target));
     if (placing.by_springs(starts.back())) return std::move(placing).best();
     for (Placement& start : starts) {
         if (placing.as_it_is(std::move(start))) break;
@@ -95,6 +96,15 @@ Placed place_own(const Problem& problem, const TangentialStep& tangential, const
     Placing placing(problem, tangential, target, progress);
     if (!placing.by_springs(start)) placing.as_it_is(start);
     return std::move(placing).best();
+}
+
+void refuse_folds(const Problem& problem, const Placed& placed, Solution& solution) {
+    constexpr double tolerated_share = 0.05;
+    const bool senseless = !is_uniform(problem.weights) && static_cast<double>(placed.folded_by_springs) >
+                                                               tolerated_share * problem.patch.triangle_count();
+    if (!senseless && placed.folded.size() <= problem.tolerated_folds) return;
+    solution.termination = Termination::folded;
+    solution.bad_triangles = placed.folded;
 }
 
 }  // namespace fairing
