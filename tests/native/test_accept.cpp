@@ -88,15 +88,20 @@ TEST_CASE("folds are a flaw and are named, unless the weights come from as many"
 TEST_CASE("crossings are a flaw where the surface itself has none") {
     const Solved solved;
     Solution solution = solved.solution();
-    // One inner vertex hangs through the triangles next to its ring.
+    // One vertex is drawn over a spike that another one makes, three edges away.
     const Patch& patch = solved.patch();
-    int inner = 0;
-    for (int v = 0; v < patch.free_count; ++v) {
-        const auto off_centre = [&](int w) { return solved.single.points.col(w).head<2>().norm(); };
-        if (off_centre(v) < off_centre(inner)) inner = v;
-    }
     const double edge = mean_edge(patch, solution.points);
-    solution.points.col(inner) += edge * Vector3(2.4, 0.3, -1.0);
+    const auto nearest = [&](double x) {
+        int found = 0;
+        for (int v = 0; v < patch.free_count; ++v) {
+            const auto away = [&](int w) { return (solved.single.points.col(w).head<2>() - Eigen::Vector2d(x, 0)).norm(); };
+            if (away(v) < away(found)) found = v;
+        }
+        return found;
+    };
+    const int spike = nearest(0.0);
+    solution.points.col(spike) += Vector3(0.0, 0.0, 3.0 * edge);
+    solution.points.col(nearest(3.0 * edge)) = solution.points.col(spike) - Vector3(edge, 0.0, 1.5 * edge);
     Problem lenient = solved.problem;
     lenient.tolerated_folds = 1000;
     CHECK(flaw_of(lenient, solution) == Flaw::crossing);
