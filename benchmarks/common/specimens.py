@@ -25,8 +25,9 @@ class Record:
     """One patch with one λ: what came of its starts. `spread` is over the radius, angles are degrees.
 
     turn: largest turn of the prescribed normals per outline edge; unfitted: share of normals that are averages;
-    converged, polished: how many starts; folded, crossing: of the converged ones, those with triangles that are turned
-    over or pass through others; way: of the first start; slowest: CPU seconds of one start; claimed: the spread of those that say that they converged.
+    converged, polished: how many starts; folded, crossing: of the converged ones, those with triangles that are
+    turned over or pass through others; way: of the first start; slowest: CPU seconds of one start; claimed: the
+    spread of those that say that they converged.
     """
 
     name: str

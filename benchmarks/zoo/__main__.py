@@ -4,9 +4,10 @@
     python benchmarks/zoo --patches 60 --weights conformal
 
 Each patch is solved from its interior as given, flattened and noisy. *Same*: all converged, within 0.5 % of the patch's
-radius. *Told*: not the same, but no two that say that they converged differ. *Silent*: two such differ. *Folded*, *crossing*: starts that say that they converged, with
-triangles that are turned over or pass through others. *Slowest*: one start, of up to 1,500 free vertices. The random
-patches are those of seed 0 unless `--seed` says otherwise; seed 0 was used for tuning. Each call has one thread, a process of its own and a time limit. Needs the meshes of shared/data beside the checkout.
+radius. *Told*: not the same, but no two that say that they converged differ. *Silent*: two such differ. *Folded*,
+*crossing*: starts that say that they converged, with triangles that are turned over or pass through others. *Slowest*:
+CPU seconds of one start, of those with up to 1,500 free vertices. Seed 0 was used for tuning. Each call has one thread,
+a process of its own and a time limit. Needs the meshes of shared/data beside the checkout.
 """
 
 from __future__ import annotations

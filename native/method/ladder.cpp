@@ -64,9 +64,7 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
          [](const Problem& p, const Situation&, const Progress& part) { return Found(solve_directly(p, part)); }, 0.0,
          1.0},
         {"variation", [](const Problem& p, const Situation&) { return is_least_variation(p); },
-         [](const Problem& p, const Situation&, const Progress& part) {
-             return Found(solve_least_variation(p, part));
-         },
+         [](const Problem& p, const Situation&, const Progress& part) { return Found(solve_least_variation(p, part)); },
          0.0, 1.0},
         {"nested", [](const Problem& p, const Situation&) { return is_fourth_order(p) && is_large(p); },
          [](const Problem& p, const Situation&, const Progress& part) { return solve_nested(p, part); }, 0.0, 1.0},

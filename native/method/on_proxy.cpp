@@ -26,9 +26,9 @@ Solution placed_solution(const Problem& problem, const SolvedProxy& proxy, const
 }
 
 // Whether the proxy begins from the surface of the user's own mesh. An iteration that ended nowhere may have left the
-// surface, wrinkled, or have gone astray to a bulb, which tubes admit besides (a pipe of twelve radii whose ends lean by
-// 30° grew to four). Between three outlines and more it was the surface in 20 of 20 blends, four times as fast as from
-// the membrane and with fewer vertices off.
+// surface, wrinkled, or have gone astray to a bulb, which tubes admit besides (a pipe of twelve radii whose ends lean
+// by 30° grew to four). Between three outlines and more it was the surface in 20 of 20 blends, four times as fast as
+// from the membrane and with fewer vertices off.
 bool is_start(const Problem& problem, const OwnSurface& own) {
     constexpr int most_loops_of_tubes = 2;
     return own.solved || problem.patch.loop_count() > most_loops_of_tubes;
@@ -43,13 +43,14 @@ Solution solve_on_proxy(const Problem& problem, const std::optional<OwnSurface>&
     const double fill_seconds = watch.lap();
     std::optional<Points> own;
     if (guess) own = guess->points;
-    const SolvedProxy proxy =
-        solve_proxy(problem, guess && is_start(problem, *guess) ? own : std::nullopt, membrane, progress.range(0.0, 0.6));
+    const SolvedProxy proxy = solve_proxy(problem, guess && is_start(problem, *guess) ? own : std::nullopt, membrane,
+                                          progress.range(0.0, 0.6));
     const double proxy_seconds = watch.lap();
     const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
     Workspace work{make_normal_operator(problem),
                    make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())};
-    const Placed placed = place(problem, *work.tangential, {proxy.history, proxy.mesh, target}, own, progress.range(0.6, 0.8));
+    const Placed placed =
+        place(problem, *work.tangential, {proxy.history, proxy.mesh, target}, own, progress.range(0.6, 0.8));
     Solution solution = placed_solution(problem, proxy, target, placed);
     const double placement_seconds = watch.lap();
     if (solution.termination == Termination::converged) {
@@ -57,10 +58,8 @@ Solution solve_on_proxy(const Problem& problem, const std::optional<OwnSurface>&
                           progress.range(0.8, 1.0));
     }
     solution.initial_residual = largest_residual(problem, start, outer_residual(problem, start));
-    solution.seconds = {{"fill", fill_seconds},
-                        {"proxy", proxy_seconds},
-                        {"placement", placement_seconds},
-                        {"polish", watch.lap()}};
+    solution.seconds = {
+        {"fill", fill_seconds}, {"proxy", proxy_seconds}, {"placement", placement_seconds}, {"polish", watch.lap()}};
     return solution;
 }
 

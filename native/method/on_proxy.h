@@ -14,9 +14,9 @@ struct OwnSurface {
 };
 
 // `guess`: what the vertices are placed from, if there is anything. Where the discrete equation
-// holds on the user's own mesh near the placed vertices, that is the solution; else the placed vertices with the proxy's
-// H. Where no placement without folds is found, or the placed mesh crosses itself and the proxy's surface does not,
-// `folded`. Where no proxy converges, the least bent of their surfaces, not converged.
+// holds on the user's own mesh near the placed vertices, that is the solution; else the placed vertices with the
+// proxy's H. Where no placement without folds is found, or the placed mesh crosses itself and the proxy's surface does
+// not, `folded`. Where no proxy converges, the least bent of their surfaces, not converged.
 Solution solve_on_proxy(const Problem& problem, const std::optional<OwnSurface>& guess, const Progress& progress);
 
 }  // namespace fairing

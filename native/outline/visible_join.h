@@ -15,8 +15,8 @@ struct JoinedMesh {
     std::optional<Points> before;
 };
 
-// At each vertex of `outline`, degrees: by how much the signed dihedral angles of its outline edges exceed what is usual
-// within three rings inside and outside, and what the same edge had before; the mean over these edges, by their
+// At each vertex of `outline`, degrees: by how much the signed dihedral angles of its outline edges exceed what is
+// usual within three rings inside and outside, and what the same edge had before; the mean over these edges, by their
 // lengths. 0 where no outline edge ends. Triangles that name a vertex twice are left out.
 VectorX visible_join(const JoinedMesh& mesh, const Indices& outline);
 

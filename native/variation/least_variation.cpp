@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/stopwatch.h"
-#include "geometry/surface_fit.h"
 #include "geometry/self_intersection.h"
+#include "geometry/surface_fit.h"
 #include "placement/place.h"
 #include "solver/biharmonic_operator.h"
 #include "solver/globalisation.h"

@@ -94,7 +94,9 @@ TEST_CASE("crossings are a flaw where the surface itself has none") {
     const auto nearest = [&](double x) {
         int found = 0;
         for (int v = 0; v < patch.free_count; ++v) {
-            const auto away = [&](int w) { return (solved.single.points.col(w).head<2>() - Eigen::Vector2d(x, 0)).norm(); };
+            const auto away = [&](int w) {
+                return (solved.single.points.col(w).head<2>() - Eigen::Vector2d(x, 0)).norm();
+            };
             if (away(v) < away(found)) found = v;
         }
         return found;

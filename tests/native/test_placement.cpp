@@ -97,8 +97,9 @@ TEST_CASE("untangling turns all folds back and leaves the vertices on the surfac
 
 TEST_CASE("vertices that follow a surface of their own mesh land where they are on it") {
     const Square square;
-    const Placement found = placed_at(square.problem, square.target,
-                                      by_surface(square.problem, square.single.points, square.patch(), square.target).where);
+    const Placement found =
+        placed_at(square.problem, square.target,
+                  by_surface(square.problem, square.single.points, square.patch(), square.target).where);
     CHECK((found.points - square.single.points).cwiseAbs().maxCoeff() < 1e-14);
     // However far above it: over every place of the square there is but one.
     Points lifted = square.single.points;
@@ -110,8 +111,7 @@ TEST_CASE("vertices that follow a surface of their own mesh land where they are 
 TEST_CASE("springs that hold folds back get less than all they pull for, and fold nothing") {
     const Square square;
     const Problem problem = square.make_problem(one_sided_pull(square));
-    const auto tangential =
-        make_tangential_step(square.patch(), problem.weights, problem.fixed_points, Progress());
+    const auto tangential = make_tangential_step(square.patch(), problem.weights, problem.fixed_points, Progress());
     // From a placement without folds next to one with many.
     Placement start = square.twirled(2.0);
     untangle(problem, square.target, start);
