@@ -99,7 +99,7 @@ def region(vertices: FloatArray, triangles: IntArray, seed: int, wanted: int) ->
     held[outside] = True
     held[measures.border_edges(triangles)] = True
     fixed = used[held[used]]
-    normals = np.array(fairing.surrounding_normals(vertices, outside, fixed)[0])
+    normals = np.array(fairing.surrounding_normals(vertices, outside, fixed).normals)
     missing = np.linalg.norm(normals, axis=1) < 0.5
     normals[missing] = fairing.vertex_normals(vertices, triangles)[fixed[missing]]
     return Region(vertices[used], number[inside], number[fixed], normals)
