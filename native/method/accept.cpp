@@ -60,13 +60,13 @@ Flaw flaw_of(const Problem& problem, Solution& solution) {
         solution.bad_triangles = crossing_triangles(problem.patch.triangles, solution.points);
         if (!solution.bad_triangles.empty()) return Flaw::crossing;
     }
-    if (!solution.polished || solution.from_surface) return Flaw::none;
+    if (!solution.polished || solution.from_surface) return Flaw::absent;
     if (has_poor_triangles(problem.patch, solution.points)) return Flaw::poor_triangles;
-    return solution.iterations > most_iterations ? Flaw::many_iterations : Flaw::none;
+    return solution.iterations > most_iterations ? Flaw::many_iterations : Flaw::absent;
 }
 
 bool is_final(const Problem& problem, const Solution& solution) {
-    if (solution.flaw == Flaw::none) return true;
+    if (solution.flaw == Flaw::absent) return true;
     // The mesh carries the equation, but not with the whole load: other meshes wouldn't either.
     return solution.reached_load > 0.0 && !has_poor_triangles(problem.patch, solution.points);
 }

@@ -16,7 +16,7 @@ std::optional<Solution> solve_uniformly(const Problem& even, const Progress& pro
     std::optional<Solution> solution;
     if (is_large(even)) solution = solve_nested(even, progress);
     if (!solution) solution = directly.solve(even, {}, progress);
-    if (flaw_of(even, *solution) != Flaw::none) return std::nullopt;
+    if (flaw_of(even, *solution) != Flaw::absent) return std::nullopt;
     return solution;
 }
 

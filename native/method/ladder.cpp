@@ -46,7 +46,7 @@ Found with_uniform_weights(const Problem& problem, const Situation& /*situation*
     even.weights = uniform_weights(problem.patch);
     even.tolerated_folds = 0;
     Solution solution = solve_global(even, progress);
-    if (solution.flaw != Flaw::none) return std::nullopt;
+    if (solution.flaw != Flaw::absent) return std::nullopt;
     solution.even_weights = true;
     return solution;
 }

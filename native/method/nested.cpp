@@ -89,7 +89,7 @@ public:
         Solution solution = solve_coarsest(progress_.range(begin, done_after(coarsest)));
         seconds["coarsest"] = watch.lap();
         const double initial_residual = solution.initial_residual;
-        solution = solution.flaw == Flaw::none ? refined(std::move(solution)) : given_up(coarsest, solution.points);
+        solution = solution.flaw == Flaw::absent ? refined(std::move(solution)) : given_up(coarsest, solution.points);
         solution.initial_residual = initial_residual;
         for (std::size_t k = levels_.size(); k-- > 0;)
             solution.levels.push_back(levels_[k].problem.patch.vertex_count());

@@ -25,7 +25,7 @@ Solution polish(const Problem& problem, Workspace& work, Solution placed, double
     own.boundary_normals = one_sided_normals(problem.patch, own.points);
     own.from_surface = true;
     own.crosses = placed.crosses;
-    return flaw_of(problem, own) == Flaw::none ? own : placed;
+    return flaw_of(problem, own) == Flaw::absent ? own : placed;
 }
 
 }  // namespace fairing

@@ -92,7 +92,7 @@ void WarmStart::hold(const Problem& problem, const Progress& progress) {
 void WarmStart::remember(const Problem& problem, const Solution& solution, const Progress& progress) {
     ready_ = false;
     choose_operator(problem);
-    if (!solution.polished || solution.flaw != Flaw::none || has_poor_triangles(patch_, solution.points)) return;
+    if (!solution.polished || solution.flaw != Flaw::absent || has_poor_triangles(patch_, solution.points)) return;
     if (!work_.keeps_factor && !factorise(problem, solution.points, progress.here())) return;
     hold(problem, progress);
     points_ = solution.points;
@@ -160,7 +160,7 @@ std::optional<Solution> WarmStart::solve(const Problem& problem, const Progress&
     solution.boundary_normals = one_sided_normals(patch_, solution.points);
     // Only an answer without folds counts as the one that a solve from the boundary alone would give.
     solution.flaw = flaw_of(problem, solution);
-    if (solution.flaw != Flaw::none) return std::nullopt;
+    if (solution.flaw != Flaw::absent) return std::nullopt;
     solution.seconds = {{"prediction", prediction}, {"iteration", watch.lap()}};
     solution.ways = {{"warm", prediction + solution.seconds["iteration"]}};
     return solution;

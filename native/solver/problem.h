@@ -23,7 +23,7 @@ enum class Termination { converged, iteration_limit, stalled, folded };
 
 // What is wrong with a solution, from the least to the worst (method/accept).
 enum class Flaw {
-    none,
+    absent,
     many_iterations,  // converged, but so slowly that it may be another solution than the surface's
     poor_triangles,   // converged on triangles that can't carry the equation
     crossing,         // triangles pass through each other, and the surface does not
@@ -75,7 +75,7 @@ struct Solution {
     std::vector<int> levels;        // vertex counts, coarse to fine; empty: only the patch itself
     std::map<std::string, double> seconds;
     std::vector<WayTaken> ways;
-    Flaw flaw = Flaw::none;
+    Flaw flaw = Flaw::absent;
     Indices bad_triangles;      // of the patch: folded or crossing ones, for those flaws
     bool from_surface = false;  // its iteration began on the solved surface of a proxy
     bool crosses = false;       // the surface passes through itself, whatever the mesh

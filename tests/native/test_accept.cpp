@@ -50,7 +50,7 @@ bool always(const Problem&, const Situation&) { return true; }
 TEST_CASE("a good solution has no flaw") {
     const Solved solved;
     Solution solution = solved.solution();
-    CHECK(flaw_of(solved.problem, solution) == Flaw::none);
+    CHECK(flaw_of(solved.problem, solution) == Flaw::absent);
     CHECK(solution.bad_triangles.empty());
 }
 
@@ -67,11 +67,11 @@ TEST_CASE("more iterations than a good mesh needs are a flaw, but from the surfa
     const Solved solved;
     Solution solution = solved.solution();
     solution.iterations = 20;
-    CHECK(flaw_of(solved.problem, solution) == Flaw::none);
+    CHECK(flaw_of(solved.problem, solution) == Flaw::absent);
     solution.iterations = 21;
     CHECK(flaw_of(solved.problem, solution) == Flaw::many_iterations);
     solution.from_surface = true;
-    CHECK(flaw_of(solved.problem, solution) == Flaw::none);
+    CHECK(flaw_of(solved.problem, solution) == Flaw::absent);
 }
 
 TEST_CASE("folds are a flaw and are named, unless the weights come from as many") {
@@ -82,7 +82,7 @@ TEST_CASE("folds are a flaw and are named, unless the weights come from as many"
     CHECK(!solution.bad_triangles.empty());
     solved.problem.tolerated_folds = solution.bad_triangles.size();
     solution.crosses = true;
-    CHECK(flaw_of(solved.problem, solution) == Flaw::none);
+    CHECK(flaw_of(solved.problem, solution) == Flaw::absent);
 }
 
 TEST_CASE("crossings are a flaw where the surface itself has none") {
@@ -109,7 +109,7 @@ TEST_CASE("crossings are a flaw where the surface itself has none") {
     CHECK(flaw_of(lenient, solution) == Flaw::crossing);
     CHECK(!solution.bad_triangles.empty());
     solution.crosses = true;
-    CHECK(flaw_of(lenient, solution) == Flaw::none);
+    CHECK(flaw_of(lenient, solution) == Flaw::absent);
 }
 
 TEST_CASE("a surface without area and one that meets its outline from behind are no answers") {
@@ -131,7 +131,7 @@ TEST_CASE("triangles that can't carry the equation are a flaw of the user's mesh
     CHECK(has_poor_triangles(solved.patch(), squeezed));
     CHECK(flaw_of(solved.problem, solution) == Flaw::poor_triangles);
     solution.polished = false;
-    CHECK(flaw_of(solved.problem, solution) == Flaw::none);
+    CHECK(flaw_of(solved.problem, solution) == Flaw::absent);
 }
 
 TEST_CASE("two surfaces agree within their errors, or within the coarser one's edges") {
@@ -162,7 +162,7 @@ TEST_CASE("the first way that is accepted ends the ladder, and all that were tri
                           Way{"empty", always, nothing, 0.1, 0.2}, Way{"bad", always, solve_badly, 0.2, 0.3},
                           Way{"good", always, solve_well, 0.3, 0.4}, Way{"late", always, solve_well, 0.4, 0.5}};
     const Solution found = run_ways(ways, solved.problem, Progress());
-    CHECK(found.flaw == Flaw::none);
+    CHECK(found.flaw == Flaw::absent);
     REQUIRE(found.ways.size() == 3);
     CHECK(found.ways[0].name == "empty");
     CHECK(found.ways[1].name == "bad");
