@@ -106,14 +106,15 @@ struct Row {
 
 template <typename Solver>
 void measure(const System& system, Row& row) {
+    const SparseMatrix doubled = 2.0 * system.lower;
     Solver solver(system);
     const double begin = cpu_seconds();
     factorise(solver, system.lower);
     const double middle = cpu_seconds();
-    factorise(solver, 2.0 * system.lower);
+    factorise(solver, doubled);
     const double end = cpu_seconds();
     const VectorX known = VectorX::LinSpaced(system.lower.rows(), -1.0, 1.0);
-    const VectorX rhs = 2.0 * (system.lower.selfadjointView<Eigen::Lower>() * known);
+    const VectorX rhs = doubled.selfadjointView<Eigen::Lower>() * known;
     const double before = cpu_seconds();
     const VectorX found = solver.solve(rhs);
     row.solve = std::min(row.solve, cpu_seconds() - before);
