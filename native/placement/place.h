@@ -12,7 +12,7 @@ struct Placed {
     Indices folded;  // triangles of the problem's patch that no way of placing turned back
 };
 
-// Of several placements the one with the fewest folds, of those the one with the least merit (tangential_step.h). They
+// Tries several placements and takes the one with the fewest folds, then with the least merit (tangential_step.h). They
 // begin from `guess`, a surface of the problem's own patch that has the right sheets, and from the history of the
 // proxy mesh. Where the springs' minimum is folded, folds are turned back vertex by vertex, and the springs relax only
 // as far as nothing folds.

@@ -15,7 +15,7 @@ struct SurfaceState {
 
     // Faces and stiffness of the present points.
     void measure_faces(const Patch& patch);
-    // Fitted (or averaged) normals and the curvature of METHOD §6 on top of them.
+    // Fitted (or averaged) normals and the curvature (paper §6) on top of them.
     void measure_curvature(const Problem& problem);
 };
 
