@@ -22,8 +22,8 @@ void inverse_distance_ring_weights(const OneRing& ring, std::vector<double>& res
 void conformal_ring_weights(const OneRing& ring, std::vector<double>& result);
 
 // Floater 1997, "Parametrization and smooth approximation of surface triangulations". The ring is laid out in the plane
-// with its lengths kept and its angles scaled to sum to 2π. Every point, with the edge of the ring opposite to it, gives
-// barycentric coordinates of the centre. These are averaged. Exact on planar rings: Σ λ_j q_j = q_i.
+// with its lengths kept and its angles scaled to sum to 2π. Every point, with the edge of the ring opposite to it,
+// gives barycentric coordinates of the centre. These are averaged. Exact on planar rings: Σ λ_j q_j = q_i.
 void shape_preserving_ring_weights(const OneRing& ring, std::vector<double>& result);
 
 // By kind; `custom` has no rule for a ring and counts as uniform.
