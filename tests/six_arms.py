@@ -23,8 +23,7 @@ def six_arms(n_free: int, *, jitter: float = 0.6, seed: int = 0, reach: float = 
     """An irregular mesh with about n_free free vertices; jitter 0 gives the regular kind."""
     h = float(np.sqrt(8 * area(reach) / (0.5 * np.sqrt(3) * n_free)))
     for _ in range(8):
-        rng = np.random.default_rng(seed)
-        made = of_octants(h, reach, lambda flat, spacing=h: sheet(flat, spacing, jitter, rng))
+        made = _even_octants(h, jitter, seed, reach)
         count = len(made.vertices) - len(made.fixed)
         if abs(count - n_free) < 0.01 * n_free:
             break
@@ -64,6 +63,11 @@ def _outline(reach: float, h: float) -> tuple[FloatArray, FloatArray, IntArray]:
             axes.append(np.where(np.arange(len(points)) == 0, axis, kind))
             corner = ahead
     return np.vstack(flat), np.vstack(places), np.concatenate(axes)
+
+
+def _even_octants(h: float, jitter: float, seed: int, reach: float) -> Blend:
+    rng = np.random.default_rng(seed)
+    return of_octants(h, reach, lambda flat: sheet(flat, h, jitter, rng))
 
 
 def of_octants(h: float, reach: float, make: Callable[[FloatArray], FloatArray]) -> Blend:

@@ -97,31 +97,31 @@ class _Strips:
         return np.array(numbers), np.array(places)
 
 
-def bridged(n_free: int, rims: list[Rim], seed: int = 0) -> Blend:
+def bridged(n_free: int, rims: list[Rim], seed: int = 0, *, evenly: bool = False) -> Blend:
     """Three bridges between three rims, in the order of the rims, with about n_free free vertices."""
     rng = np.random.default_rng([seed, 17])
-    mean = np.sqrt(n_free * STRETCH / LENGTH / 3)
-    order = rng.permutation(3)
-    columns = [max(4, round(mean * DENSITIES[k] / np.mean(DENSITIES))) for k in order]
+    densities = [1.0, 1.0, 1.0] if evenly else [DENSITIES[k] for k in rng.permutation(3)]
+    mean = np.sqrt(n_free * (1.0 if evenly else STRETCH) / LENGTH / 3)
+    columns = [max(4, round(mean * density / np.mean(densities))) for density in densities]
     rows = max(4, 2 * round(n_free / sum(columns) / 2))
     strips = _Strips(columns, rows)
     count, triangles = strips.count, []
     for k in range(3):
         numbers, places = strips.border(k, columns[k])
-        inner = _shaken(columns[k], rows, rng)
+        inner = _shaken(columns[k], rows, 0.1 * JITTER if evenly else JITTER, rng)
         triangles.append(_strip(np.concatenate([numbers, count + np.arange(len(inner))]), np.vstack([places, inner])))
         count += len(inner)
-    fixed, normals, centres = _on_rims(strips, columns, rims)
+    fixed, normals, centres = _on_rims(strips, columns, rims, 1.0 if evenly else GRADING)
     vertices = np.zeros((count, 3))
-    vertices[fixed] = centres + normals * np.repeat([rim.radius for rim in rims], len(fixed) // 3)[0]
-    faces = shuffled(np.vstack(triangles), fixed, FLIPS, seed)
+    vertices[fixed] = centres + rims[0].radius * normals
+    faces = shuffled(np.vstack(triangles), fixed, 0.0 if evenly else FLIPS, seed)
     return Blend(membrane(vertices, faces, fixed), faces, fixed, normals)
 
 
-def _shaken(columns: int, rows: int, rng: np.random.Generator) -> FloatArray:
+def _shaken(columns: int, rows: int, jitter: float, rng: np.random.Generator) -> FloatArray:
     i, j = np.meshgrid(np.arange(1, columns), np.arange(1, rows))
     lattice = np.column_stack([i.ravel(), j.ravel()]).astype(float)
-    return np.asarray(lattice + JITTER * (rng.random(lattice.shape) - 0.5))
+    return np.asarray(lattice + jitter * (rng.random(lattice.shape) - 0.5))
 
 
 def _strip(numbers: IntArray, places: FloatArray) -> IntArray:
@@ -133,7 +133,9 @@ def _strip(numbers: IntArray, places: FloatArray) -> IntArray:
     return np.asarray(numbers[triangles[np.abs(doubled) > 1e-9]])
 
 
-def _on_rims(strips: _Strips, columns: list[int], rims: list[Rim]) -> tuple[IntArray, FloatArray, FloatArray]:
+def _on_rims(
+    strips: _Strips, columns: list[int], rims: list[Rim], grading: float
+) -> tuple[IntArray, FloatArray, FloatArray]:
     """Fixed vertices, normals and centres: each rim's two seams and its half of the bridges after and before it."""
     fixed, normals, centres = [], [], []
     for k, rim in enumerate(rims):
@@ -141,7 +143,7 @@ def _on_rims(strips: _Strips, columns: list[int], rims: list[Rim]) -> tuple[IntA
         angles = [0.0, np.pi]
         numbers = [strips.seam(k, 0, 0), strips.seam(k, 1, 0)]
         for bridge, end, way in ((after, 0, 1.0), (before, 1, -1.0)):
-            angles += list(way * np.pi * graded(columns[bridge], GRADING)[1:-1])
+            angles += list(way * np.pi * graded(columns[bridge], grading)[1:-1])
             numbers += range(strips.first_on_rim[bridge][end], strips.first_on_rim[bridge][end] + columns[bridge] - 1)
         fixed.append(np.array(numbers))
         normals.append(rim.normals(np.array(angles)))
@@ -191,7 +193,7 @@ def _octant(outline: FloatArray, along: FloatArray, width: float, rng: np.random
     low, high = (outline @ axes.T).min(axis=0), (outline @ axes.T).max(axis=0)
     shares = graded(max(2, round((high[0] - low[0]) / width)), GRADING)
     rows = max(2, round((high[1] - low[1]) / (STRETCH * width)))
-    lattice = _shaken(len(shares) - 1, rows, rng)
+    lattice = _shaken(len(shares) - 1, rows, JITTER, rng)
     q = np.interp(lattice[:, 0], np.arange(len(shares)), shares)
     points = (low + np.column_stack([q, lattice[:, 1] / rows]) * (high - low)) @ axes
     edges = np.vstack([outline + s * (np.roll(outline, -1, 0) - outline) for s in (0, 0.33, 0.67)])

@@ -31,6 +31,7 @@ class Outcome:
     iterations: int = 0
     residual: float = np.nan
     codes: tuple[str, ...] = ()
+    way: tuple[str, ...] = ()
     cpu: float = np.nan
     refused: str = ""
 
@@ -54,7 +55,7 @@ def _measured(vertices: FloatArray, triangles: NDArray[np.int64], options: dict[
     return Outcome(
         np.array(result.vertices), np.array(result.mean_curvature), np.array(result.boundary_angle),
         result.converged, result.polished, result.termination, result.iterations, result.residual,
-        tuple(warning.code for warning in result.warnings), cpu,
+        tuple(warning.code for warning in result.warnings), tuple(name for name, _ in result.way), cpu,
     )  # fmt: skip
 
 

@@ -27,7 +27,8 @@ from polygons import edges_of, read_polygons, triangles_of
 DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
 RANDOM_MESHES = (
     "ict_head", "mh_body", "demosthenes-low-res", "wingnut", "plane_holes", "skull_low_resolution",
-    "hand_lowres", "hammer", "spot_low_resolution",
+    "hand_lowres", "hammer", "spot_low_resolution", "spot_control_mesh", "cat-low-resolution",
+    "fish_low_resolution", "goathead", "penguin",
 )  # fmt: skip
 Polygons = list[list[int]]
 

@@ -25,7 +25,9 @@ class Record:
     """One patch with one λ: what came of its starts. `spread` is over the radius, angles are degrees.
 
     turn: largest turn of the prescribed normals per outline edge; unfitted: share of normals that are averages;
-    converged, polished: how many starts; claimed: the spread of those that say that they converged.
+    converged, polished: how many starts; folded, crossing: of the converged ones, those with triangles that are
+    turned over or pass through others; way: of the first start; slowest: CPU seconds of one start; claimed: the
+    spread of those that say that they converged.
     """
 
     name: str
@@ -37,6 +39,10 @@ class Record:
     unfitted: float
     converged: int
     polished: int
+    folded: int
+    crossing: int
+    way: str
+    slowest: float
     refused: str
     states: str
     spread: float
@@ -98,6 +104,8 @@ def measured(engine: Engine, patch: RealPatch, weights: str) -> Specimen:
     record = Record(
         patch.name, weights, patch.free, len(patch.fixed), patch.loops, patch.turn, float(1 - patch.fitted.mean()),
         sum(outcome.converged for outcome in outcomes), sum(outcome.polished for outcome in outcomes),
+        _claiming(outcomes, "FLIPPED_TRIANGLES"), _claiming(outcomes, "SELF_INTERSECTION"),
+        " ".join(first.way), max(outcome.cpu for outcome in outcomes),
         refusals[0].replace("\n", " ")[:80] if refusals else "", " ".join(outcome.state for outcome in outcomes),
         np.nan if refusals else _spread(outcomes) / patch.radius,
         _spread([outcome for outcome in outcomes if outcome.converged]) / patch.radius,
@@ -107,6 +115,10 @@ def measured(engine: Engine, patch: RealPatch, weights: str) -> Specimen:
         sum(outcome.cpu for outcome in outcomes),
     )  # fmt: skip
     return Specimen(record, patch, patch.vertices if refusals else first.vertices)
+
+
+def _claiming(outcomes: list[Outcome], code: str) -> int:
+    return sum(outcome.converged and code in outcome.codes for outcome in outcomes)
 
 
 def _spread(outcomes: list[Outcome]) -> float:

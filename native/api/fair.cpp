@@ -104,13 +104,15 @@ private:
     void add_failure(const Patch& patch, const Solution& solution, Termination end, const std::string& reason) {
         result_.converged = false;
         if (result_.termination != Termination::stalled) result_.termination = end;
-        const bool folded = end == Termination::folded;
-        Indices elements(free_vertices(patch).begin(), free_vertices(patch).end());
-        if (folded) elements = input_numbers(patch, solution.bad_triangles);
         result_.warnings.push_back(
-            {folded ? Code::folded : Code::not_converged,
+            {Code::not_converged,
              "a component of " + counted(at(patch.free_count), "free vertex ", "free vertices ") + reason,
-             std::move(elements), folded ? ElementKind::triangle : ElementKind::vertex});
+             Indices(free_vertices(patch).begin(), free_vertices(patch).end())});
+        if (end != Termination::folded) return;
+        result_.warnings.push_back({Code::folded,
+                                    counted(solution.bad_triangles.size(), "triangle", "triangles") +
+                                        " of a surface that was found can't be laid out without folds",
+                                    input_numbers(patch, solution.bad_triangles), ElementKind::triangle});
     }
 
     // `values`: at the patch's fixed vertices; `largest`: of all sides so far, at input vertices.

@@ -108,6 +108,7 @@ struct PaperChoices {
 Equation to_equation(const std::string& name) {
     if (name == "constant") return Equation::constant;
     if (name == "minimal_energy") return Equation::minimal_energy;
+    if (name == "least_variation") return Equation::least_variation;
     return name == "minimal" ? Equation::minimal : Equation::harmonic;
 }
 

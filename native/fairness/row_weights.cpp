@@ -99,6 +99,12 @@ RowWeights row_weights(const Patch& patch, const InnerWeights& weights, const ch
     return row_weights(patch, directed, what);
 }
 
+bool is_uniform(const Lambda& weights) {
+    const auto* edges = std::get_if<InnerWeights>(&weights);
+    return edges && std::all_of(edges->begin(), edges->end(),
+                                [&](const WeightedEdge& edge) { return edge.weight == edges->front().weight; });
+}
+
 InnerWeights symmetrised(const RowWeights& rows) {
     InnerWeights weights;
     for (int i = 0; i + 1 < static_cast<int>(rows.begin.size()); ++i) {

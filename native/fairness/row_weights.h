@@ -26,6 +26,9 @@ RowWeights row_weights(const Patch& patch, const InnerWeights& weights, const ch
 // λ of a patch: symmetric where the kind allows it, else by rows.
 using Lambda = std::variant<InnerWeights, RowWeights>;
 
+// Whether all edges have the same weight.
+bool is_uniform(const Lambda& weights);
+
 // A directed weight; rows are normalised.
 struct DirectedWeight {
     int i;

@@ -101,7 +101,10 @@ private:
         const Eigen::Matrix2d inverse = last.triangularView<Eigen::Upper>().solve(Eigen::Matrix2d::Identity());
         const auto spare = static_cast<double>(offsets_.cols() - unknowns());
         const double residual = std::abs(system_(unknowns(), unknowns())) / std::sqrt(spare);
-        Round result{solution.tail<2>(), {}, constants_ > 0 ? solution[terms_] : 0.0, inverse.norm() * residual,
+        Round result{solution.tail<2>(),
+                     {},
+                     constants_ > 0 ? solution[terms_] : 0.0,
+                     inverse.norm() * residual,
                      residual / root_mean_square_weight()};
         result.terms.setZero();
         result.terms.head(terms_) = solution.head(terms_);

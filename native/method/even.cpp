@@ -1,13 +1,11 @@
 #include "method/even.h"
 
-#include <algorithm>
-
 #include "method/accept.h"
 #include "method/nested.h"
 #include "method/one_level.h"
 #include "method/polish.h"
 #include "method/sizes.h"
-#include "placement/relax.h"
+#include "placement/place.h"
 #include "solver/surface_state.h"
 
 namespace fairing {
@@ -24,12 +22,6 @@ std::optional<Solution> solve_uniformly(const Problem& even, const Progress& pro
 
 }  // namespace
 
-bool is_uniform(const Lambda& weights) {
-    const auto* edges = std::get_if<InnerWeights>(&weights);
-    return edges && std::all_of(edges->begin(), edges->end(),
-                                [&](const WeightedEdge& edge) { return edge.weight == edges->front().weight; });
-}
-
 std::optional<Solution> solve_evenly(const Problem& problem, const Progress& progress) {
     Problem even = problem;
     even.weights = uniform_weights(problem.patch);
@@ -37,13 +29,14 @@ std::optional<Solution> solve_evenly(const Problem& problem, const Progress& pro
     if (!solution) return std::nullopt;
     const SurfaceState state = measured_surface(even, solution->points);
     const TargetSurface target(problem.patch, state.points, state.normals);
-    Placement placement = at_vertices(problem, target, state.points);
-    Workspace work{make_normal_operator(problem, placement.points.leftCols(problem.patch.free_count)),
+    Workspace work{make_normal_operator(problem, state.points.leftCols(problem.patch.free_count)),
                    make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())};
-    settle(problem, *work.tangential, target, placement, progress.here());
-    solution->mean_curvature = carried_over(placement, target, solution->mean_curvature, problem);
-    solution->points = std::move(placement.points);
+    Placed placed = place_own(problem, *work.tangential, target, state.points, progress.here());
+    solution->mean_curvature = carried_over(placed.placement, target, solution->mean_curvature, problem);
+    solution->points = placed.placement.points;
     solution->polished = false;
+    refuse_folds(problem, placed, *solution);
+    if (solution->termination == Termination::folded) return solution;
     return polish(problem, work, std::move(*solution), mean_edge(problem.patch, state.points),
                   progress.range(0.5, 1.0));
 }

@@ -7,8 +7,6 @@
 
 namespace fairing {
 
-bool is_uniform(const Lambda& weights);
-
 // The shape doesn't depend on λ. Where a mesh carries the equation only with its vertices evenly placed, that surface
 // is taken and λ places them on it. Nothing where that is not accepted either.
 std::optional<Solution> solve_evenly(const Problem& problem, const Progress& progress);

@@ -9,6 +9,7 @@
 #include "method/nested.h"
 #include "method/one_level.h"
 #include "method/sizes.h"
+#include "variation/least_variation.h"
 
 namespace fairing {
 
@@ -18,17 +19,22 @@ using Found = std::optional<Solution>;
 
 bool is_minimal(const Problem& problem) { return problem.options.equation == Equation::minimal; }
 
+bool is_least_variation(const Problem& problem) { return problem.options.equation == Equation::least_variation; }
+
+// Of fourth order in the positions: what the other ways solve.
+bool is_fourth_order(const Problem& problem) { return !is_minimal(problem) && !is_least_variation(problem); }
+
 // What a coarse level has refused, the full size would only refuse later.
 bool takes_direct(const Problem& problem, const Situation& situation) {
-    return !is_minimal(problem) && problem.patch.free_count <= largest_direct && !situation.tried("nested");
+    return is_fourth_order(problem) && problem.patch.free_count <= largest_direct && !situation.tried("nested");
 }
 
 bool takes_patience(const Problem& problem, const Situation& situation) {
-    return !is_minimal(problem) && problem.patch.free_count > largest_direct && !situation.tried("nested");
+    return is_fourth_order(problem) && problem.patch.free_count > largest_direct && !situation.tried("nested");
 }
 
 bool takes_even(const Problem& problem, const Situation& situation) {
-    return !is_minimal(problem) && !is_uniform(problem.weights) && !situation.tried("even");
+    return is_fourth_order(problem) && !is_uniform(problem.weights) && !situation.tried("even");
 }
 
 Found evenly(const Problem& problem, const Situation& /*situation*/, const Progress& progress) {
@@ -53,16 +59,19 @@ bool is_folded(const Situation& situation) {
 }  // namespace
 
 Solution solve_global(const Problem& problem, const Progress& progress) {
-    static const std::array<Way, 8> ways{{
+    static const std::array<Way, 9> ways{{
         {"minimal", [](const Problem& p, const Situation&) { return is_minimal(p); },
          [](const Problem& p, const Situation&, const Progress& part) { return Found(solve_directly(p, part)); }, 0.0,
          1.0},
-        {"nested", [](const Problem& p, const Situation&) { return !is_minimal(p) && is_large(p); },
+        {"variation", [](const Problem& p, const Situation&) { return is_least_variation(p); },
+         [](const Problem& p, const Situation&, const Progress& part) { return Found(solve_least_variation(p, part)); },
+         0.0, 1.0},
+        {"nested", [](const Problem& p, const Situation&) { return is_fourth_order(p) && is_large(p); },
          [](const Problem& p, const Situation&, const Progress& part) { return solve_nested(p, part); }, 0.0, 1.0},
         {"even", [](const Problem& p, const Situation& s) { return takes_even(p, s) && is_large(p); }, evenly, 0.0,
          0.3},
         {directly.name, takes_direct, directly.solve, directly.begin, directly.end},
-        {on_proxy.name, [](const Problem& p, const Situation&) { return !is_minimal(p); }, on_proxy.solve,
+        {on_proxy.name, [](const Problem& p, const Situation&) { return is_fourth_order(p); }, on_proxy.solve,
          on_proxy.begin, on_proxy.end},
         {"patient", takes_patience,
          [](const Problem& p, const Situation&, const Progress& part) { return Found(solve_directly(p, part)); }, 0.8,

@@ -99,10 +99,9 @@ public:
     }
 
 private:
-    // A patch that is small enough for a proxy of its own is not worth one of its coarsest level.
     [[nodiscard]] Solution solve_coarsest(const Progress& progress) const {
         const Problem problem = coarsest_problem();
-        if (problem_.patch.free_count > largest_direct) return solve_on_one_level(problem, progress);
+        if (problem_.patch.free_count >= smallest_with_coarse_proxy) return solve_on_one_level(problem, progress);
         return solve_on_own_mesh(problem, progress);
     }
 

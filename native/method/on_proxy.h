@@ -7,10 +7,16 @@
 
 namespace fairing {
 
-// `guess`: positions of all vertices near the surface, on the right sheets, or nothing. Where the discrete equation
-// holds on the user's own mesh near the placed vertices, that is the solution; else the placed vertices with the proxy's
-// H. Where no placement without folds is found, or the placed mesh crosses itself and the proxy's surface does not,
-// `folded`. Where no proxy converges, the least bent of their surfaces, not converged.
-Solution solve_on_proxy(const Problem& problem, const std::optional<Points>& guess, const Progress& progress);
+// A surface of the problem's own mesh that another way has left, positions of all vertices: on the right sheets.
+struct OwnSurface {
+    Points points;
+    bool solved;  // the equation holds there
+};
+
+// `guess`: what the vertices are placed from, if there is anything. Where the discrete equation
+// holds on the user's own mesh near the placed vertices, that is the solution; else the placed vertices with the
+// proxy's H. Where no placement without folds is found, or the placed mesh crosses itself and the proxy's surface does
+// not, `folded`. Where no proxy converges, the least bent of their surfaces, not converged.
+Solution solve_on_proxy(const Problem& problem, const std::optional<OwnSurface>& guess, const Progress& progress);
 
 }  // namespace fairing

@@ -9,9 +9,10 @@ namespace fairing {
 
 namespace {
 
-std::optional<Points> guess_from(const Situation& situation) {
-    const Points* own = situation.own_surface();
-    return own && own->allFinite() ? std::optional(*own) : std::nullopt;
+std::optional<OwnSurface> guess_from(const Situation& situation) {
+    const Solution* own = situation.own_mesh();
+    if (!own || !own->points.allFinite()) return std::nullopt;
+    return OwnSurface{own->points, own->termination == Termination::converged};
 }
 
 }  // namespace

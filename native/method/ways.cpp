@@ -21,9 +21,9 @@ Solution best_of(const Problem& problem, std::vector<Solution> found) {
 
 }  // namespace
 
-const Points* Situation::own_surface() const {
+const Solution* Situation::own_mesh() const {
     const auto last = std::find_if(found.rbegin(), found.rend(), [](const Solution& s) { return s.polished; });
-    return last == found.rend() ? nullptr : &last->points;
+    return last == found.rend() ? nullptr : &*last;
 }
 
 bool Situation::tried(std::string_view way) const {

@@ -13,8 +13,8 @@ namespace fairing {
 struct Situation {
     std::vector<Solution> found;  // none of them accepted
 
-    // The latest surface on the user's own connectivity, converged or not: it has the right sheets. Or none.
-    [[nodiscard]] const Points* own_surface() const;
+    // The latest one on the user's own connectivity, or none.
+    [[nodiscard]] const Solution* own_mesh() const;
     [[nodiscard]] bool tried(std::string_view way) const;
 };
 

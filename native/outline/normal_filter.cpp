@@ -37,8 +37,7 @@ Pair make_pair(const SurroundingFit& fit, const VectorX& errors, int i, int j) {
 class FilterSystem {
 public:
     explicit FilterSystem(const SurroundingFit& fit)
-        : errors_(VectorX::Ones(static_cast<Eigen::Index>(fit.fits.size()))),
-          diagonal_(VectorX::Ones(errors_.size())) {
+        : errors_(VectorX::Ones(static_cast<Eigen::Index>(fit.fits.size()))), diagonal_(VectorX::Ones(errors_.size())) {
         for (std::size_t k = 0; k < fit.fits.size(); ++k) {
             if (fit.fits[k]) errors_[static_cast<Eigen::Index>(k)] = std::max(fit.fits[k]->error, least_error);
         }

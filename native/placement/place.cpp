@@ -1,5 +1,8 @@
 #include "placement/place.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "placement/first_placement.h"
 #include "placement/folds.h"
 #include "placement/relax.h"
@@ -19,13 +22,18 @@ public:
     bool by_springs(const Placement& start) {
         Placement placement = start;
         settle(problem_, tangential_, target_, placement, progress_.here());
+        const std::size_t folded = folds_of_placement(problem_, target_, placement).size();
+        folded_by_springs_ = std::min(folded_by_springs_, folded);
         return keep_untangled(std::move(placement));
     }
 
     // From where the start is, not from where the springs would take it.
     bool as_it_is(Placement start) { return keep_untangled(std::move(start)); }
 
-    [[nodiscard]] Placed best() && { return std::move(*best_); }
+    [[nodiscard]] Placed best() && {
+        best_->folded_by_springs = folded_by_springs_;
+        return std::move(*best_);
+    }
 
 private:
     bool keep_untangled(Placement placement) {
@@ -39,7 +47,7 @@ private:
         const double merit = tangential_.merit(placement.points, normals_at(placement, target_));
         if (!best_ || folded.size() < best_->folded.size() ||
             (folded.size() == best_->folded.size() && merit < merit_)) {
-            best_ = Placed{std::move(placement), std::move(folded)};
+            best_ = Placed{std::move(placement), std::move(folded), 0};
             merit_ = merit;
         }
         return done;
@@ -62,22 +70,41 @@ private:
     const Progress& progress_;
     std::optional<Placed> best_;
     double merit_ = 0.0;
+    std::size_t folded_by_springs_ = std::numeric_limits<std::size_t>::max();
 };
 
 }  // namespace
 
-Placed place(const Problem& problem, const TangentialStep& tangential, const SolvedProxy& proxy,
-             const TargetSurface& target, const std::optional<Points>& guess, const Progress& progress) {
+Placed place(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
+             const std::optional<Points>& guess, const Progress& progress) {
+    const TargetSurface& target = surface.target;
     std::vector<Placement> starts;
-    if (guess) starts.push_back(by_surface(problem, *guess, proxy.mesh.patch, target));
+    if (guess) starts.push_back(by_surface(problem, *guess, surface.mesh.patch, target));
     Placing placing(problem, tangential, target, progress);
     if (!starts.empty() && placing.by_springs(starts.front())) return std::move(placing).best();
-    starts.push_back(by_history(problem, proxy.history, proxy.mesh, target));
+    starts.push_back(by_history(problem, surface.history, surface.mesh, target));
     if (placing.by_springs(starts.back())) return std::move(placing).best();
     for (Placement& start : starts) {
         if (placing.as_it_is(std::move(start))) break;
     }
     return std::move(placing).best();
+}
+
+Placed place_own(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
+                 const Points& points, const Progress& progress) {
+    const Placement start = at_vertices(problem, target, points);
+    Placing placing(problem, tangential, target, progress);
+    if (!placing.by_springs(start)) placing.as_it_is(start);
+    return std::move(placing).best();
+}
+
+void refuse_folds(const Problem& problem, const Placed& placed, Solution& solution) {
+    constexpr double tolerated_share = 0.05;
+    const bool senseless = !is_uniform(problem.weights) && static_cast<double>(placed.folded_by_springs) >
+                                                               tolerated_share * problem.patch.triangle_count();
+    if (!senseless && placed.folded.size() <= problem.tolerated_folds) return;
+    solution.termination = Termination::folded;
+    solution.bad_triangles = placed.folded;
 }
 
 }  // namespace fairing

@@ -1,22 +1,40 @@
 // The user's vertices on the surface of a proxy, by their inner fairness and without folds.
 #pragma once
 
+#include <optional>
+
 #include "placement/placement.h"
-#include "proxy/proxy_solver.h"
+#include "proxy/proxy_mesh.h"
 #include "solver/tangential_step.h"
 
 namespace fairing {
 
 struct Placed {
     Placement placement;
-    Indices folded;  // triangles of the problem's patch that no way of placing turned back
+    Indices folded;                     // triangles of the problem's patch that no way of placing turned back
+    std::size_t folded_by_springs = 0;  // triangles that the least folded minimum of the springs alone turns over
+};
+
+// The surface of a mesh of the engine's own. The members outlive it.
+struct OwnMeshSurface {
+    const ProxyMesh& history;  // the vertices and how they came to be
+    const ProxyMesh::Snapshot& mesh;
+    const TargetSurface& target;
 };
 
 // Tries several placements and takes the one with the fewest folds, then with the least merit (tangential_step.h). They
 // begin from `guess`, a surface of the problem's own patch that has the right sheets, and from the history of the
 // proxy mesh. Where the springs' minimum is folded, folds are turned back vertex by vertex, and the springs relax only
 // as far as nothing folds.
-Placed place(const Problem& problem, const TangentialStep& tangential, const SolvedProxy& proxy,
-             const TargetSurface& target, const std::optional<Points>& guess, const Progress& progress);
+Placed place(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
+             const std::optional<Points>& guess, const Progress& progress);
+
+// The same from where the vertices of a surface of the problem's own patch are (3 × local vertices; the target's).
+Placed place_own(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
+                 const Points& points, const Progress& progress);
+
+// Ends a placed solution as `folded` where the placement is, or where the weights' own minimum is that folded that they
+// say nothing about these vertices.
+void refuse_folds(const Problem& problem, const Placed& placed, Solution& solution);
 
 }  // namespace fairing

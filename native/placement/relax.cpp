@@ -11,7 +11,7 @@ namespace fairing {
 namespace {
 
 constexpr int most_steps = 60;
-constexpr int most_held_steps = 15;  // what is held back comes no further
+constexpr int most_held_steps = 15;   // what is held back comes no further
 constexpr double largest_step = 0.1;  // units of D
 constexpr double done = 1e-7;
 constexpr int most_halvings = 8;

@@ -183,8 +183,7 @@ private:
         solution.mean_curvature = state.curvature.mean;
         solution.residual = largest_residual(problem, state, outer_residual(problem, state));
         const double energy = willmore_energy(problem, state.points);
-        return {
-            std::move(mesh), {std::move(snapshot.patch), state.points}, std::move(solution), state.normals, energy};
+        return {std::move(mesh), {std::move(snapshot.patch), state.points}, std::move(solution), state.normals, energy};
     }
 
     const Problem& problem_;

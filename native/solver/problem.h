@@ -11,10 +11,11 @@
 namespace fairing {
 
 enum class Equation {
-    harmonic,        // Δ_B H = 0 with G1 boundary data
-    constant,        // Δ_B H = load
-    minimal_energy,  // Δ_B H = −2 H (H² − K): least ∫ κ₁² + κ₂²
-    minimal,         // H = 0 with G0 boundary data
+    harmonic,         // Δ_B H = 0 with G1 boundary data
+    constant,         // Δ_B H = load
+    minimal_energy,   // Δ_B H = −2 H (H² − K): least ∫ κ₁² + κ₂²
+    minimal,          // H = 0 with G0 boundary data
+    least_variation,  // least variation of the normal curvatures with G1 boundary data (variation/least_variation.h)
 };
 
 // `folded`: the surface was found, the vertices don't lie on it without folds.
@@ -50,6 +51,9 @@ struct Problem {
     Lambda weights;
     SolverOptions options;
     std::size_t tolerated_folds = 0;  // as many triangles are turned over where the weights come from
+    // Of least_variation: the outline's normals cost Σ w_i |n_i − n̂_i|²; fixed count. ∞: met exactly, 0: the slope is
+    // free. Empty: ∞. Pins count as 0.
+    VectorX normal_weights = {};
 };
 
 // A way that was tried (method/ways), and how long it took.

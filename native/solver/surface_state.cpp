@@ -62,7 +62,8 @@ VectorX outer_residual(const Problem& problem, const SurfaceState& state) {
     const auto mass = state.stiffness.mass.head(count).array();
     const auto H = state.curvature.mean.head(count).array();
     switch (problem.options.equation) {
-        case Equation::harmonic: break;
+        case Equation::harmonic:
+        case Equation::least_variation: break;
         case Equation::minimal: return 4.0 * mass * H;
         case Equation::constant: return harmonic_residual(problem, state).array() + 2.0 * mass * problem.options.load;
         case Equation::minimal_energy: {

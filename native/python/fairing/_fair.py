@@ -65,9 +65,10 @@ def fair(
         :func:`fairing.surrounding_normals` gives zero where no triangle lies outside; leave these vertices out.
     reference : (n, 3) float
         The original mesh M0 of all weights but the uniform ones; default: ``vertices``.
-    equation : "harmonic" | "constant" | "minimal_energy" | "minimal"
+    equation : "harmonic" | "constant" | "minimal_energy" | "minimal" | "least_variation"
         Δ_B H = 0, Δ_B H = ``load`` or Δ_B H = −2H(H² − K) with tangent planes met (G1), or H = 0 with positions
-        met only (G0). See §7.5.
+        met only (G0). See §7.5. "least_variation": the surface whose normal curvatures vary least (G1), which exists
+        between outlines that no harmonic surface joins; docs/least_variation.md.
     load : float
         Of "constant", in length⁻³; positive bulges along the normals.
     inner_fairness : "uniform" | "conformal" | "inverse_distance" | "shape_preserving" | (e, 3) array

@@ -13,7 +13,7 @@ from fairing._types import FloatArray, IntArray
 METHODS = ("global", "paper")
 NORMALS = ("fitted", "averaged")
 OUTLINES = ("given", "mended")
-EQUATIONS = ("harmonic", "constant", "minimal_energy", "minimal")
+EQUATIONS = ("harmonic", "constant", "minimal_energy", "minimal", "least_variation")
 INNER_FAIRNESS = ("uniform", "conformal", "inverse_distance", "shape_preserving")
 VIRTUAL_POINTS = ("sparse", "coarse", "everywhere")
 STARTS = ("improved", "linear")
@@ -71,6 +71,8 @@ def engine_options(
 ) -> _core.Options:
     """Checks the options that both methods have; ``fairness`` is the engine's word for it."""
     _arguments.choice("normals", normals, NORMALS)
+    if method == "paper" and equation == "least_variation":
+        raise ValueError("equation: 'least_variation' is not accepted by method 'paper'; accepted with 'global'")
     return _core.Options(
         equation=_arguments.choice("equation", equation, EQUATIONS),
         load=load_number(equation, load),

@@ -89,7 +89,8 @@ class FairResult:
     iterations: int
     """Steps of the iteration that led to the result (of the component with most), not of all that was tried."""
     residual: float
-    """Largest |Δ_B H| D³ at a free vertex (|H| D for ``equation="minimal"``). Without a unit, but not without the
+    """Largest |Δ_B H| D³ at a free vertex (|H| D for ``equation="minimal"``; for "least_variation" the
+    largest derivative of its energy by a height, times D). Without a unit, but not without the
     mesh: the same surface has a larger one on a finer mesh, so there is no number that is good. Compare it with
     ``initial_residual``, and judge by ``converged``."""
     initial_residual: float
@@ -100,9 +101,12 @@ class FairResult:
     """Wall-clock time of each stage and in ``"total"``. Stages need not add up to it: attempts that were given up are
     not listed."""
     way: tuple[tuple[str, float], ...]
-    """Name and seconds of each way that was tried, the one that led to the result last unless it failed: "warm" from the
-    last answer, "nested" from coarse to fine, "direct" on the mesh given, "proxy" on a mesh of the engine's own, "even"
-    and "uniform" by uniform weights first or only, "minimal", "patient", "paper". Several components follow each other."""
+    """Name and seconds of each way that was tried, in order. The last one led to the result, unless none was accepted.
+
+    "warm" starts from the last answer, "nested" goes from coarse to fine, "direct" stays on the mesh given, "proxy"
+    takes a mesh of the engine's own, "even" and "uniform" take uniform weights first or only. "minimal", "variation" and
+    "paper" belong to the equations and the method of that name, "patient" is a direct solve with all iterations.
+    Several components follow each other."""
     warnings: tuple[Diagnostic, ...]
     moved: IntArray = field(default_factory=lambda: np.empty(0, np.int32))
     """Fixed and outside vertices that ``outline="mended"`` has moved, ascending."""

@@ -1,0 +1,169 @@
+"""Surfaces of least variation against their goals: pipes, tapers, elbows, bends, joints, mesh independence.
+
+    python benchmarks/variation [pipe | taper | elbow | bend | joint | agreement | order | functional …]
+
+With the paths of `benchmarks/accuracy`. Radii and distances in radii of the tube, D as everywhere.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
+
+import blend
+import fairing
+import measures
+import profiles
+import tubes
+from tubes import FloatArray, Tube
+
+MOST_STEPS = 60
+Row = tuple[str, str, bool]  # name, what was measured, whether the goal is met
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A result and the seconds of CPU that it took."""
+
+    result: fairing.FairResult
+    seconds: float
+
+    @property
+    def sound(self) -> bool:
+        """Converged without any warning: no crossings, no flips."""
+        return bool(self.result.converged) and not self.result.warnings
+
+    @property
+    def text(self) -> str:
+        """Steps, sizes, seconds and warnings."""
+        codes = " ".join(warning.code for warning in self.result.warnings)
+        return f"{self.result.iterations} steps, {self.result.levels[-1]} vertices, {self.seconds:.2f} s {codes}"
+
+
+def solved(tube: Tube) -> Solved:
+    """One thread, from the outline alone."""
+    start = time.process_time()
+    result = tube.faired(max_iterations=MOST_STEPS)
+    return Solved(result, time.process_time() - start)
+
+
+def radii(result: fairing.FairResult) -> FloatArray:
+    """Distances from the axis of a straight tube."""
+    return np.asarray(np.hypot(result.vertices[:, 0], result.vertices[:, 1]))
+
+
+def pipe_rows() -> Iterator[Row]:
+    """Radius within [0.8, 1.2] where the ends lean by 10° at most."""
+    for length in (3.0, 5.0, 7.0, 10.0):
+        for lean in (-15.0, -10.0, -5.0, 0.0, 5.0, 10.0, 15.0):
+            made = solved(tubes.pipe(length, lean, seed=11))
+            low, high = float(radii(made.result).min()), float(radii(made.result).max())
+            met = made.sound and (abs(lean) > 10 or 0.8 <= low <= high <= 1.2)
+            yield f"pipe {length:g} leaning {lean:g}°", f"radius {low:.3f} … {high:.3f}, {made.text}", met
+
+
+def taper_rows() -> Iterator[Row]:
+    """Unequal radii: no bulge where the ends don't lean outwards."""
+    for last in (0.75, 0.5, 0.35):
+        for lean in (-10.0, 0.0, 5.0, 10.0):
+            made = solved(tubes.pipe(5.0, lean, (1.0, last), seed=12))
+            low, high = float(radii(made.result).min()), float(radii(made.result).max())
+            met = made.sound and (lean < 0 or high < 1 + 1e-6)
+            yield f"taper to {last:g} leaning {lean:g}°", f"radius {low:.3f} … {high:.3f}, {made.text}", met
+
+
+def elbow_rows() -> Iterator[Row]:
+    """90° within 0.05 of the torus."""
+    for bend in (2.0, 3.0):
+        for degrees in (30.0, 60.0, 90.0, 120.0, 150.0, 180.0):
+            made = solved(tubes.elbow(bend, degrees, seed=13))
+            off = tubes.off_torus(made.result.vertices, bend)
+            met = made.sound and (degrees != 90 or off < 0.05)
+            yield f"elbow {degrees:g}° of radius {bend:g}", f"{off:.3f} off the torus, {made.text}", met
+
+
+def bend_rows() -> Iterator[Row]:
+    """An answer without crossings."""
+    for bend, degrees in ((3.0, 45.0), (3.0, 90.0), (2.5, 60.0)):
+        made = solved(tubes.s_bend(bend, degrees, seed=14))
+        yield f"S-bend {degrees:g}° of radius {bend:g}", made.text, made.sound
+
+
+def joint_rows() -> Iterator[Row]:
+    """Three arms that meet."""
+    for count in (1000, 4000):
+        patch = blend.cylinder_blend(count)
+        start = time.process_time()
+        result = fairing.fair(
+            patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals,
+            equation="least_variation", threads=1, max_iterations=MOST_STEPS,
+        )  # fmt: skip
+        made = Solved(result, time.process_time() - start)
+        yield f"three arms, {count} free", made.text, made.sound
+
+
+def agreement_rows() -> Iterator[Row]:
+    """Three irregular meshes within 0.3 % of D of each other, the rims' chords included."""
+    shapes: dict[str, Callable[[int], Tube]] = {
+        "pipe 5 leaning 5°": lambda seed: tubes.pipe(5.0, 5.0, around=36, seed=seed),
+        "pipe 10 leaning 5°": lambda seed: tubes.pipe(10.0, 5.0, around=36, seed=seed),
+        "elbow 90°": lambda seed: tubes.elbow(3.0, 90.0, around=36, seed=seed),
+    }
+    for name, make in shapes.items():
+        made = [(tube, tube.faired(max_iterations=MOST_STEPS)) for tube in map(make, (21, 22, 23))]
+        surfaces = [(result.vertices, tube.triangles) for tube, result in made]
+        pairs = [(0, 1), (0, 2), (1, 2)]
+        away = max(measures.two_sided_distance(surfaces[i], surfaces[j]) for i, j in pairs) / made[0][0].diameter
+        met = away < 3e-3 and all(result.converged for _, result in made)
+        yield f"three meshes, {name}", f"{100 * away:.2f} % of D from each other", met
+
+
+def order_rows() -> Iterator[Row]:
+    """Least radius against the profile of one dimension."""
+    exact = float(profiles.least(profiles.Ends(1.0, 1.0, 5.0, 10.0)).r.min())
+    last = np.nan
+    for around in (16, 24, 36, 54):
+        made = solved(tubes.pipe(5.0, 10.0, around=around, seed=15))
+        error = abs(float(radii(made.result).min()) - exact)
+        order = np.log(last / error) / np.log(1.5)
+        yield f"pipe 5 leaning 10°, {around} edges around", f"error {error:.5f}, order {order:.1f}, {made.text}", True
+        last = error
+
+
+def functional_rows() -> Iterator[Row]:
+    """Least and largest radius of pipes, by one-dimensional profiles, for three functionals."""
+    for functional in ("all directions", "principal lines", "mean curvature"):
+        for length, lean in ((5.0, 5.0), (5.0, 10.0), (10.0, 10.0), (10.0, -10.0)):
+            name = f"{functional}, pipe {length:g} leaning {lean:g}°"
+            try:
+                r = profiles.least(profiles.Ends(1.0, 1.0, length, lean), functional, functional == "all directions").r
+            except RuntimeError as error:
+                yield name, str(error), False
+                continue
+            yield name, f"radius {r.min():.3f} … {r.max():.3f}", bool(0.8 <= r.min() <= r.max() <= 1.2)
+
+
+TABLES = (
+    pipe_rows, taper_rows, elbow_rows, bend_rows, joint_rows, agreement_rows, order_rows, functional_rows,
+)  # fmt: skip
+
+
+def main() -> None:
+    """Print the tables; a miss is marked."""
+    words = sys.argv[1:]
+    for table in TABLES:
+        if words and not any(word in table.__name__ for word in words):
+            continue
+        for name, text, met in table():
+            print(f"| {name} | {text} | {'met' if met else 'MISS'} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,271 @@
+#include "variation/element.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+namespace fairing {
+
+namespace {
+
+using Cubic = Eigen::Vector4d;  // C(t, t, t) = c₀ cos³ + c₁ cos² sin + c₂ cos sin² + c₃ sin³
+using CubicMatrix = Eigen::Matrix4d;
+using PairVector = Eigen::Matrix<double, 6, 1>;
+using PairMatrix = Eigen::Matrix<double, 6, 4>;
+using Residual = Eigen::Matrix<double, 10, 1>;  // of the cubic's size, then of its fit
+
+// Of the cubic's size in the fit, for stencils at the border with too few pairs (six pairs weigh about 6).
+constexpr double ridge = 1e-4;
+constexpr double flattest = 1e-6;  // sine of a triangle's angle, share of a pair's length within the plane
+
+// Lᵀ L = Q, cᵀ Q c the mean of C(t, t, t)² over all directions: ⟨cos⁶⟩ = 5/16, ⟨cos⁴ sin²⟩ = 1/16.
+CubicMatrix mean_square_root() {
+    const double large = std::sqrt(5.0) / 4.0;
+    const double mixed = 1.0 / (4.0 * std::sqrt(5.0));
+    const double small = std::sqrt(0.8) / 4.0;
+    CubicMatrix root = CubicMatrix::Zero();
+    root(0, 0) = root(3, 3) = large;
+    root(0, 2) = root(3, 1) = mixed;
+    root(1, 1) = root(2, 2) = small;
+    return root;
+}
+
+const CubicMatrix& root_of_mean_square() {
+    static const CubicMatrix root = mean_square_root();
+    return root;
+}
+
+// A pair of the stencil in the plane of its triangle.
+struct Pair {
+    int i, j;       // places in the stencil
+    Vector3 along;  // x_j − x_i
+    double length;
+    Eigen::Vector2d in_plane;
+    double across;      // component along the triangle's normal
+    double derivative;  // of the normal curvature
+};
+
+class Element {
+public:
+    Element(const Sheet& sheet, const Stencil& stencil, double misfit_weight) : misfit_weight_(misfit_weight) {
+        for (std::size_t k = 0; k < stencil_size; ++k) {
+            present_[k] = stencil[k] != none;
+            if (!present_[k]) continue;
+            x_.col(static_cast<Eigen::Index>(k)) = sheet.points.col(stencil[k]);
+            n_.col(static_cast<Eigen::Index>(k)) = sheet.normals.col(stencil[k]);
+        }
+        measure_triangle();
+        for (const auto& [i, j] : stencil_pairs) {
+            if (present_[at(j)]) add_pair(i, j);
+        }
+        fit();
+    }
+
+    [[nodiscard]] ElementSums sums() const { return {residual_.squaredNorm(), area_}; }
+
+    [[nodiscard]] LocalCubic cubic() const { return {cubic_, e1_, e2_}; }
+
+    [[nodiscard]] ElementTerms terms(const ElementSums& factors) const {
+        ElementTerms result;
+        const Eigen::Matrix<double, 10, 6> by_derivative = residual_by_derivative();
+        const Eigen::Matrix<double, 10, 18> J = jacobian(by_derivative);
+        result.area_gradient = area_by_motion();
+        result.gradient = 2.0 * factors.variation * (J.transpose() * residual_) + factors.area * result.area_gradient;
+        result.stretching = 2.0 * factors.variation * (J.transpose() * J);
+        add_area(factors.area, result.stretching);
+        const PairVector g = 2.0 * factors.variation * (by_derivative.transpose() * residual_);
+        for (int p = 0; p < count_; ++p) add_bending(pairs_[at(p)], g[p] * scale(pairs_[at(p)]), result.bending);
+        return result;
+    }
+
+private:
+    void measure_triangle() {
+        const Vector3 ab = x_.col(1) - x_.col(0);
+        const Vector3 ac = x_.col(2) - x_.col(0);
+        const Vector3 cross = ab.cross(ac);
+        const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (x_.col(2) - x_.col(1)).squaredNorm()});
+        area_ = 0.5 * std::max(cross.norm(), flattest * longest);
+        normal_ = cross / (2.0 * area_);
+        e1_ = ab.normalized();
+        e2_ = normal_.cross(e1_);
+        c_ = {ac.dot(e1_), std::max(ac.dot(e2_), flattest * std::sqrt(longest))};
+        base_ = ab.norm();
+    }
+
+    void add_pair(int i, int j) {
+        Pair& pair = pairs_[at(count_)];
+        pair = {i, j, x_.col(j) - x_.col(i), 0.0, {0.0, 0.0}, 0.0, 0.0};
+        pair.length = pair.along.norm();
+        pair.in_plane = {pair.along.dot(e1_), pair.along.dot(e2_)};
+        pair.across = pair.along.dot(normal_);
+        pair.derivative = scale(pair) * pair.along.dot(n_.col(i) + n_.col(j));
+        const double length = std::max(pair.in_plane.norm(), flattest * pair.length);
+        const double c = pair.in_plane[0] / length;
+        const double s = pair.in_plane[1] / length;
+        V_.row(count_) << c * c * c, c * c * s, c * s * s, s * s * s;
+        turned_.row(count_) << -3.0 * c * c * s, c * (c * c - 2.0 * s * s), s * (2.0 * c * c - s * s), 3.0 * c * s * s;
+        derivatives_[count_] = pair.derivative;
+        ++count_;
+    }
+
+    static double scale(const Pair& pair) { return 6.0 / (pair.length * pair.length * pair.length); }
+
+    void fit() {
+        const CubicMatrix& L = root_of_mean_square();
+        const CubicMatrix G = V_.transpose() * V_ + ridge * (L.transpose() * L);
+        inverse_ = G.llt().solve(CubicMatrix::Identity());
+        cubic_ = inverse_ * (V_.transpose() * derivatives_);
+        misfit_ = derivatives_ - V_ * cubic_;
+        residual_ << L * cubic_, std::sqrt(misfit_weight_) * misfit_;
+        residual_ *= std::sqrt(area_);
+    }
+
+    // ∂R / ∂(derivatives along the pairs)
+    [[nodiscard]] Eigen::Matrix<double, 10, 6> residual_by_derivative() const {
+        const Eigen::Matrix<double, 4, 6> dC = inverse_ * V_.transpose();
+        return stacked(dC, Eigen::Matrix<double, 6, 6>::Identity() - V_ * dC);
+    }
+
+    // ∂R / ∂(angles of the pairs)
+    [[nodiscard]] Eigen::Matrix<double, 10, 6> residual_by_angle() const {
+        const PairVector turn = turned_ * cubic_;
+        const Eigen::Matrix<double, 4, 6> dC =
+            inverse_ * (turned_.transpose() * misfit_.asDiagonal() - V_.transpose() * turn.asDiagonal());
+        return stacked(dC, -V_ * dC - Eigen::Matrix<double, 6, 6>(turn.asDiagonal()));
+    }
+
+    [[nodiscard]] Eigen::Matrix<double, 10, 6> stacked(const Eigen::Matrix<double, 4, 6>& cubic,
+                                                       const Eigen::Matrix<double, 6, 6>& misfit) const {
+        Eigen::Matrix<double, 10, 6> result;
+        result << root_of_mean_square() * cubic, std::sqrt(misfit_weight_) * misfit;
+        return std::sqrt(area_) * result;
+    }
+
+    [[nodiscard]] Eigen::Matrix<double, 10, 18> jacobian(const Eigen::Matrix<double, 10, 6>& by_derivative) const {
+        Eigen::Matrix<double, 6, 18> derivative = Eigen::Matrix<double, 6, 18>::Zero();
+        Eigen::Matrix<double, 6, 18> angle = Eigen::Matrix<double, 6, 18>::Zero();
+        for (int p = 0; p < count_; ++p) {
+            derivative.row(p) = derivative_by_motion(pairs_[at(p)]);
+            angle.row(p) = angle_by_motion(pairs_[at(p)]);
+        }
+        return by_derivative * derivative + residual_by_angle() * angle +
+               residual_ * (area_by_motion() / (2.0 * area_)).transpose();
+    }
+
+    [[nodiscard]] Eigen::Matrix<double, 1, 18> derivative_by_motion(const Pair& pair) const {
+        Eigen::Matrix<double, 1, 18> row = Eigen::Matrix<double, 1, 18>::Zero();
+        const Vector3 sum = n_.col(pair.i) + n_.col(pair.j);
+        const double per_length = -3.0 * pair.derivative / (pair.length * pair.length);
+        for (const auto& [k, sign] : {std::pair(pair.i, -1.0), std::pair(pair.j, 1.0)}) {
+            const Vector3 n = n_.col(k);
+            const Frame frame(n);
+            row[3 * k] = sign * (scale(pair) * sum.dot(n) + per_length * pair.along.dot(n));
+            row[3 * k + 1] = scale(pair) * pair.along.dot(frame.u);
+            row[3 * k + 2] = scale(pair) * pair.along.dot(frame.v);
+        }
+        return row;
+    }
+
+    // Where the plane tilts, what stands across it moves within it; a turn of all angles alike changes nothing.
+    [[nodiscard]] Eigen::Matrix<double, 1, 18> angle_by_motion(const Pair& pair) const {
+        Eigen::Matrix<double, 1, 18> row = Eigen::Matrix<double, 1, 18>::Zero();
+        const double square = std::max(pair.in_plane.squaredNorm(), flattest * flattest * pair.length * pair.length);
+        const Eigen::Vector2d turn = Eigen::Vector2d(-pair.in_plane[1], pair.in_plane[0]) / square;
+        for (const auto& [k, sign] : {std::pair(pair.i, -1.0), std::pair(pair.j, 1.0)}) {
+            row[3 * k] = sign * (turn[0] * e1_.dot(n_.col(k)) + turn[1] * e2_.dot(n_.col(k)));
+        }
+        if (pair.across == 0.0) return row;
+        for (int k = 0; k < 3; ++k) row[3 * k] -= pair.across * turn.dot(tilt_by_height(k)) * normal_.dot(n_.col(k));
+        return row;
+    }
+
+    // Change of the triangle's normal, by its components along e1 and e2, where corner k rises by 1.
+    [[nodiscard]] Eigen::Vector2d tilt_by_height(int k) const {
+        if (k == 2) return {0.0, -1.0 / c_[1]};
+        if (k == 1) return {-1.0 / base_, c_[0] / (base_ * c_[1])};
+        return {1.0 / base_, (base_ - c_[0]) / (base_ * c_[1])};
+    }
+
+    [[nodiscard]] ElementVector area_by_motion() const {
+        ElementVector result = ElementVector::Zero();
+        for (int k = 0; k < 3; ++k) {
+            const Vector3 opposite = x_.col((k + 2) % 3) - x_.col((k + 1) % 3);
+            result[3 * k] = 0.5 * normal_.cross(opposite).dot(n_.col(k));
+        }
+        return result;
+    }
+
+    // The part of the area's second derivatives that every height field has, ½ ∫ |∇h|²; blunt angles left out.
+    void add_area(double factor, ElementMatrix& hessian) const {
+        for (int k = 0; k < 3; ++k) {
+            const int i = (k + 1) % 3;
+            const int j = (k + 2) % 3;
+            const double cotangent = (x_.col(i) - x_.col(k)).dot(x_.col(j) - x_.col(k)) / (2.0 * area_);
+            const double weight = 0.5 * factor * std::max(0.0, cotangent);
+            const double turned = weight * n_.col(i).dot(n_.col(j));
+            hessian(3 * i, 3 * i) += weight;
+            hessian(3 * j, 3 * j) += weight;
+            hessian(3 * i, 3 * j) -= turned;
+            hessian(3 * j, 3 * i) -= turned;
+        }
+    }
+
+    // Second derivatives of ⟨n_i + n_j, x_j − x_i⟩, times `factor`.
+    void add_bending(const Pair& pair, double factor, ElementMatrix& hessian) const {
+        for (const auto& [k, other, sign] : {std::tuple(pair.i, pair.j, 1.0), std::tuple(pair.j, pair.i, -1.0)}) {
+            const Frame frame(Vector3(n_.col(k)));
+            const Vector3 n = n_.col(other);
+            const double u = sign * factor * frame.u.dot(n);
+            const double v = sign * factor * frame.v.dot(n);
+            hessian(3 * k + 1, 3 * other) += u;
+            hessian(3 * other, 3 * k + 1) += u;
+            hessian(3 * k + 2, 3 * other) += v;
+            hessian(3 * other, 3 * k + 2) += v;
+            const double shortened = factor * n_.col(k).dot(pair.along);
+            hessian(3 * k + 1, 3 * k + 1) -= shortened;
+            hessian(3 * k + 2, 3 * k + 2) -= shortened;
+        }
+    }
+
+    double misfit_weight_;
+    std::array<bool, stencil_size> present_{};
+    Eigen::Matrix<double, 3, 6> x_ = Eigen::Matrix<double, 3, 6>::Zero();
+    Eigen::Matrix<double, 3, 6> n_ = Eigen::Matrix<double, 3, 6>::Zero();
+    double area_ = 0.0;
+    double base_ = 0.0;  // |ab|
+    Eigen::Vector2d c_;  // of corner c seen from a
+    Vector3 normal_, e1_, e2_;
+    std::array<Pair, 6> pairs_;
+    int count_ = 0;
+    PairMatrix V_ = PairMatrix::Zero();       // cubic → derivative along each pair
+    PairMatrix turned_ = PairMatrix::Zero();  // its derivative by the pair's angle
+    PairVector derivatives_ = PairVector::Zero();
+    CubicMatrix inverse_;  // of the fit's normal equations
+    Cubic cubic_;
+    PairVector misfit_;
+    Residual residual_;
+};
+
+}  // namespace
+
+ElementSums element_sums(const Sheet& sheet, const Stencil& stencil, double misfit_weight) {
+    return Element(sheet, stencil, misfit_weight).sums();
+}
+
+ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil, double misfit_weight,
+                           const ElementSums& factors) {
+    return Element(sheet, stencil, misfit_weight).terms(factors);
+}
+
+LocalCubic local_cubic(const Sheet& sheet, const Stencil& stencil) { return Element(sheet, stencil, 0.0).cubic(); }
+
+double LocalCubic::along(const Vector3& chord) const {
+    const Eigen::Vector2d direction = Eigen::Vector2d(chord.dot(e1), chord.dot(e2)).normalized();
+    const double c = direction[0];
+    const double s = direction[1];
+    return coefficients.dot(Cubic(c * c * c, c * c * s, c * s * s, s * s * s));
+}
+
+}  // namespace fairing

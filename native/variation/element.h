@@ -1,0 +1,47 @@
+// How much the normal curvatures vary over one triangle, with derivatives.
+#pragma once
+
+#include "variation/sheet.h"
+#include "variation/stencil.h"
+
+namespace fairing {
+
+using ElementVector = Eigen::Matrix<double, 18, 1>;  // motions (sheet.h) of the six vertices, one after the other
+using ElementMatrix = Eigen::Matrix<double, 18, 18>;
+
+// Of a triangle, or of a whole surface: ∫ ⟨(dκ/ds)²⟩ dA, in units of length⁻², and ∫ dA. κ is the normal curvature
+// along a direction, s the arc length there, ⟨⟩ the mean over all directions.
+struct ElementSums {
+    double variation = 0.0;
+    double area = 0.0;
+};
+
+// The derivative of the normal curvature along a pair of vertices is 6 ⟨n_i + n_j, x_j − x_i⟩ / |x_j − x_i|³ + O(h²):
+// zero on planes, spheres and circular cylinders for any pair. A cubic form C(t, t, t) is fitted to the pairs of the
+// stencil, and what doesn't fit counts `misfit_weight` times. That is O(h²), and it ties the normals to the surface:
+// normals that lean by −(h²/12) C cancel C along pairs of length h, but not along longer ones. Without it the normals
+// would lean.
+ElementSums element_sums(const Sheet& sheet, const Stencil& stencil, double misfit_weight);
+
+// Derivatives of factors.variation · variation + factors.area · area by the motions. The second ones are split:
+// `stretching` is positive semidefinite (Gauss–Newton), `bending` what the pairs' own second derivatives add; those of
+// lengths and angles are left out.
+struct ElementTerms {
+    ElementVector gradient = ElementVector::Zero();
+    ElementVector area_gradient = ElementVector::Zero();
+    ElementMatrix stretching = ElementMatrix::Zero();
+    ElementMatrix bending = ElementMatrix::Zero();
+};
+ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil, double misfit_weight,
+                           const ElementSums& factors);
+
+// The cubic form of a triangle in its plane.
+struct LocalCubic {
+    Eigen::Vector4d coefficients;
+    Vector3 e1, e2;
+    // C(t, t, t), t the direction of `chord` in the plane.
+    [[nodiscard]] double along(const Vector3& chord) const;
+};
+LocalCubic local_cubic(const Sheet& sheet, const Stencil& stencil);
+
+}  // namespace fairing

@@ -1,0 +1,172 @@
+#include "variation/least_variation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/stopwatch.h"
+#include "geometry/self_intersection.h"
+#include "geometry/surface_fit.h"
+#include "placement/place.h"
+#include "solver/biharmonic_operator.h"
+#include "solver/globalisation.h"
+#include "solver/surface_state.h"
+#include "variation/inflate.h"
+#include "variation/lift.h"
+#include "variation/own_mesh.h"
+
+namespace fairing {
+
+namespace {
+
+// Edge lengths of the fine mesh and of the coarse one (Beginning), as shares of the outline's mean edge, within bounds
+// (units of D); `growth`: proxy/proxy_mesh.h.
+constexpr double fine_share = 1.0;
+constexpr double shortest_coarse = 0.02;
+constexpr double shortest_fine = 0.012;
+constexpr double longest = 0.15;
+constexpr double coarse_growth = 0.2;
+constexpr double fine_growth = 0.15;
+constexpr int most_coarse = 1200;  // free vertices
+constexpr int most_fine = 20000;
+constexpr int most_fine_steps = 60;  // those that converge take 30 at most
+
+// From a rough start descent may end in a minimum with a fold; another mesh or more damping then leads elsewhere.
+struct Beginning {
+    double share;    // of the outline's mean edge
+    double damping;  // at first
+};
+constexpr std::array beginnings{Beginning{1.4, 1e-3}, Beginning{1.0, 1e-3}, Beginning{1.8, 1e-2}, Beginning{1.0, 0.1}};
+
+Workspace make_workspace(const Problem& problem, const Progress& progress) {
+    return {std::make_unique<BiharmonicOperator>(problem.patch),
+            make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress)};
+}
+
+double mean_outline_edge(const Problem& problem) {
+    const auto place = [&](int v) { return problem.fixed_points.col(v - problem.patch.free_count); };
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const Indices& loop : problem.patch.loops()) {
+        for (std::size_t k = 0; k < loop.size(); ++k)
+            sum += (place(loop[k]) - place(loop[(k + 1) % loop.size()])).norm();
+        count += loop.size();
+    }
+    return count > 0 ? sum / static_cast<double>(count) : 0.0;
+}
+
+// A bulge that meets the outline's tangent planes, its collapsed tubes opened.
+Points start_of(const Problem& problem, const Progress& progress) {
+    const Problem uniform = on_patch(problem, problem.patch);
+    Workspace work = make_workspace(uniform, progress.here());
+    const Points fill = best_fill(uniform, work, progress.here());
+    return problem.patch.loop_count() > 1 ? inflated(uniform, fill, progress) : fill;
+}
+
+// On a coarse mesh from a rough start; the mesh is made anew in between, for vertices move along normals only.
+SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginning& beginning,
+                         const Progress& progress) {
+    constexpr int most_rounds = 8;
+    constexpr double tolerance = 1e-3;
+    constexpr double settled = 0.02;  // relative change of the merit from one mesh to the next
+    const double edge = std::clamp(beginning.share * mean_outline_edge(problem), shortest_coarse, longest);
+    const Sizing sizing{coarse_growth, edge, most_coarse};
+    std::optional<SolvedSheet> last;
+    double merit = 0.0;  // of the last mesh
+    for (int k = 0; k < most_rounds; ++k) {
+        mesh.adapt(sizing);
+        const NewtonLimits limits{tolerance, k == 0 ? 30 : 15, k == 0 ? beginning.damping : 1e-5, 0.05};
+        last.emplace(solve_on(mesh, problem, last, Measure::plain, limits, progress.range(0.1 * k, 0.1 * (k + 1))));
+        if (std::abs(last->result.merit - merit) <= settled * merit || last->result.merit < tolerance) break;
+        merit = last->result.merit;
+    }
+    mesh.adapt(sizing);
+    return solve_on(mesh, problem, last, Measure::scale_free, {tolerance, 30, 1e-4}, progress.range(0.8, 1.0));
+}
+
+SolvedSheet solve_fine(ProxyMesh& mesh, const Problem& problem, const SolvedSheet& coarse, const Progress& progress) {
+    const double edge = std::clamp(fine_share * mean_outline_edge(problem), shortest_fine, longest);
+    const int limit = std::clamp(3 * problem.patch.free_count, 3000, most_fine);
+    mesh.adapt({fine_growth, edge, limit});
+    const int most_steps = std::min(problem.options.max_iterations, most_fine_steps);
+    return solve_on(mesh, problem, coarse, Measure::scale_free, {problem.options.tolerance, most_steps}, progress);
+}
+
+Termination ending(const NewtonResult& result, const Problem& problem) {
+    if (result.converged) return Termination::converged;
+    return result.steps >= problem.options.max_iterations ? Termination::iteration_limit : Termination::stalled;
+}
+
+// The user's vertices on the solved surface.
+Solution placed(const Problem& problem, const ProxyMesh& mesh, const SolvedSheet& solved, const Progress& progress) {
+    const Termination end = ending(solved.result, problem);
+    const TargetSurface target(solved.mesh.patch, solved.sheet.points, solved.sheet.normals);
+    const auto tangential = make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here());
+    const Placed best = place(problem, *tangential, {mesh, solved.mesh, target}, std::nullopt, progress.here());
+    const Placement& placement = best.placement;
+    const SurfaceState state = measured_surface(on_patch(problem, solved.mesh.patch), solved.sheet.points);
+    Solution solution;
+    solution.termination = end;
+    solution.points = placement.points;
+    const Lift lift(solved.mesh.patch, solved.sheet);
+    for (int v = 0; v < problem.patch.free_count; ++v)
+        solution.points.col(v) = lift.sample(target, placement.where[at(v)]).point;
+    solution.mean_curvature = carried_over(placement, target, state.curvature.mean, problem);
+    solution.boundary_normals = one_sided_normals(solved.mesh.patch, solved.sheet.points);
+    solution.polished = false;
+    solution.crosses = !crossing_triangles(solved.mesh.patch.triangles, solved.sheet.points).empty();
+    if (end == Termination::converged) refuse_folds(problem, best, solution);
+    return solution;
+}
+
+struct Attempt {
+    ProxyMesh mesh;
+    SolvedSheet fine;
+    double coarse_gradient;
+    int coarse_vertices;
+
+    [[nodiscard]] bool is_better_than(const Attempt& other) const {
+        if (fine.result.converged != other.fine.result.converged) return fine.result.converged;
+        return fine.result.merit < other.fine.result.merit;
+    }
+};
+
+Attempt attempted(const Problem& problem, const Points& start, const Beginning& beginning, const Progress& progress) {
+    ProxyMesh mesh(problem.patch, start);
+    const SolvedSheet coarse = solve_coarse(mesh, problem, beginning, progress.range(0.0, 0.5));
+    SolvedSheet fine = solve_fine(mesh, problem, coarse, progress.range(0.5, 1.0));
+    return {std::move(mesh), std::move(fine), coarse.result.gradient, coarse.mesh.patch.vertex_count()};
+}
+
+}  // namespace
+
+Solution solve_least_variation(const Problem& problem, const Progress& progress) {
+    const Checkpoints checkpoints(progress);
+    Stopwatch watch;
+    const Points start = start_of(problem, progress.range(0.0, 0.1));
+    const double start_seconds = watch.lap();
+    std::optional<Attempt> best;
+    double begin = 0.1;
+    for (const Beginning& beginning : beginnings) {
+        const double end = begin + 0.2;
+        Attempt attempt = attempted(problem, start, beginning, progress.range(begin, end));
+        if (!best || attempt.is_better_than(*best)) best.emplace(std::move(attempt));
+        if (best->fine.result.converged) break;
+        begin = end;
+    }
+    const double solve_seconds = watch.lap();
+    Solution solution = placed(problem, best->mesh, best->fine, progress.range(0.9, 1.0));
+    solution.iterations = best->fine.result.steps;
+    solution.residual = best->fine.result.gradient;
+    solution.initial_residual = best->coarse_gradient;
+    solution.levels = {best->coarse_vertices, best->fine.mesh.patch.vertex_count()};
+    solution.seconds = {{"fill", start_seconds}, {"iteration", solve_seconds}, {"placement", watch.lap()}};
+    return solution;
+}
+
+double variation_energy(const Problem& problem, const Points& points) {
+    const Sheet sheet{points, fitted_normals(problem, points, Measure::scale_free, Progress())};
+    return VariationEnergy(problem, Moving::normals, Measure::scale_free).merit(sheet);
+}
+
+}  // namespace fairing

@@ -1,0 +1,18 @@
+// The surface whose normal curvatures vary least.
+#pragma once
+
+#include "solver/problem.h"
+
+namespace fairing {
+
+// Minimises ∫ ⟨(dκ/ds)²⟩ dA · ∫ dA (variation/element.h; the product keeps its value when everything is scaled) with
+// the outline's positions and normals. Solved on a mesh of the engine's own, whose vertices and normals are the
+// unknowns; the patch's vertices are placed on that surface by their inner fairness. The interior of the patch is not
+// looked at. The solution's `termination` and `residual` (largest derivative of the product by a height, in units of D)
+// are of this problem; `polished` is false. Deterministic. Throws Cancelled, SolverError.
+Solution solve_least_variation(const Problem& problem, const Progress& progress);
+
+// The product for any surface of the problem's patch (3 × local vertices), its normals being those that suit it best.
+double variation_energy(const Problem& problem, const Points& points);
+
+}  // namespace fairing

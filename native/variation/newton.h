@@ -1,0 +1,32 @@
+// Minimises the variation of curvature over motions of the vertices of one mesh.
+#pragma once
+
+#include "base/progress.h"
+#include "variation/variation_energy.h"
+
+namespace fairing {
+
+struct NewtonLimits {
+    double tolerance;  // of the largest height of a full step, units of D
+    int most_steps;
+    double damping = 0.0;         // at first; large damping removes roughness before anything moves far
+    double shortest_share = 0.0;  // of a step; where less of it can be taken, the mesh is in the way
+};
+
+struct NewtonResult {
+    bool converged = false;
+    int steps = 0;
+    double merit = 0.0;
+    double gradient = 0.0;  // largest derivative of the merit by a height
+};
+
+// Newton's steps with Levenberg–Marquardt damping and a line search; a step that would fold triangles is
+// shortened. `sheet`: start and result. Throws Cancelled.
+NewtonResult minimise(const VariationEnergy& energy, Sheet& sheet, const NewtonLimits& limits,
+                      const Progress& progress);
+
+// Unit normals that suit points best: of least variation while the points stay, those of the problem where given
+// exactly. Begins at Max's normals.
+Points fitted_normals(const Problem& problem, const Points& points, Measure measure, const Progress& progress);
+
+}  // namespace fairing

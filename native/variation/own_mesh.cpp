@@ -1,0 +1,81 @@
+#include "variation/own_mesh.h"
+
+#include "variation/lift.h"
+
+namespace fairing {
+
+namespace {
+
+// Vertex of a snapshot by its number in the mesh, `none` for numbers that are not there.
+class VertexByNumber {
+public:
+    explicit VertexByNumber(const Patch& patch) {
+        for (int v = 0; v < patch.vertex_count(); ++v) {
+            const auto number = at(patch.to_input[at(v)]);
+            if (number >= vertex_.size()) vertex_.resize(number + 1, none);
+            vertex_[number] = v;
+        }
+    }
+    [[nodiscard]] int operator()(int number) const { return at(number) < vertex_.size() ? vertex_[at(number)] : none; }
+
+private:
+    Indices vertex_;
+};
+
+// A triangle of the solved mesh near each vertex of the later one: of the vertex itself, or of the nearest that was
+// there before.
+Indices triangles_nearby(const SolvedSheet& solved, const Patch& later, const TargetSurface& target) {
+    const VertexByNumber before(solved.mesh.patch);
+    Indices triangle(at(later.vertex_count()), none);
+    Indices queue;
+    for (int v = 0; v < later.vertex_count(); ++v) {
+        const int old = before(later.to_input[at(v)]);
+        if (old == none) continue;
+        triangle[at(v)] = target.at_vertex(old).triangle;
+        queue.push_back(v);
+    }
+    for (std::size_t k = 0; k < queue.size(); ++k) {
+        for (int u : later.ring(queue[k]).vertices) {
+            if (triangle[at(u)] != none) continue;
+            triangle[at(u)] = triangle[at(queue[k])];
+            queue.push_back(u);
+        }
+    }
+    return triangle;
+}
+
+}  // namespace
+
+Problem on_patch(const Problem& problem, const Patch& patch) {
+    return {patch, problem.fixed_points,  problem.fixed_normals, uniform_weights(patch), problem.options,
+            0,     problem.normal_weights};
+}
+
+Sheet resampled(const SolvedSheet& solved, const ProxyMesh::Snapshot& later) {
+    const TargetSurface target(solved.mesh.patch, solved.sheet.points, solved.sheet.normals);
+    const Lift lift(solved.mesh.patch, solved.sheet);
+    const Indices triangle = triangles_nearby(solved, later.patch, target);
+    Sheet sheet{later.points, Points(3, later.patch.vertex_count())};
+    const Eigen::Index fixed = later.patch.vertex_count() - later.patch.free_count;
+    sheet.normals.rightCols(fixed) = solved.sheet.normals.rightCols(fixed);
+    for (int v = 0; v < later.patch.free_count; ++v) {
+        const SurfaceSample sample = lift.sample(target, target.project(later.points.col(v), triangle[at(v)]));
+        sheet.points.col(v) = sample.point;
+        sheet.normals.col(v) = sample.normal;
+    }
+    return sheet;
+}
+
+SolvedSheet solve_on(ProxyMesh& mesh, const Problem& problem, const std::optional<SolvedSheet>& last, Measure measure,
+                     const NewtonLimits& limits, const Progress& progress) {
+    auto snapshot = mesh.snapshot();
+    const Problem here = on_patch(problem, snapshot.patch);
+    Sheet sheet = last ? resampled(*last, snapshot)
+                       : Sheet{snapshot.points, fitted_normals(here, snapshot.points, measure, progress.here())};
+    const VariationEnergy energy(here, Moving::points_and_normals, measure);
+    const NewtonResult result = minimise(energy, sheet, limits, progress);
+    mesh.read_back(snapshot.patch, sheet.points);
+    return {std::move(snapshot), std::move(sheet), result};
+}
+
+}  // namespace fairing

@@ -1,0 +1,60 @@
+// How much the normal curvatures of a sheet vary, and how far its normals are from the outline's.
+#pragma once
+
+#include "linear/tree_solve.h"
+#include "solver/problem.h"
+#include "variation/element.h"
+#include "variation/unknowns.h"
+
+namespace fairing {
+
+// What may move: the free vertices and all normals that are not given exactly, or the normals alone.
+enum class Moving { points_and_normals, normals };
+
+// With V = ∫ ⟨(dκ/ds)²⟩ dA and A the area: V A, which no scaling changes; or V alone, in units of D⁻², which is lower
+// on larger surfaces and easier to descend from far away: there V A would shrink the area of a rough start.
+enum class Measure { scale_free, plain };
+
+// A merit near a sheet, by the unknown motions of its vertices.
+struct QuadraticModel {
+    double merit = 0.0;
+    VectorX gradient;
+    SparseMatrix bending;  // second derivatives, lower triangle: bending + stretching − area_factor · area areaᵀ
+    VectorX stretching;    // positive semidefinite; values on the same pattern
+    VectorX area;          // gradient of the area
+    double area_factor = 0.0;
+};
+
+// Merit: V A (or V) + Σ_outline w_i |n_i − n̂_i|².
+class VariationEnergy {
+public:
+    // `problem` must outlive this.
+    VariationEnergy(const Problem& problem, Moving moving, Measure measure);
+
+    [[nodiscard]] double merit(const Sheet& sheet) const;
+    // Into a model of the same energy, or an empty one.
+    void update(const Sheet& sheet, QuadraticModel& model) const;
+    // The sheet with its vertices moved by `share` of the motions (unknowns in their order).
+    [[nodiscard]] Sheet moved(const Sheet& sheet, const VectorX& motions, double share) const;
+
+    [[nodiscard]] const Unknowns& unknowns() const { return unknowns_; }
+    [[nodiscard]] const Patch& patch() const { return problem_.patch; }
+
+private:
+    using Blocks = std::array<int, stencil_size * stencil_size>;
+
+    [[nodiscard]] ElementSums sums(const Sheet& sheet) const;
+    [[nodiscard]] double merit_of(const ElementSums& sums, const Sheet& sheet) const;
+    void add_elements(const Sheet& sheet, const ElementSums& factors, QuadraticModel& model) const;
+    void add(const ElementTerms& terms, int element, QuadraticModel& model) const;
+    void add_outline(const Sheet& sheet, QuadraticModel& model) const;
+    [[nodiscard]] double outline_energy(const Sheet& sheet) const;
+
+    const Problem& problem_;
+    Measure measure_;
+    std::vector<Stencil> stencils_;
+    Unknowns unknowns_;
+    std::vector<Blocks> blocks_;  // of the pairs of vertices of each stencil
+};
+
+}  // namespace fairing

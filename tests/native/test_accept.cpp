@@ -1,0 +1,189 @@
+#include <doctest/doctest.h>
+
+#include "meshes.h"
+#include "method/accept.h"
+#include "method/ways.h"
+
+using namespace fairing;
+
+namespace {
+
+// A patch of the unit sphere that counts as solved.
+struct Solved {
+    test::Single single = test::single_patch(test::grid(12, 0.0, test::sphere));
+    Problem problem = make_problem();
+
+    [[nodiscard]] const Patch& patch() const { return single.patch(); }
+    [[nodiscard]] int fixed_count() const { return patch().vertex_count() - patch().free_count; }
+
+    [[nodiscard]] Problem make_problem() const {
+        const Points fixed = single.points.rightCols(fixed_count());
+        return {patch(), fixed, fixed, uniform_weights(patch()), {}};
+    }
+
+    [[nodiscard]] Solution solution() const {
+        Solution result;
+        result.points = single.points;
+        result.mean_curvature = VectorX::Constant(patch().vertex_count(), -1.0);
+        result.boundary_normals = problem.fixed_normals;
+        result.termination = Termination::converged;
+        result.iterations = 10;
+        return result;
+    }
+
+    // Moves an inner vertex beyond its ring, along the surface.
+    static void fold(Solution& solution, const Patch& patch) {
+        for (int v = 0; v < patch.free_count; ++v) {
+            const auto ring = patch.ring(v).vertices;
+            if (std::any_of(ring.begin(), ring.end(), [&](int w) { return !patch.is_free(w); })) continue;
+            solution.points.col(v) = (2.2 * solution.points.col(ring[0]) - 1.2 * solution.points.col(v)).normalized();
+            return;
+        }
+    }
+};
+
+std::optional<Solution> nothing(const Problem&, const Situation&, const Progress&) { return std::nullopt; }
+bool always(const Problem&, const Situation&) { return true; }
+
+}  // namespace
+
+TEST_CASE("a good solution has no flaw") {
+    const Solved solved;
+    Solution solution = solved.solution();
+    CHECK(flaw_of(solved.problem, solution) == Flaw::none);
+    CHECK(solution.bad_triangles.empty());
+}
+
+TEST_CASE("what did not converge is no solution, whatever it looks like") {
+    const Solved solved;
+    for (const Termination end : {Termination::stalled, Termination::iteration_limit}) {
+        Solution solution = solved.solution();
+        solution.termination = end;
+        CHECK(flaw_of(solved.problem, solution) == Flaw::not_converged);
+    }
+}
+
+TEST_CASE("more iterations than a good mesh needs are a flaw, but from the surface itself") {
+    const Solved solved;
+    Solution solution = solved.solution();
+    solution.iterations = 20;
+    CHECK(flaw_of(solved.problem, solution) == Flaw::none);
+    solution.iterations = 21;
+    CHECK(flaw_of(solved.problem, solution) == Flaw::many_iterations);
+    solution.from_surface = true;
+    CHECK(flaw_of(solved.problem, solution) == Flaw::none);
+}
+
+TEST_CASE("folds are a flaw and are named, unless the weights come from as many") {
+    Solved solved;
+    Solution solution = solved.solution();
+    Solved::fold(solution, solved.patch());
+    CHECK(flaw_of(solved.problem, solution) == Flaw::folded);
+    CHECK(!solution.bad_triangles.empty());
+    solved.problem.tolerated_folds = solution.bad_triangles.size();
+    solution.crosses = true;
+    CHECK(flaw_of(solved.problem, solution) == Flaw::none);
+}
+
+TEST_CASE("crossings are a flaw where the surface itself has none") {
+    const Solved solved;
+    Solution solution = solved.solution();
+    // One vertex is drawn over a spike that another one makes, three edges away.
+    const Patch& patch = solved.patch();
+    const double edge = mean_edge(patch, solution.points);
+    const auto nearest = [&](double x) {
+        int found = 0;
+        for (int v = 0; v < patch.free_count; ++v) {
+            const auto away = [&](int w) {
+                return (solved.single.points.col(w).head<2>() - Eigen::Vector2d(x, 0)).norm();
+            };
+            if (away(v) < away(found)) found = v;
+        }
+        return found;
+    };
+    const int spike = nearest(0.0);
+    solution.points.col(spike) += Vector3(0.0, 0.0, 3.0 * edge);
+    solution.points.col(nearest(3.0 * edge)) = solution.points.col(spike) - Vector3(edge, 0.0, 1.5 * edge);
+    Problem lenient = solved.problem;
+    lenient.tolerated_folds = 1000;
+    CHECK(flaw_of(lenient, solution) == Flaw::crossing);
+    CHECK(!solution.bad_triangles.empty());
+    solution.crosses = true;
+    CHECK(flaw_of(lenient, solution) == Flaw::none);
+}
+
+TEST_CASE("a surface without area and one that meets its outline from behind are no answers") {
+    const Solved solved;
+    Solution behind = solved.solution();
+    behind.boundary_normals = -behind.boundary_normals;
+    CHECK(flaw_of(solved.problem, behind) == Flaw::behind);
+    Solution collapsed = solved.solution();
+    collapsed.points = Vector3(0.1, 0.2, 0.3).replicate(1, collapsed.points.cols());
+    CHECK(flaw_of(solved.problem, collapsed) == Flaw::collapsed);
+}
+
+TEST_CASE("triangles that can't carry the equation are a flaw of the user's mesh only") {
+    const Solved solved;
+    Solution solution = solved.solution();
+    solution.points.row(0) *= 0.05;
+    const Points squeezed = solution.points;
+    solution.crosses = true;
+    CHECK(has_poor_triangles(solved.patch(), squeezed));
+    CHECK(flaw_of(solved.problem, solution) == Flaw::poor_triangles);
+    solution.polished = false;
+    CHECK(flaw_of(solved.problem, solution) == Flaw::none);
+}
+
+TEST_CASE("two surfaces agree within their errors, or within the coarser one's edges") {
+    const Solved solved;
+    const Solution placed = solved.solution();
+    Solution own = placed;
+    own.points.col(0) += Vector3(1e-4, 0.0, 0.0);
+    const double fine = 0.5 * mean_edge(solved.patch(), placed.points);
+    CHECK(agree(solved.problem, own, placed, fine));
+    own.points.col(0) += Vector3(1e-3, 0.0, 0.0);
+    CHECK(!agree(solved.problem, own, placed, fine));
+    CHECK(agree(solved.problem, own, placed, 4.0 * fine));
+    own.points.col(0) += Vector3(4.0 * fine, 0.0, 0.0);
+    CHECK(!agree(solved.problem, own, placed, 4.0 * fine));
+    own.points = placed.points;
+    own.mean_curvature *= 1.3;
+    CHECK(!agree(solved.problem, own, placed, fine));
+}
+
+TEST_CASE("the first way that is accepted ends the ladder, and all that were tried are listed") {
+    const Solved solved;
+    static const Solution good = solved.solution();
+    static Solution bad = solved.solution();
+    bad.termination = Termination::stalled;
+    const auto solve_well = [](const Problem&, const Situation&, const Progress&) { return std::optional(good); };
+    const auto solve_badly = [](const Problem&, const Situation&, const Progress&) { return std::optional(bad); };
+    const std::array ways{Way{"no", [](const Problem&, const Situation&) { return false; }, solve_well, 0.0, 0.1},
+                          Way{"empty", always, nothing, 0.1, 0.2}, Way{"bad", always, solve_badly, 0.2, 0.3},
+                          Way{"good", always, solve_well, 0.3, 0.4}, Way{"late", always, solve_well, 0.4, 0.5}};
+    const Solution found = run_ways(ways, solved.problem, Progress());
+    CHECK(found.flaw == Flaw::none);
+    REQUIRE(found.ways.size() == 3);
+    CHECK(found.ways[0].name == "empty");
+    CHECK(found.ways[1].name == "bad");
+    CHECK(found.ways[2].name == "good");
+}
+
+TEST_CASE("where nothing is accepted, what converged comes first, then what is least bent") {
+    const Solved solved;
+    static Solution flat = solved.solution();
+    static Solution bent = solved.solution();
+    static Solution slow = solved.solution();
+    flat.termination = bent.termination = Termination::stalled;
+    slow.iterations = 60;
+    for (int v = 0; v < solved.patch().free_count; ++v) bent.points.col(v) *= v % 2 == 0 ? 1.1 : 0.9;
+    const auto give_flat = [](const Problem&, const Situation&, const Progress&) { return std::optional(flat); };
+    const auto give_bent = [](const Problem&, const Situation&, const Progress&) { return std::optional(bent); };
+    const auto give_slow = [](const Problem&, const Situation&, const Progress&) { return std::optional(slow); };
+    const std::array unsolved{Way{"bent", always, give_bent, 0.0, 0.5}, Way{"flat", always, give_flat, 0.5, 1.0}};
+    CHECK(run_ways(unsolved, solved.problem, Progress()).points == flat.points);
+    const std::array mixed{Way{"slow", always, give_slow, 0.0, 0.5}, Way{"flat", always, give_flat, 0.5, 1.0}};
+    const Solution best = run_ways(mixed, solved.problem, Progress());
+    CHECK(best.iterations == 60);
+    CHECK(best.ways.size() == 2);
+}

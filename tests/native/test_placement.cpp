@@ -1,0 +1,124 @@
+#include <doctest/doctest.h>
+
+#include <numbers>
+
+#include "geometry/flips.h"
+#include "meshes.h"
+#include "placement/first_placement.h"
+#include "placement/folds.h"
+#include "placement/relax.h"
+#include "placement/untangle.h"
+
+using namespace fairing;
+
+namespace {
+
+// A flat square that carries vertices of its own connectivity.
+struct Square {
+    explicit Square(int n = 12) : single(test::single_patch(test::grid(n, 0.0, test::flat))) {}
+
+    test::Single single;
+    Points normals = Vector3::UnitZ().replicate(1, single.points.cols());
+    TargetSurface target{single.patch(), single.points, normals};
+    Problem problem = make_problem(uniform_weights(single.patch()));
+
+    [[nodiscard]] const Patch& patch() const { return single.patch(); }
+
+    [[nodiscard]] Problem make_problem(Lambda weights) const {
+        const Eigen::Index fixed = patch().vertex_count() - patch().free_count;
+        return {patch(), single.points.rightCols(fixed), normals.rightCols(fixed), std::move(weights), {}};
+    }
+
+    [[nodiscard]] Placement placed(const Points& points) const {
+        Placement placement = at_vertices(problem, target, single.points);
+        for (int v = 0; v < patch().free_count; ++v)
+            put(placement, v, target, target.project(points.col(v), placement.where[at(v)].triangle));
+        return placement;
+    }
+
+    // The inner vertices turned round the middle, those in the middle by most: folded, but smoothly.
+    [[nodiscard]] Placement twirled(double turn) const {
+        Points points = single.points;
+        for (int v = 0; v < patch().free_count; ++v) {
+            const Vector3 away = points.col(v) - Vector3(0.5, 0.5, 0.0);
+            const double angle = away.norm() < 0.3 ? turn : 0.0;
+            points.col(v) = Vector3(0.5, 0.5, 0.0) + Eigen::AngleAxisd(angle, Vector3::UnitZ()) * away;
+        }
+        return placed(points);
+    }
+
+    [[nodiscard]] std::size_t folds(const Placement& placement) const {
+        return folded_triangles(problem, target, placement).size();
+    }
+};
+
+// λ that pull every free vertex to its neighbours on the right.
+Lambda one_sided_pull(const Square& square) {
+    InnerWeights weights;
+    for (const auto& [a, b] : square.patch().edge_ends) {
+        const double x = 0.5 * (square.single.points(0, a) + square.single.points(0, b));
+        weights.push_back({a, b, std::exp(-25.0 * std::abs(x - 0.4) * (1.0 + std::sin(40.0 * x)))});
+    }
+    return weights;
+}
+
+}  // namespace
+
+TEST_CASE("a sheet that lies on the other one is folded, although no triangle differs from its neighbours") {
+    const Square square;
+    Points mirrored = square.single.points;
+    mirrored.row(0) = 1.0 - mirrored.row(0).array();
+    const Placement placement = square.placed(mirrored);
+    int inner = 0;
+    int seen_by_neighbours = 0;
+    for (int t = 0; t < square.patch().triangle_count(); ++t) {
+        if (square.patch().triangles.col(t).maxCoeff() >= square.patch().free_count) continue;
+        ++inner;
+        CHECK(is_folded(square.problem, square.target, placement, t));
+    }
+    for (const int t : flipped_by_solution(square.patch(), placement.points)) {
+        seen_by_neighbours += square.patch().triangles.col(t).maxCoeff() < square.patch().free_count ? 1 : 0;
+    }
+    CHECK(inner > 100);
+    CHECK(seen_by_neighbours == 0);
+}
+
+TEST_CASE("untangling turns all folds back and leaves the vertices on the surface") {
+    const Square square;
+    for (const double turn : {1.0, 2.0, std::numbers::pi}) {
+        Placement placement = square.twirled(turn);
+        REQUIRE(square.folds(placement) > 10);
+        untangle(square.problem, square.target, placement);
+        CHECK(square.folds(placement) == 0);
+        for (int v = 0; v < square.patch().free_count; ++v)
+            CHECK((placement.points.col(v) - square.target.position(placement.where[at(v)])).norm() == 0.0);
+    }
+}
+
+TEST_CASE("vertices that follow a surface of their own mesh land where they are on it") {
+    const Square square;
+    const Placement found =
+        placed_at(square.problem, square.target,
+                  by_surface(square.problem, square.single.points, square.patch(), square.target).where);
+    CHECK((found.points - square.single.points).cwiseAbs().maxCoeff() < 1e-14);
+    // However far above it: over every place of the square there is but one.
+    Points lifted = square.single.points;
+    for (int v = 0; v < square.patch().free_count; ++v) lifted(2, v) = 0.3 * std::sin(9.0 * lifted(0, v));
+    const Placement again = by_surface(square.problem, lifted, square.patch(), square.target);
+    CHECK((again.points - square.single.points).cwiseAbs().maxCoeff() < 1e-12);
+}
+
+TEST_CASE("springs that hold folds back get less than all they pull for, and fold nothing") {
+    const Square square;
+    const Problem problem = square.make_problem(one_sided_pull(square));
+    const auto tangential = make_tangential_step(square.patch(), problem.weights, problem.fixed_points, Progress());
+    // From a placement without folds next to one with many.
+    Placement start = square.twirled(2.0);
+    untangle(problem, square.target, start);
+    REQUIRE(square.folds(start) == 0);
+    Placement held = start;
+    const double before = tangential->merit(start.points, normals_at(start, square.target));
+    const double after = relax(problem, *tangential, square.target, held, Folds::held_back);
+    CHECK(after < before);
+    CHECK(folded_mask(problem, square.target, held) == std::vector<char>(at(square.patch().triangle_count()), 0));
+}

@@ -1,0 +1,165 @@
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+
+#include "geometry/target_surface.h"
+#include "meshes.h"
+#include "variation/least_variation.h"
+#include "variation/lift.h"
+#include "variation/newton.h"
+
+using namespace fairing;
+
+namespace {
+
+// A patch of a surface with known normals, as a problem whose outline is exact.
+struct Exact {
+    test::Single single;
+    Sheet sheet;
+    Problem problem;
+
+    Exact(const test::Mesh& mesh, const std::function<Vector3(const Vector3&)>& normal)
+        : single(test::single_patch(mesh)),
+          sheet{single.points, Points(3, single.points.cols())},
+          problem{single.patch(), {}, {}, uniform_weights(single.patch()), {}} {
+        for (Eigen::Index v = 0; v < sheet.points.cols(); ++v) sheet.normals.col(v) = normal(sheet.points.col(v));
+        const Eigen::Index fixed = sheet.points.cols() - single.patch().free_count;
+        problem.fixed_points = sheet.points.rightCols(fixed);
+        problem.fixed_normals = sheet.normals.rightCols(fixed);
+    }
+
+    [[nodiscard]] double merit(Measure measure) const {
+        return VariationEnergy(problem, Moving::points_and_normals, measure).merit(sheet);
+    }
+};
+
+constexpr double wide = 2.0;  // radii of a torus
+constexpr double thin = 0.7;
+
+Vector3 torus(double u, double v) {
+    const double around = wide + thin * std::cos(v);
+    return {around * std::cos(u), around * std::sin(u), thin * std::sin(v)};
+}
+
+Vector3 torus_normal(const Vector3& p) {
+    const Vector3 axis = wide * Vector3(p.x(), p.y(), 0.0).normalized();
+    return (p - axis).normalized();
+}
+
+Vector3 cylinder(double u, double v) { return {std::cos(u), std::sin(u), v}; }
+Vector3 cylinder_normal(const Vector3& p) { return Vector3(p.x(), p.y(), 0.0).normalized(); }
+
+Exact torus_patch(int n) { return {test::grid(n, 0.25, torus), torus_normal}; }
+
+// ∫ (9/16) b² dA over the unit square of angles, b the derivative of the curvature around along the tube.
+double variation_of_torus() {
+    constexpr int steps = 2000;
+    double sum = 0.0;
+    for (int k = 0; k < steps; ++k) {
+        const double u = (k + 0.5) / steps;
+        const double around = wide + thin * std::cos(u);
+        const double b = std::sin(u) * wide / (around * around * thin);
+        sum += 9.0 / 16.0 * b * b * thin * around / steps;
+    }
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("planes, spheres and cylinders have no variation on any mesh, a torus has") {
+    const auto up = [](const Vector3&) { return Vector3(Vector3::UnitZ()); };
+    CHECK(Exact(test::grid(9, 0.35, test::flat), up).merit(Measure::plain) < 1e-20);
+    CHECK(Exact(test::grid(9, 0.35, test::sphere), [](const Vector3& p) { return p; }).merit(Measure::plain) < 1e-20);
+    CHECK(Exact(test::grid(9, 0.35, cylinder), cylinder_normal).merit(Measure::plain) < 1e-20);
+    CHECK(torus_patch(9).merit(Measure::plain) > 1e-3);
+}
+
+TEST_CASE("on irregular meshes the sum converges to the integral over the torus") {
+    const double exact = variation_of_torus();
+    const double coarse = std::abs(torus_patch(12).merit(Measure::plain) / exact - 1.0);
+    const double fine = std::abs(torus_patch(48).merit(Measure::plain) / exact - 1.0);
+    CHECK(fine < 1e-3);
+    CHECK(fine < 0.2 * coarse);
+}
+
+TEST_CASE("derivatives are those of differences") {
+    Exact exact = torus_patch(6);
+    exact.problem.normal_weights = VectorX::Constant(exact.problem.fixed_points.cols(), 0.3);
+    for (const Measure measure : {Measure::plain, Measure::scale_free}) {
+        const VariationEnergy energy(exact.problem, Moving::points_and_normals, measure);
+        const VectorX bump = 1e-2 * (1.7 * VectorX::LinSpaced(energy.unknowns().count(), 0.0, 99.0)).array().sin();
+        const Sheet sheet = energy.moved(exact.sheet, bump, 1.0);
+        QuadraticModel model;
+        energy.update(sheet, model);
+        for (int k = 0; k < energy.unknowns().count(); k += 5) {
+            const VectorX motion = VectorX::Unit(energy.unknowns().count(), k);
+            const double step = 1e-6;
+            const double slope =
+                (energy.merit(energy.moved(sheet, motion, step)) - energy.merit(energy.moved(sheet, motion, -step))) /
+                (2.0 * step);
+            CHECK(model.gradient[k] ==
+                  doctest::Approx(slope).epsilon(1e-5).scale(model.gradient.cwiseAbs().maxCoeff()));
+        }
+    }
+}
+
+TEST_CASE("the product of variation and area has no unit, the variation that of length to the power of minus two") {
+    Exact exact = torus_patch(6);
+    const double product = exact.merit(Measure::scale_free);
+    const double plain = exact.merit(Measure::plain);
+    exact.sheet.points *= 3.0;
+    CHECK(exact.merit(Measure::scale_free) == doctest::Approx(product).epsilon(1e-12));
+    CHECK(exact.merit(Measure::plain) == doctest::Approx(plain / 9.0).epsilon(1e-12));
+}
+
+TEST_CASE("a sphere comes back from its outline's points alone where the slope is free") {
+    Exact exact(test::grid(8, 0.3, test::sphere), [](const Vector3& p) { return p; });
+    exact.problem.normal_weights = VectorX::Zero(exact.problem.fixed_points.cols());
+    const VariationEnergy energy(exact.problem, Moving::points_and_normals, Measure::plain);
+    const VectorX bump = 2e-2 * (0.3 * VectorX::LinSpaced(energy.unknowns().count(), 0.0, 99.0)).array().sin();
+    Sheet sheet = energy.moved(exact.sheet, bump, 1.0);
+    const NewtonResult result = minimise(energy, sheet, {1e-10, 30}, Progress());
+    CHECK(result.converged);
+    CHECK(result.steps < 15);
+    CHECK((sheet.points.colwise().norm().array() - 1.0).abs().maxCoeff() < 1e-8);
+    CHECK((sheet.normals - sheet.points).cwiseAbs().maxCoeff() < 1e-7);
+}
+
+TEST_CASE("normals of small weight give way to the surface, those of large weight hold") {
+    Exact exact(test::grid(8, 0.3, test::sphere), [](const Vector3& p) { return p; });
+    exact.problem.fixed_normals.col(3) = (exact.problem.fixed_normals.col(3) + Vector3(0.1, 0.0, 0.0)).normalized();
+    const Vector3 given = exact.problem.fixed_normals.col(3);
+    const auto angle_to_given = [&](double weight) {
+        exact.problem.normal_weights = VectorX::Constant(exact.problem.fixed_points.cols(), weight);
+        const VariationEnergy energy(exact.problem, Moving::points_and_normals, Measure::plain);
+        Sheet sheet = exact.sheet;
+        minimise(energy, sheet, {1e-10, 30}, Progress());
+        return (sheet.normals.col(exact.single.patch().free_count + 3) - given).norm();
+    };
+    CHECK(angle_to_given(1e-4) > 0.08);
+    CHECK(angle_to_given(1e6) < 1e-3);
+}
+
+TEST_CASE("fitted normals are exact on spheres, and the energy of points alone is that of the best normals") {
+    const Exact exact(test::grid(10, 0.3, test::sphere), [](const Vector3& p) { return p; });
+    CHECK((fitted_normals(exact.problem, exact.sheet.points, Measure::plain, Progress()) - exact.sheet.points)
+              .cwiseAbs()
+              .maxCoeff() < 1e-6);
+    CHECK(variation_energy(exact.problem, exact.sheet.points) < 1e-9);
+    const Exact ring = torus_patch(16);
+    CHECK(variation_energy(ring.problem, ring.sheet.points) < 1.0001 * ring.merit(Measure::scale_free));
+}
+
+TEST_CASE("points between the vertices lie on spheres and cylinders exactly") {
+    for (const bool round : {true, false}) {
+        const Exact exact(test::grid(5, 0.3, round ? test::sphere : cylinder),
+                          [&](const Vector3& p) { return round ? p : cylinder_normal(p); });
+        const TargetSurface target(exact.single.patch(), exact.sheet.points, exact.sheet.normals);
+        const Lift lift(exact.single.patch(), exact.sheet);
+        for (int t = 0; t < exact.single.patch().triangle_count(); ++t) {
+            const SurfaceSample sample = lift.sample(target, {t, Vector3(0.5, 0.3, 0.2)});
+            const double radius = round ? sample.point.norm() : sample.point.head<2>().norm();
+            CHECK(std::abs(radius - 1.0) < 1e-9);
+        }
+    }
+}

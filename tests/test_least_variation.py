@@ -1,0 +1,108 @@
+"""equation="least_variation": the surface whose normal curvatures vary least."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import fairing
+import measures
+import profiles
+import shapes
+import tubes
+from shapes import Patch, Style
+
+
+def faired(patch: Patch, **options: object) -> fairing.FairResult:
+    """A patch from its outline alone."""
+    return fairing.fair(
+        shapes.start_from_nothing(patch), patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals,
+        equation="least_variation", **options,
+    )  # type: ignore[arg-type]  # fmt: skip
+
+
+@pytest.mark.parametrize("family", ["hemisphere", "short_cylinder", "cylinder", "cylinder_patch", "plane"])
+def test_surfaces_without_variation_are_exact_on_irregular_meshes(family: str) -> None:
+    patch = shapes.FAMILIES[family](400, Style(jitter=0.8, seed=2))
+    result = faired(patch)
+    assert result.converged
+    assert patch.error(result.vertices) < 1e-6
+
+
+def radii(result: fairing.FairResult) -> np.ndarray:
+    """Distances from the axis."""
+    return np.hypot(result.vertices[:, 0], result.vertices[:, 1])
+
+
+@pytest.mark.parametrize(("length", "lean"), [(3.0, 10.0), (5.0, 5.0), (5.0, -10.0), (10.0, 10.0), (10.0, -10.0)])
+def test_pipes_with_leaning_ends_keep_their_radius(length: float, lean: float) -> None:
+    result = tubes.pipe(length, lean, seed=1).faired()
+    assert result.converged
+    assert not result.warnings
+    assert 0.8 < radii(result).min() <= radii(result).max() < 1.2
+
+
+def test_the_error_against_the_profile_of_one_dimension_falls_with_the_mesh() -> None:
+    exact = profiles.least(profiles.Ends(1.0, 1.0, 5.0, 10.0)).r.min()
+    errors = [abs(radii(tubes.pipe(5.0, 10.0, around=n, seed=1).faired()).min() - exact) for n in (16, 32)]
+    assert errors[1] < 0.006
+    assert errors[1] < 0.5 * errors[0]
+
+
+def test_elbows_are_almost_tori() -> None:
+    for bend in (2.0, 3.0):
+        result = tubes.elbow(bend, 90.0, seed=2).faired()
+        assert result.converged
+        assert not result.warnings
+        assert tubes.off_torus(result.vertices, bend) < 0.05
+
+
+def test_a_taper_has_no_bulge() -> None:
+    result = tubes.pipe(5.0, radii=(1.0, 0.5), seed=4).faired()
+    assert result.converged
+    assert radii(result).max() < 1.0 + 1e-9
+    assert radii(result).min() > 0.5 - 1e-9
+
+
+def test_irregular_meshes_agree() -> None:
+    made = [(tube, tube.faired()) for tube in (tubes.pipe(5.0, 5.0, seed=s) for s in (1, 2))]
+    (one, first), (other, second) = made
+    away = measures.two_sided_distance((first.vertices, one.triangles), (second.vertices, other.triangles))
+    sagitta = 1 - np.cos(np.pi / 24)  # of the rims' chords
+    assert away < 0.003 * one.diameter + sagitta
+
+
+def test_the_interior_given_is_not_looked_at_and_threads_change_no_bit() -> None:
+    tube = tubes.pipe(4.0, 5.0, seed=3)
+    first = tube.faired().vertices
+    for options in ({"seed": 1}, {"seed": 2}, {"threads": 2}):
+        assert (tube.faired(**options).vertices == first).all()
+
+
+def test_moved_turned_and_scaled_outlines_give_the_same_surface() -> None:
+    """As nearly as two meshes: roundoff decides some of the engine's own flips and collapses."""
+    tube = tubes.elbow(3.0, 60.0, seed=2)
+    turn, _ = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))
+    turn *= np.sign(np.linalg.det(turn))
+    moved = tubes.Tube(7 * tube.vertices @ turn.T + 3, tube.triangles, tube.fixed, tube.normals @ turn.T)
+    back = (moved.faired().vertices - 3) @ turn / 7
+    assert np.abs(back - tube.faired().vertices).max() < 2e-3 * tube.diameter
+
+
+def test_cancel_stops_it_at_any_time() -> None:
+    tube = tubes.pipe(3.0, 5.0)
+    for stop in (0, 3, 12):
+        left = stop
+
+        def ask(_fraction: float, _stage: str) -> bool:
+            nonlocal left
+            left -= 1
+            return left >= 0
+
+        with pytest.raises(fairing.Cancelled):
+            tube.faired(progress=ask)
+
+
+def test_the_published_method_does_not_have_it() -> None:
+    with pytest.raises(ValueError, match="least_variation"):
+        tubes.pipe(3.0).faired(method="paper")
