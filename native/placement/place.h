@@ -33,8 +33,8 @@ Placed place(const Problem& problem, const TangentialStep& tangential, const Own
 Placed place_own(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
                  const Points& points, const Progress& progress);
 
-// Ends a placed solution as `folded` where the placement is, or where the weights' own minimum is that folded that they
-// say nothing about these vertices.
+// Ends a placed solution as `folded` where the placement is, or where the weights' own minimum has so many folds that
+// it says nothing about these vertices.
 void refuse_folds(const Problem& problem, const Placed& placed, Solution& solution);
 
 }  // namespace fairing
