@@ -62,8 +62,8 @@ struct PatchCurvature {
     [[nodiscard]] CurvatureFit fit(int i) const { return {form(0, i), form(1, i), form(2, i)}; }
 };
 
-// From the neighbours and a virtual point between every two of them; in corners of the outline also from the
-// turn of the normals along it, unless the normals are averaged ones, which is the paper's discretisation.
+// From the neighbours and a virtual point between every two of them. In corners of the outline also from the turn of
+// the normals along it, unless the normals are averaged ones: that is the paper's discretisation.
 PatchCurvature patch_curvature(const Patch& patch, const Points& points, const FaceGeometry& faces,
                                const Points& normals, NormalKind kind);
 

@@ -17,9 +17,9 @@ public:
     // The arguments must outlive the surface. Columns: local vertices of the patch.
     TargetSurface(const Patch& patch, const Points& points, const Points& normals);
 
-    // The point of the mesh near `position` that a walk from `start` reaches: across edges towards the foot of the
-    // perpendicular, never over the border; where folded triangles send it to and fro, the nearest point of those
-    // around. Local: a surface that comes close to itself confuses it not.
+    // The point of the mesh near `position` that a walk from `start` reaches. It goes across edges towards the foot of
+    // the perpendicular, never over the border. Where folded triangles send it to and fro, it takes the nearest point
+    // of those around. The walk is local: a surface that comes close to itself does not confuse it.
     [[nodiscard]] SurfacePoint project(const Vector3& position, int start) const;
 
     [[nodiscard]] Vector3 position(const SurfacePoint& where) const;

@@ -12,7 +12,7 @@ namespace fairing {
 
 namespace {
 
-// SOLVER facts: the tilt's regularisation (a larger one leaves an error floor) and the softening of short edges.
+// The tilt's regularisation (a larger one leaves an error floor) and the softening of short edges.
 constexpr double tilt_regularisation = 0.002;
 constexpr double short_edge_softening = 0.2;
 constexpr double fade_begin = 0.5;

@@ -20,11 +20,11 @@ struct NormalChord {
 // in all its arguments while the triangle normals don't cancel.
 Vector3 virtual_point(const NormalChord& chord);
 
-// Of an edge of a patch: it does not depend on the vertex that looks at it.
+// The virtual point of an edge of a patch. It is the same from either end.
 Vector3 edge_virtual_point(const Patch& patch, const Points& points, const FaceGeometry& faces, const Points& normals,
                            int edge);
 
-// Of all edges.
+// The virtual points of all edges.
 Points edge_virtual_points(const Patch& patch, const Points& points, const FaceGeometry& faces, const Points& normals);
 
 }  // namespace fairing

@@ -7,8 +7,8 @@
 
 namespace fairing {
 
-// Applies f(A) for a symmetric positive definite A, with f(λ) = √λ / (1 + √λ) = 1/π ∫ λ / (λ + s) · ds / (√s (1 + s)),
-// s from 0 to ∞: a sum of shifted inverses by the trapezoidal rule in log s. To some per cent.
+// Applies f(A) for a symmetric positive definite A, f(λ) = √λ / (1 + √λ) = 1/π ∫ λ / (λ + s) · ds / (√s (1 + s)) over
+// s from 0 to ∞. The trapezoidal rule in log s makes it a sum of shifted inverses, exact to some per cent.
 class HalfOrder {
 public:
     // `lower`: the lower triangle of A, diagonal included. `least`: about A's least eigenvalue. False where A is not

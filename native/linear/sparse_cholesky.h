@@ -28,7 +28,7 @@ public:
     // it is left undefined.
     [[nodiscard]] VectorX solve_vector(const VectorX& rhs, const FrontReach& from = FrontReach(),
                                        const FrontReach& to = FrontReach()) const;
-    // Of some rows of the matrix, as long as the ordering is kept.
+    // The reach of some rows of the matrix. Valid as long as the ordering is kept.
     [[nodiscard]] FrontReach reach(const Indices& rows) const;
     [[nodiscard]] const FrontTree& tree() const { return tree_; }
 

@@ -5,9 +5,10 @@
 
 namespace fairing {
 
-// What is wrong with a solution, if anything, whatever the way it came by: an iteration that did not converge, no area
-// left, an outline that is met from behind, folds, crossings that the surface itself has not, triangles that can't
-// carry the equation, more iterations than an answer needs that is one. Names the bad triangles in the solution.
+// What is wrong with a solution, if anything, whatever way it came. The checks, in this order: the iteration converged;
+// some area is left; the outline is not met from behind; there are no folds and no crossings that the surface itself
+// does not have; the triangles can carry the equation; the iteration took no more steps than a right answer needs.
+// Names the bad triangles in the solution.
 Flaw flaw_of(const Problem& problem, Solution& solution);
 
 // Whether no other way could do better: accepted, or solved for as much of the load as the surface carries.

@@ -7,8 +7,8 @@
 
 namespace fairing {
 
-// The shape doesn't depend on λ: where a mesh carries the equation with its vertices evenly placed only, that surface
-// is taken and λ places them on it. Nothing where even that is not accepted.
+// The shape doesn't depend on λ. Where a mesh carries the equation only with its vertices evenly placed, that surface
+// is taken and λ places them on it. Nothing where that is not accepted either.
 std::optional<Solution> solve_evenly(const Problem& problem, const Progress& progress);
 
 }  // namespace fairing

@@ -13,10 +13,10 @@ struct OwnSurface {
     bool solved;  // the equation holds there
 };
 
-// `guess`: what the vertices are placed from, if there is anything. Where the discrete equation
-// holds on the user's own mesh near the placed vertices, that is the solution; else the placed vertices with the
-// proxy's H. Where no placement without folds is found, or the placed mesh crosses itself and the proxy's surface does
-// not, `folded`. Where no proxy converges, the least bent of their surfaces, not converged.
+// `guess`: what the vertices are placed from, if there is anything. Where the discrete equation holds on the user's own
+// mesh near the placed vertices, that is the solution. Elsewhere it is the placed vertices with the proxy's H. It ends
+// as `folded` where no placement without folds is found, or where the placed mesh crosses itself and the proxy's
+// surface does not. Where no proxy converges, the least bent of their surfaces comes back, not converged.
 Solution solve_on_proxy(const Problem& problem, const std::optional<OwnSurface>& guess, const Progress& progress);
 
 }  // namespace fairing

@@ -5,9 +5,9 @@
 
 namespace fairing {
 
-// The discrete equation on the problem's mesh from `placed`, whose vertices lie on the solved surface of a mesh of mean
-// edge `proxy_edge`, where it converges, agrees with that surface and is accepted; `placed` itself otherwise. `work`:
-// of the problem.
+// Solves the discrete equation on the problem's mesh from `placed`, whose vertices lie on the solved surface of a mesh
+// of mean edge `proxy_edge`. Gives that solution where it converges, agrees with that surface and is accepted, `placed`
+// itself otherwise. `work` belongs to the problem.
 Solution polish(const Problem& problem, Workspace& work, Solution placed, double proxy_edge, const Progress& progress);
 
 }  // namespace fairing

@@ -21,7 +21,7 @@ struct Situation {
 struct Way {
     const char* name;
     bool (*suits)(const Problem& problem, const Situation& situation);
-    // Nothing where it finds at once that it is not for this problem.
+    // Nothing where it sees at once that it does not suit this problem.
     std::optional<Solution> (*solve)(const Problem& problem, const Situation& situation, const Progress& progress);
     double begin;  // shares of the time, for the progress
     double end;

@@ -19,7 +19,7 @@ public:
     virtual void cycle(SingleField& r, SingleField& x) const = 0;
 };
 
-// Of the coarsest level, factorised.
+// The operator of the coarsest level, factorised.
 class FactorisedLaplacian : public SymmetricStep, public LaplaceCycle {
 public:
     FactorisedLaplacian(const Patch& patch, const InnerWeights& weights, const Points& fixed_points,

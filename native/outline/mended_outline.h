@@ -8,15 +8,15 @@ namespace fairing {
 struct MendedOutline {
     Points vertices;             // those of the input, bit for bit, but for the moved ones
     Indices moved;               // ascending
-    Indices held;                // ascending: would have been moved, but that folds triangles outside
+    Indices held;                // ascending: a move would fold triangles outside
     double noise = 0.0;          // median distance of the points from the fits, in edges
     SurroundingNormals normals;  // at the outline
 };
 
-// Moves each vertex of `outline` onto the fit of `triangles` (those outside it), and the two rings of vertices outside
-// by ⅔ and ⅓ of the way to theirs; none by more than a quarter of its edges' mean length. Nothing moves where the noise
-// is less than a fiftieth of an edge: heights there are the fit's error, not the mesh's. Vertices whose move turns a
-// triangle over are held.
+// Moves each vertex of `outline` onto the fit of `triangles` (those outside it). The two rings of vertices outside move
+// by ⅔ and ⅓ of the way to their fits. None moves by more than a quarter of its edges' mean length. Nothing moves where
+// the noise is less than a fiftieth of an edge: heights there are the fit's error, not the mesh's. Vertices whose move
+// would turn a triangle over are held.
 MendedOutline mend_outline(const Points& points, const Triangles& triangles, const Indices& outline);
 
 }  // namespace fairing

@@ -15,9 +15,9 @@ struct JoinedMesh {
     std::optional<Points> before;
 };
 
-// At each vertex of `outline`, degrees: by how much the signed dihedral angles of its outline edges exceed what is
-// usual within three rings inside and outside, and what the same edge had before; the mean over these edges, by their
-// lengths. 0 where no outline edge ends. Triangles that name a vertex twice are left out.
+// Degrees at each vertex of `outline`: by how much the signed dihedral angles of its outline edges exceed what is usual
+// within three rings inside and outside, and what the same edge had before. The mean over these edges, weighted by
+// length; 0 where no outline edge ends. Triangles that name a vertex twice are left out.
 VectorX visible_join(const JoinedMesh& mesh, const Indices& outline);
 
 // The same from the patch's side alone, at its fixed vertices (local order): the surroundings are taken for the patch's

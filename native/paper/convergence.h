@@ -35,9 +35,9 @@ enum class Verdict {
     lost          // no longer finite
 };
 
-// Follows an iteration, cycle by cycle. The merit of the plain one, its residual, must not grow or rest for long; that
-// of the accelerated one, its changes, may grow for a while: the history tames modes that the plain one doesn't. That
-// one may run into positions at which the two updates of a cycle undo each other: they are no solution.
+// Follows an iteration, cycle by cycle. The merit of the plain one is its residual, which must not grow or rest for
+// long. That of the accelerated one is its changes. They may grow for a while: the history tames modes that the plain
+// one doesn't. It may run into positions at which the two updates of a cycle undo each other. They are no solution.
 class ProgressWatch {
 public:
     explicit ProgressWatch(bool accelerated) : accelerated_(accelerated) {}

@@ -10,12 +10,13 @@ namespace fairing {
 Stiffness start_stiffness(const Patch& patch, InnerFairness kind, const Points& reference);
 
 // A surface over the outline by which the hierarchy can judge edges and triangles without looking at the interior
-// given: of the membrane and the bilaplacian with several bulges, that with the most even triangles. Uniform λ.
+// given. It is the membrane or the bilaplacian with one of several bulges: whichever has the most even triangles.
+// Uniform λ.
 Points neutral_surface(const Problem& problem, const Progress& progress);
 
 // Positions of the level's vertices (3 × level vertices) from connectivity and boundary data alone.
-// linear: the clamped bilaplacian; improved: the bulge of it that has the least Willmore energy, made fair by mixed
-// finite elements; minimal surfaces: the membrane, without and with descent of its area.
+// `linear` is the clamped bilaplacian. `improved` takes its bulge of least Willmore energy, made fair by mixed finite
+// elements. For minimal surfaces they are the membrane, without and with descent of its area.
 Points start_of_level(const LevelProblem& level, const Stiffness& stiffness, const Points& fixed_points,
                       const Progress& progress);
 

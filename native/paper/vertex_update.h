@@ -1,4 +1,4 @@
-// Step II of the factorisation: vertices move so that they get the curvature wanted (paper §7.2, §7.3).
+// Step II of the factorisation: vertices move so that they reach a given curvature (paper §7.2, §7.3).
 #pragma once
 
 #include "paper/disk_curvature.h"
@@ -14,9 +14,9 @@ struct VertexTarget {
     double damping;                   // s
 };
 
-// The new position of the disk's centre: the projection of the weighted mean on the tangent plane, q̃ = mean −
-// ⟨Δq, n⟩ n, then s t n with H(q̃ + t n) = H̃ for the linearised curvature (eq. 13). t is limited to the distance of
-// the neighbours (root mean square), beyond which the linearisation says nothing.
+// The new position of the disk's centre. First the weighted mean is projected on the tangent plane: q̃ = mean −
+// ⟨Δq, n⟩ n. Then it moves by s t n, with H(q̃ + t n) = H̃ for the linearised curvature (eq. 13). t is limited to the
+// distance of the neighbours (root mean square). Beyond, the linearisation says nothing.
 Vector3 updated_position(const Disk& disk, const DiskField& field, const VertexTarget& target);
 
 }  // namespace fairing

@@ -22,7 +22,7 @@ struct OwnMeshSurface {
     const TargetSurface& target;
 };
 
-// Of several placements the one with the fewest folds, of those the one with the least merit (tangential_step.h). They
+// Tries several placements and takes the one with the fewest folds, then with the least merit (tangential_step.h). They
 // begin from `guess`, a surface of the problem's own patch that has the right sheets, and from the history of the
 // proxy mesh. Where the springs' minimum is folded, folds are turned back vertex by vertex, and the springs relax only
 // as far as nothing folds.
@@ -33,8 +33,8 @@ Placed place(const Problem& problem, const TangentialStep& tangential, const Own
 Placed place_own(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
                  const Points& points, const Progress& progress);
 
-// Ends a placed solution as `folded` where the placement is, or where the weights' own minimum is that folded that they
-// say nothing about these vertices.
+// Ends a placed solution as `folded` where the placement is, or where the weights' own minimum has so many folds that
+// it says nothing about these vertices.
 void refuse_folds(const Problem& problem, const Placed& placed, Solution& solution);
 
 }  // namespace fairing

@@ -13,9 +13,9 @@ struct RemovedVertex {
     Indices ring;
 };
 
-// Edge lengths of the interior: the outline's own spacing there, from there on growing by `growth` per distance up to
-// `longest`, but so that the normal turns by `turn` radians at most along an edge (down to a quarter of `longest`; a
-// narrow pipe would lose its shape). No edge is split beyond `free_limit` free vertices.
+// Edge lengths of the interior. They begin with the outline's own spacing and grow by `growth` per distance up to
+// `longest`. The normal turns by `turn` radians at most along an edge, down to a quarter of `longest`: a narrow pipe
+// would lose its shape otherwise. No edge is split beyond `free_limit` free vertices.
 struct Sizing {
     double growth;
     double longest;

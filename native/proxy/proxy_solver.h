@@ -17,10 +17,10 @@ struct SolvedProxy {
     [[nodiscard]] bool converged() const { return solution.termination == Termination::converged; }
 };
 
-// Solves on a proxy from `guess`, positions of all vertices of the problem's patch near the surface, if there is one;
-// where that fails from `membrane`: a coarse proxy, Willmore descent with flips and smoothing in between, the accurate
-// iteration there and on a refined proxy. A proxy that fails makes room for the next finer one. When all fail, the
-// least bent of their surfaces comes back and says that it did not converge.
+// Solves on a proxy from `guess`, positions of all vertices of the problem's patch near the surface, if there is one.
+// Where that fails it begins again from `membrane`. The steps: a coarse proxy, Willmore descent with flips and
+// smoothing in between, the accurate iteration there and on a refined proxy. After a proxy that fails comes the next
+// finer one. When all fail, the least bent of their surfaces comes back and says that it did not converge.
 SolvedProxy solve_proxy(const Problem& problem, const std::optional<Points>& guess, const Points& membrane,
                         const Progress& progress);
 

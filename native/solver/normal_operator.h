@@ -1,4 +1,4 @@
-// Linear operators along the normals that precondition the outer equation (SOLVER: K_p).
+// Linear operators along the normals that precondition the outer equation.
 #pragma once
 
 #include <memory>

@@ -15,7 +15,7 @@ struct SurfaceState {
 
     // Faces and stiffness of the present points.
     void measure_faces(const Patch& patch);
-    // Fitted (or averaged) normals and the curvature of METHOD §6 on top of them.
+    // Fitted (or averaged) normals and the curvature (paper §6) on top of them.
     void measure_curvature(const Problem& problem);
 };
 
@@ -25,8 +25,8 @@ SurfaceState measured_surface(const Problem& problem, const Points& points);
 // The Willmore energy of mixed finite elements (solver/willmore), about 4 ∫ H², of a surface (3 × local vertices).
 double willmore_energy(const Problem& problem, const Points& points);
 
-// About ∫ |∇H|² + |∇√(H² − K)|², how much the principal curvatures vary over a surface (3 × local vertices): zero on
-// spheres and round pipes alone, while H is constant on bulging pipes too.
+// About ∫ |∇H|² + |∇√(H² − K)|²: how much the principal curvatures vary over a surface (3 × local vertices). Zero on
+// spheres and round pipes alone; H is constant on bulging pipes too.
 double curvature_variation(const Problem& problem, const Points& points);
 
 // Largest length of a column.

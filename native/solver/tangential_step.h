@@ -26,8 +26,9 @@ public:
     // vertices. Others have none: ½ Σ |P (Λx − x)_i|².
     [[nodiscard]] virtual double merit(const Points& points, const Points& normals) const = 0;
 
-    // d with P L P d = −P L x, P the projection across the unit normals and L the λ-Laplacian, to a relative residual
-    // of 0.05 or after `max_cycles`: conjugate gradients (GMRES where λ is not symmetric) preconditioned by P L⁻¹ P.
+    // d with P L P d = −P L x; P is the projection across the unit normals, L the λ-Laplacian. Conjugate gradients
+    // (GMRES where λ is not symmetric), preconditioned by P L⁻¹ P, to a relative residual of 0.05 or until
+    // `max_cycles`.
     [[nodiscard]] virtual Points displacement(const Points& points, const Points& normals,
                                               int max_cycles = 10) const = 0;
 };

@@ -1,0 +1,65 @@
+"""The pages of the project: links lead somewhere, files that are named exist, lines of prose are short."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md")])
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+FILE = re.compile(r"`((?:addon|benchmarks|docs|native|scripts|tests)/[\w./-]+)`")
+GENERATED = ("docs/paper.md", "docs/performance.md")  # figures make some of their lines long
+NOT_FOLDERS = ("addon/door", "addon/ground")  # modules beside the rooms, as the picture of the house calls them
+
+
+def name(page: Path) -> str:
+    return str(page.relative_to(ROOT))
+
+
+def prose(page: Path) -> list[str]:
+    """Lines outside code and tables."""
+    text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    return [line for line in text.splitlines() if not line.startswith("|")]
+
+
+def anchors(page: Path) -> set[str]:
+    """What a link can point to within a page."""
+    headings = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_links_lead_somewhere(page: Path) -> None:
+    for link in LINK.findall(page.read_text(encoding="utf-8")):
+        if link.startswith("http"):
+            continue
+        file, _, anchor = link.partition("#")
+        target = page.parent / file if file else page
+        assert target.exists(), link
+        assert not anchor or anchor in anchors(target), link
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_files_that_are_named_exist(page: Path) -> None:
+    for file in FILE.findall(page.read_text(encoding="utf-8")):
+        if file not in NOT_FOLDERS:
+            assert (ROOT / file).exists() or list(ROOT.glob(f"{file}.*")), file
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if name(page) not in GENERATED], ids=name)
+def test_lines_of_prose_are_short(page: Path) -> None:
+    assert [line for line in prose(page) if len(line) > 120] == []
+
+
+@pytest.mark.parametrize(
+    ("page", "template"),
+    [("docs/performance.md", "benchmarks/peers/page.md"), ("docs/paper.md", "benchmarks/paper/page.md")],
+)
+def test_page_and_template_have_the_same_words(page: str, template: str) -> None:
+    words = re.split(r"\{\{\w+\}\}", (ROOT / template).read_text(encoding="utf-8"))
+    assert len(words) > 5
+    pattern = ".*?".join(re.escape(part) for part in words)
+    assert re.fullmatch(pattern, (ROOT / page).read_text(encoding="utf-8"), re.DOTALL)
