@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -16,6 +15,7 @@ from .arrays import Floats, Ints
 from .components import Component, components, outline_radius
 from .options import FairOptions
 from .region import Patch
+from .words import in_mesh_words
 
 Progress = Callable[[float, str], "bool | None"]
 
@@ -36,7 +36,7 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
     """Fair the patch; indices in the result are patch indices.
 
     A bulge is measured by each piece's own outline, so that pieces are solved one after the other
-    then. Raises fairing.MeshError (its `elements` are mesh vertices), ValueError,
+    then. Raises MeshRefusal (its `elements` are mesh vertices), ValueError,
     fairing.SolverError and fairing.Cancelled.
     """
     if options.equation != "CONSTANT" or options.bulge == 0.0:
@@ -69,7 +69,7 @@ def _load(problem: Problem, outline: Ints, options: FairOptions) -> float:
 
 def _solve_part(problem: Problem, options: FairOptions, load: float, progress: Progress | None) -> fairing.FairResult:
     patch = problem.patch
-    with _mesh_indices(patch):
+    with in_mesh_words(patch.origin):
         return fairing.fair(
             problem.points,
             patch.triangles,
@@ -86,13 +86,13 @@ class KeptSolver:
     """Solves one patch for options that change while the mesh stays, each time from the last answer."""
 
     def __init__(self, patch: Patch) -> None:
-        """Solve nothing yet; raises fairing.MeshError where the patch can't be."""
-        with _mesh_indices(patch):
+        """Solve nothing yet; raises MeshRefusal where the patch can't be."""
+        with in_mesh_words(patch.origin):
             self._solver = fairing.Solver(patch.triangles, fixed=patch.fixed, neighbours=patch.neighbours)
 
     def __call__(self, problem: Problem, options: FairOptions, progress: Progress | None) -> fairing.FairResult:
         """Fair the patch, which must be the one given, as `solve` does; raises the same."""
-        with _mesh_indices(problem.patch):
+        with in_mesh_words(problem.patch.origin):
             load = 0.0
             if options.equation == "CONSTANT" and options.bulge != 0.0:
                 load = _load(problem, problem.patch.outline, options)
@@ -124,7 +124,7 @@ class RepeatedSolve:
 
     @staticmethod
     def _solver(patch: Patch, load: float, options: FairOptions) -> fairing.Solver:
-        with _mesh_indices(patch):
+        with in_mesh_words(patch.origin):
             return fairing.Solver(
                 patch.triangles,
                 fixed=patch.fixed,
@@ -147,51 +147,9 @@ class RepeatedSolve:
     def _solve_part(
         self, index: int, part: Problem, size: float, progress: Progress | None = None
     ) -> fairing.FairResult:
-        with _mesh_indices(part.patch):
+        with in_mesh_words(part.patch.origin):
             result = self._solvers[index].solve(part.points / size, part.normals, self._references[index], progress)
         return replace(result, vertices=result.vertices * size, mean_curvature=result.mean_curvature / size)
-
-
-@contextmanager
-def _mesh_indices(patch: Patch) -> Iterator[None]:
-    """Make the vertices that an error names, and the elements of a MeshError, those of the whole mesh."""
-    try:
-        yield
-    except fairing.MeshError as error:
-        diagnostic = error.diagnostic
-        elements = mesh_vertices(diagnostic, patch).astype(np.int32)
-        text = _in_mesh_numbers(diagnostic.message, patch)
-        raise fairing.MeshError(replace(diagnostic, message=text, elements=elements, kind="vertex")) from error
-    except ValueError as error:
-        raise ValueError(_in_mesh_numbers(str(error), patch)) from error
-
-
-def _in_mesh_numbers(text: str, patch: Patch) -> str:
-    """Return a sentence of the engine in numbers that the mesh knows: triangles, which it doesn't, by their corners."""
-
-    def in_mesh(number: re.Match[str]) -> str:
-        return str(patch.vertices[int(number[0])])
-
-    def corners(name: re.Match[str]) -> str:
-        return "the triangle " + "–".join(str(patch.vertices[v]) for v in patch.triangles[int(name[1])])
-
-    text = re.sub(r"\brow \d+ \((vertex \d+)\)", r"\1", text)
-    text = re.sub(
-        r"\b(?:vertex|vertices|edge) \d+(?:(?:, |–)\d+)*", lambda name: re.sub(r"\d+", in_mesh, name[0]), text
-    )
-    return re.sub(r"\btriangle (\d+)", corners, text)
-
-
-def mesh_vertices(diagnostic: fairing.Diagnostic, patch: Patch) -> Ints:
-    """Return the mesh vertices that an error or warning of the engine is about, ascending.
-
-    Edges come from the engine as pairs of vertices; triangles give their corners.
-    """
-    elements: Ints = diagnostic.elements.astype(np.int64)
-    if diagnostic.kind == "triangle":
-        elements = patch.triangles[elements].ravel()
-    vertices: Ints = patch.vertices[np.unique(elements)]
-    return vertices
 
 
 def _solve_pieces(
@@ -227,6 +185,7 @@ def _part(problem: Problem, piece: Component) -> tuple[Problem, Ints]:
     part = Patch(
         vertices=patch.vertices[used],
         triangles=number[triangles],
+        faces=patch.faces[piece.triangles],
         free=_present(number[patch.free]),
         fixed=number[patch.fixed[held]],
         outline=number[piece.outline],

@@ -16,7 +16,7 @@ from .memory import Memory, digest
 from .options import FairOptions
 from .outline import outline_notes, precision_note
 from .region import MeshArrays, make_patch
-from .warnings_text import sentences
+from .words import sentences
 
 
 @dataclass(frozen=True)
@@ -96,4 +96,4 @@ def _solve_again(
 
 
 def _solved(problem: engine.Problem, result: fairing.FairResult, warnings: tuple[str, ...]) -> Solved:
-    return Solved(problem, result, warnings + sentences(result.warnings))
+    return Solved(problem, result, warnings + sentences(result.warnings, problem.patch.origin))

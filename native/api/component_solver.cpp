@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "api/diagnose.h"
+#include "base/errors.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "geometry/flips.h"
@@ -32,7 +33,8 @@ void warn_of_even_weights(Diagnostics& warnings) {
     warnings.push_back({Code::flipped_triangles,
                         "the inner fairness asked for turns triangles over; uniform inner fairness was used",
                         {},
-                        ElementKind::triangle});
+                        ElementKind::triangle,
+                        {}});
 }
 
 }  // namespace
@@ -54,12 +56,18 @@ ComponentAnswer ComponentSolver::solve(const ComponentData& data, const Progress
     const Points fixed_points = gather(data.vertices, fixed);
     const Normalisation unit = normalise(fixed_points);
     if (!unit.centre.allFinite() || std::isinf(unit.diameter)) {
-        throw MeshError({Code::nonfinite, "coordinates this large overflow when they are added: scale the mesh down",
-                         Indices(fixed.begin(), fixed.end())});
+        throw MeshError({Code::nonfinite,
+                         "coordinates this large overflow when they are added: scale the mesh down",
+                         Indices(fixed.begin(), fixed.end()),
+                         ElementKind::vertex,
+                         {{"largest_coordinate", fixed_points.cwiseAbs().maxCoeff()}}});
     }
     if (!(unit.diameter > 0.0)) {
-        throw MeshError({Code::no_boundary, "a component is held in a single point: fix more of its vertices",
-                         Indices(fixed.begin(), fixed.end())});
+        throw MeshError({Code::no_boundary,
+                         "a component is held in a single point: fix more of its vertices",
+                         Indices(fixed.begin(), fixed.end()),
+                         ElementKind::vertex,
+                         {{"points", 1}}});
     }
     const SolverOptions& solver = options_.asked.solver;
     ComponentAnswer answer{unit, {patch_, unit.to_unit(fixed_points), gather(data.normals, fixed), {}, solver}, {}, {}};

@@ -1,9 +1,7 @@
 // What is said about a patch before and after its solve.
 #pragma once
 
-#include <string>
-
-#include "base/errors.h"
+#include "base/diagnostic.h"
 #include "solver/problem.h"
 
 namespace fairing {
@@ -21,8 +19,9 @@ struct Precision {
 // edges. `input`: positions of all input vertices.
 void warn_of_precision(const Patch& patch, const Points& input, const Precision& wanted, Diagnostics& warnings);
 
-// What kept a solution from being one, for a warning: its termination or its flaw.
-std::string reason_of(const Solution& solution, const VectorX& angles);
+// What kept a solution from being one, FOLDED or NOT_CONVERGED: as `end` says. `angles`: degrees at the fixed
+// vertices between the normals prescribed and obtained.
+Diagnostic failure_of(const Patch& patch, const Solution& solution, Termination end, const VectorX& angles);
 
 // Triangles of a patch by the numbers that the caller knows.
 Indices input_numbers(const Patch& patch, Indices triangles);

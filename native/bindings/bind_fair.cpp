@@ -2,6 +2,7 @@
 #include <exception>
 
 #include "api/fair_solver.h"
+#include "base/errors.h"
 #include "bindings/convert.h"
 #include "bindings/topics.h"
 

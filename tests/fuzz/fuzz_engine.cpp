@@ -9,6 +9,7 @@
 #include "api/fair_solver.h"
 #include "api/measure.h"
 #include "law.h"
+#include "base/errors.h"
 #include "mesh/loops.h"
 #include "outline/surrounding_fit.h"
 #include "random_mesh.h"

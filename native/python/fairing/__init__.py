@@ -20,9 +20,10 @@ from fairing._outline import (
     visible_join,
 )
 from fairing._solver import Solver
-from fairing._types import Cancelled, Diagnostic, FairResult, MeshError, SolverError
+from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, SolverError
 
 __all__ = [
+    "CODES",
     "Cancelled",
     "Diagnostic",
     "FairResult",
