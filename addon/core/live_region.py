@@ -81,7 +81,7 @@ class LiveRegion:
         self._options = options
         self._image = mirror_map(mesh, patch) if mesh.mirror_x else None
         self._patch = patch  # in the numbers of the whole mesh, which refusals name
-        self._solve = RepeatedSolve(patch, world.positions[patch.vertices], options)
+        self._solve = RepeatedSolve(patch, options, world.positions[patch.vertices])
 
     @property
     def vertices(self) -> Ints:

@@ -71,13 +71,22 @@ ComponentAnswer ComponentSolver::solve(const ComponentData& data, const Progress
     }
     const SolverOptions& solver = options_.asked.solver;
     ComponentAnswer answer{unit, {patch_, unit.to_unit(fixed_points), gather(data.normals, fixed), {}, solver}, {}, {}};
-    if (solver.load != 0.0) answer.problem.options.load *= std::pow(unit.diameter, 3);
+    answer.problem.options.load = load_in_units(unit, answer.problem.fixed_points);
     warn_of_precision(patch_, data.vertices, {unit.diameter, solver.tolerance}, answer.warnings);
     read_reference(gather(data.reference, patch_.to_input), unit);
     answer.warnings.insert(answer.warnings.end(), reference_warnings_.begin(), reference_warnings_.end());
     answer.solution =
         options().method == Method::paper ? solve_by_paper(answer.problem, progress) : solve_globally(answer, progress);
     return answer;
+}
+
+// The load in units of D⁻³; `fixed_points` in units of D.
+double ComponentSolver::load_in_units(const Normalisation& unit, const Points& fixed_points) const {
+    const double load = options_.asked.solver.load;
+    const double bulge = options_.asked.bulge;
+    double result = load != 0.0 ? load * std::pow(unit.diameter, 3) : 0.0;
+    if (bulge != 0.0) result += 8.0 * bulge / std::pow(outline_radius(patch_, fixed_points), 3);
+    return result;
 }
 
 // λ stays as long as what it is read off does.

@@ -84,6 +84,7 @@ py::dict to_dict(const FairResult& result) {
 struct Options {
     std::string equation;
     double load;
+    double bulge;
     std::string inner_fairness;
     std::string method;
     std::string normals;
@@ -151,6 +152,7 @@ FairOptions to_fair_options(const Options& options, const PaperChoices& paper, c
     if (fairness.weights) result.custom = to_directed(*fairness.weights);
     result.solver.equation = to_equation(options.equation);
     result.solver.load = options.load;
+    result.bulge = options.bulge;
     result.method = options.method == "paper" ? Method::paper : Method::global;
     result.solver.normals = options.normals == "averaged" ? NormalKind::averaged : NormalKind::fitted;
     result.solver.tolerance = options.tolerance;
@@ -237,9 +239,10 @@ private:
 
 void bind_fair(py::module_& module) {
     py::class_<Options>(module, "Options")
-        .def(py::init<std::string, double, std::string, std::string, std::string, double, int, int>(), py::kw_only(),
-             py::arg("equation"), py::arg("load"), py::arg("inner_fairness"), py::arg("method"), py::arg("normals"),
-             py::arg("tolerance"), py::arg("max_iterations"), py::arg("threads"));
+        .def(py::init<std::string, double, double, std::string, std::string, std::string, double, int, int>(),
+             py::kw_only(), py::arg("equation"), py::arg("load"), py::arg("bulge"), py::arg("inner_fairness"),
+             py::arg("method"), py::arg("normals"), py::arg("tolerance"), py::arg("max_iterations"),
+             py::arg("threads"));
     py::class_<PaperChoices>(module, "PaperChoices")
         .def(py::init<double, int, int, int, double, std::string, std::string, std::string, int>(), py::kw_only(),
              py::arg("damping"), py::arg("cg_steps"), py::arg("h_sweeps"), py::arg("vertex_sweeps"), py::arg("epsilon"),

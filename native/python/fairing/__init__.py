@@ -6,6 +6,7 @@ from fairing._growing import GrownOutline, grown_outline
 from fairing._hierarchy import hierarchy
 from fairing._measure import (
     boundary_loops,
+    components,
     conformal_distortion,
     cotan_laplacian,
     mean_curvature,
@@ -36,6 +37,7 @@ __all__ = [
     "__version__",
     "bad_outline",
     "boundary_loops",
+    "components",
     "conformal_distortion",
     "cotan_laplacian",
     "fair",

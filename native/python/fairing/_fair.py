@@ -22,6 +22,7 @@ def fair(
     reference: npt.ArrayLike | None = None,
     equation: str = "harmonic",
     load: float = 0.0,
+    bulge: float = 0.0,
     inner_fairness: Any = "uniform",
     neighbours: npt.ArrayLike | None = None,
     method: str = "global",
@@ -70,6 +71,10 @@ def fair(
         met only (G0). See §7.5.
     load : float
         Of "constant", in length⁻³; positive bulges along the normals.
+    bulge : float
+        Of "constant", by the outline's own size: adds 8 ``bulge`` / a³ to ``load``, for each component (see
+        :func:`fairing.components`) with a the RMS distance of its outline from the outline's centroid. 1 lifts a flat
+        disc by about a quarter of its radius, whatever its size.
     inner_fairness : "uniform" | "conformal" | "inverse_distance" | "shape_preserving" | (e, 3) array
         How vertices sit within the surface (§7.3); rows of the array: i, j, λ_ij ≥ 0, normalised for each i, one
         at least for each free i.
@@ -152,7 +157,7 @@ def fair(
     }  # fmt: skip
     paper = _options.paper_choices(method, levels, given)
     options = _options.engine_options(
-        equation=equation, load=load, fairness=kind, method=method, normals=normals,
+        equation=equation, load=load, bulge=bulge, fairness=kind, method=method, normals=normals,
         tolerance=tolerance, max_iterations=max_iterations, threads=threads,
     )  # fmt: skip
     as_given = _mending.Boundary(points, fixed_list, given_normals)

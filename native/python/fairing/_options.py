@@ -62,6 +62,7 @@ def engine_options(
     *,
     equation: str,
     load: Any,
+    bulge: Any,
     fairness: str,
     method: str,
     normals: str,
@@ -73,7 +74,8 @@ def engine_options(
     _arguments.choice("normals", normals, NORMALS)
     return _core.Options(
         equation=_arguments.choice("equation", equation, EQUATIONS),
-        load=load_number(equation, load),
+        load=load_number("load", equation, load),
+        bulge=load_number("bulge", equation, bulge),
         inner_fairness=fairness,
         method=method,
         normals="averaged" if method == "paper" else normals,
@@ -97,15 +99,15 @@ def callback(progress: Any) -> Any:
     return progress
 
 
-def load_number(equation: str, load: Any) -> float:
-    """A finite load, which only equation "constant" may have."""
-    if isinstance(load, bool) or not isinstance(load, (int, float, np.floating, np.integer)):
-        raise ValueError(f"load: a number is needed, not {load!r}")
-    if not np.isfinite(load) or (load != 0.0 and equation != "constant"):
+def load_number(name: str, equation: str, value: Any) -> float:
+    """A finite load or bulge, which only equation "constant" may have."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.floating, np.integer)):
+        raise ValueError(f"{name}: a number is needed, not {value!r}")
+    if not np.isfinite(value) or (value != 0.0 and equation != "constant"):
         raise ValueError(
-            f"load: {load!r} is not accepted; accepted are 0 and, with equation 'constant', finite numbers"
+            f"{name}: {value!r} is not accepted; accepted are 0 and, with equation 'constant', finite numbers"
         )
-    return float(load)
+    return float(value)
 
 
 def inner_fairness(value: Any, count: int) -> tuple[str, FloatArray | None]:

@@ -12,7 +12,7 @@ from fairing._fair import Progress
 from fairing._types import FairResult, FloatArray, IntArray
 
 _ANY_COUNT = int(np.iinfo(np.int32).max)
-_SHARED = ("equation", "load", "normals", "tolerance", "max_iterations", "threads")
+_SHARED = ("equation", "load", "bulge", "normals", "tolerance", "max_iterations", "threads")
 _PAPER = (
     "damping", "cg_steps", "sweeps", "vertex_sweeps", "epsilon", "acceleration", "virtual_points", "start",
 )  # fmt: skip
@@ -50,6 +50,7 @@ class Solver:
         fixed: npt.ArrayLike | None = None,
         equation: str = "harmonic",
         load: float = 0.0,
+        bulge: float = 0.0,
         inner_fairness: Any = "uniform",
         neighbours: npt.ArrayLike | None = None,
         method: str = "global",
