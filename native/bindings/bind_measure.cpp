@@ -1,24 +1,24 @@
 #include "api/measure.h"
 #include "bindings/convert.h"
 #include "bindings/topics.h"
+#include "bindings/words.h"
 #include "mesh/loops.h"
 
 namespace fairing::bindings {
 
 namespace {
 
-NormalKind to_kind(const std::string& name) { return name == "averaged" ? NormalKind::averaged : NormalKind::fitted; }
-
 py::array mean_curvature_array(const DoubleArray& vertices, const IntArray& triangles,
                                const std::optional<IntArray>& fixed, const std::optional<DoubleArray>& fixed_normals,
                                const std::string& normals) {
     const MeshInput input{to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices),
                           to_optional(fixed_normals, to_points)};
-    return from_vector(mean_curvature(input, to_kind(normals)));
+    return from_vector(mean_curvature(input, normal_words.value(normals)));
 }
 
 py::array vertex_normals_array(const DoubleArray& vertices, const IntArray& triangles, const std::string& normals) {
-    return from_points(vertex_normals({to_points(vertices), to_triangles(triangles), {}, {}}, to_kind(normals)));
+    return from_points(
+        vertex_normals({to_points(vertices), to_triangles(triangles), {}, {}}, normal_words.value(normals)));
 }
 
 py::tuple cotan_laplacian_arrays(const DoubleArray& vertices, const IntArray& triangles) {

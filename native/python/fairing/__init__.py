@@ -20,6 +20,7 @@ from fairing._outline import (
     surrounding_normals,
     visible_join,
 )
+from fairing._paper import PaperOptions
 from fairing._solver import Solver
 from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, SolverError
 
@@ -31,6 +32,7 @@ __all__ = [
     "GrownOutline",
     "MendedOutline",
     "MeshError",
+    "PaperOptions",
     "Solver",
     "SolverError",
     "SurroundingNormals",

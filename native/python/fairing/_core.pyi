@@ -6,6 +6,7 @@ import numpy.typing as npt
 
 __version__: str
 CODES: tuple[str, ...]
+WORDS: dict[str, tuple[str, ...]]
 
 class Options:
     def __init__(
@@ -22,20 +23,16 @@ class Options:
         threads: int,
     ) -> None: ...
 
-class PaperChoices:
-    def __init__(
-        self,
-        *,
-        damping: float,
-        cg_steps: int,
-        h_sweeps: int,
-        vertex_sweeps: int,
-        epsilon: float,
-        acceleration: str,
-        virtual_points: str,
-        start: str,
-        levels: int,
-    ) -> None: ...
+class PaperOptions:
+    damping: float
+    cg_steps: int
+    sweeps: int
+    vertex_sweeps: int
+    epsilon: float
+    acceleration: str
+    virtual_points: str
+    start: str
+    levels: int
 
 _Floats = npt.NDArray[np.float64]
 _Ints = npt.NDArray[np.int32]
@@ -47,10 +44,10 @@ class Solver:
         fixed: _Ints | None,
         neighbours: _Ints | None,
         weights: _Floats | None,
-        options: tuple[Options, PaperChoices],
+        options: tuple[Options, PaperOptions],
     ) -> None: ...
     def change(
-        self, neighbours: _Ints | None, weights: _Floats | None, options: tuple[Options, PaperChoices]
+        self, neighbours: _Ints | None, weights: _Floats | None, options: tuple[Options, PaperOptions]
     ) -> None: ...
     def solve(
         self,
@@ -69,7 +66,7 @@ def fair(
     neighbours: _Ints | None,
     weights: _Floats | None,
     options: Options,
-    paper: PaperChoices,
+    paper: PaperOptions,
     progress: Callable[[float, str], bool | None] | None,
 ) -> dict[str, Any]: ...
 def mean_curvature(

@@ -10,52 +10,12 @@ import numpy.typing as npt
 from fairing import _arguments, _core
 from fairing._types import FloatArray, IntArray
 
-METHODS = ("global", "paper")
-NORMALS = ("fitted", "averaged")
+# The engine's own words; `outline` is chosen here.
+METHODS = _core.WORDS["method"]
+NORMALS = _core.WORDS["normals"]
+EQUATIONS = _core.WORDS["equation"]
+INNER_FAIRNESS = _core.WORDS["inner_fairness"]
 OUTLINES = ("given", "mended")
-EQUATIONS = ("harmonic", "constant", "minimal_energy", "minimal")
-INNER_FAIRNESS = ("uniform", "conformal", "inverse_distance", "shape_preserving")
-VIRTUAL_POINTS = ("sparse", "coarse", "everywhere")
-STARTS = ("improved", "linear")
-ACCELERATIONS = ("anderson", "none")
-
-# What method "paper" does where the caller says nothing; with acceleration "none" as published.
-PAPER_DEFAULTS: dict[str, Any] = {
-    "damping": 0.9,
-    "cg_steps": 60,
-    "sweeps": 1,
-    "epsilon": None,
-    "acceleration": "anderson",
-    "virtual_points": "everywhere",
-    "start": "improved",
-}
-VERTEX_SWEEPS = {"none": 1, "anderson": 2}
-
-
-def paper_choices(method: str, levels: int, given: dict[str, Any]) -> _core.PaperChoices:
-    """Checks the options that only "paper" has; ``given`` holds None for those left out."""
-    named = {name: value for name, value in given.items() if value is not None}
-    if method != "paper" and named:
-        name = next(iter(named))
-        raise ValueError(f"{name}: is an option of method 'paper'; method {method!r} does not accept it")
-    chosen = {**PAPER_DEFAULTS, **named}
-    acceleration = _arguments.choice("acceleration", chosen["acceleration"], ACCELERATIONS)
-    chosen = {"vertex_sweeps": VERTEX_SWEEPS[acceleration], **chosen}
-    damping = _arguments.positive("damping", chosen["damping"])
-    if damping > 1.0:
-        raise ValueError(f"damping: {damping} is not accepted; accepted is above 0 and up to 1")
-    epsilon = chosen["epsilon"]
-    return _core.PaperChoices(
-        damping=damping,
-        cg_steps=_arguments.whole("cg_steps", chosen["cg_steps"], 1),
-        h_sweeps=_arguments.whole("sweeps", chosen["sweeps"], 1),
-        vertex_sweeps=_arguments.whole("vertex_sweeps", chosen["vertex_sweeps"], 1),
-        acceleration=acceleration,
-        epsilon=0.0 if epsilon is None else _arguments.positive("epsilon", epsilon),
-        virtual_points=_arguments.choice("virtual_points", chosen["virtual_points"], VIRTUAL_POINTS),
-        start=_arguments.choice("start", chosen["start"], STARTS),
-        levels=_arguments.whole("levels", levels, 0, None if method == "paper" else 1),
-    )
 
 
 def engine_options(
