@@ -9,6 +9,7 @@ import pytest
 
 import fairing
 import shapes
+from bad_inputs import closed_ball
 from curves import FloatArray
 from meshing import IntArray
 from shapes import Patch
@@ -100,6 +101,18 @@ def test_a_slit_and_a_pin_within_are_no_part_of_the_outline() -> None:
     assert np.count_nonzero(row) > 1 and np.count_nonzero(pin) == 1 and height.max() == 1.0
     assert np.abs(by_hand.vertices[:, 2]).max() > 1e-3
     assert np.abs(measured.vertices - by_hand.vertices).max() < 1e-9
+
+
+def test_a_closed_component_is_measured_by_its_pins() -> None:
+    vertices, triangles, _ = closed_ball()
+    pins = np.flatnonzero(np.abs(vertices).max(axis=1) > 0.99)
+    given: dict[str, Any] = {"fixed": pins, "equation": "constant", "max_iterations": 30}
+    assert len(pins) >= 4
+    load = 8 * 0.01 / radius(vertices[pins]) ** 3
+    measured = fairing.fair(vertices, triangles, bulge=0.01, **given).vertices
+    by_hand = fairing.fair(vertices, triangles, load=load, **given).vertices
+    assert np.abs(measured - by_hand).max() < 1e-9
+    assert np.abs(measured - fairing.fair(vertices, triangles, **given).vertices).max() > 1e-6
 
 
 def test_a_fixed_loop_is_the_outline_of_either_side() -> None:

@@ -37,6 +37,14 @@ void warn_of_even_weights(Diagnostics& warnings) {
                         {}});
 }
 
+// In units of D⁻³, for a component's fixed points in units of D.
+double load_in_units(const Patch& patch, const Points& fixed_points, double diameter, const FairOptions& options) {
+    double load = 0.0;
+    if (options.solver.load != 0.0) load = options.solver.load * std::pow(diameter, 3);
+    if (options.bulge != 0.0) load += 8.0 * options.bulge / std::pow(outline_radius(patch, fixed_points), 3);
+    return load;
+}
+
 }  // namespace
 
 CallOptions::CallOptions(FairOptions options, bool keeps)
@@ -71,22 +79,13 @@ ComponentAnswer ComponentSolver::solve(const ComponentData& data, const Progress
     }
     const SolverOptions& solver = options_.asked.solver;
     ComponentAnswer answer{unit, {patch_, unit.to_unit(fixed_points), gather(data.normals, fixed), {}, solver}, {}, {}};
-    answer.problem.options.load = load_in_units(unit, answer.problem.fixed_points);
+    answer.problem.options.load = load_in_units(patch_, answer.problem.fixed_points, unit.diameter, options_.asked);
     warn_of_precision(patch_, data.vertices, {unit.diameter, solver.tolerance}, answer.warnings);
     read_reference(gather(data.reference, patch_.to_input), unit);
     answer.warnings.insert(answer.warnings.end(), reference_warnings_.begin(), reference_warnings_.end());
     answer.solution =
         options().method == Method::paper ? solve_by_paper(answer.problem, progress) : solve_globally(answer, progress);
     return answer;
-}
-
-// The load in units of D⁻³; `fixed_points` in units of D.
-double ComponentSolver::load_in_units(const Normalisation& unit, const Points& fixed_points) const {
-    const double load = options_.asked.solver.load;
-    const double bulge = options_.asked.bulge;
-    double result = load != 0.0 ? load * std::pow(unit.diameter, 3) : 0.0;
-    if (bulge != 0.0) result += 8.0 * bulge / std::pow(outline_radius(patch_, fixed_points), 3);
-    return result;
 }
 
 // λ stays as long as what it is read off does.

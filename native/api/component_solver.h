@@ -44,7 +44,6 @@ public:
 private:
     // Whether a solve starts from its last answer.
     [[nodiscard]] bool keeps() const;
-    [[nodiscard]] double load_in_units(const Normalisation& unit, const Points& fixed_points) const;
     void read_reference(const Points& reference, const Normalisation& unit);
     [[nodiscard]] const FairOptions& options() const { return usable_ ? options_.asked : options_.uniform; }
     [[nodiscard]] Solution solve_by_paper(const Problem& problem, const Progress& progress) const;

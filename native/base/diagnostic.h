@@ -38,7 +38,6 @@ enum class Code {
 // The upper-case names that callers see, e.g. "NONMANIFOLD_EDGE", in the order of the enumeration.
 std::span<const std::string_view> code_names();
 std::string_view code_name(Code code);
-
 // What the indices in `elements` count. Edges are given by their two vertices, one after the other.
 enum class ElementKind { vertex, triangle };
 
@@ -47,7 +46,6 @@ enum class ElementKind { vertex, triangle };
 using Figures = std::map<std::string, double>;
 
 inline double size_of(const Indices& elements) { return static_cast<double>(elements.size()); }
-
 // `message` is for users of the library; others make their own words from code, elements and figures.
 struct Diagnostic {
     Code code;

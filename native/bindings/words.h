@@ -4,8 +4,6 @@
 #include <array>
 #include <stdexcept>
 #include <string>
-#include <string_view>
-#include <utility>
 
 #include "api/fair.h"
 
