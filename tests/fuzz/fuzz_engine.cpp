@@ -8,8 +8,8 @@
 
 #include "api/fair_solver.h"
 #include "api/measure.h"
-#include "law.h"
 #include "base/errors.h"
+#include "law.h"
 #include "mesh/loops.h"
 #include "outline/surrounding_fit.h"
 #include "random_mesh.h"
