@@ -87,8 +87,9 @@ def test_a_sphere_that_covers_one_face_from_behind_does_not_count_as_solved() ->
     assert result.boundary_angle.min() > 150
     assert not result.converged
     assert result.termination == "stalled"
-    (text,) = (w.message for w in result.warnings if w.code == "NOT_CONVERGED")
-    assert "from behind at 4 of 4 vertices" in text
+    (warning,) = (w for w in result.warnings if w.code == "NOT_CONVERGED")
+    assert "from behind at 4 of 4 vertices" in warning.message
+    assert warning.figures == {"from_behind": 4, "outline_vertices": 4, "free_vertices": len(warning.elements)}
 
 
 def test_a_sphere_on_a_sixth_of_itself_is_solved() -> None:

@@ -7,6 +7,7 @@ none of it by default.
 
 from __future__ import annotations
 
+from dataclasses import fields
 from functools import lru_cache, partial
 from typing import Any
 
@@ -24,11 +25,15 @@ from shapes import Patch, Style
 from test_fixed_curves import make_capsule
 
 MILD = Style(jitter=0.3)
+PAPER_FIELDS = [field.name for field in fields(fairing.PaperOptions)]
 
 
 def fair(patch: Any, **options: Any) -> fairing.FairResult:
-    """From the outline alone; enough iterations to converge."""
+    """From the outline alone; enough iterations to converge. `options` may name fields of fairing.PaperOptions."""
+    of_paper = {name: options.pop(name) for name in PAPER_FIELDS if name in options}
     settings: dict[str, Any] = {"method": "paper", "max_iterations": 2000, **options}
+    if of_paper:
+        settings["paper"] = fairing.PaperOptions(**of_paper)
     start = shapes.start_from_nothing(patch) if isinstance(patch, Patch) else patch.vertices
     return fairing.fair(
         settings.pop("vertices", start), patch.triangles,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import FrozenInstanceError, asdict
 from typing import Any
 
 import numpy as np
@@ -10,8 +11,9 @@ import pytest
 import blend
 import fairing
 import shapes
+from fairing import _core, _paper
 from shapes import Style
-from test_paper import MILD, fair, solved
+from test_paper import MILD, PAPER_FIELDS, fair, solved
 
 SPARSE = Style(layout="random")
 
@@ -122,16 +124,51 @@ def test_progress_can_cancel() -> None:
 # Options
 
 
-@pytest.mark.parametrize(
-    ("option", "value"),
-    [
-        ("damping", 0.5), ("cg_steps", 5), ("sweeps", 2), ("epsilon", 1e-3),
-        ("virtual_points", "sparse"), ("start", "linear"), ("vertex_sweeps", 2), ("acceleration", "none"),
-    ],
-)  # fmt: skip
-def test_options_of_the_paper_are_refused_by_the_global_method(option: str, value: Any) -> None:
-    with pytest.raises(ValueError, match=option):
-        fair(shapes.cap(60), method="global", max_iterations=5, **{option: value})
+def test_options_of_the_paper_are_refused_by_the_global_method() -> None:
+    for options in (fairing.PaperOptions(), fairing.PaperOptions(damping=0.5)):
+        with pytest.raises(ValueError, match="paper: holds options of method 'paper'"):
+            fair(shapes.cap(60), method="global", paper=options)
+    with pytest.raises(ValueError, match=r"paper: a fairing\.PaperOptions is needed"):
+        fair(shapes.cap(60), paper={"damping": 0.5})
+
+
+def test_defaults_of_the_paper_are_the_engines() -> None:
+    """One list: what the caller leaves out is what the C++ struct says, and no field is lost on the way."""
+    engine, python = _core.PaperOptions(), fairing.PaperOptions()
+    for name in PAPER_FIELDS:
+        assert getattr(engine, name) == (0.0 if name == "epsilon" else getattr(python, name)), name
+    assert (python.acceleration, python.vertex_sweeps) == ("anderson", 2)
+    assert fairing.PaperOptions(acceleration="none").vertex_sweeps == 1
+    assert fairing.PaperOptions(acceleration="none", vertex_sweeps=3).vertex_sweeps == 3
+
+
+def test_every_option_of_the_paper_reaches_the_engine() -> None:
+    given = fairing.PaperOptions(0.5, 7, 3, 4, 0.25, "none", "coarse", "linear")
+    engine = _paper.engine_options("paper", 5, given)
+    assert {name: getattr(engine, name) for name in PAPER_FIELDS} == asdict(given)
+    assert engine.levels == 5
+
+
+def test_options_of_the_paper_are_frozen() -> None:
+    with pytest.raises(FrozenInstanceError):
+        fairing.PaperOptions().damping = 0.5  # type: ignore[misc]
+
+
+def test_an_unknown_word_never_becomes_a_default() -> None:
+    """In the engine itself, behind the package's checks."""
+    engine = _core.PaperOptions()
+    for option in ("acceleration", "virtual_points", "start"):
+        with pytest.raises(ValueError, match=f"{option}: 'plain' is not accepted"):
+            setattr(engine, option, "plain")
+    words = {"equation": "harmonic", "inner_fairness": "uniform", "method": "global", "normals": "fitted"}
+    numbers: dict[str, Any] = {"load": 0.0, "bulge": 0.0, "tolerance": 1e-6, "max_iterations": 9, "threads": 1}
+    triangles = np.array([[0, 1, 2]], dtype=np.int32)
+    for option in words:
+        options = _core.Options(**{**words, option: "any"}, **numbers)
+        with pytest.raises(ValueError, match=f"{option}: 'any' is not accepted"):
+            _core.Solver(triangles, None, None, None, (options, engine))
+    with pytest.raises(ValueError, match="normals: 'any' is not accepted"):
+        _core.vertex_normals(np.eye(3), triangles, "any")
 
 
 @pytest.mark.parametrize(

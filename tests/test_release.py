@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import shutil
 import subprocess
+import tomllib
 from pathlib import Path
 
 import pytest
+
+import fairing
 
 ROOT = Path(__file__).parents[1]
 NOTES = "### Added\n- Something."
@@ -55,3 +58,11 @@ def test_version_without_notes_is_refused(checkout: Path) -> None:
 def test_module_and_extension_are_one_version(checkout: Path) -> None:
     (checkout / "pyproject.toml").write_text('[project]\nversion = "1.2.2"\n')
     assert release_notes(checkout, "v1.2.3").returncode != 0
+
+
+def test_the_project_has_one_version() -> None:
+    """Package, extension and engine: pyproject.toml is the truth, which the build reads and the manifest repeats."""
+    version = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
+    manifest = tomllib.loads((ROOT / "addon" / "blender_manifest.toml").read_text(encoding="utf-8"))
+    assert manifest["version"] == version
+    assert fairing.__version__ == version

@@ -279,7 +279,9 @@ def test_wrong_arguments_of_the_solver_are_named() -> None:
         fairing.Solver([[0.5, 1.5, 2.5]])
     with pytest.raises(ValueError, match="equation"):
         solver_of(PATCH, equation="wave")
-    with pytest.raises(ValueError, match="damping"):
+    with pytest.raises(ValueError, match="paper: holds options of method 'paper'"):
+        solver_of(PATCH, paper=fairing.PaperOptions(damping=0.5))
+    with pytest.raises(TypeError, match="damping"):
         solver_of(PATCH, damping=0.5)
     with pytest.raises(ValueError, match="progress"):
         solver_of(PATCH).solve(PATCH.vertices, PATCH.fixed_normals, progress=3)  # type: ignore[arg-type]

@@ -10,7 +10,7 @@ from .arrays import Floats, Ints, Mask
 from .outline import turned_over
 from .region import MeshArrays, Patch
 from .vectors import area_vectors, sum_at, unit
-from .warnings_text import counted
+from .words import counted
 
 RINGS = 4  # of outside faces handed to the engine's fit, which uses the nearest of them
 

@@ -1,21 +1,17 @@
-"""The one place that calls the engine: a patch in world space, whole or piece by piece, once or again and again."""
+"""The one place that calls the engine: a patch in world space, once or again and again."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
-from typing import Any
-
-import numpy as np
+from dataclasses import dataclass
 
 import fairing
 
-from .arrays import Floats, Ints
-from .components import Component, components, outline_radius
+from .arrays import Floats
 from .options import FairOptions
 from .region import Patch
+from .words import in_mesh_words
 
 Progress = Callable[[float, str], "bool | None"]
 
@@ -35,22 +31,25 @@ class Problem:
 def solve(problem: Problem, options: FairOptions, progress: Progress | None = None) -> fairing.FairResult:
     """Fair the patch; indices in the result are patch indices.
 
-    A bulge is measured by each piece's own outline, so that pieces are solved one after the other
-    then. Raises fairing.MeshError (its `elements` are mesh vertices), ValueError,
-    fairing.SolverError and fairing.Cancelled.
+    Raises MeshRefusal (its `elements` are mesh vertices), ValueError, fairing.SolverError and fairing.Cancelled.
     """
-    if options.equation != "CONSTANT" or options.bulge == 0.0:
-        return _solve_part(problem, options, 0.0, progress)
-    pieces = components(problem.patch)
-    if len(pieces) <= 1:
-        return _solve_part(problem, options, _load(problem, problem.patch.outline, options), progress)
-    return _solve_pieces(problem, pieces, options, progress)
+    patch = problem.patch
+    with in_mesh_words(patch.origin):
+        return fairing.fair(
+            problem.points,
+            patch.triangles,
+            fixed=patch.fixed,
+            fixed_normals=problem.normals,
+            neighbours=patch.neighbours,
+            progress=progress,
+            **options.engine_arguments(),
+        )
 
 
 def check(problem: Problem, options: FairOptions) -> None:
     """Let the engine look at the patch without solving it; raises what `solve` would for its input."""
     with suppress_cancel():
-        _solve_part(problem, options, 0.0, lambda _fraction, stage: stage == "topology")
+        solve(problem, options, lambda _fraction, stage: stage == "topology")
 
 
 @contextmanager
@@ -62,149 +61,34 @@ def suppress_cancel() -> Iterator[None]:
         return
 
 
-def _load(problem: Problem, outline: Ints, options: FairOptions) -> float:
-    """Return the engine's load, in length⁻³: 8 bulge / a³ with a the outline's RMS radius."""
-    return 8.0 * options.bulge / outline_radius(problem.points[outline]) ** 3
-
-
-def _solve_part(problem: Problem, options: FairOptions, load: float, progress: Progress | None) -> fairing.FairResult:
-    patch = problem.patch
-    with _mesh_indices(patch):
-        return fairing.fair(
-            problem.points,
-            patch.triangles,
-            fixed=patch.fixed,
-            fixed_normals=problem.normals,
-            neighbours=patch.neighbours,
-            load=load,
-            progress=progress,
-            **options.engine_arguments(),
-        )
-
-
-class KeptSolver:
-    """Solves one patch for options that change while the mesh stays, each time from the last answer."""
-
-    def __init__(self, patch: Patch) -> None:
-        """Solve nothing yet; raises fairing.MeshError where the patch can't be."""
-        with _mesh_indices(patch):
-            self._solver = fairing.Solver(patch.triangles, fixed=patch.fixed, neighbours=patch.neighbours)
-
-    def __call__(self, problem: Problem, options: FairOptions, progress: Progress | None) -> fairing.FairResult:
-        """Fair the patch, which must be the one given, as `solve` does; raises the same."""
-        with _mesh_indices(problem.patch):
-            load = 0.0
-            if options.equation == "CONSTANT" and options.bulge != 0.0:
-                load = _load(problem, problem.patch.outline, options)
-            self._solver.change(load=load, **options.engine_arguments())
-            return self._solver.solve(problem.points, problem.normals, progress=progress)
-
-
-def is_one_load(problem: Problem, options: FairOptions) -> bool:
-    """Tell whether all pieces of a patch have the same load, so that they can be solved in one go."""
-    return options.equation != "CONSTANT" or options.bulge == 0.0 or len(components(problem.patch)) <= 1
+def islands(patch: Patch) -> int:
+    """Count the pieces that are solved each on its own; raises MeshRefusal."""
+    with in_mesh_words(patch.origin):
+        return int(fairing.components(patch.triangles, fixed=patch.fixed).max(initial=-1)) + 1
 
 
 class RepeatedSolve:
-    """Solves one patch for boundaries that move, each time from the last answer.
+    """Solves one patch for positions and normals that move, or for other options, each time from the last answer."""
 
-    A bulge is measured by each piece's own outline, which moves: its pieces are solved at the size 1, where
-    the load stays the same.
-    """
+    def __init__(self, patch: Patch, options: FairOptions, reference: Floats | None = None) -> None:
+        """Solve nothing yet; raises MeshRefusal where the patch can't be.
 
-    def __init__(self, patch: Patch, points: Floats, options: FairOptions) -> None:
-        """Prepare for the patch; `points` (p, 3) is the shape that inner fairness belongs to."""
-        self._bulges = options.equation == "CONSTANT" and options.bulge != 0.0
-        whole = Problem(patch, points, np.zeros((len(patch.fixed), 3)))
-        self._pieces = components(patch) if self._bulges else ()
-        parts = [_part(whole, piece)[0] for piece in self._pieces] or [whole]
-        self._references = [part.points for part in parts]
-        load = 8.0 * options.bulge if self._bulges else 0.0
-        self._solvers = [self._solver(part.patch, load, options) for part in parts]
-
-    @staticmethod
-    def _solver(patch: Patch, load: float, options: FairOptions) -> fairing.Solver:
-        with _mesh_indices(patch):
-            return fairing.Solver(
-                patch.triangles,
-                fixed=patch.fixed,
-                neighbours=patch.neighbours,
-                load=load,
-                **options.engine_arguments(),
+        reference: (p, 3), the shape that inner fairness belongs to; left out: the positions of each solve.
+        """
+        self._reference = reference
+        with in_mesh_words(patch.origin):
+            self._solver = fairing.Solver(
+                patch.triangles, fixed=patch.fixed, neighbours=patch.neighbours, **options.engine_arguments()
             )
 
+    def change(self, options: FairOptions) -> None:
+        """Take these options from the next solve on."""
+        self._solver.change(**options.engine_arguments())
+
     def __call__(self, problem: Problem, progress: Progress | None = None) -> fairing.FairResult:
-        """Fair the patch as `solve` does; raises the same. `progress` begins anew with each piece."""
-        if not self._bulges:
-            return self._solve_part(0, problem, 1.0, progress)
-        results = []
-        for index, piece in enumerate(self._pieces):
-            part, used = _part(problem, piece)
-            size = outline_radius(problem.points[piece.outline])
-            results.append((used, self._solve_part(index, part, size, progress)))
-        return _merged(problem, results)
-
-    def _solve_part(
-        self, index: int, part: Problem, size: float, progress: Progress | None = None
-    ) -> fairing.FairResult:
-        with _mesh_indices(part.patch):
-            result = self._solvers[index].solve(part.points / size, part.normals, self._references[index], progress)
-        return replace(result, vertices=result.vertices * size, mean_curvature=result.mean_curvature / size)
-
-
-@contextmanager
-def _mesh_indices(patch: Patch) -> Iterator[None]:
-    """Make the vertices that an error names, and the elements of a MeshError, those of the whole mesh."""
-    try:
-        yield
-    except fairing.MeshError as error:
-        diagnostic = error.diagnostic
-        elements = mesh_vertices(diagnostic, patch).astype(np.int32)
-        text = _in_mesh_numbers(diagnostic.message, patch)
-        raise fairing.MeshError(replace(diagnostic, message=text, elements=elements, kind="vertex")) from error
-    except ValueError as error:
-        raise ValueError(_in_mesh_numbers(str(error), patch)) from error
-
-
-def _in_mesh_numbers(text: str, patch: Patch) -> str:
-    """Return a sentence of the engine in numbers that the mesh knows: triangles, which it doesn't, by their corners."""
-
-    def in_mesh(number: re.Match[str]) -> str:
-        return str(patch.vertices[int(number[0])])
-
-    def corners(name: re.Match[str]) -> str:
-        return "the triangle " + "–".join(str(patch.vertices[v]) for v in patch.triangles[int(name[1])])
-
-    text = re.sub(r"\brow \d+ \((vertex \d+)\)", r"\1", text)
-    text = re.sub(
-        r"\b(?:vertex|vertices|edge) \d+(?:(?:, |–)\d+)*", lambda name: re.sub(r"\d+", in_mesh, name[0]), text
-    )
-    return re.sub(r"\btriangle (\d+)", corners, text)
-
-
-def mesh_vertices(diagnostic: fairing.Diagnostic, patch: Patch) -> Ints:
-    """Return the mesh vertices that an error or warning of the engine is about, ascending.
-
-    Edges come from the engine as pairs of vertices; triangles give their corners.
-    """
-    elements: Ints = diagnostic.elements.astype(np.int64)
-    if diagnostic.kind == "triangle":
-        elements = patch.triangles[elements].ravel()
-    vertices: Ints = patch.vertices[np.unique(elements)]
-    return vertices
-
-
-def _solve_pieces(
-    problem: Problem, pieces: tuple[Component, ...], options: FairOptions, progress: Progress | None
-) -> fairing.FairResult:
-    sizes = np.array([len(piece.triangles) for piece in pieces], dtype=np.float64)
-    ends = np.cumsum(sizes) / sizes.sum()
-    results = []
-    for piece, end, share in zip(pieces, ends, sizes / sizes.sum(), strict=True):
-        part, used = _part(problem, piece)
-        load = _load(problem, piece.outline, options)
-        results.append((used, _solve_part(part, options, load, sub_range(progress, end - share, end))))
-    return _merged(problem, results)
+        """Fair the patch, which must be the one given, as `solve` does; raises the same."""
+        with in_mesh_words(problem.patch.origin):
+            return self._solver.solve(problem.points, problem.normals, self._reference, progress)
 
 
 def sub_range(progress: Progress | None, begin: float, end: float) -> Progress | None:
@@ -212,53 +96,3 @@ def sub_range(progress: Progress | None, begin: float, end: float) -> Progress |
     if progress is None:
         return None
     return lambda fraction, stage: progress(begin + (end - begin) * fraction, stage)
-
-
-def _part(problem: Problem, piece: Component) -> tuple[Problem, Ints]:
-    """Cut one piece out; return it and the patch indices of its vertices."""
-    patch = problem.patch
-    triangles = patch.triangles[piece.triangles]
-    number = np.full(len(patch.vertices), -1, dtype=np.int64)
-    number[triangles] = 0
-    used = np.flatnonzero(number == 0)
-    number[used] = np.arange(len(used))
-    held = number[patch.fixed] >= 0
-    edges = patch.neighbours
-    part = Patch(
-        vertices=patch.vertices[used],
-        triangles=number[triangles],
-        free=_present(number[patch.free]),
-        fixed=number[patch.fixed[held]],
-        outline=number[piece.outline],
-        neighbours=None if edges is None else number[edges[(number[edges] >= 0).all(axis=1)]],
-    )
-    return Problem(part, problem.points[used], problem.normals[held]), used
-
-
-def _present(numbers: Ints) -> Ints:
-    return numbers[numbers >= 0]
-
-
-def _merged(problem: Problem, results: list[tuple[Ints, fairing.FairResult]]) -> fairing.FairResult:
-    """Put the pieces' results together: every array in patch order, of every figure the worst."""
-    worst = max((result for _, result in results), key=lambda result: (not result.converged, result.residual))
-    points = problem.points.copy()
-    curvature = np.zeros(len(points))
-    angles = np.zeros(len(points))
-    for used, result in results:
-        free = np.setdiff1d(np.arange(len(used)), result.fixed)
-        points[used[free]] = result.vertices[free]
-        curvature[used] = result.mean_curvature
-        angles[used[result.fixed]] = np.maximum(angles[used[result.fixed]], result.boundary_angle)
-    whole: dict[str, Any] = {
-        "vertices": points,
-        "fixed": problem.patch.fixed.astype(np.int32),
-        "mean_curvature": curvature,
-        "boundary_angle": angles[problem.patch.fixed],
-        "polished": all(result.polished for _, result in results),
-        "iterations": max(result.iterations for _, result in results),
-        "initial_residual": max(result.initial_residual for _, result in results),
-        "seconds": {"total": sum(result.seconds["total"] for _, result in results)},
-        "warnings": tuple(warning for _, result in results for warning in result.warnings),
-    }
-    return replace(worst, **whole)

@@ -80,7 +80,8 @@ class LiveRegion:
         self._around = surroundings(mesh, patch)
         self._options = options
         self._image = mirror_map(mesh, patch) if mesh.mirror_x else None
-        self._solve = RepeatedSolve(patch, world.positions[patch.vertices], options)
+        self._patch = patch  # in the numbers of the whole mesh, which refusals name
+        self._solve = RepeatedSolve(patch, options, world.positions[patch.vertices])
 
     @property
     def vertices(self) -> Ints:
@@ -103,7 +104,7 @@ class LiveRegion:
         with np.errstate(invalid="ignore", over="ignore"):
             world = replace(self._around.mesh, positions=positions).transformed(matrix)
             normals, _ = prescribed_normals(world, patch, self._options.boundary_normals)
-        result = self._solve(Problem(patch, world.positions[patch.vertices], normals), progress)
+        result = self._solve(Problem(self._patch, world.positions[patch.vertices], normals), progress)
         if not result.converged:
             return None
         fair = to_local(result.vertices, matrix)

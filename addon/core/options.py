@@ -53,6 +53,7 @@ class FairOptions:
         """Return the keyword arguments of `fairing.fair` that need no mesh."""
         return {
             "equation": self.equation.lower(),
+            "bulge": self.bulge if self.equation == "CONSTANT" else 0.0,
             "inner_fairness": self.inner_fairness.lower(),
             "method": self.method.lower(),
             "levels": self.levels,

@@ -11,7 +11,7 @@ import fairing
 
 from . import quality
 from .arrays import Floats, Ints
-from .components import components
+from .engine import islands
 from .quality import Quality
 from .region import MeshArrays, Patch, to_local
 from .solve import Solved
@@ -67,7 +67,7 @@ def outcome(
 def _is_clear(patch: Patch, result: fairing.FairResult) -> bool:
     """Tell whether the engine, which looks at each piece, has found that no triangle passes through another."""
     found = any(diagnostic.code == "SELF_INTERSECTION" for diagnostic in result.warnings)
-    return not found and len(components(patch)) <= 1
+    return not found and islands(patch) <= 1
 
 
 def _mirrored(mesh: MeshArrays, patch: Patch, fair: Floats) -> tuple[Floats, tuple[str, ...]]:

@@ -9,7 +9,7 @@ import numpy as np
 from .arrays import Floats, Ints, Mask
 from .region import MeshArrays, fins, vertices_of
 from .vectors import area_vectors, sum_at, unit
-from .warnings_text import counted
+from .words import counted
 
 SHARP = 60.0  # degrees between two faces at the outline that are worth telling
 COARSE = 1e-3  # of an edge: steps between neighbouring coordinates that are worth telling

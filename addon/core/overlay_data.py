@@ -9,7 +9,9 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints, Mask
+from .findings import Origin
 from .region import MeshArrays
+from .words import in_mesh_words
 
 RINGS = 2  # around what is shown, so that its border is measured from both sides
 
@@ -33,22 +35,24 @@ class Surface:
 def make_surface(mesh: MeshArrays, matrix: Floats, whole: bool) -> Surface:
     """Measure the patch of the mesh, or the whole of it, in world space.
 
-    Raises fairing.MeshError where the triangles are no surface, and ValueError for a flat object.
+    Raises MeshRefusal where the triangles are no surface, and ValueError for a flat object.
     """
     world = mesh.transformed(matrix)
     shown = np.ones(len(world.triangles), dtype=bool) if whole else world.in_patch[world.triangle_faces]
-    near = world.triangles[_grown(world.triangles, shown)]
+    grown = _grown(world.triangles, shown)
+    near = world.triangles[grown]
     used, triangles = np.unique(near, return_inverse=True)
     triangles = triangles.reshape(-1, 3).astype(np.int64)
     positions = world.positions[used]
     number = np.zeros(len(world.positions), dtype=np.int64)
     number[used] = np.arange(len(used))
-    return Surface(
-        positions=positions,
-        triangles=number[world.triangles[shown]],
-        normals=fairing.vertex_normals(positions, triangles),
-        curvature=fairing.mean_curvature(positions, triangles),
-    )
+    with in_mesh_words(Origin(used, triangles, world.triangle_faces[grown])):
+        return Surface(
+            positions=positions,
+            triangles=number[world.triangles[shown]],
+            normals=fairing.vertex_normals(positions, triangles),
+            curvature=fairing.mean_curvature(positions, triangles),
+        )
 
 
 def _grown(triangles: Ints, shown: Mask) -> Mask:

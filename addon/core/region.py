@@ -9,7 +9,9 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints, Mask
+from .findings import Finding, Origin
 from .triangulation import split_quads, zigzag
+from .words import refusal
 
 
 @dataclass(frozen=True)
@@ -55,10 +57,16 @@ class Patch:
 
     vertices: Ints  # (p,) mesh indices, ascending
     triangles: Ints  # (m, 3) patch indices
+    faces: Ints  # (m,) the mesh's face that each triangle is of
     free: Ints  # patch indices, ascending
     fixed: Ints  # patch indices, ascending: all that are not free
     outline: Ints  # patch indices of the vertices on edges with one face of the patch
     neighbours: Ints | None  # (e, 2) patch indices; None where all faces are triangles
+
+    @property
+    def origin(self) -> Origin:
+        """Where the patch's vertices and triangles are in the mesh."""
+        return Origin(self.vertices, self.triangles, self.faces)
 
 
 def vertices_of(mesh: MeshArrays, faces: Mask) -> Mask:
@@ -103,18 +111,15 @@ def _check_edges(mesh: MeshArrays) -> None:
     many = _edge_uses(mesh, mesh.in_patch[mesh.corner_faces]) > 2
     offenders = mesh.edges[many & ~mesh.pinned[mesh.edges].all(axis=1)]
     if len(offenders):
-        a, b = offenders[0]
-        text = f"more than two selected faces meet at the edge {a}–{b}: delete the extra ones, or pin both ends"
-        raise fairing.MeshError(
-            fairing.Diagnostic("NONMANIFOLD_EDGE", text, np.unique(offenders).astype(np.int32), "vertex")
-        )
+        figures = {"edges": float(len(offenders))}
+        raise refusal(Finding("NONMANIFOLD_EDGE", figures, "vertex", offenders.ravel(), offenders.ravel()[:0]))
 
 
 def make_patch(mesh: MeshArrays, even: bool = True) -> Patch:
     """Cut the selected visible faces out of the mesh.
 
     even: split quads and n-gons by connectivity (see triangulation), not by present shape.
-    Raises fairing.MeshError where more than two of them meet at an edge.
+    Raises MeshRefusal where more than two of them meet at an edge.
     """
     _check_edges(mesh)
     inside = vertices_of(mesh, mesh.in_patch)
@@ -125,9 +130,11 @@ def make_patch(mesh: MeshArrays, even: bool = True) -> Patch:
     mesh = replace(mesh, in_patch=mesh.in_patch & ~fins(mesh))
     uses = _edge_uses(mesh, mesh.in_patch[mesh.corner_faces])
     edges = mesh.edges[uses > 0]
+    triangles, faces = _triangles(mesh, edges, free, even)
     return Patch(
         vertices=vertices,
-        triangles=number[_triangles(mesh, edges, free, even)],
+        triangles=number[triangles],
+        faces=faces,
         free=number[free],
         fixed=number[inside & ~free],
         outline=number[_ends(mesh, uses == 1)],
@@ -135,21 +142,24 @@ def make_patch(mesh: MeshArrays, even: bool = True) -> Patch:
     )
 
 
-def _triangles(mesh: MeshArrays, edges: Ints, free: Mask, even: bool) -> Ints:
-    """Return the triangles of the patch, as vertices of the mesh."""
+def _triangles(mesh: MeshArrays, edges: Ints, free: Mask, even: bool) -> tuple[Ints, Ints]:
+    """Return the triangles of the patch (m, 3), as vertices of the mesh, and their faces (m,)."""
     sizes = face_sizes(mesh) * even
     by_shape = mesh.in_patch.copy()  # faces that stay split as they are
-    pieces = []
+    pieces, origins = [], []
     for size in np.unique(sizes[mesh.in_patch & (sizes > 4)]):
         faces, polygons = _polygons(mesh, mesh.in_patch & (sizes == size))
         movable = free[polygons].all(axis=1)  # the shape of the others counts
         by_shape[faces[movable]] = False
         pieces.append(zigzag(polygons[movable]))
+        origins.append(np.repeat(faces[movable], size - 2))
     faces, quads = _polygons(mesh, mesh.in_patch & (sizes == 4))
     movable = free[quads].any(axis=1)
     by_shape[faces[movable]] = False
-    pieces.append(mesh.triangles[by_shape[mesh.triangle_faces]])
-    return np.concatenate([*pieces, split_quads(quads[movable], edges, free)])
+    as_they_are = by_shape[mesh.triangle_faces]
+    pieces += [mesh.triangles[as_they_are], split_quads(quads[movable], edges, free)]
+    origins += [mesh.triangle_faces[as_they_are], np.repeat(faces[movable], 2)]
+    return np.concatenate(pieces), np.concatenate(origins)
 
 
 def _polygons(mesh: MeshArrays, faces: Mask) -> tuple[Ints, Ints]:

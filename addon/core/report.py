@@ -10,7 +10,7 @@ import fairing
 
 from .options import FairOptions
 from .outcome import Fairing
-from .warnings_text import counted
+from .words import counted
 
 SMOOTH_ANGLE = 2.0  # degrees at the outline that the eye takes for tangent
 ANGLE = "Angle at the outline"
@@ -70,7 +70,9 @@ def _warnings(named: list[tuple[str, Fairing]]) -> tuple[str, ...]:
 
 def _bulge_note(named: list[tuple[str, Fairing]], options: FairOptions) -> tuple[str, ...]:
     """Explain the usual reason why a bulge isn't found: there is no such surface."""
-    if options.equation != "CONSTANT" or options.bulge == 0.0 or all(o.result.converged for _, o in named):
+    results = [outcome.result for _, outcome in named]
+    found = all(result.converged or result.termination == "folded" for result in results)
+    if options.equation != "CONSTANT" or options.bulge == 0.0 or found:
         return ()
     return (
         f"There may be no surface with a bulge of {options.bulge:g} on this outline: half a sphere has none "
@@ -98,11 +100,17 @@ def _checks(outcomes: list[Fairing], options: FairOptions) -> tuple[Check, ...]:
 
 
 def _endings(outcomes: list[Fairing]) -> str:
-    words = {"converged": "yes", "iteration_limit": "out of iterations", "stalled": "no further progress"}
+    words = {
+        "converged": "yes",
+        "iteration_limit": "out of iterations",
+        "stalled": "no further progress",
+        "folded": "found, but with folds",
+    }
     endings = dict.fromkeys(outcome.result.termination for outcome in outcomes)
     told = ", ".join(words[ending] for ending in endings)
     # Then the vertices lie on a surface that was computed on the engine's own mesh.
-    return told if all(outcome.result.polished for outcome in outcomes) else f"{told}, on a proxy"
+    by_proxy = any(outcome.result.converged and not outcome.result.polished for outcome in outcomes)
+    return f"{told}, on a proxy" if by_proxy else told
 
 
 def _residual_text(result: fairing.FairResult) -> str:

@@ -16,7 +16,7 @@ from .memory import Memory, digest
 from .options import FairOptions
 from .outline import outline_notes, precision_note
 from .region import MeshArrays, make_patch
-from .warnings_text import sentences
+from .words import sentences
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Kept:
     """What the redo panel answers from."""
 
     results: Memory[Solved]  # where nothing but the factor changed since a former call
-    solvers: Memory[engine.KeptSolver | None]  # where only options changed; None: a mesh that was solved once
+    solvers: Memory[engine.RepeatedSolve | None]  # where only options changed; None: a mesh that was solved once
     ahead: bool = False  # make a solver at the first call already, whose start for the next one takes a while
 
 
@@ -81,19 +81,18 @@ def _solve_again(
     key: str, problem: engine.Problem, options: FairOptions, progress: Progress | None, kept: Kept
 ) -> fairing.FairResult:
     """Solve with the solver of a former call for the same patch, if there was one: other options move less."""
-    if not engine.is_one_load(problem, options):
-        return engine.solve(problem, options, progress)
     was_here = key in kept.solvers
     solver = kept.solvers.take(key)
     if not was_here and not kept.ahead:
         kept.solvers.put(key, None)
         return engine.solve(problem, options, progress)
-    solver = solver or engine.KeptSolver(problem.patch)
+    solver = solver or engine.RepeatedSolve(problem.patch, options)
     try:
-        return solver(problem, options, progress)
+        solver.change(options)
+        return solver(problem, progress)
     finally:
         kept.solvers.put(key, solver)  # errors leave it usable
 
 
 def _solved(problem: engine.Problem, result: fairing.FairResult, warnings: tuple[str, ...]) -> Solved:
-    return Solved(problem, result, warnings + sentences(result.warnings))
+    return Solved(problem, result, warnings + sentences(result.warnings, problem.patch.origin))

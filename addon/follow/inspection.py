@@ -10,7 +10,6 @@ import numpy as np
 import fairing
 
 from ..core import engine
-from ..core.components import components
 from ..core.options import FairOptions, option_names
 from ..core.solve import pose
 from ..host.polling import NO_FACE, NO_FREE
@@ -56,8 +55,8 @@ def _inspect_task(task: job.Task, options: FairOptions) -> Inspection:
     try:
         problem, notes = pose(task.mesh, task.matrix, options)
         engine.check(problem, options)
+        islands = engine.islands(problem.patch)
     except engine.REFUSALS as cause:
         return Inspection(task.object_name, faces, task.free_count, refusal=str(cause))
-    pieces = components(problem.patch)
     loops = fairing.boundary_loops(problem.patch.triangles)
-    return Inspection(task.object_name, faces, task.free_count, len(loops), len(pieces), notes=notes)
+    return Inspection(task.object_name, faces, task.free_count, len(loops), islands, notes=notes)

@@ -7,7 +7,9 @@ import numpy as np
 
 import fairing
 
+from ..core.findings import Origin
 from ..core.options import FairOptions
+from ..core.words import in_mesh_words
 from ..host.context import active_object
 from ..host.polling import require
 from ..mesh import mesh_io
@@ -40,7 +42,8 @@ class MESH_OT_fair_curvature(bpy.types.Operator):
         try:
             mesh = mesh_io.read_own_mesh(obj, FairOptions())
             world = mesh.transformed(np.array(obj.matrix_world, dtype=np.float64))
-            values = fairing.mean_curvature(world.positions, world.triangles)
+            with in_mesh_words(Origin(np.arange(len(world.positions)), world.triangles, world.triangle_faces)):
+                values = fairing.mean_curvature(world.positions, world.triangles)
             mesh_io.write_attribute(obj.data, NAME, values)
         except ValueError as cause:
             self.report({"ERROR"}, f"{obj.name}: {cause}")

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from ..core.arrays import Floats
-from ..core.engine import REFUSALS, KeptSolver, Progress, sub_range
+from ..core.engine import REFUSALS, Progress, RepeatedSolve, sub_range
 from ..core.memory import Memory
 from ..core.options import FairOptions
 from ..core.outcome import Fairing
@@ -22,7 +22,7 @@ from ..mesh import mesh_io
 from .fair_arrays import fair_arrays
 
 memory: Memory[Solved] = Memory(4)  # enough for the objects of one redo panel; forgotten at unregistering
-solvers: Memory[KeptSolver | None] = Memory(2)  # likewise; larger, as they hold factorisations
+solvers: Memory[RepeatedSolve | None] = Memory(2)  # likewise; larger, as they hold factorisations
 
 
 class Refused(Exception):

@@ -118,7 +118,7 @@ def figure_7(folder: Path) -> str:
         result = case.fair().vertices
         starts = {
             "linear bilaplacian": linear_bilaplacian(case, "uniform"),
-            "improved start": case.fair(method="paper", levels=1, max_iterations=1, start="improved").vertices,
+            "improved start": case.fair(method="paper", levels=1, max_iterations=1).vertices,
         }
         away = [np.linalg.norm(points - result, axis=1).max() / case.diameter for points in starts.values()]
         words.append(f"{name} ({len(result)} vertices): {away[0]:.1%} and {away[1]:.1%}")

@@ -73,7 +73,7 @@ def methods_table(cases: list[Case]) -> str:
         "| --- " * 5 + "|",
     ]
     for case in cases:
-        paper = case.fair(method="paper", virtual_points="everywhere", max_iterations=ENOUGH)
+        paper = case.fair(method="paper", max_iterations=ENOUGH)
         averaged = case.fair(normals="averaged", tolerance=1e-8, max_iterations=1000)
         fitted = case.fair(tolerance=1e-8, max_iterations=1000)
         lines.append(

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <Eigen/Geometry>
 
@@ -52,6 +53,28 @@ void weigh_by_distance(InnerWeights& weights, const Points& reference) {
     }
 }
 
+// Columns of the fixed points, one for each input vertex. An edge along a slit, with the component on both sides, has
+// two copies on the border.
+Indices outline_vertices(const Patch& patch) {
+    std::map<std::array<int, 2>, int> copies;
+    const auto in_input = [&](int e) {
+        const auto [a, b] = patch.edge_ends[at(e)];
+        return std::array{std::min(patch.to_input[at(a)], patch.to_input[at(b)]),
+                          std::max(patch.to_input[at(a)], patch.to_input[at(b)])};
+    };
+    for (int e = 0; e < patch.edge_count(); ++e) {
+        if (patch.edge_triangles[at(e)][1] == none) ++copies[in_input(e)];
+    }
+    std::map<int, int> column_of;  // by input vertex
+    for (int e = 0; e < patch.edge_count(); ++e) {
+        if (patch.edge_triangles[at(e)][1] != none || copies[in_input(e)] != 1) continue;
+        for (int v : patch.edge_ends[at(e)]) column_of.emplace(patch.to_input[at(v)], v - patch.free_count);
+    }
+    Indices columns;
+    for (const auto& [vertex, column] : column_of) columns.push_back(column);
+    return columns;
+}
+
 }  // namespace
 
 Points gather(const Points& points, std::span<const int> vertices) {
@@ -66,6 +89,13 @@ Normalisation normalise(const Points& fixed_points) {
     double farthest = 0.0;  // squares of coordinates may be out of range
     for (const auto point : fixed_points.colwise()) farthest = std::max(farthest, (point - centre).stableNorm());
     return {centre, 2.0 * farthest};
+}
+
+double outline_radius(const Patch& patch, const Points& fixed_points) {
+    const Indices outline = outline_vertices(patch);
+    const Points points = outline.empty() ? fixed_points : fixed_points(Eigen::all, outline);
+    const Vector3 centre = points.rowwise().mean();
+    return std::sqrt((points.colwise() - centre).colwise().squaredNorm().mean());
 }
 
 std::span<const int> free_vertices(const Patch& patch) { return std::span(patch.to_input).first(at(patch.free_count)); }

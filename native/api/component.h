@@ -19,6 +19,10 @@ Points gather(const Points& points, std::span<const int> vertices);
 
 Normalisation normalise(const Points& fixed_points);
 
+// a: the RMS distance of a component's outline from its centroid. The outline are the vertices of the edges that have
+// the component on one side only; of a closed component, held by pins, all fixed vertices. 3 × fixed points.
+double outline_radius(const Patch& patch, const Points& fixed_points);
+
 // Local vertices 0 … n − 1 of a patch, input numbers: free ones, then fixed ones.
 std::span<const int> free_vertices(const Patch& patch);
 std::span<const int> fixed_vertices(const Patch& patch);

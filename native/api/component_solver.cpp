@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "api/diagnose.h"
+#include "base/errors.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "geometry/flips.h"
@@ -32,7 +33,16 @@ void warn_of_even_weights(Diagnostics& warnings) {
     warnings.push_back({Code::flipped_triangles,
                         "the inner fairness asked for turns triangles over; uniform inner fairness was used",
                         {},
-                        ElementKind::triangle});
+                        ElementKind::triangle,
+                        {}});
+}
+
+// In units of D⁻³, for a component's fixed points in units of D.
+double load_in_units(const Patch& patch, const Points& fixed_points, double diameter, const FairOptions& options) {
+    double load = 0.0;
+    if (options.solver.load != 0.0) load = options.solver.load * std::pow(diameter, 3);
+    if (options.bulge != 0.0) load += 8.0 * options.bulge / std::pow(outline_radius(patch, fixed_points), 3);
+    return load;
 }
 
 }  // namespace
@@ -54,16 +64,22 @@ ComponentAnswer ComponentSolver::solve(const ComponentData& data, const Progress
     const Points fixed_points = gather(data.vertices, fixed);
     const Normalisation unit = normalise(fixed_points);
     if (!unit.centre.allFinite() || std::isinf(unit.diameter)) {
-        throw MeshError({Code::nonfinite, "coordinates this large overflow when they are added: scale the mesh down",
-                         Indices(fixed.begin(), fixed.end())});
+        throw MeshError({Code::nonfinite,
+                         "coordinates this large overflow when they are added: scale the mesh down",
+                         Indices(fixed.begin(), fixed.end()),
+                         ElementKind::vertex,
+                         {{"largest_coordinate", fixed_points.cwiseAbs().maxCoeff()}}});
     }
     if (!(unit.diameter > 0.0)) {
-        throw MeshError({Code::no_boundary, "a component is held in a single point: fix more of its vertices",
-                         Indices(fixed.begin(), fixed.end())});
+        throw MeshError({Code::no_boundary,
+                         "a component is held in a single point: fix more of its vertices",
+                         Indices(fixed.begin(), fixed.end()),
+                         ElementKind::vertex,
+                         {{"points", 1}}});
     }
     const SolverOptions& solver = options_.asked.solver;
     ComponentAnswer answer{unit, {patch_, unit.to_unit(fixed_points), gather(data.normals, fixed), {}, solver}, {}, {}};
-    if (solver.load != 0.0) answer.problem.options.load *= std::pow(unit.diameter, 3);
+    answer.problem.options.load = load_in_units(patch_, answer.problem.fixed_points, unit.diameter, options_.asked);
     warn_of_precision(patch_, data.vertices, {unit.diameter, solver.tolerance}, answer.warnings);
     read_reference(gather(data.reference, patch_.to_input), unit);
     answer.warnings.insert(answer.warnings.end(), reference_warnings_.begin(), reference_warnings_.end());

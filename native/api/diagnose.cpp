@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "api/component.h"
 #include "base/text.h"
 #include "geometry/face_geometry.h"
 #include "geometry/flips.h"
@@ -25,7 +26,9 @@ void warn_of_flips(const Patch& patch, const Points& points, Diagnostics& warnin
     warnings.push_back(
         {Code::flipped_triangles,
          counted(flipped.size(), "triangle of the result is turned over", "triangles of the result are turned over"),
-         std::move(flipped), ElementKind::triangle});
+         flipped,
+         ElementKind::triangle,
+         {{"triangles", size_of(flipped)}}});
 }
 
 void warn_of_sharp_outline(const Patch& patch, const Points& prescribed, Diagnostics& warnings) {
@@ -43,7 +46,9 @@ void warn_of_sharp_outline(const Patch& patch, const Points& prescribed, Diagnos
     warnings.push_back({Code::sharp_boundary,
                         "the normals along the outline turn by up to " + std::to_string(std::lround(widest)) +
                             "° from one vertex to the next; a finer outline gives a more accurate surface",
-                        std::move(sharp)});
+                        sharp,
+                        ElementKind::vertex,
+                        {{"degrees", widest}, {"edges", size_of(sharp) / 2}}});
 }
 
 void warn_of_crossings(const Patch& patch, const Points& points, Diagnostics& warnings) {
@@ -53,7 +58,45 @@ void warn_of_crossings(const Patch& patch, const Points& points, Diagnostics& wa
     warnings.push_back({Code::self_intersection,
                         counted(crossing.size(), "triangle of the result passes through others of the patch",
                                 "triangles of the result pass through others of the patch"),
-                        std::move(crossing), ElementKind::triangle});
+                        crossing,
+                        ElementKind::triangle,
+                        {{"triangles", size_of(crossing)}}});
+}
+
+// The end of a sentence on a component, and the figures in it.
+struct Reason {
+    std::string text;
+    Figures figures;
+};
+
+Reason reason_of_folds(const Solution& solution) {
+    const bool turned = solution.flaw == Flaw::folded;
+    const Indices& bad = solution.bad_triangles;
+    return {"has a surface, but its vertices can't be placed on it without folds: " +
+                counted(bad.size(), "triangle is", "triangles are") +
+                (turned ? " turned over" : " passing through others"),
+            {{turned ? "turned_over" : "passing_through", size_of(bad)}}};
+}
+
+// Angles: degrees at the fixed vertices.
+Reason reason_of(const Solution& solution, const VectorX& angles) {
+    if (solution.reached_load > 0.0) {
+        return {"was solved with " + std::to_string(std::lround(100.0 * solution.reached_load)) +
+                    " % of the load only and keeps that surface; more load may have no solution",
+                {{"load_share", solution.reached_load}}};
+    }
+    if (solution.flaw == Flaw::collapsed) {
+        return {"fell together to a point or a line: fix more vertices around it", {{"area", 0.0}}};
+    }
+    if (solution.flaw == Flaw::behind) {
+        const auto wrong = (angles.array() > behind).count();
+        const auto all = (angles.array() > 0.0).count();
+        return {"runs into its outline from behind at " + std::to_string(wrong) + " of " + std::to_string(all) +
+                    " vertices, which is not the surface asked for: where little of a shape is left outside, leave "
+                    "more of it",
+                {{"from_behind", static_cast<double>(wrong)}, {"outline_vertices", static_cast<double>(all)}}};
+    }
+    return {"did not converge; its positions are the best that were found", {}};
 }
 
 }  // namespace
@@ -85,7 +128,9 @@ bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostic
                         counted(bad.size(), "triangle of the reference mesh is a needle or turned over",
                                 "triangles of the reference mesh are needles or turned over") +
                             ", so that no distribution of vertices can be read off it; uniform inner fairness was used",
-                        std::move(bad), ElementKind::triangle});
+                        bad,
+                        ElementKind::triangle,
+                        {{"triangles", size_of(bad)}}});
     return false;
 }
 
@@ -107,28 +152,27 @@ void warn_of_precision(const Patch& patch, const Points& input, const Precision&
     warnings.push_back({Code::precision,
                         "this far from the origin, coordinates can't be told apart as finely as the tolerance and the "
                         "edges ask for: move the mesh nearer to the origin",
-                        {}});
+                        {},
+                        {},
+                        {{"spacing", spacing}, {"edge", edge}}});
 }
 
-std::string reason_of(const Solution& solution, const VectorX& angles) {
-    if (solution.reached_load > 0.0) {
-        return "was solved with " + std::to_string(std::lround(100.0 * solution.reached_load)) +
-               " % of the load only and keeps that surface; more load may have no solution";
+Diagnostics failures_of(const Patch& patch, const Solution& solution, Termination end, const VectorX& angles) {
+    const bool folds = end == Termination::folded;
+    Reason reason = folds ? reason_of_folds(solution) : reason_of(solution, angles);
+    reason.figures["free_vertices"] = patch.free_count;
+    const std::string text =
+        "a component of " + counted(at(patch.free_count), "free vertex ", "free vertices ") + reason.text;
+    Figures not_converged = folds ? Figures{{"free_vertices", patch.free_count},
+                                            {"folds", size_of(solution.bad_triangles)}}
+                                  : reason.figures;
+    Diagnostics result{{Code::not_converged, text, Indices(free_vertices(patch).begin(), free_vertices(patch).end()),
+                        ElementKind::vertex, std::move(not_converged)}};
+    if (folds) {
+        result.push_back({Code::folded, text, input_numbers(patch, solution.bad_triangles), ElementKind::triangle,
+                          std::move(reason.figures)});
     }
-    switch (solution.flaw) {
-        case Flaw::collapsed: return "fell together to a point or a line: fix more vertices around it";
-        case Flaw::behind:
-            return "runs into its outline from behind at " + std::to_string((angles.array() > behind).count()) +
-                   " of " + std::to_string((angles.array() > 0.0).count()) +
-                   " vertices, which is not the surface asked for: where little of a shape is left outside, leave "
-                   "more of it";
-        case Flaw::folded:
-        case Flaw::crossing:
-            return "has a surface, but its vertices can't be placed on it without folds: " +
-                   counted(solution.bad_triangles.size(), "triangle is", "triangles are") +
-                   (solution.flaw == Flaw::folded ? " turned over" : " passing through others");
-        default: return "did not converge; its positions are the best that were found";
-    }
+    return result;
 }
 
 void diagnose(const Patch& patch, const Points& points, const Points& prescribed, Diagnostics& warnings) {

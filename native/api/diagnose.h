@@ -1,9 +1,7 @@
 // What is said about a patch before and after its solve.
 #pragma once
 
-#include <string>
-
-#include "base/errors.h"
+#include "base/diagnostic.h"
 #include "solver/problem.h"
 
 namespace fairing {
@@ -21,8 +19,10 @@ struct Precision {
 // edges. `input`: positions of all input vertices.
 void warn_of_precision(const Patch& patch, const Points& input, const Precision& wanted, Diagnostics& warnings);
 
-// What kept a solution from being one, for a warning: its termination or its flaw.
-std::string reason_of(const Solution& solution, const VectorX& angles);
+// What kept a solution from being one: NOT_CONVERGED with the free vertices, and FOLDED with the triangles where the
+// surface was found, whose number NOT_CONVERGED then has as the figure "folds". `angles`: degrees at the fixed vertices
+// between the normals prescribed and obtained.
+Diagnostics failures_of(const Patch& patch, const Solution& solution, Termination end, const VectorX& angles);
 
 // Triangles of a patch by the numbers that the caller knows.
 Indices input_numbers(const Patch& patch, Indices triangles);

@@ -7,9 +7,9 @@
 #include "api/measure.h"
 #include "api/memory.h"
 #include "api/prepared_mesh.h"
+#include "base/errors.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "base/text.h"
 #include "geometry/outline_angles.h"
 #include "outline/visible_join.h"
 
@@ -50,7 +50,7 @@ public:
         add_largest(patch, angles, side_angles_);
         add_largest(patch, one_sided_join(patch, solution.points, prescribed), side_joins_);
         if (const Termination end = end_of(solution); end != Termination::converged) {
-            add_failure(patch, solution, end, reason_of(solution, angles));
+            add_failure(end, failures_of(patch, solution, end, angles));
         }
         diagnose(patch, solution.points, prescribed, result_.warnings);
     }
@@ -101,18 +101,10 @@ private:
         }
     }
 
-    void add_failure(const Patch& patch, const Solution& solution, Termination end, const std::string& reason) {
+    void add_failure(Termination end, const Diagnostics& failures) {
         result_.converged = false;
         if (result_.termination != Termination::stalled) result_.termination = end;
-        result_.warnings.push_back(
-            {Code::not_converged,
-             "a component of " + counted(at(patch.free_count), "free vertex ", "free vertices ") + reason,
-             Indices(free_vertices(patch).begin(), free_vertices(patch).end())});
-        if (end != Termination::folded) return;
-        result_.warnings.push_back({Code::folded,
-                                    counted(solution.bad_triangles.size(), "triangle", "triangles") +
-                                        " of a surface that was found can't be laid out without folds",
-                                    input_numbers(patch, solution.bad_triangles), ElementKind::triangle});
+        add_warnings(failures);
     }
 
     // `values`: at the patch's fixed vertices; `largest`: of all sides so far, at input vertices.

@@ -10,6 +10,7 @@ enum class Method { global, paper };
 
 struct FairOptions {
     SolverOptions solver;  // the load in units of length⁻³
+    double bulge = 0.0;    // of the constant equation: adds 8 bulge / a³ to the load, a: the component's outline_radius
     Method method = Method::global;
     PaperOptions paper;
     InnerFairness inner_fairness = InnerFairness::uniform;

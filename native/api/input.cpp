@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "base/direction.h"
+#include "base/errors.h"
 #include "base/text.h"
 
 namespace fairing {
@@ -25,7 +26,9 @@ void check_indices(const MeshInput& input) {
     throw MeshError({Code::index_range,
                      "triangles: row " + std::to_string(offenders.front()) + " names vertex " + std::to_string(vertex) +
                          ", outside 0 … " + std::to_string(count - 1),
-                     std::move(offenders), ElementKind::triangle});
+                     std::move(offenders),
+                     ElementKind::triangle,
+                     {{"vertex", vertex}, {"vertices", count}}});
 }
 
 std::vector<char> mark_fixed(const MeshInput& input) {
@@ -36,7 +39,9 @@ std::vector<char> mark_fixed(const MeshInput& input) {
         if (v < 0 || v >= count) {
             throw MeshError({Code::index_range,
                              "fixed names vertex " + std::to_string(v) + ", outside 0 … " + std::to_string(count - 1),
-                             {v}});
+                             {v},
+                             ElementKind::vertex,
+                             {{"vertex", v}, {"vertices", count}}});
         }
         if (fixed[at(v)]) throw std::invalid_argument("fixed names vertex " + std::to_string(v) + " twice");
         fixed[at(v)] = 1;
@@ -68,7 +73,9 @@ Triangles drop_unbounded_triangles(const MeshInput& input, const Triangles& tria
              counted(dropped.size(), "triangle between fixed vertices has a corner that is NaN or infinite and was",
                      "triangles between fixed vertices have a corner that is NaN or infinite and were") +
                  " left out",
-             std::move(dropped), ElementKind::triangle});
+             dropped,
+             ElementKind::triangle,
+             {{"unbounded", size_of(dropped)}}});
     }
     return triangles(Eigen::all, kept_columns);
 }
@@ -81,7 +88,9 @@ void check_finite(const MeshInput& input, const VertexRoles& roles) {
     if (!offenders.empty()) {
         throw MeshError({Code::nonfinite,
                          "vertex " + std::to_string(offenders.front()) + " has a coordinate that is NaN or infinite",
-                         std::move(offenders)});
+                         offenders,
+                         ElementKind::vertex,
+                         {{"vertices", size_of(offenders)}}});
     }
 }
 
@@ -100,7 +109,9 @@ Indices all_fixed(const MeshInput& input, const VertexRoles& roles, Diagnostics&
              counted(added.size(), "vertex on an open border was not given as fixed and stays where it is",
                      "vertices on an open border were not given as fixed and stay where they are") +
                  "; where this is a seam of doubled vertices, use Merge by Distance first",
-             std::move(added)});
+             added,
+             ElementKind::vertex,
+             {{"vertices", size_of(added)}}});
     }
     return fixed;
 }
@@ -121,20 +132,29 @@ Points averaged_triangle_normals(const Points& points, const CutMesh& mesh) {
     return sums;
 }
 
+void refuse_zero_normal(std::size_t row, int vertex) {
+    throw MeshError({Code::zero_normal,
+                     "fixed_normals: row " + std::to_string(row) + " (vertex " + std::to_string(vertex) +
+                         ") has length zero; a unit normal is needed there",
+                     {vertex},
+                     ElementKind::vertex,
+                     {{"row", static_cast<double>(row)}}});
+}
+
 void copy_given_normals(const MeshInput& input, CheckedMesh& mesh) {
     for (std::size_t k = 0; k < input.fixed->size(); ++k) {
         const int v = (*input.fixed)[k];
         if (!mesh.roles.used[at(v)] || mesh.roles.pin[at(v)]) continue;
         const Vector3 n = input.fixed_normals->col(static_cast<Eigen::Index>(k));
         if (!n.allFinite()) {
-            throw MeshError(
-                {Code::nonfinite, "the normal prescribed at vertex " + std::to_string(v) + " is NaN or infinite", {v}});
+            throw MeshError({Code::nonfinite,
+                             "the normal prescribed at vertex " + std::to_string(v) + " is NaN or infinite",
+                             {v},
+                             ElementKind::vertex,
+                             {{"normals", 1}}});
         }
         mesh.normals.col(v) = direction(n);
-        if (mesh.normals.col(v).isZero()) {
-            throw std::invalid_argument("fixed_normals: row " + std::to_string(k) + " (vertex " + std::to_string(v) +
-                                        ") has length zero; a unit normal is needed there");
-        }
+        if (mesh.normals.col(v).isZero()) refuse_zero_normal(k, v);
     }
 }
 
@@ -143,6 +163,8 @@ void warn_of_normals(const MeshInput& input, CheckedMesh& mesh) {
         mesh.warnings.push_back({Code::normals_from_patch,
                                  "no normals were prescribed: averages of the triangles given are used, so the result "
                                  "depends on the interior",
+                                 {},
+                                 {},
                                  {}});
         return;
     }
@@ -157,7 +179,9 @@ void warn_of_normals(const MeshInput& input, CheckedMesh& mesh) {
         {Code::pin_normal_ignored,
          counted(pins.size(), "fixed vertex has no fixed neighbour: its position counts, its normal doesn't",
                  "fixed vertices have no fixed neighbour: their position counts, their normal doesn't"),
-         std::move(pins)});
+         pins,
+         ElementKind::vertex,
+         {{"vertices", size_of(pins)}}});
 }
 
 // Normals that point to the side from which the triangles given are clockwise. The interior given may be noise, and a
@@ -176,7 +200,9 @@ void warn_of_opposed_normals(const CheckedMesh& mesh, const Points& averaged, Di
          counted(opposed.size(), "prescribed normal points against the winding of its triangles: turn it round",
                  "prescribed normals point against the winding of their triangles: turn them round") +
              ", or flip the triangles",
-         std::move(opposed)});
+         opposed,
+         ElementKind::vertex,
+         {{"vertices", size_of(opposed)}}});
 }
 
 void warn_of_flat_triangles(const MeshInput& input, const CutMesh& mesh, Diagnostics& warnings) {
@@ -192,7 +218,9 @@ void warn_of_flat_triangles(const MeshInput& input, const CutMesh& mesh, Diagnos
     if (offenders.empty()) return;
     warnings.push_back({Code::degenerate_face,
                         counted(offenders.size(), "triangle given has no area", "triangles given have no area"),
-                        std::move(offenders), ElementKind::triangle});
+                        offenders,
+                        ElementKind::triangle,
+                        {{"without_area", size_of(offenders)}}});
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ struct CheckedMesh : MeshTopology {
 };
 
 // Throws MeshError: INDEX_RANGE, NONFINITE (triangles between fixed vertices may have such corners: they are left out),
-// NONMANIFOLD_EDGE, NONMANIFOLD_VERTEX, NOT_ORIENTABLE; std::invalid_argument for a fixed vertex named twice or a
-// normal of length zero.
+// NONMANIFOLD_EDGE, NONMANIFOLD_VERTEX, NOT_ORIENTABLE, ZERO_NORMAL; std::invalid_argument for a fixed vertex named
+// twice.
 CheckedMesh check_mesh(const MeshInput& input);
 
 // The two halves of it. The topology stays the same for other positions and normals as long as all are finite.

@@ -81,6 +81,21 @@ VectorX mean_curvature(const CheckedMesh& mesh, const Points& points, NormalKind
     return sum.cwiseQuotient(sides.cwiseMax(1.0));
 }
 
+Indices component_of_triangles(const Triangles& triangles, const std::optional<Indices>& fixed, int vertex_count) {
+    const MeshTopology mesh = check_topology({Points::Zero(3, vertex_count), triangles, fixed, {}});
+    const Pieces pieces(mesh.cut, mesh.roles);
+    Indices number(at(pieces.size()), none);
+    int count = 0;
+    for (int k = 0; k < pieces.size(); ++k) {
+        if (pieces.has_free_vertex(k)) number[at(k)] = count++;
+    }
+    Indices result(at(static_cast<int>(triangles.cols())), none);
+    for (std::size_t t = 0; t < mesh.cut.piece.size(); ++t) {
+        result[at(mesh.cut.input_triangle[t])] = number[at(mesh.cut.piece[t])];
+    }
+    return result;
+}
+
 VectorX mean_curvature(const MeshInput& input, NormalKind kind) {
     const auto boundary = input.fixed_normals ? BoundaryNormals::prescribed : BoundaryNormals::one_sided;
     return mean_curvature(check_mesh(input), input.vertices, kind, boundary);

@@ -13,6 +13,10 @@ enum class BoundaryNormals { prescribed, one_sided };
 // Positions may differ from those that were checked.
 VectorX mean_curvature(const CheckedMesh& mesh, const Points& points, NormalKind kind, BoundaryNormals boundary);
 
+// Which component each input triangle belongs to: numbered by their lowest triangles, `none` where no vertex is free
+// and for triangles that name a vertex twice. The components are those that fair() solves, closed ones among them.
+Indices component_of_triangles(const Triangles& triangles, const std::optional<Indices>& fixed, int vertex_count);
+
 // H of a mesh; normals of fixed vertices that are not prescribed are one-sided fits.
 VectorX mean_curvature(const MeshInput& input, NormalKind kind);
 

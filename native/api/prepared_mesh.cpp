@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/errors.h"
 #include "mesh/pieces.h"
 
 namespace fairing {
@@ -13,7 +14,7 @@ std::vector<Patch> solvable_patches(const CheckedMesh& mesh, Diagnostics& warnin
     std::vector<Patch> patches = make_patches(mesh.cut, mesh.roles);
     if (patches.empty()) {
         throw MeshError(
-            {Code::no_free_vertices, "there is no vertex that may move: all are fixed or on the border", {}});
+            {Code::no_free_vertices, "there is no vertex that may move: all are fixed or on the border", {}, {}, {}});
     }
     Indices closed;
     std::erase_if(patches, [&](const Patch& patch) {
@@ -23,8 +24,14 @@ std::vector<Patch> solvable_patches(const CheckedMesh& mesh, Diagnostics& warnin
     });
     if (closed.empty()) return patches;
     const std::string text = "a closed component has no fixed vertices to hold it: fix some of them";
-    if (patches.empty()) throw MeshError({Code::no_boundary, text, std::move(closed)});
-    warnings.push_back({Code::no_boundary, text + "; it was left alone", std::move(closed)});
+    if (patches.empty()) {
+        throw MeshError({Code::no_boundary, text, closed, ElementKind::vertex, {{"closed", size_of(closed)}}});
+    }
+    warnings.push_back({Code::no_boundary,
+                        text + "; it was left alone",
+                        closed,
+                        ElementKind::vertex,
+                        {{"left_alone", size_of(closed)}}});
     return patches;
 }
 

@@ -2,8 +2,10 @@
 #include <exception>
 
 #include "api/fair_solver.h"
+#include "base/errors.h"
 #include "bindings/convert.h"
 #include "bindings/topics.h"
+#include "bindings/words.h"
 
 namespace fairing::bindings {
 
@@ -46,16 +48,6 @@ private:
     std::exception_ptr failure_;
 };
 
-const char* termination_name(Termination termination) {
-    switch (termination) {
-        case Termination::converged: return "converged";
-        case Termination::iteration_limit: return "iteration_limit";
-        case Termination::stalled: return "stalled";
-        case Termination::folded: return "folded";
-    }
-    return "stalled";
-}
-
 py::dict to_dict(const FairResult& result) {
     py::list warnings;
     for (const Diagnostic& warning : result.warnings) warnings.append(from_diagnostic(warning));
@@ -69,7 +61,7 @@ py::dict to_dict(const FairResult& result) {
     dict["join"] = from_vector(result.join);
     dict["converged"] = result.converged;
     dict["polished"] = result.polished;
-    dict["termination"] = termination_name(result.termination);
+    dict["termination"] = termination_words.word(result.termination);
     dict["iterations"] = result.iterations;
     dict["residual"] = result.residual;
     dict["initial_residual"] = result.initial_residual;
@@ -83,6 +75,7 @@ py::dict to_dict(const FairResult& result) {
 struct Options {
     std::string equation;
     double load;
+    double bulge;
     std::string inner_fairness;
     std::string method;
     std::string normals;
@@ -90,44 +83,6 @@ struct Options {
     int max_iterations;
     int threads;
 };
-
-// Options of method "paper".
-struct PaperChoices {
-    double damping;
-    int cg_steps;
-    int h_sweeps;
-    int vertex_sweeps;
-    double epsilon;
-    std::string acceleration;
-    std::string virtual_points;
-    std::string start;
-    int levels;
-};
-
-// The names have been checked by the package.
-Equation to_equation(const std::string& name) {
-    if (name == "constant") return Equation::constant;
-    if (name == "minimal_energy") return Equation::minimal_energy;
-    if (name == "least_variation") return Equation::least_variation;
-    return name == "minimal" ? Equation::minimal : Equation::harmonic;
-}
-
-InnerFairness to_inner_fairness(const std::string& name) {
-    if (name == "conformal") return InnerFairness::conformal;
-    if (name == "inverse_distance") return InnerFairness::inverse_distance;
-    if (name == "shape_preserving") return InnerFairness::shape_preserving;
-    return name == "custom" ? InnerFairness::custom : InnerFairness::uniform;
-}
-
-PaperOptions to_paper_options(const PaperChoices& choices) {
-    PaperOptions result{choices.damping, choices.cg_steps, choices.h_sweeps, choices.vertex_sweeps, choices.epsilon};
-    if (choices.acceleration == "anderson") result.acceleration = Acceleration::anderson;
-    if (choices.virtual_points == "sparse") result.virtual_points = VirtualPoints::sparse;
-    if (choices.virtual_points == "everywhere") result.virtual_points = VirtualPoints::everywhere;
-    result.start = choices.start == "linear" ? PaperStart::linear : PaperStart::improved;
-    result.levels = choices.levels;
-    return result;
-}
 
 // Rows (i, j, λ).
 std::vector<DirectedWeight> to_directed(const DoubleArray& rows) {
@@ -145,19 +100,20 @@ struct FairnessArrays {
     std::optional<DoubleArray> weights;
 };
 
-FairOptions to_fair_options(const Options& options, const PaperChoices& paper, const FairnessArrays& fairness) {
+FairOptions to_fair_options(const Options& options, const PaperOptions& paper, const FairnessArrays& fairness) {
     FairOptions result;
-    result.paper = to_paper_options(paper);
+    result.paper = paper;
     if (fairness.weights) result.custom = to_directed(*fairness.weights);
-    result.solver.equation = to_equation(options.equation);
+    result.solver.equation = equation_words.value(options.equation);
     result.solver.load = options.load;
-    result.method = options.method == "paper" ? Method::paper : Method::global;
-    result.solver.normals = options.normals == "averaged" ? NormalKind::averaged : NormalKind::fitted;
+    result.bulge = options.bulge;
+    result.method = method_words.value(options.method);
+    result.solver.normals = normal_words.value(options.normals);
     result.solver.tolerance = options.tolerance;
     result.solver.max_iterations = options.max_iterations;
     result.threads = options.threads;
     result.solver.nested = paper.levels != 1;
-    result.inner_fairness = to_inner_fairness(options.inner_fairness);
+    result.inner_fairness = fairness.weights ? InnerFairness::custom : fairness_words.value(options.inner_fairness);
     if (fairness.neighbours) {
         const Indices flat = to_indices(*fairness.neighbours);
         auto& edges = result.neighbours.emplace();
@@ -184,7 +140,7 @@ py::dict solved(const py::object& callback, const Solve& solve) {
 py::dict fair_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
                      const std::optional<DoubleArray>& fixed_normals, const std::optional<DoubleArray>& reference,
                      const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
-                     const Options& options, const PaperChoices& paper, const py::object& callback) {
+                     const Options& options, const PaperOptions& paper, const py::object& callback) {
     const MeshInput input{to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices),
                           to_optional(fixed_normals, to_points)};
     const auto m0 = to_optional(reference, to_points);
@@ -197,12 +153,12 @@ class PythonSolver {
 public:
     PythonSolver(const IntArray& triangles, const std::optional<IntArray>& fixed,
                  const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
-                 const std::pair<Options, PaperChoices>& options)
+                 const std::pair<Options, PaperOptions>& options)
         : solver_(to_triangles(triangles), to_optional(fixed, to_indices),
                   to_fair_options(options.first, options.second, {neighbours, weights})) {}
 
     void change(const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
-                const std::pair<Options, PaperChoices>& options) {
+                const std::pair<Options, PaperOptions>& options) {
         const Hold hold(busy_);
         solver_.change(to_fair_options(options.first, options.second, {neighbours, weights}));
     }
@@ -233,20 +189,62 @@ private:
     std::atomic<bool> busy_ = false;
 };
 
+// An attribute whose values are words.
+template <typename Enum, std::size_t N>
+void add_words(py::class_<PaperOptions>& options, Enum PaperOptions::* member, const Words<Enum, N>& words) {
+    options.def_property(
+        std::string(words.option).c_str(), [&words, member](const PaperOptions& o) { return words.word(o.*member); },
+        [&words, member](PaperOptions& o, const std::string& word) { o.*member = words.value(word); });
+}
+
+void bind_paper_options(py::module_& module) {
+    py::class_<PaperOptions> options(module, "PaperOptions");
+    options.def(py::init<>())
+        .def_readwrite("damping", &PaperOptions::damping)
+        .def_readwrite("cg_steps", &PaperOptions::cg_steps)
+        .def_readwrite("sweeps", &PaperOptions::h_sweeps)
+        .def_readwrite("vertex_sweeps", &PaperOptions::vertex_sweeps)
+        .def_readwrite("epsilon", &PaperOptions::epsilon)
+        .def_readwrite("levels", &PaperOptions::levels);
+    add_words(options, &PaperOptions::acceleration, acceleration_words);
+    add_words(options, &PaperOptions::virtual_points, virtual_point_words);
+    add_words(options, &PaperOptions::start, start_words);
+}
+
+template <typename Enum, std::size_t N>
+void tell(py::dict& all, const Words<Enum, N>& words) {
+    py::list list;
+    for (const auto& [name, value] : words.list) list.append(std::string(name));
+    all[py::str(std::string(words.option))] = py::tuple(list);
+}
+
+// Option → its words.
+py::dict all_words() {
+    py::dict all;
+    tell(all, method_words);
+    tell(all, normal_words);
+    tell(all, equation_words);
+    tell(all, fairness_words);
+    tell(all, virtual_point_words);
+    tell(all, start_words);
+    tell(all, acceleration_words);
+    tell(all, termination_words);
+    return all;
+}
+
 }  // namespace
 
 void bind_fair(py::module_& module) {
+    module.attr("WORDS") = all_words();
     py::class_<Options>(module, "Options")
-        .def(py::init<std::string, double, std::string, std::string, std::string, double, int, int>(), py::kw_only(),
-             py::arg("equation"), py::arg("load"), py::arg("inner_fairness"), py::arg("method"), py::arg("normals"),
-             py::arg("tolerance"), py::arg("max_iterations"), py::arg("threads"));
-    py::class_<PaperChoices>(module, "PaperChoices")
-        .def(py::init<double, int, int, int, double, std::string, std::string, std::string, int>(), py::kw_only(),
-             py::arg("damping"), py::arg("cg_steps"), py::arg("h_sweeps"), py::arg("vertex_sweeps"), py::arg("epsilon"),
-             py::arg("acceleration"), py::arg("virtual_points"), py::arg("start"), py::arg("levels"));
+        .def(py::init<std::string, double, double, std::string, std::string, std::string, double, int, int>(),
+             py::kw_only(), py::arg("equation"), py::arg("load"), py::arg("bulge"), py::arg("inner_fairness"),
+             py::arg("method"), py::arg("normals"), py::arg("tolerance"), py::arg("max_iterations"),
+             py::arg("threads"));
+    bind_paper_options(module);
     py::class_<PythonSolver>(module, "Solver")
         .def(py::init<const IntArray&, const std::optional<IntArray>&, const std::optional<IntArray>&,
-                      const std::optional<DoubleArray>&, const std::pair<Options, PaperChoices>&>(),
+                      const std::optional<DoubleArray>&, const std::pair<Options, PaperOptions>&>(),
              py::arg("triangles"), py::arg("fixed"), py::arg("neighbours"), py::arg("weights"), py::arg("options"))
         .def("change", &PythonSolver::change, py::arg("neighbours"), py::arg("weights"), py::arg("options"))
         .def("solve", &PythonSolver::solve, py::arg("vertices"), py::arg("fixed_normals"), py::arg("reference"),

@@ -1,24 +1,24 @@
 #include "api/measure.h"
 #include "bindings/convert.h"
 #include "bindings/topics.h"
+#include "bindings/words.h"
 #include "mesh/loops.h"
 
 namespace fairing::bindings {
 
 namespace {
 
-NormalKind to_kind(const std::string& name) { return name == "averaged" ? NormalKind::averaged : NormalKind::fitted; }
-
 py::array mean_curvature_array(const DoubleArray& vertices, const IntArray& triangles,
                                const std::optional<IntArray>& fixed, const std::optional<DoubleArray>& fixed_normals,
                                const std::string& normals) {
     const MeshInput input{to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices),
                           to_optional(fixed_normals, to_points)};
-    return from_vector(mean_curvature(input, to_kind(normals)));
+    return from_vector(mean_curvature(input, normal_words.value(normals)));
 }
 
 py::array vertex_normals_array(const DoubleArray& vertices, const IntArray& triangles, const std::string& normals) {
-    return from_points(vertex_normals({to_points(vertices), to_triangles(triangles), {}, {}}, to_kind(normals)));
+    return from_points(
+        vertex_normals({to_points(vertices), to_triangles(triangles), {}, {}}, normal_words.value(normals)));
 }
 
 py::tuple cotan_laplacian_arrays(const DoubleArray& vertices, const IntArray& triangles) {
@@ -36,6 +36,10 @@ py::list boundary_loop_arrays(const IntArray& triangles) {
     return loops;
 }
 
+py::array component_array(const IntArray& triangles, const std::optional<IntArray>& fixed, int vertex_count) {
+    return from_indices(component_of_triangles(to_triangles(triangles), to_optional(fixed, to_indices), vertex_count));
+}
+
 py::array conformal_distortion_array(const DoubleArray& reference, const DoubleArray& vertices,
                                      const IntArray& triangles) {
     return from_vector(conformal_distortion(to_points(reference), to_points(vertices), to_triangles(triangles)));
@@ -48,6 +52,7 @@ void bind_measure(py::module_& module) {
                py::arg("fixed_normals"), py::arg("normals"));
     module.def("vertex_normals", &vertex_normals_array, py::arg("vertices"), py::arg("triangles"), py::arg("normals"));
     module.def("cotan_laplacian", &cotan_laplacian_arrays, py::arg("vertices"), py::arg("triangles"));
+    module.def("components", &component_array, py::arg("triangles"), py::arg("fixed"), py::arg("vertex_count"));
     module.def("boundary_loops", &boundary_loop_arrays, py::arg("triangles"));
     module.def("conformal_distortion", &conformal_distortion_array, py::arg("reference"), py::arg("vertices"),
                py::arg("triangles"));

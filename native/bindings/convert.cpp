@@ -1,6 +1,7 @@
 #include "bindings/convert.h"
 
 #include "api/memory.h"
+#include "base/errors.h"
 
 namespace fairing::bindings {
 
@@ -37,9 +38,9 @@ py::array from_indices(const Indices& indices) {
 }
 
 py::object from_diagnostic(const Diagnostic& diagnostic) {
-    return package_type("Diagnostic")(std::string(code_name(diagnostic.code)), diagnostic.message,
-                                      from_indices(diagnostic.elements),
-                                      diagnostic.kind == ElementKind::vertex ? "vertex" : "triangle");
+    return package_type("Diagnostic")(
+        std::string(code_name(diagnostic.code)), diagnostic.message, from_indices(diagnostic.elements),
+        diagnostic.kind == ElementKind::vertex ? "vertex" : "triangle", diagnostic.figures);
 }
 
 void register_errors() {

@@ -4,6 +4,9 @@
 PYBIND11_MODULE(_core, module) {
     module.doc() = "Engine of the fairing package; use the package, not this module.";
     module.attr("__version__") = FAIRING_VERSION;
+    pybind11::list codes;
+    for (const std::string_view name : fairing::code_names()) codes.append(pybind11::str(name.data(), name.size()));
+    module.attr("CODES") = pybind11::tuple(codes);
     fairing::bindings::register_errors();
     fairing::bindings::bind_fair(module);
     fairing::bindings::bind_hierarchy(module);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "base/errors.h"
 #include "mesh/topology.h"
 
 namespace fairing {
@@ -42,7 +43,9 @@ void check_windings(const Triangles& triangles, const EdgeTable& edges, const In
     if (offenders.empty()) return;
     throw MeshError({Code::not_orientable,
                      "the mesh is single-sided (like a Möbius strip): its border has no left side",
-                     std::move(offenders), ElementKind::triangle});
+                     offenders,
+                     ElementKind::triangle,
+                     {{"triangles", size_of(offenders)}}});
 }
 
 }  // namespace

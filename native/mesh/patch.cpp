@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/errors.h"
 #include "base/progress.h"
 
 namespace fairing {
@@ -37,7 +38,9 @@ std::vector<Indices> Patch::loops() const {
 void Patch::refuse(int triangle, int a, int b) const {
     throw MeshError({Code::nonmanifold_edge,
                      "triangle " + std::to_string(input_triangle[at(triangle)]) + " can't be joined to its neighbours",
-                     {to_input[at(a)], to_input[at(b)]}});
+                     {to_input[at(a)], to_input[at(b)]},
+                     ElementKind::vertex,
+                     {{"edges", 1}}});
 }
 
 // Edges in the order in which the triangles' sides (0 → 1, 1 → 2, 2 → 0) first show them.

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <string>
 
+#include "base/errors.h"
 #include "base/progress.h"
 #include "base/text.h"
 #include "mesh/fans.h"
@@ -68,7 +69,9 @@ void check_fans(const Fans& fans, const VertexRoles& roles) {
                      "free vertex " + std::to_string(offenders.front()) + " (and " +
                          std::to_string(offenders.size() - 1) +
                          " more) joins several fans of triangles: split it, or fix it",
-                     std::move(offenders)});
+                     offenders,
+                     ElementKind::vertex,
+                     {{"vertices", size_of(offenders)}}});
 }
 
 // Union of triangles across edges; parity records the windings.
@@ -120,7 +123,9 @@ void check_orientable(const Indices& twisted, const Indices& input_triangle) {
     throw MeshError({Code::not_orientable,
                      "the mesh has a single side (a Möbius strip) through triangle " +
                          std::to_string(offenders.front()) + ": cut it open, or fair a part that has two sides",
-                     std::move(offenders), ElementKind::triangle});
+                     offenders,
+                     ElementKind::triangle,
+                     {{"triangles", size_of(offenders)}}});
 }
 
 void check_doubled(const Triangles& triangles, const Indices& doubled) {
@@ -132,7 +137,9 @@ void check_doubled(const Triangles& triangles, const Indices& doubled) {
     throw MeshError({Code::nonmanifold_edge,
                      "two triangles lie on the same three vertices " + std::to_string(offenders[0]) + ", " +
                          std::to_string(offenders[2]) + ", " + std::to_string(offenders[4]) + ": delete one of them",
-                     std::move(offenders)});
+                     offenders,
+                     ElementKind::vertex,
+                     {{"doubled_triangles", size_of(doubled)}}});
 }
 
 // How the triangles hang together along the edges that are not cut.
@@ -210,7 +217,9 @@ void warn_of_windings(const CutMesh& mesh, Diagnostics& warnings) {
         {Code::inconsistent_winding,
          counted(offenders.size(), "triangle is wound against the others", "triangles are wound against the others") +
              "; solved on a copy with one winding",
-         std::move(offenders), ElementKind::triangle});
+         offenders,
+         ElementKind::triangle,
+         {{"triangles", size_of(offenders)}}});
 }
 
 void number_pieces(CutMesh& mesh, UnionFind& pieces) {
@@ -239,7 +248,9 @@ Triangles drop_collapsed_triangles(const Triangles& triangles, Indices& kept, Di
         warnings.push_back({Code::degenerate_face,
                             counted(dropped.size(), "triangle names a vertex twice and was left out",
                                     "triangles name a vertex twice and were left out"),
-                            std::move(dropped), ElementKind::triangle});
+                            dropped,
+                            ElementKind::triangle,
+                            {{"repeated", size_of(dropped)}}});
     }
     return result;
 }
@@ -277,7 +288,9 @@ std::vector<char> find_cut_edges(const Triangles& triangles, const EdgeTable& ed
         throw MeshError({Code::nonmanifold_edge,
                          "more than two triangles meet at the edge " + std::to_string(offenders[0]) + "–" +
                              std::to_string(offenders[1]) + ": delete the extra ones, or fix both ends",
-                         std::move(offenders)});
+                         offenders,
+                         ElementKind::vertex,
+                         {{"edges", size_of(offenders) / 2}}});
     }
     keep_lone_edges(edges, roles, cut);
     return cut;

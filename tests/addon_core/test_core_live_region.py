@@ -56,6 +56,19 @@ def test_a_sphere_that_grows_stays_a_sphere() -> None:
     np.testing.assert_allclose(np.linalg.norm(answer, axis=1), 1.3, atol=1e-6)
 
 
+def test_a_refusal_names_the_vertices_of_the_whole_mesh() -> None:
+    """Not those of the part that the region keeps."""
+    mesh = sphere()
+    region = LiveRegion(mesh, EYE, FairOptions(boundary_normals="AVERAGE"))
+    patch = make_patch(mesh)
+    spoilt = int(patch.vertices[patch.fixed[5]])
+    positions = mesh.positions.copy()
+    positions[spoilt] = np.nan
+    with pytest.raises(fairing.MeshError, match=f"^Vertex {spoilt} has") as refusal:
+        region.answer(positions[region.vertices], EYE)
+    assert refusal.value.elements.tolist() == [spoilt]
+
+
 def test_answers_do_not_depend_on_what_came_before() -> None:
     mesh = sphere()
     stretch = np.diag([1.0, 1.2, 0.9])

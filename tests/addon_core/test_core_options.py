@@ -10,7 +10,8 @@ from typing import Any
 import pytest
 
 import fairing
-from core.options import FairOptions, option_names
+from core.options import EQUATIONS, INNER_FAIRNESS, METHODS, FairOptions, option_names
+from fairing import _core
 
 
 @pytest.mark.parametrize(
@@ -39,6 +40,16 @@ def test_every_argument_for_the_engine_is_one_that_it_knows() -> None:
     assert given["equation"] == "harmonic"
     assert FairOptions(tolerance=1e-3, levels=4).engine_arguments()["tolerance"] == 1e-3
     assert FairOptions(levels=4).engine_arguments()["levels"] == 4
+
+
+def test_the_words_are_the_engines() -> None:
+    """Every word of the engine's can be chosen, in its order; what the add-on leaves out is its default."""
+    words = _core.WORDS
+    for option, choices in (("equation", EQUATIONS), ("inner_fairness", INNER_FAIRNESS), ("method", METHODS)):
+        assert tuple(choice.lower() for choice in choices) == words[option]
+    defaults = {name: value.default for name, value in inspect.signature(fairing.fair).parameters.items()}
+    given = FairOptions().engine_arguments()
+    assert given == {name: defaults[name] for name in given}
 
 
 def test_options_are_read_from_any_object_by_name() -> None:

@@ -47,6 +47,15 @@ def test_of_several_objects_the_worst_counts(sphere: Fairing) -> None:
     assert summary(both).startswith("Not converged: ")
 
 
+def test_a_surface_with_folds_is_found_but_not_met(sphere: Fairing) -> None:
+    folds = replace(sphere.result, converged=False, polished=False, termination="folded")
+    (told, *_) = report(replace(sphere, result=folds)).checks
+    assert (told.value, told.state) == ("found, but with folds", MISSED)
+    assert summary(report(replace(sphere, result=folds))).startswith("Not converged: ")
+    # The surface exists: less of a bulge is no remedy.
+    assert report(replace(sphere, result=folds), equation="CONSTANT", bulge=0.3).warnings == ()
+
+
 def test_a_result_on_the_engines_own_mesh_says_so(sphere: Fairing) -> None:
     (first, *_) = report(replace(sphere, result=replace(sphere.result, polished=False))).checks
     assert (first.value, first.state) == ("yes, on a proxy", MET)

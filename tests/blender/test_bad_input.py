@@ -77,7 +77,7 @@ def test_a_fin_in_the_selection_is_refused(method: str) -> None:
     obj, _ = meshes.domed_grid()
     edge = spoiled.raise_fin(obj, (0.0, 0.125))
     text, selected = refusal(obj, spoiled.central(obj), method=method)
-    assert "NONMANIFOLD_EDGE" in text
+    assert "More than two faces meet at the edge" in text
     assert selected == sorted(edge)
 
 
@@ -107,7 +107,7 @@ def test_lobes_that_share_a_vertex_are_solved_each_as_alone() -> None:
 def test_a_bow_tie_is_refused() -> None:
     obj = spoiled.bow_tie()
     text, selected = refusal(obj, np.ones(len(obj.data.polygons), dtype=bool))
-    assert "NONMANIFOLD_VERTEX" in text
+    assert "Free vertex 0 joins several fans of faces" in text
     assert selected == [0]
 
 
@@ -123,7 +123,7 @@ def test_edges_without_length_and_faces_without_area(reach: float, inner_fairnes
     points[near] = points[spoiled.middle(obj)]
     meshes.move(obj, points)
     text = solved(obj, faces, inner_fairness=inner_fairness)
-    assert "DEGENERATE_FACE" in text
+    assert "have a part without area" in text
     if inner_fairness == "UNIFORM":  # conformal weights belong to the shape given
         meshes.fair(clean, faces)
         np.testing.assert_allclose(meshes.positions(obj), meshes.positions(clean), atol=1e-5)
@@ -149,21 +149,21 @@ def test_one_face_wound_the_other_way() -> None:
     spoiled.turn_face(obj, top)
     meshes.fair(clean, upper)
     text = solved(obj, upper)
-    assert "INCONSISTENT_WINDING" in text
+    assert "1 face is wound against the others" in text
     np.testing.assert_allclose(meshes.positions(obj), meshes.positions(clean), atol=1e-6)
 
 
 def test_a_moebius_strip_is_refused() -> None:
     obj = spoiled.moebius_strip()
     text, selected = refusal(obj, np.ones(len(obj.data.polygons), dtype=bool))
-    assert "NOT_ORIENTABLE" in text
+    assert "a single side" in text
     assert selected
 
 
 def test_a_closed_component_alone_is_refused() -> None:
     obj = meshes.sphere(16)
     text, selected = refusal(obj, np.ones(len(obj.data.polygons), dtype=bool))
-    assert "NO_BOUNDARY" in text
+    assert "The selection is closed" in text
     assert selected == list(range(len(obj.data.vertices)))
 
 
@@ -176,14 +176,14 @@ def test_a_closed_component_beside_others_is_left_alone() -> None:
     everything[: len(faces)] = faces
     free = np.zeros(len(obj.data.vertices), dtype=bool)
     free[:count] = meshes.free_vertices(clean, faces)
-    assert "NO_BOUNDARY" in solved(obj, everything, free)
+    assert "A closed part of the selection has nothing to hold it" in solved(obj, everything, free)
     np.testing.assert_allclose(meshes.positions(obj)[:count], meshes.positions(clean), atol=1e-6)
 
 
 def test_normals_against_the_winding_are_told() -> None:
     obj, faces = meshes.domed_grid()
     obj.data.normals_split_custom_set([(0.0, 0.0, -1.0)] * len(obj.data.loops))
-    assert "NORMALS_OPPOSE_WINDING" in solved(obj, faces, boundary_normals="CUSTOM")
+    assert "point to the faces' back" in solved(obj, faces, boundary_normals="CUSTOM")
 
 
 def test_the_normal_of_a_pin_is_told_to_be_ignored() -> None:
@@ -192,7 +192,7 @@ def test_the_normal_of_a_pin_is_told_to_be_ignored() -> None:
     obj.vertex_groups.new(name="Pin").add([pin], 1.0, "REPLACE")
     free = meshes.free_vertices(obj, faces)
     free[pin] = False
-    assert "PIN_NORMAL_IGNORED" in solved(obj, faces, free, pin_group="Pin")
+    assert "1 pinned vertex has no pinned neighbour" in solved(obj, faces, free, pin_group="Pin")
 
 
 @pytest.mark.parametrize("count", [0, 1, 2])
@@ -295,7 +295,7 @@ def test_slivers(ratio: float) -> None:
     points[near, 0] /= ratio
     meshes.move(obj, points)
     solved(obj, faces)
-    assert meshes.report().converged or "NOT_CONVERGED" in meshes.report().warnings
+    assert meshes.report().converged or "did not converge" in meshes.report().warnings
 
 
 def test_spikes_and_folds_inside() -> None:

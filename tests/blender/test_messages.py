@@ -96,6 +96,6 @@ def test_islands_of_a_run_are_told_once() -> None:
     meshes.move(obj, points)
     faces = meshes.faces_where(obj, lambda c: 0.15 < abs(c.x) < 0.8 and 0.15 < abs(c.y) < 0.8)
     meshes.select(obj, faces)
-    said = [text for text in told(obj) if text.startswith("SHARP_BOUNDARY")]
+    said = [text for text in told(obj) if text.startswith("The normals along the outline turn")]
     assert len(said) == 1
     assert said[0].endswith("(4 islands)")

@@ -78,7 +78,7 @@ SPOILERS: dict[str, Callable[[bpy.types.Object], None]] = {
     ("spoiler", "options", "says"),
     [
         ("nan", {}, "finite"),
-        ("tent", {}, "NONMANIFOLD_EDGE"),
+        ("tent", {}, "More than two faces"),
         ("group", {"pin_group": "Missing"}, "Missing"),
         ("locked", {}, "locked"),
     ],

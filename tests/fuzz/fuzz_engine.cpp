@@ -8,6 +8,7 @@
 
 #include "api/fair_solver.h"
 #include "api/measure.h"
+#include "base/errors.h"
 #include "law.h"
 #include "mesh/loops.h"
 #include "outline/surrounding_fit.h"

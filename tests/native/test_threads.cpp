@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "api/fair.h"
+#include "base/errors.h"
 #include "base/parallel.h"
 #include "geometry/self_intersection.h"
 #include "linear/sparse_cholesky.h"

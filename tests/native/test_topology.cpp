@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include "base/errors.h"
 #include "mesh/loops.h"
 #include "meshes.h"
 

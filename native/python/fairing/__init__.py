@@ -6,6 +6,7 @@ from fairing._growing import GrownOutline, grown_outline
 from fairing._hierarchy import hierarchy
 from fairing._measure import (
     boundary_loops,
+    components,
     conformal_distortion,
     cotan_laplacian,
     mean_curvature,
@@ -19,22 +20,26 @@ from fairing._outline import (
     surrounding_normals,
     visible_join,
 )
+from fairing._paper import PaperOptions
 from fairing._solver import Solver
-from fairing._types import Cancelled, Diagnostic, FairResult, MeshError, SolverError
+from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, SolverError
 
 __all__ = [
+    "CODES",
     "Cancelled",
     "Diagnostic",
     "FairResult",
     "GrownOutline",
     "MendedOutline",
     "MeshError",
+    "PaperOptions",
     "Solver",
     "SolverError",
     "SurroundingNormals",
     "__version__",
     "bad_outline",
     "boundary_loops",
+    "components",
     "conformal_distortion",
     "cotan_laplacian",
     "fair",

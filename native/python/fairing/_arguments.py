@@ -62,10 +62,11 @@ def _index_range(name: str, array: npt.NDArray[Any], outside: npt.NDArray[np.boo
     """Its elements: rows of the triangles, otherwise the vertices named, in the caller's wider type."""
     place = tuple(np.argwhere(outside)[0])
     text = f"{name}: row {place[0]} names vertex {array[place]}, which does not exist"
+    figures = {"vertex": float(array[place])}
     if name == "triangles":
         rows = np.flatnonzero(outside.any(axis=1)).astype(np.int32)
-        return MeshError(Diagnostic("INDEX_RANGE", text, rows, "triangle"))
-    return MeshError(Diagnostic("INDEX_RANGE", text, np.unique(array[outside]), "vertex"))
+        return MeshError(Diagnostic("INDEX_RANGE", text, rows, "triangle", figures))
+    return MeshError(Diagnostic("INDEX_RANGE", text, np.unique(array[outside]), "vertex", figures))
 
 
 def boundary(
@@ -91,10 +92,11 @@ def indices_within(name: str, array: IntArray, count: int) -> IntArray:
     place = tuple(np.argwhere(outside)[0])
     there_are = f"outside 0 … {count - 1}" if count else "but there are no vertices"
     text = f"{name}: row {place[0]} names vertex {array[place]}, {there_are}{_reason(array, count)}"
+    figures = {"vertex": float(array[place]), "vertices": float(count)}
     if name == "triangles":
         rows = np.flatnonzero(outside.any(axis=1)).astype(np.int32)
-        raise MeshError(Diagnostic("INDEX_RANGE", text, rows, "triangle"))
-    raise MeshError(Diagnostic("INDEX_RANGE", text, np.unique(array[outside]), "vertex"))
+        raise MeshError(Diagnostic("INDEX_RANGE", text, rows, "triangle", figures))
+    raise MeshError(Diagnostic("INDEX_RANGE", text, np.unique(array[outside]), "vertex", figures))
 
 
 def _reason(array: IntArray, count: int) -> str:

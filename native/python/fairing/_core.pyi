@@ -5,6 +5,8 @@ import numpy as np
 import numpy.typing as npt
 
 __version__: str
+CODES: tuple[str, ...]
+WORDS: dict[str, tuple[str, ...]]
 
 class Options:
     def __init__(
@@ -12,6 +14,7 @@ class Options:
         *,
         equation: str,
         load: float,
+        bulge: float,
         inner_fairness: str,
         method: str,
         normals: str,
@@ -20,20 +23,16 @@ class Options:
         threads: int,
     ) -> None: ...
 
-class PaperChoices:
-    def __init__(
-        self,
-        *,
-        damping: float,
-        cg_steps: int,
-        h_sweeps: int,
-        vertex_sweeps: int,
-        epsilon: float,
-        acceleration: str,
-        virtual_points: str,
-        start: str,
-        levels: int,
-    ) -> None: ...
+class PaperOptions:
+    damping: float
+    cg_steps: int
+    sweeps: int
+    vertex_sweeps: int
+    epsilon: float
+    acceleration: str
+    virtual_points: str
+    start: str
+    levels: int
 
 _Floats = npt.NDArray[np.float64]
 _Ints = npt.NDArray[np.int32]
@@ -45,10 +44,10 @@ class Solver:
         fixed: _Ints | None,
         neighbours: _Ints | None,
         weights: _Floats | None,
-        options: tuple[Options, PaperChoices],
+        options: tuple[Options, PaperOptions],
     ) -> None: ...
     def change(
-        self, neighbours: _Ints | None, weights: _Floats | None, options: tuple[Options, PaperChoices]
+        self, neighbours: _Ints | None, weights: _Floats | None, options: tuple[Options, PaperOptions]
     ) -> None: ...
     def solve(
         self,
@@ -67,7 +66,7 @@ def fair(
     neighbours: _Ints | None,
     weights: _Floats | None,
     options: Options,
-    paper: PaperChoices,
+    paper: PaperOptions,
     progress: Callable[[float, str], bool | None] | None,
 ) -> dict[str, Any]: ...
 def mean_curvature(
@@ -80,6 +79,7 @@ def mean_curvature(
 def hierarchy(vertices: _Floats, triangles: _Ints, fixed: _Ints | None, levels: int) -> list[tuple[_Ints, _Ints]]: ...
 def vertex_normals(vertices: _Floats, triangles: _Ints, normals: str) -> _Floats: ...
 def cotan_laplacian(vertices: _Floats, triangles: _Ints) -> tuple[_Ints, _Ints, _Floats]: ...
+def components(triangles: _Ints, fixed: _Ints | None, vertex_count: int) -> _Ints: ...
 def boundary_loops(triangles: _Ints) -> list[_Ints]: ...
 def conformal_distortion(reference: _Floats, vertices: _Floats, triangles: _Ints) -> _Floats: ...
 def surrounding_normals(vertices: _Floats, triangles: _Ints, at: _Ints) -> dict[str, Any]: ...

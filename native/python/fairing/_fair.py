@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _mending, _options
+from fairing import _arguments, _core, _mending, _options, _paper
+from fairing._paper import PaperOptions
 from fairing._types import FairResult
 
 Progress = Callable[[float, str], "bool | None"]
@@ -22,6 +23,7 @@ def fair(
     reference: npt.ArrayLike | None = None,
     equation: str = "harmonic",
     load: float = 0.0,
+    bulge: float = 0.0,
     inner_fairness: Any = "uniform",
     neighbours: npt.ArrayLike | None = None,
     method: str = "global",
@@ -31,14 +33,7 @@ def fair(
     normals: str = "fitted",
     threads: int = 0,
     progress: Progress | None = None,
-    damping: float | None = None,
-    cg_steps: int | None = None,
-    sweeps: int | None = None,
-    vertex_sweeps: int | None = None,
-    epsilon: float | None = None,
-    acceleration: str | None = None,
-    virtual_points: str | None = None,
-    start: str | None = None,
+    paper: PaperOptions | None = None,
     outline: str = "given",
     outside: npt.ArrayLike | None = None,
 ) -> FairResult:
@@ -71,6 +66,10 @@ def fair(
         between outlines that no harmonic surface joins; docs/least_variation.md.
     load : float
         Of "constant", in length⁻³; positive bulges along the normals.
+    bulge : float
+        Of "constant", by the outline's own size: adds 8 ``bulge`` / a³ to ``load``, for each component (see
+        :func:`fairing.components`) with a the RMS distance of its outline from the outline's centroid. 1 lifts a flat
+        disc by about a quarter of its radius, whatever its size.
     inner_fairness : "uniform" | "conformal" | "inverse_distance" | "shape_preserving" | (e, 3) array
         How vertices sit within the surface (§7.3); rows of the array: i, j, λ_ij ≥ 0, normalised for each i, one
         at least for each free i.
@@ -81,7 +80,8 @@ def fair(
     levels : int
         "paper": levels of the hierarchy, 0: chosen, 1: none. "global": 0 or 1 likewise.
     tolerance : float
-        "global": stop when an iteration moves no vertex by more than ``tolerance`` × D. "paper": see ``epsilon``.
+        "global": stop when an iteration moves no vertex by more than ``tolerance`` × D. "paper": see
+        ``epsilon`` of :class:`fairing.PaperOptions`.
     max_iterations : int
         "global": steps of each single iteration on one mesh. A solve consists of several: coarser levels, other
         starts, and the engine's own mesh where the one given fails. A small number may therefore take longer; only
@@ -93,26 +93,8 @@ def fair(
     progress : callable(fraction, stage) -> None | bool
         Called every 50 ms or so, by the calling thread, with the part done (0 … 1, never less than before) and what
         is being done. None or True goes on, False cancels; exceptions come out of the call.
-    damping : float in (0, 1]
-        "paper": s of §7.5, default 0.9.
-    cg_steps : int
-        "paper": conjugate gradient steps of a global H-update (§7.1), default 60.
-    sweeps : int
-        "paper": Gauss–Seidel sweeps of a local H-update, default 1.
-    vertex_sweeps : int
-        "paper": sweeps over the vertices in each update of the mesh (§7.2); default 1, accelerated 2.
-    epsilon : float
-        "paper": stop at max |Δ_B H − f| D³ ≤ ``epsilon`` (|H| D for "minimal"); default: where the changes still to
-        come, estimated from the last ones, are ``tolerance`` × D.
-    acceleration : "anderson" | "none"
-        "paper": whether each cycle of updates starts from the best combination of the last sixteen (default), or
-        where the last one ended, as published.
-    virtual_points : "sparse" | "coarse" | "everywhere"
-        "paper": which fits of H get virtual points (§6.2) besides valence 3 and 4 and fixed vertices: no others,
-        all on the coarse levels (as published), all (default).
-    start : "improved" | "linear"
-        "paper": fill of the coarsest level: the linear bilaplacian, or made fair by mixed finite elements (default).
-        With ``levels=1, max_iterations=1`` it is what comes back.
+    paper : PaperOptions
+        What only "paper" has: damping, sweeps, acceleration, … (see :class:`fairing.PaperOptions`).
     outline : "given" | "mended"
         "mended": a noisy outline is moved onto the fit of its surroundings first, and the two rings outside with it, as
         :func:`fairing.mend_outline` does; the normals there are the fit's. The result names what ``moved``. Where that
@@ -147,13 +129,9 @@ def fair(
     _arguments.choice("method", method, _options.METHODS)
     _options.callback(progress)
     kind, weights = _options.inner_fairness(inner_fairness, count)
-    given = {
-        "damping": damping, "cg_steps": cg_steps, "sweeps": sweeps, "vertex_sweeps": vertex_sweeps,
-        "epsilon": epsilon, "acceleration": acceleration, "virtual_points": virtual_points, "start": start,
-    }  # fmt: skip
-    paper = _options.paper_choices(method, levels, given)
+    of_paper = _paper.engine_options(method, levels, paper)
     options = _options.engine_options(
-        equation=equation, load=load, fairness=kind, method=method, normals=normals,
+        equation=equation, load=load, bulge=bulge, fairness=kind, method=method, normals=normals,
         tolerance=tolerance, max_iterations=max_iterations, threads=threads,
     )  # fmt: skip
     as_given = _mending.Boundary(points, fixed_list, given_normals)
@@ -161,7 +139,7 @@ def fair(
 
     def call(boundary: _mending.Boundary) -> dict[str, Any]:
         return _core.fair(
-            boundary.vertices, faces, boundary.fixed, boundary.normals, m0, edges, weights, options, paper, progress
+            boundary.vertices, faces, boundary.fixed, boundary.normals, m0, edges, weights, options, of_paper, progress
         )
 
     mended = _arguments.choice("outline", outline, _options.OUTLINES) == "mended"

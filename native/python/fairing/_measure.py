@@ -63,6 +63,18 @@ def boundary_loops(triangles: npt.ArrayLike) -> list[IntArray]:
     return _core.boundary_loops(faces)
 
 
+def components(triangles: npt.ArrayLike, *, fixed: npt.ArrayLike | None = None) -> IntArray:
+    """(m,) which component each triangle belongs to: 0, 1, … by their lowest triangles; −1 where no vertex is free.
+
+    A component is what :func:`fairing.fair` solves on its own: a connected piece of the mesh after cutting along curves
+    of ``fixed`` vertices. Errors as there. Memory grows with the largest index.
+    """
+    faces = _arguments.triangles_within(triangles, np.iinfo(np.int32).max)  # one more is counted
+    held, _ = _arguments.boundary(fixed, None)
+    count = int(max(faces.max(initial=-1), -1 if held is None else held.max(initial=-1))) + 1
+    return _core.components(faces, held, count)
+
+
 def conformal_distortion(reference: npt.ArrayLike, vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> FloatArray:
     """(m,) ratio ≥ 1 of the singular values of each triangle's map from ``reference`` to ``vertices``.
 

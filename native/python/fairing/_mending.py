@@ -104,7 +104,7 @@ def _folds(answer: Answer) -> int:
 def _told(answer: Answer, vertices: IntArray, why: str) -> Answer:
     if len(vertices):
         text = f"{len(vertices)} vertices of a noisy outline keep their place: {why}"
-        answer["warnings"] += (Diagnostic("OUTLINE_KEPT", text, vertices, "vertex"),)
+        answer["warnings"] += (Diagnostic("OUTLINE_KEPT", text, vertices, "vertex", {"vertices": len(vertices)}),)
     return answer
 
 

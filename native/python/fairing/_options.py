@@ -10,58 +10,19 @@ import numpy.typing as npt
 from fairing import _arguments, _core
 from fairing._types import FloatArray, IntArray
 
-METHODS = ("global", "paper")
-NORMALS = ("fitted", "averaged")
+# The engine's own words; `outline` is chosen here.
+METHODS = _core.WORDS["method"]
+NORMALS = _core.WORDS["normals"]
+EQUATIONS = _core.WORDS["equation"]
+INNER_FAIRNESS = _core.WORDS["inner_fairness"]
 OUTLINES = ("given", "mended")
-EQUATIONS = ("harmonic", "constant", "minimal_energy", "minimal", "least_variation")
-INNER_FAIRNESS = ("uniform", "conformal", "inverse_distance", "shape_preserving")
-VIRTUAL_POINTS = ("sparse", "coarse", "everywhere")
-STARTS = ("improved", "linear")
-ACCELERATIONS = ("anderson", "none")
-
-# What method "paper" does where the caller says nothing; with acceleration "none" as published.
-PAPER_DEFAULTS: dict[str, Any] = {
-    "damping": 0.9,
-    "cg_steps": 60,
-    "sweeps": 1,
-    "epsilon": None,
-    "acceleration": "anderson",
-    "virtual_points": "everywhere",
-    "start": "improved",
-}
-VERTEX_SWEEPS = {"none": 1, "anderson": 2}
-
-
-def paper_choices(method: str, levels: int, given: dict[str, Any]) -> _core.PaperChoices:
-    """Checks the options that only "paper" has; ``given`` holds None for those left out."""
-    named = {name: value for name, value in given.items() if value is not None}
-    if method != "paper" and named:
-        name = next(iter(named))
-        raise ValueError(f"{name}: is an option of method 'paper'; method {method!r} does not accept it")
-    chosen = {**PAPER_DEFAULTS, **named}
-    acceleration = _arguments.choice("acceleration", chosen["acceleration"], ACCELERATIONS)
-    chosen = {"vertex_sweeps": VERTEX_SWEEPS[acceleration], **chosen}
-    damping = _arguments.positive("damping", chosen["damping"])
-    if damping > 1.0:
-        raise ValueError(f"damping: {damping} is not accepted; accepted is above 0 and up to 1")
-    epsilon = chosen["epsilon"]
-    return _core.PaperChoices(
-        damping=damping,
-        cg_steps=_arguments.whole("cg_steps", chosen["cg_steps"], 1),
-        h_sweeps=_arguments.whole("sweeps", chosen["sweeps"], 1),
-        vertex_sweeps=_arguments.whole("vertex_sweeps", chosen["vertex_sweeps"], 1),
-        acceleration=acceleration,
-        epsilon=0.0 if epsilon is None else _arguments.positive("epsilon", epsilon),
-        virtual_points=_arguments.choice("virtual_points", chosen["virtual_points"], VIRTUAL_POINTS),
-        start=_arguments.choice("start", chosen["start"], STARTS),
-        levels=_arguments.whole("levels", levels, 0, None if method == "paper" else 1),
-    )
 
 
 def engine_options(
     *,
     equation: str,
     load: Any,
+    bulge: Any,
     fairness: str,
     method: str,
     normals: str,
@@ -75,7 +36,8 @@ def engine_options(
         raise ValueError("equation: 'least_variation' is not accepted by method 'paper'; accepted with 'global'")
     return _core.Options(
         equation=_arguments.choice("equation", equation, EQUATIONS),
-        load=load_number(equation, load),
+        load=load_number("load", equation, load),
+        bulge=load_number("bulge", equation, bulge),
         inner_fairness=fairness,
         method=method,
         normals="averaged" if method == "paper" else normals,
@@ -99,15 +61,15 @@ def callback(progress: Any) -> Any:
     return progress
 
 
-def load_number(equation: str, load: Any) -> float:
-    """A finite load, which only equation "constant" may have."""
-    if isinstance(load, bool) or not isinstance(load, (int, float, np.floating, np.integer)):
-        raise ValueError(f"load: a number is needed, not {load!r}")
-    if not np.isfinite(load) or (load != 0.0 and equation != "constant"):
+def load_number(name: str, equation: str, value: Any) -> float:
+    """A finite load or bulge, which only equation "constant" may have."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.floating, np.integer)):
+        raise ValueError(f"{name}: a number is needed, not {value!r}")
+    if not np.isfinite(value) or (value != 0.0 and equation != "constant"):
         raise ValueError(
-            f"load: {load!r} is not accepted; accepted are 0 and, with equation 'constant', finite numbers"
+            f"{name}: {value!r} is not accepted; accepted are 0 and, with equation 'constant', finite numbers"
         )
-    return float(load)
+    return float(value)
 
 
 def inner_fairness(value: Any, count: int) -> tuple[str, FloatArray | None]:

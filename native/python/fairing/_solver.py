@@ -7,16 +7,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _options
+from fairing import _arguments, _core, _options, _paper
 from fairing._fair import Progress
+from fairing._paper import PaperOptions
 from fairing._types import FairResult, FloatArray, IntArray
 
 _ANY_COUNT = int(np.iinfo(np.int32).max)
-_SHARED = ("equation", "load", "normals", "tolerance", "max_iterations", "threads")
-_PAPER = (
-    "damping", "cg_steps", "sweeps", "vertex_sweeps", "epsilon", "acceleration", "virtual_points", "start",
-)  # fmt: skip
-_CHANGEABLE = (*_SHARED, *_PAPER, "inner_fairness", "neighbours", "method", "levels")
+_SHARED = ("equation", "load", "bulge", "normals", "tolerance", "max_iterations", "threads")
+_CHANGEABLE = (*_SHARED, "inner_fairness", "neighbours", "method", "levels", "paper")
 
 
 class Solver:
@@ -50,6 +48,7 @@ class Solver:
         fixed: npt.ArrayLike | None = None,
         equation: str = "harmonic",
         load: float = 0.0,
+        bulge: float = 0.0,
         inner_fairness: Any = "uniform",
         neighbours: npt.ArrayLike | None = None,
         method: str = "global",
@@ -58,14 +57,7 @@ class Solver:
         max_iterations: int = 200,
         normals: str = "fitted",
         threads: int = 0,
-        damping: float | None = None,
-        cg_steps: int | None = None,
-        sweeps: int | None = None,
-        vertex_sweeps: int | None = None,
-        epsilon: float | None = None,
-        acceleration: str | None = None,
-        virtual_points: str | None = None,
-        start: str | None = None,
+        paper: PaperOptions | None = None,
     ) -> None:
         """Check and copy everything; nothing is solved yet. Raises what fairing.fair does for these arguments.
 
@@ -98,12 +90,12 @@ class Solver:
     @staticmethod
     def _checked(
         options: dict[str, Any],
-    ) -> tuple[IntArray | None, FloatArray | None, tuple[_core.Options, _core.PaperChoices]]:
+    ) -> tuple[IntArray | None, FloatArray | None, tuple[_core.Options, _core.PaperOptions]]:
         """Edges, λ by rows, and the engine's options; how many vertices there are is known at the first solve."""
         edges = _options.neighbour_edges(options["neighbours"], _ANY_COUNT)
         method = _arguments.choice("method", options["method"], _options.METHODS)
         kind, weights = _options.inner_fairness(options["inner_fairness"], _ANY_COUNT)
-        paper = _options.paper_choices(method, options["levels"], {name: options[name] for name in _PAPER})
+        paper = _paper.engine_options(method, options["levels"], options["paper"])
         shared = {name: options[name] for name in _SHARED}
         return edges, weights, (_options.engine_options(fairness=kind, method=method, **shared), paper)
 

@@ -8,8 +8,11 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from fairing import _core
+
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int32]
+CODES: tuple[str, ...] = (*_core.CODES, "OUTLINE_KEPT")  # all that a `Diagnostic` may have
 FOLDS = ("FOLDED", "FLIPPED_TRIANGLES", "SELF_INTERSECTION")  # codes of warnings about the surface itself
 
 
@@ -18,13 +21,15 @@ class Diagnostic:
     """A warning, or the reason of a :class:`MeshError`.
 
     ``elements`` are indices into the caller's vertices or triangles, as ``kind`` says; edges are given by
-    their two vertices, one after the other.
+    their two vertices, one after the other. ``message`` is a sentence for readers of English; ``code`` (one of
+    :data:`fairing.CODES`), ``elements`` and ``figures``, the numbers of the case by name, are for words of your own.
     """
 
     code: str
     message: str
     elements: IntArray
     kind: Literal["vertex", "triangle"]
+    figures: dict[str, float] = field(default_factory=dict)
 
     def __str__(self) -> str:
         return f"{self.code}: {self.message}"

@@ -1,0 +1,253 @@
+"""The engine's errors and warnings as sentences for a person in front of a mesh. Plain Python, no bpy.
+
+The engine tells a code, elements and figures; every sentence is made here. Codes and the engine's own
+numbers, those of the patch and its triangles, don't show.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+import fairing
+
+from .findings import Finding, Origin, found
+
+
+@dataclass(frozen=True)
+class Words:
+    """The sentence for one case of a code; `many` is for several elements or, where they are told, islands.
+
+    Both may have the fields {n} (elements), {first} (a vertex), {ends} (of an edge), {islands}, and all figures.
+    """
+
+    one: str
+    many: str = ""
+    when: str = ""  # the figure that only this case has; the last case of a code has none
+
+
+WORDS: dict[str, tuple[Words, ...]] = {
+    "NONFINITE": (
+        Words("The normal at vertex {first} is NaN or infinite", when="normals"),
+        Words(
+            "Coordinates as large as {largest_coordinate:.0e} overflow when they are added: scale the mesh down",
+            when="largest_coordinate",
+        ),
+        Words(
+            "Vertex {first} has a coordinate that is NaN or infinite",
+            "{n} vertices, {first} among them, have a coordinate that is NaN or infinite",
+        ),
+    ),
+    "INDEX_RANGE": (Words("A face has a corner that does not exist: the mesh is damaged"),),
+    "NONMANIFOLD_EDGE": (
+        Words("Two faces lie on the same vertices at the edge {ends}: delete one of them", when="doubled_triangles"),
+        Words("More than two faces meet at the edge {ends}: delete the extra ones, or pin both ends"),
+    ),
+    "NONMANIFOLD_VERTEX": (
+        Words(
+            "Free vertex {first} joins several fans of faces: split it, or pin it",
+            "{n} free vertices, {first} among them, join several fans of faces: split them, or pin them",
+        ),
+    ),
+    "NOT_ORIENTABLE": (
+        Words(
+            "The faces have a single side (a Möbius strip) through vertex {first}: "
+            "cut them open, or select a part that has two sides"
+        ),
+    ),
+    "NO_BOUNDARY": (
+        Words(
+            "A closed part of the selection has nothing to hold it and was left as it is: "
+            "leave some of its faces unselected, or pin vertices",
+            when="left_alone",
+        ),
+        Words("A part of the selection is held in a single point: pin more of its vertices", when="points"),
+        Words("The selection is closed and has nothing to hold it: leave some faces unselected, or pin vertices"),
+    ),
+    "NO_FREE_VERTICES": (Words("No vertex is free to move: all are on the outline or pinned"),),
+    "ZERO_NORMAL": (
+        Words("The surface has no direction at vertex {first}: the normals there cancel. Choose others, or pin it"),
+    ),
+    "DEGENERATE_FACE": (
+        Words(
+            "{n} face has a corner twice and was left out",
+            "{n} faces have a corner twice and were left out",
+            when="repeated",
+        ),
+        Words(
+            "{n} face between fixed vertices has a corner that is NaN or infinite and was left out",
+            "{n} faces between fixed vertices have a corner that is NaN or infinite and were left out",
+            when="unbounded",
+        ),
+        Words("{n} face has a part without area", "{n} faces have a part without area"),
+    ),
+    "INCONSISTENT_WINDING": (
+        Words(
+            "{n} face is wound against the others; a copy with one winding was solved",
+            "{n} faces are wound against the others; a copy with one winding was solved",
+        ),
+    ),
+    "OPEN_BORDER_IN_SELECTION": (
+        Words(
+            "{n} vertex on an open border stays where it is; where this is a seam of doubled vertices, "
+            "use Merge by Distance first",
+            "{n} vertices on an open border stay where they are; where this is a seam of doubled vertices, "
+            "use Merge by Distance first",
+        ),
+    ),
+    "NORMALS_FROM_PATCH": (
+        Words("The normals at the outline come from the selection, so the result depends on its present shape"),
+    ),
+    "NORMALS_OPPOSE_WINDING": (
+        Words(
+            "The normal at {n} vertex of the outline points to the faces' back: turn it round, or flip the faces",
+            "The normals at {n} vertices of the outline point to the faces' back: turn them round, or flip the faces",
+        ),
+    ),
+    "PIN_NORMAL_IGNORED": (
+        Words(
+            "{n} pinned vertex has no pinned neighbour: its position counts, its normal doesn't",
+            "{n} pinned vertices have no pinned neighbour: their position counts, their normal doesn't",
+        ),
+    ),
+    "SHARP_BOUNDARY": (
+        Words(
+            "The normals along the outline turn by up to {degrees:.0f}° from one vertex to the next; "
+            "a finer outline gives a more accurate surface"
+        ),
+    ),
+    "FLIPPED_TRIANGLES": (
+        Words("{n} face of the result is turned over", "{n} faces of the result are turned over", when="triangles"),
+        Words("The inner fairness chosen turns faces over; even spacing was used"),
+    ),
+    "FOLDED": (
+        Words(
+            "The surface was found, but {n} face can't be placed on it without folds",
+            "The surface was found, but {n} faces can't be placed on it without folds",
+        ),
+    ),
+    "SELF_INTERSECTION": (
+        Words(
+            "{n} face of the result passes through others of the selection",
+            "{n} faces of the result pass through others of the selection",
+        ),
+    ),
+    "REFERENCE_UNUSABLE": (
+        Words(
+            "{n} face is a needle or turned over, so that no spacing can be read off the mesh; even spacing was used",
+            "{n} faces are needles or turned over, so that no spacing can be read off the mesh; even spacing was used",
+        ),
+    ),
+    "NOT_CONVERGED": (
+        Words(
+            "An island of {free_vertices:.0f} free vertices was solved with {load_share:.0%} of its bulge only and "
+            "keeps that surface; there may be none with more",
+            "{islands} islands, of {free_vertices:.0f} free vertices in all, were solved with {load_share:.0%} of "
+            "their bulge at most and keep that surface; there may be none with more",
+            when="load_share",
+        ),
+        Words(
+            "An island of {free_vertices:.0f} free vertices fell together to a point or a line: "
+            "pin more vertices around it",
+            "{islands} islands, of {free_vertices:.0f} free vertices in all, fell together to points or lines: "
+            "pin more vertices around them",
+            when="area",
+        ),
+        Words(
+            "An island of {free_vertices:.0f} free vertices runs into its outline from behind at {from_behind:.0f} of "
+            "{outline_vertices:.0f} vertices: where little of a shape is left outside, leave more of it",
+            "{islands} islands, of {free_vertices:.0f} free vertices in all, run into their outlines from behind at "
+            "{from_behind:.0f} of {outline_vertices:.0f} vertices: where little of a shape is left outside, leave "
+            "more of it",
+            when="from_behind",
+        ),
+        Words(
+            "An island of {free_vertices:.0f} free vertices did not converge; its positions are the best found",
+            "{islands} islands, of {free_vertices:.0f} free vertices in all, did not converge; "
+            "their positions are the best found",
+        ),
+    ),
+    "PRECISION": (
+        Words("This far from the origin, coordinates can't be told apart finely enough: move the object nearer to it"),
+    ),
+    "OUTLINE_KEPT": (
+        Words(
+            "{n} vertex of a noisy outline keeps its place",
+            "{n} vertices of a noisy outline keep their place",
+        ),
+    ),
+}
+
+# Of several islands: the figures of which the largest stands for all. Others are added.
+_LARGEST = ("degrees", "load_share", "spacing", "edge", "largest_coordinate")
+
+
+class MeshRefusal(fairing.MeshError):
+    """A mesh that can't be faired. Reads as a sentence; `elements` are vertices of the mesh."""
+
+    def __str__(self) -> str:
+        return self.diagnostic.message
+
+
+def counted(count: int, one: str, many: str) -> str:
+    """Return the number with the phrase that goes with it."""
+    return f"{count} {one if count == 1 else many}"
+
+
+def refusal(finding: Finding) -> MeshRefusal:
+    """Return the exception that tells of a finding."""
+    text = _sentence([finding])
+    vertices = finding.vertices.astype(np.int32)
+    return MeshRefusal(fairing.Diagnostic(finding.code, text, vertices, "vertex", finding.figures))
+
+
+@contextmanager
+def in_mesh_words(origin: Origin) -> Iterator[None]:
+    """Let the engine's MeshErrors speak of the mesh."""
+    try:
+        yield
+    except fairing.MeshError as error:
+        raise refusal(found(error.diagnostic, origin)) from error
+
+
+def sentences(warnings: tuple[fairing.Diagnostic, ...], origin: Origin) -> tuple[str, ...]:
+    """Return one sentence for each kind of warning, however many islands have it, in the order of their first."""
+    alike: dict[Words, list[Finding]] = {}
+    for warning in warnings:
+        finding = found(warning, origin)
+        if finding.code == "NOT_CONVERGED" and "folds" in finding.figures:
+            continue  # FOLDED names the faces
+        alike.setdefault(_case(finding), []).append(finding)
+    return tuple(_sentence(findings) for findings in alike.values())
+
+
+def _case(finding: Finding) -> Words:
+    return next(words for words in WORDS[finding.code] if not words.when or words.when in finding.figures)
+
+
+def _sentence(findings: Sequence[Finding]) -> str:
+    """Return the sentence for findings of one case, each of an island of its own."""
+    words, islands, whole = _case(findings[0]), len(findings), _pooled(findings)
+    tells_islands = "{islands}" in words.many
+    template = words.many if words.many and (islands if tells_islands else whole.count) != 1 else words.one
+    ends = whole.named[:2].tolist()
+    fields = {"n": whole.count, "islands": islands, "first": ends[0] if ends else "", "ends": "–".join(map(str, ends))}
+    text = template.format(**whole.figures, **fields)
+    return text if islands == 1 or tells_islands else f"{text} ({islands} islands)"
+
+
+def _pooled(findings: Sequence[Finding]) -> Finding:
+    names = dict.fromkeys(name for finding in findings for name in finding.figures)
+    figures = {
+        name: (max if name in _LARGEST else sum)(finding.figures.get(name, 0.0) for finding in findings)
+        for name in names
+    }
+    return replace(
+        findings[0],
+        figures=figures,
+        named=np.concatenate([finding.named for finding in findings]),
+        faces=np.unique(np.concatenate([finding.faces for finding in findings])),
+    )

@@ -1,0 +1,42 @@
+#include "base/diagnostic.h"
+
+#include <array>
+
+namespace fairing {
+
+namespace {
+
+constexpr auto last = Code::precision;
+
+constexpr std::array<std::string_view, static_cast<std::size_t>(last) + 1> names{
+    "NONFINITE",
+    "INDEX_RANGE",
+    "NONMANIFOLD_EDGE",
+    "NONMANIFOLD_VERTEX",
+    "NOT_ORIENTABLE",
+    "NO_BOUNDARY",
+    "NO_FREE_VERTICES",
+    "ZERO_NORMAL",
+    "DEGENERATE_FACE",
+    "INCONSISTENT_WINDING",
+    "OPEN_BORDER_IN_SELECTION",
+    "NORMALS_FROM_PATCH",
+    "NORMALS_OPPOSE_WINDING",
+    "PIN_NORMAL_IGNORED",
+    "SHARP_BOUNDARY",
+    "FLIPPED_TRIANGLES",
+    "FOLDED",
+    "SELF_INTERSECTION",
+    "REFERENCE_UNUSABLE",
+    "NOT_CONVERGED",
+    "PRECISION",
+};
+static_assert(!names.back().empty(), "each code has a name");
+
+}  // namespace
+
+std::span<const std::string_view> code_names() { return names; }
+
+std::string_view code_name(Code code) { return names[static_cast<std::size_t>(code)]; }
+
+}  // namespace fairing

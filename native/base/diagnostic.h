@@ -1,0 +1,60 @@
+// Error and warning vocabulary of the engine: a code, the elements that it is about, and the figures of the case.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/types.h"
+
+namespace fairing {
+
+enum class Code {
+    nonfinite,
+    index_range,
+    nonmanifold_edge,
+    nonmanifold_vertex,
+    not_orientable,
+    no_boundary,
+    no_free_vertices,
+    zero_normal,
+    degenerate_face,
+    inconsistent_winding,
+    open_border_in_selection,
+    normals_from_patch,
+    normals_oppose_winding,
+    pin_normal_ignored,
+    sharp_boundary,
+    flipped_triangles,
+    folded,
+    self_intersection,
+    reference_unusable,
+    not_converged,
+    precision,
+};
+
+// The upper-case names that callers see, e.g. "NONMANIFOLD_EDGE", in the order of the enumeration.
+std::span<const std::string_view> code_names();
+std::string_view code_name(Code code);
+// What the indices in `elements` count. Edges are given by their two vertices, one after the other.
+enum class ElementKind { vertex, triangle };
+
+// The numbers that a message tells, by name: counts, degrees, shares of 1. Each place that makes a diagnostic says
+// which.
+using Figures = std::map<std::string, double>;
+
+inline double size_of(const Indices& elements) { return static_cast<double>(elements.size()); }
+// `message` is for users of the library; others make their own words from code, elements and figures.
+struct Diagnostic {
+    Code code;
+    std::string message;
+    Indices elements;
+    ElementKind kind = ElementKind::vertex;
+    Figures figures;
+};
+
+using Diagnostics = std::vector<Diagnostic>;
+
+}  // namespace fairing

@@ -1,0 +1,61 @@
+// The words that callers use for the engine's enumerations: here and nowhere else.
+#pragma once
+
+#include <array>
+#include <stdexcept>
+#include <string>
+
+#include "api/fair.h"
+
+namespace fairing::bindings {
+
+// Both ways throw std::invalid_argument, which names the option, for what is not in the list.
+template <typename Enum, std::size_t N>
+struct Words {
+    std::string_view option;
+    std::array<std::pair<std::string_view, Enum>, N> list;
+
+    [[nodiscard]] Enum value(std::string_view word) const {
+        for (const auto& [name, enumerator] : list) {
+            if (name == word) return enumerator;
+        }
+        throw std::invalid_argument(std::string(option) + ": '" + std::string(word) + "' is not accepted");
+    }
+    [[nodiscard]] std::string word(Enum value) const {
+        for (const auto& [name, enumerator] : list) {
+            if (enumerator == value) return std::string(name);
+        }
+        throw std::invalid_argument(std::string(option) + ": a value without a word");
+    }
+};
+
+inline constexpr Words<Method, 2> method_words{"method", {{{"global", Method::global}, {"paper", Method::paper}}}};
+inline constexpr Words<NormalKind, 2> normal_words{
+    "normals", {{{"fitted", NormalKind::fitted}, {"averaged", NormalKind::averaged}}}};
+inline constexpr Words<Equation, 5> equation_words{"equation",
+                                                   {{{"harmonic", Equation::harmonic},
+                                                     {"constant", Equation::constant},
+                                                     {"minimal_energy", Equation::minimal_energy},
+                                                     {"minimal", Equation::minimal},
+                                                     {"least_variation", Equation::least_variation}}}};
+// InnerFairness::custom has no word: it comes as rows.
+inline constexpr Words<InnerFairness, 4> fairness_words{"inner_fairness",
+                                                        {{{"uniform", InnerFairness::uniform},
+                                                          {"conformal", InnerFairness::conformal},
+                                                          {"inverse_distance", InnerFairness::inverse_distance},
+                                                          {"shape_preserving", InnerFairness::shape_preserving}}}};
+inline constexpr Words<VirtualPoints, 3> virtual_point_words{"virtual_points",
+                                                             {{{"sparse", VirtualPoints::sparse},
+                                                               {"coarse", VirtualPoints::coarse},
+                                                               {"everywhere", VirtualPoints::everywhere}}}};
+inline constexpr Words<PaperStart, 2> start_words{
+    "start", {{{"improved", PaperStart::improved}, {"linear", PaperStart::linear}}}};
+inline constexpr Words<Acceleration, 2> acceleration_words{
+    "acceleration", {{{"anderson", Acceleration::anderson}, {"none", Acceleration::plain}}}};
+inline constexpr Words<Termination, 4> termination_words{"termination",
+                                                         {{{"converged", Termination::converged},
+                                                           {"iteration_limit", Termination::iteration_limit},
+                                                           {"stalled", Termination::stalled},
+                                                           {"folded", Termination::folded}}}};
+
+}  // namespace fairing::bindings

@@ -1,0 +1,140 @@
+"""The engine's errors and warnings as sentences: in the mesh's numbers, one for each kind."""
+
+from __future__ import annotations
+
+import re
+from string import Formatter
+
+import numpy as np
+import pytest
+
+import fairing
+from core.findings import Origin, found
+from core.region import make_patch
+from core.words import WORDS, Words, counted, in_mesh_words, refusal, sentences
+from polygon_mesh import grid
+
+# Six vertices and four triangles of the engine, which are two quads of a mesh: its vertices 10 … 60, its faces 7 and 9.
+ORIGIN = Origin(
+    vertices=np.array([10, 20, 30, 40, 50, 60]),
+    triangles=np.array([[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]]),
+    faces=np.array([7, 7, 9, 9]),
+)
+
+
+def diagnostic(code: str, elements: list[int], kind: str = "vertex", **figures: float) -> fairing.Diagnostic:
+    return fairing.Diagnostic(code, "the engine's own words", np.array(elements, dtype=np.int32), kind, figures)
+
+
+def told(*warnings: fairing.Diagnostic) -> tuple[str, ...]:
+    return sentences(warnings, ORIGIN)
+
+
+def test_every_code_has_words() -> None:
+    assert set(WORDS) == set(fairing.CODES)
+
+
+@pytest.mark.parametrize("code", fairing.CODES)
+def test_the_last_case_of_a_code_holds_without_any_figure_but_those_it_names(code: str) -> None:
+    """So that a case of the engine's that is new here still reads as a sentence."""
+    assert [bool(words.when) for words in WORDS[code]] == [True] * (len(WORDS[code]) - 1) + [False]
+    figures = dict.fromkeys(_fields(WORDS[code][-1]) - {"n", "first", "ends", "islands"}, 1.0)
+    (text,) = told(diagnostic(code, [0, 1], **figures))
+    assert text[0].isupper() or text[0].isdigit()
+    assert code not in text and "{" not in text and "triangle" not in text
+
+
+def _fields(words: Words) -> set[str]:
+    return {field for text in (words.one, words.many) for _, field, _, _ in Formatter().parse(text) if field}
+
+
+def test_triangles_are_counted_by_their_faces_and_edges_by_the_meshs_vertices() -> None:
+    assert told(diagnostic("FLIPPED_TRIANGLES", [0, 2, 3], "triangle", triangles=3.0)) == (
+        "2 faces of the result are turned over",
+    )
+    assert told(diagnostic("FOLDED", [0, 1], "triangle", turned_over=2.0, free_vertices=8.0)) == (
+        "The surface was found, but 1 face can't be placed on it without folds",
+    )
+    edge = refusal(found(diagnostic("NONMANIFOLD_EDGE", [4, 1, 0, 2], edges=2.0), ORIGIN))
+    assert "the edge 50–20" in str(edge)
+    assert edge.elements.tolist() == [10, 20, 30, 50]
+    assert edge.kind == "vertex"
+
+
+def test_an_error_speaks_of_the_mesh_and_keeps_its_code() -> None:
+    twisted = diagnostic("NOT_ORIENTABLE", [2], "triangle", triangles=1.0)
+    with pytest.raises(fairing.MeshError, match="through vertex 20: ") as refused, in_mesh_words(ORIGIN):
+        raise fairing.MeshError(twisted)
+    assert refused.value.code == "NOT_ORIENTABLE"
+    assert "NOT_ORIENTABLE" not in str(refused.value)
+    assert refused.value.elements.tolist() == [20, 30, 60]
+
+
+def test_warnings_of_several_islands_are_one() -> None:
+    assert told(
+        diagnostic("FLIPPED_TRIANGLES", [0], "triangle", triangles=1.0),
+        diagnostic("SHARP_BOUNDARY", [0, 1], degrees=24.2, edges=1.0),
+        diagnostic("FLIPPED_TRIANGLES", [2, 3], "triangle", triangles=2.0),
+        diagnostic("NOT_CONVERGED", [0], free_vertices=5.0),
+        diagnostic("SHARP_BOUNDARY", [1, 2], degrees=30.8, edges=1.0),
+        diagnostic("PRECISION", [], spacing=1e-3, edge=1e-2),
+        diagnostic("NOT_CONVERGED", [2], free_vertices=70.0),
+        diagnostic("PRECISION", [], spacing=2e-3, edge=1e-2),
+    ) == (
+        "2 faces of the result are turned over (2 islands)",
+        "The normals along the outline turn by up to 31° from one vertex to the next; "
+        "a finer outline gives a more accurate surface (2 islands)",
+        "2 islands, of 75 free vertices in all, did not converge; their positions are the best found",
+        "This far from the origin, coordinates can't be told apart finely enough: move the object nearer to it "
+        "(2 islands)",
+    )
+
+
+def test_cases_of_one_code_are_told_apart_by_their_figures() -> None:
+    """An island without a surface and one with half its bulge are two things to tell, so are kinds of bad faces."""
+    assert told(
+        diagnostic("NOT_CONVERGED", [0], free_vertices=70.0, load_share=0.5),
+        diagnostic("NOT_CONVERGED", [1], free_vertices=3.0),
+        diagnostic("NOT_CONVERGED", [2], free_vertices=61.0, load_share=0.75),
+        diagnostic("FLIPPED_TRIANGLES", [], "triangle"),
+    ) == (
+        "2 islands, of 131 free vertices in all, were solved with 75% of their bulge at most and keep that surface; "
+        "there may be none with more",
+        "An island of 3 free vertices did not converge; its positions are the best found",
+        "The inner fairness chosen turns faces over; even spacing was used",
+    )
+
+
+def test_islands_of_one_case_may_have_different_figures() -> None:
+    assert told(
+        diagnostic("FOLDED", [0, 1], "triangle", turned_over=2.0, free_vertices=8.0),
+        diagnostic("FOLDED", [3], "triangle", passing_through=1.0, free_vertices=8.0),
+    ) == ("The surface was found, but 2 faces can't be placed on it without folds (2 islands)",)
+
+
+def test_a_surface_with_folds_is_told_once() -> None:
+    """The engine gives two codes for it, for those who ask for either."""
+    assert told(
+        diagnostic("NOT_CONVERGED", [0], free_vertices=8.0, folds=2.0),
+        diagnostic("FOLDED", [0, 1], "triangle", turned_over=2.0, free_vertices=8.0),
+    ) == ("The surface was found, but 2 faces can't be placed on it without folds",)
+
+
+@pytest.mark.parametrize("even", [True, False])
+def test_a_patch_knows_the_faces_of_its_triangles(even: bool) -> None:
+    """Each triangle's corners are corners of its face, and each face of the patch has its area."""
+    mesh = grid(6, 0.7)
+    patch = make_patch(mesh, even)
+    corners = mesh.corner_vertices.reshape(-1, 4)
+    assert np.array_equal(np.unique(patch.faces), np.flatnonzero(mesh.in_patch))
+    for triangle, face in zip(patch.vertices[patch.triangles], patch.faces, strict=True):
+        assert set(triangle) < set(corners[face])
+
+
+def test_counted() -> None:
+    assert [counted(n, "face", "faces") for n in (0, 1, 2)] == ["0 faces", "1 face", "2 faces"]
+
+
+def test_no_sentence_speaks_of_the_engine() -> None:
+    texts = " ".join(text for cases in WORDS.values() for words in cases for text in (words.one, words.many))
+    assert not re.search(r"triang|compon|fixed_normals|fixed,|load\b", texts)
