@@ -163,9 +163,9 @@ Diagnostics failures_of(const Patch& patch, const Solution& solution, Terminatio
     reason.figures["free_vertices"] = patch.free_count;
     const std::string text =
         "a component of " + counted(at(patch.free_count), "free vertex ", "free vertices ") + reason.text;
-    Figures not_converged = folds ? Figures{{"free_vertices", patch.free_count},
-                                            {"folds", size_of(solution.bad_triangles)}}
-                                  : reason.figures;
+    Figures not_converged =
+        folds ? Figures{{"free_vertices", patch.free_count}, {"folds", size_of(solution.bad_triangles)}}
+              : reason.figures;
     Diagnostics result{{Code::not_converged, text, Indices(free_vertices(patch).begin(), free_vertices(patch).end()),
                         ElementKind::vertex, std::move(not_converged)}};
     if (folds) {

@@ -15,7 +15,7 @@ namespace {
 std::optional<Solution> solve_uniformly(const Problem& even, const Progress& progress) {
     std::optional<Solution> solution;
     if (is_large(even)) solution = solve_nested(even, progress);
-    if (!solution) solution = directly.solve(even, {}, progress);
+    if (!solution) solution = directly().solve(even, {}, progress);
     if (flaw_of(even, *solution) != Flaw::absent) return std::nullopt;
     return solution;
 }

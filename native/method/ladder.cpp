@@ -59,7 +59,9 @@ bool is_folded(const Situation& situation) {
 }  // namespace
 
 Solution solve_global(const Problem& problem, const Progress& progress) {
-    static const std::array<Way, 9> ways{{
+    const Way direct = directly();
+    const Way proxy = on_proxy();
+    const std::array<Way, 9> ways{{
         {"minimal", [](const Problem& p, const Situation&) { return is_minimal(p); },
          [](const Problem& p, const Situation&, const Progress& part) { return Found(solve_directly(p, part)); }, 0.0,
          1.0},
@@ -70,9 +72,9 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
          [](const Problem& p, const Situation&, const Progress& part) { return solve_nested(p, part); }, 0.0, 1.0},
         {"even", [](const Problem& p, const Situation& s) { return takes_even(p, s) && is_large(p); }, evenly, 0.0,
          0.3},
-        {directly.name, takes_direct, directly.solve, directly.begin, directly.end},
-        {on_proxy.name, [](const Problem& p, const Situation&) { return is_fourth_order(p); }, on_proxy.solve,
-         on_proxy.begin, on_proxy.end},
+        {direct.name, takes_direct, direct.solve, direct.begin, direct.end},
+        {proxy.name, [](const Problem& p, const Situation&) { return is_fourth_order(p); }, proxy.solve, proxy.begin,
+         proxy.end},
         {"patient", takes_patience,
          [](const Problem& p, const Situation&, const Progress& part) { return Found(solve_directly(p, part)); }, 0.8,
          0.9},

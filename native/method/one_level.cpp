@@ -17,25 +17,28 @@ std::optional<OwnSurface> guess_from(const Situation& situation) {
 
 }  // namespace
 
-const Way directly{"direct", [](const Problem&, const Situation&) { return true; },
-                   [](const Problem& problem, const Situation&, const Progress& progress) {
-                       return std::optional(try_directly(problem, progress));
-                   },
-                   0.3, 0.5};
+Way directly() {
+    return {"direct", [](const Problem&, const Situation&) { return true; },
+            [](const Problem& problem, const Situation&, const Progress& progress) {
+                return std::optional(try_directly(problem, progress));
+            },
+            0.3, 0.5};
+}
 
-const Way on_proxy{"proxy", [](const Problem&, const Situation&) { return true; },
-                   [](const Problem& problem, const Situation& situation, const Progress& progress) {
-                       return std::optional(solve_on_proxy(problem, guess_from(situation), progress));
-                   },
-                   0.5, 0.9};
+Way on_proxy() {
+    return {"proxy", [](const Problem&, const Situation&) { return true; },
+            [](const Problem& problem, const Situation& situation, const Progress& progress) {
+                return std::optional(solve_on_proxy(problem, guess_from(situation), progress));
+            },
+            0.5, 0.9};
+}
 
 Solution solve_on_one_level(const Problem& problem, const Progress& progress) {
-    static const std::array ways{directly, on_proxy};
-    return run_ways(ways, problem, progress);
+    return run_ways(std::array{directly(), on_proxy()}, problem, progress);
 }
 
 Solution solve_on_own_mesh(const Problem& problem, const Progress& progress) {
-    return run_ways(std::span(&directly, 1), problem, progress);
+    return run_ways(std::array{directly()}, problem, progress);
 }
 
 }  // namespace fairing

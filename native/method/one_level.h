@@ -12,7 +12,7 @@ Solution solve_on_one_level(const Problem& problem, const Progress& progress);
 Solution solve_on_own_mesh(const Problem& problem, const Progress& progress);
 
 // The same ways for a table of more.
-extern const Way directly;
-extern const Way on_proxy;
+Way directly();
+Way on_proxy();
 
 }  // namespace fairing

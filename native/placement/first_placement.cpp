@@ -25,8 +25,10 @@ public:
 
     // Breadth first: every vertex has a path to the outline.
     std::vector<SurfacePoint> run() {
-        for (std::size_t k = 0; k < placed_.size(); ++k) {
-            for (const int v : patch_.ring(placed_[k]).vertices) {
+        std::size_t next = 0;
+        while (next < placed_.size()) {
+            const int from = placed_[next++];
+            for (const int v : patch_.ring(from).vertices) {
                 if (where_[at(v)].triangle == none) place(v, best_walk(v));
             }
         }

@@ -161,7 +161,7 @@ private:
         for (const auto& [k, sign] : {std::pair(pair.i, -1.0), std::pair(pair.j, 1.0)}) {
             const Vector3 n = n_.col(k);
             const Frame frame(n);
-            row[3 * k] = sign * (scale(pair) * sum.dot(n) + per_length * pair.along.dot(n));
+            row[3L * k] = sign * (scale(pair) * sum.dot(n) + per_length * pair.along.dot(n));
             row[3 * k + 1] = scale(pair) * pair.along.dot(frame.u);
             row[3 * k + 2] = scale(pair) * pair.along.dot(frame.v);
         }
@@ -174,10 +174,10 @@ private:
         const double square = std::max(pair.in_plane.squaredNorm(), flattest * flattest * pair.length * pair.length);
         const Eigen::Vector2d turn = Eigen::Vector2d(-pair.in_plane[1], pair.in_plane[0]) / square;
         for (const auto& [k, sign] : {std::pair(pair.i, -1.0), std::pair(pair.j, 1.0)}) {
-            row[3 * k] = sign * (turn[0] * e1_.dot(n_.col(k)) + turn[1] * e2_.dot(n_.col(k)));
+            row[3L * k] = sign * (turn[0] * e1_.dot(n_.col(k)) + turn[1] * e2_.dot(n_.col(k)));
         }
         if (pair.across == 0.0) return row;
-        for (int k = 0; k < 3; ++k) row[3 * k] -= pair.across * turn.dot(tilt_by_height(k)) * normal_.dot(n_.col(k));
+        for (int k = 0; k < 3; ++k) row[3L * k] -= pair.across * turn.dot(tilt_by_height(k)) * normal_.dot(n_.col(k));
         return row;
     }
 
@@ -192,7 +192,7 @@ private:
         ElementVector result = ElementVector::Zero();
         for (int k = 0; k < 3; ++k) {
             const Vector3 opposite = x_.col((k + 2) % 3) - x_.col((k + 1) % 3);
-            result[3 * k] = 0.5 * normal_.cross(opposite).dot(n_.col(k));
+            result[3L * k] = 0.5 * normal_.cross(opposite).dot(n_.col(k));
         }
         return result;
     }
@@ -205,10 +205,10 @@ private:
             const double cotangent = (x_.col(i) - x_.col(k)).dot(x_.col(j) - x_.col(k)) / (2.0 * area_);
             const double weight = 0.5 * factor * std::max(0.0, cotangent);
             const double turned = weight * n_.col(i).dot(n_.col(j));
-            hessian(3 * i, 3 * i) += weight;
-            hessian(3 * j, 3 * j) += weight;
-            hessian(3 * i, 3 * j) -= turned;
-            hessian(3 * j, 3 * i) -= turned;
+            hessian(3L * i, 3L * i) += weight;
+            hessian(3L * j, 3L * j) += weight;
+            hessian(3L * i, 3L * j) -= turned;
+            hessian(3L * j, 3L * i) -= turned;
         }
     }
 
@@ -219,10 +219,10 @@ private:
             const Vector3 n = n_.col(other);
             const double u = sign * factor * frame.u.dot(n);
             const double v = sign * factor * frame.v.dot(n);
-            hessian(3 * k + 1, 3 * other) += u;
-            hessian(3 * other, 3 * k + 1) += u;
-            hessian(3 * k + 2, 3 * other) += v;
-            hessian(3 * other, 3 * k + 2) += v;
+            hessian(3L * k + 1, 3L * other) += u;
+            hessian(3L * other, 3L * k + 1) += u;
+            hessian(3L * k + 2, 3L * other) += v;
+            hessian(3L * other, 3L * k + 2) += v;
             const double shortened = factor * n_.col(k).dot(pair.along);
             hessian(3 * k + 1, 3 * k + 1) -= shortened;
             hessian(3 * k + 2, 3 * k + 2) -= shortened;

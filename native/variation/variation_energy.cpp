@@ -95,7 +95,7 @@ void VariationEnergy::add_elements(const Sheet& sheet, const ElementSums& factor
 
 void VariationEnergy::add(const ElementTerms& terms, int element, QuadraticModel& model) const {
     const Stencil& stencil = stencils_[at(element)];
-    std::array<int, 3 * stencil_size> unknown{};
+    std::array<int, 3UL * stencil_size> unknown{};
     for (int k = 0; k < 3 * stencil_size; ++k) {
         const int vertex = stencil[at(k / 3)];
         unknown[at(k)] = vertex == none ? none : unknowns_.of(vertex, k % 3);

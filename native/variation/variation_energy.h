@@ -41,7 +41,7 @@ public:
     [[nodiscard]] const Patch& patch() const { return problem_.patch; }
 
 private:
-    using Blocks = std::array<int, stencil_size * stencil_size>;
+    using Blocks = std::array<int, std::size_t{stencil_size} * stencil_size>;
 
     [[nodiscard]] ElementSums sums(const Sheet& sheet) const;
     [[nodiscard]] double merit_of(const ElementSums& sums, const Sheet& sheet) const;
