@@ -37,6 +37,7 @@ _GERMAN = {
     "Harmonic": "Harmonisch",
     "Minimal Energy": "Kleinste Energie",
     "Soap Film": "Seifenhaut",
+    "Even Curvature": "Gleichmäßige Krümmung",
     "Even": "Gleichmäßig",
     "Keep Texture": "Textur erhalten",
     "Keep Spacing": "Abstände erhalten",

@@ -23,6 +23,11 @@ _EQUATIONS = (
         "Soap Film",
         "Least area: meets the outline in position only, with a crease",
     ),
+    (
+        "LEAST_VARIATION",
+        "Even Curvature",
+        "Curvature changes as little as it can. For tubes, elbows and limbs that Harmonic inflates. Slower",
+    ),
 )
 _INNER_FAIRNESS = (
     ("UNIFORM", "Even", "Vertices spread evenly over the surface. Best topology, but textures slide"),

@@ -117,7 +117,7 @@ def test_a_surface_with_folds_is_told_once() -> None:
     assert told(
         diagnostic("NOT_CONVERGED", [0], free_vertices=8.0, folds=2.0),
         diagnostic("FOLDED", [0, 1], "triangle", turned_over=2.0, free_vertices=8.0),
-    ) == ("The surface was found, but 2 faces can't be placed on it without folds",)
+    ) == ("The surface was found, but 1 face can't be placed on it without folds",)
 
 
 @pytest.mark.parametrize("even", [True, False])

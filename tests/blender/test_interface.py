@@ -27,7 +27,7 @@ DEFAULTS = {
     "pin_edges": "NONE",
 }
 CHOICES = {
-    "equation": ["HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL"],
+    "equation": ["HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION"],
     "inner_fairness": ["UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING"],
     "boundary_normals": ["SURROUNDING", "AVERAGE", "CUSTOM"],
     "method": ["GLOBAL", "PAPER"],

@@ -50,6 +50,20 @@ def test_hemisphere_from_its_surroundings(rim: int) -> None:
     assert meshes.report().boundary_angle < 1.0
 
 
+def test_hemisphere_by_even_curvature() -> None:
+    """A sphere has no variation of curvature: the other equation gives it back, too; the paper's method refuses it."""
+    obj = meshes.sphere(48)
+    upper = upper_half(obj)
+    spoil(obj, upper)
+    before = meshes.positions(obj)
+    with pytest.raises(RuntimeError, match="paper"):
+        meshes.fair(obj, upper, equation="LEAST_VARIATION", method="PAPER")
+    assert np.array_equal(meshes.positions(obj), before)
+    assert meshes.fair(obj, upper, equation="LEAST_VARIATION") == {"FINISHED"}
+    assert off_sphere(meshes.positions(obj)) < BOUND[48]
+    assert meshes.report().converged
+
+
 def test_result_does_not_depend_on_the_interior() -> None:
     results = []
     for seed in (1, 2):
