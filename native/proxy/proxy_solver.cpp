@@ -50,18 +50,6 @@ Solution solve_patiently(const Problem& problem, Workspace& work, const Points& 
     return damped.termination == Termination::converged ? damped : solution;
 }
 
-double mean_outline_edge(const Problem& problem) {
-    const auto place = [&](int v) { return problem.fixed_points.col(v - problem.patch.free_count); };
-    double sum = 0.0;
-    std::size_t count = 0;
-    for (const Indices& loop : problem.patch.loops()) {
-        for (std::size_t k = 0; k < loop.size(); ++k)
-            sum += (place(loop[k]) - place(loop[(k + 1) % loop.size()])).norm();
-        count += loop.size();
-    }
-    return count > 0 ? sum / static_cast<double>(count) : 0.0;
-}
-
 class ProxySolve {
 public:
     ProxySolve(const Problem& problem, const Progress& progress)
@@ -192,6 +180,18 @@ private:
 };
 
 }  // namespace
+
+double mean_outline_edge(const Problem& problem) {
+    const auto place = [&](int v) { return problem.fixed_points.col(v - problem.patch.free_count); };
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const Indices& loop : problem.patch.loops()) {
+        for (std::size_t k = 0; k < loop.size(); ++k)
+            sum += (place(loop[k]) - place(loop[(k + 1) % loop.size()])).norm();
+        count += loop.size();
+    }
+    return count > 0 ? sum / static_cast<double>(count) : 0.0;
+}
 
 SolvedProxy solve_proxy(const Problem& problem, const std::optional<Points>& guess, const Points& membrane,
                         const Progress& progress) {

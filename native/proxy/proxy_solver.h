@@ -24,6 +24,9 @@ struct SolvedProxy {
 SolvedProxy solve_proxy(const Problem& problem, const std::optional<Points>& guess, const Points& membrane,
                         const Progress& progress);
 
+// Mean length of the outlines' edges; 0 without any.
+double mean_outline_edge(const Problem& problem);
+
 // The membrane of the outline by uniform weights, 3 × vertices of the problem's patch.
 Points proxy_membrane(const Problem& problem, const Progress& progress);
 

@@ -8,6 +8,7 @@
 #include "geometry/self_intersection.h"
 #include "geometry/surface_fit.h"
 #include "placement/place.h"
+#include "proxy/proxy_solver.h"
 #include "solver/biharmonic_operator.h"
 #include "solver/globalisation.h"
 #include "solver/surface_state.h"
@@ -41,18 +42,6 @@ constexpr std::array beginnings{Beginning{1.4, 1e-3}, Beginning{1.0, 1e-3}, Begi
 Workspace make_workspace(const Problem& problem, const Progress& progress) {
     return {std::make_unique<BiharmonicOperator>(problem.patch),
             make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress)};
-}
-
-double mean_outline_edge(const Problem& problem) {
-    const auto place = [&](int v) { return problem.fixed_points.col(v - problem.patch.free_count); };
-    double sum = 0.0;
-    std::size_t count = 0;
-    for (const Indices& loop : problem.patch.loops()) {
-        for (std::size_t k = 0; k < loop.size(); ++k)
-            sum += (place(loop[k]) - place(loop[(k + 1) % loop.size()])).norm();
-        count += loop.size();
-    }
-    return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
 // A bulge that meets the outline's tangent planes, its collapsed tubes opened.
