@@ -77,9 +77,6 @@ public:
             SolvedProxy proxy = solve_fine(std::move(mesh), fine, converged);
             if (proxy.converged()) return proxy;
             if (!least_bent || proxy.energy < least_bent->energy) least_bent.emplace(std::move(proxy));
-            // Between several outlines that means that there is no surface: of 20 further tries on real patches none
-            // converged, and they took two thirds of the time.
-            if (!converged && problem_.patch.loop_count() > 1) break;
         }
         return std::move(*least_bent);
     }
