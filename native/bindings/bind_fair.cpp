@@ -1,52 +1,14 @@
 #include <atomic>
-#include <exception>
 
 #include "api/fair_solver.h"
 #include "base/errors.h"
-#include "bindings/convert.h"
+#include "bindings/python_progress.h"
 #include "bindings/topics.h"
 #include "bindings/words.h"
 
 namespace fairing::bindings {
 
 namespace {
-
-// Calls back into Python with the GIL held. A Python exception (KeyboardInterrupt included) travels as a Cancelled
-// through the engine and is rethrown by the caller, so that it is never destroyed without the GIL.
-class PythonProgress {
-public:
-    explicit PythonProgress(py::object callback) : callback_(std::move(callback)) {}
-
-    bool operator()(double fraction, std::string_view stage) {
-        const py::gil_scoped_acquire gil;
-        try {
-            if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-            if (callback_.is_none()) return true;
-            return goes_on(callback_(fraction, py::str(stage.data(), stage.size())));
-        } catch (...) {
-            failure_ = std::current_exception();
-            return false;
-        }
-    }
-
-    [[nodiscard]] const std::exception_ptr& failure() const { return failure_; }
-
-private:
-    // A callback that returns its fraction would cancel at 0: truth is asked of nothing but booleans, NumPy's included.
-    static bool goes_on(const py::object& answer) {
-        if (answer.is_none()) return true;
-        py::detail::make_caster<bool> boolean;
-        constexpr bool convert = false;
-        if (!boolean.load(answer, convert)) {
-            throw py::type_error("progress: the callback returned " + std::string(py::repr(answer)) +
-                                 "; False cancels, None or True goes on");
-        }
-        return py::detail::cast_op<bool>(boolean);
-    }
-
-    py::object callback_;
-    std::exception_ptr failure_;
-};
 
 py::dict to_dict(const FairResult& result) {
     py::list warnings;
@@ -122,21 +84,6 @@ FairOptions to_fair_options(const Options& options, const PaperOptions& paper, c
     return result;
 }
 
-// Runs without the GIL; an exception of the callback comes out in place of the Cancelled that it became.
-template <typename Solve>
-py::dict solved(const py::object& callback, const Solve& solve) {
-    PythonProgress progress(callback);
-    FairResult result;
-    try {
-        const py::gil_scoped_release released;
-        result = solve(std::ref(progress));
-    } catch (const Cancelled&) {
-        if (progress.failure()) std::rethrow_exception(progress.failure());
-        throw;
-    }
-    return to_dict(result);
-}
-
 py::dict fair_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
                      const std::optional<DoubleArray>& fixed_normals, const std::optional<DoubleArray>& reference,
                      const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
@@ -145,7 +92,8 @@ py::dict fair_arrays(const DoubleArray& vertices, const IntArray& triangles, con
                           to_optional(fixed_normals, to_points)};
     const auto m0 = to_optional(reference, to_points);
     const FairOptions fair_options = to_fair_options(options, paper, {neighbours, weights});
-    return solved(callback, [&](const ProgressCallback& progress) { return fair(input, m0, fair_options, progress); });
+    return to_dict(without_gil(
+        callback, [&](const ProgressCallback& progress) { return fair(input, m0, fair_options, progress); }));
 }
 
 // fairing.Solver's engine. A second call while one is running (from another thread, or from `progress`) is refused.
@@ -169,9 +117,9 @@ public:
         Points points = to_points(vertices);
         auto normals = to_optional(fixed_normals, to_points);
         const auto m0 = to_optional(reference, to_points);
-        return solved(callback, [&](const ProgressCallback& progress) {
+        return to_dict(without_gil(callback, [&](const ProgressCallback& progress) {
             return solver_.solve(std::move(points), std::move(normals), m0, progress);
-        });
+        }));
     }
 
 private:

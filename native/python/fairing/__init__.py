@@ -2,6 +2,7 @@
 
 from fairing._core import __version__
 from fairing._fair import fair
+from fairing._fill import FillResult, RemeshResult, fill, remesh
 from fairing._growing import GrownOutline, grown_outline
 from fairing._hierarchy import hierarchy
 from fairing._measure import (
@@ -29,10 +30,12 @@ __all__ = [
     "Cancelled",
     "Diagnostic",
     "FairResult",
+    "FillResult",
     "GrownOutline",
     "MendedOutline",
     "MeshError",
     "PaperOptions",
+    "RemeshResult",
     "Solver",
     "SolverError",
     "SurroundingNormals",
@@ -43,10 +46,12 @@ __all__ = [
     "conformal_distortion",
     "cotan_laplacian",
     "fair",
+    "fill",
     "grown_outline",
     "hierarchy",
     "mean_curvature",
     "mend_outline",
+    "remesh",
     "surrounding_normals",
     "vertex_normals",
     "visible_join",
