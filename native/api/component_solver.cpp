@@ -11,6 +11,7 @@
 #include "geometry/surface_fit.h"
 #include "method/accept.h"
 #include "method/ladder.h"
+#include "method/near_start.h"
 
 namespace fairing {
 
@@ -84,7 +85,8 @@ ComponentAnswer ComponentSolver::solve(const ComponentData& data, const Progress
     read_reference(gather(data.reference, patch_.to_input), unit);
     answer.warnings.insert(answer.warnings.end(), reference_warnings_.begin(), reference_warnings_.end());
     answer.solution =
-        options().method == Method::paper ? solve_by_paper(answer.problem, progress) : solve_globally(answer, progress);
+        options().method == Method::paper ? solve_by_paper(answer.problem, progress)
+                                          : solve_globally(answer, data, progress);
     return answer;
 }
 
@@ -113,11 +115,24 @@ Solution ComponentSolver::solve_by_paper(const Problem& problem, const Progress&
     return solution;
 }
 
-Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Progress& progress) {
+// From the vertices given. Conformal weights of these very vertices leave them where they are within the surface.
+std::optional<Solution> ComponentSolver::solve_from_given(const ComponentAnswer& answer, const ComponentData& data,
+                                                          const Progress& progress) const {
+    if (options().start != Start::given || options().solver.equation == Equation::minimal ||
+        options().solver.equation == Equation::least_variation)
+        return std::nullopt;
+    const Points start = answer.unit.to_unit(gather(data.vertices, patch_.to_input));
+    const bool settled = options().inner_fairness == InnerFairness::conformal && reference_ == start;
+    return solve_near(answer.problem, {start, settled}, progress);
+}
+
+Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const ComponentData& data,
+                                         const Progress& progress) {
     Problem& problem = answer.problem;
     problem.weights = lambda_;
     problem.tolerated_folds = tolerated_folds();
     std::optional<Solution> near_last = keeps() ? warm_.solve(problem, progress) : std::nullopt;
+    if (!near_last) near_last = solve_from_given(answer, data, progress.range(0.0, 0.4));
     Solution solution = near_last ? std::move(*near_last) : solve_global(problem, progress);
     if (solution.even_weights) warn_of_even_weights(answer.warnings);
     if (!keeps()) return solution;

@@ -47,7 +47,10 @@ private:
     void read_reference(const Points& reference, const Normalisation& unit);
     [[nodiscard]] const FairOptions& options() const { return usable_ ? options_.asked : options_.uniform; }
     [[nodiscard]] Solution solve_by_paper(const Problem& problem, const Progress& progress) const;
-    [[nodiscard]] Solution solve_globally(ComponentAnswer& answer, const Progress& progress);
+    [[nodiscard]] std::optional<Solution> solve_from_given(const ComponentAnswer& answer, const ComponentData& data,
+                                                           const Progress& progress) const;
+    [[nodiscard]] Solution solve_globally(ComponentAnswer& answer, const ComponentData& data,
+                                          const Progress& progress);
     [[nodiscard]] std::size_t tolerated_folds() const;
 
     const Patch& patch_;

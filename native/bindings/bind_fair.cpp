@@ -44,6 +44,7 @@ struct Options {
     double tolerance;
     int max_iterations;
     int threads;
+    std::string start;
 };
 
 // Rows (i, j, λ).
@@ -74,6 +75,7 @@ FairOptions to_fair_options(const Options& options, const PaperOptions& paper, c
     result.solver.tolerance = options.tolerance;
     result.solver.max_iterations = options.max_iterations;
     result.threads = options.threads;
+    result.start = solve_start_words.value(options.start);
     result.solver.nested = paper.levels != 1;
     result.inner_fairness = fairness.weights ? InnerFairness::custom : fairness_words.value(options.inner_fairness);
     if (fairness.neighbours) {
@@ -185,10 +187,10 @@ py::dict all_words() {
 void bind_fair(py::module_& module) {
     module.attr("WORDS") = all_words();
     py::class_<Options>(module, "Options")
-        .def(py::init<std::string, double, double, std::string, std::string, std::string, double, int, int>(),
+        .def(py::init<std::string, double, double, std::string, std::string, std::string, double, int, int, std::string>(),
              py::kw_only(), py::arg("equation"), py::arg("load"), py::arg("bulge"), py::arg("inner_fairness"),
              py::arg("method"), py::arg("normals"), py::arg("tolerance"), py::arg("max_iterations"),
-             py::arg("threads"));
+             py::arg("threads"), py::arg("start"));
     bind_paper_options(module);
     py::class_<PythonSolver>(module, "Solver")
         .def(py::init<const IntArray&, const std::optional<IntArray>&, const std::optional<IntArray>&,

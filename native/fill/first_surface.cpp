@@ -1,9 +1,15 @@
 #include "fill/first_surface.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
+#include "fill/edge_lengths.h"
+#include "fill/even_mesh.h"
 #include "method/ladder.h"
+#include "method/near_start.h"
 #include "proxy/proxy_mesh.h"
+#include "solver/surface_state.h"
 
 namespace fairing {
 
@@ -26,14 +32,70 @@ Problem problem_on(const OpenOutline& outline, const Patch& patch, const SolverO
     return {patch, outline.points, outline.normals, uniform_weights(patch), options};
 }
 
+VectorX even_lengths(const Patch& patch, const Points& points) {
+    constexpr double even_count = 400.0;
+    constexpr double square_per_vertex = 1.1547;  // of the edge: 2/√3
+    FaceGeometry faces;
+    faces.update(points, patch.triangles);
+    return edge_lengths(patch, points, {std::sqrt(square_per_vertex * faces.areas.sum() / even_count), 0});
+}
+
+// Whether the mesh suits its surface: a dome that has grown from a flat mesh, or a tube that has opened, is stretched.
+bool is_even(const FirstSurface& surface) {
+    constexpr double longest = 3.0;  // of the wanted length; 2.4 on a hemisphere
+    const Points& points = surface.solution.points;
+    const VectorX lengths = even_lengths(surface.patch, points);
+    return std::all_of(surface.patch.edge_ends.begin(), surface.patch.edge_ends.end(), [&](const auto& ends) {
+        const auto [a, b] = ends;
+        return 2.0 * (points.col(a) - points.col(b)).norm() <= longest * (lengths[a] + lengths[b]);
+    });
+}
+
+// A mesh of some 400 vertices on the surface found, or more where the outline is fine.
+FirstSurface on_even_mesh(const OpenOutline& outline, const FirstSurface& last, const SolverOptions& options,
+                          const Progress& progress) {
+    const Points& points = last.solution.points;
+    const SurfaceState state = measured_surface(problem_on(outline, last.patch, options), points);
+    const TargetSurface surface(last.patch, points, state.normals);
+    const VectorX lengths = even_lengths(last.patch, points);
+    EvenMesh mesh(last.patch, points, surface, lengths);
+    mesh.make_even();
+    const EvenMesh::Result even = mesh.result();
+    PatchMembers members;
+    members.free_count = static_cast<int>(even.points.cols());
+    members.to_input.resize(at(members.free_count) + static_cast<std::size_t>(outline.points.cols()));
+    std::iota(members.to_input.begin(), members.to_input.end(), 0);
+    members.input_triangle.resize(static_cast<std::size_t>(even.triangles.cols()));
+    std::iota(members.input_triangle.begin(), members.input_triangle.end(), 0);
+    members.pin.assign(members.to_input.size(), 0);
+    members.triangles = even.triangles;
+    Patch patch(std::move(members));
+    const Problem problem = problem_on(outline, patch, options);
+    Points start(3, patch.vertex_count());
+    start << even.points, outline.points;
+    std::optional<Solution> solution = solve_near(problem, {std::move(start), true}, progress.range(0.0, 0.3));
+    if (!solution) solution = solve_global(problem, progress.range(0.3, 1.0));
+    return {std::move(patch), std::move(*solution)};
+}
+
 }  // namespace
 
 FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
+    constexpr int most_rounds = 4;
     ProxyMesh mesh(outline_patch(outline), outline.points);
     mesh.adapt(sizing);
     auto snapshot = mesh.snapshot();
-    Solution solution = solve_global(problem_on(outline, snapshot.patch, options), progress);
-    return {std::move(snapshot.patch), std::move(solution)};
+    Solution solution = solve_global(problem_on(outline, snapshot.patch, options), progress.range(0.0, 0.4));
+    FirstSurface result{std::move(snapshot.patch), std::move(solution)};
+    for (int round = 0; round < most_rounds; ++round) {
+        const bool converged = result.solution.termination == Termination::converged;
+        if (converged && result.solution.flaw == Flaw::absent && is_even(result)) break;
+        const double begin = 0.4 + 0.15 * round;
+        FirstSurface next = on_even_mesh(outline, result, options, progress.range(begin, begin + 0.15));
+        if (converged && next.solution.termination != Termination::converged) break;
+        result = std::move(next);
+    }
+    return result;
 }
 
 }  // namespace fairing

@@ -36,6 +36,7 @@ def fair(
     paper: PaperOptions | None = None,
     outline: str = "given",
     outside: npt.ArrayLike | None = None,
+    start: str = "outline",
 ) -> FairResult:
     """Replace the free vertices of a mesh by the fairest surface with the given boundary data.
 
@@ -103,6 +104,11 @@ def fair(
         Triangles around the patch, which stay: what "mended" and ``join`` look at. Triangles whose corners are all
         ``fixed`` count among them.
 
+    start : "outline" | "given"
+        "given": begin at the vertices given, which lie near the surface. Where the iteration does not find it from
+        there, within a few steps and without folds, the outline alone decides as always. For the harmonic equations
+        and "global"; where conformal weights are those of these same vertices, these move along the normals only.
+
     Returns
     -------
     FairResult
@@ -132,7 +138,7 @@ def fair(
     of_paper = _paper.engine_options(method, levels, paper)
     options = _options.engine_options(
         equation=equation, load=load, bulge=bulge, fairness=kind, method=method, normals=normals,
-        tolerance=tolerance, max_iterations=max_iterations, threads=threads,
+        tolerance=tolerance, max_iterations=max_iterations, threads=threads, start=start,
     )  # fmt: skip
     as_given = _mending.Boundary(points, fixed_list, given_normals)
     around = _mending.Surroundings.of(points, faces, fixed_list, outside)

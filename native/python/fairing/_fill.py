@@ -139,7 +139,7 @@ def fill(
     fine, _ = patch.remeshed(len(points), length, LEAST_COUNT, options, watch.part(0.2, 0.4))
     watch.lap("mesh")
     coarser = count < 0.9 * LEAST_COUNT * (1 if bridge else len(outline.loops))
-    report = fine.faired(around, options, watch.part(0.4, 0.9 if coarser else 1.0))
+    report = fine.faired("given", around, options, watch.part(0.4, 0.9 if coarser else 1.0))
     values = _report(report, len(points))
     if coarser:
         solved = _Patch(report.vertices, fine.triangles, outline.vertices, normals)
@@ -179,7 +179,7 @@ def remesh(
     _check_options(options, progress)
     watch = _Watch(progress)
     old = _Patch(points, faces, held, given_normals)
-    report = old.faired(outside, options, watch.part(0, 0.4))
+    report = old.faired("outline", outside, options, watch.part(0, 0.4))
     watch.lap("first")
     if given_normals is None:
         averaged = _core.vertex_normals(points, faces, "averaged")
@@ -190,7 +190,7 @@ def remesh(
     values = _report(report, len(points))
     added = len(new.vertices) - len(points)
     if added >= min(LEAST_COUNT, len(np.setdiff1d(faces, report.fixed))):
-        values = _report(new.faired(outside, options, watch.part(0.6, 1.0)), len(points))
+        values = _report(new.faired("given", outside, options, watch.part(0.6, 1.0)), len(points))
         values["triangles"] = new.triangles
     else:
         values.update(polished=False, **_placed(new, len(points)))
@@ -230,13 +230,16 @@ class _Patch:
         new = _Patch(placed, _read_only(triangles), self.fixed, self.normals)
         return new, (mesh["triangle"], mesh["weights"])
 
-    def faired(self, outside: Any, options: dict[str, Any], progress: _Progress | None) -> FairResult:
+    def faired(
+        self, start: str, outside: Any, options: dict[str, Any], progress: _Progress | None
+    ) -> FairResult:
         chosen = {"inner_fairness": "conformal", **options}
         if outside is not None and len(outside):
             chosen["outside"] = outside
         return fair(
-            self.vertices, self.triangles, fixed=self.fixed, fixed_normals=self.normals, progress=progress, **chosen
-        )
+            self.vertices, self.triangles, fixed=self.fixed, fixed_normals=self.normals, start=start,
+            progress=progress, **chosen,
+        )  # fmt: skip
 
 
 class _Watch:
@@ -260,11 +263,11 @@ class _Watch:
         return lambda fraction, stage: progress(begin + (end - begin) * fraction, stage)
 
 
-_OF_OUTLINE = ("fixed", "fixed_normals", "reference", "neighbours", "outline")
+_MADE_HERE = ("fixed", "fixed_normals", "reference", "neighbours", "outline", "start", "outside")
 
 
 def _check_options(options: dict[str, Any], progress: Any) -> None:
-    for name in (*_OF_OUTLINE, "outside"):
+    for name in _MADE_HERE:
         if name in options:
             raise ValueError(f"{name}: not accepted here; the mesh and its outline are made by this call")
     if options.get("equation") == "minimal":

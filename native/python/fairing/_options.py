@@ -16,6 +16,7 @@ NORMALS = _core.WORDS["normals"]
 EQUATIONS = _core.WORDS["equation"]
 INNER_FAIRNESS = _core.WORDS["inner_fairness"]
 OUTLINES = ("given", "mended")
+STARTS = ("outline", "given")
 
 
 def engine_options(
@@ -29,6 +30,7 @@ def engine_options(
     tolerance: Any,
     max_iterations: Any,
     threads: Any,
+    start: str = "outline",
 ) -> _core.Options:
     """Checks the options that both methods have; ``fairness`` is the engine's word for it."""
     _arguments.choice("normals", normals, NORMALS)
@@ -44,6 +46,7 @@ def engine_options(
         tolerance=_arguments.positive("tolerance", tolerance),
         max_iterations=_arguments.whole("max_iterations", max_iterations, 1),
         threads=_arguments.whole("threads", threads, 0),
+        start=_arguments.choice("start", start, STARTS),
     )
 
 
