@@ -6,6 +6,7 @@ import ast
 from pathlib import Path
 
 import pytest
+
 from draw_house import imports
 
 ADDON = Path(__file__).parents[2] / "addon"
