@@ -84,9 +84,8 @@ ComponentAnswer ComponentSolver::solve(const ComponentData& data, const Progress
     warn_of_precision(patch_, data.vertices, {unit.diameter, solver.tolerance}, answer.warnings);
     read_reference(gather(data.reference, patch_.to_input), unit);
     answer.warnings.insert(answer.warnings.end(), reference_warnings_.begin(), reference_warnings_.end());
-    answer.solution =
-        options().method == Method::paper ? solve_by_paper(answer.problem, progress)
-                                          : solve_globally(answer, data, progress);
+    answer.solution = options().method == Method::paper ? solve_by_paper(answer.problem, progress)
+                                                        : solve_globally(answer, data, progress);
     return answer;
 }
 
@@ -126,8 +125,7 @@ std::optional<Solution> ComponentSolver::solve_from_given(const ComponentAnswer&
     return solve_near(answer.problem, {start, settled}, progress);
 }
 
-Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const ComponentData& data,
-                                         const Progress& progress) {
+Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const ComponentData& data, const Progress& progress) {
     Problem& problem = answer.problem;
     problem.weights = lambda_;
     problem.tolerated_folds = tolerated_folds();

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "api/component.h"
+#include "base/progress.h"
 #include "method/warm_start.h"
+#include "problem/solution.h"
 
 namespace fairing {
 
@@ -49,8 +51,7 @@ private:
     [[nodiscard]] Solution solve_by_paper(const Problem& problem, const Progress& progress) const;
     [[nodiscard]] std::optional<Solution> solve_from_given(const ComponentAnswer& answer, const ComponentData& data,
                                                            const Progress& progress) const;
-    [[nodiscard]] Solution solve_globally(ComponentAnswer& answer, const ComponentData& data,
-                                          const Progress& progress);
+    [[nodiscard]] Solution solve_globally(ComponentAnswer& answer, const ComponentData& data, const Progress& progress);
     [[nodiscard]] std::size_t tolerated_folds() const;
 
     const Patch& patch_;

@@ -170,6 +170,7 @@ NewMesh remesh(const MeshInput& input, const WantedLengths& wanted, int threads,
         result.weights.col(k) = weights[static_cast<std::size_t>(k)];
         result.normals.col(k) = normals[static_cast<std::size_t>(k)];
     }
+    progress.report(1.0, "done");
     return result;
 }
 

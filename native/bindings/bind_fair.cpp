@@ -5,6 +5,7 @@
 #include "bindings/python_progress.h"
 #include "bindings/topics.h"
 #include "bindings/words.h"
+#include "problem/solution.h"
 
 namespace fairing::bindings {
 
@@ -187,10 +188,11 @@ py::dict all_words() {
 void bind_fair(py::module_& module) {
     module.attr("WORDS") = all_words();
     py::class_<Options>(module, "Options")
-        .def(py::init<std::string, double, double, std::string, std::string, std::string, double, int, int, std::string>(),
+        .def(py::init<std::string, double, double, std::string, std::string, std::string, double, int, int,
+                      std::string>(),
              py::kw_only(), py::arg("equation"), py::arg("load"), py::arg("bulge"), py::arg("inner_fairness"),
-             py::arg("method"), py::arg("normals"), py::arg("tolerance"), py::arg("max_iterations"),
-             py::arg("threads"), py::arg("start"));
+             py::arg("method"), py::arg("normals"), py::arg("tolerance"), py::arg("max_iterations"), py::arg("threads"),
+             py::arg("start"));
     bind_paper_options(module);
     py::class_<PythonSolver>(module, "Solver")
         .def(py::init<const IntArray&, const std::optional<IntArray>&, const std::optional<IntArray>&,

@@ -60,8 +60,8 @@ double expected_count_of(const DoubleArray& vertices, const IntArray& triangles,
 }  // namespace
 
 void bind_fill(py::module_& module) {
-    module.def("fill_loops", &fill_arrays, py::arg("vertices"), py::arg("loops"), py::arg("normals"),
-               py::arg("bridge"), py::arg("equation"), py::arg("progress"));
+    module.def("fill_loops", &fill_arrays, py::arg("vertices"), py::arg("loops"), py::arg("normals"), py::arg("bridge"),
+               py::arg("equation"), py::arg("progress"));
     module.def("remesh", &remesh_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("fixed_normals"), py::arg("wanted"), py::arg("threads"), py::arg("progress"));
     module.def("expected_count", &expected_count_of, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),

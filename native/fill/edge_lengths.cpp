@@ -7,13 +7,14 @@
 
 #include "base/progress.h"
 #include "geometry/face_geometry.h"
-#include "solver/laplace_operator.h"
+#include "operators/laplace_operator.h"
 
 namespace fairing {
 
 namespace {
 
-constexpr double growth = 0.5;  // of lengths by distance
+constexpr double even_growth = 0.5;   // of lengths by distance
+constexpr double steep_growth = 1.0;  // where the outline is so coarse that an even one gives too few vertices
 constexpr double shortest = 1e-12;
 
 // Mean length of the two border edges at each vertex of the border, zero elsewhere.
@@ -55,7 +56,7 @@ VectorX continued(const Patch& patch, const Points& points, const VectorX& borde
 }
 
 // Makes every length at most (or, with `sign` −1, at least) that of a neighbour plus (minus) `growth` times the way.
-void grade(const Patch& patch, const Points& points, double sign, VectorX& lengths) {
+void grade(const Patch& patch, const Points& points, double growth, double sign, VectorX& lengths) {
     using Entry = std::pair<double, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     for (int v = 0; v < patch.vertex_count(); ++v) queue.emplace(sign * lengths[v], v);
@@ -76,7 +77,7 @@ void grade(const Patch& patch, const Points& points, double sign, VectorX& lengt
 
 // The outline's edges are what they are: where they are longer than wanted, lengths shrink inwards, and the other way
 // round.
-VectorX graded(const Patch& patch, const Points& points, const VectorX& border, const VectorX& inside) {
+VectorX graded(const Patch& patch, const Points& points, double growth, const VectorX& border, const VectorX& inside) {
     VectorX lengths = inside;
     const auto hold = [&] {
         for (int v = 0; v < patch.vertex_count(); ++v) {
@@ -86,9 +87,9 @@ VectorX graded(const Patch& patch, const Points& points, const VectorX& border, 
     for (int v = 0; v < patch.vertex_count(); ++v) {
         if (border[v] > 0.0) lengths[v] = std::min(border[v], inside[v]);
     }
-    grade(patch, points, 1.0, lengths);
+    grade(patch, points, growth, 1.0, lengths);
     hold();
-    grade(patch, points, -1.0, lengths);
+    grade(patch, points, growth, -1.0, lengths);
     return lengths;
 }
 
@@ -108,16 +109,32 @@ double expected_count(const Patch& patch, const Points& points, const VectorX& l
 }
 
 VectorX edge_lengths(const Patch& patch, const Points& points, const WantedLengths& wanted) {
-    constexpr int most_rounds = 8;
+    constexpr int halvings = 12;
+    constexpr double smallest_scale = 1e-2;
     const VectorX border = border_lengths(patch, points);
-    VectorX inside = wanted.spacing > 0.0 ? VectorX(VectorX::Constant(patch.vertex_count(), wanted.spacing))
-                                          : continued(patch, points, border);
-    VectorX lengths = graded(patch, points, border, inside);
-    for (int round = 0; round < most_rounds; ++round) {
-        const double count = expected_count(patch, points, lengths);
-        if (!(count < 0.95 * wanted.least_count)) break;
-        inside *= std::sqrt(count / wanted.least_count);
-        lengths = graded(patch, points, border, inside);
+    const VectorX inside = wanted.spacing > 0.0 ? VectorX(VectorX::Constant(patch.vertex_count(), wanted.spacing))
+                                                : continued(patch, points, border);
+    VectorX lengths = graded(patch, points, even_growth, border, inside);
+    const auto suffices = [&](const VectorX& tried) {
+        return expected_count(patch, points, tried) >= wanted.least_count;
+    };
+    if (suffices(lengths)) return lengths;
+    for (const double growth : {even_growth, steep_growth}) {
+        double enough = smallest_scale;
+        double few = 1.0;
+        lengths = graded(patch, points, growth, border, enough * inside);
+        if (!suffices(lengths)) continue;
+        for (int k = 0; k < halvings; ++k) {
+            const double scale = std::sqrt(enough * few);
+            VectorX tried = graded(patch, points, growth, border, scale * inside);
+            if (suffices(tried)) {
+                enough = scale;
+                lengths = std::move(tried);
+            } else {
+                few = scale;
+            }
+        }
+        break;
     }
     return lengths;
 }

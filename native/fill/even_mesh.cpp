@@ -36,7 +36,7 @@ using ShortestFirst = std::priority_queue<QueuedEdge, std::vector<QueuedEdge>, s
 }  // namespace
 
 EvenMesh::EvenMesh(const Patch& patch, const Points& points, const TargetSurface& surface, const VectorX& lengths)
-    : patch_(patch), surface_(surface), lengths_(lengths), mesh_(surface_mesh(patch)) {
+    : patch_(patch), surface_(surface), lengths_(lengths), mesh_(surface_mesh(patch)), free_count_(patch.free_count) {
     mesh_.request_vertex_status();
     mesh_.request_edge_status();
     mesh_.request_face_status();
@@ -51,8 +51,7 @@ EvenMesh::EvenMesh(const Patch& patch, const Points& points, const TargetSurface
 
 double EvenMesh::relative_length(Edge e) const {
     const Halfedge h = mesh_.halfedge_handle(e, 0);
-    const double wanted =
-        wanted_[at(mesh_.from_vertex_handle(h).idx())] + wanted_[at(mesh_.to_vertex_handle(h).idx())];
+    const double wanted = wanted_[at(mesh_.from_vertex_handle(h).idx())] + wanted_[at(mesh_.to_vertex_handle(h).idx())];
     return 2.0 * mesh_.calc_edge_length(e) / wanted;
 }
 
@@ -89,6 +88,7 @@ EvenMesh::Vertex EvenMesh::split(Edge e) {
     const Vector3 middle = mesh_.calc_edge_midpoint(e);
     const Vertex v = mesh_.add_vertex(middle);
     mesh_.split(e, v);
+    ++free_count_;
     fixed_.push_back(0);
     where_.emplace_back();
     wanted_.push_back(0.0);
@@ -154,13 +154,14 @@ int EvenMesh::collapse_short() {
     };
     for (const Halfedge h : mesh_.halfedges()) push(h);
     int collapses = 0;
-    for (; !queue.empty(); queue.pop()) {
+    for (; !queue.empty() && free_count_ > 1; queue.pop()) {
         checkpoint();
         const Halfedge h(queue.top().second);
         if (mesh_.status(h).deleted() || relative_length(mesh_.edge_handle(h)) != queue.top().first) continue;
         if (!may_collapse(h)) continue;
         const Vertex kept = mesh_.to_vertex_handle(h);
         mesh_.collapse(h);
+        --free_count_;
         ++collapses;
         for (const Halfedge spoke : mesh_.voh_range(kept)) {
             push(spoke);
@@ -193,8 +194,7 @@ bool EvenMesh::is_delaunay(Edge e) const {
     const Halfedge h = mesh_.halfedge_handle(e, 0);
     const Vector3 a = point(mesh_.from_vertex_handle(h));
     const Vector3 b = point(mesh_.to_vertex_handle(h));
-    const double sum =
-        cotangent(point(apex(h)), a, b) + cotangent(point(apex(mesh_.halfedge_handle(e, 1))), a, b);
+    const double sum = cotangent(point(apex(h)), a, b) + cotangent(point(apex(mesh_.halfedge_handle(e, 1))), a, b);
     return !(sum < delaunay_slack);
 }
 
@@ -249,17 +249,6 @@ void EvenMesh::smooth(int sweeps) {
     }
 }
 
-// A lone triangle, or a fan without chords, has no vertex that could move.
-void EvenMesh::give_free_vertex() {
-    if (std::find(fixed_.begin(), fixed_.end(), 0) != fixed_.end()) return;
-    const SurfaceMesh::FaceHandle largest(0);
-    const Vertex v = mesh_.add_vertex(mesh_.calc_face_centroid(largest));
-    mesh_.split(largest, v);
-    fixed_.push_back(0);
-    where_.push_back({0, Vector3::Constant(1.0 / 3.0)});
-    wanted_.push_back(surface_.interpolate(lengths_, where_.back()));
-}
-
 void EvenMesh::make_even() {
     constexpr int most_rounds = 20;
     constexpr int settling_rounds = 4;
@@ -275,7 +264,6 @@ void EvenMesh::make_even() {
         flip_edges();
         if (20 * changes <= before) ++settled;
     }
-    give_free_vertex();
     smooth(3);
     flip_edges();
     split_chords();
@@ -291,8 +279,7 @@ EvenMesh::Result EvenMesh::result() const {
         result.where.push_back(where_[at(v.idx())]);
     }
     const int free_count = static_cast<int>(result.where.size());
-    for (int v = patch_.free_count; v < patch_.vertex_count(); ++v)
-        number[at(v)] = free_count + v - patch_.free_count;
+    for (int v = patch_.free_count; v < patch_.vertex_count(); ++v) number[at(v)] = free_count + v - patch_.free_count;
     result.points.resize(3, free_count);
     for (const Vertex v : mesh_.vertices()) {
         if (!fixed(v)) result.points.col(number[at(v.idx())]) = point(v);

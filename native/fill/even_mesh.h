@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/target_surface.h"
+#include "mesh/surface_mesh.h"
 
 namespace fairing {
 
@@ -9,7 +10,8 @@ namespace fairing {
 // other vertices come, go and slide on the surface until the edges are as long as wanted. Deterministic.
 class EvenMesh {
 public:
-    // `patch`, `points` and `surface` belong together; `lengths`: wanted at the patch's vertices. Keeps references.
+    // One free vertex at least is there, and stays. `patch`, `points` and `surface` belong together; `lengths`: wanted
+    // at the patch's vertices. Keeps references.
     EvenMesh(const Patch& patch, const Points& points, const TargetSurface& surface, const VectorX& lengths);
 
     // Splits, collapses, flips and smooths. Asks whether to stop.
@@ -39,7 +41,6 @@ private:
     int split_chords();
     int split_long();
     int collapse_short();
-    void give_free_vertex();
     [[nodiscard]] bool may_collapse(Halfedge h);
     [[nodiscard]] bool may_flip(Edge e) const;
     [[nodiscard]] bool is_delaunay(Edge e) const;
@@ -58,6 +59,7 @@ private:
     std::vector<char> fixed_;
     std::vector<SurfacePoint> where_;
     std::vector<double> wanted_;
+    int free_count_;
 };
 
 }  // namespace fairing

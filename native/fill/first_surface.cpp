@@ -8,8 +8,8 @@
 #include "fill/even_mesh.h"
 #include "method/ladder.h"
 #include "method/near_start.h"
+#include "problem/surface_state.h"
 #include "proxy/proxy_mesh.h"
-#include "solver/surface_state.h"
 
 namespace fairing {
 
@@ -17,15 +17,29 @@ namespace {
 
 constexpr Sizing sizing{0.5, 0.06, 20000};  // units of D
 
-Patch outline_patch(const OpenOutline& outline) {
+Patch made_patch(int free_count, Triangles triangles, Eigen::Index vertex_count) {
     PatchMembers members;
-    members.to_input.resize(static_cast<std::size_t>(outline.points.cols()));
+    members.free_count = free_count;
+    members.to_input.resize(static_cast<std::size_t>(vertex_count));
     std::iota(members.to_input.begin(), members.to_input.end(), 0);
-    members.input_triangle.resize(static_cast<std::size_t>(outline.triangles.cols()));
+    members.input_triangle.resize(static_cast<std::size_t>(triangles.cols()));
     std::iota(members.input_triangle.begin(), members.input_triangle.end(), 0);
     members.pin.assign(members.to_input.size(), 0);
-    members.triangles = outline.triangles;
+    members.triangles = std::move(triangles);
     return Patch(std::move(members));
+}
+
+// The triangulation. A lone triangle has no chord to split: it gets a vertex in its middle.
+ProxyMesh outline_mesh(const OpenOutline& outline) {
+    if (outline.triangles.cols() > 1) {
+        return {made_patch(0, outline.triangles, outline.points.cols()), outline.points};
+    }
+    const Eigen::Vector3i corners = outline.triangles.col(0) + Eigen::Vector3i::Ones();
+    Triangles fan(3, 3);
+    for (int k = 0; k < 3; ++k) fan.col(k) << corners[k], corners[(k + 1) % 3], 0;
+    Points points(3, outline.points.cols() + 1);
+    points << outline.points.rowwise().mean(), outline.points;
+    return {made_patch(1, std::move(fan), points.cols()), points};
 }
 
 Problem problem_on(const OpenOutline& outline, const Patch& patch, const SolverOptions& options) {
@@ -61,15 +75,8 @@ FirstSurface on_even_mesh(const OpenOutline& outline, const FirstSurface& last, 
     EvenMesh mesh(last.patch, points, surface, lengths);
     mesh.make_even();
     const EvenMesh::Result even = mesh.result();
-    PatchMembers members;
-    members.free_count = static_cast<int>(even.points.cols());
-    members.to_input.resize(at(members.free_count) + static_cast<std::size_t>(outline.points.cols()));
-    std::iota(members.to_input.begin(), members.to_input.end(), 0);
-    members.input_triangle.resize(static_cast<std::size_t>(even.triangles.cols()));
-    std::iota(members.input_triangle.begin(), members.input_triangle.end(), 0);
-    members.pin.assign(members.to_input.size(), 0);
-    members.triangles = even.triangles;
-    Patch patch(std::move(members));
+    Patch patch =
+        made_patch(static_cast<int>(even.points.cols()), even.triangles, even.points.cols() + outline.points.cols());
     const Problem problem = problem_on(outline, patch, options);
     Points start(3, patch.vertex_count());
     start << even.points, outline.points;
@@ -82,7 +89,7 @@ FirstSurface on_even_mesh(const OpenOutline& outline, const FirstSurface& last, 
 
 FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
     constexpr int most_rounds = 4;
-    ProxyMesh mesh(outline_patch(outline), outline.points);
+    ProxyMesh mesh = outline_mesh(outline);
     mesh.adapt(sizing);
     auto snapshot = mesh.snapshot();
     Solution solution = solve_global(problem_on(outline, snapshot.patch, options), progress.range(0.0, 0.4));

@@ -86,8 +86,7 @@ void cut(const Indices& polygon, const TriangleCost& cost, std::vector<Eigen::Ve
         coarse.push_back(polygon[at(kept[k])]);
         Indices between;
         const std::size_t end = k + 1 < kept.size() ? at(kept[k + 1]) : polygon.size() + at(kept[0]);
-        for (std::size_t place = at(kept[k]); place <= end; ++place)
-            between.push_back(polygon[place % polygon.size()]);
+        for (std::size_t place = at(kept[k]); place <= end; ++place) between.push_back(polygon[place % polygon.size()]);
         cut(between, cost, triangles);
     }
     cut(coarse, cost, triangles);

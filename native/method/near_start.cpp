@@ -5,8 +5,9 @@
 #include "base/errors.h"
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
+#include "iteration/continuation.h"
 #include "method/accept.h"
-#include "solver/continuation.h"
+#include "operators/workspace.h"
 
 namespace fairing {
 
@@ -42,8 +43,7 @@ std::optional<Solution> solve_near(const Problem& problem, const NearStart& star
     if (start.settled) {
         work.tangential = std::make_unique<NoStep>(free_points);
     } else {
-        work.tangential =
-            make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here());
+        work.tangential = make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here());
     }
     Solution solution;
     try {

@@ -230,9 +230,7 @@ class _Patch:
         new = _Patch(placed, _read_only(triangles), self.fixed, self.normals)
         return new, (mesh["triangle"], mesh["weights"])
 
-    def faired(
-        self, start: str, outside: Any, options: dict[str, Any], progress: _Progress | None
-    ) -> FairResult:
+    def faired(self, start: str, outside: Any, options: dict[str, Any], progress: _Progress | None) -> FairResult:
         chosen = {"inner_fairness": "conformal", **options}
         if outside is not None and len(outside):
             chosen["outside"] = outside
@@ -301,7 +299,8 @@ def _placed(patch: _Patch, old_count: int) -> dict[str, Any]:
 
 def _carried(values: FloatArray, triangles: IntArray, origin: _Origin) -> FloatArray:
     """(k,) values at vertices (n,), interpolated at places on triangles."""
-    return _read_only((values[triangles[origin[0]]] * origin[1]).sum(axis=1))
+    carried: FloatArray = _read_only((values[triangles[origin[0]]] * origin[1]).sum(axis=1))
+    return carried
 
 
 def _read_only(array: Any) -> Any:

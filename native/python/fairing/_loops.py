@@ -14,6 +14,7 @@ from fairing._measure import boundary_loops
 from fairing._outline import surrounding_normals
 from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
 
+
 @dataclass(frozen=True)
 class Outline:
     """Loops with the new surface on their left; ``turned`` are those that run against the caller's order."""
@@ -108,7 +109,8 @@ def loop_normals(normals: Any, outline: Outline, vertices: FloatArray, triangles
     if 2 * len(against) > len(where):
         text = f"normals: {len(against)} of {len(where)} point against the triangles around: turn them"
         _refuse("NORMALS_OPPOSE_WINDING", text, against)
-    return rows / size[:, None]
+    unit: FloatArray = rows / size[:, None]
+    return unit
 
 
 def _stacked(normals: Any, outline: int, count: int) -> FloatArray:
