@@ -38,6 +38,8 @@ _GERMAN = {
     "Minimal Energy": "Kleinste Energie",
     "Soap Film": "Seifenhaut",
     "Even Curvature": "Gleichmäßige Krümmung",
+    "Otherwise": "Sonst",
+    "Stop": "Anhalten",
     "Even": "Gleichmäßig",
     "Keep Texture": "Textur erhalten",
     "Keep Spacing": "Abstände erhalten",

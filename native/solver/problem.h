@@ -18,6 +18,9 @@ enum class Equation {
     least_variation,  // least variation of the normal curvatures with G1 boundary data (variation/least_variation.h)
 };
 
+// What is taken where the equation has no surface that is accepted (method/otherwise).
+enum class Otherwise { least_variation, stop };
+
 // `folded`: the surface was found, the vertices don't lie on it without folds.
 enum class Termination { converged, iteration_limit, stalled, folded };
 
@@ -35,6 +38,7 @@ enum class Flaw {
 
 struct SolverOptions {
     Equation equation = Equation::harmonic;
+    Otherwise otherwise = Otherwise::least_variation;
     double load = 0.0;  // of the constant equation, in units of D⁻³
     NormalKind normals = NormalKind::fitted;
     double tolerance = 1e-6;  // of the largest move in an iteration, in units of D
@@ -81,6 +85,8 @@ struct Solution {
     bool crosses = false;       // the surface passes through itself, whatever the mesh
     double first_step = 0.0;    // largest moves of the first and the last iteration, units of D
     double last_step = 0.0;
+    bool instead = false;          // of least variation, in place of the problem's equation
+    double variation_ratio = 0.0;  // of the bulb that it replaces, where it is one
     bool even_weights = false;  // uniform weights were taken instead of the problem's
 };
 

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import fairing
-from core.options import EQUATIONS, INNER_FAIRNESS, METHODS, FairOptions, option_names
+from core.options import EQUATIONS, INNER_FAIRNESS, METHODS, OTHERWISE, FairOptions, option_names
 from fairing import _core
 
 
@@ -19,6 +19,7 @@ from fairing import _core
     [
         {"equation": "harmonic"},
         {"inner_fairness": ""},
+        {"otherwise": "HARMONIC"},
         {"boundary_normals": "NONE"},
         {"method": "BOTH"},
         {"pin_edges": "ALL"},
@@ -45,7 +46,12 @@ def test_every_argument_for_the_engine_is_one_that_it_knows() -> None:
 def test_the_words_are_the_engines() -> None:
     """Every word of the engine's can be chosen, in its order; what the add-on leaves out is its default."""
     words = _core.WORDS
-    for option, choices in (("equation", EQUATIONS), ("inner_fairness", INNER_FAIRNESS), ("method", METHODS)):
+    for option, choices in (
+        ("equation", EQUATIONS),
+        ("otherwise", OTHERWISE),
+        ("inner_fairness", INNER_FAIRNESS),
+        ("method", METHODS),
+    ):
         assert tuple(choice.lower() for choice in choices) == words[option]
     defaults = {name: value.default for name, value in inspect.signature(fairing.fair).parameters.items()}
     given = FairOptions().engine_arguments()

@@ -65,7 +65,8 @@ def test_a_result_on_the_engines_own_mesh_says_so(sphere: Fairing) -> None:
 def test_curvature_inside_is_bounded_by_the_outlines(sphere: Fairing, inside: float, state: str) -> None:
     bulging = replace(sphere, curvature=(inside, 1.0))
     assert states(report(bulging))["Curvature inside"] == state
-    assert states(report(bulging, equation="CONSTANT", bulge=0.1))["Curvature inside"] == TOLD
+    other = replace(bulging, result=replace(sphere.result, equation="least_variation"))
+    assert states(report(other))["Curvature inside"] == TOLD
 
 
 @pytest.mark.parametrize(

@@ -190,7 +190,7 @@ def test_redo_panel_shows_every_option() -> None:
 
 
 ORDER = (
-    "factor", "equation", "bulge", "inner_fairness", "boundary_normals", "pin_group", "pin_edges",
+    "factor", "equation", "otherwise", "bulge", "inner_fairness", "boundary_normals", "pin_group", "pin_edges",
     "method", "levels", "tolerance", "max_iterations",
 )  # fmt: skip
 
