@@ -2,8 +2,10 @@
 #pragma once
 
 #include "api/component.h"
+#include "base/progress.h"
 #include "method/outline_move.h"
 #include "method/warm_start.h"
+#include "problem/solution.h"
 
 namespace fairing {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
-#include "solver/surface_state.h"
+#include "problem/surface_state.h"
 
 namespace fairing {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "solver/problem.h"
+#include "problem/problem.h"
 
 namespace fairing {
 
