@@ -10,6 +10,8 @@ INNER_FAIRNESS = ("UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING"
 BOUNDARY_NORMALS = ("SURROUNDING", "AVERAGE", "CUSTOM")
 METHODS = ("GLOBAL", "PAPER")
 PIN_EDGES = ("NONE", "SHARP", "SEAM", "CREASE")
+OUTLINES = ("GIVEN", "MENDED")
+ACCEPT = ("USABLE", "ALL")
 
 _CHOICES = {
     "equation": EQUATIONS,
@@ -17,6 +19,8 @@ _CHOICES = {
     "boundary_normals": BOUNDARY_NORMALS,
     "method": METHODS,
     "pin_edges": PIN_EDGES,
+    "outline": OUTLINES,
+    "accept": ACCEPT,
 }
 
 
@@ -35,6 +39,8 @@ class FairOptions:
     max_iterations: int = 200
     pin_group: str = ""  # name of a vertex group, empty for none
     pin_edges: str = "NONE"
+    outline: str = "GIVEN"  # MENDED: a noisy outline is smoothed first, with two rings around it
+    accept: str = "USABLE"  # ALL: written whatever it is worth
 
     def __post_init__(self) -> None:
         for name, choices in _CHOICES.items():

@@ -1,4 +1,4 @@
-"""Blender meshes to arrays and positions back; together with live_mesh all that touches bmesh."""
+"""Blender meshes to arrays and positions back; with live_mesh and selecting all that touches bmesh."""
 
 from __future__ import annotations
 
@@ -257,19 +257,6 @@ def _follows(block: bpy.types.ShapeKey, basis: bpy.types.ShapeKey) -> bool:
         if block == basis:
             return True
     return False
-
-
-def select_vertices(mesh: bpy.types.Mesh, vertices: Ints) -> None:
-    """Select exactly these vertices of a mesh in edit mode; nothing else about it changes."""
-    bm = bmesh.from_edit_mesh(mesh)
-    bm.select_mode = {"VERT"}
-    bm.verts.ensure_lookup_table()
-    for element in (*bm.faces, *bm.edges, *bm.verts):
-        element.select = False
-    for vertex in vertices.tolist():
-        bm.verts[vertex].select = True
-    bm.select_flush_mode()
-    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
 
 
 def write_attribute(mesh: bpy.types.Mesh, name: str, values: Floats) -> None:

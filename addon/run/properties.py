@@ -56,6 +56,18 @@ _METHODS = (
     ("GLOBAL", "Global", "The fast solver. The old shape inside the selection does not matter"),
     ("PAPER", "Multigrid", "The published iteration, step by step: slow, for comparison"),
 )
+_OUTLINES = (
+    ("GIVEN", "As Selected", "The outline stays where it is"),
+    (
+        "MENDED",
+        "Smooth",
+        "A noisy outline and two rings of faces around it are smoothed first, by a quarter of an edge at most",
+    ),
+)
+_ACCEPT = (
+    ("USABLE", "Usable Results", "A result that folds, crosses itself or is none leaves the mesh as it was"),
+    ("ALL", "All Results", "Whatever comes out is written"),
+)
 _PIN_EDGES = (
     ("NONE", "None", "No edge inside the selection is held"),
     ("SHARP", "Sharp", "The surface passes through edges marked sharp; closed loops of them divide it"),
@@ -135,4 +147,17 @@ class FairProperties:
         description="Marked edges that the surface passes through",
         items=_PIN_EDGES,
         default="NONE",
+    )
+    outline: EnumProperty(
+        name="Outline",
+        description="What is done about a noisy outline",
+        items=_OUTLINES,
+        default="GIVEN",
+    )
+    accept: EnumProperty(
+        name="Write",
+        description="Which results are written",
+        items=_ACCEPT,
+        default="USABLE",
+        options={"SKIP_SAVE"},
     )

@@ -4,7 +4,7 @@ from typing import Any
 
 import bpy
 
-_SOLVER = ("method", "levels", "tolerance", "max_iterations")
+_SOLVER = ("method", "levels", "tolerance", "max_iterations", "accept")
 
 
 def draw_options(layout: Any, options: Any, obj: bpy.types.Object) -> None:
@@ -38,6 +38,7 @@ def _draw_outline(group: Any, options: Any, obj: bpy.types.Object) -> None:
     row.prop(options, "boundary_normals")
     group.prop_search(options, "pin_group", obj, "vertex_groups")
     group.prop(options, "pin_edges")
+    group.prop(options, "outline")
 
 
 def _draw_solver(group: Any, options: Any) -> None:
