@@ -56,6 +56,9 @@ def register() -> None:
     bpy.types.WindowManager.fairing_progress = bpy.props.PointerProperty(type=FairProgress)
     bpy.types.WindowManager.fairing_overlay = bpy.props.PointerProperty(type=FairOverlay)
     bpy.types.WindowManager.fairing_live = bpy.props.PointerProperty(type=FairLive)
+    bpy.types.WindowManager.fairing_more = bpy.props.BoolProperty(
+        name="More", description="Show how exactly the surface is found, and which results are written"
+    )
     bpy.types.VIEW3D_MT_edit_mesh_faces.append(ui.draw_menu)
     bpy.types.VIEW3D_MT_edit_mesh_context_menu.append(ui.draw_context_menu)
     handlers.register()
@@ -85,6 +88,7 @@ def unregister() -> None:
     job.solvers.clear()
     bpy.types.VIEW3D_MT_edit_mesh_context_menu.remove(ui.draw_context_menu)
     bpy.types.VIEW3D_MT_edit_mesh_faces.remove(ui.draw_menu)
+    del bpy.types.WindowManager.fairing_more
     del bpy.types.WindowManager.fairing_live
     del bpy.types.WindowManager.fairing_overlay
     del bpy.types.WindowManager.fairing_progress

@@ -9,7 +9,7 @@ import fairing
 import measures
 import shapes
 from curves import FloatArray
-from meshing import IntArray
+from meshing import IntArray, face_normals
 from solving import codes, fair_patch
 
 CAP = shapes.cap(400)
@@ -66,8 +66,8 @@ def test_flipped_triangles_are_those_around_a_vertex_dragged_across_an_edge() ->
     triangle = next(t for t in patch.triangles if middle in t)
     opposite = vertices[triangle[triangle != middle]].mean(axis=0)
     vertices[middle] += 1.4 * (opposite - vertices[middle])
-    a, b, c = (vertices[column, :2] for column in patch.triangles.T)
-    turned = np.flatnonzero((b - a)[:, 0] * (c - a)[:, 1] < (b - a)[:, 1] * (c - a)[:, 0])
+    upwards = face_normals(patch.vertices, patch.triangles)[0]
+    turned = np.flatnonzero(face_normals(vertices, patch.triangles) @ upwards < 0.0)
     assert len(turned) > 0
     assert np.array_equal(fairing.flipped_triangles(vertices, patch.triangles, fixed=patch.fixed), turned)
 

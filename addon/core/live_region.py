@@ -75,6 +75,7 @@ class LiveRegion:
 
     def __init__(self, mesh: MeshArrays, matrix: Floats, options: FairOptions) -> None:
         """Prepare for the patch of `mesh`; raises ValueError where it can't be faired."""
+        options = options.resolved(mesh.textured)
         world = mesh.transformed(matrix)
         # Conformal weights belong to the shape that the region has now, and so do its triangles.
         patch = make_patch(world, even=options.inner_fairness != "CONFORMAL")

@@ -54,6 +54,7 @@ def solve(
     Raises fairing.MeshError (its `elements` are vertices of `mesh` here), ValueError,
     fairing.SolverError and fairing.Cancelled. `mesh` is never changed.
     """
+    options = options.resolved(mesh.textured)
     # Of two results for the same input the bits are the same, so that a former one is as good.
     key = digest(mesh, matrix, replace(options, factor=1.0, accept="ALL")) if kept is not None else ""
     solved = kept.results.get(key) if kept is not None else None
@@ -70,6 +71,7 @@ def solve(
 
 def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine.Problem, tuple[str, ...]]:
     """Return the patch with its boundary data in world space, and warnings."""
+    options = options.resolved(mesh.textured)
     # What is not finite outside the patch is none of our business, and the engine looks inside.
     with np.errstate(invalid="ignore", over="ignore"):
         world = mesh.transformed(matrix)

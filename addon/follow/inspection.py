@@ -55,7 +55,7 @@ def _inspect_task(task: job.Task, options: FairOptions) -> Inspection:
         return Inspection(task.object_name, faces, refusal=NO_FREE)
     try:
         problem, notes = pose(task.mesh, task.matrix, options)
-        engine.check(problem, options)
+        engine.check(problem, options.resolved(task.mesh.textured))
         islands = engine.islands(problem.patch)
     except engine.REFUSALS as cause:
         return Inspection(task.object_name, faces, task.free_count, refusal=str(cause))

@@ -163,6 +163,7 @@ def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: Fa
         in_patch=in_patch,
         pinned=np.zeros(len(mesh.vertices), dtype=bool),
         corner_normals=_corner_normals(mesh) if custom else None,
+        textured=_is_textured(mesh, in_patch[corner_faces]) if options.inner_fairness == "AUTOMATIC" else False,
     )
     return _pinned(arrays, mesh, group, options)
 
@@ -182,6 +183,15 @@ def _pinned(arrays: MeshArrays, mesh: bpy.types.Mesh, group: int | None, options
         f"The pin group {options.pin_group!r} has no vertex inside the selection with a weight above 0: it pins nothing"
     )
     return replace(arrays, pinned=pinned, notes=(note,))
+
+
+def _is_textured(mesh: bpy.types.Mesh, corners: Mask) -> bool:
+    """Tell whether the corners in the (c,) mask have places of their own on a UV map."""
+    layer = mesh.uv_layers.active
+    if layer is None or not corners.any():
+        return False
+    places = _column(layer.uv, "vector", 2, np.float32)[corners]
+    return bool((np.ptp(places, axis=0) > 0.0).all())
 
 
 def _corner_normals(mesh: bpy.types.Mesh) -> Floats:

@@ -68,7 +68,7 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Lay the options out in groups."""
-        draw_options(self.layout, self, context.object)
+        draw_options(self.layout, self, context.object, context.window_manager)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Fair every object in edit mode, or none of them where one is refused; return when done."""

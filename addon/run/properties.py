@@ -30,6 +30,7 @@ _EQUATIONS = (
     ),
 )
 _INNER_FAIRNESS = (
+    ("AUTOMATIC", "Automatic", "Keep Texture where the selection has a UV map, Even where it has none"),
     ("UNIFORM", "Even", "Vertices spread evenly over the surface. Best topology, but textures slide"),
     (
         "CONFORMAL",
@@ -104,10 +105,10 @@ class FairProperties:
         precision=2,
     )
     inner_fairness: EnumProperty(
-        name="Vertices",
+        name="Spread Vertices",
         description="How vertices spread over the surface. The surface itself stays the same",
         items=_INNER_FAIRNESS,
-        default="UNIFORM",
+        default="AUTOMATIC",
     )
     boundary_normals: EnumProperty(
         name="Tangent To",

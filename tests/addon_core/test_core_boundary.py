@@ -89,7 +89,7 @@ def test_what_is_not_finite_outside_is_left_out() -> None:
 
 
 def test_triangles_around_are_those_within_four_rings() -> None:
-    mesh = grid(20, 0.35)
+    mesh = grid(20, 0.3)
     patch = make_patch(mesh)
     outside = outside_triangles(mesh, patch)
     rim = np.abs(mesh.positions[patch.vertices]).max()
