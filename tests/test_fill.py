@@ -102,6 +102,19 @@ def test_holes_in_other_surfaces(place: Place, distance: Callable[[FloatArray], 
     assert result.boundary_angle.max() < 0.1
 
 
+def test_a_coarse_mesh_is_cut_from_a_fine_surface() -> None:
+    """A coarse mesh that is solved itself is 4e-5 D away."""
+    vertices, triangles = holes.sheet(saddle, (60, 60), holes.disc)
+    loop = min(fairing.boundary_loops(triangles), key=len)
+    rim = vertices[loop]
+    edge = np.linalg.norm(rim - np.roll(rim, 1, axis=0), axis=1).mean()
+    result = fairing.fill(vertices, triangles, [loop], spacing=8 * edge)
+    assert not result.polished
+    diameter = 2 * np.linalg.norm(rim - rim.mean(axis=0), axis=1).max()
+    away = radius(result.vertices) - np.cosh(result.vertices[:, 2])
+    assert abs(away).max() < 8e-6 * diameter
+
+
 @pytest.mark.parametrize(
     ("place", "distance"),
     [(tube, lambda p: radius(p) - 1), (catenoid, lambda p: radius(p) - np.cosh(p[:, 2]))],

@@ -18,9 +18,7 @@ def cap() -> shapes.Patch:
 
 def remeshed(patch: shapes.Patch, spacing: float = 0.0) -> fairing.RemeshResult:
     start = shapes.start_from_nothing(patch)
-    return fairing.remesh(
-        start, patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals, spacing=spacing
-    )
+    return fairing.remesh(start, patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals, spacing=spacing)
 
 
 def rim_edge(patch: shapes.Patch) -> float:

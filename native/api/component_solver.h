@@ -3,6 +3,7 @@
 
 #include "api/component.h"
 #include "base/progress.h"
+#include "method/outline_move.h"
 #include "method/warm_start.h"
 #include "problem/solution.h"
 
@@ -40,8 +41,11 @@ public:
     // Throws NO_BOUNDARY where the fixed vertices lie in one point, SolverError, Cancelled; what was kept stays usable.
     [[nodiscard]] ComponentAnswer solve(const ComponentData& data, const Progress& progress);
 
-    // λ is read off the reference again.
-    void options_changed() { given_reference_.resize(3, 0); }
+    // λ is read off the reference again, and the equation tried again.
+    void options_changed() {
+        given_reference_.resize(3, 0);
+        instead_.reset();
+    }
 
 private:
     // Whether a solve starts from its last answer.
@@ -52,6 +56,7 @@ private:
     [[nodiscard]] std::optional<Solution> solve_from_given(const ComponentAnswer& answer, const ComponentData& data,
                                                            const Progress& progress) const;
     [[nodiscard]] Solution solve_globally(ComponentAnswer& answer, const ComponentData& data, const Progress& progress);
+    [[nodiscard]] std::optional<Solution> solve_near_last(const Problem& problem, const Progress& progress);
     [[nodiscard]] std::size_t tolerated_folds() const;
 
     const Patch& patch_;
@@ -62,6 +67,7 @@ private:
     Diagnostics reference_warnings_;
     Lambda lambda_;
     WarmStart warm_;
+    std::optional<Outline> instead_;  // of the last answer, where it is of least variation instead
 };
 
 }  // namespace fairing

@@ -17,6 +17,10 @@ public:
     // Splits, collapses, flips and smooths. Asks whether to stop.
     void make_even();
 
+    // Splits the edges inside that join two fixed vertices, except where they cut a sharp corner off; returns how many.
+    // Such an edge would be another outline: a patch ends there.
+    int split_chords();
+
     // Vertices 0 … k − 1 are free, at these places; then come the patch's fixed vertices in their order.
     struct Result {
         std::vector<SurfacePoint> where;
@@ -38,7 +42,6 @@ private:
     [[nodiscard]] bool cuts_sharp_corner(Edge e) const;
     void put(Vertex v, const Vector3& position, int triangle);
     Vertex split(Edge e);
-    int split_chords();
     int split_long();
     int collapse_short();
     [[nodiscard]] bool may_collapse(Halfedge h);

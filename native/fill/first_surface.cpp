@@ -6,8 +6,8 @@
 
 #include "fill/edge_lengths.h"
 #include "fill/even_mesh.h"
-#include "method/ladder.h"
 #include "method/near_start.h"
+#include "method/otherwise.h"
 #include "problem/surface_state.h"
 #include "proxy/proxy_mesh.h"
 
@@ -42,6 +42,33 @@ ProxyMesh outline_mesh(const OpenOutline& outline) {
     return {made_patch(1, std::move(fan), points.cols()), points};
 }
 
+// A mesh whose first patch.free_count vertices are free.
+struct Meshed {
+    Patch patch;
+    Points points;
+};
+
+Meshed meshed(const EvenMesh& mesh, const Points& outline) {
+    EvenMesh::Result made = mesh.result();
+    Points points(3, made.points.cols() + outline.cols());
+    points << made.points, outline;
+    const int free_count = static_cast<int>(made.points.cols());
+    return {made_patch(free_count, std::move(made.triangles), points.cols()), std::move(points)};
+}
+
+// Coarse and flat, no two vertices of the outline joined across it.
+Meshed first_mesh(const OpenOutline& outline) {
+    ProxyMesh mesh = outline_mesh(outline);
+    mesh.adapt(sizing);
+    const auto snapshot = mesh.snapshot();
+    const Points flat = Points::Zero(3, snapshot.points.cols());
+    const TargetSurface surface(snapshot.patch, snapshot.points, flat);
+    const VectorX lengths = VectorX::Ones(snapshot.points.cols());
+    EvenMesh chordless(snapshot.patch, snapshot.points, surface, lengths);
+    chordless.split_chords();
+    return meshed(chordless, outline.points);
+}
+
 Problem problem_on(const OpenOutline& outline, const Patch& patch, const SolverOptions& options) {
     return {patch, outline.points, outline.normals, uniform_weights(patch), options};
 }
@@ -74,26 +101,20 @@ FirstSurface on_even_mesh(const OpenOutline& outline, const FirstSurface& last, 
     const VectorX lengths = even_lengths(last.patch, points);
     EvenMesh mesh(last.patch, points, surface, lengths);
     mesh.make_even();
-    const EvenMesh::Result even = mesh.result();
-    Patch patch =
-        made_patch(static_cast<int>(even.points.cols()), even.triangles, even.points.cols() + outline.points.cols());
-    const Problem problem = problem_on(outline, patch, options);
-    Points start(3, patch.vertex_count());
-    start << even.points, outline.points;
-    std::optional<Solution> solution = solve_near(problem, {std::move(start), true}, progress.range(0.0, 0.3));
-    if (!solution) solution = solve_global(problem, progress.range(0.3, 1.0));
-    return {std::move(patch), std::move(*solution)};
+    Meshed even = meshed(mesh, outline.points);
+    const Problem problem = problem_on(outline, even.patch, options);
+    std::optional<Solution> solution = solve_near(problem, {std::move(even.points), true}, progress.range(0.0, 0.3));
+    if (!solution) solution = solve_or_else(problem, progress.range(0.3, 1.0));
+    return {std::move(even.patch), std::move(*solution)};
 }
 
 }  // namespace
 
 FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
     constexpr int most_rounds = 4;
-    ProxyMesh mesh = outline_mesh(outline);
-    mesh.adapt(sizing);
-    auto snapshot = mesh.snapshot();
-    Solution solution = solve_global(problem_on(outline, snapshot.patch, options), progress.range(0.0, 0.4));
-    FirstSurface result{std::move(snapshot.patch), std::move(solution)};
+    Meshed first = first_mesh(outline);
+    Solution solution = solve_or_else(problem_on(outline, first.patch, options), progress.range(0.0, 0.4));
+    FirstSurface result{std::move(first.patch), std::move(solution)};
     for (int round = 0; round < most_rounds; ++round) {
         const bool converged = result.solution.termination == Termination::converged;
         if (converged && result.solution.flaw == Flaw::absent && is_even(result)) break;

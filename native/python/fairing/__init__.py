@@ -10,7 +10,9 @@ from fairing._measure import (
     components,
     conformal_distortion,
     cotan_laplacian,
+    flipped_triangles,
     mean_curvature,
+    self_intersections,
     vertex_normals,
 )
 from fairing._outline import (
@@ -47,11 +49,13 @@ __all__ = [
     "cotan_laplacian",
     "fair",
     "fill",
+    "flipped_triangles",
     "grown_outline",
     "hierarchy",
     "mean_curvature",
     "mend_outline",
     "remesh",
+    "self_intersections",
     "surrounding_normals",
     "vertex_normals",
     "visible_join",

@@ -44,6 +44,8 @@ class _NewMeshResult:
     """Whether the discrete equation holds on the new mesh. False, with ``converged``: the surface was solved on a finer
     mesh, and the new vertices lie on that surface."""
     termination: Literal["converged", "iteration_limit", "stalled", "folded"]
+    equation: str
+    """The equation that holds (see ``otherwise`` of :func:`fairing.fair`)."""
     iterations: int
     residual: float
     initial_residual: float
