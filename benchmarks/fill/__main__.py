@@ -17,8 +17,8 @@ from typing import Any
 
 import numpy as np
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "benchmarks/common")]
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import bridges
 
@@ -26,6 +26,8 @@ import fairing
 import holes
 import real_meshes
 from holes import FloatArray, IntArray
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def timed(vertices: FloatArray, triangles: IntArray, *loops: Any, **options: Any) -> tuple[fairing.FillResult, float]:
@@ -98,7 +100,7 @@ def joined() -> Iterator[str]:
 
 def real() -> Iterator[str]:
     """The patches of patches.json, deleted and filled; the holes that plane_holes has."""
-    yield "| hole | rim | new vertices | converged | angle, median | join > 12° | warnings | least angle | valence | s |"
+    yield "| hole | rim | new | converged | angle, median | join > 12° | warnings | least angle | valence | s |"
     for patch in real_meshes.listed_patches():
         loops = [patch.vertices_in_mesh[loop] for loop in fairing.boundary_loops(patch.triangles)]
         yield row(patch.name, patch.whole, patch.outside, loops, len(loops) > 1)
