@@ -86,7 +86,7 @@ public:
         std::map<std::string, double> seconds{{"hierarchy", watch.lap()}};
         progress_.report(begin, "hierarchy");
         const std::size_t coarsest = coarse_.size();
-        Solution solution = solve_coarsest(progress_.range(begin, done_after(coarsest)));
+        Solution solution = solve_on_own_mesh(coarsest_problem(), progress_.range(begin, done_after(coarsest)));
         seconds["coarsest"] = watch.lap();
         const double initial_residual = solution.initial_residual;
         solution = solution.flaw == Flaw::absent ? refined(std::move(solution)) : given_up(coarsest, solution.points);
@@ -99,12 +99,6 @@ public:
     }
 
 private:
-    [[nodiscard]] Solution solve_coarsest(const Progress& progress) const {
-        const Problem problem = coarsest_problem();
-        if (problem_.patch.free_count >= smallest_with_coarse_proxy) return solve_on_one_level(problem, progress);
-        return solve_on_own_mesh(problem, progress);
-    }
-
     // Fine to coarse; levels_[0] is the caller's.
     void make_levels(InnerWeights weights) {
         levels_.reserve(coarse_.size() + 1);

@@ -90,6 +90,14 @@ Placed place(const Problem& problem, const TangentialStep& tangential, const Own
     return std::move(placing).best();
 }
 
+Placed place_roughly(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
+                     const std::optional<Points>& guess, const Progress& progress) {
+    Placement placement = guess ? by_surface(problem, *guess, surface.mesh.patch, surface.target)
+                                : by_history(problem, surface.history, surface.mesh, surface.target);
+    settle(problem, tangential, surface.target, placement, progress.here());
+    return {std::move(placement), {}, 0};
+}
+
 Placed place_own(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
                  const Points& points, const Progress& progress) {
     const Placement start = at_vertices(problem, target, points);
