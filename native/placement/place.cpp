@@ -40,8 +40,11 @@ private:
         Indices folded = folds_of_placement(problem_, target_, placement);
         constexpr int most_rounds = 3;
         for (int round = 0; round < most_rounds && !folded.empty(); ++round) {
+            const std::size_t before = folded.size();
             untangle(problem_, target_, placement);
-            folded = relax_unfolded(placement);
+            folded = folds_of_placement(problem_, target_, placement);
+            if (folded.size() > few_folds && 2 * folded.size() > before) break;
+            folded = relax_unfolded(placement, std::move(folded));
         }
         const bool done = folded.empty();
         const double merit = tangential_.merit(placement.points, normals_at(placement, target_));
@@ -54,8 +57,7 @@ private:
     }
 
     // As even as the springs get without new folds; gives the folds.
-    Indices relax_unfolded(Placement& placement) const {
-        Indices before = folds_of_placement(problem_, target_, placement);
+    Indices relax_unfolded(Placement& placement, Indices before) const {
         Placement relaxed = placement;
         relax(problem_, tangential_, target_, relaxed, Folds::held_back);
         Indices after = folds_of_placement(problem_, target_, relaxed);
@@ -81,12 +83,10 @@ Placed place(const Problem& problem, const TangentialStep& tangential, const Own
     std::vector<Placement> starts;
     if (guess) starts.push_back(by_surface(problem, *guess, surface.mesh.patch, target));
     Placing placing(problem, tangential, target, progress);
-    if (!starts.empty() && placing.by_springs(starts.front())) return std::move(placing).best();
+    if (!starts.empty() && (placing.by_springs(starts.front()) || placing.as_it_is(starts.front())))
+        return std::move(placing).best();
     starts.push_back(by_history(problem, surface.history, surface.mesh, target));
-    if (placing.by_springs(starts.back())) return std::move(placing).best();
-    for (Placement& start : starts) {
-        if (placing.as_it_is(std::move(start))) break;
-    }
+    if (!placing.by_springs(starts.back())) placing.as_it_is(std::move(starts.back()));
     return std::move(placing).best();
 }
 
