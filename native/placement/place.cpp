@@ -18,17 +18,15 @@ public:
             const Progress& progress)
         : problem_(problem), tangential_(tangential), target_(target), progress_(progress) {}
 
-    // True where nothing is folded: no other way is needed.
-    bool by_springs(const Placement& start) {
+    // By the springs; where their folds stay, from where the start itself is. True where nothing is folded: no other
+    // start is needed.
+    bool from(const Placement& start) {
         Placement placement = start;
         settle(problem_, tangential_, target_, placement, progress_.here());
         const std::size_t folded = folds_of_placement(problem_, target_, placement).size();
         folded_by_springs_ = std::min(folded_by_springs_, folded);
-        return keep_untangled(std::move(placement));
+        return keep_untangled(std::move(placement)) || keep_untangled(start);
     }
-
-    // From where the start is, not from where the springs would take it.
-    bool as_it_is(Placement start) { return keep_untangled(std::move(start)); }
 
     [[nodiscard]] Placed best() && {
         best_->folded_by_springs = folded_by_springs_;
@@ -80,13 +78,9 @@ private:
 Placed place(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
              const std::optional<Points>& guess, const Progress& progress) {
     const TargetSurface& target = surface.target;
-    std::vector<Placement> starts;
-    if (guess) starts.push_back(by_surface(problem, *guess, surface.mesh.patch, target));
     Placing placing(problem, tangential, target, progress);
-    if (!starts.empty() && (placing.by_springs(starts.front()) || placing.as_it_is(starts.front())))
-        return std::move(placing).best();
-    starts.push_back(by_history(problem, surface.history, surface.mesh, target));
-    if (!placing.by_springs(starts.back())) placing.as_it_is(std::move(starts.back()));
+    if (!guess || !placing.from(by_surface(problem, *guess, surface.mesh.patch, target)))
+        placing.from(by_history(problem, surface.history, surface.mesh, target));
     return std::move(placing).best();
 }
 
@@ -100,9 +94,8 @@ Placed place_roughly(const Problem& problem, const TangentialStep& tangential, c
 
 Placed place_own(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
                  const Points& points, const Progress& progress) {
-    const Placement start = at_vertices(problem, target, points);
     Placing placing(problem, tangential, target, progress);
-    if (!placing.by_springs(start)) placing.as_it_is(start);
+    placing.from(at_vertices(problem, target, points));
     return std::move(placing).best();
 }
 
