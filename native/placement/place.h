@@ -35,7 +35,8 @@ Placed place(const Problem& problem, const TangentialStep& tangential, const Own
 Placed place_roughly(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
                      const std::optional<Points>& guess, const Progress& progress);
 
-// The same as place() from where the vertices of a surface of the problem's own patch are (3 × local vertices; the target's).
+// The same as place() from where the vertices of a surface of the problem's own patch are (3 × local vertices; the
+// target's).
 Placed place_own(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
                  const Points& points, const Progress& progress);
 
