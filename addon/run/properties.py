@@ -29,7 +29,16 @@ _EQUATIONS = (
         "Curvature changes as little as it can. For tubes, elbows and limbs that Harmonic inflates. Slower",
     ),
 )
+_OTHERWISE = (
+    (
+        "LEAST_VARIATION",
+        "Even Curvature",
+        "Where no surface of that shape fits the outlines, or only a bulb does, even curvature is used instead",
+    ),
+    ("STOP", "Stop", "Keeps the best surface of that shape that was found, bulbs too; the report says so"),
+)
 _INNER_FAIRNESS = (
+    ("AUTOMATIC", "Automatic", "Keep Texture where the selection has a UV map, Even where it has none"),
     ("UNIFORM", "Even", "Vertices spread evenly over the surface. Best topology, but textures slide"),
     (
         "CONFORMAL",
@@ -56,6 +65,18 @@ _METHODS = (
     ("GLOBAL", "Global", "The fast solver. The old shape inside the selection does not matter"),
     ("PAPER", "Multigrid", "The published iteration, step by step: slow, for comparison"),
 )
+_OUTLINES = (
+    ("GIVEN", "As Selected", "The outline stays where it is"),
+    (
+        "MENDED",
+        "Smooth",
+        "A noisy outline and two rings of faces around it are smoothed first, by a quarter of an edge at most",
+    ),
+)
+_ACCEPT = (
+    ("USABLE", "Usable Results", "A result that folds, crosses itself or is none leaves the mesh as it was"),
+    ("ALL", "All Results", "Whatever comes out is written"),
+)
 _PIN_EDGES = (
     ("NONE", "None", "No edge inside the selection is held"),
     ("SHARP", "Sharp", "The surface passes through edges marked sharp; closed loops of them divide it"),
@@ -81,6 +102,12 @@ class FairProperties:
         items=_EQUATIONS,
         default="HARMONIC",
     )
+    otherwise: EnumProperty(
+        name="Otherwise",
+        description="What to do where no surface of that shape fits the outlines",
+        items=_OTHERWISE,
+        default="LEAST_VARIATION",
+    )
     bulge: FloatProperty(
         name="Bulge",
         description="Lifts (above 0) or sinks the middle of each island, measured by the island's size: "
@@ -92,10 +119,10 @@ class FairProperties:
         precision=2,
     )
     inner_fairness: EnumProperty(
-        name="Vertices",
+        name="Spread Vertices",
         description="How vertices spread over the surface. The surface itself stays the same",
         items=_INNER_FAIRNESS,
-        default="UNIFORM",
+        default="AUTOMATIC",
     )
     boundary_normals: EnumProperty(
         name="Tangent To",
@@ -135,4 +162,17 @@ class FairProperties:
         description="Marked edges that the surface passes through",
         items=_PIN_EDGES,
         default="NONE",
+    )
+    outline: EnumProperty(
+        name="Outline",
+        description="What is done about a noisy outline",
+        items=_OUTLINES,
+        default="GIVEN",
+    )
+    accept: EnumProperty(
+        name="Write",
+        description="Which results are written",
+        items=_ACCEPT,
+        default="USABLE",
+        options={"SKIP_SAVE"},
     )
