@@ -3,6 +3,7 @@
 
 #include "api/component.h"
 #include "base/progress.h"
+#include "method/outline_move.h"
 #include "method/warm_start.h"
 #include "problem/solution.h"
 
@@ -40,8 +41,11 @@ public:
     // Throws NO_BOUNDARY where the fixed vertices lie in one point, SolverError, Cancelled; what was kept stays usable.
     [[nodiscard]] ComponentAnswer solve(const ComponentData& data, const Progress& progress);
 
-    // λ is read off the reference again.
-    void options_changed() { given_reference_.resize(3, 0); }
+    // λ is read off the reference again, and the equation tried again.
+    void options_changed() {
+        given_reference_.resize(3, 0);
+        instead_.reset();
+    }
 
 private:
     // Whether a solve starts from its last answer.
@@ -50,6 +54,7 @@ private:
     [[nodiscard]] const FairOptions& options() const { return usable_ ? options_.asked : options_.uniform; }
     [[nodiscard]] Solution solve_by_paper(const Problem& problem, const Progress& progress) const;
     [[nodiscard]] Solution solve_globally(ComponentAnswer& answer, const Progress& progress);
+    [[nodiscard]] std::optional<Solution> solve_near_last(const Problem& problem, const Progress& progress);
     [[nodiscard]] std::size_t tolerated_folds() const;
 
     const Patch& patch_;
@@ -60,6 +65,7 @@ private:
     Diagnostics reference_warnings_;
     Lambda lambda_;
     WarmStart warm_;
+    std::optional<Outline> instead_;  // of the last answer, where it is of least variation instead
 };
 
 }  // namespace fairing

@@ -23,6 +23,7 @@ struct FairOptions {
 };
 
 struct FairResult {
+    Equation equation = Equation::harmonic;  // that holds: least_variation where any component took it instead
     Points vertices;
     Indices fixed;
     VectorX mean_curvature;  // eq. 8: −1/R on a sphere with outward normals; the mean of the sides on cut curves
