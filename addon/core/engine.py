@@ -84,6 +84,27 @@ def suppress_cancel() -> Iterator[None]:
         return
 
 
+def bad_outline(problem: Problem) -> Ints:
+    """Return the mesh vertices of the outline whose surroundings say little about the surface."""
+    rim = np.intersect1d(problem.patch.outline, problem.outside)
+    return problem.vertices[fairing.bad_outline(problem.points, problem.outside, rim)]
+
+
+@dataclass(frozen=True)
+class Mended:
+    """An outline moved onto the fit of its surroundings."""
+
+    vertices: Ints  # (k,) of the mesh that move
+    points: Floats  # (k, 3) where to, in world space
+
+
+def mended_outline(problem: Problem) -> Mended:
+    """Return where the outline and the two rings around it go, as far as it is noisy."""
+    rim = np.intersect1d(problem.patch.outline, problem.outside)
+    mended = fairing.mend_outline(problem.points, problem.outside, rim)
+    return Mended(problem.vertices[mended.moved], mended.vertices[mended.moved])
+
+
 def islands(patch: Patch) -> int:
     """Count the pieces that are solved each on its own; raises MeshRefusal."""
     with in_mesh_words(patch.origin):
