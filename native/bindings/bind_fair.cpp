@@ -55,6 +55,7 @@ py::dict to_dict(const FairResult& result) {
     for (const WayTaken& way : result.ways) ways.append(py::make_tuple(way.name, way.seconds));
     py::dict dict;
     dict["vertices"] = from_points(result.vertices);
+    dict["base"] = result.base.cols() > 0 ? from_points(result.base) : dict["vertices"];
     dict["fixed"] = from_indices(result.fixed);
     dict["mean_curvature"] = from_vector(result.mean_curvature);
     dict["boundary_angle"] = from_vector(result.boundary_angle);
@@ -82,6 +83,8 @@ struct Options {
     double tolerance;
     int max_iterations;
     int threads;
+    double detail;
+    double detail_size;
 };
 
 // Rows (i, j, λ).
@@ -112,6 +115,7 @@ FairOptions to_fair_options(const Options& options, const PaperOptions& paper, c
     result.solver.tolerance = options.tolerance;
     result.solver.max_iterations = options.max_iterations;
     result.threads = options.threads;
+    result.detail = {options.detail, options.detail_size};
     result.solver.nested = paper.levels != 1;
     result.inner_fairness = fairness.weights ? InnerFairness::custom : fairness_words.value(options.inner_fairness);
     if (fairness.neighbours) {
@@ -237,10 +241,11 @@ py::dict all_words() {
 void bind_fair(py::module_& module) {
     module.attr("WORDS") = all_words();
     py::class_<Options>(module, "Options")
-        .def(py::init<std::string, double, double, std::string, std::string, std::string, double, int, int>(),
+        .def(py::init<std::string, double, double, std::string, std::string, std::string, double, int, int, double,
+                      double>(),
              py::kw_only(), py::arg("equation"), py::arg("load"), py::arg("bulge"), py::arg("inner_fairness"),
-             py::arg("method"), py::arg("normals"), py::arg("tolerance"), py::arg("max_iterations"),
-             py::arg("threads"));
+             py::arg("method"), py::arg("normals"), py::arg("tolerance"), py::arg("max_iterations"), py::arg("threads"),
+             py::arg("detail"), py::arg("detail_size"));
     bind_paper_options(module);
     py::class_<PythonSolver>(module, "Solver")
         .def(py::init<const IntArray&, const std::optional<IntArray>&, const std::optional<IntArray>&,
