@@ -2,8 +2,10 @@
 #pragma once
 
 #include "api/component.h"
+#include "base/progress.h"
 #include "detail/skin.h"
 #include "method/warm_start.h"
+#include "problem/solution.h"
 
 namespace fairing {
 

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "geometry/surface_fit.h"
-#include "solver/biharmonic_operator.h"
-#include "solver/willmore.h"
+#include "operators/biharmonic_operator.h"
+#include "problem/willmore.h"
 
 namespace fairing {
 

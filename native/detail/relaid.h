@@ -1,7 +1,7 @@
 // A solved surface with its vertices where detail can be carried to them.
 #pragma once
 
-#include "solver/problem.h"
+#include "problem/problem.h"
 
 namespace fairing {
 

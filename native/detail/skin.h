@@ -2,7 +2,7 @@
 #pragma once
 
 #include "geometry/face_geometry.h"
-#include "solver/laplace_operator.h"
+#include "operators/laplace_operator.h"
 
 namespace fairing {
 
