@@ -1,8 +1,8 @@
 #include "detail/relaid.h"
 
 #include "geometry/flips.h"
-#include "tangential/slide.h"
 #include "problem/surface_state.h"
+#include "tangential/slide.h"
 
 namespace fairing {
 

@@ -1,6 +1,7 @@
 // A solved surface with its vertices where detail can be carried to them.
 #pragma once
 
+#include "base/progress.h"
 #include "problem/problem.h"
 
 namespace fairing {
