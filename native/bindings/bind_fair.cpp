@@ -246,7 +246,7 @@ void bind_fair(py::module_& module) {
                       double>(),
              py::kw_only(), py::arg("equation"), py::arg("load"), py::arg("bulge"), py::arg("inner_fairness"),
              py::arg("method"), py::arg("normals"), py::arg("tolerance"), py::arg("max_iterations"), py::arg("threads"),
-             py::arg("detail"), py::arg("detail_size"));
+             py::arg("detail") = 0.0, py::arg("detail_size") = 0.0);
     bind_paper_options(module);
     py::class_<PythonSolver>(module, "Solver")
         .def(py::init<const IntArray&, const std::optional<IntArray>&, const std::optional<IntArray>&,

@@ -21,8 +21,8 @@ class Options:
         tolerance: float,
         max_iterations: int,
         threads: int,
-        detail: float,
-        detail_size: float,
+        detail: float = ...,
+        detail_size: float = ...,
     ) -> None: ...
 
 class PaperOptions:
