@@ -71,10 +71,11 @@ _NOTHING: Found = ("", np.empty(0, dtype=np.int64))
 
 def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str, ...]:
     has_outside = len(evidence.problem.outside) > 0
+    was_tried = any(name == "variation" for name, _ in evidence.result.way)
     offered = {
         GROW: has_outside,
         SMOOTH_OUTLINE: has_outside and options.outline == "GIVEN",
-        EVEN_CURVATURE: bad and options.equation in ("HARMONIC", "MINIMAL_ENERGY"),
+        EVEN_CURVATURE: bad and not was_tried and options.equation in ("HARMONIC", "MINIMAL_ENERGY"),
         WRITE: bad and options.accept != "ALL",
     }
     return tuple(name for name, offer in offered.items() if offer)

@@ -12,7 +12,7 @@
 #include "geometry/flips.h"
 #include "geometry/surface_fit.h"
 #include "method/accept.h"
-#include "method/ladder.h"
+#include "method/otherwise.h"
 
 namespace fairing {
 
@@ -158,10 +158,12 @@ Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Progress
     Problem& problem = answer.problem;
     problem.weights = lambda_;
     problem.tolerated_folds = tolerated_folds();
-    std::optional<Solution> near_last = keeps() ? warm_.solve(problem, progress) : std::nullopt;
-    Solution solution = near_last ? std::move(*near_last) : solve_global(problem, progress);
+    std::optional<Solution> near_last = keeps() ? solve_near_last(problem, progress) : std::nullopt;
+    Solution solution = near_last ? std::move(*near_last) : solve_or_else(problem, progress);
     if (solution.even_weights) warn_of_even_weights(answer.warnings);
     if (!keeps()) return solution;
+    instead_.reset();
+    if (solution.instead && end_of(solution) == Termination::converged) instead_ = outline_of(problem);
     // Other weights than those asked for were used: the next solve has to try again.
     if (solution.even_weights) {
         warm_.forget();
@@ -169,6 +171,12 @@ Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Progress
         warm_.remember(problem, solution, progress.here());
     }
     return solution;
+}
+
+// The kind of surface stays what it was while an outline is dragged.
+std::optional<Solution> ComponentSolver::solve_near_last(const Problem& problem, const Progress& progress) {
+    if (!instead_ || !small_rotation(*instead_, outline_of(problem))) return warm_.solve(problem, progress);
+    return solve_else(problem, progress);
 }
 
 // Needles across a curvature count as turned over in the reference already.

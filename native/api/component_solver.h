@@ -4,6 +4,7 @@
 #include "api/component.h"
 #include "base/progress.h"
 #include "detail/skin.h"
+#include "method/outline_move.h"
 #include "method/warm_start.h"
 #include "problem/solution.h"
 
@@ -42,9 +43,10 @@ public:
     // Throws NO_BOUNDARY where the fixed vertices lie in one point, SolverError, Cancelled; what was kept stays usable.
     [[nodiscard]] ComponentAnswer solve(const ComponentData& data, const Progress& progress);
 
-    // λ is read off the reference again.
+    // λ is read off the reference again, and the equation tried again.
     void options_changed() {
         given_reference_.resize(3, 0);
+        instead_.reset();
         skin_.reset();
     }
 
@@ -57,6 +59,7 @@ private:
     [[nodiscard]] const FairOptions& options() const { return usable_ ? options_.asked : options_.uniform; }
     [[nodiscard]] Solution solve_by_paper(const Problem& problem, const Progress& progress) const;
     [[nodiscard]] Solution solve_globally(ComponentAnswer& answer, const Progress& progress);
+    [[nodiscard]] std::optional<Solution> solve_near_last(const Problem& problem, const Progress& progress);
     [[nodiscard]] std::size_t tolerated_folds() const;
 
     const Patch& patch_;
@@ -72,6 +75,7 @@ private:
     Diagnostics skin_warnings_;
     Lambda lambda_;
     WarmStart warm_;
+    std::optional<Outline> instead_;  // of the last answer, where it is of least variation instead
 };
 
 }  // namespace fairing

@@ -202,6 +202,22 @@ Diagnostics failures_of(const Patch& patch, const Solution& solution, Terminatio
     return result;
 }
 
+Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation equation) {
+    const std::string free = counted(at(patch.free_count), "free vertex", "free vertices");
+    const bool harmonic = equation == Equation::harmonic;
+    const std::string name = harmonic ? "harmonic surface" : "surface of that equation";
+    Figures figures{{"free_vertices", patch.free_count}};
+    if (harmonic) figures["harmonic"] = 1.0;
+    std::string text = "no " + name + " fits the outlines of a component of " + free;
+    if (solution.variation_ratio > 0.0) {
+        figures["variation"] = solution.variation_ratio;
+        text = "the " + name + " of a component of " + free + " is a bulb, whose curvatures vary " +
+               std::to_string(std::lround(solution.variation_ratio)) + " times as much as they need";
+    }
+    return {Code::no_solution, text + "; the surface of least variation was taken",
+            Indices(free_vertices(patch).begin(), free_vertices(patch).end()), ElementKind::vertex, figures};
+}
+
 void diagnose(const Patch& patch, const Points& points, const Points& prescribed, Diagnostics& warnings) {
     warn_of_flips(patch, points, warnings);
     warn_of_crossings(patch, points, warnings);

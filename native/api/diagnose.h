@@ -32,6 +32,10 @@ void warn_of_precision(const Patch& patch, const Points& input, const Precision&
 // between the normals prescribed and obtained.
 Diagnostics failures_of(const Patch& patch, const Solution& solution, Termination end, const VectorX& angles);
 
+// NO_SOLUTION: the surface of least variation was taken instead. Figures: "free_vertices"; "harmonic", 1, for that
+// equation; for a bulb "variation", how many times as much its curvatures varied.
+Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation equation);
+
 // Triangles of a patch by the numbers that the caller knows.
 Indices input_numbers(const Patch& patch, Indices triangles);
 

@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "geometry/outline_angles.h"
+#include "method/accept.h"
 #include "outline/visible_join.h"
 
 namespace fairing {
@@ -24,6 +25,7 @@ public:
         result_.vertices = input.vertices;
         if (options.detail.share > 0.0) result_.base = input.vertices;
         result_.fixed = prepared.mesh.fixed;
+        result_.equation = options.solver.equation;
         for (const Diagnostics* list :
              {&prepared.mesh.topology_warnings, &prepared.mesh.warnings, &prepared.closed_components}) {
             add_warnings(*list);
@@ -38,6 +40,7 @@ public:
         add_warnings(answer.warnings);
         write_back(patch, answer);
         const Solution& solution = answer.solution;
+        if (solution.instead) add_instead(patch, answer);
         result_.residual = std::max(result_.residual, solution.residual);
         result_.initial_residual = std::max(result_.initial_residual, solution.initial_residual);
         result_.iterations = std::max(result_.iterations, solution.iterations);
@@ -94,16 +97,9 @@ private:
         for (std::size_t k = 1; k <= counts.size(); ++k) sum[sum.size() - k] += counts[counts.size() - k];
     }
 
-    // What converged counts as solved unless it is no answer.
-    static Termination end_of(const Solution& solution) {
-        if (solution.termination != Termination::converged) return solution.termination;
-        switch (solution.flaw) {
-            case Flaw::folded:
-            case Flaw::crossing: return Termination::folded;
-            case Flaw::behind:
-            case Flaw::collapsed: return Termination::stalled;
-            default: return Termination::converged;
-        }
+    void add_instead(const Patch& patch, const ComponentAnswer& answer) {
+        result_.equation = Equation::least_variation;
+        result_.warnings.push_back(no_solution(patch, answer.solution, answer.problem.options.equation));
     }
 
     void add_failure(Termination end, const Diagnostics& failures) {

@@ -31,6 +31,7 @@ struct FairOptions {
 };
 
 struct FairResult {
+    Equation equation = Equation::harmonic;  // that holds: least_variation where any component took it instead
     Points vertices;
     Points base;  // without detail: the fair surface, which all figures below are about; no columns: `vertices`
     Indices fixed;

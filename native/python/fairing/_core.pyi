@@ -13,6 +13,7 @@ class Options:
         self,
         *,
         equation: str,
+        otherwise: str,
         load: float,
         bulge: float,
         inner_fairness: str,

@@ -22,6 +22,7 @@ def fair(
     fixed_normals: npt.ArrayLike | None = None,
     reference: npt.ArrayLike | None = None,
     equation: str = "harmonic",
+    otherwise: str = "least_variation",
     load: float = 0.0,
     bulge: float = 0.0,
     inner_fairness: Any = "uniform",
@@ -66,6 +67,12 @@ def fair(
         Δ_B H = 0, Δ_B H = ``load`` or Δ_B H = −2H(H² − K) with tangent planes met (G1), or H = 0 with positions
         met only (G0). See §7.5. "least_variation": the surface whose normal curvatures vary least (G1), which exists
         between outlines that no harmonic surface joins; docs/least_variation.md.
+    otherwise : "least_variation" | "stop"
+        What is taken where ``equation`` has no surface that is accepted (method "global", all but "minimal"). By
+        default it is that of least variation, also in place of a bulb between two outlines: a surface whose curvatures
+        vary more than twice as much as they need. ``result.equation`` names the equation that holds, and the warning
+        NO_SOLUTION says so. "stop": the best surface found, not ``converged``; bulbs stay. A solve that ran out of
+        ``max_iterations``, or has part of its load, is never replaced.
     load : float
         Of "constant", in length⁻³; positive bulges along the normals.
     bulge : float
@@ -140,7 +147,7 @@ def fair(
     kind, weights = _options.inner_fairness(inner_fairness, count)
     of_paper = _paper.engine_options(method, levels, paper)
     options = _options.engine_options(
-        equation=equation, load=load, bulge=bulge, fairness=kind, method=method, normals=normals,
+        equation=equation, otherwise=otherwise, load=load, bulge=bulge, fairness=kind, method=method, normals=normals,
         tolerance=tolerance, max_iterations=max_iterations, threads=threads, detail=detail, detail_size=detail_size,
     )  # fmt: skip
     as_given = _mending.Boundary(points, fixed_list, given_normals)

@@ -14,6 +14,7 @@ from fairing._types import FloatArray, IntArray
 METHODS = _core.WORDS["method"]
 NORMALS = _core.WORDS["normals"]
 EQUATIONS = _core.WORDS["equation"]
+OTHERWISE = _core.WORDS["otherwise"]
 INNER_FAIRNESS = _core.WORDS["inner_fairness"]
 OUTLINES = ("given", "mended")
 
@@ -21,6 +22,7 @@ OUTLINES = ("given", "mended")
 def engine_options(
     *,
     equation: str,
+    otherwise: str,
     load: Any,
     bulge: Any,
     fairness: str,
@@ -38,6 +40,7 @@ def engine_options(
         raise ValueError("equation: 'least_variation' is not accepted by method 'paper'; accepted with 'global'")
     return _core.Options(
         equation=_arguments.choice("equation", equation, EQUATIONS),
+        otherwise=_arguments.choice("otherwise", otherwise, OTHERWISE),
         load=load_number("load", equation, load),
         bulge=load_number("bulge", equation, bulge),
         inner_fairness=fairness,
