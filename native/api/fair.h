@@ -26,6 +26,7 @@ struct FairResult {
     VectorX mean_curvature;  // eq. 8: −1/R on a sphere with outward normals; the mean of the sides on cut curves
     VectorX boundary_angle;  // degrees, in the order of `fixed`
     VectorX join;            // likewise: how visible the outline is from the patch's side
+    bool joins_curvature = true;  // G2, wherever a curvature was known
     bool converged = true;
     bool polished = true;
     Termination termination = Termination::converged;

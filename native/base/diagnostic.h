@@ -33,6 +33,7 @@ enum class Code {
     reference_unusable,
     not_converged,
     precision,
+    g2_not_met,
 };
 
 // The upper-case names that callers see, e.g. "NONMANIFOLD_EDGE", in the order of the enumeration.

@@ -33,6 +33,17 @@ enum class Flaw {
     not_converged,
 };
 
+// How a surface meets its outline. The last four: tangent, although a curvature was asked for.
+enum class Join {
+    tangent,            // nothing else was asked for
+    curvature,          // with the curvature prescribed
+    partly_curvature,   // not where it isn't known
+    curvature_unknown,  // nearly nowhere is it known
+    no_tangent_join,    // the tangent join, from which it begins, was not found either
+    other_mesh,         // the tangent join was solved on a mesh of the engine's own only
+    not_found,          // no surface, or none that is accepted
+};
+
 struct SolverOptions {
     Equation equation = Equation::harmonic;
     double load = 0.0;  // of the constant equation, in units of D⁻³
@@ -54,6 +65,8 @@ struct Problem {
     // Of least_variation: the outline's normals cost Σ w_i |n_i − n̂_i|²; fixed count. ∞: met exactly, 0: the slope is
     // free. Empty: ∞. Pins count as 0.
     VectorX normal_weights = {};
+    // H at the fixed vertices, in units of D⁻¹, NaN where it is not known; for Δ_B² H = 0. Empty: a tangent join.
+    VectorX fixed_curvatures = {};
 };
 
 // A way that was tried (method/ways), and how long it took.
@@ -82,6 +95,8 @@ struct Solution {
     double first_step = 0.0;    // largest moves of the first and the last iteration, units of D
     double last_step = 0.0;
     bool even_weights = false;  // uniform weights were taken instead of the problem's
+    Join join = Join::tangent;
+    Indices tangent_only;  // of partly_curvature: fixed vertices, counted from the first one
 };
 
 }  // namespace fairing

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "solver/laplace_operator.h"
+#include "solver/outline_coupling.h"
 #include "solver/outline_system.h"
 
 namespace fairing {
@@ -18,25 +19,13 @@ public:
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const override;
 
 private:
-    using Row = OutlineSystem::Row;
-
     [[nodiscard]] VectorX solve_column(const VectorX& rhs) const;
-    [[nodiscard]] VectorX spread(const Row& outline) const;
-    [[nodiscard]] Row gather(const VectorX& field) const;
-
-    // C_ij of a free vertex i and a fixed one j, counted from the first one.
-    struct Coupling {
-        int i;
-        int j;
-        int edge;
-    };
 
     LaplaceOperator laplace_;
     OutlineSystem outline_;
-    std::vector<Coupling> couplings_;
-    VectorX weights_;    // of the edges
+    OutlineCoupling coupling_;
     VectorX free_mass_;  // 4M
-    Row fixed_mass_;
+    OutlineRow fixed_mass_;
     FrontReach beside_outline_;
 };
 

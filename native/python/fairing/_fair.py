@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _mending, _options, _paper
+from fairing import _arguments, _core, _joining, _mending, _options, _paper
 from fairing._paper import PaperOptions
 from fairing._types import FairResult
 
@@ -36,6 +36,8 @@ def fair(
     paper: PaperOptions | None = None,
     outline: str = "given",
     outside: npt.ArrayLike | None = None,
+    continuity: str = "G1",
+    fixed_curvatures: npt.ArrayLike | None = None,
 ) -> FairResult:
     """Replace the free vertices of a mesh by the fairest surface with the given boundary data.
 
@@ -134,12 +136,15 @@ def fair(
         equation=equation, load=load, bulge=bulge, fairness=kind, method=method, normals=normals,
         tolerance=tolerance, max_iterations=max_iterations, threads=threads,
     )  # fmt: skip
-    as_given = _mending.Boundary(points, fixed_list, given_normals)
+    joins = _options.continuity(continuity, equation, method)
     around = _mending.Surroundings.of(points, faces, fixed_list, outside)
+    as_given = _mending.Boundary(points, fixed_list, given_normals)
+    if joins:
+        as_given = _joining.with_curvatures(as_given, faces, around, fixed_curvatures)
 
     def call(boundary: _mending.Boundary) -> dict[str, Any]:
         return _core.fair(
-            boundary.vertices, faces, boundary.fixed, boundary.normals, m0, edges, weights, options, of_paper, progress
+            boundary.vertices, faces, boundary.fixed, boundary.normals, boundary.curvatures, m0, edges, weights, options, of_paper, progress
         )
 
     mended = _arguments.choice("outline", outline, _options.OUTLINES) == "mended"

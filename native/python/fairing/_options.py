@@ -16,6 +16,7 @@ NORMALS = _core.WORDS["normals"]
 EQUATIONS = _core.WORDS["equation"]
 INNER_FAIRNESS = _core.WORDS["inner_fairness"]
 OUTLINES = ("given", "mended")
+CONTINUITIES = ("G1", "G2")
 
 
 def engine_options(
@@ -45,6 +46,18 @@ def engine_options(
         max_iterations=_arguments.whole("max_iterations", max_iterations, 1),
         threads=_arguments.whole("threads", threads, 0),
     )
+
+
+def continuity(value: str, equation: str, method: str) -> bool:
+    """Whether curvatures are to be met; only Δ_B H = 0 of the fast solver has a version that meets them."""
+    if _arguments.choice("continuity", value, CONTINUITIES) == "G1":
+        return False
+    if equation != "harmonic" or method != "global":
+        raise ValueError(
+            f"continuity: 'G2' is not accepted with equation {equation!r} and method {method!r}; "
+            "accepted with 'harmonic' and 'global'"
+        )
+    return True
 
 
 def neighbour_edges(neighbours: npt.ArrayLike | None, count: int) -> IntArray | None:
