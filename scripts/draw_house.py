@@ -38,7 +38,7 @@ def native_arrows() -> Arrows:
 
 
 def imports(path: Path) -> Iterator[tuple[int, str]]:
-    """Level and first name of each import of a file."""
+    """Level and first name of each import of a file, those within functions too; `from .. import x` gives x."""
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             yield from ((0, alias.name.split(".")[0]) for alias in node.names)

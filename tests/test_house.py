@@ -49,7 +49,7 @@ def test_a_new_room_makes_it_out_of_date(house: Path) -> None:
 
 
 def test_a_new_arrow_makes_it_out_of_date(house: Path) -> None:
-    include(house, "native/outline/bad_outline.cpp", "solver/problem.h")
+    include(house, "native/outline/bad_outline.cpp", "problem/problem.h")
     assert "out of date" in check(house).stderr
 
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "api/component.h"
+#include "base/progress.h"
 #include "method/warm_start.h"
+#include "problem/solution.h"
 
 namespace fairing {
 

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "base/diagnostic.h"
-#include "solver/problem.h"
+#include "problem/problem.h"
+#include "problem/solution.h"
 
 namespace fairing {
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "api/input.h"
+#include "base/progress.h"
 #include "paper/paper_solver.h"
+#include "problem/solution.h"
 
 namespace fairing {
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "api/fair.h"
+#include "base/progress.h"
 
 namespace fairing {
 

@@ -242,10 +242,11 @@ MeshTopology check_topology(const MeshInput& input) {
     const std::vector<char> given_fixed = mark_fixed(input);
     Triangles triangles = drop_collapsed_triangles(input.triangles, kept, warnings);
     triangles = drop_unbounded_triangles(input, triangles, given_fixed, kept, warnings);
-    mesh.roles = classify_vertices(make_edges(triangles, static_cast<int>(input.vertices.cols())), given_fixed);
+    const EdgeTable edges = make_edges(triangles, static_cast<int>(input.vertices.cols()));
+    mesh.roles = classify_vertices(edges, given_fixed);
     check_finite(input, mesh.roles);
     mesh.fixed = all_fixed(input, mesh.roles, warnings);
-    mesh.cut = cut_mesh(triangles, kept, mesh.roles, warnings);
+    mesh.cut = cut_mesh(triangles, edges, kept, mesh.roles, warnings);
     return mesh;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "api/component_solver.h"
+#include "base/progress.h"
 
 namespace fairing {
 

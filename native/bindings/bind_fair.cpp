@@ -6,6 +6,7 @@
 #include "bindings/convert.h"
 #include "bindings/topics.h"
 #include "bindings/words.h"
+#include "problem/solution.h"
 
 namespace fairing::bindings {
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "api/fair.h"
+#include "problem/solution.h"
 
 namespace fairing::bindings {
 

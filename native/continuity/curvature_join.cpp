@@ -6,8 +6,8 @@
 #include "base/parallel.h"
 #include "continuity/join_operator.h"
 #include "linear/anderson.h"
-#include "solver/surface_state.h"
-#include "solver/tangential_step.h"
+#include "problem/surface_state.h"
+#include "tangential/tangential_step.h"
 
 namespace fairing {
 

@@ -1,8 +1,10 @@
 // Surfaces that meet their outline with a prescribed mean curvature, too (G2).
 #pragma once
 
+#include "base/progress.h"
 #include "continuity/known_curvature.h"
-#include "solver/problem.h"
+#include "problem/problem.h"
+#include "problem/solution.h"
 
 namespace fairing {
 

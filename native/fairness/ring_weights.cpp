@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "base/progress.h"
+#include "geometry/cotangent.h"
 
 namespace fairing {
 
@@ -23,11 +24,6 @@ void normalise_or_uniform(std::vector<double>& weights) {
 }
 
 double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-
-double cotangent(const Vector3& a, const Vector3& b) {
-    const double sine = a.cross(b).norm();
-    return a.dot(b) / std::max(sine, 1e-12 * std::max(a.squaredNorm(), b.squaredNorm()));
-}
 
 // The ring in the plane around the origin: lengths kept, angles scaled to 2π.
 std::vector<Eigen::Vector2d> lay_out(const OneRing& ring) {

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "base/parallel.h"
+#include "geometry/cotangent.h"
 
 namespace fairing {
 
@@ -34,10 +35,10 @@ void FaceGeometry::measure(const Points& points, const Triangles& triangles, int
     const Vector3 cross = ab.cross(-ca);
     const double twice_area = cross.norm();
     const double longest = std::max({ab.squaredNorm(), bc.squaredNorm(), ca.squaredNorm()});
-    const double safe = std::max({twice_area, 1e-12 * longest, 1e-300});
+    const double safe = safe_twice_area(twice_area, longest);
     cotangents.col(t) << -ab.dot(ca) / safe, -bc.dot(ab) / safe, -ca.dot(bc) / safe;
     areas[t] = 0.5 * twice_area;
-    normals.col(t) = twice_area > 1e-12 * longest ? Vector3(cross / twice_area) : Vector3(Vector3::Zero());
+    normals.col(t) = twice_area > least_twice_area * longest ? Vector3(cross / twice_area) : Vector3(Vector3::Zero());
 }
 
 namespace {

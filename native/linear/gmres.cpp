@@ -1,5 +1,6 @@
 #include "linear/gmres.h"
 
+#include <cmath>
 #include <vector>
 
 #include <Eigen/Jacobi>

@@ -54,9 +54,9 @@ std::vector<Indices> boundary_loops(const Triangles& input, int vertex_count) {
     Diagnostics ignored;
     Indices kept;
     const Triangles whole = drop_collapsed_triangles(input, kept, ignored);
-    const VertexRoles roles =
-        classify_vertices(make_edges(whole, vertex_count), std::vector<char>(at(vertex_count), 0));
-    const CutMesh mesh = cut_mesh(whole, kept, roles, ignored);
+    const EdgeTable given = make_edges(whole, vertex_count);
+    const VertexRoles roles = classify_vertices(given, std::vector<char>(at(vertex_count), 0));
+    const CutMesh mesh = cut_mesh(whole, given, kept, roles, ignored);
     const Triangles triangles = wound_triangles(mesh);
     const EdgeTable edges = make_edges(triangles, vertex_count);
     check_windings(triangles, edges, mesh.input_triangle);

@@ -4,7 +4,6 @@
 #include <array>
 #include <span>
 
-#include "mesh/surface_mesh.h"
 #include "mesh/topology.h"
 
 namespace fairing {
@@ -57,8 +56,5 @@ private:
     Indices rim_begin_;
     Indices ring_rim_;
 };
-
-// The connectivity of a patch as a half-edge mesh without positions; vertex, edge and face indices agree.
-SurfaceMesh surface_mesh(const Patch& patch);
 
 }  // namespace fairing

@@ -1,10 +1,13 @@
-// The half-edge mesh behind a patch: OpenMesh with double-precision Eigen points.
+// A half-edge mesh whose connectivity changes: OpenMesh with double-precision Eigen points. Only the proxy's mesh and
+// the paper's hierarchy need one; Patch has arrays of its own.
 #pragma once
 
 // clang-format off
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Geometry/EigenVectorT.hh>  // must follow the mesh header
 // clang-format on
+
+#include "mesh/patch.h"
 
 namespace fairing {
 
@@ -18,5 +21,8 @@ struct SurfaceMeshTraits : OpenMesh::DefaultTraits {
 };
 
 using SurfaceMesh = OpenMesh::TriMesh_ArrayKernelT<SurfaceMeshTraits>;
+
+// The connectivity of a patch, without positions; vertex, edge and face indices agree.
+SurfaceMesh surface_mesh(const Patch& patch);
 
 }  // namespace fairing

@@ -296,9 +296,8 @@ std::vector<char> find_cut_edges(const Triangles& triangles, const EdgeTable& ed
     return cut;
 }
 
-CutMesh cut_mesh(const Triangles& triangles, const Indices& input_triangle, const VertexRoles& roles,
-                 Diagnostics& warnings) {
-    const EdgeTable edges = make_edges(triangles, static_cast<int>(roles.fixed.size()));
+CutMesh cut_mesh(const Triangles& triangles, const EdgeTable& edges, const Indices& input_triangle,
+                 const VertexRoles& roles, Diagnostics& warnings) {
     auto [fans, windings] = join_or_take_apart(triangles, edges, input_triangle, roles);
 
     CutMesh mesh;

@@ -41,7 +41,8 @@ std::vector<char> find_cut_edges(const Triangles& triangles, const EdgeTable& ed
 // Pieces without free vertices that can't be joined (single-sided, or pockets of two triangles on the same three
 // vertices) are taken apart. Throws NONMANIFOLD_VERTEX (several fans at a free vertex), and where something moves
 // NONMANIFOLD_EDGE (a pocket) and NOT_ORIENTABLE.
-CutMesh cut_mesh(const Triangles& triangles, const Indices& input_triangle, const VertexRoles& roles,
-                 Diagnostics& warnings);
+// `edges`: of `triangles`.
+CutMesh cut_mesh(const Triangles& triangles, const EdgeTable& edges, const Indices& input_triangle,
+                 const VertexRoles& roles, Diagnostics& warnings);
 
 }  // namespace fairing

@@ -6,7 +6,7 @@
 #include "geometry/flips.h"
 #include "geometry/outline_angles.h"
 #include "geometry/self_intersection.h"
-#include "solver/surface_state.h"
+#include "problem/surface_state.h"
 
 namespace fairing {
 

@@ -1,7 +1,8 @@
 // The one rule by which a solution is accepted.
 #pragma once
 
-#include "solver/problem.h"
+#include "problem/problem.h"
+#include "problem/solution.h"
 
 namespace fairing {
 

@@ -4,13 +4,15 @@
 
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
+#include "iteration/continuation.h"
 #include "method/least_bent.h"
+#include "operators/workspace.h"
 #include "placement/relax.h"
-#include "solver/continuation.h"
-#include "solver/globalisation.h"
-#include "solver/minimal_start.h"
-#include "solver/normal_fill.h"
-#include "solver/surface_state.h"
+#include "problem/surface_state.h"
+#include "start/area_descent.h"
+#include "start/globalisation.h"
+#include "start/membrane.h"
+#include "start/normal_fill.h"
 
 namespace fairing {
 

@@ -1,7 +1,9 @@
 // The solve on the user's mesh alone, from the outline.
 #pragma once
 
-#include "solver/problem.h"
+#include "base/progress.h"
+#include "problem/problem.h"
+#include "problem/solution.h"
 
 namespace fairing {
 

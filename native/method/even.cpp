@@ -5,8 +5,9 @@
 #include "method/one_level.h"
 #include "method/polish.h"
 #include "method/sizes.h"
+#include "operators/workspace.h"
 #include "placement/place.h"
-#include "solver/surface_state.h"
+#include "problem/surface_state.h"
 
 namespace fairing {
 

@@ -1,7 +1,9 @@
 // From a surface with tangent joins to one whose curvature continues that of its surroundings.
 #pragma once
 
-#include "solver/problem.h"
+#include "base/progress.h"
+#include "problem/problem.h"
+#include "problem/solution.h"
 
 namespace fairing {
 

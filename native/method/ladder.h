@@ -1,7 +1,9 @@
 // method="global": directly on the user's mesh where it carries the equation, on a proxy where it doesn't.
 #pragma once
 
-#include "solver/problem.h"
+#include "base/progress.h"
+#include "problem/problem.h"
+#include "problem/solution.h"
 
 namespace fairing {
 

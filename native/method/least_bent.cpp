@@ -1,6 +1,6 @@
 #include "method/least_bent.h"
 
-#include "solver/surface_state.h"
+#include "problem/surface_state.h"
 
 namespace fairing {
 

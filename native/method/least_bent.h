@@ -1,7 +1,8 @@
 // What is kept where nothing converges: an iteration that fails may end anywhere.
 #pragma once
 
-#include "solver/problem.h"
+#include "problem/problem.h"
+#include "problem/solution.h"
 
 namespace fairing {
 

@@ -6,14 +6,14 @@
 #include "base/stopwatch.h"
 #include "geometry/flips.h"
 #include "geometry/surface_fit.h"
+#include "iteration/accelerated_iteration.h"
 #include "method/one_level.h"
 #include "method/sizes.h"
 #include "multigrid/coarsening.h"
 #include "multigrid/tangential_multigrid.h"
-#include "solver/accelerated_iteration.h"
-#include "solver/globalisation.h"
-#include "solver/slide.h"
-#include "solver/surface_state.h"
+#include "operators/workspace.h"
+#include "problem/surface_state.h"
+#include "tangential/slide.h"
 
 namespace fairing {
 

@@ -3,7 +3,9 @@
 
 #include <optional>
 
-#include "solver/problem.h"
+#include "base/progress.h"
+#include "problem/problem.h"
+#include "problem/solution.h"
 
 namespace fairing {
 

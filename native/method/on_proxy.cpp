@@ -5,9 +5,10 @@
 #include "geometry/surface_fit.h"
 #include "method/accept.h"
 #include "method/polish.h"
+#include "operators/workspace.h"
 #include "placement/place.h"
+#include "problem/surface_state.h"
 #include "proxy/proxy_solver.h"
-#include "solver/surface_state.h"
 
 namespace fairing {
 

@@ -1,7 +1,9 @@
 // The ways for a patch whose size needs no levels.
 #pragma once
 
+#include "base/progress.h"
 #include "method/ways.h"
+#include "problem/solution.h"
 
 namespace fairing {
 

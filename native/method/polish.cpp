@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "geometry/surface_fit.h"
+#include "iteration/accelerated_iteration.h"
 #include "method/accept.h"
-#include "solver/accelerated_iteration.h"
 
 namespace fairing {
 

@@ -1,7 +1,9 @@
 // From a surface that was solved on other vertices to the equation on the user's own.
 #pragma once
 
-#include "solver/globalisation.h"
+#include "base/progress.h"
+#include "operators/workspace.h"
+#include "problem/solution.h"
 
 namespace fairing {
 

@@ -1,7 +1,7 @@
 // Which sizes take which ways.
 #pragma once
 
-#include "solver/problem.h"
+#include "problem/problem.h"
 
 namespace fairing {
 

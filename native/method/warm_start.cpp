@@ -8,11 +8,11 @@
 
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
+#include "iteration/accelerated_iteration.h"
 #include "method/accept.h"
-#include "solver/accelerated_iteration.h"
-#include "solver/fill.h"
-#include "solver/surface_state.h"
-#include "solver/willmore.h"
+#include "problem/surface_state.h"
+#include "problem/willmore.h"
+#include "start/clamped_fill.h"
 
 namespace fairing {
 

@@ -3,7 +3,9 @@
 
 #include <optional>
 
-#include "solver/globalisation.h"
+#include "base/progress.h"
+#include "operators/workspace.h"
+#include "problem/solution.h"
 
 namespace fairing {
 

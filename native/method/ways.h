@@ -5,7 +5,9 @@
 #include <span>
 #include <string_view>
 
-#include "solver/problem.h"
+#include "base/progress.h"
+#include "problem/problem.h"
+#include "problem/solution.h"
 
 namespace fairing {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "linear/conjugate_gradients.h"
-#include "solver/across.h"
+#include "tangential/across.h"
 
 namespace fairing {
 

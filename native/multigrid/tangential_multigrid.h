@@ -1,8 +1,9 @@
 // The tangential step of symmetric inner fairness by multigrid.
 #pragma once
 
+#include "base/progress.h"
 #include "multigrid/ring_matrix.h"
-#include "solver/symmetric_step.h"
+#include "tangential/symmetric_step.h"
 
 namespace fairing {
 

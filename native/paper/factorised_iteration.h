@@ -3,6 +3,7 @@
 
 #include "base/progress.h"
 #include "paper/level_problem.h"
+#include "problem/solution.h"
 
 namespace fairing {
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "mesh/pieces.h"
+#include "mesh/surface_mesh.h"
 #include "paper/collapse_module.h"
 
 namespace fairing {

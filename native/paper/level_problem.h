@@ -3,7 +3,7 @@
 
 #include "fairness/row_weights.h"
 #include "paper/options.h"
-#include "solver/problem.h"
+#include "problem/problem.h"
 
 namespace fairing {
 

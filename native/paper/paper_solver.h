@@ -1,9 +1,11 @@
 // The construction of Schneider & Kobbelt 2001 (§7), step for step: hierarchy, start, factorised iteration.
 #pragma once
 
+#include "base/progress.h"
 #include "fairness/row_weights.h"
 #include "paper/options.h"
-#include "solver/problem.h"
+#include "problem/problem.h"
+#include "problem/solution.h"
 
 namespace fairing {
 

@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 
 #include "fairness/ring_weights.h"
+#include "geometry/cotangent.h"
+#include "mesh/surface_mesh.h"
 #include "paper/vertex_update.h"
 
 namespace fairing {
@@ -15,12 +17,6 @@ namespace {
 constexpr int fairness_sweeps = 2;   // of step (2)
 constexpr int curvature_rounds = 2;  // of step (3)
 constexpr int curvature_sweeps = 3;  // of H in each of them
-
-double opposite_cotangent(const Vector3& apex, const Vector3& a, const Vector3& b) {
-    const Vector3 u = a - apex;
-    const Vector3 v = b - apex;
-    return u.dot(v) / std::max(u.cross(v).norm(), 1e-12 * std::max(u.squaredNorm(), v.squaredNorm()) + 1e-300);
-}
 
 // Zero where the triangle is degenerate, as in FaceGeometry.
 Vector3 unit_normal(const Vector3& a, const Vector3& b, const Vector3& c) {
@@ -205,8 +201,8 @@ private:
             const std::size_t next = k + 1 < m ? k + 1 : 0;
             const Vector3 a = points.col(disk.neighbours[k]);
             const Vector3 b = points.col(disk.neighbours[next]);
-            disk.cotangents[next] += opposite_cotangent(a, centre, b);
-            disk.cotangents[k] += opposite_cotangent(b, centre, a);
+            disk.cotangents[next] += cotangent(centre - a, b - a);
+            disk.cotangents[k] += cotangent(centre - b, a - b);
         }
     }
 

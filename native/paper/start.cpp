@@ -4,12 +4,15 @@
 #include <cmath>
 #include <memory>
 
-#include "solver/biharmonic_operator.h"
-#include "solver/fill.h"
-#include "solver/globalisation.h"
-#include "solver/laplace_operator.h"
-#include "solver/minimal_start.h"
-#include "solver/willmore.h"
+#include "operators/biharmonic_operator.h"
+#include "operators/laplace_operator.h"
+#include "operators/workspace.h"
+#include "problem/willmore.h"
+#include "start/area_descent.h"
+#include "start/best_fill.h"
+#include "start/clamped_fill.h"
+#include "start/globalisation.h"
+#include "start/membrane.h"
 
 namespace fairing {
 

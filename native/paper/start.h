@@ -1,6 +1,7 @@
 // The surface that the coarsest level starts from (end of §7.4).
 #pragma once
 
+#include "base/progress.h"
 #include "paper/level_problem.h"
 
 namespace fairing {

@@ -3,9 +3,11 @@
 
 #include <optional>
 
+#include "base/progress.h"
 #include "placement/placement.h"
+#include "problem/solution.h"
 #include "proxy/proxy_mesh.h"
-#include "solver/tangential_step.h"
+#include "tangential/tangential_step.h"
 
 namespace fairing {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "geometry/target_surface.h"
-#include "solver/problem.h"
+#include "problem/problem.h"
 
 namespace fairing {
 

@@ -4,7 +4,7 @@
 
 #include "linear/anderson.h"
 #include "placement/folds.h"
-#include "solver/surface_state.h"
+#include "problem/surface_state.h"
 
 namespace fairing {
 

@@ -1,8 +1,9 @@
 // Inner fairness on a surface that stays: vertices slide to where their weights want them.
 #pragma once
 
+#include "base/progress.h"
 #include "placement/placement.h"
-#include "solver/tangential_step.h"
+#include "tangential/tangential_step.h"
 
 namespace fairing {
 

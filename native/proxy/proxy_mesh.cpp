@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "base/progress.h"
+#include "geometry/cotangent.h"
 #include "geometry/face_geometry.h"
 #include "geometry/vertex_normal.h"
 
@@ -48,10 +49,7 @@ ProxyMesh::ProxyMesh(const Patch& patch, const Points& points)
 
 double ProxyMesh::cotangent_opposite(Halfedge h) const {
     const Vector3 apex = point(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)));
-    const Vector3 a = point(mesh_.from_vertex_handle(h)) - apex;
-    const Vector3 b = point(mesh_.to_vertex_handle(h)) - apex;
-    const double sine = a.cross(b).norm();
-    return a.dot(b) / std::max(sine, 1e-14 * (a.squaredNorm() + b.squaredNorm()) + 1e-300);
+    return cotangent(point(mesh_.from_vertex_handle(h)) - apex, point(mesh_.to_vertex_handle(h)) - apex);
 }
 
 bool ProxyMesh::should_flip(Edge e) const {

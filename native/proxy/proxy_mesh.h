@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "mesh/patch.h"
+#include "mesh/surface_mesh.h"
 
 namespace fairing {
 

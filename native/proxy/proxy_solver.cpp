@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/biharmonic_operator.h"
-#include "solver/continuation.h"
-#include "solver/minimal_start.h"
-#include "solver/normal_fill.h"
-#include "solver/surface_state.h"
+#include "iteration/continuation.h"
+#include "operators/biharmonic_operator.h"
+#include "operators/workspace.h"
+#include "problem/surface_state.h"
+#include "start/globalisation.h"
+#include "start/membrane.h"
+#include "start/normal_fill.h"
 
 namespace fairing {
 

@@ -1,8 +1,10 @@
 // The equation on a mesh of the engine's own: for connectivity that can't carry it.
 #pragma once
 
+#include "base/progress.h"
+#include "problem/problem.h"
+#include "problem/solution.h"
 #include "proxy/proxy_mesh.h"
-#include "solver/problem.h"
 
 namespace fairing {
 

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+
+#include "geometry/cotangent.h"
 
 namespace fairing {
 
@@ -202,8 +205,8 @@ private:
         for (int k = 0; k < 3; ++k) {
             const int i = (k + 1) % 3;
             const int j = (k + 2) % 3;
-            const double cotangent = (x_.col(i) - x_.col(k)).dot(x_.col(j) - x_.col(k)) / (2.0 * area_);
-            const double weight = 0.5 * factor * std::max(0.0, cotangent);
+            const double angle = cotangent(x_.col(i) - x_.col(k), x_.col(j) - x_.col(k));
+            const double weight = 0.5 * factor * std::max(0.0, angle);
             const double turned = weight * n_.col(i).dot(n_.col(j));
             hessian(3L * i, 3L * i) += weight;
             hessian(3L * j, 3L * j) += weight;

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "solver/fill.h"
-#include "solver/laplace_operator.h"
+#include "operators/laplace_operator.h"
+#include "start/clamped_fill.h"
 
 namespace fairing {
 

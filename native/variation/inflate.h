@@ -1,7 +1,8 @@
 // Tubes of a start that have collapsed are opened.
 #pragma once
 
-#include "solver/problem.h"
+#include "base/progress.h"
+#include "problem/problem.h"
 
 namespace fairing {
 

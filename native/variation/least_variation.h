@@ -1,7 +1,9 @@
 // The surface whose normal curvatures vary least.
 #pragma once
 
-#include "solver/problem.h"
+#include "base/progress.h"
+#include "problem/problem.h"
+#include "problem/solution.h"
 
 namespace fairing {
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "base/progress.h"
 #include "proxy/proxy_mesh.h"
 #include "variation/newton.h"
 

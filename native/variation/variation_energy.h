@@ -2,7 +2,7 @@
 #pragma once
 
 #include "linear/tree_solve.h"
-#include "solver/problem.h"
+#include "problem/problem.h"
 #include "variation/element.h"
 #include "variation/unknowns.h"
 

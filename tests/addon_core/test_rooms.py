@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
+from draw_house import imports
 
 ADDON = Path(__file__).parents[2] / "addon"
 
@@ -30,16 +31,6 @@ BLENDER = {
 }
 OF_BLENDER = set().union(*BLENDER.values()) | {"blf", "bl_ui", "addon_utils", "idprop", "freestyle", "aud", "imbuf"}
 FILES = sorted(path for room in ROOMS for path in (ADDON / room).glob("*.py"))
-
-
-def imports(path: Path) -> Iterator[tuple[int, str]]:
-    """The level and first name of every import of a file, those within functions too; `from .. import x` gives x."""
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            yield from ((0, alias.name.split(".")[0]) for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            names = [node.module] if node.module else [alias.name for alias in node.names]
-            yield from ((node.level, name.split(".")[0]) for name in names)
 
 
 def name(path: Path) -> str:

@@ -60,8 +60,9 @@ Single single_patch(const Mesh& mesh, std::vector<char> given) {
     const Triangles triangles = drop_collapsed_triangles(mesh.triangles, kept, warnings);
     const auto count = static_cast<int>(mesh.points.cols());
     given.resize(static_cast<std::size_t>(count), 0);
-    single.roles = classify_vertices(make_edges(triangles, count), given);
-    single.cut = cut_mesh(triangles, kept, single.roles, warnings);
+    const EdgeTable edges = make_edges(triangles, count);
+    single.roles = classify_vertices(edges, given);
+    single.cut = cut_mesh(triangles, edges, kept, single.roles, warnings);
     single.patches = make_patches(single.cut, single.roles);
     const Patch& patch = single.patch();
     single.points.resize(3, patch.vertex_count());

@@ -3,6 +3,7 @@
 #include "meshes.h"
 #include "method/accept.h"
 #include "method/ways.h"
+#include "problem/solution.h"
 
 using namespace fairing;
 

@@ -9,7 +9,7 @@
 #include "fairness/ring_weights.h"
 #include "fairness/row_weights.h"
 #include "meshes.h"
-#include "solver/tangential_step.h"
+#include "tangential/tangential_step.h"
 
 using namespace fairing;
 

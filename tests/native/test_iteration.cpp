@@ -1,8 +1,10 @@
 #include <doctest/doctest.h>
 
+#include "iteration/accelerated_iteration.h"
 #include "meshes.h"
-#include "solver/accelerated_iteration.h"
-#include "solver/biharmonic_operator.h"
+#include "operators/biharmonic_operator.h"
+#include "operators/workspace.h"
+#include "problem/solution.h"
 
 using namespace fairing;
 

@@ -7,8 +7,8 @@
 #include "meshes.h"
 #include "multigrid/coarsening.h"
 #include "multigrid/tangential_multigrid.h"
-#include "solver/normal_operator.h"
-#include "solver/symmetric_step.h"
+#include "operators/normal_operator.h"
+#include "tangential/symmetric_step.h"
 
 using namespace fairing;
 

@@ -3,8 +3,8 @@
 #include <Eigen/Eigenvalues>
 
 #include "meshes.h"
-#include "solver/biharmonic_operator.h"
-#include "solver/laplace_operator.h"
+#include "operators/biharmonic_operator.h"
+#include "operators/laplace_operator.h"
 
 using namespace fairing;
 using test::dense;

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include "mesh/surface_mesh.h"
 #include "meshes.h"
 
 using namespace fairing;

@@ -9,8 +9,8 @@
 #include "linear/conjugate_gradients.h"
 #include "linear/half_order.h"
 #include "meshes.h"
-#include "solver/biharmonic_operator.h"
-#include "solver/split_operator.h"
+#include "operators/biharmonic_operator.h"
+#include "operators/split_operator.h"
 
 using namespace fairing;
 using test::stiffness_of;

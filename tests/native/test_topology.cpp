@@ -11,7 +11,8 @@ namespace {
 CutMesh cut(const Triangles& triangles, const std::vector<char>& fixed, Diagnostics& warnings) {
     Indices kept;
     const Triangles clean = drop_collapsed_triangles(triangles, kept, warnings);
-    return cut_mesh(clean, kept, classify_vertices(make_edges(clean, static_cast<int>(fixed.size())), fixed), warnings);
+    const EdgeTable edges = make_edges(clean, static_cast<int>(fixed.size()));
+    return cut_mesh(clean, edges, kept, classify_vertices(edges, fixed), warnings);
 }
 
 Triangles octahedron() {

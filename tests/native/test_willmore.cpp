@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "meshes.h"
-#include "solver/willmore.h"
+#include "problem/willmore.h"
 
 using namespace fairing;
 

@@ -140,7 +140,7 @@ def fair(
     around = _mending.Surroundings.of(points, faces, fixed_list, outside)
     as_given = _mending.Boundary(points, fixed_list, given_normals)
     if joins:
-        as_given = _joining.with_curvatures(as_given, faces, around, fixed_curvatures)
+        as_given = _joining.with_curvatures(as_given, around, fixed_curvatures)
 
     def call(boundary: _mending.Boundary) -> dict[str, Any]:
         return _core.fair(

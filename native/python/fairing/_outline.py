@@ -23,6 +23,11 @@ class _OutlineNormals:
     """(k,) False where there were too few points: the normal is the average of the adjacent triangles' then."""
     errors: FloatArray
     """(k,) standard error of each fit's normal, radians; infinite where ``fitted`` is False."""
+    curvatures: FloatArray
+    """(k,) mean curvature H of the surroundings, length⁻¹: −1/R on a sphere with outward normals; NaN where ``fitted``
+    is False."""
+    curvature_errors: FloatArray
+    """(k,) their standard errors; infinite where ``fitted`` is False."""
 
 
 @dataclass(frozen=True, eq=False)

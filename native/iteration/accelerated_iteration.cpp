@@ -1,0 +1,188 @@
+#include "iteration/accelerated_iteration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+#include "linear/anderson.h"
+#include "problem/surface_state.h"
+#include "problem/willmore.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr int history_depth = 6;
+constexpr double largest_step = 0.1;  // units of D
+constexpr double undamped = 1.0;
+constexpr double damped = 0.4;
+// The residual may grow for a while: near clusters of valence 3 only the history tames a growing mode of the plain
+// map. Far above the best it is hopeless, unless the steps still shrink now and then: in clusters of a large mesh
+// triangles are so small that the residual there is noise.
+constexpr double hopeless_growth = 1e4;
+constexpr int growth_patience = 2;  // iterations without a shorter step
+// Of the Willmore energy; a whole sphere has 16 π.
+constexpr double explosion_factor = 4.0;
+constexpr double explosion_rise = 60.0;
+constexpr double slow = 0.5;  // contraction over `refresh_after` iterations that asks for a new factor
+constexpr int refresh_after = 6;
+constexpr double share_of_factor = 0.2;  // of the time, in large problems
+
+class AcceleratedIteration {
+public:
+    AcceleratedIteration(const Problem& problem, Workspace& work, double damping, const Progress& progress)
+        : problem_(problem),
+          patch_(problem.patch),
+          work_(work),
+          damping_(damping),
+          progress_(progress),
+          conormals_(conormals(problem.patch, problem.fixed_points, problem.fixed_normals)),
+          anderson_(3L * problem.patch.free_count, history_depth) {}
+
+    Solution run(const Points& start) {
+        state_.points = start;
+        const int most = problem_.options.max_iterations;
+        solution_.termination = Termination::iteration_limit;
+        solution_.points = state_.points;
+        solution_.mean_curvature = VectorX::Zero(patch_.vertex_count());
+        solution_.residual = std::numeric_limits<double>::max();
+        for (int k = 0; k < most; ++k) {
+            report(k);
+            if (!measure()) break;
+            if (k == 0) solution_.initial_residual = residual_;
+            if (!refresh_operator(k)) {
+                solution_.termination = Termination::stalled;
+                break;
+            }
+            const Points d = plain_step();
+            const double largest = largest_length(d);
+            solution_.iterations = k + 1;
+            if (k == 0) solution_.first_step = largest;
+            solution_.last_step = largest;
+            if (largest <= problem_.options.tolerance) {
+                solution_.termination = Termination::converged;
+                keep();
+                break;
+            }
+            if (hopeless(largest, k)) {
+                solution_.termination = Termination::stalled;
+                break;
+            }
+            accelerate(d);
+        }
+        return std::move(solution_);
+    }
+
+private:
+    void report(int k) {
+        // Steps shrink geometrically: the share of the decades down to the tolerance that is done.
+        const double decades = std::log10(std::max(1e-2 / problem_.options.tolerance, 10.0));
+        const double done = last_step_ > 0.0 ? std::log10(std::max(1e-2 / last_step_, 1.0)) / decades : 0.0;
+        const double share = std::max(done, static_cast<double>(k) / problem_.options.max_iterations);
+        progress_.report(k == 0 ? 0.0 : share_of_factor + (1.0 - share_of_factor) * share, "iteration");
+    }
+
+    // False where the surface is no longer finite.
+    bool measure() {
+        state_.measure_faces(patch_);
+        state_.measure_curvature(problem_);
+        outer_ = outer_residual(problem_, state_);
+        residual_ = largest_residual(problem_, state_, outer_);
+        if (!std::isfinite(residual_)) {
+            solution_.termination = Termination::stalled;
+            return false;
+        }
+        if (residual_ < best_residual_ && !exploded()) keep();
+        return true;
+    }
+
+    // An iterate that diverged may have a small residual by accident; its energy gives it away.
+    bool exploded() {
+        if (problem_.options.equation == Equation::minimal) return false;
+        const double energy = willmore_energy(
+            mixed_curvature_vectors(patch_, state_.stiffness, state_.points, conormals_), state_.stiffness);
+        if (start_energy_ < 0.0) start_energy_ = energy;
+        return energy > explosion_factor * start_energy_ + explosion_rise;
+    }
+
+    void keep() {
+        best_residual_ = residual_;
+        solution_.points = state_.points;
+        solution_.mean_curvature = state_.curvature.mean;
+        solution_.residual = residual_;
+    }
+
+    // A new factor at the start and where the steps hardly shrink; false where the surface has none.
+    bool refresh_operator(int k) {
+        if (work_.keeps_factor) return true;
+        if (k > 0 && k - refreshed_at_ < refresh_after) return true;
+        const bool wanted = k == 0 || last_step_ > slow * step_at_refresh_;
+        refreshed_at_ = k;
+        step_at_refresh_ = k == 0 ? std::numeric_limits<double>::infinity() : last_step_;
+        return !wanted || work_.normal->update(state_.stiffness, progress_.range(0.0, k == 0 ? share_of_factor : 0.0));
+    }
+
+    // Along the normals, and within the surface: a long way there follows its curvature.
+    Points plain_step() {
+        const VectorX u = work_.normal->solve(outer_);
+        Points d = work_.tangential->displacement(state_.points, state_.normals);
+        for_ranges(patch_.free_count, coarse_grain, [&](int begin, int end) {
+            for (int i = begin; i < end; ++i) {
+                const Vector3 n = state_.normals.col(i);
+                d.col(i) += (u[i] + state_.curvature.fit(i).rise(n, d.col(i))) * n;
+            }
+        });
+        return d;
+    }
+
+    bool hopeless(double largest, int k) {
+        last_step_ = largest;
+        if (largest < 0.9 * least_step_ || k == 0) {
+            least_step_ = std::min(least_step_, largest);
+            least_step_at_ = k;
+        }
+        const int in_vain = k - least_step_at_;
+        const bool grown = in_vain > growth_patience && residual_ > hopeless_growth * best_residual_;
+        return !std::isfinite(largest) || grown || in_vain > problem_.options.patience;
+    }
+
+    void accelerate(const Points& d) {
+        Eigen::Map<VectorX> x(state_.points.data(), 3L * patch_.free_count);
+        VectorX step = anderson_.step(x, damping_ * Eigen::Map<const VectorX>(d.data(), d.size()));
+        const double largest = largest_length(Eigen::Map<const Points>(step.data(), 3, patch_.free_count));
+        if (largest > largest_step) step *= largest_step / largest;
+        x += step;
+    }
+
+    const Problem& problem_;
+    const Patch& patch_;
+    Workspace& work_;
+    double damping_;
+    const Progress& progress_;
+    Points conormals_;
+    Anderson anderson_;
+    SurfaceState state_;
+    VectorX outer_;
+    double residual_ = 0.0;
+    double start_energy_ = -1.0;  // not known yet
+    double best_residual_ = std::numeric_limits<double>::infinity();
+    double last_step_ = 0.0;
+    double step_at_refresh_ = 0.0;
+    int refreshed_at_ = 0;
+    double least_step_ = std::numeric_limits<double>::infinity();
+    int least_step_at_ = 0;
+    Solution solution_;
+};
+
+}  // namespace
+
+Solution iterate(const Problem& problem, Workspace& work, const Points& start, const Progress& progress) {
+    return AcceleratedIteration(problem, work, undamped, progress).run(start);
+}
+
+Solution iterate_damped(const Problem& problem, Workspace& work, const Points& start, const Progress& progress) {
+    return AcceleratedIteration(problem, work, damped, progress).run(start);
+}
+
+}  // namespace fairing

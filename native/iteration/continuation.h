@@ -1,0 +1,15 @@
+// From the globalised surface to the solution of any outer equation.
+#pragma once
+
+#include "base/progress.h"
+#include "iteration/accelerated_iteration.h"
+#include "operators/workspace.h"
+#include "problem/solution.h"
+
+namespace fairing {
+
+// The accurate iteration; for a constant load after the harmonic solution, and in steps of the load where a single
+// one is too much. What comes back belongs to the whole load or says that it did not converge.
+Solution solve_equation(const Problem& problem, Workspace& work, const Points& start, const Progress& progress);
+
+}  // namespace fairing

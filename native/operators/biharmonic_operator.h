@@ -1,0 +1,31 @@
+// The operator of fourth order along the normals, assembled and factorised.
+#pragma once
+
+#include "base/progress.h"
+#include "linear/sparse_cholesky.h"
+#include "operators/normal_operator.h"
+
+namespace fairing {
+
+// K = S_I (4M)⁻¹ S_Iᵀ over the free vertices, S_I the rows of the free vertices and all columns: close to minus the
+// derivative of S_I H by a displacement along the normals (paper §5, §7.2).
+class BiharmonicOperator : public NormalOperator {
+public:
+    // `layout`: about where the free vertices are (3 × free count), to order the factorisation by; or nothing.
+    explicit BiharmonicOperator(const Patch& patch, Points layout = {});
+    [[nodiscard]] bool update(const Stiffness& stiffness, const Progress& progress) override;
+    [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const override { return factor_.solve(rhs); }
+
+private:
+    void build_pattern();
+    void find_slots();
+
+    const Patch& patch_;
+    SparseCholesky factor_;
+    SparseMatrix matrix_;
+    // Of the products S_ik S_jk, row by row: where row i begins, and the place of each sum within its row.
+    std::vector<std::size_t> product_begin_;
+    Indices slots_;
+};
+
+}  // namespace fairing

@@ -1,0 +1,27 @@
+// The Laplace–Beltrami operator of the free vertices, factorised.
+#pragma once
+
+#include "base/progress.h"
+#include "linear/sparse_cholesky.h"
+#include "operators/normal_operator.h"
+
+namespace fairing {
+
+// S restricted to the free vertices: minus the derivative of 4 M H by a displacement along the normals.
+class LaplaceOperator : public NormalOperator {
+public:
+    // `layout`: about where the free vertices are (3 × free count), to order the factorisation by; or nothing.
+    explicit LaplaceOperator(const Patch& patch, Points layout = {});
+    [[nodiscard]] bool update(const Stiffness& stiffness, const Progress& progress) override;
+    [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const override { return factor_.solve(rhs); }
+    // Valid until the next update.
+    [[nodiscard]] const SparseCholesky& factor() const { return factor_; }
+
+private:
+    const Patch& patch_;
+    SparseCholesky factor_;
+    SparseMatrix matrix_;
+    Indices edge_;  // of each entry, `none` on the diagonal
+};
+
+}  // namespace fairing

@@ -1,0 +1,27 @@
+// Linear operators along the normals that precondition the outer equation.
+#pragma once
+
+#include <memory>
+
+#include "base/progress.h"
+#include "geometry/face_geometry.h"
+#include "problem/problem.h"
+
+namespace fairing {
+
+// The choice of operator follows the equation; both are symmetric positive definite.
+class NormalOperator {
+public:
+    virtual ~NormalOperator() = default;
+    // Assembles the operator for a surface and factorises it. False where it is not positive definite (a surface that
+    // has degenerated); solve may not be called then.
+    [[nodiscard]] virtual bool update(const Stiffness& stiffness, const Progress& progress) = 0;
+    // The operator's inverse applied to one or more columns (free count × k).
+    [[nodiscard]] virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const = 0;
+};
+
+// The one of the problem's equation: Laplace for minimal surfaces, biharmonic for all others, split where the patch is
+// large. `layout`: about where the free vertices are (3 × free count), to order the factorisation by; or nothing.
+std::unique_ptr<NormalOperator> make_normal_operator(const Problem& problem, Points layout = {});
+
+}  // namespace fairing

@@ -1,0 +1,17 @@
+// The operators that the stages of a solve share.
+#pragma once
+
+#include <memory>
+
+#include "operators/normal_operator.h"
+#include "tangential/tangential_step.h"
+
+namespace fairing {
+
+struct Workspace {
+    std::unique_ptr<NormalOperator> normal;  // of the equation: biharmonic, or Laplace for minimal surfaces
+    std::unique_ptr<TangentialStep> tangential;
+    bool keeps_factor = false;  // `normal` holds the factor of a surface near the start, which the iteration leaves
+};
+
+}  // namespace fairing

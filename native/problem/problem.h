@@ -1,0 +1,42 @@
+// What a solver is given for one component.
+#pragma once
+
+#include "fairness/row_weights.h"
+#include "geometry/vertex_normal.h"
+
+namespace fairing {
+
+enum class Equation {
+    harmonic,         // Δ_B H = 0 with G1 boundary data
+    constant,         // Δ_B H = load
+    minimal_energy,   // Δ_B H = −2 H (H² − K): least ∫ κ₁² + κ₂²
+    minimal,          // H = 0 with G0 boundary data
+    least_variation,  // least variation of the normal curvatures with G1 boundary data (variation/least_variation.h)
+};
+
+struct SolverOptions {
+    Equation equation = Equation::harmonic;
+    double load = 0.0;  // of the constant equation, in units of D⁻³
+    NormalKind normals = NormalKind::fitted;
+    double tolerance = 1e-6;  // of the largest move in an iteration, in units of D
+    int max_iterations = 200;
+    bool nested = true;  // large patches begin on coarser levels
+    int patience = 40;   // iterations without progress after which the solve is given up
+};
+
+// One component in units of D: translated and scaled so that D = 1.
+struct Problem {
+    const Patch& patch;
+    Points fixed_points;   // 3 × fixed count
+    Points fixed_normals;  // 3 × fixed count, unit; ignored at pins
+    Lambda weights;
+    SolverOptions options;
+    std::size_t tolerated_folds = 0;  // as many triangles are turned over where the weights come from
+    // Of least_variation: the outline's normals cost Σ w_i |n_i − n̂_i|²; fixed count. ∞: met exactly, 0: the slope is
+    // free. Empty: ∞. Pins count as 0.
+    VectorX normal_weights = {};
+    // H at the fixed vertices, in units of D⁻¹, NaN where it is not known; for Δ_B² H = 0. Empty: a tangent join.
+    VectorX fixed_curvatures = {};
+};
+
+}  // namespace fairing

@@ -1,0 +1,68 @@
+// What a solver gives back for one component.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/types.h"
+
+namespace fairing {
+
+// `folded`: the surface was found, the vertices don't lie on it without folds.
+enum class Termination { converged, iteration_limit, stalled, folded };
+
+// What is wrong with a solution, from the least to the worst (method/accept).
+enum class Flaw {
+    absent,
+    many_iterations,  // converged, but so slowly that it may be another solution than the surface's
+    poor_triangles,   // converged on triangles that can't carry the equation
+    crossing,         // triangles pass through each other, and the surface does not
+    folded,           // triangles are turned over
+    behind,           // most of the outline is met from the other side
+    collapsed,        // no area is left
+    not_converged,
+};
+
+// How a surface meets its outline. The last four: tangent, although a curvature was asked for.
+enum class Join {
+    tangent,            // nothing else was asked for
+    curvature,          // with the curvature prescribed
+    partly_curvature,   // not where it isn't known
+    curvature_unknown,  // nearly nowhere is it known
+    no_tangent_join,    // the tangent join, from which it begins, was not found either
+    other_mesh,         // the tangent join was solved on a mesh of the engine's own only
+    not_found,          // no surface, or none that is accepted
+};
+
+// A way that was tried (method/ways), and how long it took.
+struct WayTaken {
+    std::string name;
+    double seconds;
+};
+
+struct Solution {
+    Points points;  // 3 × local vertices
+    VectorX mean_curvature;
+    Points boundary_normals;  // of the surface at the fixed vertices, fitted to the side of the patch; 3 × fixed count
+    Termination termination = Termination::stalled;
+    bool polished = true;  // the equation holds on the patch's own connectivity
+    int iterations = 0;
+    double residual = 0.0;          // largest |Δ_B H| (|H| for minimal) at free vertices
+    double initial_residual = 0.0;  // of the fill
+    double reached_load = 0.0;      // share of the load for which `points` solve the equation, where not the whole
+    std::vector<int> levels;        // vertex counts, coarse to fine; empty: only the patch itself
+    std::map<std::string, double> seconds;
+    std::vector<WayTaken> ways;
+    Flaw flaw = Flaw::absent;
+    Indices bad_triangles;      // of the patch: folded or crossing ones, for those flaws
+    bool from_surface = false;  // its iteration began on the solved surface of a proxy
+    bool crosses = false;       // the surface passes through itself, whatever the mesh
+    double first_step = 0.0;    // largest moves of the first and the last iteration, units of D
+    double last_step = 0.0;
+    bool even_weights = false;  // uniform weights were taken instead of the problem's
+    Join join = Join::tangent;
+    Indices tangent_only;  // of partly_curvature: fixed vertices, counted from the first one
+};
+
+}  // namespace fairing

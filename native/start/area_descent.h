@@ -1,0 +1,13 @@
+// A start for minimal surfaces: from a membrane over the outline to less and less area.
+#pragma once
+
+#include "base/progress.h"
+#include "operators/workspace.h"
+#include "problem/problem.h"
+
+namespace fairing {
+
+// Repeats x ← the harmonic map from the last surface (Pinkall & Polthier 1993), which never increases the area.
+Points descend_area(const Problem& problem, Workspace& work, const Points& start, const Progress& progress);
+
+}  // namespace fairing

@@ -1,0 +1,69 @@
+#include "start/clamped_fill.h"
+
+#include <numbers>
+
+#include "base/errors.h"
+
+namespace fairing {
+
+Stiffness uniform_stiffness(const Patch& patch) {
+    constexpr double side = 1.0 / std::numbers::sqrt3;
+    Stiffness stiffness;
+    stiffness.weights.resize(patch.edge_count());
+    stiffness.mass.setZero(patch.vertex_count());
+    for (int e = 0; e < patch.edge_count(); ++e) {
+        stiffness.weights[e] = patch.edge_triangles[static_cast<std::size_t>(e)][1] == none ? side : 2.0 * side;
+    }
+    for (int t = 0; t < patch.triangle_count(); ++t) {
+        for (int v : patch.triangles.col(t)) stiffness.mass[v] += std::numbers::sqrt3 / 12.0;
+    }
+    return stiffness;
+}
+
+namespace {
+
+// S_I (4M)⁻¹ f for a field f on all vertices.
+Points weighted_rows(const Patch& patch, const Stiffness& stiffness, const Points& field) {
+    const Points scaled = field.array().rowwise() / (4.0 * stiffness.mass.transpose().array());
+    return stiffness.apply(patch, scaled, patch.free_count);
+}
+
+// S_I (4M)⁻¹ Sᵀ x with x zero at the free vertices.
+Points pull_of_positions(const Patch& patch, const Stiffness& stiffness, const Points& fixed_points) {
+    Points field = Points::Zero(3, patch.vertex_count());
+    field.rightCols(fixed_points.cols()) = fixed_points;
+    return weighted_rows(patch, stiffness, stiffness.apply(patch, field, patch.vertex_count()));
+}
+
+// S_I (4M)⁻¹ 2c.
+Points pull_of_conormals(const Patch& patch, const Stiffness& stiffness, const Points& conormals) {
+    Points field = Points::Zero(3, patch.vertex_count());
+    field.rightCols(conormals.cols()) = 2.0 * conormals;
+    return weighted_rows(patch, stiffness, field);
+}
+
+}  // namespace
+
+Fill clamped_fill(const Patch& patch, const Points& fixed_points, const Points& conormals, NormalOperator& op,
+                  const Progress& progress) {
+    return clamped_fill(patch, uniform_stiffness(patch), fixed_points, conormals, op, progress);
+}
+
+Fill clamped_fill(const Patch& patch, const Stiffness& stiffness, const Points& fixed_points, const Points& conormals,
+                  NormalOperator& op, const Progress& progress) {
+    if (!op.update(stiffness, progress)) throw SolverError("the uniform fairness operator is not positive definite");
+    Eigen::MatrixXd rhs(patch.free_count, 6);
+    rhs << -pull_of_positions(patch, stiffness, fixed_points).transpose(),
+        pull_of_conormals(patch, stiffness, conormals).transpose();
+    const Eigen::MatrixXd solution = op.solve(rhs);
+    return {solution.leftCols<3>().transpose(), solution.rightCols<3>().transpose()};
+}
+
+Points clamped_displacement(const Patch& patch, const Stiffness& stiffness, const Points& fixed_displacement,
+                            const Points& conormal_change, const NormalOperator& op) {
+    const Points rhs =
+        pull_of_conormals(patch, stiffness, conormal_change) - pull_of_positions(patch, stiffness, fixed_displacement);
+    return op.solve(rhs.transpose()).transpose();
+}
+
+}  // namespace fairing

@@ -1,0 +1,31 @@
+// The surface that a solve starts from; it depends on connectivity and boundary data only.
+#pragma once
+
+#include "base/progress.h"
+#include "geometry/face_geometry.h"
+#include "operators/normal_operator.h"
+
+namespace fairing {
+
+// S and M of a mesh whose triangles are all equilateral (edge weight 2/√3, half of it on the border).
+Stiffness uniform_stiffness(const Patch& patch);
+
+// Clamped bi-Laplacian membranes over the outline: linear in the conormals, whose weight sigma decides how far the
+// surface bulges. positions(sigma) = flat + sigma · bulge, free vertices only.
+struct Fill {
+    Points flat;
+    Points bulge;
+};
+
+// `op`: biharmonic; it is left holding the factorisation for `stiffness`.
+Fill clamped_fill(const Patch& patch, const Stiffness& stiffness, const Points& fixed_points, const Points& conormals,
+                  NormalOperator& op, const Progress& progress);
+// Displacement of the free vertices that continues one of the fixed vertices and the change of their conormals
+// (3 × fixed count) as smoothly. `op` holds the factorisation for `stiffness`.
+Points clamped_displacement(const Patch& patch, const Stiffness& stiffness, const Points& fixed_displacement,
+                            const Points& conormal_change, const NormalOperator& op);
+// With the uniform stiffness.
+Fill clamped_fill(const Patch& patch, const Points& fixed_points, const Points& conormals, NormalOperator& op,
+                  const Progress& progress);
+
+}  // namespace fairing

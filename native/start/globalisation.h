@@ -1,0 +1,22 @@
+// From the fill to a surface close enough for the accurate iteration, by mixed finite elements.
+#pragma once
+
+#include "base/progress.h"
+#include "operators/workspace.h"
+#include "problem/problem.h"
+
+namespace fairing {
+
+// Positions of all vertices: Willmore descent, then fixed-point steps of mixed finite elements (H_mixed ← harmonic, and
+// within the surface). Never more energy than the start has. `start`: 3 × local vertices.
+Points globalise(const Problem& problem, Workspace& work, const Points& start, const Progress& progress);
+
+// One step of Willmore descent along u = −(½ S_I M⁻¹ S_Iᵀ)⁻¹ ⟨∇E, n⟩ with a line search.
+struct DescentStep {
+    Points points;  // 3 × local vertices
+    double length;  // largest |u| before the line search, units of D; 0 when no step lowers the energy
+    double energy;
+};
+DescentStep descent_step(const Problem& problem, Workspace& work, const Points& start, const Progress& progress);
+
+}  // namespace fairing

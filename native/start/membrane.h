@@ -1,0 +1,12 @@
+// The flattest start: a discrete harmonic map of the outline.
+#pragma once
+
+#include "operators/workspace.h"
+#include "problem/problem.h"
+
+namespace fairing {
+
+// The discrete harmonic map of the outline by the inner-fairness weights (3 × local vertices).
+Points membrane(const Problem& problem, const Workspace& work);
+
+}  // namespace fairing

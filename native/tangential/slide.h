@@ -1,0 +1,14 @@
+// Moving vertices within a surface that is known from its own mesh alone.
+#pragma once
+
+#include "problem/problem.h"
+#include "tangential/tangential_step.h"
+
+namespace fairing {
+
+// Vertices nearer to their inner-fairness positions: some accelerated tangential steps, each of which ends on the
+// surface as it was given. `points`: 3 × local vertices; `normals`: unit, of the surface there (0 at pins).
+void slide(const Problem& problem, const TangentialStep& tangential, const Points& normals, int most_steps,
+           Points& points);
+
+}  // namespace fairing

@@ -1,0 +1,75 @@
+#include "tangential/symmetric_step.h"
+
+#include "base/errors.h"
+#include "linear/conjugate_gradients.h"
+#include "tangential/across.h"
+
+namespace fairing {
+
+SymmetricStep::SymmetricStep(const Patch& patch, const InnerWeights& weights, const Points& fixed_points,
+                             const Progress& progress)
+    : free_count_(patch.free_count) {
+    std::vector<Eigen::Triplet<double>> entries;
+    std::vector<Eigen::Triplet<double>> couplings;
+    entries.reserve(4 * weights.size());
+    const auto add_row = [&](int i, int j, double weight) {
+        if (!patch.is_free(i)) return;
+        entries.emplace_back(i, i, weight);
+        if (patch.is_free(j)) {
+            entries.emplace_back(i, j, -weight);
+        } else {
+            couplings.emplace_back(i, j - free_count_, weight);
+        }
+    };
+    for (const WeightedEdge& edge : weights) {
+        add_row(edge.i, edge.j, edge.weight);
+        add_row(edge.j, edge.i, edge.weight);
+    }
+    coupling_.resize(free_count_, fixed_points.cols());
+    coupling_.setFromTriplets(couplings.begin(), couplings.end());
+    hold(fixed_points);
+    laplacian_.resize(free_count_, free_count_);
+    laplacian_.setFromTriplets(entries.begin(), entries.end());
+    if (!factor_.factorise(laplacian_.triangularView<Eigen::Lower>(), "the inner-fairness weights", progress)) {
+        throw SolverError("the inner-fairness weights give no positive definite matrix");
+    }
+}
+
+void SymmetricStep::hold(const Points& fixed_points) { pull_ = (coupling_ * fixed_points.transpose()).transpose(); }
+
+Points SymmetricStep::harmonic_positions() const {
+    return factor_.solve(Eigen::MatrixXd(pull_.transpose())).transpose();
+}
+
+double SymmetricStep::merit(const Points& points, const Points& /*normals*/) const {
+    const auto free = points.leftCols(free_count_);
+    return 0.5 * inner_product<Points>(free, gradient(points) - pull_);
+}
+
+Points SymmetricStep::gradient(const Points& points) const {
+    return (laplacian_ * points.leftCols(free_count_).transpose()).transpose() - pull_;
+}
+
+Points SymmetricStep::inverse(const Points& field) const {
+    return factor_.solve(Eigen::MatrixXd(field.transpose())).transpose();
+}
+
+Points SymmetricStep::precondition(const Points& field, const Points& normals) const {
+    Points result = inverse(field);
+    project_across(result, normals);
+    return result;
+}
+
+Points SymmetricStep::displacement(const Points& points, const Points& normals, int max_cycles) const {
+    constexpr double relative_tolerance = 0.05;
+    Points r = -gradient(points);
+    project_across(r, normals);
+    const auto apply = [&](const Points& p, Points& product) {
+        product = (laplacian_ * p.transpose()).transpose();
+        project_across(product, normals);
+    };
+    const auto approximate_inverse = [&](const Points& field, Points& z) { z = precondition(field, normals); };
+    return conjugate_gradients(std::move(r), relative_tolerance, max_cycles, apply, approximate_inverse);
+}
+
+}  // namespace fairing

@@ -1,0 +1,36 @@
+// Tangential steps of symmetric λ.
+#pragma once
+
+#include "base/progress.h"
+#include "linear/sparse_cholesky.h"
+#include "tangential/tangential_step.h"
+
+namespace fairing {
+
+// Minimises the Dirichlet energy ½ Σ λ_ij |x_i − x_j|² of the free vertices.
+class SymmetricStep : public TangentialStep {
+public:
+    SymmetricStep(const Patch& patch, const InnerWeights& weights, const Points& fixed_points,
+                  const Progress& progress);
+
+    void hold(const Points& fixed_points) override;
+    [[nodiscard]] Points harmonic_positions() const override;
+    [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
+    [[nodiscard]] Points displacement(const Points& points, const Points& normals, int max_cycles) const override;
+
+    // L⁻¹ of a field over the free vertices.
+    [[nodiscard]] Points inverse(const Points& field) const;
+    [[nodiscard]] int free_count() const { return free_count_; }
+
+private:
+    [[nodiscard]] Points gradient(const Points& points) const;
+    [[nodiscard]] Points precondition(const Points& field, const Points& normals) const;
+
+    int free_count_;
+    SparseMatrix laplacian_;  // both triangles
+    SparseMatrix coupling_;   // λ_ij of free i and fixed j
+    Points pull_;             // Σ λ_ij x_j over fixed neighbours j
+    SparseCholesky factor_;
+};
+
+}  // namespace fairing

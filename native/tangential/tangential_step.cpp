@@ -1,0 +1,16 @@
+#include "tangential/tangential_step.h"
+
+#include "tangential/directed_step.h"
+#include "tangential/symmetric_step.h"
+
+namespace fairing {
+
+std::unique_ptr<TangentialStep> make_tangential_step(const Patch& patch, const Lambda& weights,
+                                                     const Points& fixed_points, const Progress& progress) {
+    if (const auto* rows = std::get_if<RowWeights>(&weights)) {
+        return std::make_unique<DirectedStep>(patch, *rows, fixed_points, progress);
+    }
+    return std::make_unique<SymmetricStep>(patch, std::get<InnerWeights>(weights), fixed_points, progress);
+}
+
+}  // namespace fairing
