@@ -21,9 +21,9 @@ struct CallOptions {
 // Columns belong to the input's vertices.
 struct ComponentData {
     const Points& vertices;
-    const Points& normals;    // prescribed ones at fixed vertices
+    const Points& normals;      // prescribed ones at fixed vertices
     const VectorX& curvatures;  // likewise; empty: none
-    const Points& reference;  // M0
+    const Points& reference;    // M0
 };
 
 struct ComponentAnswer {

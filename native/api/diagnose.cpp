@@ -193,13 +193,12 @@ void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& war
     } else {
         vertices.assign(fixed.begin(), fixed.end());
     }
-    warnings.push_back(
-        {Code::g2_not_met,
-         counted(vertices.size(), "outline vertex is", "outline vertices are") + " met in its slope, not in its curvature: " +
-             std::string(reason_of(solution.join)),
-         vertices,
-         ElementKind::vertex,
-         {{"vertices", size_of(vertices)}, {"reason", static_cast<double>(solution.join)}}});
+    warnings.push_back({Code::g2_not_met,
+                        counted(vertices.size(), "outline vertex is", "outline vertices are") +
+                            " met in its slope, not in its curvature: " + std::string(reason_of(solution.join)),
+                        vertices,
+                        ElementKind::vertex,
+                        {{"vertices", size_of(vertices)}, {"reason", static_cast<double>(solution.join)}}});
 }
 
 void diagnose(const Patch& patch, const Points& points, const Points& prescribed, Diagnostics& warnings) {

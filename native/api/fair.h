@@ -25,9 +25,9 @@ struct FairOptions {
 struct FairResult {
     Points vertices;
     Indices fixed;
-    VectorX mean_curvature;  // eq. 8: −1/R on a sphere with outward normals; the mean of the sides on cut curves
-    VectorX boundary_angle;  // degrees, in the order of `fixed`
-    VectorX join;            // likewise: how visible the outline is from the patch's side
+    VectorX mean_curvature;       // eq. 8: −1/R on a sphere with outward normals; the mean of the sides on cut curves
+    VectorX boundary_angle;       // degrees, in the order of `fixed`
+    VectorX join;                 // likewise: how visible the outline is from the patch's side
     bool joins_curvature = true;  // G2, wherever a curvature was known
     bool converged = true;
     bool polished = true;

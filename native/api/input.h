@@ -10,8 +10,8 @@ namespace fairing {
 struct MeshInput {
     Points vertices;
     Triangles triangles;
-    std::optional<Indices> fixed;         // left out: the mesh border
-    std::optional<Points> fixed_normals;  // 3 × |fixed|
+    std::optional<Indices> fixed;                  // left out: the mesh border
+    std::optional<Points> fixed_normals;           // 3 × |fixed|
     std::optional<VectorX> fixed_curvatures = {};  // H at `fixed`, NaN where it is not known
 };
 

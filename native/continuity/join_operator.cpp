@@ -65,13 +65,13 @@ JoinOperator::Step JoinOperator::solve(const VectorX& residual, const VectorX& m
     const VectorX inner = factor.solve_vector(residual);
     VectorX rhs(fixed_mass_.size() + modes_.count());
     rhs << -outline_.approximate_inverse(turned(inner).transpose()).transpose(), modes_.projected(missing);
-    const VectorX unknowns = gmres([&](const VectorX& v) { return applied(v); },
-                                   [&](const VectorX& v) { return preconditioned(v); }, rhs, relative_tolerance,
-                                   most_steps);
+    const VectorX unknowns =
+        gmres([&](const VectorX& v) { return applied(v); }, [&](const VectorX& v) { return preconditioned(v); }, rhs,
+              relative_tolerance, most_steps);
     Step step{{}, unknowns.tail(modes_.count())};
     const VectorX change = unknowns.head(fixed_mass_.size());
-    const VectorX source = coupling_.spread(change.transpose()) -
-                           0.25 * free_mass_.cwiseProduct(harmonic(step.coefficients));
+    const VectorX source =
+        coupling_.spread(change.transpose()) - 0.25 * free_mass_.cwiseProduct(harmonic(step.coefficients));
     step.heights = factor.solve_vector(free_mass_.cwiseProduct(inner + factor.solve_vector(source)));
     return step;
 }

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr int evening_sweeps = 10;
-constexpr int vertices_per_wave = 6;
 
 // Lengths of the edges from each vertex to the next one; on an open curve the last one repeats.
 VectorX edge_lengths(const OutlineCurve& curve, const Points& points) {
@@ -47,12 +46,12 @@ VectorX parameters(const VectorX& lengths, const VectorX& spacing) {
 
 }  // namespace
 
-OutlineModes::OutlineModes(const std::vector<OutlineCurve>& curves, const Points& fixed_points)
+OutlineModes::OutlineModes(const std::vector<OutlineCurve>& curves, const Points& fixed_points, int vertices_per_wave)
     : fixed_count_(fixed_points.cols()) {
-    for (const OutlineCurve& curve : curves) add_curve(curve, fixed_points);
+    for (const OutlineCurve& curve : curves) add_curve(curve, fixed_points, vertices_per_wave);
 }
 
-void OutlineModes::add_curve(const OutlineCurve& curve, const Points& fixed_points) {
+void OutlineModes::add_curve(const OutlineCurve& curve, const Points& fixed_points, int vertices_per_wave) {
     const auto vertices = static_cast<Eigen::Index>(curve.places.size());
     const VectorX lengths = edge_lengths(curve, fixed_points);
     const VectorX spacing = evened(lengths, curve.closed);
@@ -61,8 +60,7 @@ void OutlineModes::add_curve(const OutlineCurve& curve, const Points& fixed_poin
     const double period = t[vertices - 1] + (curve.closed ? lengths[vertices - 1] / spacing[vertices - 1] : 2.0);
     const Eigen::Index pairs = vertices / vertices_per_wave;
     const Eigen::Index waves = curve.closed ? 1 + 2 * pairs : std::max<Eigen::Index>(1, 2 * pairs);
-    Curve made{curve.places, Eigen::MatrixXd(vertices, waves), VectorX(waves),
-               spacing.cwiseAbs2().cwiseInverse()};
+    Curve made{curve.places, Eigen::MatrixXd(vertices, waves), VectorX(waves), spacing.cwiseAbs2().cwiseInverse()};
     const double slowest = 2.0 * pi / period;
     for (Eigen::Index m = 0; m < waves; ++m) {
         const double frequency =

@@ -11,13 +11,13 @@ struct OutlineCurve {
     bool closed;
 };
 
-// Waves along the outline, two at most for three vertices: faster ones change the curvature that is measured at the
+// Waves along the outline, no faster than one in six vertices: faster ones change the curvature that is measured at the
 // outline in a way that depends on the mesh. Closed curves have sines and cosines, open ones sines that vanish beyond
 // their ends. Crowded vertices have shorter waves.
 class OutlineModes {
 public:
-    // `fixed_points`: 3 × fixed vertices.
-    OutlineModes(const std::vector<OutlineCurve>& curves, const Points& fixed_points);
+    // `fixed_points`: 3 × fixed vertices. The fastest wave has so many vertices.
+    OutlineModes(const std::vector<OutlineCurve>& curves, const Points& fixed_points, int vertices_per_wave = 6);
 
     [[nodiscard]] Eigen::Index count() const { return count_; }
     // U c, zero off the curves. The columns of U are nearly orthonormal.
@@ -32,11 +32,11 @@ private:
     struct Curve {
         Indices places;
         Eigen::MatrixXd waves;
-        VectorX symbol;         // of each wave, for spacing one
-        VectorX inverse_square; // of the spacing at each vertex
+        VectorX symbol;          // of each wave, for spacing one
+        VectorX inverse_square;  // of the spacing at each vertex
     };
 
-    void add_curve(const OutlineCurve& curve, const Points& fixed_points);
+    void add_curve(const OutlineCurve& curve, const Points& fixed_points, int vertices_per_wave);
 
     std::vector<Curve> curves_;
     Eigen::Index count_ = 0;

@@ -36,12 +36,16 @@ Eigen::MatrixXd SplitBiharmonicOperator::solve(const Eigen::MatrixXd& rhs) const
 VectorX SplitBiharmonicOperator::solve_column(const VectorX& rhs) const {
     const SparseCholesky& factor = laplace_.factor();
     // S_II⁻¹ C
-    const auto harmonic = [&](const OutlineRow& outline) { return factor.solve_vector(coupling_.spread(outline), beside_outline_); };
+    const auto harmonic = [&](const OutlineRow& outline) {
+        return factor.solve_vector(coupling_.spread(outline), beside_outline_);
+    };
     // Cᵀ S_II⁻¹ 4M_I
     const auto turned = [&](const VectorX& u) {
         return coupling_.gather(factor.solve_vector(u.cwiseProduct(free_mass_), FrontReach(), beside_outline_));
     };
-    const auto apply = [&](const OutlineRow& p, OutlineRow& product) { product = p.cwiseProduct(fixed_mass_) + turned(harmonic(p)); };
+    const auto apply = [&](const OutlineRow& p, OutlineRow& product) {
+        product = p.cwiseProduct(fixed_mass_) + turned(harmonic(p));
+    };
     const auto precondition = [&](const OutlineRow& r, OutlineRow& z) { z = outline_.approximate_inverse(r); };
     VectorX u = factor.solve_vector(rhs);
     u -= harmonic(conjugate_gradients(turned(u), relative_tolerance, most_cycles, apply, precondition));

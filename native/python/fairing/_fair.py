@@ -101,8 +101,15 @@ def fair(
         "mended": a noisy outline is moved onto the fit of its surroundings first, and the two rings outside with it, as
         :func:`fairing.mend_outline` does; the normals there are the fit's. The result names what ``moved``. Where that
         gives folds or no solution, and the outline as given does not, the latter is kept (warning OUTLINE_KEPT).
+    continuity : "G1" | "G2"
+        "G2": the surface continues the curvature of its surroundings, too, and Δ_B² H = 0 (docs/joins.md). Where that is
+        not known, or no such surface is found, the tangent join is kept, and the warning G2_NOT_MET says so. For
+        ``equation`` "harmonic".
+    fixed_curvatures : (k,) float
+        Of "G2": mean curvatures H at ``fixed``, in length⁻¹, −1/R on a sphere with outward normals; NaN where the
+        curvature is not known. Default: fitted to the triangles outside.
     outside : (o, 3) int
-        Triangles around the patch, which stay: what "mended" and ``join`` look at. Triangles whose corners are all
+        Triangles around the patch, which stay: what "mended", "G2" and ``join`` look at. Triangles whose corners are all
         ``fixed`` count among them.
 
     Returns
@@ -139,6 +146,8 @@ def fair(
     joins = _options.continuity(continuity, equation, method)
     around = _mending.Surroundings.of(points, faces, fixed_list, outside)
     as_given = _mending.Boundary(points, fixed_list, given_normals)
+    if not joins and fixed_curvatures is not None:
+        raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
     if joins:
         as_given = _joining.with_curvatures(as_given, around, fixed_curvatures)
 

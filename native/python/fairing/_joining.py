@@ -27,8 +27,12 @@ def with_curvatures(boundary: Boundary, around: Surroundings, given: Any) -> Bou
 
 
 def _trusted(fits: dict[str, Any], normals: FloatArray | None) -> FloatArray:
-    """H on the side of the ``normals``, if they are given."""
+    """H on the side of the ``normals``, if they are given; NaN where a fit is far less certain than the others."""
     curvatures: FloatArray = fits["curvatures"].copy()
+    errors, fitted = fits["curvature_errors"], fits["fitted"]
+    if fitted.any():
+        usual = max(4.0 * float(np.median(errors[fitted])), 0.25 * float(np.abs(curvatures[fitted]).max()))
+        curvatures[errors > usual] = np.nan
     if normals is not None:
         curvatures[(fits["normals"] * normals).sum(axis=1) < 0] *= -1.0
     return curvatures
