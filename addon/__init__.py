@@ -5,7 +5,8 @@ from . import loading
 if loading.problem():
     from .loading_panel import register, unregister
 else:
+    from .core.verdict import NotUsable
     from .registration import register, unregister
     from .run.fair_mesh import fair_mesh
 
-__all__ = ["fair_mesh", "register", "unregister"]
+__all__ = ["NotUsable", "fair_mesh", "register", "unregister"]

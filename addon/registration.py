@@ -7,7 +7,7 @@ import bpy
 
 from . import translations
 from .core import runner
-from .follow import live, watch
+from .follow import live, undone, watch
 from .follow.live_operators import (
     FairLive,
     MESH_OT_fair_live_forget,
@@ -16,7 +16,8 @@ from .follow.live_operators import (
 )
 from .host import handlers
 from .preferences import FairPreferences
-from .run import cli, compare, job
+from .run import cli, compare, job, last_run
+from .run.again import MESH_OT_fair_again, MESH_OT_fair_spots
 from .run.curvature import MESH_OT_fair_curvature
 from .run.operators import MESH_OT_fair_region
 from .run.report_properties import FairCheck, FairProgress, FairReport
@@ -36,6 +37,8 @@ _register_classes, _unregister_classes = bpy.utils.register_classes_factory(
         MESH_OT_fair_live_select,
         MESH_OT_fair_live_forget,
         compare.MESH_OT_fair_compare,
+        MESH_OT_fair_spots,
+        MESH_OT_fair_again,
         watch.MESH_OT_fair_inspect,
         MESH_OT_fair_curvature,
         *ui.PANELS,
@@ -53,12 +56,16 @@ def register() -> None:
     bpy.types.WindowManager.fairing_progress = bpy.props.PointerProperty(type=FairProgress)
     bpy.types.WindowManager.fairing_overlay = bpy.props.PointerProperty(type=FairOverlay)
     bpy.types.WindowManager.fairing_live = bpy.props.PointerProperty(type=FairLive)
+    bpy.types.WindowManager.fairing_more = bpy.props.BoolProperty(
+        name="More", description="Show how exactly the surface is found, and which results are written"
+    )
     bpy.types.VIEW3D_MT_edit_mesh_faces.append(ui.draw_menu)
     bpy.types.VIEW3D_MT_edit_mesh_context_menu.append(ui.draw_context_menu)
     handlers.register()
     watch.register()
     overlay.register()
     live.register()
+    undone.register()
     translations.register()
     bpy.utils.register_preset_path(_folder)
     _commands.append(bpy.utils.register_cli_command("fair", cli.execute))
@@ -69,16 +76,19 @@ def unregister() -> None:
     bpy.utils.unregister_cli_command(_commands.pop())
     bpy.utils.unregister_preset_path(_folder)
     translations.unregister()
+    undone.unregister()
     live.unregister()
     overlay.unregister()
     watch.unregister()
     handlers.unregister()
     runner.wait_for_all(LONGEST_STEP)
     compare.forget()
+    last_run.forget()
     job.memory.clear()
     job.solvers.clear()
     bpy.types.VIEW3D_MT_edit_mesh_context_menu.remove(ui.draw_context_menu)
     bpy.types.VIEW3D_MT_edit_mesh_faces.remove(ui.draw_menu)
+    del bpy.types.WindowManager.fairing_more
     del bpy.types.WindowManager.fairing_live
     del bpy.types.WindowManager.fairing_overlay
     del bpy.types.WindowManager.fairing_progress

@@ -1,81 +1,34 @@
-"""Texts in other languages, for `bpy.app.translations`. Another language is another column here.
+"""Texts in other languages, for `bpy.app.translations`.
 
-Labels, tooltips and menu entries are looked up by Blender itself; sentences that are put together
-at run time stay English.
+A language is a file languages/CODE.json: English texts with their translations. Labels, tooltips and menu entries are
+looked up by Blender itself; sentences that are put together at run time stay English.
 """
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
+
 import bpy
 
-_GERMAN = {
-    "Fair Region": "Region glätten",
-    "Before / After": "Vorher / Nachher",
-    "Write Curvature Attribute": "Krümmung als Attribut schreiben",
-    "Look at Selection": "Auswahl ansehen",
-    "Intrinsic Fairing": "Intrinsisches Glätten",
-    "Selection": "Auswahl",
-    "Last Run": "Letzter Lauf",
-    "Live": "Mitlaufend",
-    "Live Region": "Mitlaufende Region",
-    "Select Live Region": "Mitlaufende Region auswählen",
-    "Forget Live Region": "Mitlaufende Region vergessen",
-    "Quality Overlay": "Qualitätsanzeige",
-    "Free Vertices": "Freie Vertices",
-    "Outlines": "Umrisse",
-    "Islands": "Inseln",
-    "Factor": "Faktor",
-    "Shape": "Form",
-    "Bulge": "Wölbung",
-    "Vertices": "Vertices",
-    "Tangent To": "Tangential zu",
-    "Pin Group": "Fixierte Gruppe",
-    "Pin Edges": "Fixierte Kanten",
-    "Inner Fairness": "Innere Glätte",
-    "At the Outline": "Am Umriss",
-    "Solver": "Löser",
-    "Harmonic": "Harmonisch",
-    "Minimal Energy": "Kleinste Energie",
-    "Soap Film": "Seifenhaut",
-    "Even Curvature": "Gleichmäßige Krümmung",
-    "Even": "Gleichmäßig",
-    "Keep Texture": "Textur erhalten",
-    "Keep Spacing": "Abstände erhalten",
-    "Keep Proportions": "Proportionen erhalten",
-    "Surroundings": "Umgebung",
-    "Average": "Mittel",
-    "Equation solved": "Gleichung gelöst",
-    "Angle at the outline": "Winkel am Umriss",
-    "Curvature inside": "Krümmung innen",
-    "Residual": "Residuum",
-    "Flipped triangles": "Umgeklappte Dreiecke",
-    "Degenerate triangles": "Entartete Dreiecke",
-    "Self-intersections": "Selbstdurchdringungen",
-    "Texture distortion": "Texturverzerrung",
-    "Reflection Lines": "Spiegellinien",
-    "Mean Curvature": "Mittlere Krümmung",
-    "Show Quality": "Qualität anzeigen",
-    "Stripes": "Streifen",
-    "Direction": "Richtung",
-    "No face is selected: select the faces to be faired; vertices or edges alone don't count": (
-        "Keine Fläche ausgewählt: die zu glättenden Flächen auswählen; Vertices oder Kanten allein zählen nicht"
-    ),
-    "No vertex is free to move: a vertex is when all its faces are selected and visible, and it is not pinned": (
-        "Kein Vertex ist frei: das ist er, wenn all seine Flächen ausgewählt und sichtbar sind und er nicht fixiert ist"
-    ),
-    "The mesh is linked from another file: make it local first": (
-        "Das Netz ist aus einer anderen Datei verknüpft: zuerst lokal machen"
-    ),
-    "Select faces of a mesh in edit mode": "Im Bearbeitungsmodus Flächen eines Netzes auswählen",
-}
-
+_FOLDER = Path(__file__).parent / "languages"
+# Blender's names of a language: older versions know some by country only.
+_LOCALES = {"de": ("de", "de_DE"), "fr": ("fr", "fr_FR")}
 _CONTEXTS = ("*", "Operator")
+
+
+def languages() -> dict[str, dict[str, str]]:
+    """Return the texts of each language by its code."""
+    return {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in sorted(_FOLDER.glob("*.json"))}
 
 
 def table() -> dict[str, dict[tuple[str, str], str]]:
     """Return the texts in the form that Blender asks for."""
-    german = {(context, text): translation for text, translation in _GERMAN.items() for context in _CONTEXTS}
-    return {"de_DE": german, "de": german}
+    return {
+        locale: {(context, text): translation for text, translation in texts.items() for context in _CONTEXTS}
+        for code, texts in languages().items()
+        for locale in _LOCALES.get(code, (code,))
+    }
 
 
 def translated(text: str) -> str:

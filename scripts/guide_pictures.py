@@ -141,7 +141,7 @@ def tile(scene: Scene, options: Options, path: Path) -> Path:
         pictures.tint(obj.data, faces)
     if options is not None:
         scenes.select(obj, faces)
-        bpy.ops.mesh.fair_region("EXEC_DEFAULT", **options)
+        bpy.ops.mesh.fair_region("EXEC_DEFAULT", accept="ALL", **options)
         bpy.ops.object.mode_set(mode="OBJECT")
         report = bpy.context.window_manager.fairing_report
         print(f"{path.stem}: converged {report.converged}, distortion {report.distortion:.3f}", flush=True)

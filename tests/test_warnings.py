@@ -9,7 +9,7 @@ import fairing
 import measures
 import shapes
 from curves import FloatArray
-from meshing import IntArray
+from meshing import IntArray, face_normals
 from solving import codes, fair_patch
 
 CAP = shapes.cap(400)
@@ -41,7 +41,35 @@ def test_a_surface_through_itself_is_told() -> None:
     assert len(crossing) >= 2 * 70 / 360 * 100
     assert ((angle < 75.0) | (angle > 355.0)).all()
     assert np.abs(np.hypot(crossing[:, 0], crossing[:, 1]) - 1.0).max() < 0.15
+    assert np.array_equal(fairing.self_intersections(result.vertices, triangles), warning.elements)
     assert "SELF_INTERSECTION" not in codes(fairing.fair(*ribbon(350.0)))
+
+
+def test_self_intersections_of_any_triangles() -> None:
+    """Two squares through each other, though nothing joins them; side by side they don't cross, nor with NaN."""
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=float)
+    upright = square[:, [0, 2, 1]] + np.array([0.0, 0.4, -0.5])
+    triangles = np.array([[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]])
+    both = np.vstack([square, upright])
+    assert fairing.self_intersections(both, triangles).tolist() == [0, 1, 2, 3]
+    assert not len(fairing.self_intersections(np.vstack([square, square + np.array([0.0, 0.0, 0.1])]), triangles))
+    both[3] = np.nan
+    assert fairing.self_intersections(both, triangles).tolist() == [0, 2, 3]
+
+
+def test_flipped_triangles_are_those_around_a_vertex_dragged_across_an_edge() -> None:
+    """In the plane the turned triangles are those with a negative area."""
+    patch = shapes.plane(300)
+    assert not len(fairing.flipped_triangles(patch.vertices, patch.triangles))
+    vertices = patch.vertices.copy()
+    middle = patch.free[np.linalg.norm(vertices[patch.free], axis=1).argmin()]
+    triangle = next(t for t in patch.triangles if middle in t)
+    opposite = vertices[triangle[triangle != middle]].mean(axis=0)
+    vertices[middle] += 1.4 * (opposite - vertices[middle])
+    upwards = face_normals(patch.vertices, patch.triangles)[0]
+    turned = np.flatnonzero(face_normals(vertices, patch.triangles) @ upwards < 0.0)
+    assert len(turned) > 0
+    assert np.array_equal(fairing.flipped_triangles(vertices, patch.triangles, fixed=patch.fixed), turned)
 
 
 @pytest.mark.parametrize("kind", ["conformal", "inverse_distance", "shape_preserving"])

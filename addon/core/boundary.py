@@ -12,8 +12,6 @@ from .region import MeshArrays, Patch
 from .vectors import area_vectors, sum_at, unit
 from .words import counted
 
-RINGS = 4  # of outside faces handed to the engine's fit, which uses the nearest of them
-
 
 def average_normals(mesh: MeshArrays) -> Floats:
     """Return (n, 3): the normalised mean of the unit normals of the faces at each vertex."""
@@ -30,37 +28,20 @@ def custom_normals(mesh: MeshArrays) -> Floats:
     return unit(sum_at(mesh.corner_vertices, mesh.corner_normals, len(mesh.positions)))
 
 
-def _nearby(triangles: Ints, start: Mask) -> Ints:
-    """Return the triangles within RINGS steps of the vertices in `start`."""
-    reached = start.copy()
-    near = np.zeros(len(triangles), dtype=bool)
-    for _ in range(RINGS):
-        near = reached[triangles].any(axis=1)
-        reached[triangles[near]] = True
-    found: Ints = triangles[near]
-    return found
+def surrounding_normals(mesh: MeshArrays, fixed: Ints, outside: Ints) -> tuple[Floats, Mask]:
+    """Fit normals at the `fixed` vertices (mesh indices, k) to the triangles `outside` (o, 3) the patch.
 
-
-def surrounding_normals(mesh: MeshArrays, fixed: Ints) -> tuple[Floats, Mask]:
-    """Fit normals at the `fixed` vertices (mesh indices, k) to the faces outside the patch.
-
-    Returns ((k, 3) unit normals, (k,) mask of those that have faces outside). The others take
+    Returns ((k, 3) unit normals, (k,) mask of those that have triangles outside). The others take
     the average of all their faces. Where the faces outside are wound against the patch, their
     normals are turned round.
     """
     normals = average_normals(mesh)[fixed]
-    usable = np.isfinite(mesh.positions).all(axis=1)
-    outside = mesh.triangles[~mesh.in_patch[mesh.triangle_faces]]
-    outside = outside[usable[outside].all(axis=1)]
     touched = np.zeros(len(mesh.positions), dtype=bool)
     touched[outside] = True
     found = touched[fixed]
     if not found.any():
         return normals, found
-    start = np.zeros(len(mesh.positions), dtype=bool)
-    start[fixed[found]] = True
-    near = _nearby(outside, start)
-    used, triangles = np.unique(near, return_inverse=True)
+    used, triangles = np.unique(outside, return_inverse=True)
     at = np.searchsorted(used, fixed[found])
     fitted, _ = fairing.surrounding_normals(mesh.positions[used], triangles.reshape(-1, 3).astype(np.int64), at)
     # A zero normal is one that even the average of the outside faces leaves open.
@@ -70,17 +51,17 @@ def surrounding_normals(mesh: MeshArrays, fixed: Ints) -> tuple[Floats, Mask]:
     return normals, found
 
 
-def prescribed_normals(mesh: MeshArrays, patch: Patch, source: str) -> tuple[Floats, tuple[str, ...]]:
+def prescribed_normals(mesh: MeshArrays, patch: Patch, source: str, outside: Ints) -> tuple[Floats, tuple[str, ...]]:
     """Return ((k, 3) unit normals in the order of `patch.fixed`, warnings).
 
-    source: one of options.BOUNDARY_NORMALS.
+    source: one of options.BOUNDARY_NORMALS; outside: as around.outside_triangles gives them.
     """
     fixed = patch.vertices[patch.fixed]
     if source == "CUSTOM":
         return custom_normals(mesh)[fixed], ()
     if source == "AVERAGE":
         return average_normals(mesh)[fixed], ()
-    normals, found = surrounding_normals(mesh, fixed)
+    normals, found = surrounding_normals(mesh, fixed, outside)
     alone = int(np.count_nonzero(~found & ~mesh.pinned[fixed]))
     if alone == 0:
         return normals, ()

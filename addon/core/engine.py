@@ -6,9 +6,12 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
+import numpy as np
+
 import fairing
 
-from .arrays import Floats
+from .arrays import Floats, Ints
+from .findings import Origin
 from .options import FairOptions
 from .region import Patch
 from .words import in_mesh_words
@@ -24,8 +27,25 @@ class Problem:
     """A patch with its G1 data, in world space."""
 
     patch: Patch
-    points: Floats  # (p, 3) of patch.vertices
+    points: Floats  # (q, 3) of `vertices`
     normals: Floats  # (k, 3) unit, in the order of patch.fixed
+    vertices: Ints  # (q,) mesh indices: the patch's p, then those of the faces around it
+    outside: Ints  # (o, 3) triangles around the patch, in numbers of `vertices`
+
+    @classmethod
+    def of(cls, patch: Patch, points: Floats, normals: Floats) -> Problem:
+        """Pose it for the patch (p, 3) alone, without what is around it."""
+        return cls(patch, points, normals, patch.vertices, np.empty((0, 3), dtype=np.int64))
+
+    @property
+    def origin(self) -> Origin:
+        """Where its vertices and triangles are in the mesh."""
+        return Origin(self.vertices, self.patch.triangles, self.patch.faces)
+
+    @property
+    def own_points(self) -> Floats:
+        """The (p, 3) points of the patch alone."""
+        return self.points[: len(self.patch.vertices)]
 
 
 def solve(problem: Problem, options: FairOptions, progress: Progress | None = None) -> fairing.FairResult:
@@ -34,13 +54,16 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
     Raises MeshRefusal (its `elements` are mesh vertices), ValueError, fairing.SolverError and fairing.Cancelled.
     """
     patch = problem.patch
-    with in_mesh_words(patch.origin):
+    mended = options.outline == "MENDED"
+    with in_mesh_words(problem.origin):
         return fairing.fair(
-            problem.points,
+            problem.points if mended else problem.own_points,
             patch.triangles,
             fixed=patch.fixed,
             fixed_normals=problem.normals,
             neighbours=patch.neighbours,
+            outline=options.outline.lower(),
+            outside=problem.outside if mended else None,
             progress=progress,
             **options.engine_arguments(),
         )
@@ -88,7 +111,7 @@ class RepeatedSolve:
     def __call__(self, problem: Problem, progress: Progress | None = None) -> fairing.FairResult:
         """Fair the patch, which must be the one given, as `solve` does; raises the same."""
         with in_mesh_words(problem.patch.origin):
-            return self._solver.solve(problem.points, problem.normals, self._reference, progress)
+            return self._solver.solve(problem.own_points, problem.normals, self._reference, progress)
 
 
 def sub_range(progress: Progress | None, begin: float, end: float) -> Progress | None:

@@ -6,8 +6,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .around import RINGS, outside_triangles
 from .arrays import Floats, Ints, Mask
-from .boundary import RINGS, prescribed_normals
+from .boundary import prescribed_normals
 from .engine import Problem, Progress, RepeatedSolve
 from .options import FairOptions
 from .region import MeshArrays, Patch, make_patch, to_local
@@ -74,6 +75,7 @@ class LiveRegion:
 
     def __init__(self, mesh: MeshArrays, matrix: Floats, options: FairOptions) -> None:
         """Prepare for the patch of `mesh`; raises ValueError where it can't be faired."""
+        options = options.resolved(mesh.textured)
         world = mesh.transformed(matrix)
         # Conformal weights belong to the shape that the region has now, and so do its triangles.
         patch = make_patch(world, even=options.inner_fairness != "CONFORMAL")
@@ -103,8 +105,10 @@ class LiveRegion:
         patch = self._around.patch
         with np.errstate(invalid="ignore", over="ignore"):
             world = replace(self._around.mesh, positions=positions).transformed(matrix)
-            normals, _ = prescribed_normals(world, patch, self._options.boundary_normals)
-        result = self._solve(Problem(self._patch, world.positions[patch.vertices], normals), progress)
+            normals, _ = prescribed_normals(
+                world, patch, self._options.boundary_normals, outside_triangles(world, patch)
+            )
+        result = self._solve(Problem.of(self._patch, world.positions[patch.vertices], normals), progress)
         if not result.converged:
             return None
         fair = to_local(result.vertices, matrix)

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 EQUATIONS = ("HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION")
-INNER_FAIRNESS = ("UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING")
+INNER_FAIRNESS = ("AUTOMATIC", "UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING")
 BOUNDARY_NORMALS = ("SURROUNDING", "AVERAGE", "CUSTOM")
 METHODS = ("GLOBAL", "PAPER")
 PIN_EDGES = ("NONE", "SHARP", "SEAM", "CREASE")
+OUTLINES = ("GIVEN", "MENDED")
+ACCEPT = ("USABLE", "ALL")
 
 _CHOICES = {
     "equation": EQUATIONS,
@@ -17,6 +19,8 @@ _CHOICES = {
     "boundary_normals": BOUNDARY_NORMALS,
     "method": METHODS,
     "pin_edges": PIN_EDGES,
+    "outline": OUTLINES,
+    "accept": ACCEPT,
 }
 
 
@@ -27,7 +31,7 @@ class FairOptions:
     factor: float = 1.0  # 0 keeps the original, 1 is fair
     equation: str = "HARMONIC"
     bulge: float = 0.0  # for CONSTANT: 1 lifts a flat disc by a quarter of its radius
-    inner_fairness: str = "UNIFORM"
+    inner_fairness: str = "AUTOMATIC"  # CONFORMAL for a patch with a texture, UNIFORM for others
     boundary_normals: str = "SURROUNDING"
     method: str = "GLOBAL"
     levels: int = 0  # 0: chosen by the engine
@@ -35,6 +39,8 @@ class FairOptions:
     max_iterations: int = 200
     pin_group: str = ""  # name of a vertex group, empty for none
     pin_edges: str = "NONE"
+    outline: str = "GIVEN"  # MENDED: a noisy outline is smoothed first, with two rings around it
+    accept: str = "USABLE"  # ALL: written whatever it is worth
 
     def __post_init__(self) -> None:
         for name, choices in _CHOICES.items():
@@ -49,8 +55,14 @@ class FairOptions:
         """Read every option from an object with attributes of the same names."""
         return cls(**{name: getattr(properties, name) for name in option_names()})
 
+    def resolved(self, textured: bool) -> FairOptions:
+        """Return the options with what AUTOMATIC stands for; textured: the patch has a UV map."""
+        if self.inner_fairness != "AUTOMATIC":
+            return self
+        return replace(self, inner_fairness="CONFORMAL" if textured else "UNIFORM")
+
     def engine_arguments(self) -> dict[str, Any]:
-        """Return the keyword arguments of `fairing.fair` that need no mesh."""
+        """Return the keyword arguments of `fairing.fair` that need no mesh; the options must be resolved."""
         return {
             "equation": self.equation.lower(),
             "bulge": self.bulge if self.equation == "CONSTANT" else 0.0,

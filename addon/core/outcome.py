@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,15 +11,17 @@ import fairing
 from . import quality
 from .arrays import Floats, Ints
 from .engine import islands
-from .quality import Quality
+from .options import FairOptions
+from .quality import Join, Quality
 from .region import MeshArrays, Patch, to_local
 from .solve import Solved
 from .symmetry import mirror_map, symmetrised
+from .verdict import Evidence, Verdict, judge
 
 
 @dataclass(frozen=True)
 class Fairing:
-    """New positions for the free vertices, in the mesh's own coordinates, and what they are worth."""
+    """New positions for the vertices that move, in the mesh's own coordinates, and what they are worth."""
 
     vertices: Ints  # (k,) mesh indices, ascending
     positions: Floats  # (k, 3)
@@ -30,38 +31,57 @@ class Fairing:
     after: Quality
     distortion: float  # area-weighted mean of the conformal distortion − 1
     curvature: tuple[float, float]  # largest |H| inside and on the outline, in 1/length
+    join: Join
+    verdict: Verdict
+    free_count: int  # of `vertices`: the others belong to a mended outline
 
 
-def outcome(
-    mesh: MeshArrays, matrix: Floats, factor: float, solved: Solved, crossings: Callable[[Floats, Ints], int]
-) -> Fairing:
-    """Blend the answer with the mesh that it is for, and measure both.
+def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solved) -> Fairing:
+    """Blend the answer with the mesh that it is for, measure both, and judge.
 
-    crossings: counts the pairs of triangles that run into each other (positions (n, 3), triangles (m, 3)).
     Raises fairing.SolverError where the answer is not finite in the mesh's own coordinates.
     """
-    patch, result = solved.problem.patch, solved.result
-    fair, warnings = _mirrored(mesh, patch, to_local(result.vertices, matrix))
-    free = patch.vertices[patch.free]
-    original = mesh.positions[free]
-    # Blended in local space, so that factor 0 gives the very bits that were there.
-    blended = original + factor * (fair[patch.free] - original)
-    positions: Floats = fair[patch.free] if factor == 1.0 else blended
-    before = solved.problem.points
+    problem, result = solved.problem, solved.result
+    patch, before = problem.patch, problem.points
+    moving = np.union1d(patch.free, result.moved).astype(np.int64)
+    positions, warnings = _positions(mesh, matrix, options.factor, solved, moving)
     after = before.copy()
-    after[patch.free] = positions @ matrix[:3, :3].T + matrix[:3, 3]
-    clear = factor == 1.0 and not mesh.mirror_x and _is_clear(patch, result)
-    quality_before, quality_after = quality.compare((before, after), patch.triangles, clear, crossings)
+    after[moving] = positions @ matrix[:3, :3].T + matrix[:3, 3]
+    own = len(patch.vertices)
+    clear = options.factor == 1.0 and not mesh.mirror_x and _is_clear(patch, result)
+    quality_before, quality_after = quality.compare(patch, (before[:own], after[:own]), clear)
+    join = quality.join(problem, after)
+    evidence = Evidence(problem, result, solved.failures, quality_before, quality_after, join)
+    order = np.argsort(problem.vertices[moving])
     return Fairing(
-        vertices=free,
-        positions=positions,
+        vertices=problem.vertices[moving][order],
+        positions=positions[order],
         result=result,
         warnings=solved.warnings + warnings,
         before=quality_before,
         after=quality_after,
         distortion=quality.texture_distortion(before, after, patch.triangles),
         curvature=_largest_curvatures(patch, result),
+        join=join,
+        verdict=judge(evidence, options),
+        free_count=len(patch.free),
     )
+
+
+def _positions(
+    mesh: MeshArrays, matrix: Floats, factor: float, solved: Solved, moving: Ints
+) -> tuple[Floats, tuple[str, ...]]:
+    """Return where the vertices `moving` of the problem go (k, 3), in the mesh's own coordinates, and warnings."""
+    problem = solved.problem
+    own = len(problem.patch.vertices)
+    local = to_local(solved.result.vertices, matrix)
+    fair, warnings = _mirrored(mesh, problem.patch, local[:own])
+    fair = np.concatenate([fair, local[own:]])[moving]
+    if factor == 1.0:
+        return fair, warnings
+    original = mesh.positions[problem.vertices[moving]]
+    # Blended in local space, so that factor 0 gives the very bits that were there.
+    return original + factor * (fair - original), warnings
 
 
 def _is_clear(patch: Patch, result: fairing.FairResult) -> bool:

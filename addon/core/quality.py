@@ -1,8 +1,10 @@
-"""What can be told about triangles before and after: turned over, flat, running into each other."""
+"""What can be told about a patch before and after: faces folded over, needles, faces that run through others, the join.
+
+What is folded and what crosses is the engine's decision.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,55 +12,74 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints, Mask
-from .vectors import area_vectors, sum_at, unit
-
-Count = Callable[[Floats, Ints], int]  # pairs of triangles (m, 3) that run into each other at positions (n, 3)
+from .engine import Problem
+from .region import Patch
+from .vectors import area_vectors
 
 LARGE = 50_000  # triangles
-FLATTEST = 1e-3  # height over longest side, below which a triangle counts as degenerate
+FLATTEST = 1e-3  # height over longest side, below which a triangle is a needle
 
 
 @dataclass(frozen=True)
 class Quality:
-    """Counts of bad triangles."""
+    """Bad faces, as ascending numbers of the mesh's faces."""
 
-    flipped: int
-    degenerate: int
-    intersections: int | None  # pairs; None: not looked for
+    folded: Ints
+    needles: Ints
+    crossing: Ints | None  # None: not looked for
 
 
-def compare(
-    positions: tuple[Floats, Floats], triangles: Ints, clear: bool, crossings: Count
-) -> tuple[Quality, Quality]:
-    """Measure the triangles (m, 3) at the positions (n, 3) before and after, all finite.
+@dataclass(frozen=True)
+class Join:
+    """How visible the join is at the k outline vertices that have faces outside."""
+
+    vertices: Ints  # (k,) of the mesh
+    degrees: Floats  # (k,) by how much the bend there exceeds what is usual around; see fairing.visible_join
+
+    @property
+    def typical(self) -> float:
+        """The median, degrees; 0 without any vertices."""
+        return float(np.median(self.degrees)) if len(self.degrees) else 0.0
+
+    @property
+    def worst(self) -> float:
+        """The largest, degrees; 0 without any vertices."""
+        return float(self.degrees.max(initial=0.0))
+
+    def seen(self, limit: float) -> Ints:
+        """Return the mesh vertices where it is more visible than that, the worst first."""
+        order = np.argsort(-self.degrees, kind="stable")
+        found: Ints = self.vertices[order[self.degrees[order] > limit]]
+        return found
+
+
+def compare(patch: Patch, points: tuple[Floats, Floats], clear: bool) -> tuple[Quality, Quality]:
+    """Measure the patch at the positions (p, 3) before and after, all finite.
 
     clear: known not to run into itself afterwards. In a large patch that doesn't, whether it did before stays open: to
     look takes as long as a tenth of the solve.
     """
-    before, after = positions
-    result = _measured(after, triangles, 0 if clear else crossings(after, triangles))
-    look = len(triangles) <= LARGE or result.intersections != 0
-    return _measured(before, triangles, crossings(before, triangles) if look else None), result
+    before, after = points
+    found = np.empty(0, dtype=np.int64) if clear else crossing(patch, after)
+    result = _measured(patch, after, found)
+    look = len(patch.triangles) <= LARGE or bool(len(found))
+    return _measured(patch, before, crossing(patch, before) if look else None), result
 
 
-def _measured(positions: Floats, triangles: Ints, crossings: int | None) -> Quality:
-    return Quality(
-        flipped=int(np.count_nonzero(flipped(positions, triangles))),
-        degenerate=int(np.count_nonzero(degenerate(positions, triangles))),
-        intersections=crossings,
-    )
+def _measured(patch: Patch, points: Floats, crossing: Ints | None) -> Quality:
+    return Quality(folded(patch, points), np.unique(patch.faces[degenerate(points, patch.triangles)]), crossing)
 
 
-def flipped(positions: Floats, triangles: Ints) -> Mask:
-    """Return the (m,) mask of triangles that face away from the mean normal of their corners.
+def folded(patch: Patch, points: Floats) -> Ints:
+    """Return the faces that are turned over, those aside that have no vertex free to move."""
+    found = fairing.flipped_triangles(points, patch.triangles, fixed=patch.fixed).astype(np.int64)
+    movable = np.isin(patch.triangles[found], patch.free).any(axis=1)
+    return np.unique(patch.faces[found[movable]])
 
-    The normals are the area-weighted averages of §6, from these triangles alone.
-    """
-    vectors = area_vectors(positions, triangles)
-    normals = unit(sum_at(triangles.ravel(), np.repeat(vectors, 3, axis=0), len(positions)))
-    around = normals[triangles].sum(axis=1)
-    turned: Mask = np.einsum("ij,ij->i", around, vectors) < 0.0
-    return turned
+
+def crossing(patch: Patch, points: Floats) -> Ints:
+    """Return the faces that pass through others of the patch."""
+    return np.unique(patch.faces[fairing.self_intersections(points, patch.triangles)])
 
 
 def degenerate(positions: Floats, triangles: Ints) -> Mask:
@@ -68,6 +89,14 @@ def degenerate(positions: Floats, triangles: Ints) -> Mask:
     doubled = np.linalg.norm(area_vectors(positions, triangles), axis=1)
     flat: Mask = ~(doubled > FLATTEST * longest_squared)
     return flat
+
+
+def join(problem: Problem, points: Floats) -> Join:
+    """Measure the join of the patch with the faces around it at the positions (q, 3) of problem.vertices."""
+    patch = problem.patch
+    rim = np.intersect1d(patch.outline, problem.outside)
+    degrees = fairing.visible_join(points, patch.triangles, problem.outside, rim)
+    return Join(patch.vertices[rim], degrees)
 
 
 def texture_distortion(before: Floats, after: Floats, triangles: Ints) -> float:

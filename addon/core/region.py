@@ -30,6 +30,7 @@ class MeshArrays:
     corner_normals: Floats | None = None  # (c, 3), where they were asked for
     mirrored: bool = False  # the corners go clockwise, seen from outside
     mirror_x: bool = False  # the mesh asks for symmetric results
+    textured: bool = False  # the patch has a UV map
     notes: tuple[str, ...] = ()  # what turned out odd when it was read
 
     def transformed(self, matrix: Floats) -> MeshArrays:

@@ -1,22 +1,25 @@
-"""A run as a list of figures, each met, missed or just told. Plain Python, no bpy."""
+"""A run as one verdict and a list of figures. Plain Python, no bpy."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 import fairing
 
+from .arrays import Ints
 from .options import FairOptions
 from .outcome import Fairing
+from .quality import Quality
+from .verdict import GOOD, GRADES, LOOK, UNUSABLE, VISIBLE, Verdict, judges_join
 from .words import counted
 
-SMOOTH_ANGLE = 2.0  # degrees at the outline that the eye takes for tangent
-ANGLE = "Angle at the outline"
-CURVATURE_SLACK = 1.01  # of the outline's largest |H|: discretisation
-
 MET, MISSED, TOLD = "MET", "MISSED", "TOLD"
+GRADE_NAMES = {GOOD: "Good", LOOK: "Look here", UNUSABLE: "Not usable"}
+
+Named = tuple[str, Fairing]
 
 
 @dataclass(frozen=True)
@@ -25,7 +28,8 @@ class Check:
 
     name: str
     value: str
-    state: str  # MET, MISSED or TOLD
+    state: str = TOLD  # MET, MISSED or TOLD
+    detail: bool = False  # for those who want to know more
 
 
 @dataclass(frozen=True)
@@ -41,34 +45,60 @@ class Report:
     seconds: float
     checks: tuple[Check, ...]
     warnings: tuple[str, ...]
+    verdict: Verdict  # of the object with the worst; its spots are that object's
+    written: bool
+    join: tuple[float, float]  # degrees: typical, worst
 
 
-def make_report(
-    named: list[tuple[str, Fairing]], options: FairOptions, seconds: float, notes: tuple[str, ...] = ()
-) -> Report:
+def make_report(named: list[Named], options: FairOptions, seconds: float, notes: tuple[str, ...] = ()) -> Report:
     """Sum up the outcomes of one run, by object name; `seconds` as the user waited, `notes` on other objects."""
     outcomes = [outcome for _, outcome in named]
     results = [outcome.result for outcome in outcomes]
-    sizes = [len(outcome.vertices) for outcome in outcomes]
+    sizes = [outcome.free_count for outcome in outcomes]
     return Report(
         objects=tuple(name for name, _ in named),
         free_vertices=sum(sizes),
         converged=all(result.converged for result in results),
         residual=max(result.residual for result in results),
-        boundary_angle=max(float(result.boundary_angle.max(initial=0.0)) for result in results),
+        boundary_angle=max(_widest(result) for result in results),
         distortion=float(np.average([outcome.distortion for outcome in outcomes], weights=sizes)),
         seconds=seconds,
-        checks=_checks(outcomes, options),
+        checks=_checks(outcomes, options) + _details(outcomes),
         warnings=_warnings(named) + _bulge_note(named, options) + notes,
+        verdict=_worst_verdict(named),
+        written=is_written(outcomes, options),
+        join=_worst_join(outcomes),
     )
 
 
-def _warnings(named: list[tuple[str, Fairing]]) -> tuple[str, ...]:
+def is_written(outcomes: list[Fairing], options: FairOptions) -> bool:
+    """Tell whether the run changes its meshes: all of them, or none."""
+    return options.accept == "ALL" or all(outcome.verdict.grade != UNUSABLE for outcome in outcomes)
+
+
+def _widest(result: fairing.FairResult) -> float:
+    return float(result.boundary_angle.max(initial=0.0))
+
+
+def _worst_join(outcomes: list[Fairing]) -> tuple[float, float]:
+    worst = max((outcome.join for outcome in outcomes), key=lambda join: join.worst)
+    return worst.typical, worst.worst
+
+
+def _worst_verdict(named: list[Named]) -> Verdict:
+    name, outcome = max(named, key=lambda pair: GRADES.index(pair[1].verdict.grade))
+    verdict = outcome.verdict
+    if len(named) == 1 or not verdict.reason:
+        return verdict
+    return Verdict(verdict.grade, f"{name}: {verdict.reason}", verdict.spots, verdict.remedies)
+
+
+def _warnings(named: list[Named]) -> tuple[str, ...]:
     several = len(named) > 1
     return tuple(f"{name}: {text}" if several else text for name, outcome in named for text in outcome.warnings)
 
 
-def _bulge_note(named: list[tuple[str, Fairing]], options: FairOptions) -> tuple[str, ...]:
+def _bulge_note(named: list[Named], options: FairOptions) -> tuple[str, ...]:
     """Explain the usual reason why a bulge isn't found: there is no such surface."""
     results = [outcome.result for _, outcome in named]
     found = all(result.converged or result.termination == "folded" for result in results)
@@ -80,23 +110,46 @@ def _bulge_note(named: list[tuple[str, Fairing]], options: FairOptions) -> tuple
     )
 
 
+def _checks(outcomes: list[Fairing], options: FairOptions) -> tuple[Check, ...]:
+    typical, worst = _worst_join(outcomes)
+    kink = Check("Kink at the outline", f"{angle_text(typical)}, at most {angle_text(worst)}", _state(worst <= VISIBLE))
+    return (
+        *((kink,) if judges_join(options) and any(len(o.join.vertices) for o in outcomes) else ()),
+        _count_check("Folded faces", outcomes, lambda quality: quality.folded),
+        _count_check("Faces that cross", outcomes, lambda quality: quality.crossing),
+        _count_check("Needles", outcomes, lambda quality: quality.needles),
+        Check("Texture distortion", f"{max(o.distortion for o in outcomes):.1%}"),
+    )
+
+
 def _state(met: bool) -> str:
     return MET if met else MISSED
 
 
-def _checks(outcomes: list[Fairing], options: FairOptions) -> tuple[Check, ...]:
+def _count_check(name: str, outcomes: list[Fairing], faces: Callable[[Quality], Ints | None]) -> Check:
+    """Compare the faces before and after; None before: not looked for, as there are none after."""
+    pairs = [(faces(outcome.before), faces(outcome.after)) for outcome in outcomes]
+    after = sum(len(new) for _, new in pairs if new is not None)
+    known = [len(old) for old, _ in pairs if old is not None]
+    value = f"{sum(known)} → {after}" if len(known) == len(pairs) else f"{after}"
+    added = any(new is not None and len(np.setdiff1d(new, () if old is None else old)) for old, new in pairs)
+    return Check(name, value, MISSED if added else MET if after == 0 else TOLD)
+
+
+def _details(outcomes: list[Fairing]) -> tuple[Check, ...]:
+    """Return what is of interest where something is to be found out; none of it is good or bad by itself."""
     results = [outcome.result for outcome in outcomes]
-    widest = max(float(result.boundary_angle.max(initial=0.0)) for result in results)
-    return (
-        Check("Equation solved", _endings(outcomes), _state(all(result.converged for result in results))),
-        *((_angle_check(widest),) if options.equation != "MINIMAL" else ()),  # a soap film promises positions only
-        _curvature_check(outcomes, options),
-        Check("Residual", _residual_text(max(results, key=lambda result: result.residual)), TOLD),
-        _count_check("Flipped triangles", [(o.before.flipped, o.after.flipped) for o in outcomes]),
-        _count_check("Degenerate triangles", [(o.before.degenerate, o.after.degenerate) for o in outcomes]),
-        _count_check("Self-intersections", [(o.before.intersections, o.after.intersections) for o in outcomes]),
-        Check("Texture distortion", f"{max(o.distortion for o in outcomes):.1%}", TOLD),
+    inside, outline = max((o.curvature for o in outcomes), key=lambda pair: pair[0] - pair[1])
+    codes = sorted({warning.code for result in results for warning in result.warnings})
+    lines = (
+        ("Equation solved", _endings(outcomes)),
+        ("Residual", _residual_text(max(results, key=lambda result: result.residual))),
+        ("Angle to the slope asked for", angle_text(max(_widest(result) for result in results))),
+        ("Curvature inside", f"{inside:.3g} {'≤' if inside <= outline else '>'} {outline:.3g}"),
+        ("Ways tried", ", ".join(name for result in results for name, _ in result.way)),
+        ("Codes", ", ".join(codes)),
     )
+    return tuple(Check(name, value, detail=True) for name, value in lines if value)
 
 
 def _endings(outcomes: list[Fairing]) -> str:
@@ -118,42 +171,20 @@ def _residual_text(result: fairing.FairResult) -> str:
     return f"{result.initial_residual:.0e} → {result.residual:.0e}"
 
 
-def _angle_check(degrees: float) -> Check:
-    return Check(ANGLE, angle_text(degrees), _state(degrees <= SMOOTH_ANGLE))
-
-
-def _curvature_check(outcomes: list[Fairing], options: FairOptions) -> Check:
-    """Compare the largest |H| inside with the outline's: a harmonic H has its extremes there (maximum principle)."""
-    name = "Curvature inside"
-    inside, outline = max((o.curvature for o in outcomes), key=lambda pair: pair[0] - pair[1])
-    value = f"{inside:.3g} {'≤' if inside <= outline else '>'} {outline:.3g}"
-    if options.equation != "HARMONIC":
-        return Check(name, value, TOLD)
-    return Check(name, value, _state(inside <= CURVATURE_SLACK * outline))
-
-
-def _count_check(name: str, counts: list[tuple[int | None, int | None]]) -> Check:
-    """Compare counts before and after; None before: not looked for, as there are none after."""
-    after = sum(new or 0 for _, new in counts)
-    known = [old for old, _ in counts if old is not None]
-    value = f"{sum(known)} → {after}" if len(known) == len(counts) else f"{after}"
-    return Check(name, value, _state(all((new or 0) <= (old or 0) for old, new in counts)))
-
-
 def angle_text(degrees: float) -> str:
     """Return an angle with two digits that count, and with more where it would look like the limit that it misses."""
-    if degrees >= 10.0:
-        return f"{degrees:.0f}°"
+    if degrees < 0.1:
+        return "0°"
     digits = 2
-    while degrees > SMOOTH_ANGLE >= float(f"{degrees:.{digits}g}"):
+    while degrees > VISIBLE >= float(f"{degrees:.{digits}g}"):
         digits += 1
-    return f"{degrees:.{digits}g}°"
+    return f"{float(f'{degrees:.{digits}g}'):g}°"
 
 
 def summary(report: Report) -> str:
     """Return the one line that the status bar shows."""
-    state = "Faired" if report.converged else "Not converged:"
-    text = f"{state} {counted(report.free_vertices, 'vertex', 'vertices')} in {report.seconds:.2f} s"
-    if all(check.name != ANGLE for check in report.checks):
-        return text
-    return f"{text}, largest angle at the outline {angle_text(report.boundary_angle)}"
+    grade = GRADE_NAMES[report.verdict.grade]
+    if not report.written:
+        return f"{grade}: {report.verdict.reason}. Nothing was changed"
+    reason = f". {report.verdict.reason}" if report.verdict.reason else ""
+    return f"{grade}: faired {counted(report.free_vertices, 'vertex', 'vertices')} in {report.seconds:.2f} s{reason}"

@@ -9,6 +9,7 @@ import numpy as np
 import fairing
 
 from . import engine
+from .around import numbered, outside_triangles, wound_alike
 from .arrays import Floats
 from .boundary import prescribed_normals
 from .engine import Progress
@@ -18,6 +19,8 @@ from .outline import outline_notes, precision_note
 from .region import MeshArrays, make_patch
 from .words import sentences
 
+NO_ANSWER = ("FOLDED", "NOT_CONVERGED")  # codes that are reasons of a verdict
+
 
 @dataclass(frozen=True)
 class Solved:
@@ -26,6 +29,7 @@ class Solved:
     problem: engine.Problem
     result: fairing.FairResult
     warnings: tuple[str, ...]
+    failures: tuple[str, ...] = ()  # why there is no answer, where there is none
 
 
 @dataclass(frozen=True)
@@ -50,8 +54,9 @@ def solve(
     Raises fairing.MeshError (its `elements` are vertices of `mesh` here), ValueError,
     fairing.SolverError and fairing.Cancelled. `mesh` is never changed.
     """
+    options = options.resolved(mesh.textured)
     # Of two results for the same input the bits are the same, so that a former one is as good.
-    key = digest(mesh, matrix, replace(options, factor=1.0)) if kept is not None else ""
+    key = digest(mesh, matrix, replace(options, factor=1.0, accept="ALL")) if kept is not None else ""
     solved = kept.results.get(key) if kept is not None else None
     if solved is None:
         problem, warnings = pose(mesh, matrix, options)
@@ -66,21 +71,26 @@ def solve(
 
 def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine.Problem, tuple[str, ...]]:
     """Return the patch with its boundary data in world space, and warnings."""
+    options = options.resolved(mesh.textured)
     # What is not finite outside the patch is none of our business, and the engine looks inside.
     with np.errstate(invalid="ignore", over="ignore"):
         world = mesh.transformed(matrix)
         # Conformal weights belong to the present shape, and so do its triangles.
         patch = make_patch(world, even=options.inner_fairness != "CONFORMAL")
-        normals, warnings = prescribed_normals(world, patch, options.boundary_normals)
+        outside = outside_triangles(world, patch)
+        normals, warnings = prescribed_normals(world, patch, options.boundary_normals, outside)
+        vertices, around = numbered(patch, wound_alike(world, outside))
         precision = precision_note(mesh)
         notes = outline_notes(world) + ((precision,) if precision else ()) + mesh.notes
-    return engine.Problem(patch, world.positions[patch.vertices], normals), warnings + notes
+    return engine.Problem(patch, world.positions[vertices], normals, vertices, around), warnings + notes
 
 
 def _solve_again(
     key: str, problem: engine.Problem, options: FairOptions, progress: Progress | None, kept: Kept
 ) -> fairing.FairResult:
     """Solve with the solver of a former call for the same patch, if there was one: other options move less."""
+    if options.outline == "MENDED":  # what a repeated solve doesn't do
+        return engine.solve(problem, options, progress)
     was_here = key in kept.solvers
     solver = kept.solvers.take(key)
     if not was_here and not kept.ahead:
@@ -95,4 +105,11 @@ def _solve_again(
 
 
 def _solved(problem: engine.Problem, result: fairing.FairResult, warnings: tuple[str, ...]) -> Solved:
-    return Solved(problem, result, warnings + sentences(result.warnings, problem.patch.origin))
+    rest = tuple(told for told in result.warnings if told.code not in NO_ANSWER and not _is_measured(told))
+    failed = tuple(told for told in result.warnings if told.code in NO_ANSWER)
+    return Solved(problem, result, warnings + sentences(rest, problem.origin), sentences(failed, problem.origin))
+
+
+def _is_measured(told: fairing.Diagnostic) -> bool:
+    """Tell whether `quality` counts it in what is written, mirrored or blended as that may be."""
+    return told.code == "SELF_INTERSECTION" or (told.code == "FLIPPED_TRIANGLES" and "triangles" in told.figures)

@@ -143,10 +143,10 @@ WORDS: dict[str, tuple[Words, ...]] = {
     ),
     "NOT_CONVERGED": (
         Words(
-            "An island of {free_vertices:.0f} free vertices was solved with {load_share:.0%} of its bulge only and "
-            "keeps that surface; there may be none with more",
-            "{islands} islands, of {free_vertices:.0f} free vertices in all, were solved with {load_share:.0%} of "
-            "their bulge at most and keep that surface; there may be none with more",
+            "An island of {free_vertices:.0f} free vertices has a surface with {load_share:.0%} of its bulge; "
+            "there may be none with more",
+            "{islands} islands, of {free_vertices:.0f} free vertices in all, have surfaces with {load_share:.0%} of "
+            "their bulge at most; there may be none with more",
             when="load_share",
         ),
         Words(
@@ -165,9 +165,8 @@ WORDS: dict[str, tuple[Words, ...]] = {
             when="from_behind",
         ),
         Words(
-            "An island of {free_vertices:.0f} free vertices did not converge; its positions are the best found",
-            "{islands} islands, of {free_vertices:.0f} free vertices in all, did not converge; "
-            "their positions are the best found",
+            "No fair surface was found for an island of {free_vertices:.0f} free vertices",
+            "No fair surface was found for {islands} islands, of {free_vertices:.0f} free vertices in all",
         ),
     ),
     "PRECISION": (

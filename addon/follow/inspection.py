@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
@@ -34,7 +34,8 @@ def last_options(context: bpy.types.Context) -> FairOptions:
     last = context.window_manager.operator_properties_last("mesh.fair_region")
     if last is None:
         return FairOptions()
-    return FairOptions(**{name: getattr(last, name) for name in option_names()})
+    options = FairOptions(**{name: getattr(last, name) for name in option_names()})
+    return replace(options, accept="USABLE")  # is asked for each time anew
 
 
 def inspect(obj: bpy.types.Object, options: FairOptions) -> Inspection:
@@ -54,7 +55,7 @@ def _inspect_task(task: job.Task, options: FairOptions) -> Inspection:
         return Inspection(task.object_name, faces, refusal=NO_FREE)
     try:
         problem, notes = pose(task.mesh, task.matrix, options)
-        engine.check(problem, options)
+        engine.check(problem, options.resolved(task.mesh.textured))
         islands = engine.islands(problem.patch)
     except engine.REFUSALS as cause:
         return Inspection(task.object_name, faces, task.free_count, refusal=str(cause))

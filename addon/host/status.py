@@ -36,3 +36,17 @@ def redraw_views(context: bpy.types.Context) -> None:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
                 area.tag_redraw()
+
+
+def view_selected(context: bpy.types.Context) -> None:
+    """Turn the 3D view to what is selected: the one in use, or else the first one of the window."""
+    window = context.window
+    if window is None or bpy.app.background:
+        return
+    areas = [area for area in window.screen.areas if area.type == "VIEW_3D"]
+    area = context.area if context.area in areas else next(iter(areas), None)
+    if area is None:
+        return
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    with context.temp_override(window=window, area=area, region=region):
+        bpy.ops.view3d.view_selected()

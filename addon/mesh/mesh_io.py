@@ -1,4 +1,4 @@
-"""Blender meshes to arrays and positions back; together with live_mesh all that touches bmesh."""
+"""Blender meshes to arrays and positions back; with live_mesh and selecting all that touches bmesh."""
 
 from __future__ import annotations
 
@@ -163,6 +163,7 @@ def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: Fa
         in_patch=in_patch,
         pinned=np.zeros(len(mesh.vertices), dtype=bool),
         corner_normals=_corner_normals(mesh) if custom else None,
+        textured=_is_textured(mesh, in_patch[corner_faces]) if options.inner_fairness == "AUTOMATIC" else False,
     )
     return _pinned(arrays, mesh, group, options)
 
@@ -182,6 +183,15 @@ def _pinned(arrays: MeshArrays, mesh: bpy.types.Mesh, group: int | None, options
         f"The pin group {options.pin_group!r} has no vertex inside the selection with a weight above 0: it pins nothing"
     )
     return replace(arrays, pinned=pinned, notes=(note,))
+
+
+def _is_textured(mesh: bpy.types.Mesh, corners: Mask) -> bool:
+    """Tell whether the corners in the (c,) mask have places of their own on a UV map."""
+    layer = mesh.uv_layers.active
+    if layer is None or not corners.any():
+        return False
+    places = _column(layer.uv, "vector", 2, np.float32)[corners]
+    return bool((np.ptp(places, axis=0) > 0.0).all())
 
 
 def _corner_normals(mesh: bpy.types.Mesh) -> Floats:
@@ -257,19 +267,6 @@ def _follows(block: bpy.types.ShapeKey, basis: bpy.types.ShapeKey) -> bool:
         if block == basis:
             return True
     return False
-
-
-def select_vertices(mesh: bpy.types.Mesh, vertices: Ints) -> None:
-    """Select exactly these vertices of a mesh in edit mode; nothing else about it changes."""
-    bm = bmesh.from_edit_mesh(mesh)
-    bm.select_mode = {"VERT"}
-    bm.verts.ensure_lookup_table()
-    for element in (*bm.faces, *bm.edges, *bm.verts):
-        element.select = False
-    for vertex in vertices.tolist():
-        bm.verts[vertex].select = True
-    bm.select_flush_mode()
-    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
 
 
 def write_attribute(mesh: bpy.types.Mesh, name: str, values: Floats) -> None:

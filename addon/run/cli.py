@@ -14,15 +14,17 @@ import numpy as np
 from ..core.engine import REFUSALS
 from ..core.options import FairOptions, option_names
 from ..core.report import Report, make_report, summary
+from ..core.verdict import UNUSABLE
 from .fair_mesh import fair_faces
 
-CONVERGED, NOT_CONVERGED, REFUSED = 0, 1, 2
+WRITTEN, NOT_USABLE, REFUSED = 0, 1, 2
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="blender --background FILE --command fair",
-        description="Fair faces of a mesh. Exit status: 0 converged, 1 not converged, 2 refused.",
+        description="Fair faces of a mesh. Exit status: 0 done, 1 the result is not usable (written only with "
+        "--accept ALL), 2 refused.",
     )
     parser.add_argument("--object", required=True, help="name of the mesh object")
     parser.add_argument(
@@ -59,10 +61,15 @@ def _faces(obj: bpy.types.Object, group: str | None) -> list[int]:
 
 def _figures(report: Report) -> dict[str, Any]:
     return {
+        "verdict": report.verdict.grade,
+        "reason": report.verdict.reason,
+        "written": report.written,
         "free_vertices": report.free_vertices,
         "converged": report.converged,
         "residual": report.residual,
         "boundary_angle": report.boundary_angle,
+        "join_typical": report.join[0],
+        "join_worst": report.join[1],
         "texture_distortion": report.distortion,
         "seconds": report.seconds,
         "checks": {check.name: {"value": check.value, "state": check.state} for check in report.checks},
@@ -107,7 +114,8 @@ def execute(arguments: list[str]) -> int:
     except REFUSALS as error:
         print(f"fair: {error}", file=sys.stderr)
         return REFUSED
-    bpy.ops.wm.save_as_mainfile(filepath=chosen.output, copy=True)
     report = make_report([(obj.name, outcome)], options, time.perf_counter() - begin)
+    if report.written:
+        bpy.ops.wm.save_as_mainfile(filepath=chosen.output, copy=True)
     _print(report, chosen.report)
-    return CONVERGED if report.converged else NOT_CONVERGED
+    return NOT_USABLE if report.verdict.grade == UNUSABLE else WRITTEN

@@ -10,7 +10,7 @@ import numpy as np
 from ..core.arrays import Floats, Ints
 from ..core.outcome import Fairing
 from ..host.polling import require, require_edit_mode
-from ..mesh import mesh_io
+from ..mesh import mesh_io, selecting
 from .job import Task, objects_in_mode
 
 
@@ -61,6 +61,19 @@ def is_available() -> bool:
 
 class Changed(Exception):
     """The vertices are neither where they were before the run nor where it left them."""
+
+
+def is_undone() -> bool:
+    """Tell whether all vertices of the last run that was written are where they were before it."""
+    return bool(_last.pairs) and all(_is_before(pair) for pair in _last.pairs)
+
+
+def _is_before(pair: Pair) -> bool:
+    obj = bpy.data.objects.get(pair.object_name)
+    if obj is None or obj.type != "MESH" or selecting.count(obj.data) != pair.vertex_count:
+        return False
+    places = selecting.places(obj.data, pair.vertices)
+    return np.array_equal(places, pair.before) and not np.array_equal(pair.before, pair.after)
 
 
 def toggle(context: bpy.types.Context) -> bool:

@@ -8,7 +8,6 @@ from ..core.options import FairOptions
 from ..core.outcome import Fairing, outcome
 from ..core.region import MeshArrays
 from ..core.solve import Kept, solve
-from ..mesh.crossings import intersections
 
 
 def fair_arrays(
@@ -23,4 +22,4 @@ def fair_arrays(
     Raises what `solve` and `outcome` do. `mesh` is never changed. Any thread will do.
     """
     solved = solve(mesh, matrix, options, progress, kept)
-    return outcome(mesh, matrix, options.factor, solved, intersections)
+    return outcome(mesh, matrix, options, solved)

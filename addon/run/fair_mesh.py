@@ -13,6 +13,8 @@ import fairing
 from ..core.engine import Progress
 from ..core.options import FairOptions
 from ..core.outcome import Fairing
+from ..core.report import is_written
+from ..core.verdict import NotUsable
 from ..mesh import mesh_io
 from .fair_arrays import fair_arrays
 
@@ -27,9 +29,14 @@ def fair_mesh(
     Returns the `fairing` result for the patch: its vertices are those of the visible `faces`, in
     ascending order, in the space of `matrix`.
     Raises fairing.MeshError (elements: vertices of `mesh`), ValueError, TypeError for a property
-    that does not exist, IndexError, fairing.SolverError and MemoryError; the mesh is untouched then.
+    that does not exist, IndexError, fairing.SolverError and MemoryError; NotUsable where the result folds, crosses
+    itself or is none, unless accept="ALL". The mesh is untouched then.
     """
-    return fair_faces(mesh, faces, matrix, FairOptions(**properties)).result
+    options = FairOptions(**properties)
+    outcome = fair_faces(mesh, faces, matrix, options)
+    if not is_written([outcome], options):
+        raise NotUsable(outcome.verdict, outcome.result)
+    return outcome.result
 
 
 def fair_faces(
@@ -39,11 +46,12 @@ def fair_faces(
     options: FairOptions,
     progress: Progress | None = None,
 ) -> Fairing:
-    """Do the work of `fair_mesh`, with its errors, and return the whole Fairing."""
+    """Do the work of `fair_mesh`, with all its errors but NotUsable; what is not usable is not written."""
     arrays = mesh_io.read_mesh(mesh, np.asarray(faces, dtype=np.int64), options)
     world = np.eye(4) if matrix is None else np.array(matrix, dtype=np.float64)
     if world.shape != (4, 4):
         raise ValueError(f"matrix: expected 4×4 numbers, got shape {world.shape}")
     outcome = fair_arrays(arrays, world, options, progress)
-    mesh_io.write_mesh(mesh, outcome.vertices, outcome.positions)
+    if is_written([outcome], options):
+        mesh_io.write_mesh(mesh, outcome.vertices, outcome.positions)
     return outcome

@@ -19,10 +19,10 @@ from ..core.report import make_report, summary
 from ..core.runner import Run
 from ..host.polling import NO_FACE, NO_FREE, SELECT_FACES, require, require_edit_mode
 from ..host.status import hide_progress, show_progress
-from ..mesh import mesh_io
+from ..mesh import selecting
 from ..preferences import background_from
 from ..translations import translated
-from . import compare, job
+from . import compare, job, last_run
 from .properties import FairProperties
 from .redo_panel import draw_options
 from .report_properties import store
@@ -68,7 +68,7 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Lay the options out in groups."""
-        draw_options(self.layout, self, context.object)
+        draw_options(self.layout, self, context.object, context.window_manager)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Fair every object in edit mode, or none of them where one is refused; return when done."""
@@ -167,20 +167,29 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
         hide_progress(context)
 
     def _apply(self, context: bpy.types.Context, outcomes: list[Fairing]) -> set[str]:
-        job.write(context, self._tasks, outcomes)
-        compare.remember(self._tasks, outcomes)
         named = [(task.object_name, outcome) for task, outcome in zip(self._tasks, outcomes, strict=True)]
         report = make_report(named, self._options, time.perf_counter() - self._begin, self._notes)
         store(context.window_manager.fairing_report, report)
+        last_run.remember(self._tasks, outcomes, self._options)
+        if not report.written:
+            return self._leave(context, summary(report))
+        job.write(context, self._tasks, outcomes)
+        compare.remember(self._tasks, outcomes)
         for warning in report.warnings:
             self.report({"WARNING"}, warning)
         self.report({"INFO"}, summary(report))
         return {"FINISHED"}
 
+    def _leave(self, context: bpy.types.Context, reason: str) -> set[str]:
+        """Leave every mesh as it is, and show where the result is no good."""
+        last_run.select_spots(context)
+        self.report({"ERROR"}, reason)
+        return {"CANCELLED"}
+
     def _refuse(self, context: bpy.types.Context, refusal: job.Refused) -> set[str]:
         elements = np.asarray(getattr(refusal.cause, "elements", ()), dtype=np.int64)
         if elements.size:
             context.tool_settings.mesh_select_mode = (True, False, False)
-            mesh_io.select_vertices(job.objects_in_mode(context)[refusal.object_name].data, elements)
+            selecting.select_vertices(job.objects_in_mode(context)[refusal.object_name].data, elements)
         self.report({"ERROR"}, str(refusal))
         return {"CANCELLED"}

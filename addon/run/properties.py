@@ -30,6 +30,7 @@ _EQUATIONS = (
     ),
 )
 _INNER_FAIRNESS = (
+    ("AUTOMATIC", "Automatic", "Keep Texture where the selection has a UV map, Even where it has none"),
     ("UNIFORM", "Even", "Vertices spread evenly over the surface. Best topology, but textures slide"),
     (
         "CONFORMAL",
@@ -55,6 +56,18 @@ _BOUNDARY_NORMALS = (
 _METHODS = (
     ("GLOBAL", "Global", "The fast solver. The old shape inside the selection does not matter"),
     ("PAPER", "Multigrid", "The published iteration, step by step: slow, for comparison"),
+)
+_OUTLINES = (
+    ("GIVEN", "As Selected", "The outline stays where it is"),
+    (
+        "MENDED",
+        "Smooth",
+        "A noisy outline and two rings of faces around it are smoothed first, by a quarter of an edge at most",
+    ),
+)
+_ACCEPT = (
+    ("USABLE", "Usable Results", "A result that folds, crosses itself or is none leaves the mesh as it was"),
+    ("ALL", "All Results", "Whatever comes out is written"),
 )
 _PIN_EDGES = (
     ("NONE", "None", "No edge inside the selection is held"),
@@ -92,10 +105,10 @@ class FairProperties:
         precision=2,
     )
     inner_fairness: EnumProperty(
-        name="Vertices",
+        name="Spread Vertices",
         description="How vertices spread over the surface. The surface itself stays the same",
         items=_INNER_FAIRNESS,
-        default="UNIFORM",
+        default="AUTOMATIC",
     )
     boundary_normals: EnumProperty(
         name="Tangent To",
@@ -135,4 +148,17 @@ class FairProperties:
         description="Marked edges that the surface passes through",
         items=_PIN_EDGES,
         default="NONE",
+    )
+    outline: EnumProperty(
+        name="Outline",
+        description="What is done about a noisy outline",
+        items=_OUTLINES,
+        default="GIVEN",
+    )
+    accept: EnumProperty(
+        name="Write",
+        description="Which results are written",
+        items=_ACCEPT,
+        default="USABLE",
+        options={"SKIP_SAVE"},
     )

@@ -4,21 +4,27 @@ from typing import Any
 
 import bpy
 
-_SOLVER = ("method", "levels", "tolerance", "max_iterations")
+_SOLVER = ("method", "levels", "tolerance", "max_iterations", "accept")
+OPEN = "fairing_more"  # of the window manager: whether the rarely used options show
 
 
-def draw_options(layout: Any, options: Any, obj: bpy.types.Object) -> None:
-    """Draw the properties of `mesh.fair_region`: shape, vertices, outline, solver."""
+def draw_options(layout: Any, options: Any, obj: bpy.types.Object, manager: Any) -> None:
+    """Draw the properties of `mesh.fair_region`: shape, vertices, outline, and folded away what is rarely used."""
     layout.use_property_split = True
     layout.prop(options, "factor")
     _draw_shape(_group(layout, "Shape"), options)
-    _group(layout, "Inner Fairness").prop(options, "inner_fairness")
+    _group(layout, "Vertices").prop(options, "inner_fairness")
     _draw_outline(_group(layout, "At the Outline"), options, obj)
-    _draw_solver(_group(layout, "Solver"), options)
+    # No collapsible layout panel: not every place that shows these options has them.
+    opened = bool(getattr(manager, OPEN))
+    row = layout.row()
+    row.use_property_split = False
+    row.prop(manager, OPEN, icon="DOWNARROW_HLT" if opened else "RIGHTARROW", emboss=False)
+    if opened:
+        _draw_solver(layout.column(align=True), options)
 
 
 def _group(layout: Any, title: str) -> Any:
-    # No collapsible layout panels: not every place that shows these options has them.
     layout.separator(factor=0.5)
     column = layout.column(align=True)
     column.label(text=title)
@@ -36,6 +42,7 @@ def _draw_outline(group: Any, options: Any, obj: bpy.types.Object) -> None:
     row = group.row()
     row.active = options.equation != "MINIMAL"  # meets positions only
     row.prop(options, "boundary_normals")
+    group.prop(options, "outline")
     group.prop_search(options, "pin_group", obj, "vertex_groups")
     group.prop(options, "pin_edges")
 

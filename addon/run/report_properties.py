@@ -6,8 +6,9 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
-from ..core.report import MET, MISSED, TOLD, Report
+from ..core.report import GRADE_NAMES, MET, MISSED, TOLD, Report
 
+_GRADES = tuple((grade, name, "") for grade, name in GRADE_NAMES.items())
 _STATES = ((MET, "Met", ""), (MISSED, "Missed", ""), (TOLD, "Told", ""))
 
 
@@ -16,17 +17,25 @@ class FairCheck(bpy.types.PropertyGroup):
 
     value: StringProperty()
     state: EnumProperty(items=_STATES)
+    detail: BoolProperty()
 
 
 class FairReport(bpy.types.PropertyGroup):
     """What the last run did."""
 
+    verdict: EnumProperty(items=_GRADES)
+    reason: StringProperty()
+    remedies: StringProperty()
+    written: BoolProperty()
+    undone: BoolProperty()
     objects: StringProperty()
     free_vertices: IntProperty()
     seconds: FloatProperty()
     residual: FloatProperty()
     boundary_angle: FloatProperty()
     distortion: FloatProperty()
+    join_typical: FloatProperty()
+    join_worst: FloatProperty()
     converged: BoolProperty()
     warnings: StringProperty()
     checks: CollectionProperty(type=FairCheck)
@@ -45,8 +54,12 @@ def store(shown: Any, report: Report) -> None:
     shown.objects = ", ".join(report.objects)
     for name in ("free_vertices", "seconds", "residual", "boundary_angle", "distortion", "converged"):
         setattr(shown, name, getattr(report, name))
+    shown.verdict, shown.reason = report.verdict.grade, report.verdict.reason
+    shown.remedies = ",".join(report.verdict.remedies)
+    shown.written, shown.undone = report.written, False
+    shown.join_typical, shown.join_worst = report.join
     shown.warnings = "\n".join(report.warnings)
     shown.checks.clear()
     for check in report.checks:
         line = shown.checks.add()
-        line.name, line.value, line.state = check.name, check.value, check.state
+        line.name, line.value, line.state, line.detail = check.name, check.value, check.state, check.detail

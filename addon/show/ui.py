@@ -4,17 +4,20 @@ from typing import Any
 
 import bpy
 
+from ..core.report import GRADE_NAMES
 from ..follow.inspection import Inspection
 from ..follow.live import live
 from ..follow.live_operators import MESH_OT_fair_live_forget, MESH_OT_fair_live_region, MESH_OT_fair_live_select
 from ..follow.watch import MESH_OT_fair_inspect, is_large, request, watch
 from ..host.text import draw_text
+from ..run.again import WAY_NAMES, MESH_OT_fair_again, MESH_OT_fair_spots
 from ..run.compare import MESH_OT_fair_compare
 from ..run.curvature import MESH_OT_fair_curvature
 from ..run.operators import MESH_OT_fair_region
 from ..translations import translated
 from .overlay import overlay
 
+_GRADE_ICONS = {"GOOD": "CHECKMARK", "LOOK": "ERROR", "UNUSABLE": "CANCEL"}
 _ICONS = {"MET": "CHECKMARK", "MISSED": "ERROR", "TOLD": "BLANK1"}
 
 
@@ -72,12 +75,34 @@ class VIEW3D_PT_fairing_report(_Panel, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """There must have been one."""
-        return bool(context.window_manager.fairing_report.free_vertices)
+        """There must have been one, and it must stand."""
+        report = context.window_manager.fairing_report
+        return bool(report.free_vertices and not report.undone)
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the report: what was met, what was missed."""
-        _draw_report(self.layout, context.window_manager.fairing_report)
+        """Draw the verdict, what may help, and the figures; what the panel Selection says isn't said again."""
+        report = context.window_manager.fairing_report
+        _draw_verdict(self.layout, report)
+        said = {note for found in watch.found for note in found.notes} if context.mode == "EDIT_MESH" else set()
+        _draw_figures(self.layout, report, said)
+
+
+class VIEW3D_PT_fairing_details(_Panel, bpy.types.Panel):
+    """Figures for those who want to find something out"""
+
+    bl_label = "Details"
+    bl_parent_id = "VIEW3D_PT_fairing_report"
+    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012 - the form that Blender asks for
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw residual, codes and the like."""
+        report = context.window_manager.fairing_report
+        column = self.layout.column(align=True)
+        for check in report.checks:
+            if check.detail:
+                _pair(column, check.name, check.value)
+        _pair(column, "Free Vertices", str(report.free_vertices))
+        _pair(column, "Seconds", f"{report.seconds:.2f}")
 
 
 class VIEW3D_PT_fairing_live(_Panel, bpy.types.Panel):
@@ -144,17 +169,35 @@ def _draw_inspection(layout: Any, found: Inspection, named: bool) -> None:
         draw_text(layout, note, "INFO")
 
 
-def _draw_report(layout: Any, report: Any) -> None:
+def _draw_verdict(layout: Any, report: Any) -> None:
     layout.label(text=report.objects, icon="OBJECT_DATA", translate=False)
+    row = layout.row()
+    row.alert = report.verdict == "UNUSABLE"
+    row.label(text=GRADE_NAMES[report.verdict], icon=_GRADE_ICONS[report.verdict])
+    if report.reason:
+        draw_text(layout, report.reason, "BLANK1")
+    if report.verdict != "GOOD":
+        if not report.written:
+            draw_text(layout, translated("Nothing was changed"), "BLANK1")
+        _draw_remedies(layout.column(align=True), report)
+
+
+def _draw_remedies(column: Any, report: Any) -> None:
+    column.operator(MESH_OT_fair_spots.bl_idname, icon="VIEWZOOM")
+    for way in filter(None, report.remedies.split(",")):
+        column.operator(MESH_OT_fair_again.bl_idname, text=WAY_NAMES[way]).way = way
+
+
+def _draw_figures(layout: Any, report: Any, said: set[str]) -> None:
     column = layout.column(align=True)
     for check in report.checks:
-        row = column.row()
-        row.alert = check.state == "MISSED"
-        _pair(row, check.name, check.value, _ICONS[check.state])
-    _pair(column, "Free Vertices", str(report.free_vertices), "BLANK1")
-    _pair(column, "Seconds", f"{report.seconds:.2f}", "BLANK1")
+        if not check.detail:
+            row = column.row()
+            row.alert = check.state == "MISSED"
+            _pair(row, check.name, check.value, _ICONS[check.state])
     for warning in report.warnings.splitlines():
-        draw_text(layout, warning, "ERROR")
+        if warning not in said:
+            draw_text(layout, warning, "INFO")
 
 
 def _draw_overlay(layout: Any, settings: Any) -> None:
@@ -192,6 +235,7 @@ PANELS = (
     VIEW3D_PT_fairing,
     VIEW3D_PT_fairing_selection,
     VIEW3D_PT_fairing_report,
+    VIEW3D_PT_fairing_details,
     VIEW3D_PT_fairing_live,
     VIEW3D_PT_fairing_overlay,
 )

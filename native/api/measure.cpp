@@ -7,7 +7,9 @@
 #include <Eigen/Geometry>
 
 #include "api/component.h"
+#include "api/diagnose.h"
 #include "base/direction.h"
+#include "geometry/flips.h"
 #include "geometry/mean_curvature.h"
 #include "geometry/one_ring_buffer.h"
 #include "geometry/surface_fit.h"
@@ -143,6 +145,16 @@ MatrixEntries cotan_laplacian(const Points& points, const Triangles& triangles) 
     }
     for (int v = 0; v < points.cols(); ++v) add(v, v, diagonal[v]);
     return entries;
+}
+
+Indices flipped_triangles(const MeshInput& input) {
+    Indices flipped;
+    for_each_piece(check_mesh(input), input.vertices, [&](const Patch& patch, const Points& local) {
+        const Indices found = input_numbers(patch, flipped_triangles(patch, local));
+        flipped.insert(flipped.end(), found.begin(), found.end());
+    });
+    std::sort(flipped.begin(), flipped.end());
+    return flipped;
 }
 
 VectorX conformal_distortion(const Points& reference, const Points& points, const Triangles& triangles) {

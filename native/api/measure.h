@@ -32,6 +32,10 @@ struct MatrixEntries {
 };
 MatrixEntries cotan_laplacian(const Points& points, const Triangles& triangles);
 
+// Triangles, ascending, that are turned over against those around them (geometry/flips.h); pieces are looked at one by
+// one, as fair() does. Positions must be finite.
+Indices flipped_triangles(const MeshInput& input);
+
 // Ratio ≥ 1 of the singular values of the affine map of each triangle from the reference to the points; infinite where
 // one of them is degenerate.
 VectorX conformal_distortion(const Points& reference, const Points& points, const Triangles& triangles);

@@ -2,6 +2,7 @@
 #include "bindings/convert.h"
 #include "bindings/topics.h"
 #include "bindings/words.h"
+#include "geometry/self_intersection.h"
 #include "mesh/loops.h"
 
 namespace fairing::bindings {
@@ -40,6 +41,15 @@ py::array component_array(const IntArray& triangles, const std::optional<IntArra
     return from_indices(component_of_triangles(to_triangles(triangles), to_optional(fixed, to_indices), vertex_count));
 }
 
+py::array flipped_array(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed) {
+    return from_indices(
+        flipped_triangles({to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices), {}}));
+}
+
+py::array crossing_array(const DoubleArray& vertices, const IntArray& triangles) {
+    return from_indices(crossing_triangles(to_triangles(triangles), to_points(vertices)));
+}
+
 py::array conformal_distortion_array(const DoubleArray& reference, const DoubleArray& vertices,
                                      const IntArray& triangles) {
     return from_vector(conformal_distortion(to_points(reference), to_points(vertices), to_triangles(triangles)));
@@ -54,6 +64,8 @@ void bind_measure(py::module_& module) {
     module.def("cotan_laplacian", &cotan_laplacian_arrays, py::arg("vertices"), py::arg("triangles"));
     module.def("components", &component_array, py::arg("triangles"), py::arg("fixed"), py::arg("vertex_count"));
     module.def("boundary_loops", &boundary_loop_arrays, py::arg("triangles"));
+    module.def("flipped_triangles", &flipped_array, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"));
+    module.def("self_intersections", &crossing_array, py::arg("vertices"), py::arg("triangles"));
     module.def("conformal_distortion", &conformal_distortion_array, py::arg("reference"), py::arg("vertices"),
                py::arg("triangles"));
 }

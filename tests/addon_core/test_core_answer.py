@@ -16,13 +16,10 @@ from core.options import FairOptions
 from core.outcome import Fairing, outcome
 from core.region import MeshArrays
 from core.solve import Kept, Solved, pose, solve
+from core.verdict import GOOD
 from polygon_mesh import grid, on_sphere
 
 EYE = np.eye(4)
-
-
-def none_cross(_positions: Floats, _triangles: Ints) -> int:
-    return 0
 
 
 def spoilt_sphere(size: int = 16) -> MeshArrays:
@@ -37,7 +34,7 @@ def spoilt_sphere(size: int = 16) -> MeshArrays:
 
 def fair(mesh: MeshArrays, matrix: Floats = EYE, **options: object) -> Fairing:
     chosen = FairOptions(**options)
-    return outcome(mesh, matrix, chosen.factor, solve(mesh, matrix, chosen), none_cross)
+    return outcome(mesh, matrix, chosen, solve(mesh, matrix, chosen))
 
 
 def test_the_sphere_comes_back() -> None:
@@ -45,8 +42,9 @@ def test_the_sphere_comes_back() -> None:
     assert done.result.converged
     np.testing.assert_allclose(np.linalg.norm(done.positions, axis=1), 1.0, atol=1e-6)
     assert done.curvature == pytest.approx((1.0, 1.0), abs=2e-2)
-    assert done.before.flipped > 0
-    assert (done.after.flipped, done.after.degenerate) == (0, 0)
+    assert len(done.before.folded) > 0
+    assert (len(done.after.folded), len(done.after.needles), done.verdict.grade) == (0, 0, GOOD)
+    assert done.join.worst < 1.0  # a sphere of this size bends by 6° from face to face
 
 
 def test_it_is_fair_in_the_space_that_the_matrix_leads_to() -> None:
@@ -111,7 +109,7 @@ def test_other_options_start_from_the_solver_that_was_kept(monkeypatch: pytest.M
     monkeypatch.setattr(fairing, "fair", lambda *_args, **_options: pytest.fail("a call without its solver"))
     monkeypatch.setattr(engine, "RepeatedSolve", lambda *_args: pytest.fail("another solver"))
     other = FairOptions(inner_fairness="INVERSE_DISTANCE")
-    again = outcome(mesh, EYE, 1.0, solve(mesh, EYE, other, kept=kept), none_cross)
+    again = outcome(mesh, EYE, other, solve(mesh, EYE, other, kept=kept))
     np.testing.assert_allclose(np.linalg.norm(again.positions, axis=1), 1.0, atol=1e-6)
     moved = replace(mesh, positions=1.5 * mesh.positions)
     with pytest.raises(pytest.fail.Exception, match="another solver"):
@@ -136,16 +134,43 @@ def test_errors_name_the_vertices_of_the_mesh() -> None:
     assert str(refusal.value) == f"Vertex {vertex} has a coordinate that is NaN or infinite"
 
 
-def test_a_patch_that_may_cross_is_counted_and_a_clear_one_is_not() -> None:
+def test_a_patch_that_may_cross_is_looked_at_and_a_clear_one_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
     mesh = spoilt_sphere()
     solved = solve(mesh, EYE, FairOptions())
     asked: list[float] = []
 
-    def seven(positions: Floats, _triangles: Ints) -> int:
+    def seven(positions: Floats, _triangles: Ints) -> Ints:
         asked.append(float(positions.sum()))
-        return 7
+        return np.arange(7)
 
-    clear = outcome(mesh, EYE, 1.0, solved, seven)
-    assert (clear.before.intersections, clear.after.intersections, len(asked)) == (7, 0, 1)
-    blended = outcome(mesh, EYE, 0.5, solved, seven)  # nobody knows of what lies half-way
-    assert (blended.before.intersections, blended.after.intersections, len(asked)) == (7, 7, 3)
+    monkeypatch.setattr(fairing, "self_intersections", seven)
+    clear = outcome(mesh, EYE, FairOptions(), solved)
+    assert clear.before.crossing is not None
+    assert clear.after.crossing is not None
+    assert (len(clear.before.crossing) > 0, len(clear.after.crossing), len(asked)) == (True, 0, 1)
+    outcome(mesh, EYE, FairOptions(factor=0.5), solved)  # nobody knows of what lies half-way
+    assert len(asked) == 3
+
+
+def rough_surroundings(noise: float) -> MeshArrays:
+    """The sphere with noise everywhere, its outline too."""
+    mesh = grid(16, 0.6, on_sphere)
+    shift = noise * np.random.default_rng(3).normal(size=mesh.positions.shape)
+    return replace(mesh, positions=mesh.positions + shift)
+
+
+def test_a_mended_outline_moves_with_what_is_around_it_and_nothing_else() -> None:
+    mesh = rough_surroundings(0.015)
+    patch = pose(mesh, EYE, FairOptions())[0].patch
+    given, mended = fair(mesh), fair(mesh, outline="MENDED")
+    assert np.array_equal(given.vertices, patch.vertices[patch.free])
+    more = np.setdiff1d(mended.vertices, given.vertices)
+    assert set(more) & set(patch.vertices[patch.outline])
+    assert set(more) - set(patch.vertices)
+    assert mended.free_count == given.free_count == len(given.vertices)
+    assert (np.diff(mended.vertices) > 0).all()
+    moved = np.linalg.norm(mended.positions - mesh.positions[mended.vertices], axis=1)
+    assert 0.0 < moved[np.isin(mended.vertices, more)].max() < 0.25 * 2.0 / 16.0
+    # What is moved comes nearer to the sphere that it was before the noise.
+    off = [np.abs(np.linalg.norm(p, axis=1) - 1.0) for p in (mended.positions, mesh.positions[mended.vertices])]
+    assert np.median(off[0][np.isin(mended.vertices, more)]) < 0.7 * np.median(off[1][np.isin(mended.vertices, more)])

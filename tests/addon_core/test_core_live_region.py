@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 import fairing
+from core.around import RINGS, outside_triangles
 from core.arrays import Floats
-from core.boundary import RINGS, prescribed_normals
+from core.boundary import prescribed_normals
 from core.live_region import LiveRegion, surroundings
 from core.options import FairOptions
 from core.region import MeshArrays, make_patch
@@ -36,8 +37,8 @@ def test_normals_from_the_part_are_those_from_the_whole(source: str) -> None:
     mesh = grid(SIZE, 0.35, lambda points: on_sphere(points) * (1.0 + 0.1 * points[:, :1] ** 2))
     patch = make_patch(mesh)
     around = surroundings(mesh, patch)
-    part, _ = prescribed_normals(around.mesh, around.patch, source)
-    whole, _ = prescribed_normals(mesh, patch, source)
+    part, _ = prescribed_normals(around.mesh, around.patch, source, outside_triangles(around.mesh, around.patch))
+    whole, _ = prescribed_normals(mesh, patch, source, outside_triangles(mesh, patch))
     np.testing.assert_allclose(part, whole, atol=1e-13)
 
 

@@ -35,7 +35,7 @@ def test_an_unknown_value_is_refused_by_its_name(wrong: dict[str, Any]) -> None:
 
 def test_every_argument_for_the_engine_is_one_that_it_knows() -> None:
     known = inspect.signature(fairing.fair).parameters
-    given = FairOptions().engine_arguments()
+    given = FairOptions().resolved(False).engine_arguments()
     assert set(given) <= set(known)
     assert given["equation"] == "harmonic"
     assert FairOptions(tolerance=1e-3, levels=4).engine_arguments()["tolerance"] == 1e-3
@@ -43,12 +43,15 @@ def test_every_argument_for_the_engine_is_one_that_it_knows() -> None:
 
 
 def test_the_words_are_the_engines() -> None:
-    """Every word of the engine's can be chosen, in its order; what the add-on leaves out is its default."""
+    """Every word of the engine's can be chosen, in its order; what the add-on leaves out is its default.
+
+    AUTOMATIC is the add-on's own and stands for one of them.
+    """
     words = _core.WORDS
-    for option, choices in (("equation", EQUATIONS), ("inner_fairness", INNER_FAIRNESS), ("method", METHODS)):
+    for option, choices in (("equation", EQUATIONS), ("inner_fairness", INNER_FAIRNESS[1:]), ("method", METHODS)):
         assert tuple(choice.lower() for choice in choices) == words[option]
     defaults = {name: value.default for name, value in inspect.signature(fairing.fair).parameters.items()}
-    given = FairOptions().engine_arguments()
+    given = FairOptions().resolved(False).engine_arguments()
     assert given == {name: defaults[name] for name in given}
 
 
@@ -56,3 +59,9 @@ def test_options_are_read_from_any_object_by_name() -> None:
     values = {field.name: field.default for field in fields(FairOptions)} | {"bulge": 0.5, "factor": 0.25}
     assert FairOptions.of(SimpleNamespace(**values)) == FairOptions(bulge=0.5, factor=0.25)
     assert option_names() == tuple(values)
+
+
+@pytest.mark.parametrize(("textured", "stands_for"), [(True, "CONFORMAL"), (False, "UNIFORM")])
+def test_automatic_keeps_a_texture(textured: bool, stands_for: str) -> None:
+    assert FairOptions().resolved(textured).inner_fairness == stands_for
+    assert FairOptions(inner_fairness="INVERSE_DISTANCE").resolved(textured).inner_fairness == "INVERSE_DISTANCE"

@@ -2,27 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
+import fairing
 from core import quality
+from core.around import numbered, outside_triangles
 from core.arrays import Floats, Ints
-from core.vectors import area_vectors
+from core.engine import Problem
+from core.region import Patch, make_patch
+from polygon_mesh import grid, grid_points
 
 QUAD = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
 TWO = np.array([[0, 1, 2], [0, 2, 3]])
-
-
-def test_flipped_triangles() -> None:
-    # a fan of six triangles around the origin; two of them turned over by moving a corner across
-    angles = np.radians(np.arange(6) * 60.0)
-    fan = np.vstack([[0.0, 0.0, 0.0], np.column_stack([np.cos(angles), np.sin(angles), np.zeros(6)])])
-    triangles = np.array([[0, 1 + k, 1 + (k + 1) % 6] for k in range(6)])
-    assert quality.flipped(fan, triangles).sum() == 0
-    fan[1, :2] = (-0.4, 0.6)  # crosses the next spoke
-    turned = area_vectors(fan, triangles)[:, 2] < 0.0
-    assert turned.any()
-    np.testing.assert_array_equal(quality.flipped(fan, triangles), turned)
 
 
 def test_degenerate_triangles() -> None:
@@ -42,37 +36,98 @@ def test_texture_distortion_of_a_stretched_square(stretch: float, distortion: fl
     assert quality.texture_distortion(QUAD, turned, TWO) == pytest.approx(0.0, abs=1e-12)
 
 
+def square_patch() -> Patch:
+    """The grid of 4 × 4 quads, all of it selected."""
+    return make_patch(grid(4, 2.0))
+
+
+LIFTED = grid_points(4) + np.array([0.0, 0.0, 1.0])
+
+
 class Counter:
-    """Answers with a number for each height of the first vertex, and remembers what it was asked."""
+    """Names some triangles for each height of the first vertex, and remembers what it was asked."""
 
     def __init__(self, before: int, after: int) -> None:
         self.asked: list[str] = []
         self._answers = {"before": before, "after": after}
 
-    def __call__(self, positions: Floats, _triangles: Ints) -> int:
+    def __call__(self, positions: Floats, _triangles: Ints) -> Ints:
         name = "after" if positions[0, 2] else "before"
         self.asked.append(name)
-        return self._answers[name]
+        return np.arange(self._answers[name])
 
 
-LIFTED = QUAD + np.array([0.0, 0.0, 1.0])
+def faces(found: Ints | None) -> int | None:
+    return None if found is None else len(found)
 
 
-def test_crossings_are_counted_on_both_sides() -> None:
-    counter = Counter(3, 5)
-    before, after = quality.compare((QUAD, LIFTED), TWO, False, counter)
-    assert (before.intersections, after.intersections) == (3, 5)
+def test_crossings_are_looked_for_on_both_sides(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(fairing, "self_intersections", Counter(5, 9))  # triangles: two of a face
+    before, after = quality.compare(square_patch(), (grid_points(4), LIFTED), False)
+    assert (faces(before.crossing), faces(after.crossing)) == (3, 5)
 
 
-def test_a_result_that_is_known_to_be_clear_is_not_looked_at() -> None:
-    counter = Counter(3, 5)
-    before, after = quality.compare((QUAD, LIFTED), TWO, True, counter)
-    assert (before.intersections, after.intersections) == (3, 0)
+def test_a_result_that_is_known_to_be_clear_is_not_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
+    counter = Counter(6, 10)
+    monkeypatch.setattr(fairing, "self_intersections", counter)
+    before, after = quality.compare(square_patch(), (grid_points(4), LIFTED), True)
+    assert (faces(before.crossing), faces(after.crossing)) == (3, 0)
     assert counter.asked == ["before"]
 
 
-@pytest.mark.parametrize(("after", "told"), [(0, None), (5, 3)])
-def test_a_large_patch_is_looked_at_before_only_where_it_crosses_afterwards(after: int, told: int | None) -> None:
-    many = np.tile(TWO, (quality.LARGE // 2 + 1, 1))
-    before, found = quality.compare((QUAD, LIFTED), many, False, Counter(3, after))
-    assert (before.intersections, found.intersections) == (told, after)
+@pytest.mark.parametrize(("after", "told"), [(0, None), (10, 3)])
+def test_a_large_patch_is_looked_at_before_only_where_it_crosses_afterwards(
+    monkeypatch: pytest.MonkeyPatch, after: int, told: int | None
+) -> None:
+    monkeypatch.setattr(fairing, "self_intersections", Counter(6, after))
+    monkeypatch.setattr(quality, "LARGE", 31)
+    before, found = quality.compare(square_patch(), (grid_points(4), LIFTED), False)
+    assert (faces(before.crossing), faces(found.crossing)) == (told, after // 2)
+
+
+def test_folded_faces_are_those_that_a_free_vertex_has_turned() -> None:
+    patch = square_patch()
+    points = grid_points(4)
+    assert len(quality.folded(patch, points)) == 0
+    points[12, :2] = (0.9, 0.9)  # the middle, across the corner of the quad above to the right
+    found = quality.folded(patch, points)
+    assert len(found) > 0
+    assert set(found) <= {5, 6, 9, 10}
+
+
+def bent_problem(degrees: float, shape: Callable[[Floats], Floats] = lambda p: p) -> Problem:
+    """A plane of quads whose selected middle is turned down along its outline."""
+    mesh = grid(16, 0.3)
+    patch = make_patch(mesh)
+    points = shape(mesh.positions)
+    slope = np.tan(np.radians(degrees))
+    inside = np.abs(points[:, :2]).max(axis=1) < 0.3
+    points[inside, 2] -= slope * np.minimum(points[inside, 0] + 0.25, 0.125)
+    vertices, outside = numbered(patch, outside_triangles(mesh, patch))
+    return Problem(patch, points[vertices], np.empty((0, 3)), vertices, outside)
+
+
+def test_the_join_is_seen_where_the_bend_is() -> None:
+    problem = bent_problem(30.0)
+    join = quality.join(problem, problem.points)
+    assert join.worst == pytest.approx(30.0)
+    flat = bent_problem(0.0)
+    assert quality.join(flat, flat.points).worst == pytest.approx(0.0, abs=1e-9)
+
+
+def test_the_join_is_judged_by_what_is_usual_around() -> None:
+    """Around a cylinder that bends by 18° at every edge a bend of 18° at the outline is none."""
+
+    def cylinder(points: Floats) -> Floats:
+        turn = np.radians(18.0) * 8.0 * points[:, 0]
+        return np.column_stack([0.4 * np.sin(turn), points[:, 1], 0.4 * np.cos(turn)])  # squares
+
+    round_one = bent_problem(0.0, cylinder)
+    assert quality.join(round_one, round_one.points).worst < 1e-6
+
+
+def test_figures_of_a_join() -> None:
+    join = quality.Join(np.array([4, 7, 9]), np.array([13.0, 1.0, 20.0]))
+    assert (join.typical, join.worst, join.seen(12.0).tolist()) == (13.0, 20.0, [9, 4])
+    none = quality.Join(np.empty(0, dtype=np.int64), np.empty(0))
+    assert (none.typical, none.worst) == (0.0, 0.0)

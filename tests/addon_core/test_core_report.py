@@ -1,4 +1,4 @@
-"""A run as figures: each met, missed or told, by made-up outcomes."""
+"""A run as a verdict and figures, each met, missed or told, by made-up outcomes."""
 
 from __future__ import annotations
 
@@ -8,79 +8,111 @@ from typing import Any
 import numpy as np
 import pytest
 
+from core.arrays import Ints
 from core.options import FairOptions
 from core.outcome import Fairing, outcome
-from core.quality import Quality
-from core.report import MET, MISSED, SMOOTH_ANGLE, TOLD, Report, angle_text, make_report, summary
+from core.quality import Join, Quality
+from core.report import MET, MISSED, TOLD, Report, angle_text, make_report, summary
 from core.solve import solve
+from core.verdict import GOOD, LOOK, UNUSABLE, VISIBLE, Verdict
 from polygon_mesh import grid, on_sphere
 
 
 @pytest.fixture(scope="module")
 def sphere() -> Fairing:
     mesh = grid(12, 0.6, on_sphere)
-    return outcome(mesh, np.eye(4), 1.0, solve(mesh, np.eye(4), FairOptions()), lambda *_: 0)
+    return outcome(mesh, np.eye(4), FairOptions(), solve(mesh, np.eye(4), FairOptions()))
 
 
 def states(report: Report) -> dict[str, str]:
     return {check.name: check.state for check in report.checks}
 
 
+def values(report: Report) -> dict[str, str]:
+    return {check.name: check.value for check in report.checks}
+
+
 def report(*outcomes: Fairing, **options: Any) -> Report:
     return make_report([(f"Object {k}", o) for k, o in enumerate(outcomes)], FairOptions(**options), 1.5)
 
 
+def quality(crossing: Ints | None) -> Quality:
+    nothing = np.empty(0, dtype=np.int64)
+    return Quality(nothing, nothing, crossing)
+
+
+BAD = Verdict(UNUSABLE, "2 faces of the result are folded over", np.array([3, 4]), ("GROW", "WRITE"))
+
+
 def test_a_sphere_meets_all(sphere: Fairing) -> None:
-    assert set(states(report(sphere)).values()) == {MET, TOLD}
-    assert summary(report(sphere)).startswith(f"Faired {len(sphere.vertices)} vertices in 1.50 s, largest angle")
+    told = report(sphere)
+    assert set(states(told).values()) == {MET, TOLD}
+    assert (told.verdict.grade, told.verdict.reason, told.written) == (GOOD, "", True)
+    assert summary(told) == f"Good: faired {len(sphere.vertices)} vertices in 1.50 s"
 
 
 def test_of_several_objects_the_worst_counts(sphere: Fairing) -> None:
     lost = replace(sphere.result, converged=False, termination="stalled", residual=0.5)
     wide = replace(sphere.result, boundary_angle=np.array([3.0]))
-    both = report(replace(sphere, result=lost), replace(sphere, result=wide))
+    seen = Join(np.array([0, 1, 2]), np.array([1.0, 4.0, 30.0]))
+    both = report(replace(sphere, result=lost, verdict=BAD), replace(sphere, result=wide, join=seen))
     assert (both.converged, both.residual, both.boundary_angle) == (False, 0.5, 3.0)
     assert both.free_vertices == 2 * len(sphere.vertices)
-    assert states(both)["Equation solved"] == MISSED
-    assert states(both)["Angle at the outline"] == MISSED
-    assert "no further progress, yes" in {check.value for check in both.checks}
-    assert summary(both).startswith("Not converged: ")
+    assert both.join == (4.0, 30.0)
+    assert values(both)["Kink at the outline"] == "4°, at most 30°"
+    assert states(both)["Kink at the outline"] == MISSED
+    assert values(both)["Equation solved"] == "no further progress, yes"
+    assert (both.verdict.grade, both.verdict.reason) == (UNUSABLE, f"Object 0: {BAD.reason}")
+    assert both.verdict.spots.tolist() == [3, 4]
 
 
-def test_a_surface_with_folds_is_found_but_not_met(sphere: Fairing) -> None:
-    folds = replace(sphere.result, converged=False, polished=False, termination="folded")
-    (told, *_) = report(replace(sphere, result=folds)).checks
-    assert (told.value, told.state) == ("found, but with folds", MISSED)
-    assert summary(report(replace(sphere, result=folds))).startswith("Not converged: ")
+def test_what_is_not_usable_is_not_written_unless_all_is_accepted(sphere: Fairing) -> None:
+    bad = replace(sphere, verdict=BAD)
+    assert not report(bad).written
+    assert not report(sphere, bad).written  # all of the objects or none
+    assert report(bad, accept="ALL").written
+    assert summary(report(bad)) == f"Not usable: {BAD.reason}. Nothing was changed"
+    look = replace(sphere, verdict=Verdict(LOOK, "A kink shows"))
+    assert report(look).written
+    assert summary(report(look)).endswith("s. A kink shows")
+    assert summary(report(look)).startswith("Look here: faired ")
+
+
+def test_nothing_in_the_details_is_green_or_red(sphere: Fairing) -> None:
+    lost = replace(sphere.result, converged=False, polished=False, termination="folded")
+    details = [check for check in report(replace(sphere, result=lost)).checks if check.detail]
+    assert {check.state for check in details} == {TOLD}
+    assert {"Equation solved", "Residual", "Ways tried"} <= {check.name for check in details}
+    assert values(report(replace(sphere, result=lost)))["Equation solved"] == "found, but with folds"
     # The surface exists: less of a bulge is no remedy.
-    assert report(replace(sphere, result=folds), equation="CONSTANT", bulge=0.3).warnings == ()
+    assert report(replace(sphere, result=lost), equation="CONSTANT", bulge=0.3).warnings == ()
 
 
 def test_a_result_on_the_engines_own_mesh_says_so(sphere: Fairing) -> None:
-    (first, *_) = report(replace(sphere, result=replace(sphere.result, polished=False))).checks
-    assert (first.value, first.state) == ("yes, on a proxy", MET)
-
-
-@pytest.mark.parametrize(("inside", "state"), [(1.0, MET), (1.009, MET), (1.02, MISSED)])
-def test_curvature_inside_is_bounded_by_the_outlines(sphere: Fairing, inside: float, state: str) -> None:
-    bulging = replace(sphere, curvature=(inside, 1.0))
-    assert states(report(bulging))["Curvature inside"] == state
-    assert states(report(bulging, equation="CONSTANT", bulge=0.1))["Curvature inside"] == TOLD
+    placed = replace(sphere, result=replace(sphere.result, polished=False))
+    assert values(report(placed))["Equation solved"] == "yes, on a proxy"
 
 
 @pytest.mark.parametrize(
-    ("before", "after", "value", "state"), [(2, 2, "2 → 2", MET), (2, 3, "2 → 3", MISSED), (None, 0, "0", MET)]
+    ("before", "after", "value", "state"),
+    [
+        ([1, 2], [], "2 → 0", MET),
+        ([1, 2], [2], "2 → 1", TOLD),  # some of the old ones are left: no green
+        ([1, 2], [3], "2 → 1", MISSED),  # another one, though they are fewer
+        (None, [], "0", MET),
+    ],
 )
-def test_counts_must_not_grow(sphere: Fairing, before: int | None, after: int, value: str, state: str) -> None:
-    told = report(replace(sphere, before=Quality(0, 0, before), after=Quality(0, 0, after)))
-    (check,) = (check for check in told.checks if check.name == "Self-intersections")
-    assert (check.value, check.state) == (value, state)
+def test_counts_must_not_grow(
+    sphere: Fairing, before: list[int] | None, after: list[int], value: str, state: str
+) -> None:
+    then = None if before is None else np.array(before)
+    told = report(replace(sphere, before=quality(then), after=quality(np.array(after, dtype=np.int64))))
+    assert (values(told)["Faces that cross"], states(told)["Faces that cross"]) == (value, state)
 
 
-def test_a_soap_film_promises_no_angle(sphere: Fairing) -> None:
-    film = report(sphere, equation="MINIMAL")
-    assert "Angle at the outline" not in states(film)
-    assert "angle" not in summary(film)
+@pytest.mark.parametrize("options", [{"equation": "MINIMAL"}, {"factor": 0.5}])
+def test_a_soap_film_and_a_blend_promise_no_smooth_join(sphere: Fairing, options: dict[str, Any]) -> None:
+    assert "Kink at the outline" not in states(report(sphere, **options))
 
 
 def test_warnings_name_their_object_where_there_are_several(sphere: Fairing) -> None:
@@ -97,13 +129,10 @@ def test_a_bulge_that_is_not_found_is_explained(sphere: Fairing, converged: bool
 
 
 def test_distortion_is_weighted_by_size(sphere: Fairing) -> None:
-    one, three = (
-        replace(sphere, vertices=np.arange(1), distortion=0.4),
-        replace(sphere, vertices=np.arange(3), distortion=0.0),
-    )
+    one, three = replace(sphere, free_count=1, distortion=0.4), replace(sphere, free_count=3, distortion=0.0)
     assert report(one, three).distortion == pytest.approx(0.1)
 
 
 def test_an_angle_above_the_limit_never_reads_like_the_limit() -> None:
-    texts = {0.123: "0.12°", SMOOTH_ANGLE: "2°", 2.04: "2.04°", 2.0004: "2.0004°", 2.3: "2.3°", 14.6: "15°"}
+    texts = {0.02: "0°", 0.123: "0.12°", VISIBLE: "12°", 12.04: "12.04°", 12.0004: "12.0004°", 14.6: "15°"}
     assert {angle: angle_text(angle) for angle in texts} == texts

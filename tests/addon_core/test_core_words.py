@@ -84,7 +84,7 @@ def test_warnings_of_several_islands_are_one() -> None:
         "2 faces of the result are turned over (2 islands)",
         "The normals along the outline turn by up to 31° from one vertex to the next; "
         "a finer outline gives a more accurate surface (2 islands)",
-        "2 islands, of 75 free vertices in all, did not converge; their positions are the best found",
+        "No fair surface was found for 2 islands, of 75 free vertices in all",
         "This far from the origin, coordinates can't be told apart finely enough: move the object nearer to it "
         "(2 islands)",
     )
@@ -98,9 +98,9 @@ def test_cases_of_one_code_are_told_apart_by_their_figures() -> None:
         diagnostic("NOT_CONVERGED", [2], free_vertices=61.0, load_share=0.75),
         diagnostic("FLIPPED_TRIANGLES", [], "triangle"),
     ) == (
-        "2 islands, of 131 free vertices in all, were solved with 75% of their bulge at most and keep that surface; "
+        "2 islands, of 131 free vertices in all, have surfaces with 75% of their bulge at most; "
         "there may be none with more",
-        "An island of 3 free vertices did not converge; its positions are the best found",
+        "No fair surface was found for an island of 3 free vertices",
         "The inner fairness chosen turns faces over; even spacing was used",
     )
 

@@ -183,7 +183,7 @@ def test_a_closed_component_beside_others_is_left_alone() -> None:
 def test_normals_against_the_winding_are_told() -> None:
     obj, faces = meshes.domed_grid()
     obj.data.normals_split_custom_set([(0.0, 0.0, -1.0)] * len(obj.data.loops))
-    assert "point to the faces' back" in solved(obj, faces, boundary_normals="CUSTOM")
+    assert "point to the faces' back" in solved(obj, faces, boundary_normals="CUSTOM", accept="ALL")
 
 
 def test_the_normal_of_a_pin_is_told_to_be_ignored() -> None:
@@ -294,8 +294,9 @@ def test_slivers(ratio: float) -> None:
     near = np.abs(points[:, 0]) < 0.3
     points[near, 0] /= ratio
     meshes.move(obj, points)
-    solved(obj, faces)
-    assert meshes.report().converged or "did not converge" in meshes.report().warnings
+    solved(obj, faces, accept="ALL")
+    report = meshes.report()
+    assert report.converged or (report.verdict == "UNUSABLE" and report.reason)
 
 
 def test_spikes_and_folds_inside() -> None:

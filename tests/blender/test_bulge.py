@@ -51,6 +51,8 @@ def test_no_bulge_is_harmonic() -> None:
 
 def test_a_bulge_that_no_surface_has_is_explained() -> None:
     obj = meshes.sphere(48)
-    meshes.fair(obj, meshes.faces_where(obj, lambda centre: centre.z > 0.0), equation="CONSTANT", bulge=0.3)
+    faces = meshes.faces_where(obj, lambda centre: centre.z > 0.0)
+    with pytest.raises(RuntimeError, match="of its bulge"):
+        meshes.fair(obj, faces, equation="CONSTANT", bulge=0.3)
     assert not meshes.report().converged
     assert "no surface with a bulge of 0.3" in meshes.report().warnings

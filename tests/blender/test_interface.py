@@ -17,7 +17,7 @@ DEFAULTS = {
     "factor": 1.0,
     "equation": "HARMONIC",
     "bulge": 0.0,
-    "inner_fairness": "UNIFORM",
+    "inner_fairness": "AUTOMATIC",
     "boundary_normals": "SURROUNDING",
     "method": "GLOBAL",
     "levels": 0,
@@ -25,13 +25,17 @@ DEFAULTS = {
     "max_iterations": 200,
     "pin_group": "",
     "pin_edges": "NONE",
+    "outline": "GIVEN",
+    "accept": "USABLE",
 }
 CHOICES = {
     "equation": ["HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION"],
-    "inner_fairness": ["UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING"],
+    "inner_fairness": ["AUTOMATIC", "UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING"],
     "boundary_normals": ["SURROUNDING", "AVERAGE", "CUSTOM"],
     "method": ["GLOBAL", "PAPER"],
     "pin_edges": ["NONE", "SHARP", "SEAM", "CREASE"],
+    "outline": ["GIVEN", "MENDED"],
+    "accept": ["USABLE", "ALL"],
 }
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import bpy
@@ -23,8 +24,9 @@ class Layout:
     def label(self, text: str = "", **_rest: Any) -> None:
         self.told.append(text)
 
-    def operator(self, name: str, **_rest: Any) -> None:
-        self.told.append(name)
+    def operator(self, name: str, text: str = "", **_rest: Any) -> Any:
+        self.told.append(text or name)
+        return SimpleNamespace()
 
     def prop(self, _owner: Any, name: str, **_rest: Any) -> None:
         self.told.append(name)
@@ -173,7 +175,7 @@ def test_large_meshes_are_looked_at_on_demand() -> None:
 def test_report_is_drawn() -> None:
     obj, faces = meshes.domed_grid()
     meshes.fair(obj, faces)
-    text = drawn("VIEW3D_PT_fairing_report")
+    text = drawn("VIEW3D_PT_fairing_report") + drawn("VIEW3D_PT_fairing_details")
     for check in meshes.report().checks:
         assert check.name in text
         assert check.value in text
@@ -183,15 +185,21 @@ def test_redo_panel_shows_every_option() -> None:
     obj = meshes.grid()
     options = module("core.options").FairOptions()
     layout = Layout()
-    module("run.redo_panel").draw_options(layout, options, obj)
+    manager = bpy.context.window_manager
+    manager.fairing_more = False
+    module("run.redo_panel").draw_options(layout, options, obj, manager)
+    assert not {"method", "levels", "tolerance", "max_iterations", "accept"} & set(layout.told)
+    layout.told.clear()
+    manager.fairing_more = True
+    module("run.redo_panel").draw_options(layout, options, obj, manager)
     names = module("core.options").option_names()
     assert [text for text in layout.told if text in names] == [n for n in ORDER if n in names]
     assert set(ORDER) == set(names)
 
 
 ORDER = (
-    "factor", "equation", "bulge", "inner_fairness", "boundary_normals", "pin_group", "pin_edges",
-    "method", "levels", "tolerance", "max_iterations",
+    "factor", "equation", "bulge", "inner_fairness", "boundary_normals", "outline", "pin_group",
+    "pin_edges", "method", "levels", "tolerance", "max_iterations", "accept",
 )  # fmt: skip
 
 
@@ -212,14 +220,15 @@ def test_presets_hold_valid_options() -> None:
         assert meshes.fair(obj, faces, **options) == {"FINISHED"}
 
 
-def test_texts_in_another_language() -> None:
+@pytest.mark.parametrize(("locale", "text"), [("de_DE", "Qualitätsanzeige"), ("fr_FR", "Affichage de la qualité")])
+def test_texts_in_another_language(locale: str, text: str) -> None:
     view = bpy.context.preferences.view
     english = bpy.app.translations.pgettext_iface("Quality Overlay")
-    if "de_DE" not in bpy.app.translations.locales:
+    if locale not in bpy.app.translations.locales:
         pytest.skip("this Blender was built without languages")
-    view.language, view.use_translate_interface = "de_DE", True
+    view.language, view.use_translate_interface = locale, True
     try:
-        assert bpy.app.translations.pgettext_iface("Quality Overlay") == "Qualitätsanzeige"
+        assert bpy.app.translations.pgettext_iface("Quality Overlay") == text
     finally:
         view.language = "en_US"
     assert bpy.app.translations.pgettext_iface("Quality Overlay") == english
@@ -227,9 +236,20 @@ def test_texts_in_another_language() -> None:
 
 def test_every_text_that_is_translated_exists() -> None:
     folder = Path(module().__file__).parent
-    sources = "".join(path.read_text() for path in folder.rglob("*.py") if path.name != "translations.py")
-    missing = [text for text in module("translations")._GERMAN if f'"{text}"' not in sources]
-    assert missing == []
+    sources = "".join(path.read_text() for path in folder.rglob("*.py"))
+    languages = module("translations").languages()
+    assert {"de", "fr"} <= set(languages)
+    for texts in languages.values():
+        assert [text for text in texts if f'"{text}"' not in sources] == []
+
+
+def test_every_option_and_choice_has_a_german_name() -> None:
+    german = module("translations").languages()["de"]
+    same = {"Global", "Multigrid", "None", "Sharp", "Seam", "Crease", "Custom Normals"}  # Blender's own, or names
+    for option in bpy.ops.mesh.fair_region.get_rna_type().properties:
+        if option.identifier != "rna_type":
+            names = [option.name, *(item.name for item in getattr(option, "enum_items", ()))]
+            assert [name for name in names if name not in german and name not in same] == []
 
 
 def footprint() -> dict[str, Any]:
@@ -260,6 +280,6 @@ def test_enabled_and_disabled_twenty_times() -> None:
         assert without["types"] == without["window manager"] == without["scene"] == without["operators"] == []
         assert without["presets"] == []
         assert all(without["handlers"][name] <= enabled["handlers"][name] for name in enabled["handlers"])
-        assert sum(without["handlers"].values()) == sum(enabled["handlers"].values()) - 4
+        assert sum(without["handlers"].values()) == sum(enabled["handlers"].values()) - 6
         addon_utils.enable(ID)
     assert footprint() == enabled

@@ -9,7 +9,9 @@ from fairing._measure import (
     components,
     conformal_distortion,
     cotan_laplacian,
+    flipped_triangles,
     mean_curvature,
+    self_intersections,
     vertex_normals,
 )
 from fairing._outline import (
@@ -43,10 +45,12 @@ __all__ = [
     "conformal_distortion",
     "cotan_laplacian",
     "fair",
+    "flipped_triangles",
     "grown_outline",
     "hierarchy",
     "mean_curvature",
     "mend_outline",
+    "self_intersections",
     "surrounding_normals",
     "vertex_normals",
     "visible_join",

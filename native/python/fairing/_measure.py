@@ -75,6 +75,35 @@ def components(triangles: npt.ArrayLike, *, fixed: npt.ArrayLike | None = None) 
     return _core.components(faces, held, count)
 
 
+def flipped_triangles(
+    vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, fixed: npt.ArrayLike | None = None
+) -> IntArray:
+    """Triangles that are turned over: their normals point against the mean of their corners' normals. Ascending.
+
+    The corners' normals are those of N. Max, at free vertices alone. This is what the warning FLIPPED_TRIANGLES of
+    :func:`fairing.fair` names for the same ``fixed``. Errors as there.
+    """
+    points = _arguments.floats("vertices", vertices)
+    faces = _arguments.triangles_within(triangles, points.shape[0])
+    held, _ = _arguments.boundary(fixed, None)
+    return _core.flipped_triangles(points, faces, held)
+
+
+def self_intersections(vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> IntArray:
+    """Triangles that another one pierces: an edge of one passes through the inside of the other. Ascending.
+
+    Triangles that share an edge don't count, nor do those that only touch or overlap in one plane, nor those with a
+    corner that is NaN or infinite. This is what the warning SELF_INTERSECTION of :func:`fairing.fair` names in each
+    component; here any triangles are compared.
+    """
+    points = _arguments.floats("vertices", vertices)
+    faces = _arguments.triangles_within(triangles, points.shape[0])
+    finite = np.flatnonzero(np.isfinite(points[faces]).all(axis=(1, 2)))
+    found = finite[_core.self_intersections(points, faces[finite])].astype(np.int32)
+    found.flags.writeable = False
+    return found
+
+
 def conformal_distortion(reference: npt.ArrayLike, vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> FloatArray:
     """(m,) ratio ≥ 1 of the singular values of each triangle's map from ``reference`` to ``vertices``.
 

@@ -1,0 +1,50 @@
+"""The faces around a patch: what normals are fitted to, and what the result is compared with."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .arrays import Ints, Mask
+from .outline import outline_edges, two_sided_edges
+from .region import MeshArrays, Patch
+
+RINGS = 4  # of outside faces handed to the engine's fit, which uses the nearest of them
+
+
+def outside_triangles(mesh: MeshArrays, patch: Patch) -> Ints:
+    """Return the (o, 3) triangles outside the patch within RINGS of its fixed vertices, in the mesh's numbers.
+
+    Left out are those with a corner that is not finite.
+    """
+    usable = np.isfinite(mesh.positions).all(axis=1)
+    outside = mesh.triangles[~mesh.in_patch[mesh.triangle_faces]]
+    outside = outside[usable[outside].all(axis=1)]
+    start = np.zeros(len(mesh.positions), dtype=bool)
+    start[patch.vertices[patch.fixed]] = True
+    return _nearby(outside, start)
+
+
+def _nearby(triangles: Ints, start: Mask) -> Ints:
+    """Return the triangles within RINGS steps of the vertices in `start`."""
+    reached = start.copy()
+    near = np.zeros(len(triangles), dtype=bool)
+    for _ in range(RINGS):
+        near = reached[triangles].any(axis=1)
+        reached[triangles[near]] = True
+    found: Ints = triangles[near]
+    return found
+
+
+def wound_alike(mesh: MeshArrays, outside: Ints) -> Ints:
+    """Return the triangles (o, 3), turned round where the patch is wound against most of what surrounds it."""
+    alike = two_sided_edges(mesh, outline_edges(mesh)).alike
+    return outside[:, ::-1] if 2 * np.count_nonzero(alike) > len(alike) else outside
+
+
+def numbered(patch: Patch, outside: Ints) -> tuple[Ints, Ints]:
+    """Return (q,) mesh vertices, the patch's first, then those of `outside` alone; and `outside` in their numbers."""
+    others = np.setdiff1d(outside, patch.vertices)
+    vertices = np.concatenate([patch.vertices, others])
+    number = np.zeros(int(vertices.max(initial=-1)) + 1, dtype=np.int64)
+    number[vertices] = np.arange(len(vertices))
+    return vertices, number[outside]

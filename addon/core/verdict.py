@@ -1,0 +1,161 @@
+"""Whether a result is good, worth a look, or nothing that should be written; with where and why."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+import fairing
+
+from .arrays import Ints
+from .engine import Problem
+from .options import FairOptions
+from .quality import Join, Quality
+from .words import counted
+
+GOOD, LOOK, UNUSABLE = "GOOD", "LOOK", "UNUSABLE"
+GRADES = (GOOD, LOOK, UNUSABLE)
+VISIBLE = 12.0  # degrees of Join from which the eye finds a kink (fairing.visible_join)
+
+# What may help, each a way to run once more.
+GROW, SMOOTH_OUTLINE, EVEN_CURVATURE, WRITE = "GROW", "SMOOTH_OUTLINE", "EVEN_CURVATURE", "WRITE"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """One grade, and for all but GOOD a sentence, the mesh vertices that it is about, and what may help."""
+
+    grade: str
+    reason: str = ""
+    spots: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    remedies: tuple[str, ...] = ()
+
+
+class NotUsable(fairing.SolverError):
+    """The result was not written: it folds, crosses itself, or is none. `result` has it, `elements` the vertices."""
+
+    def __init__(self, verdict: Verdict, result: fairing.FairResult) -> None:
+        super().__init__(verdict.reason)
+        self.elements = verdict.spots
+        self.result = result
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What a verdict follows from."""
+
+    problem: Problem
+    result: fairing.FairResult
+    failures: tuple[str, ...]  # the engine's own words for why there is no answer
+    before: Quality
+    after: Quality
+    join: Join
+
+
+def judge(evidence: Evidence, options: FairOptions) -> Verdict:
+    """Return the verdict on what would be written."""
+    for found in (_no_answer, _folded, _crossing):
+        reason, spots = found(evidence, options)
+        if reason:
+            return Verdict(UNUSABLE, reason, np.unique(spots), _remedies(evidence, options, bad=True))
+    reason, spots = _visible(evidence, options)
+    if reason:
+        return Verdict(LOOK, reason, np.unique(spots), _remedies(evidence, options, bad=False))
+    return Verdict(GOOD)
+
+
+Found = tuple[str, Ints]
+_NOTHING: Found = ("", np.empty(0, dtype=np.int64))
+
+
+def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str, ...]:
+    has_outside = len(evidence.problem.outside) > 0
+    offered = {
+        GROW: has_outside,
+        SMOOTH_OUTLINE: has_outside and options.outline == "GIVEN",
+        EVEN_CURVATURE: bad and options.equation in ("HARMONIC", "MINIMAL_ENERGY"),
+        WRITE: bad and options.accept != "ALL",
+    }
+    return tuple(name for name, offer in offered.items() if offer)
+
+
+def _no_answer(evidence: Evidence, _options: FairOptions) -> Found:
+    result, patch = evidence.result, evidence.problem.patch
+    if result.converged or result.termination == "folded":
+        return _NOTHING
+    reason = evidence.failures[0] if evidence.failures else "No fair surface was found"
+    return reason, _troubled(evidence.problem) if len(evidence.problem.outside) else patch.vertices[patch.outline]
+
+
+def _troubled(problem: Problem) -> Ints:
+    """Return the bad vertices of the outline, or all of it where none stands out."""
+    outline = problem.patch.vertices[np.intersect1d(problem.patch.outline, problem.outside)]
+    bad = bad_outline(problem)
+    return bad if len(bad) else outline
+
+
+def bad_outline(problem: Problem) -> Ints:
+    """Return the mesh vertices of the outline whose surroundings say little about the surface."""
+    rim = np.intersect1d(problem.patch.outline, problem.outside)
+    return problem.vertices[fairing.bad_outline(problem.points, problem.outside, rim)]
+
+
+def _corners(problem: Problem, faces: Ints) -> Ints:
+    patch = problem.patch
+    return patch.vertices[patch.triangles[np.isin(patch.faces, faces)].ravel()]
+
+
+def _folded(evidence: Evidence, options: FairOptions) -> Found:
+    after = evidence.after.folded
+    if options.factor < 1.0 and len(after) <= len(evidence.before.folded):
+        return _NOTHING  # half-way to a fair surface something of the old one is left
+    if evidence.result.termination == "folded" and not len(after):
+        return _named_folds(evidence)
+    if not len(after):
+        return _NOTHING
+    text = counted(len(after), "face of the result is folded over", "faces of the result are folded over")
+    return text, _corners(evidence.problem, after)
+
+
+def _named_folds(evidence: Evidence) -> Found:
+    """Tell what the engine tells of folds that show as crossings only."""
+    patch = evidence.problem.patch
+    named = [warning.elements for warning in evidence.result.warnings if warning.code == "FOLDED"]
+    triangles = np.concatenate([np.empty(0, np.int32), *named])
+    reason = evidence.failures[0] if evidence.failures else "The surface can't be reached without folds"
+    return reason, patch.vertices[patch.triangles[triangles].ravel()]
+
+
+def _crossing(evidence: Evidence, options: FairOptions) -> Found:
+    before, after = evidence.before.crossing, evidence.after.crossing
+    if after is None or not len(after):
+        return _NOTHING
+    new = after if before is None else np.setdiff1d(after, before)
+    if options.factor < 1.0 and before is not None and len(after) <= len(before):
+        return _NOTHING
+    if not len(new):
+        return _NOTHING
+    text = counted(
+        len(new),
+        "face of the result passes through others, which it did not before",
+        "faces of the result pass through others, which they did not before",
+    )
+    return text, _corners(evidence.problem, new)
+
+
+def _visible(evidence: Evidence, options: FairOptions) -> Found:
+    problem, join = evidence.problem, evidence.join
+    seen = join.seen(VISIBLE)
+    if len(seen) and judges_join(options):
+        text = counted(len(seen), "vertex", "vertices")
+        return f"A kink shows at {text} of the outline, of {join.worst:.0f}° at worst", seen
+    needles = np.setdiff1d(evidence.after.needles, evidence.before.needles)
+    if len(needles):
+        return counted(len(needles), "face is a needle", "faces are needles"), _corners(problem, needles)
+    return _NOTHING
+
+
+def judges_join(options: FairOptions) -> bool:
+    """Tell whether the result is meant to continue its surroundings: a soap film and a blend are not."""
+    return options.factor == 1.0 and options.equation != "MINIMAL"

@@ -1,0 +1,89 @@
+# mypy: disable-error-code="valid-type"
+"""Buttons after a run: look at its worst spots, or do it once more in another way.
+
+No postponed annotations here: Blender reads them as property definitions.
+"""
+
+from dataclasses import asdict, replace
+from typing import Any
+
+import bpy
+from bpy.props import EnumProperty
+
+from ..core.verdict import EVEN_CURVATURE, GROW, SMOOTH_OUTLINE, WRITE
+from ..host.polling import require, require_edit_mode
+from ..host.status import view_selected
+from . import last_run
+
+
+class MESH_OT_fair_spots(bpy.types.Operator):
+    """Select the spots that the verdict is about and turn the view to them"""
+
+    bl_idname = "mesh.fair_spots"
+    bl_label = "Show Worst Spots"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """There must be some."""
+        return require_edit_mode(cls, context) and require(cls, last_run.has_spots(), "The last run has no bad spots")
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Select, and look."""
+        try:
+            last_run.select_spots(context)
+        except last_run.Changed as change:
+            self.report({"ERROR"}, str(change))
+            return {"CANCELLED"}
+        view_selected(context)
+        return {"FINISHED"}
+
+
+# What each way of trying once more changes in the options.
+CHANGES: dict[str, dict[str, Any]] = {
+    GROW: {},
+    SMOOTH_OUTLINE: {"outline": "MENDED"},
+    EVEN_CURVATURE: {"equation": "LEAST_VARIATION"},
+    WRITE: {"accept": "ALL"},
+}
+_WAYS = (
+    (GROW, "Grow by a Ring", "Select one ring of faces more and fair again"),
+    (SMOOTH_OUTLINE, "Smooth Outline", "Smooth the outline and the two rings around it, and fair again"),
+    (EVEN_CURVATURE, "Even Curvature", "Fair again with the shape Even Curvature, which exists more often"),
+    (WRITE, "Write It All the Same", "Write the result as it is, folds and all"),
+)
+WAY_NAMES = {identifier: name for identifier, name, _ in _WAYS}
+
+
+class MESH_OT_fair_again(bpy.types.Operator):
+    """Fair the region of the last run once more"""
+
+    bl_idname = "mesh.fair_again"
+    bl_label = "Fair Again"
+    # No UNDO of its own: the run that it starts has one, and the redo panel.
+
+    way: EnumProperty(name="Way", description="What is done otherwise", items=_WAYS, default=GROW)
+
+    @classmethod
+    def description(cls, _context: bpy.types.Context, properties: Any) -> str:
+        """Say what this button does."""
+        return next(text for identifier, _, text in _WAYS if identifier == properties.way)
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """There must have been a run."""
+        return require_edit_mode(cls, context) and require(cls, last_run.has_regions(), "Nothing has been faired yet")
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Select what the last run had, change one thing, run."""
+        options = replace(last_run.options(), **{"accept": "USABLE", **CHANGES[self.way]})
+        try:
+            last_run.select_region(context)
+            if self.way == GROW:
+                bpy.ops.mesh.select_more()
+            how = "EXEC_DEFAULT" if bpy.app.background or context.window is None else "INVOKE_DEFAULT"
+            bpy.ops.mesh.fair_region(how, True, **asdict(options))
+        except (last_run.Changed, RuntimeError) as error:  # RuntimeError: what the run has reported
+            self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
+            return {"CANCELLED"}
+        return {"FINISHED"}

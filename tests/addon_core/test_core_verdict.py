@@ -1,0 +1,127 @@
+"""What is good, what deserves a look, and what must not be written."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+import fairing
+from core.arrays import Ints
+from core.options import FairOptions
+from core.quality import Join, Quality
+from core.solve import pose, solve
+from core.verdict import EVEN_CURVATURE, GOOD, GROW, LOOK, SMOOTH_OUTLINE, UNUSABLE, WRITE, Evidence, Verdict, judge
+from polygon_mesh import grid, on_sphere
+
+MESH = grid(12, 0.6, on_sphere)
+FACE = int(np.flatnonzero(MESH.in_patch)[9])
+OTHER = int(np.flatnonzero(MESH.in_patch)[20])
+CORNERS = sorted(MESH.corner_vertices[MESH.corner_faces == FACE].tolist())
+
+
+def ints(*numbers: int) -> Ints:
+    return np.array(numbers, dtype=np.int64)
+
+
+CLEAN = Quality(ints(), ints(), ints())
+
+
+@pytest.fixture(scope="module")
+def fine() -> Evidence:
+    problem, _ = pose(MESH, np.eye(4), FairOptions())
+    result = solve(MESH, np.eye(4), FairOptions()).result
+    return Evidence(problem, result, (), CLEAN, CLEAN, Join(ints(5, 6), np.array([1.0, 2.0])))
+
+
+def judged(evidence: Evidence, **options: Any) -> Verdict:
+    return judge(evidence, FairOptions(**options))
+
+
+def test_a_clean_result_is_good(fine: Evidence) -> None:
+    assert judged(fine).grade == GOOD
+    assert not judged(fine).remedies
+
+
+@pytest.mark.parametrize("termination", ["stalled", "iteration_limit"])
+def test_no_answer_is_not_usable(fine: Evidence, termination: Any) -> None:
+    lost = replace(fine, result=replace(fine.result, converged=False, termination=termination), failures=("Why",))
+    verdict = judged(lost)
+    assert (verdict.grade, verdict.reason) == (UNUSABLE, "Why")
+    outline = fine.problem.patch.vertices[fine.problem.patch.outline]
+    assert set(verdict.spots) <= set(outline)
+    assert len(verdict.spots)
+    assert verdict.remedies == (GROW, SMOOTH_OUTLINE, EVEN_CURVATURE, WRITE)
+    assert judged(lost, equation="LEAST_VARIATION", outline="MENDED").remedies == (GROW, WRITE)
+    assert judged(lost, factor=0.5).grade == UNUSABLE
+
+
+def test_folds_are_not_usable_and_their_corners_are_the_spots(fine: Evidence) -> None:
+    verdict = judged(replace(fine, after=replace(CLEAN, folded=ints(FACE))))
+    assert (verdict.grade, verdict.reason) == (UNUSABLE, "1 face of the result is folded over")
+    assert verdict.spots.tolist() == CORNERS
+
+
+def test_half_way_old_folds_may_be_left(fine: Evidence) -> None:
+    same = replace(fine, before=replace(CLEAN, folded=ints(FACE)), after=replace(CLEAN, folded=ints(FACE)))
+    assert judged(same, factor=0.5).grade == GOOD
+    assert judged(same).grade == UNUSABLE
+    more = replace(same, after=replace(CLEAN, folded=ints(FACE, OTHER)))
+    assert judged(more, factor=0.5).grade == UNUSABLE
+
+
+def test_folds_that_only_the_engine_names_are_not_usable(fine: Evidence) -> None:
+    triangle = int(np.flatnonzero(fine.problem.patch.faces == FACE)[0])
+    warning = fairing.Diagnostic("FOLDED", "", np.array([triangle], dtype=np.int32), "triangle")
+    result = replace(fine.result, converged=False, termination="folded", warnings=(warning,))
+    verdict = judged(replace(fine, result=result, failures=("Folds",)))
+    assert (verdict.grade, verdict.reason) == (UNUSABLE, "Folds")
+    assert set(verdict.spots) <= set(CORNERS)
+    assert len(verdict.spots) == 3
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "grade"), [([], [FACE], UNUSABLE), ([FACE], [FACE], GOOD), ([OTHER], [FACE], UNUSABLE)]
+)
+def test_crossings_count_where_the_original_had_none(
+    fine: Evidence, before: Sequence[int], after: Sequence[int], grade: str
+) -> None:
+    crossing = replace(fine, before=replace(CLEAN, crossing=ints(*before)), after=replace(CLEAN, crossing=ints(*after)))
+    assert judged(crossing).grade == grade
+    if grade == UNUSABLE:
+        assert judged(crossing).spots.tolist() == CORNERS
+    unknown = replace(crossing, before=replace(CLEAN, crossing=None))
+    assert judged(unknown).grade == UNUSABLE
+
+
+def test_a_kink_deserves_a_look_at_its_vertices(fine: Evidence) -> None:
+    kinked = replace(fine, join=Join(ints(7, 8, 9), np.array([12.5, 3.0, 31.0])))
+    verdict = judged(kinked)
+    assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [7, 9])
+    assert verdict.reason == "A kink shows at 2 vertices of the outline, of 31° at worst"
+    assert verdict.remedies == (GROW, SMOOTH_OUTLINE)
+    assert judged(kinked, equation="MINIMAL").grade == GOOD
+    assert judged(kinked, factor=0.5).grade == GOOD
+
+
+def test_what_the_eye_does_not_see_is_good(fine: Evidence) -> None:
+    assert judged(replace(fine, join=Join(ints(7), np.array([9.8])))).grade == GOOD
+
+
+def test_new_needles_deserve_a_look(fine: Evidence) -> None:
+    needle = replace(CLEAN, needles=ints(FACE))
+    assert judged(replace(fine, after=needle)).spots.tolist() == CORNERS
+    assert judged(replace(fine, before=needle, after=needle)).grade == GOOD
+
+
+def test_without_anything_outside_there_is_nothing_to_grow_into(fine: Evidence) -> None:
+    whole = grid(8, 2.0, on_sphere)
+    problem, _ = pose(whole, np.eye(4), FairOptions())
+    lost = replace(fine, problem=problem, result=replace(fine.result, converged=False, termination="stalled"))
+    verdict = judged(lost)
+    assert verdict.remedies == (EVEN_CURVATURE, WRITE)
+    assert verdict.reason == "No fair surface was found"
+    assert verdict.spots.tolist() == problem.patch.vertices[problem.patch.outline].tolist()

@@ -1,0 +1,247 @@
+"""Nothing bad is written silently; what helps is a button; a run that was undone is not shown as the last."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import bmesh
+import bpy
+import meshes
+import numpy as np
+import pytest
+from extension import module
+from test_interface import command
+from test_panel import drawn
+
+
+def kinked() -> tuple[bpy.types.Object, Any]:
+    """Return half a sphere, for which no bulge of 0.3 exists."""
+    obj = meshes.sphere(48)
+    return obj, meshes.faces_where(obj, lambda centre: centre.z > 0.0)
+
+
+NONE = {"equation": "CONSTANT", "bulge": 0.3}
+
+
+def selected_vertices(obj: bpy.types.Object) -> list[int]:
+    return [v.index for v in bmesh.from_edit_mesh(obj.data).verts if v.select]
+
+
+def selected_faces(obj: bpy.types.Object) -> list[int]:
+    return [f.index for f in bmesh.from_edit_mesh(obj.data).faces if f.select]
+
+
+def test_what_is_not_usable_leaves_every_bit_and_shows_its_spots() -> None:
+    obj, faces = kinked()
+    before = meshes.in_edit_mode_once(obj, faces)
+    meshes.edit(obj)
+    with pytest.raises(RuntimeError, match=r"Not usable: An island .* Nothing was changed"):
+        meshes.run(**NONE)
+    report = meshes.report()
+    assert (report.verdict, report.written, report.converged) == ("UNUSABLE", False, False)
+    assert "of its bulge" in report.reason
+    rim = np.flatnonzero(np.abs(meshes.positions(bpy.data.objects[obj.name])[:, 2]) < 1e-6)
+    assert bpy.context.tool_settings.mesh_select_mode[0]
+    assert set(selected_vertices(obj)) <= set(rim.tolist())
+    assert selected_vertices(obj)
+    text = drawn("VIEW3D_PT_fairing_report")
+    assert "Not usable" in text
+    assert report.reason.split()[-1] in text
+    assert "Nothing was changed" in text
+    assert "Write It All the Same" in text
+    meshes.leave()
+    bpy.context.tool_settings.mesh_select_mode = (False, False, True)
+    after = meshes.in_edit_mode_once(obj, faces)
+    assert after["POINT position"] == before["POINT position"]
+
+
+def test_write_it_all_the_same() -> None:
+    obj, faces = kinked()
+    before = meshes.positions(obj)
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    with pytest.raises(RuntimeError, match="Not usable"):
+        meshes.run(**NONE)
+    bpy.ops.mesh.select_all(action="DESELECT")
+    assert bpy.ops.mesh.fair_again(way="WRITE") == {"FINISHED"}
+    assert selected_faces(obj) == np.flatnonzero(faces).tolist()
+    assert (meshes.report().verdict, meshes.report().written) == ("UNUSABLE", True)
+    meshes.leave()
+    moved = (meshes.positions(obj) != before).any(axis=1)
+    assert moved.any()
+    # Accepting is for this once: the next run asks again.
+    meshes.edit(obj)
+    with pytest.raises(RuntimeError, match="Not usable"):
+        meshes.run(**NONE)
+    assert module("follow.inspection").last_options(bpy.context).accept == "USABLE"
+    meshes.leave()
+
+
+def test_grow_by_a_ring() -> None:
+    obj, faces = meshes.domed_grid()
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    meshes.run()
+    free = meshes.report().free_vertices
+    bpy.ops.mesh.select_all(action="DESELECT")
+    assert bpy.ops.mesh.fair_again(way="GROW") == {"FINISHED"}
+    assert len(selected_faces(obj)) > faces.sum()
+    assert meshes.report().free_vertices > free
+    meshes.leave()
+
+
+@pytest.mark.parametrize(("way", "name", "value"), [
+    ("SMOOTH_OUTLINE", "outline", "MENDED"), ("EVEN_CURVATURE", "equation", "LEAST_VARIATION"),
+])  # fmt: skip
+def test_again_in_another_way(way: str, name: str, value: str) -> None:
+    obj, faces = kinked()
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    meshes.run()
+    assert bpy.ops.mesh.fair_again(way=way) == {"FINISHED"}
+    assert getattr(module("run.last_run").options(), name) == value
+    meshes.leave()
+
+
+def test_a_changed_mesh_is_not_faired_again() -> None:
+    obj, faces = meshes.domed_grid()
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    meshes.run()
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide()
+    with pytest.raises(RuntimeError, match="other faces by now"):
+        bpy.ops.mesh.fair_again(way="GROW")
+    meshes.leave()
+
+
+def test_worst_spots_are_the_kinks() -> None:
+    """One vertex of the outline stands out of a plane: a kink is left there, and nowhere else."""
+    obj = meshes.grid(24)
+    points = meshes.positions(obj)
+    points[np.linalg.norm(points[:, :2] - [-0.5, 0.0], axis=1).argmin(), 2] = 0.06
+    meshes.move(obj, points)
+    meshes.fair(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.5))
+    report = meshes.report()
+    assert (report.verdict, report.written) == ("LOOK", True)
+    assert report.join_worst > 12.0
+    assert report.join_typical < 2.0
+    meshes.edit(obj)
+    assert bpy.ops.mesh.fair_spots() == {"FINISHED"}
+    spots = points[selected_vertices(obj)]
+    assert len(spots) > 0
+    assert np.abs(spots[:, 1]).max() < 0.3
+    assert spots[:, 0].max() < -0.4
+    meshes.leave()
+    meshes.fair(meshes.grid(8), meshes.faces_where(bpy.context.object, lambda c: max(abs(c.x), abs(c.y)) < 0.5))
+    assert meshes.report().verdict == "GOOD"
+    meshes.edit(bpy.context.object)
+    assert not bpy.ops.mesh.fair_spots.poll()
+
+
+def test_a_mended_outline_moves_it() -> None:
+    obj = meshes.grid(16)
+    points = meshes.positions(obj)
+    points[:, 2] = 0.012 * np.random.default_rng(8).normal(size=len(points))
+    meshes.move(obj, points)
+    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.5)
+    before = meshes.in_edit_mode_once(obj, faces)
+    meshes.fair(obj, faces, outline="MENDED")
+    moved = meshes.moved(before, meshes.contents(obj))
+    free = meshes.free_vertices(obj, faces)
+    assert (moved & ~free).any()
+    far = np.abs(points[:, :2]).max(axis=1) > 0.5 + 2.5 / 8.0
+    assert not moved[far].any()
+    assert np.abs(meshes.positions(obj)[moved & ~free, 2]).mean() < 0.8 * np.abs(points[moved & ~free, 2]).mean()
+
+
+def test_an_undone_run_is_not_the_last() -> None:
+    panel = module("show.ui").VIEW3D_PT_fairing_report
+    obj, faces = meshes.domed_grid()
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    bpy.ops.ed.undo_push(message="before")
+    meshes.run()
+    assert panel.poll(bpy.context)
+    bpy.ops.ed.undo()
+    assert meshes.report().undone
+    assert not panel.poll(bpy.context)
+    bpy.ops.ed.redo()
+    assert not meshes.report().undone
+    assert panel.poll(bpy.context)
+
+
+def test_nothing_is_said_in_both_panels() -> None:
+    obj = meshes.grid(9)
+    hole = meshes.faces_where(obj, lambda c: c.length < 0.05)
+    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7) & ~hole
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    meshes.run()
+    watch = module("follow.watch").watch
+    watch.look(bpy.context)
+    assert "single face" in meshes.report().warnings  # scripts get all of it
+    assert "single face" in drawn("VIEW3D_PT_fairing_selection").replace("\n", " ")
+    shown = drawn("VIEW3D_PT_fairing_report").replace("\n", " ")
+    assert "single face" not in shown
+    assert "Free Vertices" not in shown
+    meshes.leave()
+
+
+def test_text_wraps_at_the_width_that_there_is() -> None:
+    wrapped = module("host.text").wrapped
+    text = "one two three four five"
+    assert list(wrapped(text, len, 9)) == ["one two", "three", "four five"]
+    assert list(wrapped(text, len, 100)) == [text]
+    assert list(wrapped("incomprehensible word", len, 6)) == ["incomprehensible", "word"]
+    assert list(wrapped("iiii MMMM", lambda t: 2 * t.count("M") + t.count("i"), 10)) == ["iiii", "MMMM"]
+    assert module("host.text")._width("MMMM") > module("host.text")._width("iiii") > 0.0
+
+
+def test_scripts_are_told_by_an_exception() -> None:
+    package = module()
+    obj, faces = kinked()
+    indices = np.flatnonzero(faces).tolist()
+    before = meshes.contents(obj)
+    with pytest.raises(package.NotUsable, match="of its bulge") as told:
+        package.fair_mesh(obj.data, indices, **NONE)
+    assert meshes.contents(obj) == before
+    assert not told.value.result.converged
+    assert len(told.value.elements)
+    result = package.fair_mesh(obj.data, indices, accept="ALL", **NONE)
+    assert not result.converged
+    assert meshes.contents(obj) != before
+
+
+@pytest.mark.parametrize(("accept", "written"), [("USABLE", False), ("ALL", True)])
+def test_the_command_tells_by_its_status(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], accept: str, written: bool
+) -> None:
+    obj, faces = kinked()
+    meshes.select(obj, faces)
+    output = tmp_path / "out.blend"
+    status = command(
+        "--object", obj.name, "--output", str(output), "--equation", "CONSTANT", "--bulge", "0.3", "--accept", accept,
+        "--report", "json",
+    )  # fmt: skip
+    assert status == 1
+    assert output.exists() == written
+    assert '"verdict": "UNUSABLE"' in capsys.readouterr().out
+
+
+def test_a_texture_is_kept_without_being_asked() -> None:
+    """Automatic is Keep Texture on a patch with a UV map, Even without one, to the bit."""
+    results = {}
+    for mapped in (False, True):
+        for choice in ("AUTOMATIC", "UNIFORM", "CONFORMAL"):
+            obj, faces = meshes.domed_grid()
+            if mapped:
+                layer = obj.data.uv_layers.new(name="UVMap")
+                for corner, place in zip(obj.data.loops, layer.uv, strict=True):
+                    place.vector = obj.data.vertices[corner.vertex_index].co.xy
+            meshes.fair(obj, faces, inner_fairness=choice)
+            results[mapped, choice] = meshes.positions(obj).tobytes()
+    assert results[False, "AUTOMATIC"] == results[False, "UNIFORM"]
+    assert results[True, "AUTOMATIC"] == results[True, "CONFORMAL"]
+    assert results[True, "UNIFORM"] != results[True, "CONFORMAL"]
