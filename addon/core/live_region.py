@@ -8,7 +8,7 @@ import numpy as np
 
 from .around import RINGS, outside_triangles
 from .arrays import Floats, Ints, Mask
-from .boundary import prescribed_normals
+from .boundary import prescribed_curvatures, prescribed_normals
 from .engine import Problem, Progress, RepeatedSolve
 from .options import FairOptions
 from .region import MeshArrays, Patch, make_patch, to_local
@@ -105,10 +105,11 @@ class LiveRegion:
         patch = self._around.patch
         with np.errstate(invalid="ignore", over="ignore"):
             world = replace(self._around.mesh, positions=positions).transformed(matrix)
-            normals, _ = prescribed_normals(
-                world, patch, self._options.boundary_normals, outside_triangles(world, patch)
-            )
-        result = self._solve(Problem.of(self._patch, world.positions[patch.vertices], normals), progress)
+            outside = outside_triangles(world, patch)
+            normals, _ = prescribed_normals(world, patch, self._options.boundary_normals, outside)
+            curvatures = prescribed_curvatures(world, patch, outside) if self._options.joins_curvature else None
+        posed = Problem.of(self._patch, world.positions[patch.vertices], normals, curvatures)
+        result = self._solve(posed, progress)
         if not result.converged:
             return None
         fair = to_local(result.vertices, matrix)

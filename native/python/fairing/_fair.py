@@ -102,15 +102,15 @@ def fair(
         :func:`fairing.mend_outline` does; the normals there are the fit's. The result names what ``moved``. Where that
         gives folds or no solution, and the outline as given does not, the latter is kept (warning OUTLINE_KEPT).
     continuity : "G1" | "G2"
-        "G2": the surface continues the curvature of its surroundings, too, and Δ_B² H = 0 (docs/joins.md). Where that is
-        not known, or no such surface is found, the tangent join is kept, and the warning G2_NOT_MET says so. For
+        "G2": the surface continues the curvature of its surroundings, too, and Δ_B² H = 0 (docs/joins.md). Where that
+        is not known, or no such surface is found, the tangent join is kept, and the warning G2_NOT_MET says so. For
         ``equation`` "harmonic".
     fixed_curvatures : (k,) float
         Of "G2": mean curvatures H at ``fixed``, in length⁻¹, −1/R on a sphere with outward normals; NaN where the
         curvature is not known. Default: fitted to the triangles outside.
     outside : (o, 3) int
-        Triangles around the patch, which stay: what "mended", "G2" and ``join`` look at. Triangles whose corners are all
-        ``fixed`` count among them.
+        Triangles around the patch, which stay: what "mended", "G2" and ``join`` look at. Triangles whose corners are
+        all ``fixed`` count among them.
 
     Returns
     -------
@@ -153,7 +153,17 @@ def fair(
 
     def call(boundary: _mending.Boundary) -> dict[str, Any]:
         return _core.fair(
-            boundary.vertices, faces, boundary.fixed, boundary.normals, boundary.curvatures, m0, edges, weights, options, of_paper, progress
+            boundary.vertices,
+            faces,
+            boundary.fixed,
+            boundary.normals,
+            boundary.curvatures,
+            m0,
+            edges,
+            weights,
+            options,
+            of_paper,
+            progress,
         )
 
     mended = _arguments.choice("outline", outline, _options.OUTLINES) == "mended"

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from fairing import _arguments, _core
+from fairing import _arguments
 from fairing._mending import Boundary, Surroundings
-from fairing._types import FloatArray
+from fairing._outline import surrounding_normals
 
 
 def with_curvatures(boundary: Boundary, around: Surroundings, given: Any) -> Boundary:
@@ -22,17 +22,8 @@ def with_curvatures(boundary: Boundary, around: Surroundings, given: Any) -> Bou
             "`outside` or among the triangles with all their vertices in `fixed`"
         )
     fixed = around.rim if boundary.fixed is None else boundary.fixed
-    fits = _core.surrounding_normals(boundary.vertices, around.outside, fixed)
-    return replace(boundary, fixed=fixed, curvatures=_trusted(fits, boundary.normals))
-
-
-def _trusted(fits: dict[str, Any], normals: FloatArray | None) -> FloatArray:
-    """H on the side of the ``normals``, if they are given; NaN where a fit is far less certain than the others."""
-    curvatures: FloatArray = fits["curvatures"].copy()
-    errors, fitted = fits["curvature_errors"], fits["fitted"]
-    if fitted.any():
-        usual = max(4.0 * float(np.median(errors[fitted])), 0.25 * float(np.abs(curvatures[fitted]).max()))
-        curvatures[errors > usual] = np.nan
-    if normals is not None:
-        curvatures[(fits["normals"] * normals).sum(axis=1) < 0] *= -1.0
-    return curvatures
+    fits = surrounding_normals(boundary.vertices, around.outside, fixed)
+    curvatures = fits.trusted_curvatures
+    if boundary.normals is not None:  # H on the side of the normals
+        curvatures = np.where((fits.normals * boundary.normals).sum(axis=1) < 0, -curvatures, curvatures)
+    return replace(boundary, fixed=fixed, curvatures=curvatures)

@@ -34,6 +34,16 @@ class _OutlineNormals:
 class SurroundingNormals(_OutlineNormals):
     """What :func:`surrounding_normals` gives back; unpacks as ``normals, fitted``. All arrays are read-only."""
 
+    @property
+    def trusted_curvatures(self) -> FloatArray:
+        """(k,) ``curvatures``, NaN where a fit is far less certain than the others: for ``fixed_curvatures``."""
+        errors = self.curvature_errors
+        if not self.fitted.any():
+            return self.curvatures
+        largest = float(np.abs(self.curvatures[self.fitted]).max())
+        usual = max(4.0 * float(np.median(errors[self.fitted])), 0.25 * largest)
+        return np.where(errors <= usual, self.curvatures, np.nan)
+
     def __iter__(self) -> Iterator[npt.NDArray[Any]]:
         return iter((self.normals, self.fitted))
 

@@ -132,5 +132,7 @@ class Solver:
         """Checked; needed for "G2" and refused without it."""
         joins = self._options["continuity"] == "G2"
         if joins != (given is not None):
-            raise ValueError(f"fixed_curvatures: {'needed' if joins else 'refused'} with continuity {self._options['continuity']!r}")
+            raise ValueError(
+                f"fixed_curvatures: {'needed' if joins else 'refused'} with continuity {self._options['continuity']!r}"
+            )
         return None if given is None else _arguments.curvatures(given, self._fixed)
