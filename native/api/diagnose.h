@@ -36,6 +36,9 @@ Diagnostics failures_of(const Patch& patch, const Solution& solution, Terminatio
 // equation; for a bulb "variation", how many times as much its curvatures varied.
 Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation equation);
 
+// G2_NOT_MET where a curvature was asked for and the surface is only tangent; with these fixed vertices.
+void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& warnings);
+
 // Triangles of a patch by the numbers that the caller knows.
 Indices input_numbers(const Patch& patch, Indices triangles);
 
