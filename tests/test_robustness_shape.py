@@ -209,9 +209,13 @@ def test_without_a_solution_the_answer_is_a_plain_surface(length: float, lean: f
     ends = np.sign((patch.vertices[patch.fixed] - patch.vertices.mean(axis=0)) @ axis)
     angle = np.radians(lean)
     normals = np.cos(angle) * patch.fixed_normals + np.sin(angle) * ends[:, None] * axis
-    result = fairing.fair(patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=normals)
-    assert not result.converged
-    assert not {"FLIPPED_TRIANGLES", "SELF_INTERSECTION"} & set(codes(result))
-    along = result.vertices @ axis
-    assert np.ptp(along) < 1.001 * length
-    assert np.linalg.norm(result.vertices - np.outer(along, axis), axis=1).max() < 0.5 * length
+    for otherwise, equation in (("stop", "harmonic"), ("least_variation", "least_variation")):
+        result = fairing.fair(
+            patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=normals, otherwise=otherwise
+        )
+        assert result.equation == equation
+        assert result.converged == (otherwise != "stop")
+        assert not {"FLIPPED_TRIANGLES", "SELF_INTERSECTION"} & set(codes(result))
+        along = result.vertices @ axis
+        assert np.ptp(along) < 1.001 * length
+        assert np.linalg.norm(result.vertices - np.outer(along, axis), axis=1).max() < 0.5 * length

@@ -62,7 +62,7 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
             patch.triangles,
             fixed=patch.fixed,
             fixed_normals=problem.normals,
-            fixed_curvatures=problem.curvatures,
+            fixed_curvatures=problem.curvatures if options.joins_curvature else None,
             neighbours=patch.neighbours,
             outline=options.outline.lower(),
             outside=problem.outside if mended else None,
@@ -84,6 +84,27 @@ def suppress_cancel() -> Iterator[None]:
         yield
     except fairing.Cancelled:
         return
+
+
+def bad_outline(problem: Problem) -> Ints:
+    """Return the mesh vertices of the outline whose surroundings say little about the surface."""
+    rim = np.intersect1d(problem.patch.outline, problem.outside)
+    return problem.vertices[fairing.bad_outline(problem.points, problem.outside, rim)]
+
+
+@dataclass(frozen=True)
+class Mended:
+    """An outline moved onto the fit of its surroundings."""
+
+    vertices: Ints  # (k,) of the mesh that move
+    points: Floats  # (k, 3) where to, in world space
+
+
+def mended_outline(problem: Problem) -> Mended:
+    """Return where the outline and the two rings around it go, as far as it is noisy."""
+    rim = np.intersect1d(problem.patch.outline, problem.outside)
+    mended = fairing.mend_outline(problem.points, problem.outside, rim)
+    return Mended(problem.vertices[mended.moved], mended.vertices[mended.moved])
 
 
 def islands(patch: Patch) -> int:

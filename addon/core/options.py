@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 EQUATIONS = ("HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION")
+OTHERWISE = ("LEAST_VARIATION", "STOP")
 INNER_FAIRNESS = ("AUTOMATIC", "UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING")
 BOUNDARY_NORMALS = ("SURROUNDING", "AVERAGE", "CUSTOM")
 CONTINUITIES = ("G1", "G2")
@@ -16,6 +17,7 @@ ACCEPT = ("USABLE", "ALL")
 
 _CHOICES = {
     "equation": EQUATIONS,
+    "otherwise": OTHERWISE,
     "inner_fairness": INNER_FAIRNESS,
     "boundary_normals": BOUNDARY_NORMALS,
     "continuity": CONTINUITIES,
@@ -32,6 +34,7 @@ class FairOptions:
 
     factor: float = 1.0  # 0 keeps the original, 1 is fair
     equation: str = "HARMONIC"
+    otherwise: str = "LEAST_VARIATION"  # where the equation has no surface
     bulge: float = 0.0  # for CONSTANT: 1 lifts a flat disc by a quarter of its radius
     inner_fairness: str = "AUTOMATIC"  # CONFORMAL for a patch with a texture, UNIFORM for others
     boundary_normals: str = "SURROUNDING"
@@ -73,6 +76,7 @@ class FairOptions:
         """Return the keyword arguments of `fairing.fair` that need no mesh; the options must be resolved."""
         return {
             "equation": self.equation.lower(),
+            "otherwise": self.otherwise.lower(),
             "bulge": self.bulge if self.equation == "CONSTANT" else 0.0,
             "inner_fairness": self.inner_fairness.lower(),
             "method": self.method.lower(),

@@ -9,7 +9,7 @@ import numpy as np
 import fairing
 
 from .arrays import Ints
-from .engine import Problem
+from .engine import Problem, bad_outline
 from .options import FairOptions
 from .quality import Join, Quality
 from .words import counted
@@ -71,10 +71,11 @@ _NOTHING: Found = ("", np.empty(0, dtype=np.int64))
 
 def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str, ...]:
     has_outside = len(evidence.problem.outside) > 0
+    was_tried = any(name == "variation" for name, _ in evidence.result.way)
     offered = {
         GROW: has_outside,
         SMOOTH_OUTLINE: has_outside and options.outline == "GIVEN",
-        EVEN_CURVATURE: bad and options.equation in ("HARMONIC", "MINIMAL_ENERGY"),
+        EVEN_CURVATURE: bad and not was_tried and options.equation in ("HARMONIC", "MINIMAL_ENERGY"),
         WRITE: bad and options.accept != "ALL",
     }
     return tuple(name for name, offer in offered.items() if offer)
@@ -93,12 +94,6 @@ def _troubled(problem: Problem) -> Ints:
     outline = problem.patch.vertices[np.intersect1d(problem.patch.outline, problem.outside)]
     bad = bad_outline(problem)
     return bad if len(bad) else outline
-
-
-def bad_outline(problem: Problem) -> Ints:
-    """Return the mesh vertices of the outline whose surroundings say little about the surface."""
-    rim = np.intersect1d(problem.patch.outline, problem.outside)
-    return problem.vertices[fairing.bad_outline(problem.points, problem.outside, rim)]
 
 
 def _corners(problem: Problem, faces: Ints) -> Ints:

@@ -169,6 +169,13 @@ WORDS: dict[str, tuple[Words, ...]] = {
             "No fair surface was found for {islands} islands, of {free_vertices:.0f} free vertices in all",
         ),
     ),
+    "NO_SOLUTION": (
+        Words(
+            "The surface asked for would be a bulb between these outlines: even curvature was used", when="variation"
+        ),
+        Words("No harmonic surface fits these outlines: even curvature was used", when="harmonic"),
+        Words("No surface of that shape fits these outlines: even curvature was used"),
+    ),
     "PRECISION": (
         Words("This far from the origin, coordinates can't be told apart finely enough: move the object nearer to it"),
     ),

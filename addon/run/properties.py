@@ -29,6 +29,14 @@ _EQUATIONS = (
         "Curvature changes as little as it can. For tubes, elbows and limbs that Harmonic inflates. Slower",
     ),
 )
+_OTHERWISE = (
+    (
+        "LEAST_VARIATION",
+        "Even Curvature",
+        "Where no surface of that shape fits the outlines, or only a bulb does, even curvature is used instead",
+    ),
+    ("STOP", "Stop", "Keeps the best surface of that shape that was found, bulbs too; the report says so"),
+)
 _INNER_FAIRNESS = (
     ("AUTOMATIC", "Automatic", "Keep Texture where the selection has a UV map, Even where it has none"),
     ("UNIFORM", "Even", "Vertices spread evenly over the surface. Best topology, but textures slide"),
@@ -102,6 +110,12 @@ class FairProperties:
         description="Which surface spans the outline",
         items=_EQUATIONS,
         default="HARMONIC",
+    )
+    otherwise: EnumProperty(
+        name="Otherwise",
+        description="What to do where no surface of that shape fits the outlines",
+        items=_OTHERWISE,
+        default="LEAST_VARIATION",
     )
     bulge: FloatProperty(
         name="Bulge",

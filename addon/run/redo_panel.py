@@ -34,6 +34,9 @@ def _group(layout: Any, title: str) -> Any:
 def _draw_shape(group: Any, options: Any) -> None:
     group.prop(options, "equation")
     row = group.row()
+    row.active = options.method == "GLOBAL" and options.equation not in ("MINIMAL", "LEAST_VARIATION")
+    row.prop(options, "otherwise")
+    row = group.row()
     row.active = options.equation == "CONSTANT"
     row.prop(options, "bulge", slider=True)
 

@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "geometry/outline_angles.h"
+#include "method/accept.h"
 #include "outline/visible_join.h"
 
 namespace fairing {
@@ -22,7 +23,9 @@ public:
     Call(const PreparedMesh& prepared, const MeshInput& input, const FairOptions& options)
         : prepared_(prepared), options_(options) {
         result_.vertices = input.vertices;
+        if (options.detail.share > 0.0) result_.base = input.vertices;
         result_.fixed = prepared.mesh.fixed;
+        result_.equation = options.solver.equation;
         for (const Diagnostics* list :
              {&prepared.mesh.topology_warnings, &prepared.mesh.warnings, &prepared.closed_components}) {
             add_warnings(*list);
@@ -37,6 +40,7 @@ public:
         add_warnings(answer.warnings);
         write_back(patch, answer);
         const Solution& solution = answer.solution;
+        if (solution.instead) add_instead(patch, answer);
         result_.residual = std::max(result_.residual, solution.residual);
         result_.initial_residual = std::max(result_.initial_residual, solution.initial_residual);
         result_.iterations = std::max(result_.iterations, solution.iterations);
@@ -76,7 +80,11 @@ private:
     void write_back(const Patch& patch, const ComponentAnswer& answer) {
         const Points points = answer.unit.from_unit(answer.solution.points);
         if (!points.allFinite()) throw SolverError("the solution is not finite; nothing was changed");
-        for (int v = 0; v < patch.free_count; ++v) result_.vertices.col(patch.to_input[at(v)]) = points.col(v);
+        Points shown = points.leftCols(patch.free_count);
+        if (answer.detail.cols() > 0) shown += answer.detail;
+        const auto free = free_vertices(patch);
+        result_.vertices(Eigen::all, free) = shown;
+        if (result_.base.cols() > 0) result_.base(Eigen::all, free) = points.leftCols(patch.free_count);
         // The paper's method leaves H to be measured.
         const VectorX& H = answer.solution.mean_curvature;
         for (int v = 0; v < H.size(); ++v) {
@@ -92,16 +100,9 @@ private:
         for (std::size_t k = 1; k <= counts.size(); ++k) sum[sum.size() - k] += counts[counts.size() - k];
     }
 
-    // What converged counts as solved unless it is no answer.
-    static Termination end_of(const Solution& solution) {
-        if (solution.termination != Termination::converged) return solution.termination;
-        switch (solution.flaw) {
-            case Flaw::folded:
-            case Flaw::crossing: return Termination::folded;
-            case Flaw::behind:
-            case Flaw::collapsed: return Termination::stalled;
-            default: return Termination::converged;
-        }
+    void add_instead(const Patch& patch, const ComponentAnswer& answer) {
+        result_.equation = Equation::least_variation;
+        result_.warnings.push_back(no_solution(patch, answer.solution, answer.problem.options.equation));
     }
 
     void add_failure(Termination end, const Diagnostics& failures) {

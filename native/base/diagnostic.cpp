@@ -29,6 +29,7 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(last) + 1> names
     "SELF_INTERSECTION",
     "REFERENCE_UNUSABLE",
     "NOT_CONVERGED",
+    "NO_SOLUTION",
     "PRECISION",
     "G2_NOT_MET",
 };

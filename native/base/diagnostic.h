@@ -32,6 +32,7 @@ enum class Code {
     self_intersection,
     reference_unusable,
     not_converged,
+    no_solution,
     precision,
     g2_not_met,
 };

@@ -39,6 +39,8 @@ inline constexpr Words<Equation, 5> equation_words{"equation",
                                                      {"minimal_energy", Equation::minimal_energy},
                                                      {"minimal", Equation::minimal},
                                                      {"least_variation", Equation::least_variation}}}};
+inline constexpr Words<Otherwise, 2> otherwise_words{
+    "otherwise", {{{"least_variation", Otherwise::least_variation}, {"stop", Otherwise::stop}}}};
 // InnerFairness::custom has no word: it comes as rows.
 inline constexpr Words<InnerFairness, 4> fairness_words{"inner_fairness",
                                                         {{{"uniform", InnerFairness::uniform},

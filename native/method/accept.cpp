@@ -65,6 +65,17 @@ Flaw flaw_of(const Problem& problem, Solution& solution) {
     return solution.iterations > most_iterations ? Flaw::many_iterations : Flaw::absent;
 }
 
+Termination end_of(const Solution& solution) {
+    if (solution.termination != Termination::converged) return solution.termination;
+    switch (solution.flaw) {
+        case Flaw::folded:
+        case Flaw::crossing: return Termination::folded;
+        case Flaw::behind:
+        case Flaw::collapsed: return Termination::stalled;
+        default: return Termination::converged;
+    }
+}
+
 bool is_final(const Problem& problem, const Solution& solution) {
     if (solution.flaw == Flaw::absent) return true;
     // The mesh carries the equation, but not with the whole load: other meshes wouldn't either.

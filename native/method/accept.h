@@ -12,6 +12,9 @@ namespace fairing {
 // Names the bad triangles in the solution.
 Flaw flaw_of(const Problem& problem, Solution& solution);
 
+// What converged counts as solved unless it is no answer.
+Termination end_of(const Solution& solution);
+
 // Whether no other way could do better: accepted, or solved for as much of the load as the surface carries.
 bool is_final(const Problem& problem, const Solution& solution);
 

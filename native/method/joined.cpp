@@ -54,7 +54,7 @@ Join kind_of(const KnownCurvature& known) { return known.unknown.empty() ? Join:
 }  // namespace
 
 Solution joined(const Problem& problem, Solution tangent, const Progress& progress) {
-    if (tangent.flaw != Flaw::absent || tangent.even_weights)
+    if (tangent.flaw != Flaw::absent || tangent.even_weights || tangent.instead)
         return with_join(std::move(tangent), Join::no_tangent_join);
     if (!tangent.polished) return with_join(std::move(tangent), Join::other_mesh);
     const KnownCurvature known = known_curvature(problem.patch, problem.fixed_curvatures);

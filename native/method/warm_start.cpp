@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Geometry>
-#include <Eigen/SVD>
-
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
 #include "iteration/accelerated_iteration.h"
 #include "method/accept.h"
+#include "method/outline_move.h"
 #include "problem/surface_state.h"
 #include "problem/willmore.h"
 #include "start/clamped_fill.h"
@@ -18,47 +16,11 @@ namespace fairing {
 
 namespace {
 
-// Moves of the boundary, its rotation apart, up to which the last answer is worth starting from.
-constexpr double farthest_move = 0.05;  // units of D
-constexpr double cos_of_widest_turn = 0.7;
 // More iterations than a solve from the boundary takes are a sign of trouble (method/accept).
 constexpr int most_iterations = 20;
 constexpr int patience = 6;
 // This many more than the first solve with a factor took: it is time for a new one.
 constexpr int tolerated_growth = 3;
-
-// The rotation that takes one set of directions and places nearest to another (Kabsch 1976). Both are centred.
-Eigen::Matrix3d best_rotation(const Points& from, const Points& to) {
-    const Eigen::Matrix3d covariance = to * from.transpose();
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Matrix3d U = svd.matrixU();
-    if ((U * svd.matrixV().transpose()).determinant() < 0.0) U.col(2) = -U.col(2);
-    return U * svd.matrixV().transpose();
-}
-
-// Normals of the fixed vertices; pins have none.
-Points prescribed(const Patch& patch, const Points& normals) {
-    Points result = normals;
-    for (Eigen::Index k = 0; k < normals.cols(); ++k) {
-        if (patch.pin[at(patch.free_count + static_cast<int>(k))]) result.col(k).setZero();
-    }
-    return result;
-}
-
-// Fixed points, and normals with a small weight: they decide where the points lie on a line.
-Points placed_and_turned(const Points& points, const Points& normals) {
-    constexpr double weight = 1e-2;
-    Points both(3, points.cols() + normals.cols());
-    both << points, weight * normals;
-    return both;
-}
-
-bool turned_too_far(const Points& from, const Points& to) {
-    for (Eigen::Index k = 0; k < from.cols(); ++k) {
-        if (from.col(k).dot(to.col(k)) < cos_of_widest_turn * from.col(k).squaredNorm()) return true;
-    }
-    return false;
-}
 
 }  // namespace
 
@@ -96,7 +58,7 @@ void WarmStart::remember(const Problem& problem, const Solution& solution, const
     if (!work_.keeps_factor && !factorise(problem, solution.points, progress.here())) return;
     hold(problem, progress);
     points_ = solution.points;
-    normals_ = prescribed(patch_, problem.fixed_normals);
+    normals_ = outline_of(problem).normals;
     ready_ = true;
 }
 
@@ -113,17 +75,17 @@ Points WarmStart::continued(const Problem& problem, const Points& fixed_displace
 
 std::optional<Points> WarmStart::moved_along(const Problem& problem) const {
     const Eigen::Index count = problem.fixed_points.cols();
-    const Points normals = prescribed(patch_, problem.fixed_normals);
-    if (problem.fixed_points == points_.rightCols(count) && normals == normals_) return points_;
-    const Eigen::Matrix3d rotation = best_rotation(placed_and_turned(points_.rightCols(count), normals_),
-                                                   placed_and_turned(problem.fixed_points, normals));
-    Points result = rotation * points_;
-    const Points from_normals = rotation * normals_;
+    const Outline present = outline_of(problem);
+    if (present.points == points_.rightCols(count) && present.normals == normals_) return points_;
+    const Outline last{points_.rightCols(count), normals_};
+    const auto rotation = small_rotation(last, present);
+    if (!rotation) return std::nullopt;
+    Points result = *rotation * points_;
+    const Points from_normals = *rotation * normals_;
     const Points from_points = result.rightCols(count);
     const Points move = problem.fixed_points - from_points;
-    if (!(largest_length(move) <= farthest_move) || turned_too_far(from_normals, normals)) return std::nullopt;
     const Points conormal_change =
-        conormals(patch_, problem.fixed_points, normals) - conormals(patch_, from_points, from_normals);
+        conormals(patch_, problem.fixed_points, present.normals) - conormals(patch_, from_points, from_normals);
     result.leftCols(patch_.free_count) += continued(problem, move, conormal_change);
     result.rightCols(count) = problem.fixed_points;
     return result;

@@ -14,8 +14,12 @@ enum class Equation {
     least_variation,  // least variation of the normal curvatures with G1 boundary data (variation/least_variation.h)
 };
 
+// What is taken where the equation has no surface that is accepted (method/otherwise).
+enum class Otherwise { least_variation, stop };
+
 struct SolverOptions {
     Equation equation = Equation::harmonic;
+    Otherwise otherwise = Otherwise::least_variation;
     double load = 0.0;  // of the constant equation, in units of D⁻³
     NormalKind normals = NormalKind::fitted;
     double tolerance = 1e-6;  // of the largest move in an iteration, in units of D

@@ -60,7 +60,9 @@ struct Solution {
     bool crosses = false;       // the surface passes through itself, whatever the mesh
     double first_step = 0.0;    // largest moves of the first and the last iteration, units of D
     double last_step = 0.0;
-    bool even_weights = false;  // uniform weights were taken instead of the problem's
+    bool instead = false;          // of least variation, in place of the problem's equation
+    double variation_ratio = 0.0;  // of the bulb that it replaces, where it is one
+    bool even_weights = false;     // uniform weights were taken instead of the problem's
     Join join = Join::tangent;
     Indices tangent_only;  // of partly_curvature: fixed vertices, counted from the first one
 };

@@ -121,16 +121,23 @@ struct Attempt {
     }
 };
 
-Attempt attempted(const Problem& problem, const Points& start, const Beginning& beginning, const Progress& progress) {
+// Nothing where the coarse mesh's merit is more than `most`.
+std::optional<Attempt> attempted(const Problem& problem, const Points& start, const Beginning& beginning, double most,
+                                 const Progress& progress) {
     ProxyMesh mesh(problem.patch, start);
     const SolvedSheet coarse = solve_coarse(mesh, problem, beginning, progress.range(0.0, 0.5));
+    if (coarse.result.merit > most) return std::nullopt;
     SolvedSheet fine = solve_fine(mesh, problem, coarse, progress.range(0.5, 1.0));
-    return {std::move(mesh), std::move(fine), coarse.result.gradient, coarse.mesh.patch.vertex_count()};
+    return Attempt{std::move(mesh), std::move(fine), coarse.result.gradient, coarse.mesh.patch.vertex_count()};
 }
 
 }  // namespace
 
 Solution solve_least_variation(const Problem& problem, const Progress& progress) {
+    return *solve_less_varying(problem, HUGE_VAL, progress);
+}
+
+std::optional<Solution> solve_less_varying(const Problem& problem, double most, const Progress& progress) {
     const Checkpoints checkpoints(progress);
     Stopwatch watch;
     const Points start = start_of(problem, progress.range(0.0, 0.1));
@@ -139,8 +146,9 @@ Solution solve_least_variation(const Problem& problem, const Progress& progress)
     double begin = 0.1;
     for (const Beginning& beginning : beginnings) {
         const double end = begin + 0.2;
-        Attempt attempt = attempted(problem, start, beginning, progress.range(begin, end));
-        if (!best || attempt.is_better_than(*best)) best.emplace(std::move(attempt));
+        auto attempt = attempted(problem, start, beginning, most, progress.range(begin, end));
+        if (!attempt) return std::nullopt;
+        if (!best || attempt->is_better_than(*best)) best = std::move(attempt);
         if (best->fine.result.converged) break;
         begin = end;
     }

@@ -1,6 +1,8 @@
 // The surface whose normal curvatures vary least.
 #pragma once
 
+#include <optional>
+
 #include "base/progress.h"
 #include "problem/problem.h"
 #include "problem/solution.h"
@@ -13,6 +15,9 @@ namespace fairing {
 // looked at. The solution's `termination` and `residual` (largest derivative of the product by a height, in units of D)
 // are of this problem; `polished` is false. Deterministic. Throws Cancelled, SolverError.
 Solution solve_least_variation(const Problem& problem, const Progress& progress);
+
+// The same where its product may be at most `most`: nothing where a coarse mesh shows that it isn't.
+std::optional<Solution> solve_less_varying(const Problem& problem, double most, const Progress& progress);
 
 // The product for any surface of the problem's patch (3 × local vertices), its normals being those that suit it best.
 double variation_energy(const Problem& problem, const Points& points);

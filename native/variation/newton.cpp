@@ -76,7 +76,8 @@ public:
             energy_.update(sheet_, model_);
             if (!step()) break;
             ++result.steps;
-            result.converged = share_ == 1.0 && used_damping_ <= least_damping && largest_height_ < limits_.tolerance;
+            result.converged = share_ == 1.0 && used_damping_ <= least_damping && largest_height_ < limits_.tolerance &&
+                               largest_turn_ < limits_.turns;
             if (share_ < limits_.shortest_share) break;
         }
         energy_.update(sheet_, model_);
@@ -217,10 +218,11 @@ NewtonResult minimise(const VariationEnergy& energy, Sheet& sheet, const NewtonL
 }
 
 Points fitted_normals(const Problem& problem, const Points& points, Measure measure, const Progress& progress) {
+    constexpr double settled = 1e-5;                            // radians; the next step is of its square
     const int most_steps = measure == Measure::plain ? 3 : 20;  // a start needs no more
     Sheet sheet{points, max_normals(problem.patch, points, problem.fixed_normals)};
     const VariationEnergy energy(problem, Moving::normals, measure);
-    if (energy.unknowns().count() > 0) minimise(energy, sheet, {0.0, most_steps}, progress);
+    if (energy.unknowns().count() > 0) minimise(energy, sheet, {settled, most_steps, 0.0, 0.0, settled}, progress);
     return sheet.normals;
 }
 

@@ -1,6 +1,8 @@
 // Minimises the variation of curvature over motions of the vertices of one mesh.
 #pragma once
 
+#include <cmath>
+
 #include "base/progress.h"
 #include "variation/variation_energy.h"
 
@@ -11,6 +13,7 @@ struct NewtonLimits {
     int most_steps;
     double damping = 0.0;         // at first; large damping removes roughness before anything moves far
     double shortest_share = 0.0;  // of a step; where less of it can be taken, the mesh is in the way
+    double turns = HUGE_VAL;      // tolerance of the largest turn of a full step, radians
 };
 
 struct NewtonResult {

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import fairing
-from core.options import EQUATIONS, INNER_FAIRNESS, METHODS, FairOptions, option_names
+from core.options import EQUATIONS, INNER_FAIRNESS, METHODS, OTHERWISE, FairOptions, option_names
 from fairing import _core
 
 
@@ -19,6 +19,7 @@ from fairing import _core
     [
         {"equation": "harmonic"},
         {"inner_fairness": ""},
+        {"otherwise": "HARMONIC"},
         {"boundary_normals": "NONE"},
         {"method": "BOTH"},
         {"pin_edges": "ALL"},
@@ -48,7 +49,12 @@ def test_the_words_are_the_engines() -> None:
     AUTOMATIC is the add-on's own and stands for one of them.
     """
     words = _core.WORDS
-    for option, choices in (("equation", EQUATIONS), ("inner_fairness", INNER_FAIRNESS[1:]), ("method", METHODS)):
+    for option, choices in (
+        ("equation", EQUATIONS),
+        ("otherwise", OTHERWISE),
+        ("inner_fairness", INNER_FAIRNESS[1:]),
+        ("method", METHODS),
+    ):
         assert tuple(choice.lower() for choice in choices) == words[option]
     defaults = {name: value.default for name, value in inspect.signature(fairing.fair).parameters.items()}
     given = FairOptions().resolved(False).engine_arguments()

@@ -56,6 +56,8 @@ def test_no_answer_is_not_usable(fine: Evidence, termination: Any) -> None:
     assert len(verdict.spots)
     assert verdict.remedies == (GROW, SMOOTH_OUTLINE, EVEN_CURVATURE, WRITE)
     assert judged(lost, equation="LEAST_VARIATION", outline="MENDED").remedies == (GROW, WRITE)
+    tried = replace(lost, result=replace(lost.result, way=(("direct", 0.1), ("variation", 0.4))))
+    assert judged(tried).remedies == (GROW, SMOOTH_OUTLINE, WRITE)
     assert judged(lost, factor=0.5).grade == UNUSABLE
 
 

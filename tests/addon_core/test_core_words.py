@@ -55,6 +55,9 @@ def test_triangles_are_counted_by_their_faces_and_edges_by_the_meshs_vertices() 
     assert told(diagnostic("FOLDED", [0, 1], "triangle", turned_over=2.0, free_vertices=8.0)) == (
         "The surface was found, but 1 face can't be placed on it without folds",
     )
+    assert told(diagnostic("NO_SOLUTION", [0, 1, 2], free_vertices=3.0, harmonic=1.0)) == (
+        "No harmonic surface fits these outlines: even curvature was used",
+    )
     edge = refusal(found(diagnostic("NONMANIFOLD_EDGE", [4, 1, 0, 2], edges=2.0), ORIGIN))
     assert "the edge 50–20" in str(edge)
     assert edge.elements.tolist() == [10, 20, 30, 50]

@@ -16,6 +16,7 @@ from extension import module
 DEFAULTS = {
     "factor": 1.0,
     "equation": "HARMONIC",
+    "otherwise": "LEAST_VARIATION",
     "bulge": 0.0,
     "inner_fairness": "AUTOMATIC",
     "boundary_normals": "SURROUNDING",
@@ -31,6 +32,7 @@ DEFAULTS = {
 }
 CHOICES = {
     "equation": ["HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION"],
+    "otherwise": ["LEAST_VARIATION", "STOP"],
     "inner_fairness": ["AUTOMATIC", "UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING"],
     "boundary_normals": ["SURROUNDING", "AVERAGE", "CUSTOM"],
     "continuity": ["G1", "G2"],

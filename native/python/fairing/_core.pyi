@@ -13,6 +13,7 @@ class Options:
         self,
         *,
         equation: str,
+        otherwise: str,
         load: float,
         bulge: float,
         inner_fairness: str,
@@ -21,6 +22,8 @@ class Options:
         tolerance: float,
         max_iterations: int,
         threads: int,
+        detail: float = ...,
+        detail_size: float = ...,
     ) -> None: ...
 
 class PaperOptions:

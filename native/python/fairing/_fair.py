@@ -22,6 +22,7 @@ def fair(
     fixed_normals: npt.ArrayLike | None = None,
     reference: npt.ArrayLike | None = None,
     equation: str = "harmonic",
+    otherwise: str = "least_variation",
     load: float = 0.0,
     bulge: float = 0.0,
     inner_fairness: Any = "uniform",
@@ -36,6 +37,8 @@ def fair(
     paper: PaperOptions | None = None,
     outline: str = "given",
     outside: npt.ArrayLike | None = None,
+    detail: float = 0.0,
+    detail_size: float = 0.0,
     continuity: str = "G1",
     fixed_curvatures: npt.ArrayLike | None = None,
 ) -> FairResult:
@@ -66,6 +69,12 @@ def fair(
         Δ_B H = 0, Δ_B H = ``load`` or Δ_B H = −2H(H² − K) with tangent planes met (G1), or H = 0 with positions
         met only (G0). See §7.5. "least_variation": the surface whose normal curvatures vary least (G1), which exists
         between outlines that no harmonic surface joins; docs/least_variation.md.
+    otherwise : "least_variation" | "stop"
+        What is taken where ``equation`` has no surface that is accepted (method "global", all but "minimal"). By
+        default it is that of least variation, also in place of a bulb between two outlines: a surface whose curvatures
+        vary more than twice as much as they need. ``result.equation`` names the equation that holds, and the warning
+        NO_SOLUTION says so. "stop": the best surface found, not ``converged``; bulbs stay. A solve that ran out of
+        ``max_iterations``, or has part of its load, is never replaced.
     load : float
         Of "constant", in length⁻³; positive bulges along the normals.
     bulge : float
@@ -111,6 +120,13 @@ def fair(
     outside : (o, 3) int
         Triangles around the patch, which stay: what "mended", "G2" and ``join`` look at. Triangles whose corners are
         all ``fixed`` count among them.
+    detail : float
+        0 … 1: how much of the detail of ``reference`` is put back on the fair surface. The old patch is split into a
+        smooth base and what is left, its detail, which the new surface takes over, turned as the base turns. Vertices
+        then sit conformally to the old base, whatever ``inner_fairness`` says. docs/detail.md.
+    detail_size : float
+        Shape that repeats within less than this counts as detail: a wavelength as a share of D. 0: ten mean edges, a
+        quarter of D at most.
 
     Returns
     -------
@@ -140,8 +156,8 @@ def fair(
     kind, weights = _options.inner_fairness(inner_fairness, count)
     of_paper = _paper.engine_options(method, levels, paper)
     options = _options.engine_options(
-        equation=equation, load=load, bulge=bulge, fairness=kind, method=method, normals=normals,
-        tolerance=tolerance, max_iterations=max_iterations, threads=threads,
+        equation=equation, otherwise=otherwise, load=load, bulge=bulge, fairness=kind, method=method, normals=normals,
+        tolerance=tolerance, max_iterations=max_iterations, threads=threads, detail=detail, detail_size=detail_size,
     )  # fmt: skip
     joins = _options.continuity(continuity, equation, method)
     around = _mending.Surroundings.of(points, faces, fixed_list, outside)

@@ -14,6 +14,7 @@ from fairing._types import FloatArray, IntArray
 METHODS = _core.WORDS["method"]
 NORMALS = _core.WORDS["normals"]
 EQUATIONS = _core.WORDS["equation"]
+OTHERWISE = _core.WORDS["otherwise"]
 INNER_FAIRNESS = _core.WORDS["inner_fairness"]
 OUTLINES = ("given", "mended")
 CONTINUITIES = ("G1", "G2")
@@ -22,6 +23,7 @@ CONTINUITIES = ("G1", "G2")
 def engine_options(
     *,
     equation: str,
+    otherwise: str,
     load: Any,
     bulge: Any,
     fairness: str,
@@ -30,6 +32,8 @@ def engine_options(
     tolerance: Any,
     max_iterations: Any,
     threads: Any,
+    detail: Any,
+    detail_size: Any,
 ) -> _core.Options:
     """Checks the options that both methods have; ``fairness`` is the engine's word for it."""
     _arguments.choice("normals", normals, NORMALS)
@@ -37,6 +41,7 @@ def engine_options(
         raise ValueError("equation: 'least_variation' is not accepted by method 'paper'; accepted with 'global'")
     return _core.Options(
         equation=_arguments.choice("equation", equation, EQUATIONS),
+        otherwise=_arguments.choice("otherwise", otherwise, OTHERWISE),
         load=load_number("load", equation, load),
         bulge=load_number("bulge", equation, bulge),
         inner_fairness=fairness,
@@ -45,6 +50,8 @@ def engine_options(
         tolerance=_arguments.positive("tolerance", tolerance),
         max_iterations=_arguments.whole("max_iterations", max_iterations, 1),
         threads=_arguments.whole("threads", threads, 0),
+        detail=_arguments.share("detail", detail),
+        detail_size=_arguments.share("detail_size", detail_size),
     )
 
 

@@ -13,7 +13,10 @@ from fairing._paper import PaperOptions
 from fairing._types import FairResult, FloatArray, IntArray
 
 _ANY_COUNT = int(np.iinfo(np.int32).max)
-_SHARED = ("equation", "load", "bulge", "normals", "tolerance", "max_iterations", "threads")
+_SHARED = (
+    "equation", "otherwise", "load", "bulge", "normals", "tolerance", "max_iterations", "threads", "detail",
+    "detail_size",
+)  # fmt: skip
 _CHANGEABLE = (*_SHARED, "inner_fairness", "neighbours", "method", "levels", "paper", "continuity")
 
 
@@ -36,6 +39,11 @@ class Solver:
     - the iteration from the last answer is not at its end after a few steps, or ends in flipped triangles;
     - it has more than 50000 free vertices, or ``method`` is "paper".
 
+    Where the equation has no surface, that of least variation is taken (``otherwise``). The solver then stays with it
+    as long as the outline moves by no more than these limits from one solve to the next, so that the shape does not
+    jump while it is dragged; and it stays with the equation's own surface where its last answer led to one, however it
+    grows. A larger move, or :meth:`change`, has the equation tried again.
+
     ``initial_residual`` is that of the surface that the solve started from. An error or a cancelled solve leaves the
     solver usable, with the answers that it had. One call at a time: another one meanwhile, from a second thread
     or from ``progress``, raises RuntimeError. Different solvers are independent of each other.
@@ -47,6 +55,7 @@ class Solver:
         *,
         fixed: npt.ArrayLike | None = None,
         equation: str = "harmonic",
+        otherwise: str = "least_variation",
         load: float = 0.0,
         bulge: float = 0.0,
         inner_fairness: Any = "uniform",
@@ -58,6 +67,8 @@ class Solver:
         normals: str = "fitted",
         threads: int = 0,
         paper: PaperOptions | None = None,
+        detail: float = 0.0,
+        detail_size: float = 0.0,
         continuity: str = "G1",
     ) -> None:
         """Check and copy everything; nothing is solved yet. Raises what fairing.fair does for these arguments.

@@ -71,8 +71,14 @@ class FairResult:
     several components, the worst of each figure is given.
     """
 
+    equation: str
+    """The equation that holds: the one asked for, or "least_variation" where any component has it instead (see
+    ``otherwise`` of :func:`fairing.fair`; the warning NO_SOLUTION names the component). ``converged`` refers to it."""
     vertices: FloatArray
     """(n, 3) positions; vertices that are neither free nor in ``moved`` keep their bits."""
+    base: FloatArray
+    """(n, 3) the fair surface alone: ``vertices`` without their ``detail``, which is linear in that option. All figures
+    are about this surface."""
     fixed: IntArray
     """(k',) all fixed vertices: those given, in their order, then the other border vertices."""
     mean_curvature: FloatArray

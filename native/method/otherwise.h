@@ -1,0 +1,23 @@
+// The surface of least variation in place of one that the equation does not have.
+#pragma once
+
+#include <optional>
+
+#include "base/progress.h"
+#include "problem/problem.h"
+#include "problem/solution.h"
+
+namespace fairing {
+
+// Solves as solve_global does (method/ladder). Between G1 outlines the surface of least variation is taken instead
+// where no way was accepted, and where two outlines are joined by a bulb: a surface whose curvatures vary more than
+// twice as much (variation_energy) as they need. Not so with Otherwise::stop, where the iterations allowed ran out, and
+// where part of a load was solved. Where that surface is not accepted either, the better of both comes back with its
+// flaw: fewer crossings first, then less variation. `Solution::instead` tells which it is. Throws SolverError,
+// Cancelled.
+Solution solve_or_else(const Problem& problem, const Progress& progress);
+
+// The surface of least variation at once, for a problem near one where it was taken. Nothing where it is not accepted.
+std::optional<Solution> solve_else(const Problem& problem, const Progress& progress);
+
+}  // namespace fairing

@@ -1,0 +1,119 @@
+"""otherwise="least_variation": what is taken where the equation asked for has no surface, or a bulb."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import fairing
+import shapes
+import tubes
+
+
+def codes(result: fairing.FairResult) -> set[str]:
+    return {warning.code for warning in result.warnings}
+
+
+def radii(result: fairing.FairResult) -> np.ndarray:
+    """Distances from the axis."""
+    return np.hypot(result.vertices[:, 0], result.vertices[:, 1])
+
+
+@pytest.mark.parametrize(
+    ("length", "lean", "is_bulb"), [(5.0, 5.0, False), (5.0, 2.0, True), (7.0, -10.0, True), (10.0, -5.0, False)]
+)
+def test_pipes_without_a_harmonic_surface_have_even_curvature(length: float, lean: float, is_bulb: bool) -> None:
+    """Ends that lean by 5° over 5 radii have none; a bulb of 1.7 radii, and a waist of 0.83 for 2°, converge."""
+    tube = tubes.pipe(length, lean, seed=3)
+    result = tube.faired(equation="harmonic")
+    assert result.converged
+    assert result.equation == "least_variation"
+    assert 0.8 < radii(result).min() <= radii(result).max() < 1.2
+    (warning,) = result.warnings
+    assert warning.code == "NO_SOLUTION"
+    assert warning.figures["free_vertices"] == len(warning.elements) == len(tube.vertices) - len(tube.fixed)
+    assert ("variation" in warning.figures) == is_bulb
+    if is_bulb:
+        assert warning.figures["variation"] > 2
+    assert [name for name, _ in result.way][-1] == "variation"
+    # The very surface that this equation gives when it is asked for.
+    assert (result.vertices == tube.faired().vertices).all()
+
+
+def test_stop_keeps_the_best_of_the_equation_asked_for() -> None:
+    bulb = tubes.pipe(7.0, -10.0, seed=3).faired(equation="harmonic", otherwise="stop")
+    assert bulb.converged
+    assert bulb.equation == "harmonic"
+    assert radii(bulb).max() > 1.6
+    assert not bulb.warnings
+    lost = tubes.pipe(5.0, 5.0, seed=3).faired(equation="harmonic", otherwise="stop")
+    assert not lost.converged
+    assert lost.equation == "harmonic"
+    assert "NOT_CONVERGED" in codes(lost)
+    assert "NO_SOLUTION" not in codes(lost)
+    assert "variation" not in dict(lost.way)
+
+
+@pytest.mark.parametrize(("length", "lean"), [(3.0, 5.0), (5.0, 0.0), (10.0, 0.0)])
+def test_what_has_a_sound_harmonic_surface_keeps_its_bits(length: float, lean: float) -> None:
+    """Straight pipes have no variation at all: no ratio to it means anything."""
+    tube = tubes.pipe(length, lean, seed=3)
+    plain = tube.faired(equation="harmonic", otherwise="stop")
+    result = tube.faired(equation="harmonic")
+    assert result.equation == "harmonic"
+    assert (result.vertices == plain.vertices).all()
+    assert [name for name, _ in result.way] == [name for name, _ in plain.way]
+
+
+def test_running_out_of_iterations_is_no_lack_of_a_surface() -> None:
+    patch = shapes.catenoid(300)
+    result = fairing.fair(
+        shapes.start_from_nothing(patch), patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals,
+        max_iterations=1,
+    )  # fmt: skip
+    assert result.equation == "harmonic"
+    assert result.termination == "iteration_limit"
+    assert "NO_SOLUTION" not in codes(result)
+
+
+def test_a_soap_film_is_never_replaced() -> None:
+    """Two rings too far apart for any."""
+    result = tubes.pipe(5.0, seed=3).faired(equation="minimal")
+    assert result.equation == "minimal"
+    assert not result.converged
+
+
+def leaning(lean: float) -> tuple[np.ndarray, np.ndarray]:
+    tube = tubes.pipe(5.0, lean, seed=3)
+    return tube.vertices, tube.normals
+
+
+def test_a_solver_stays_with_the_surface_that_it_took_while_the_outline_is_dragged() -> None:
+    """From 3° to 0.5°, where fair() finds a harmonic surface, and back up from 0.5°."""
+    tube = tubes.pipe(5.0, 3.0, seed=3)
+    solver = fairing.Solver(tube.triangles, fixed=tube.fixed, threads=1)
+    taken = [solver.solve(*leaning(lean)).equation for lean in (3.0, 1.5, 0.5)]
+    assert taken == ["least_variation"] * 3
+    assert tubes.pipe(5.0, 0.5, seed=3).faired(equation="harmonic").equation == "harmonic"
+    solver.change(equation="harmonic")
+    assert solver.solve(*leaning(0.5)).equation == "harmonic"
+    last = solver.solve(*leaning(0.5))
+    after = solver.solve(*leaning(0.7))
+    assert after.equation == "harmonic"
+    assert np.abs(after.vertices - last.vertices).max() < 0.05
+
+
+def test_a_solver_tries_again_after_a_large_move() -> None:
+    tube = tubes.pipe(5.0, 3.0, seed=3)
+    solver = fairing.Solver(tube.triangles, fixed=tube.fixed, threads=1)
+    assert solver.solve(tube.vertices, tube.normals).equation == "least_variation"
+    short = tubes.pipe(5.0, 0.0, seed=3)
+    vertices = short.vertices * np.array([1.0, 1.0, 0.5])
+    result = solver.solve(vertices, short.normals)
+    assert result.equation == "harmonic"
+    assert np.abs(radii(result) - 1).max() < 1e-3
+
+
+def test_otherwise_is_checked() -> None:
+    with pytest.raises(ValueError, match=r"otherwise.*stop"):
+        tubes.pipe(3.0).faired(otherwise="never")
