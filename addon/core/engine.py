@@ -62,7 +62,7 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
             patch.triangles,
             fixed=patch.fixed,
             fixed_normals=problem.normals,
-            fixed_curvatures=problem.curvatures,
+            fixed_curvatures=problem.curvatures if options.joins_curvature else None,
             neighbours=patch.neighbours,
             outline=options.outline.lower(),
             outside=problem.outside if mended else None,

@@ -60,9 +60,9 @@ private:
     [[nodiscard]] const FairOptions& options() const { return usable_ ? options_.asked : options_.uniform; }
     [[nodiscard]] Solution solve_by_paper(const Problem& problem, const Progress& progress) const;
     [[nodiscard]] Solution solve_globally(ComponentAnswer& answer, const Progress& progress);
-    [[nodiscard]] std::optional<Solution> solve_near_last(const Problem& problem, const Progress& progress);
     // From the last answer where there is one.
     [[nodiscard]] Solution solve_tangent(const Problem& problem, const Progress& progress);
+    [[nodiscard]] std::optional<Solution> solve_near_last(const Problem& problem, const Progress& progress);
     [[nodiscard]] std::size_t tolerated_folds() const;
 
     const Patch& patch_;

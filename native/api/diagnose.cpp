@@ -211,22 +211,6 @@ Diagnostics failures_of(const Patch& patch, const Solution& solution, Terminatio
     return result;
 }
 
-Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation equation) {
-    const std::string free = counted(at(patch.free_count), "free vertex", "free vertices");
-    const bool harmonic = equation == Equation::harmonic;
-    const std::string name = harmonic ? "harmonic surface" : "surface of that equation";
-    Figures figures{{"free_vertices", patch.free_count}};
-    if (harmonic) figures["harmonic"] = 1.0;
-    std::string text = "no " + name + " fits the outlines of a component of " + free;
-    if (solution.variation_ratio > 0.0) {
-        figures["variation"] = solution.variation_ratio;
-        text = "the " + name + " of a component of " + free + " is a bulb, whose curvatures vary " +
-               std::to_string(std::lround(solution.variation_ratio)) + " times as much as they need";
-    }
-    return {Code::no_solution, text + "; the surface of least variation was taken",
-            Indices(free_vertices(patch).begin(), free_vertices(patch).end()), ElementKind::vertex, figures};
-}
-
 void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& warnings) {
     if (solution.join == Join::tangent || solution.join == Join::curvature) return;
     const auto fixed = fixed_vertices(patch);
@@ -242,6 +226,22 @@ void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& war
                         vertices,
                         ElementKind::vertex,
                         {{"vertices", size_of(vertices)}, {"reason", static_cast<double>(solution.join)}}});
+}
+
+Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation equation) {
+    const std::string free = counted(at(patch.free_count), "free vertex", "free vertices");
+    const bool harmonic = equation == Equation::harmonic;
+    const std::string name = harmonic ? "harmonic surface" : "surface of that equation";
+    Figures figures{{"free_vertices", patch.free_count}};
+    if (harmonic) figures["harmonic"] = 1.0;
+    std::string text = "no " + name + " fits the outlines of a component of " + free;
+    if (solution.variation_ratio > 0.0) {
+        figures["variation"] = solution.variation_ratio;
+        text = "the " + name + " of a component of " + free + " is a bulb, whose curvatures vary " +
+               std::to_string(std::lround(solution.variation_ratio)) + " times as much as they need";
+    }
+    return {Code::no_solution, text + "; the surface of least variation was taken",
+            Indices(free_vertices(patch).begin(), free_vertices(patch).end()), ElementKind::vertex, figures};
 }
 
 void diagnose(const Patch& patch, const Points& points, const Points& prescribed, Diagnostics& warnings) {
