@@ -7,6 +7,8 @@
 #include "base/errors.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
+#include "detail/old_base.h"
+#include "detail/relaid.h"
 #include "geometry/flips.h"
 #include "geometry/surface_fit.h"
 #include "method/accept.h"
@@ -78,13 +80,19 @@ ComponentAnswer ComponentSolver::solve(const ComponentData& data, const Progress
                          {{"points", 1}}});
     }
     const SolverOptions& solver = options_.asked.solver;
-    ComponentAnswer answer{unit, {patch_, unit.to_unit(fixed_points), gather(data.normals, fixed), {}, solver}, {}, {}};
+    ComponentAnswer answer{
+        unit, {patch_, unit.to_unit(fixed_points), gather(data.normals, fixed), {}, solver}, {}, {}, Points(3, 0)};
     answer.problem.options.load = load_in_units(patch_, answer.problem.fixed_points, unit.diameter, options_.asked);
     warn_of_precision(patch_, data.vertices, {unit.diameter, solver.tolerance}, answer.warnings);
-    read_reference(gather(data.reference, patch_.to_input), unit);
-    answer.warnings.insert(answer.warnings.end(), reference_warnings_.begin(), reference_warnings_.end());
+    const Points reference = gather(data.reference, patch_.to_input);
+    if (options_.asked.detail.share > 0.0) read_skin(reference, progress);
+    read_reference(reference, unit);
+    for (const Diagnostics* list : {&reference_warnings_, &skin_warnings_}) {
+        answer.warnings.insert(answer.warnings.end(), list->begin(), list->end());
+    }
     answer.solution =
         options().method == Method::paper ? solve_by_paper(answer.problem, progress) : solve_globally(answer, progress);
+    if (skin_) put_back_detail(answer, progress);
     return answer;
 }
 
@@ -100,6 +108,39 @@ void ComponentSolver::read_reference(const Points& reference, const Normalisatio
     if (options().method == Method::global) lambda_ = make_lambda(patch_, reference_, options());
     warm_.new_weights();
     given_reference_ = reference;
+}
+
+// The skin stays as long as what it is read off does.
+void ComponentSolver::read_skin(const Points& reference, const Progress& progress) {
+    if (skin_ && reference == skin_of_) return;
+    const Stopwatch watch;
+    progress.here().report(0.0, "detail");
+    skin_warnings_.clear();
+    const Normalisation own = normalise(reference.rightCols(reference.cols() - patch_.free_count));
+    const double size = options_.asked.detail.size;
+    const Points old = own.to_unit(reference);
+    skin_.reset();
+    if (old.allFinite() && !has_collapsed_fan(patch_, old)) {
+        skin_ = Skin::read(patch_, old, size > 0.0 ? size : detail_wavelength(patch_, old), progress.here());
+    }
+    if (!skin_) warn_of_missing_detail(skin_warnings_);
+    skin_of_ = reference;
+    skin_unit_ = own.diameter;
+    skin_seconds_ = watch.seconds();
+}
+
+void ComponentSolver::put_back_detail(ComponentAnswer& answer, const Progress& progress) {
+    const Stopwatch watch;
+    Points& points = answer.solution.points;
+    points = relaid(answer.problem, points, skin_->base(), progress.here());
+    const Points full = skin_unit_ * skin_->detail_on(points);
+    if (!full.allFinite()) throw SolverError("the detail is not finite; nothing was changed");
+    answer.detail = options_.asked.detail.share * full;
+    Points shown = points;
+    shown.leftCols(patch_.free_count) += answer.detail / answer.unit.diameter;
+    warn_of_folded_detail(patch_, skin_->turned_over(points, shown), answer.warnings);
+    answer.solution.seconds["detail"] = skin_seconds_ + watch.seconds();
+    skin_seconds_ = 0.0;
 }
 
 Solution ComponentSolver::solve_by_paper(const Problem& problem, const Progress& progress) const {

@@ -11,6 +11,13 @@ namespace fairing {
 // more than a tenth of it is needles, collapsed or turned over, or the whole one-ring of a free vertex has no area.
 bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostics& warnings);
 
+// Whether the triangles at some free vertex all lack area (3 × local vertices).
+bool has_collapsed_fan(const Patch& patch, const Points& points);
+
+// About detail: REFERENCE_UNUSABLE, and FLIPPED_TRIANGLES where it turns triangles over (local numbers).
+void warn_of_missing_detail(Diagnostics& warnings);
+void warn_of_folded_detail(const Patch& patch, const Indices& triangles, Diagnostics& warnings);
+
 // D and the largest move, in units of D, at which the solve stops.
 struct Precision {
     double diameter;

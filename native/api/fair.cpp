@@ -23,6 +23,7 @@ public:
     Call(const PreparedMesh& prepared, const MeshInput& input, const FairOptions& options)
         : prepared_(prepared), options_(options) {
         result_.vertices = input.vertices;
+        if (options.detail.share > 0.0) result_.base = input.vertices;
         result_.fixed = prepared.mesh.fixed;
         result_.equation = options.solver.equation;
         for (const Diagnostics* list :
@@ -76,7 +77,11 @@ private:
     void write_back(const Patch& patch, const ComponentAnswer& answer) {
         const Points points = answer.unit.from_unit(answer.solution.points);
         if (!points.allFinite()) throw SolverError("the solution is not finite; nothing was changed");
-        for (int v = 0; v < patch.free_count; ++v) result_.vertices.col(patch.to_input[at(v)]) = points.col(v);
+        Points shown = points.leftCols(patch.free_count);
+        if (answer.detail.cols() > 0) shown += answer.detail;
+        const auto free = free_vertices(patch);
+        result_.vertices(Eigen::all, free) = shown;
+        if (result_.base.cols() > 0) result_.base(Eigen::all, free) = points.leftCols(patch.free_count);
         // The paper's method leaves H to be measured.
         const VectorX& H = answer.solution.mean_curvature;
         for (int v = 0; v < H.size(); ++v) {

@@ -57,6 +57,7 @@ py::dict to_dict(const FairResult& result) {
     py::dict dict;
     dict["equation"] = equation_words.word(result.equation);
     dict["vertices"] = from_points(result.vertices);
+    dict["base"] = result.base.cols() > 0 ? from_points(result.base) : dict["vertices"];
     dict["fixed"] = from_indices(result.fixed);
     dict["mean_curvature"] = from_vector(result.mean_curvature);
     dict["boundary_angle"] = from_vector(result.boundary_angle);
@@ -85,6 +86,8 @@ struct Options {
     double tolerance;
     int max_iterations;
     int threads;
+    double detail;
+    double detail_size;
 };
 
 // Rows (i, j, λ).
@@ -116,6 +119,7 @@ FairOptions to_fair_options(const Options& options, const PaperOptions& paper, c
     result.solver.tolerance = options.tolerance;
     result.solver.max_iterations = options.max_iterations;
     result.threads = options.threads;
+    result.detail = {options.detail, options.detail_size};
     result.solver.nested = paper.levels != 1;
     result.inner_fairness = fairness.weights ? InnerFairness::custom : fairness_words.value(options.inner_fairness);
     if (fairness.neighbours) {
@@ -242,11 +246,11 @@ py::dict all_words() {
 void bind_fair(py::module_& module) {
     module.attr("WORDS") = all_words();
     py::class_<Options>(module, "Options")
-        .def(py::init<std::string, std::string, double, double, std::string, std::string, std::string, double, int,
-                      int>(),
+        .def(py::init<std::string, std::string, double, double, std::string, std::string, std::string, double, int, int,
+                      double, double>(),
              py::kw_only(), py::arg("equation"), py::arg("otherwise"), py::arg("load"), py::arg("bulge"),
              py::arg("inner_fairness"), py::arg("method"), py::arg("normals"), py::arg("tolerance"),
-             py::arg("max_iterations"), py::arg("threads"));
+             py::arg("max_iterations"), py::arg("threads"), py::arg("detail") = 0.0, py::arg("detail_size") = 0.0);
     bind_paper_options(module);
     py::class_<PythonSolver>(module, "Solver")
         .def(py::init<const IntArray&, const std::optional<IntArray>&, const std::optional<IntArray>&,

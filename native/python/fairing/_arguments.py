@@ -137,6 +137,13 @@ def positive(name: str, value: Any) -> float:
     return float(value)
 
 
+def share(name: str, value: Any) -> float:
+    """A number from 0 to 1."""
+    if not 0.0 <= finite(name, value) <= 1.0:
+        raise ValueError(f"{name}: a number from 0 to 1 is needed, not {value!r}")
+    return float(value)
+
+
 def whole(name: str, value: Any, smallest: int, largest: int | None = None) -> int:
     """An integer within the given bounds, and those of the engine's own integers."""
     bounds = f"{smallest} or more" if largest is None else f"{smallest} … {largest}"

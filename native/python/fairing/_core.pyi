@@ -22,6 +22,8 @@ class Options:
         tolerance: float,
         max_iterations: int,
         threads: int,
+        detail: float = ...,
+        detail_size: float = ...,
     ) -> None: ...
 
 class PaperOptions:

@@ -37,6 +37,8 @@ def fair(
     paper: PaperOptions | None = None,
     outline: str = "given",
     outside: npt.ArrayLike | None = None,
+    detail: float = 0.0,
+    detail_size: float = 0.0,
 ) -> FairResult:
     """Replace the free vertices of a mesh by the fairest surface with the given boundary data.
 
@@ -109,6 +111,13 @@ def fair(
     outside : (o, 3) int
         Triangles around the patch, which stay: what "mended" and ``join`` look at. Triangles whose corners are all
         ``fixed`` count among them.
+    detail : float
+        0 … 1: how much of the detail of ``reference`` is put back on the fair surface. The old patch is split into a
+        smooth base and what is left, its detail, which the new surface takes over, turned as the base turns. Vertices
+        then sit conformally to the old base, whatever ``inner_fairness`` says. docs/detail.md.
+    detail_size : float
+        Shape that repeats within less than this counts as detail: a wavelength as a share of D. 0: ten mean edges, a
+        quarter of D at most.
 
     Returns
     -------
@@ -139,7 +148,7 @@ def fair(
     of_paper = _paper.engine_options(method, levels, paper)
     options = _options.engine_options(
         equation=equation, otherwise=otherwise, load=load, bulge=bulge, fairness=kind, method=method, normals=normals,
-        tolerance=tolerance, max_iterations=max_iterations, threads=threads,
+        tolerance=tolerance, max_iterations=max_iterations, threads=threads, detail=detail, detail_size=detail_size,
     )  # fmt: skip
     as_given = _mending.Boundary(points, fixed_list, given_normals)
     around = _mending.Surroundings.of(points, faces, fixed_list, outside)

@@ -31,6 +31,8 @@ def engine_options(
     tolerance: Any,
     max_iterations: Any,
     threads: Any,
+    detail: Any,
+    detail_size: Any,
 ) -> _core.Options:
     """Checks the options that both methods have; ``fairness`` is the engine's word for it."""
     _arguments.choice("normals", normals, NORMALS)
@@ -47,6 +49,8 @@ def engine_options(
         tolerance=_arguments.positive("tolerance", tolerance),
         max_iterations=_arguments.whole("max_iterations", max_iterations, 1),
         threads=_arguments.whole("threads", threads, 0),
+        detail=_arguments.share("detail", detail),
+        detail_size=_arguments.share("detail_size", detail_size),
     )
 
 

@@ -13,7 +13,10 @@ from fairing._paper import PaperOptions
 from fairing._types import FairResult, FloatArray, IntArray
 
 _ANY_COUNT = int(np.iinfo(np.int32).max)
-_SHARED = ("equation", "otherwise", "load", "bulge", "normals", "tolerance", "max_iterations", "threads")
+_SHARED = (
+    "equation", "otherwise", "load", "bulge", "normals", "tolerance", "max_iterations", "threads", "detail",
+    "detail_size",
+)  # fmt: skip
 _CHANGEABLE = (*_SHARED, "inner_fairness", "neighbours", "method", "levels", "paper")
 
 
@@ -64,6 +67,8 @@ class Solver:
         normals: str = "fitted",
         threads: int = 0,
         paper: PaperOptions | None = None,
+        detail: float = 0.0,
+        detail_size: float = 0.0,
     ) -> None:
         """Check and copy everything; nothing is solved yet. Raises what fairing.fair does for these arguments.
 

@@ -76,6 +76,9 @@ class FairResult:
     ``otherwise`` of :func:`fairing.fair`; the warning NO_SOLUTION names the component). ``converged`` refers to it."""
     vertices: FloatArray
     """(n, 3) positions; vertices that are neither free nor in ``moved`` keep their bits."""
+    base: FloatArray
+    """(n, 3) the fair surface alone: ``vertices`` without their ``detail``, which is linear in that option. All figures
+    are about this surface."""
     fixed: IntArray
     """(k',) all fixed vertices: those given, in their order, then the other border vertices."""
     mean_curvature: FloatArray
