@@ -22,7 +22,9 @@ class Options:
         tolerance: float,
         max_iterations: int,
         threads: int,
-        start: str,
+        detail: float = ...,
+        detail_size: float = ...,
+        start: str = ...,
     ) -> None: ...
 
 class PaperOptions:
@@ -55,6 +57,7 @@ class Solver:
         self,
         vertices: _Floats,
         fixed_normals: _Floats | None,
+        fixed_curvatures: _Floats | None,
         reference: _Floats | None,
         progress: Callable[[float, str], bool | None] | None,
     ) -> dict[str, Any]: ...
@@ -64,6 +67,7 @@ def fair(
     triangles: _Ints,
     fixed: _Ints | None,
     fixed_normals: _Floats | None,
+    fixed_curvatures: _Floats | None,
     reference: _Floats | None,
     neighbours: _Ints | None,
     weights: _Floats | None,

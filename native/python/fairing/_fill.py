@@ -39,6 +39,7 @@ class _NewMeshResult:
     """(k',) degrees between prescribed and obtained normals, in the order of ``fixed``."""
     join: FloatArray
     """(k',) degrees, in the order of ``fixed``: how visible the join is."""
+    continuity: Literal["G1", "G2"]
     converged: bool
     polished: bool
     """Whether the discrete equation holds on the new mesh. False, with ``converged``: the surface was solved on a finer
