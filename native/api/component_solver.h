@@ -23,8 +23,9 @@ struct CallOptions {
 // Columns belong to the input's vertices.
 struct ComponentData {
     const Points& vertices;
-    const Points& normals;    // prescribed ones at fixed vertices
-    const Points& reference;  // M0
+    const Points& normals;      // prescribed ones at fixed vertices
+    const VectorX& curvatures;  // likewise; empty: none
+    const Points& reference;    // M0
 };
 
 struct ComponentAnswer {
@@ -59,6 +60,8 @@ private:
     [[nodiscard]] const FairOptions& options() const { return usable_ ? options_.asked : options_.uniform; }
     [[nodiscard]] Solution solve_by_paper(const Problem& problem, const Progress& progress) const;
     [[nodiscard]] Solution solve_globally(ComponentAnswer& answer, const Progress& progress);
+    // From the last answer where there is one.
+    [[nodiscard]] Solution solve_tangent(const Problem& problem, const Progress& progress);
     [[nodiscard]] std::optional<Solution> solve_near_last(const Problem& problem, const Progress& progress);
     [[nodiscard]] std::size_t tolerated_folds() const;
 

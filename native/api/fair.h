@@ -35,9 +35,10 @@ struct FairResult {
     Points vertices;
     Points base;  // without detail: the fair surface, which all figures below are about; no columns: `vertices`
     Indices fixed;
-    VectorX mean_curvature;  // eq. 8: −1/R on a sphere with outward normals; the mean of the sides on cut curves
-    VectorX boundary_angle;  // degrees, in the order of `fixed`
-    VectorX join;            // likewise: how visible the outline is from the patch's side
+    VectorX mean_curvature;       // eq. 8: −1/R on a sphere with outward normals; the mean of the sides on cut curves
+    VectorX boundary_angle;       // degrees, in the order of `fixed`
+    VectorX join;                 // likewise: how visible the outline is from the patch's side
+    bool joins_curvature = true;  // G2, wherever a curvature was known
     bool converged = true;
     bool polished = true;
     Termination termination = Termination::converged;

@@ -88,6 +88,9 @@ class FairResult:
     join: FloatArray
     """(k',) degrees, in the order of ``fixed``: how visible the join is (see :func:`fairing.visible_join`). Where no
     triangles outside were given, they are taken for the patch's mirror image across the prescribed tangent planes."""
+    continuity: Literal["G1", "G2"]
+    """"G2": the surface continues the curvature of its surroundings, wherever that is known (G2_NOT_MET names the other
+    vertices). "G1": only their slopes, because no more was asked for or because G2_NOT_MET says why."""
     converged: bool
     """Whether every component has its surface: the equation is solved to the tolerance, and the vertices lie on the
     solution without folds. Where not, the best positions found are given."""
