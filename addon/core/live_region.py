@@ -119,8 +119,9 @@ class LiveRegion:
 
     def stand_in(self, positions: Floats, matrix: Floats, progress: Progress | None = None) -> Floats | None:
         """Return the surface of least variation where `answer` has none; the same contract. Takes a while."""
-        options = replace(self._options, equation="LEAST_VARIATION", inner_fairness="UNIFORM")
-        return self._kept(positions, matrix, solve(self._problem(positions, matrix), options, progress))
+        options = replace(self._options, equation="LEAST_VARIATION", inner_fairness="UNIFORM", continuity="G1")
+        problem = replace(self._problem(positions, matrix), curvatures=None)
+        return self._kept(positions, matrix, solve(problem, options, progress))
 
     def carried(self, positions: Floats) -> Floats:
         """Return the last good answer (k, 3), carried along by the motion of the fixed vertices since then."""
