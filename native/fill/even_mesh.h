@@ -6,21 +6,17 @@
 
 namespace fairing {
 
-// Begins as the triangles of the surface's own patch, whose fixed vertices and border edges stay as they are. The
-// other vertices come, go and slide on the surface until the edges are as long as wanted. Deterministic.
+// Begins as the triangles of the surface's own patch, whose fixed vertices and border edges stay. The other vertices
+// come, go and slide on the surface until the edges are as long as wanted. Deterministic.
 class EvenMesh {
 public:
-    // One free vertex at least is there, and stays. `patch`, `points` and `surface` belong together; `lengths`: wanted
-    // at the patch's vertices. Keeps references.
+    // Needs one free vertex. `lengths`: wanted at the vertices of `patch`. Keeps references.
     EvenMesh(const Patch& patch, const Points& points, const TargetSurface& surface, const VectorX& lengths);
-
     // Splits, collapses, flips and smooths. Asks whether to stop.
     void make_even();
-
-    // Splits the edges inside that join two fixed vertices, except where they cut a sharp corner off; returns how many.
-    // Such an edge would be another outline: a patch ends there.
+    // Splits edges between fixed vertices, at which a patch would end, but for those at sharp corners. Returns how
+    // many.
     int split_chords();
-
     // Vertices 0 … k − 1 are free, at these places; then come the patch's fixed vertices in their order.
     struct Result {
         std::vector<SurfacePoint> where;
@@ -33,7 +29,6 @@ private:
     using Vertex = SurfaceMesh::VertexHandle;
     using Halfedge = SurfaceMesh::HalfedgeHandle;
     using Edge = SurfaceMesh::EdgeHandle;
-
     [[nodiscard]] bool fixed(Vertex v) const { return fixed_[at(v.idx())] != 0; }
     [[nodiscard]] Vector3 point(Vertex v) const { return mesh_.point(v); }
     [[nodiscard]] Vertex apex(Halfedge h) const { return mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)); }
@@ -49,12 +44,10 @@ private:
     [[nodiscard]] bool is_delaunay(Edge e) const;
     int flip_edges();
     void smooth(int sweeps);
-
     int improve_flips();
     int improve_places(const std::vector<int>& vertices);
     [[nodiscard]] double worst_angle_around(Vertex v, const Vector3& position) const;
     void improve();
-
     const Patch& patch_;
     const TargetSurface& surface_;
     const VectorX& lengths_;

@@ -2,7 +2,7 @@
 
 from fairing._core import __version__
 from fairing._fair import fair
-from fairing._fill import FillResult, RemeshResult, fill, remesh
+from fairing._fill import fill, remesh
 from fairing._growing import GrownOutline, grown_outline
 from fairing._hierarchy import hierarchy
 from fairing._measure import (
@@ -15,6 +15,7 @@ from fairing._measure import (
     self_intersections,
     vertex_normals,
 )
+from fairing._new_mesh import FillResult, RemeshResult
 from fairing._outline import (
     MendedOutline,
     SurroundingNormals,

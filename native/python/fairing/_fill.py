@@ -5,72 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 from time import perf_counter
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core, _loops, _options
 from fairing._fair import fair
-from fairing._types import Diagnostic, FairResult, FloatArray, IntArray
+from fairing._new_mesh import FillResult, NewMeshResult, Origin, RemeshResult
+from fairing._types import FairResult, FloatArray, IntArray
 
 LEAST_COUNT = 1000
 """Free vertices of the mesh that is solved, for each component. Coarser wishes are cut from its surface."""
 MOST_COUNT = 4_000_000
 
 _Progress = Callable[[float, str], "bool | None"]
-_Origin = tuple[IntArray, FloatArray]
-
-
-@dataclass(frozen=True, eq=False)
-class _NewMeshResult:
-    """What a fairing on a new mesh gives back. All arrays are read-only; see :class:`fairing.FairResult`."""
-
-    vertices: FloatArray
-    """(k, 3) the new vertices."""
-    triangles: IntArray
-    """(m, 3) the new triangles: indices below n are the caller's vertices, n … n + k − 1 the new ones, as in
-    ``np.concatenate([vertices, result.vertices])``. They are wound as the triangles around."""
-    mean_curvature: FloatArray
-    """(k,) H at the new vertices."""
-    fixed: IntArray
-    """(k',) the outline's vertices."""
-    boundary_angle: FloatArray
-    """(k',) degrees between prescribed and obtained normals, in the order of ``fixed``."""
-    join: FloatArray
-    """(k',) degrees, in the order of ``fixed``: how visible the join is."""
-    continuity: Literal["G1", "G2"]
-    converged: bool
-    polished: bool
-    """Whether the discrete equation holds on the new mesh. False, with ``converged``: the surface was solved on a finer
-    mesh, and the new vertices lie on that surface."""
-    termination: Literal["converged", "iteration_limit", "stalled", "folded"]
-    equation: str
-    """The equation that holds (see ``otherwise`` of :func:`fairing.fair`)."""
-    iterations: int
-    residual: float
-    initial_residual: float
-    levels: tuple[int, ...]
-    seconds: dict[str, float]
-    way: tuple[tuple[str, float], ...]
-    warnings: tuple[Diagnostic, ...]
-    """Triangles and vertices that they name are those of the mesh that was solved; with ``polished`` it is this one."""
-
-
-@dataclass(frozen=True, eq=False)
-class FillResult(_NewMeshResult):
-    """What :func:`fairing.fill` gives back: the new part of the mesh and what :func:`fairing.fair` reports."""
-
-    loops: tuple[IntArray, ...]
-    """The loops that were filled, each in the direction that has the new surface on its left."""
-
-
-@dataclass(frozen=True, eq=False)
-class RemeshResult(_NewMeshResult):
-    """What :func:`fairing.remesh` gives back: a new mesh of a patch and what :func:`fairing.fair` reports."""
-
-    origin: _Origin
-    """Where each new vertex lies on the old patch: (k,) triangles and (k, 3) barycentric weights at their corners."""
 
 
 def fill(
@@ -220,7 +169,7 @@ class _Patch:
 
     def remeshed(
         self, old_count: int, spacing: float, least: int, options: dict[str, Any], progress: _Progress | None
-    ) -> tuple[_Patch, _Origin]:
+    ) -> tuple[_Patch, Origin]:
         """On the first ``old_count`` of these vertices and new ones."""
         self.expected_count(spacing)
         mesh = _core.remesh(
@@ -289,7 +238,7 @@ def _first_equation(options: dict[str, Any]) -> str:
 
 def _report(report: FairResult, old_count: int) -> dict[str, Any]:
     """The fields of a report on ``old_count`` old vertices and then new ones; `triangles` is missing."""
-    own = {field.name for field in fields(_NewMeshResult)}
+    own = {field.name for field in fields(NewMeshResult)}
     values = {field.name: getattr(report, field.name) for field in fields(report) if field.name in own}
     for name in ("vertices", "mean_curvature"):
         values[name] = _read_only(values[name][old_count:])
@@ -300,7 +249,7 @@ def _placed(patch: _Patch, old_count: int) -> dict[str, Any]:
     return {"vertices": _read_only(patch.vertices[old_count:]), "triangles": patch.triangles}
 
 
-def _carried(values: FloatArray, triangles: IntArray, origin: _Origin) -> FloatArray:
+def _carried(values: FloatArray, triangles: IntArray, origin: Origin) -> FloatArray:
     """(k,) values at vertices (n,), interpolated at places on triangles."""
     carried: FloatArray = _read_only((values[triangles[origin[0]]] * origin[1]).sum(axis=1))
     return carried
