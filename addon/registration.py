@@ -10,6 +10,7 @@ from .core import runner
 from .follow import live, undone, watch
 from .follow.live_operators import (
     FairLive,
+    MESH_OT_fair_live_far_side,
     MESH_OT_fair_live_forget,
     MESH_OT_fair_live_region,
     MESH_OT_fair_live_select,
@@ -19,9 +20,11 @@ from .preferences import FairPreferences
 from .run import cli, compare, job, last_run
 from .run.again import MESH_OT_fair_again, MESH_OT_fair_spots
 from .run.curvature import MESH_OT_fair_curvature
+from .run.masked import MESH_OT_fair_masked
 from .run.operators import MESH_OT_fair_region
 from .run.report_properties import FairCheck, FairProgress, FairReport
-from .show import overlay, ui
+from .run.selection_tools import TOOLS
+from .show import marks, overlay, ui
 from .show.overlay_settings import FairOverlay
 
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(
@@ -33,11 +36,14 @@ _register_classes, _unregister_classes = bpy.utils.register_classes_factory(
         FairOverlay,
         FairLive,
         MESH_OT_fair_region,
+        MESH_OT_fair_masked,
         MESH_OT_fair_live_region,
         MESH_OT_fair_live_select,
+        MESH_OT_fair_live_far_side,
         MESH_OT_fair_live_forget,
         compare.MESH_OT_fair_compare,
         MESH_OT_fair_spots,
+        *TOOLS,
         MESH_OT_fair_again,
         watch.MESH_OT_fair_inspect,
         MESH_OT_fair_curvature,
@@ -61,10 +67,13 @@ def register() -> None:
     )
     bpy.types.VIEW3D_MT_edit_mesh_faces.append(ui.draw_menu)
     bpy.types.VIEW3D_MT_edit_mesh_context_menu.append(ui.draw_context_menu)
+    bpy.types.VIEW3D_MT_mask.append(ui.draw_mask_menu)
+    bpy.types.VIEW3D_MT_face_sets.append(ui.draw_face_set_menu)
     handlers.register()
     watch.register()
     overlay.register()
     live.register()
+    marks.register()
     undone.register()
     translations.register()
     bpy.utils.register_preset_path(_folder)
@@ -77,6 +86,7 @@ def unregister() -> None:
     bpy.utils.unregister_preset_path(_folder)
     translations.unregister()
     undone.unregister()
+    marks.unregister()
     live.unregister()
     overlay.unregister()
     watch.unregister()
@@ -86,6 +96,8 @@ def unregister() -> None:
     last_run.forget()
     job.memory.clear()
     job.solvers.clear()
+    bpy.types.VIEW3D_MT_face_sets.remove(ui.draw_face_set_menu)
+    bpy.types.VIEW3D_MT_mask.remove(ui.draw_mask_menu)
     bpy.types.VIEW3D_MT_edit_mesh_context_menu.remove(ui.draw_context_menu)
     bpy.types.VIEW3D_MT_edit_mesh_faces.remove(ui.draw_menu)
     del bpy.types.WindowManager.fairing_more

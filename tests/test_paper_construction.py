@@ -160,7 +160,13 @@ def test_an_unknown_word_never_becomes_a_default() -> None:
     for option in ("acceleration", "virtual_points", "start"):
         with pytest.raises(ValueError, match=f"{option}: 'plain' is not accepted"):
             setattr(engine, option, "plain")
-    words = {"equation": "harmonic", "inner_fairness": "uniform", "method": "global", "normals": "fitted"}
+    words = {
+        "equation": "harmonic",
+        "otherwise": "stop",
+        "inner_fairness": "uniform",
+        "method": "global",
+        "normals": "fitted",
+    }
     numbers: dict[str, Any] = {"load": 0.0, "bulge": 0.0, "tolerance": 1e-6, "max_iterations": 9, "threads": 1}
     triangles = np.array([[0, 1, 2]], dtype=np.int32)
     for option in words:

@@ -31,11 +31,12 @@ class Problem:
     normals: Floats  # (k, 3) unit, in the order of patch.fixed
     vertices: Ints  # (q,) mesh indices: the patch's p, then those of the faces around it
     outside: Ints  # (o, 3) triangles around the patch, in numbers of `vertices`
+    curvatures: Floats | None = None  # (k,) H outside, NaN where it is not known; None: not to be continued
 
     @classmethod
-    def of(cls, patch: Patch, points: Floats, normals: Floats) -> Problem:
+    def of(cls, patch: Patch, points: Floats, normals: Floats, curvatures: Floats | None = None) -> Problem:
         """Pose it for the patch (p, 3) alone, without what is around it."""
-        return cls(patch, points, normals, patch.vertices, np.empty((0, 3), dtype=np.int64))
+        return cls(patch, points, normals, patch.vertices, np.empty((0, 3), dtype=np.int64), curvatures)
 
     @property
     def origin(self) -> Origin:
@@ -61,6 +62,7 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
             patch.triangles,
             fixed=patch.fixed,
             fixed_normals=problem.normals,
+            fixed_curvatures=problem.curvatures if options.joins_curvature else None,
             neighbours=patch.neighbours,
             outline=options.outline.lower(),
             outside=problem.outside if mended else None,
@@ -82,6 +84,27 @@ def suppress_cancel() -> Iterator[None]:
         yield
     except fairing.Cancelled:
         return
+
+
+def bad_outline(problem: Problem) -> Ints:
+    """Return the mesh vertices of the outline whose surroundings say little about the surface."""
+    rim = np.intersect1d(problem.patch.outline, problem.outside)
+    return problem.vertices[fairing.bad_outline(problem.points, problem.outside, rim)]
+
+
+@dataclass(frozen=True)
+class Mended:
+    """An outline moved onto the fit of its surroundings."""
+
+    vertices: Ints  # (k,) of the mesh that move
+    points: Floats  # (k, 3) where to, in world space
+
+
+def mended_outline(problem: Problem) -> Mended:
+    """Return where the outline and the two rings around it go, as far as it is noisy."""
+    rim = np.intersect1d(problem.patch.outline, problem.outside)
+    mended = fairing.mend_outline(problem.points, problem.outside, rim)
+    return Mended(problem.vertices[mended.moved], mended.vertices[mended.moved])
 
 
 def islands(patch: Patch) -> int:
@@ -111,7 +134,9 @@ class RepeatedSolve:
     def __call__(self, problem: Problem, progress: Progress | None = None) -> fairing.FairResult:
         """Fair the patch, which must be the one given, as `solve` does; raises the same."""
         with in_mesh_words(problem.patch.origin):
-            return self._solver.solve(problem.own_points, problem.normals, self._reference, progress)
+            return self._solver.solve(
+                problem.own_points, problem.normals, self._reference, progress, fixed_curvatures=problem.curvatures
+            )
 
 
 def sub_range(progress: Progress | None, begin: float, end: float) -> Progress | None:

@@ -6,10 +6,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+import fairing
+
 from .around import RINGS, outside_triangles
 from .arrays import Floats, Ints, Mask
-from .boundary import prescribed_normals
-from .engine import Problem, Progress, RepeatedSolve
+from .boundary import prescribed_curvatures, prescribed_normals
+from .carrier import Carrier
+from .engine import Problem, Progress, RepeatedSolve, solve
 from .options import FairOptions
 from .region import MeshArrays, Patch, make_patch, to_local
 from .symmetry import mirror_map, symmetrised
@@ -65,6 +68,7 @@ def _part(mesh: MeshArrays, faces: Mask, vertices: Mask) -> MeshArrays:
         triangles=vertex[mesh.triangles[triangles]],
         triangle_faces=face[mesh.triangle_faces[triangles]],
         in_patch=mesh.in_patch[faces],
+        hidden=None if mesh.hidden is None else mesh.hidden[faces],
         pinned=mesh.pinned[vertices],
         corner_normals=None if normals is None else normals[corners],
     )
@@ -82,8 +86,10 @@ class LiveRegion:
         self._around = surroundings(mesh, patch)
         self._options = options
         self._image = mirror_map(mesh, patch) if mesh.mirror_x else None
+        self.faces = np.flatnonzero(mesh.in_patch)  # of the mesh
         self._patch = patch  # in the numbers of the whole mesh, which refusals name
         self._solve = RepeatedSolve(patch, options, world.positions[patch.vertices])
+        self._good = Carrier(mesh.positions[patch.vertices[patch.fixed]], mesh.positions[patch.vertices[patch.free]])
 
     @property
     def vertices(self) -> Ints:
@@ -97,22 +103,48 @@ class LiveRegion:
         free: Ints = self._around.vertices[patch.vertices[patch.free]]
         return free
 
+    @property
+    def outline(self) -> Ints:
+        """Mesh indices of the outline's vertices."""
+        patch = self._around.patch
+        outline: Ints = self._around.vertices[patch.vertices[patch.outline]]
+        return outline
+
     def answer(self, positions: Floats, matrix: Floats, progress: Progress | None = None) -> Floats | None:
         """Return the free vertices' positions (k, 3) in the mesh's own coordinates; None where there is no convergence.
 
         positions: (n, 3) of `vertices`, in the mesh's own coordinates. Raises what engine.solve does.
         """
+        return self._kept(positions, matrix, self._solve(self._problem(positions, matrix), progress))
+
+    def stand_in(self, positions: Floats, matrix: Floats, progress: Progress | None = None) -> Floats | None:
+        """Return the surface of least variation where `answer` has none; the same contract. Takes a while."""
+        options = replace(self._options, equation="LEAST_VARIATION", inner_fairness="UNIFORM", continuity="G1")
+        problem = replace(self._problem(positions, matrix), curvatures=None)
+        return self._kept(positions, matrix, solve(problem, options, progress))
+
+    def carried(self, positions: Floats) -> Floats:
+        """Return the last good answer (k, 3), carried along by the motion of the fixed vertices since then."""
+        patch = self._around.patch
+        return self._good.carried(positions[patch.vertices[patch.fixed]])
+
+    def _problem(self, positions: Floats, matrix: Floats) -> Problem:
         patch = self._around.patch
         with np.errstate(invalid="ignore", over="ignore"):
             world = replace(self._around.mesh, positions=positions).transformed(matrix)
-            normals, _ = prescribed_normals(
-                world, patch, self._options.boundary_normals, outside_triangles(world, patch)
-            )
-        result = self._solve(Problem.of(self._patch, world.positions[patch.vertices], normals), progress)
+            outside = outside_triangles(world, patch)
+            normals, _ = prescribed_normals(world, patch, self._options.boundary_normals, outside)
+            curvatures = prescribed_curvatures(world, patch, outside) if self._options.joins_curvature else None
+        return Problem.of(self._patch, world.positions[patch.vertices], normals, curvatures)
+
+    def _kept(self, positions: Floats, matrix: Floats, result: fairing.FairResult) -> Floats | None:
+        """Return the result where it is good, and remember it."""
         if not result.converged:
             return None
         fair = to_local(result.vertices, matrix)
         if self._image is not None:
             fair = symmetrised(fair, self._image)
+        patch = self._around.patch
+        self._good = Carrier(positions[patch.vertices[patch.fixed]], fair[patch.free])
         answer: Floats = fair[patch.free]
         return answer

@@ -9,6 +9,7 @@ EQUATIONS = ("HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATI
 OTHERWISE = ("LEAST_VARIATION", "STOP")
 INNER_FAIRNESS = ("AUTOMATIC", "UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING")
 BOUNDARY_NORMALS = ("SURROUNDING", "AVERAGE", "CUSTOM")
+CONTINUITIES = ("G1", "G2")
 METHODS = ("GLOBAL", "PAPER")
 PIN_EDGES = ("NONE", "SHARP", "SEAM", "CREASE")
 OUTLINES = ("GIVEN", "MENDED")
@@ -19,6 +20,7 @@ _CHOICES = {
     "otherwise": OTHERWISE,
     "inner_fairness": INNER_FAIRNESS,
     "boundary_normals": BOUNDARY_NORMALS,
+    "continuity": CONTINUITIES,
     "method": METHODS,
     "pin_edges": PIN_EDGES,
     "outline": OUTLINES,
@@ -36,6 +38,7 @@ class FairOptions:
     bulge: float = 0.0  # for CONSTANT: 1 lifts a flat disc by a quarter of its radius
     inner_fairness: str = "AUTOMATIC"  # CONFORMAL for a patch with a texture, UNIFORM for others
     boundary_normals: str = "SURROUNDING"
+    continuity: str = "G1"  # G2: the curvature of the faces outside is continued, too
     method: str = "GLOBAL"
     levels: int = 0  # 0: chosen by the engine
     tolerance: float = 1e-6  # of the patch's diameter
@@ -64,6 +67,11 @@ class FairOptions:
             return self
         return replace(self, inner_fairness="CONFORMAL" if textured else "UNIFORM")
 
+    @property
+    def joins_curvature(self) -> bool:
+        """Whether the curvature outside counts: only for the harmonic shape of the fast solver."""
+        return self.continuity == "G2" and self.equation == "HARMONIC" and self.method == "GLOBAL"
+
     def engine_arguments(self) -> dict[str, Any]:
         """Return the keyword arguments of `fairing.fair` that need no mesh; the options must be resolved."""
         return {
@@ -75,6 +83,7 @@ class FairOptions:
             "levels": self.levels,
             "tolerance": self.tolerance,
             "max_iterations": self.max_iterations,
+            "continuity": "G2" if self.joins_curvature else "G1",
         }
 
 

@@ -31,6 +31,7 @@ class MeshArrays:
     mirrored: bool = False  # the corners go clockwise, seen from outside
     mirror_x: bool = False  # the mesh asks for symmetric results
     textured: bool = False  # the patch has a UV map
+    hidden: Mask | None = None  # (f,); None: nothing is
     notes: tuple[str, ...] = ()  # what turned out odd when it was read
 
     def transformed(self, matrix: Floats) -> MeshArrays:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -28,11 +29,13 @@ def mirror_map(mesh: MeshArrays, patch: Patch) -> Ints | None:
     mesh: in its own coordinates. None: the outline, the connectivity or the free vertices aren't
     symmetric, so the whole patch isn't.
     """
-    images = _outline_images(mesh.positions[patch.vertices[patch.outline]], patch.outline)
+    rim = (mesh.positions[patch.vertices[patch.outline]], patch.outline)
+    images = _images(rim, rim)
     if images is None:
         return None
     loops = _faces(mesh, patch)
-    found = _spread(images, loops, {edge: face for face, loop in enumerate(loops) for edge in _sides(loop)})
+    face_of = {edge: face for face, loop in enumerate(loops) for edge in _sides(loop)}
+    found = _spread(images, loops, face_of, face_of)
     if found is None or len(found) != len(patch.vertices):
         return None
     image = np.array([found[v] for v in range(len(found))], dtype=np.int64)
@@ -43,23 +46,55 @@ def mirror_map(mesh: MeshArrays, patch: Patch) -> Ints | None:
     return image
 
 
+def with_image(mesh: MeshArrays) -> MeshArrays:
+    """Return a mesh that asks for symmetry with the mirror image of its patch in the patch, where there is one.
+
+    The outline decides by its places, the inside by its connectivity. As it is where the patch meets its image.
+    """
+    if not mesh.mirror_x or not mesh.in_patch.any():
+        return mesh
+    image = _image_faces(mesh)
+    if image is None or mesh.in_patch[image].any():
+        return mesh
+    both = mesh.in_patch.copy()
+    both[image] = True
+    return replace(mesh, in_patch=both)
+
+
+def _image_faces(mesh: MeshArrays) -> Ints | None:
+    """Return the faces across x = 0 of those of the patch."""
+    starts = np.flatnonzero(np.diff(mesh.corner_faces)) + 1
+    loops: list[Loop] = [loop.tolist() for loop in np.split(mesh.corner_vertices, starts)]
+    face_of = {edge: face for face, loop in enumerate(loops) for edge in _sides(loop)}
+    own = {edge: face for edge, face in face_of.items() if mesh.in_patch[face]}
+    rim = np.unique([vertex for edge in own if edge[::-1] not in own for vertex in edge]).astype(np.int64)
+    images = _images((mesh.positions[rim], rim), (mesh.positions, np.arange(len(mesh.positions))))
+    found = _spread(images, loops, own, face_of) if images is not None else None
+    if found is None or not all(vertex in found for edge in own for vertex in edge):
+        return None
+    return np.unique([face_of[found[b], found[a]] for a, b in own])
+
+
 def symmetrised(positions: Floats, image: Ints) -> Floats:
     """Return the mean of the positions (p, 3) and their mirror image: symmetric to the last bit."""
     mean: Floats = 0.5 * (positions + FLIP * positions[image])
     return mean
 
 
-def _outline_images(points: Floats, outline: Ints) -> dict[int, int] | None:
-    """Return the mirror image of each outline vertex, the nearest one to it, None where one is missing."""
-    mirrored = points * FLIP
+Points = tuple[Floats, Ints]  # places (k, 3) and vertices (k,)
+
+
+def _images(rim: Points, among: Points) -> dict[int, int] | None:
+    """Return the mirror image of each vertex of the rim, the nearest one to it, None where one is missing."""
+    points, vertices = among
     box = _boxes(points)
     images = {}
-    for vertex, point in zip(outline.tolist(), mirrored, strict=True):
+    for vertex, point in zip(rim[1].tolist(), rim[0] * FLIP, strict=True):
         near = [k for corner in _corners(point) for k in box.get(corner, ())]
         distances = np.linalg.norm(points[near] - point, axis=1)
         if not (distances <= NEAR).any():
             return None
-        images[vertex] = int(outline[near[int(distances.argmin())]])
+        images[vertex] = int(vertices[near[int(distances.argmin())]])
     return images
 
 
@@ -90,22 +125,27 @@ def _sides(loop: Loop) -> Iterator[Edge]:
     return zip(loop, (*loop[1:], loop[0]), strict=True)
 
 
-def _spread(image: dict[int, int], loops: list[Loop], face_of: dict[Edge, int]) -> dict[int, int] | None:
-    """Carry the images from the outline's edges across face after face; None at a contradiction."""
+def _spread(
+    image: dict[int, int], loops: list[Loop], own: dict[Edge, int], face_of: dict[Edge, int]
+) -> dict[int, int] | None:
+    """Carry the images from the outline's edges across face after face; None at a contradiction.
+
+    own: the face of each directed edge of the patch; face_of: the same where images are looked for.
+    """
     image = dict(image)
-    borders = [edge for edge in face_of if edge[::-1] not in face_of and edge[0] in image and edge[1] in image]
+    borders = [edge for edge in own if edge[::-1] not in own and edge[0] in image and edge[1] in image]
     queue = deque(borders)
     done: set[int] = set()
     while queue:
         a, b = queue.popleft()
-        face = face_of[a, b]
+        face = own[a, b]
         if face in done:
             continue
         done.add(face)
         other = face_of.get((image[b], image[a]))
         if other is None or not _match(image, _from(loops[face], a), _backwards(loops[other], image[a])):
             return None
-        queue.extend(edge[::-1] for edge in _sides(loops[face]) if edge[::-1] in face_of)
+        queue.extend(edge[::-1] for edge in _sides(loops[face]) if edge[::-1] in own)
     return image
 
 

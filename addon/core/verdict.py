@@ -9,7 +9,7 @@ import numpy as np
 import fairing
 
 from .arrays import Ints
-from .engine import Problem
+from .engine import Problem, bad_outline
 from .options import FairOptions
 from .quality import Join, Quality
 from .words import counted
@@ -96,15 +96,10 @@ def _troubled(problem: Problem) -> Ints:
     return bad if len(bad) else outline
 
 
-def bad_outline(problem: Problem) -> Ints:
-    """Return the mesh vertices of the outline whose surroundings say little about the surface."""
-    rim = np.intersect1d(problem.patch.outline, problem.outside)
-    return problem.vertices[fairing.bad_outline(problem.points, problem.outside, rim)]
-
-
 def _corners(problem: Problem, faces: Ints) -> Ints:
     patch = problem.patch
-    return patch.vertices[patch.triangles[np.isin(patch.faces, faces)].ravel()]
+    corners: Ints = patch.vertices[patch.triangles[np.isin(patch.faces, faces)].ravel()]
+    return corners
 
 
 def _folded(evidence: Evidence, options: FairOptions) -> Found:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import bpy
 import numpy as np
@@ -10,7 +10,9 @@ import numpy as np
 import fairing
 
 from ..core import engine
+from ..core.arrays import Floats
 from ..core.options import FairOptions, option_names
+from ..core.selection import left_out_faces
 from ..core.solve import pose
 from ..host.polling import NO_FACE, NO_FREE
 from ..run import job
@@ -27,6 +29,8 @@ class Inspection:
     islands: int = 0  # pieces that are solved each on its own
     refusal: str = ""  # why the operator would say no, or do nothing; empty where it would not
     notes: tuple[str, ...] = ()  # what may surprise about the result
+    bad: Floats = field(default_factory=lambda: np.empty((0, 3)))  # in world space: the outline's bad vertices
+    left_out: int = 0  # faces of small holes
 
 
 def last_options(context: bpy.types.Context) -> FairOptions:
@@ -41,7 +45,7 @@ def last_options(context: bpy.types.Context) -> FairOptions:
 def inspect(obj: bpy.types.Object, options: FairOptions) -> Inspection:
     """Look at the selection of an object in edit mode; the engine checks it, but solves nothing."""
     faces = obj.data.total_face_sel
-    if not faces:
+    if not faces and not obj.data.total_edge_sel:
         return Inspection(obj.name, 0, refusal=NO_FACE)
     try:
         return _inspect_task(job.read_object(obj, options), options)
@@ -51,6 +55,8 @@ def inspect(obj: bpy.types.Object, options: FairOptions) -> Inspection:
 
 def _inspect_task(task: job.Task, options: FairOptions) -> Inspection:
     faces = int(np.count_nonzero(task.mesh.in_patch))
+    if not faces:
+        return Inspection(task.object_name, 0, refusal=NO_FACE)
     if not task.free_count:
         return Inspection(task.object_name, faces, refusal=NO_FREE)
     try:
@@ -60,4 +66,8 @@ def _inspect_task(task: job.Task, options: FairOptions) -> Inspection:
     except engine.REFUSALS as cause:
         return Inspection(task.object_name, faces, task.free_count, refusal=str(cause))
     loops = fairing.boundary_loops(problem.patch.triangles)
-    return Inspection(task.object_name, faces, task.free_count, len(loops), islands, notes=notes)
+    bad = task.mesh.positions[engine.bad_outline(problem)] @ task.matrix[:3, :3].T + task.matrix[:3, 3]
+    left_out = int(np.count_nonzero(left_out_faces(task.mesh)))
+    return Inspection(
+        task.object_name, faces, task.free_count, len(loops), islands, notes=notes, bad=bad, left_out=left_out
+    )

@@ -13,10 +13,8 @@ made fair for those.
 
 from __future__ import annotations
 
-import math
 import time
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator
 
 import bpy
 import numpy as np
@@ -24,33 +22,21 @@ import numpy as np
 import fairing
 
 from ..core import signals
-from ..core.arrays import Floats, Ints
+from ..core.arrays import Floats
 from ..core.engine import REFUSALS
-from ..core.live_region import LiveRegion
 from ..core.options import FairOptions
-from ..core.region import free_vertices
 from ..host.handlers import call_later, call_off, listen, unlisten
-from ..host.status import redraw_sidebars
+from ..host.status import redraw_sidebars, redraw_views
 from ..mesh import live_mesh, mesh_io
+from .session import Session, check_key, fits, matrix_of, read, session_of
 
-SLOW = 0.25  # seconds of the last answer from which the next one waits for the end of the changes
-PATIENCE = 0.5  # seconds after which an answer in the middle of changes is given up, to be asked for at their end
+PATIENCE = 0.15  # seconds for an answer in the middle of changes: with reading and writing a step stays below 0.3
+LEISURE = 5.0  # seconds for an answer at their end
+MOST_SKIPPED = 15  # changes in a row that are carried along without asking for an answer
 PAUSE = 0.3  # seconds without a change that count as their end
+STAND_IN = "No fair surface leads here: Even Curvature stands in for it"
+CARRIED = "No fair surface leads here: the region is carried along, and mends when it is dragged back"
 NO_REGION = "No live region: select faces, then Live Region"
-
-
-@dataclass
-class Session:
-    """One mesh with a region, as it was last seen."""
-
-    faces: Ints
-    corners: Ints
-    counts: tuple[int, int, int]
-    region: LiveRegion
-    positions: Floats = field(default_factory=lambda: np.empty((0, 3)))  # of region.vertices
-    matrix: Floats = field(default_factory=lambda: np.zeros((4, 4)))
-    seconds: float = 0.0  # of the last answer
-    checked: bool = True  # an undo may have brought back another region
 
 
 class Live:
@@ -68,46 +54,68 @@ class Live:
 
         Raises what engine.REFUSALS lists where it can't be; nothing has changed then.
         """
-        region = _read(obj, options, None)
-        matrix = _matrix(obj)
+        region = read(obj, options, None)
+        matrix = matrix_of(obj)
         answer = region.answer(live_mesh.positions(obj.data, region.vertices), matrix)
         if answer is None:
-            raise fairing.SolverError("The region's surface did not converge")
-        live_mesh.mark_selection(obj.data, options, mesh_io.writable_key(obj))
-        session = self.sessions[obj.data.name] = _session(obj, region)
+            raise fairing.SolverError("No fair surface was found for the region")
+        live_mesh.mark_faces(obj.data, region.faces, options, mesh_io.writable_key(obj))
+        session = self.sessions[obj.data.name] = session_of(obj, region)
         self._write(obj, session, answer)
 
-    def follow(self, obj: bpy.types.Object, patience: float = math.inf) -> bool:
+    def follow(self, obj: bpy.types.Object, hurried: bool = False) -> bool:
         """Make the region fair again where something has changed around it; tell whether it was written.
 
-        patience: seconds after which to give up; the region is slow then.
+        hurried: in the middle of changes; the region is carried along where there is no answer so soon.
         """
         session = self._current(obj)
         if session is None:
             return False
-        positions, matrix = live_mesh.positions(obj.data, session.region.vertices), _matrix(obj)
-        if np.array_equal(positions, session.positions) and np.array_equal(matrix, session.matrix):
+        positions, matrix = live_mesh.positions(obj.data, session.region.vertices), matrix_of(obj)
+        same = np.array_equal(positions, session.positions) and np.array_equal(matrix, session.matrix)
+        if same and (hurried or not session.lost):
             return False
         session.positions, session.matrix = positions, matrix
-        begin = time.perf_counter()
-        try:
-            answer = session.region.answer(positions, matrix, lambda *_: time.perf_counter() < begin + patience)
-        except fairing.Cancelled:
-            session.positions = np.empty((0, 3))  # this change still waits for its answer
-            session.seconds = patience
-            return False
-        session.seconds = time.perf_counter() - begin
+        answer = self._hurried(session) if hurried else self._at_leisure(session)
+        session.lost = answer is None
         if answer is None:
-            self.message = "The surface did not converge: the region stays as it is until the next change"
-            return False
-        self.message = ""
+            session.mark_outline()
+            answer = session.region.carried(positions)
+            self.message = "" if hurried else CARRIED
         self._write(obj, session, answer)
         return True
 
-    def is_slow(self, obj: bpy.types.Object) -> bool:
-        """Tell whether an answer would be felt as a jolt."""
+    def _hurried(self, session: Session) -> Floats | None:
+        """Answer in the middle of changes, or not: after an answer that took too long some changes do without."""
+        if session.waited < session.skip:
+            session.waited += 1
+            return None
+        answer = _asked(session, session.region.answer, PATIENCE)
+        failed = answer is None
+        session.skip = min(2 * session.skip + 1, MOST_SKIPPED) if failed else 0
+        session.waited = 0
+        if not failed:
+            self.message = ""
+        return answer
+
+    def _at_leisure(self, session: Session) -> Floats | None:
+        """Answer at the end of changes: the surface itself, or the one that stands in for it."""
+        answer = _asked(session, session.region.answer, LEISURE)
+        self.message = ""
+        if answer is None:
+            answer = _asked(session, session.region.stand_in, LEISURE)
+            self.message = STAND_IN
+        return answer
+
+    def is_lost(self, obj: bpy.types.Object) -> bool:
+        """Tell whether the region still waits for an answer."""
         session = self.sessions.get(obj.data.name)
-        return session is not None and session.seconds > SLOW
+        return session is not None and session.lost
+
+    def lost_points(self) -> Floats:
+        """Return the outlines (k, 3) in world space of all regions that have no fair surface now."""
+        points = [session.points for session in self.sessions.values() if session.lost]
+        return np.concatenate([np.empty((0, 3)), *points])
 
     def _current(self, obj: bpy.types.Object) -> Session | None:
         """Return the session of the mesh, opened anew where its connectivity or its region has changed.
@@ -119,18 +127,18 @@ class Live:
             self.sessions.pop(mesh.name, None)
             return None
         try:
-            _check_key(obj)
+            check_key(obj)
         except ValueError:
             self.sessions.pop(mesh.name, None)
             raise
         session = self.sessions.get(mesh.name)
-        if session is None or not _fits(session, mesh):
-            session = self.sessions[mesh.name] = _session(obj, _read(obj, live_mesh.region_options(mesh), mesh))
+        if session is None or not fits(session, mesh):
+            session = self.sessions[mesh.name] = session_of(obj, read(obj, live_mesh.region_options(mesh), mesh))
         return session
 
     def _write(self, obj: bpy.types.Object, session: Session, answer: Floats) -> None:
         mesh_io.write_edit_mesh(obj.data, session.region.free, answer)
-        session.positions, session.matrix = live_mesh.positions(obj.data, session.region.vertices), _matrix(obj)
+        session.positions, session.matrix = live_mesh.positions(obj.data, session.region.vertices), matrix_of(obj)
         self.updates += 1
 
     def doubt(self) -> None:
@@ -147,46 +155,15 @@ class Live:
 live = Live()
 
 
-def _matrix(obj: bpy.types.Object) -> Floats:
-    matrix: Floats = np.array(obj.matrix_world, dtype=np.float64)
-    return matrix
-
-
-def _read(obj: bpy.types.Object, options: FairOptions, marked: bpy.types.Mesh | None) -> LiveRegion:
-    """Read the object's mesh with its selection, or the region that is marked, as the patch."""
-    mesh_io.writable_key(obj)
-    if options.boundary_normals == "CUSTOM":
-        raise ValueError("Custom normals along the outline can't be followed: choose Surroundings or Average")
-    mesh = mesh_io.read_edit_mesh(obj, options, live_mesh.LAYER if marked is not None else "")
-    if not free_vertices(mesh).any():
-        raise ValueError("No vertex inside the region is free to move")
-    return LiveRegion(mesh, _matrix(obj), options)
-
-
-def _check_key(obj: bpy.types.Object) -> None:
-    """Raise ValueError while another shape key is active than the one that the region was made in, or it is locked."""
-    active, own = mesh_io.writable_key(obj), live_mesh.region_key(obj.data)
-    if active != own:
-        own = f"the shape key {own!r}" if own else "the Basis"
-        raise ValueError(
-            f"Live rests while another shape key is active: its region belongs to {own}. "
-            "Go back there, or make the region anew here"
-        )
-
-
-def _session(obj: bpy.types.Object, region: LiveRegion) -> Session:
-    faces = live_mesh.region_faces(obj.data)
-    assert faces is not None
-    return Session(faces, live_mesh.corners(obj.data, faces), live_mesh.counts(obj.data), region)
-
-
-def _fits(session: Session, mesh: bpy.types.Mesh) -> bool:
-    if live_mesh.counts(mesh) != session.counts:
-        return False
-    if not session.checked:
-        faces = live_mesh.region_faces(mesh)
-        session.checked = faces is not None and np.array_equal(faces, session.faces)
-    return session.checked and np.array_equal(live_mesh.corners(mesh, session.faces), session.corners)
+def _asked(session: Session, ask: Callable[..., Floats | None], patience: float) -> Floats | None:
+    """Ask for an answer, for so many seconds; None where there is none, or not in time."""
+    begin = time.perf_counter()
+    try:
+        return ask(session.positions, session.matrix, lambda *_: time.perf_counter() < begin + patience)
+    except (fairing.Cancelled, fairing.SolverError):
+        return None
+    finally:
+        session.seconds = time.perf_counter() - begin
 
 
 def _edited(depsgraph: bpy.types.Depsgraph) -> Iterator[bpy.types.Object]:
@@ -212,10 +189,10 @@ def edited_objects() -> Iterator[bpy.types.Object]:
             yield obj
 
 
-def follow(obj: bpy.types.Object, patience: float = math.inf) -> bool:
+def follow(obj: bpy.types.Object, hurried: bool = False) -> bool:
     """Follow one object; what goes wrong is told in the panel, and the mesh is left as it is."""
     try:
-        return live.follow(obj, patience)
+        return live.follow(obj, hurried)
     except REFUSALS as cause:
         live.message = f"{obj.name}: {cause}"
         return False
@@ -223,9 +200,7 @@ def follow(obj: bpy.types.Object, patience: float = math.inf) -> bool:
 
 def _on_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     for obj in _edited(depsgraph):
-        if not live.is_slow(obj):
-            follow(obj, PATIENCE)
-        if live.is_slow(obj):
+        if follow(obj, hurried=True) and live.is_lost(obj):
             live.changed_at = time.monotonic()
             call_later(_follow_later, PAUSE)
 
@@ -237,6 +212,7 @@ def _follow_later() -> float | None:
         return wait
     for obj in edited_objects():
         follow(obj)
+    redraw_views(bpy.context)
     return None
 
 

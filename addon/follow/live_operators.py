@@ -7,13 +7,16 @@ No postponed annotations here: Blender reads them as property definitions.
 from typing import Any
 
 import bpy
+import numpy as np
 from bpy.props import BoolProperty
 
 from ..core.engine import REFUSALS
+from ..core.options import FairOptions
+from ..core.selection import far_sides
 from ..core.signals import live_changed
 from ..host.context import edited_objects
 from ..host.polling import NO_FACE, SELECT_FACES, require, require_edit_mode
-from ..mesh import live_mesh
+from ..mesh import live_mesh, mesh_io, selecting
 from ..translations import translated
 from .inspection import last_options
 from .live import live
@@ -29,6 +32,11 @@ class FairLive(bpy.types.PropertyGroup):
         default=False,
         update=live_changed,
     )
+
+
+def enclosing(obj: bpy.types.Object) -> bool:
+    """Tell whether selected edges of an object in edit mode enclose faces."""
+    return bool(obj.data.total_edge_sel and mesh_io.read_edit_mesh(obj, FairOptions()).in_patch.any())
 
 
 class MESH_OT_fair_live_region(bpy.types.Operator):
@@ -48,7 +56,8 @@ class MESH_OT_fair_live_region(bpy.types.Operator):
         """Take the selection of every object in edit mode that has one, and turn Live on."""
         context.view_layer.update()
         options = last_options(context)
-        chosen = [obj for obj in edited_objects(context) if obj.data.total_face_sel]
+        edited = edited_objects(context)
+        chosen = [obj for obj in edited if obj.data.total_face_sel] or [obj for obj in edited if enclosing(obj)]
         if not chosen:
             self.report({"ERROR"}, translated(NO_FACE))
             return {"CANCELLED"}
@@ -87,6 +96,38 @@ class MESH_OT_fair_live_select(bpy.types.Operator):
         context.tool_settings.mesh_select_mode = (False, False, True)
         for obj in edited_objects(context):
             live_mesh.select_region(obj.data)
+        return {"FINISHED"}
+
+
+class MESH_OT_fair_live_far_side(bpy.types.Operator):
+    """Select everything beyond the live region, so that it can be dragged at once.
+    Once more: the other side"""
+
+    bl_idname = "mesh.fair_live_far_side"
+    bl_label = "Select Far Side"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """There must be a region."""
+        return _require_region(cls, context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Select the smallest side, or the one after the side that is selected already."""
+        found = False
+        for obj in edited_objects(context):
+            if not live_mesh.has_region(obj.data):
+                continue
+            sides = far_sides(mesh_io.read_edit_mesh(obj, FairOptions(), live_mesh.LAYER))
+            if len(sides) > 1:
+                found = True
+                now = selecting.selected_faces(obj.data)
+                at = next((k + 1 for k, side in enumerate(sides) if np.array_equal(side, now)), 0)
+                context.tool_settings.mesh_select_mode = (False, False, True)
+                selecting.select_faces(obj.data, sides[at % len(sides)])
+        if not found:
+            self.report({"INFO"}, "The live region cuts nothing off: there is no far side")
+            return {"CANCELLED"}
         return {"FINISHED"}
 
 

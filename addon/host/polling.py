@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 
 SELECT_FACES = "Select faces of a mesh in edit mode"
-NO_FACE = "No face is selected: select the faces to be faired; vertices or edges alone don't count"
+NO_FACE = "No face is selected: select the faces to be faired, or a closed loop of edges around them"
 NO_FREE = "No vertex is free to move: a vertex is when all its faces are selected and visible, and it is not pinned"
 
 

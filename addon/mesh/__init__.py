@@ -1,1 +1,1 @@
-"""Blender's meshes as arrays, and positions back: the only room that touches bmesh and mathutils."""
+"""Blender's meshes as arrays, and positions back: the only room that touches bmesh."""

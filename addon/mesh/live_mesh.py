@@ -22,12 +22,14 @@ OPTIONS = "fair_live_options"  # custom property of the mesh: FairOptions as JSO
 KEY = "fair_live_key"  # custom property of the mesh: the shape key that the region is in; empty for the Basis
 
 
-def mark_selection(mesh: bpy.types.Mesh, options: FairOptions, key: str) -> None:
-    """Make the selected visible faces of a mesh in edit mode its region, with these options, in that shape key."""
+def mark_faces(mesh: bpy.types.Mesh, faces: Ints, options: FairOptions, key: str) -> None:
+    """Make these faces of a mesh in edit mode its region, with these options, in that shape key."""
     bm = bmesh.from_edit_mesh(mesh)
     layer = bm.faces.layers.int.get(LAYER) or bm.faces.layers.int.new(LAYER)
-    for face in bm.faces:
-        face[layer] = int(face.select and not face.hide)
+    chosen = np.zeros(len(bm.faces), dtype=np.int64)
+    chosen[faces] = 1
+    for face, inside in zip(bm.faces, chosen.tolist(), strict=True):
+        face[layer] = inside
     mesh[OPTIONS] = json.dumps(asdict(options))
     mesh[KEY] = key
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)

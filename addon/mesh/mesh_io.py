@@ -14,6 +14,8 @@ import numpy as np
 from ..core.arrays import Floats, Ints, Mask
 from ..core.options import FairOptions
 from ..core.region import MeshArrays, free_vertices
+from ..core.selection import enclosed_faces
+from ..core.symmetry import with_image
 
 # Read and written as float32, which is what Blender stores; doubles in between.
 
@@ -53,12 +55,23 @@ def read_edit_mesh(obj: bpy.types.Object, options: FairOptions, region: str = ""
     Raises ValueError where `options` name a vertex group that the object does not have.
     """
     with _snapshot(obj.data) as mesh:
+        group = _group_index(obj, options.pin_group)
         if region:
             selected = _column(mesh.attributes[region].data, "value", 1, np.int32).astype(bool)
+            arrays = _arrays(mesh, selected, group, options)
         else:
-            selected = _column(mesh.polygons, "select", 1, bool)
-        arrays = _arrays(mesh, selected, _group_index(obj, options.pin_group), options)
-        return replace(arrays, mirror_x=obj.data.use_mirror_x)
+            arrays = _selected(mesh, group, options)
+        arrays = replace(arrays, mirror_x=obj.data.use_mirror_x)
+        return arrays if region else with_image(arrays)
+
+
+def _selected(mesh: bpy.types.Mesh, group: int | None, options: FairOptions) -> MeshArrays:
+    """Read a mesh with its selected faces, or with those that its selected edges enclose where no vertex is free."""
+    arrays = _arrays(mesh, _column(mesh.polygons, "select", 1, bool), group, options)
+    if free_vertices(arrays).any():
+        return arrays
+    enclosed = enclosed_faces(arrays, _column(mesh.edges, "select", 1, bool))
+    return _arrays(mesh, enclosed, group, options) if enclosed.any() else arrays
 
 
 def read_own_mesh(obj: bpy.types.Object, options: FairOptions) -> MeshArrays:
@@ -149,7 +162,8 @@ def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: Fa
     sizes = _indices(mesh.polygons, "loop_total")
     corner_vertices = _indices(mesh.loops, "vertex_index")
     corner_faces = np.repeat(np.arange(len(sizes)), sizes)
-    in_patch = selected & ~_column(mesh.polygons, "hide", 1, bool)
+    hidden = _column(mesh.polygons, "hide", 1, bool)
+    in_patch = selected & ~hidden
     edges = _indices(mesh.edges, "vertices", 2)
     custom = options.boundary_normals == "CUSTOM"
     arrays = MeshArrays(
@@ -163,6 +177,7 @@ def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: Fa
         in_patch=in_patch,
         pinned=np.zeros(len(mesh.vertices), dtype=bool),
         corner_normals=_corner_normals(mesh) if custom else None,
+        hidden=hidden if hidden.any() else None,
         textured=_is_textured(mesh, in_patch[corner_faces]) if options.inner_fairness == "AUTOMATIC" else False,
     )
     return _pinned(arrays, mesh, group, options)
@@ -267,28 +282,3 @@ def _follows(block: bpy.types.ShapeKey, basis: bpy.types.ShapeKey) -> bool:
         if block == basis:
             return True
     return False
-
-
-def write_attribute(mesh: bpy.types.Mesh, name: str, values: Floats) -> None:
-    """Write one number per vertex (n,) to the vertex attribute `name`, in whichever mode.
-
-    Raises ValueError where the mesh has an attribute of that name for something else.
-    """
-    present = mesh.attributes.get(name)
-    if present is not None and (present.data_type, present.domain) != ("FLOAT", "POINT"):
-        raise ValueError(f"The mesh has another attribute named {name!r}: rename or remove it")
-    if mesh.is_editmode:
-        _write_edit_attribute(mesh, name, values)
-        return
-    layer = present or mesh.attributes.new(name, "FLOAT", "POINT")
-    layer.data.foreach_set("value", values.astype(np.float32))
-    mesh.update()
-
-
-def _write_edit_attribute(mesh: bpy.types.Mesh, name: str, values: Floats) -> None:
-    bm = bmesh.from_edit_mesh(mesh)
-    layers = bm.verts.layers.float
-    layer = layers.get(name) or layers.new(name)
-    for vertex, value in zip(bm.verts, values.tolist(), strict=True):
-        vertex[layer] = value
-    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)

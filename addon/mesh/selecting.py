@@ -35,6 +35,11 @@ def select_faces(mesh: bpy.types.Mesh, faces: Ints) -> None:
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
 
 
+def selected_faces(mesh: bpy.types.Mesh) -> Ints:
+    """Return the selected faces, ascending."""
+    return np.array([face.index for face in bmesh.from_edit_mesh(mesh).faces if face.select], dtype=np.int64)
+
+
 def _deselect(bm: Any) -> None:
     for element in (*bm.faces, *bm.edges, *bm.verts):
         element.select = False

@@ -13,6 +13,7 @@ from ..core.words import in_mesh_words
 from ..host.context import active_object
 from ..host.polling import require
 from ..mesh import mesh_io
+from ..mesh.attributes import write_attribute
 
 NAME = "mean_curvature"
 
@@ -44,7 +45,7 @@ class MESH_OT_fair_curvature(bpy.types.Operator):
             world = mesh.transformed(np.array(obj.matrix_world, dtype=np.float64))
             with in_mesh_words(Origin(np.arange(len(world.positions)), world.triangles, world.triangle_faces)):
                 values = fairing.mean_curvature(world.positions, world.triangles)
-            mesh_io.write_attribute(obj.data, NAME, values)
+            write_attribute(obj.data, NAME, values)
         except ValueError as cause:
             self.report({"ERROR"}, f"{obj.name}: {cause}")
             return {"CANCELLED"}

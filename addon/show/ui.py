@@ -7,13 +7,25 @@ import bpy
 from ..core.report import GRADE_NAMES
 from ..follow.inspection import Inspection
 from ..follow.live import live
-from ..follow.live_operators import MESH_OT_fair_live_forget, MESH_OT_fair_live_region, MESH_OT_fair_live_select
+from ..follow.live_operators import (
+    MESH_OT_fair_live_far_side,
+    MESH_OT_fair_live_forget,
+    MESH_OT_fair_live_region,
+    MESH_OT_fair_live_select,
+)
 from ..follow.watch import MESH_OT_fair_inspect, is_large, request, watch
 from ..host.text import draw_text
 from ..run.again import WAY_NAMES, MESH_OT_fair_again, MESH_OT_fair_spots
 from ..run.compare import MESH_OT_fair_compare
 from ..run.curvature import MESH_OT_fair_curvature
+from ..run.masked import MESH_OT_fair_masked
 from ..run.operators import MESH_OT_fair_region
+from ..run.selection_tools import (
+    MESH_OT_fair_add_left_out,
+    MESH_OT_fair_grow,
+    MESH_OT_fair_select_bad,
+    MESH_OT_fair_smooth_outline,
+)
 from ..translations import translated
 from .overlay import overlay
 
@@ -42,7 +54,10 @@ class VIEW3D_PT_fairing(_Panel, bpy.types.Panel):
             return
         column = layout.column(align=True)
         column.scale_y = 1.3
-        column.operator(MESH_OT_fair_region.bl_idname, icon="MOD_SMOOTH")
+        if context.mode == "EDIT_MESH":
+            column.operator(MESH_OT_fair_region.bl_idname, icon="MOD_SMOOTH")
+        else:
+            _draw_masked(column, context)
         layout.operator(MESH_OT_fair_compare.bl_idname, icon="ARROW_LEFTRIGHT")
 
 
@@ -122,6 +137,7 @@ class VIEW3D_PT_fairing_live(_Panel, bpy.types.Panel):
         row.operator(MESH_OT_fair_live_region.bl_idname)
         row.operator(MESH_OT_fair_live_select.bl_idname, text="", icon="RESTRICT_SELECT_OFF")
         row.operator(MESH_OT_fair_live_forget.bl_idname, text="", icon="X")
+        self.layout.operator(MESH_OT_fair_live_far_side.bl_idname)
         column = self.layout.column(align=True)
         for name, session in live.sessions.items():
             column.label(text=name, icon="MESH_DATA", translate=False)
@@ -148,6 +164,15 @@ class VIEW3D_PT_fairing_overlay(_Panel, bpy.types.Panel):
         self.layout.operator(MESH_OT_fair_curvature.bl_idname, icon="RNDCURVE")
 
 
+def _draw_masked(column: Any, context: bpy.types.Context) -> None:
+    """Draw what can be faired outside edit mode."""
+    sources = {"MASK": "Fair Masked", "FACE_SET": "Fair Face Set"}
+    if context.mode != "SCULPT":
+        sources = {"VERTEX_GROUP": "Fair Vertex Group", "LIVE": "Fair Live Region"}
+    for source, text in sources.items():
+        column.operator(MESH_OT_fair_masked.bl_idname, text=text, icon="MOD_SMOOTH").source = source
+
+
 def _pair(layout: Any, name: str, value: str, icon: str = "NONE") -> None:
     row = layout.split(factor=0.62)
     row.label(text=name, icon=icon)
@@ -167,6 +192,13 @@ def _draw_inspection(layout: Any, found: Inspection, named: bool) -> None:
     _pair(column, "Islands", str(found.islands))
     for note in found.notes:
         draw_text(layout, note, "INFO")
+    if found.left_out:
+        layout.operator(MESH_OT_fair_add_left_out.bl_idname, icon="ADD")
+    if len(found.bad):
+        _pair(layout.column(align=True), "Bad Vertices", str(len(found.bad)), "ERROR")
+        column = layout.column(align=True)
+        for tool in (MESH_OT_fair_select_bad, MESH_OT_fair_grow, MESH_OT_fair_smooth_outline):
+            column.operator(tool.bl_idname)
 
 
 def _draw_verdict(layout: Any, report: Any) -> None:
@@ -229,6 +261,18 @@ def draw_context_menu(menu: Any, context: bpy.types.Context) -> None:
     """Add the operator to the context menu of faces, which vertices and edges share."""
     if context.tool_settings.mesh_select_mode[2]:
         draw_menu(menu, context)
+
+
+def draw_mask_menu(menu: Any, _context: bpy.types.Context) -> None:
+    """Add Fair Masked to the menu Mask of sculpt mode."""
+    menu.layout.separator()
+    menu.layout.operator(MESH_OT_fair_masked.bl_idname).source = "MASK"
+
+
+def draw_face_set_menu(menu: Any, _context: bpy.types.Context) -> None:
+    """Add the same for a face set to the menu Face Sets."""
+    menu.layout.separator()
+    menu.layout.operator(MESH_OT_fair_masked.bl_idname, text="Fair Face Set").source = "FACE_SET"
 
 
 PANELS = (

@@ -7,9 +7,12 @@
 #include "base/errors.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
+#include "detail/old_base.h"
+#include "detail/relaid.h"
 #include "geometry/flips.h"
 #include "geometry/surface_fit.h"
 #include "method/accept.h"
+#include "method/joined.h"
 #include "method/otherwise.h"
 
 namespace fairing {
@@ -23,6 +26,9 @@ constexpr int largest_warm = 50000;
 
 // Moves can't be told from rounding below: an iteration that waits for less ends by luck or not at all.
 constexpr double least_tolerance = 1e-15;
+
+// Of the time, where the curvature is met, too.
+constexpr double share_of_tangent = 0.5;
 
 FairOptions reachable(FairOptions options) {
     options.solver.tolerance = std::max(options.solver.tolerance, least_tolerance);
@@ -78,13 +84,20 @@ ComponentAnswer ComponentSolver::solve(const ComponentData& data, const Progress
                          {{"points", 1}}});
     }
     const SolverOptions& solver = options_.asked.solver;
-    ComponentAnswer answer{unit, {patch_, unit.to_unit(fixed_points), gather(data.normals, fixed), {}, solver}, {}, {}};
+    ComponentAnswer answer{
+        unit, {patch_, unit.to_unit(fixed_points), gather(data.normals, fixed), {}, solver}, {}, {}, Points(3, 0)};
     answer.problem.options.load = load_in_units(patch_, answer.problem.fixed_points, unit.diameter, options_.asked);
+    if (data.curvatures.size() > 0) answer.problem.fixed_curvatures = unit.diameter * data.curvatures(fixed);
     warn_of_precision(patch_, data.vertices, {unit.diameter, solver.tolerance}, answer.warnings);
-    read_reference(gather(data.reference, patch_.to_input), unit);
-    answer.warnings.insert(answer.warnings.end(), reference_warnings_.begin(), reference_warnings_.end());
+    const Points reference = gather(data.reference, patch_.to_input);
+    if (options_.asked.detail.share > 0.0) read_skin(reference, progress);
+    read_reference(reference, unit);
+    for (const Diagnostics* list : {&reference_warnings_, &skin_warnings_}) {
+        answer.warnings.insert(answer.warnings.end(), list->begin(), list->end());
+    }
     answer.solution =
         options().method == Method::paper ? solve_by_paper(answer.problem, progress) : solve_globally(answer, progress);
+    if (skin_) put_back_detail(answer, progress);
     return answer;
 }
 
@@ -102,6 +115,39 @@ void ComponentSolver::read_reference(const Points& reference, const Normalisatio
     given_reference_ = reference;
 }
 
+// The skin stays as long as what it is read off does.
+void ComponentSolver::read_skin(const Points& reference, const Progress& progress) {
+    if (skin_ && reference == skin_of_) return;
+    const Stopwatch watch;
+    progress.here().report(0.0, "detail");
+    skin_warnings_.clear();
+    const Normalisation own = normalise(reference.rightCols(reference.cols() - patch_.free_count));
+    const double size = options_.asked.detail.size;
+    const Points old = own.to_unit(reference);
+    skin_.reset();
+    if (old.allFinite() && !has_collapsed_fan(patch_, old)) {
+        skin_ = Skin::read(patch_, old, size > 0.0 ? size : detail_wavelength(patch_, old), progress.here());
+    }
+    if (!skin_) warn_of_missing_detail(skin_warnings_);
+    skin_of_ = reference;
+    skin_unit_ = own.diameter;
+    skin_seconds_ = watch.seconds();
+}
+
+void ComponentSolver::put_back_detail(ComponentAnswer& answer, const Progress& progress) {
+    const Stopwatch watch;
+    Points& points = answer.solution.points;
+    points = relaid(answer.problem, points, skin_->base(), progress.here());
+    const Points full = skin_unit_ * skin_->detail_on(points);
+    if (!full.allFinite()) throw SolverError("the detail is not finite; nothing was changed");
+    answer.detail = options_.asked.detail.share * full;
+    Points shown = points;
+    shown.leftCols(patch_.free_count) += answer.detail / answer.unit.diameter;
+    warn_of_folded_detail(patch_, skin_->turned_over(points, shown), answer.warnings);
+    answer.solution.seconds["detail"] = skin_seconds_ + watch.seconds();
+    skin_seconds_ = 0.0;
+}
+
 Solution ComponentSolver::solve_by_paper(const Problem& problem, const Progress& progress) const {
     const Stopwatch watch;
     Solution solution = solve_paper({problem, options().paper, options().inner_fairness, reference_,
@@ -117,9 +163,15 @@ Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Progress
     Problem& problem = answer.problem;
     problem.weights = lambda_;
     problem.tolerated_folds = tolerated_folds();
+    const bool joins = problem.fixed_curvatures.size() > 0;
+    Solution solution = solve_tangent(problem, joins ? progress.range(0.0, share_of_tangent) : progress);
+    if (solution.even_weights) warn_of_even_weights(answer.warnings);
+    return joins ? joined(problem, std::move(solution), progress.range(share_of_tangent, 1.0)) : solution;
+}
+
+Solution ComponentSolver::solve_tangent(const Problem& problem, const Progress& progress) {
     std::optional<Solution> near_last = keeps() ? solve_near_last(problem, progress) : std::nullopt;
     Solution solution = near_last ? std::move(*near_last) : solve_or_else(problem, progress);
-    if (solution.even_weights) warn_of_even_weights(answer.warnings);
     if (!keeps()) return solution;
     instead_.reset();
     if (solution.instead && end_of(solution) == Termination::converged) instead_ = outline_of(problem);

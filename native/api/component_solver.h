@@ -3,6 +3,7 @@
 
 #include "api/component.h"
 #include "base/progress.h"
+#include "detail/skin.h"
 #include "method/outline_move.h"
 #include "method/warm_start.h"
 #include "problem/solution.h"
@@ -22,8 +23,9 @@ struct CallOptions {
 // Columns belong to the input's vertices.
 struct ComponentData {
     const Points& vertices;
-    const Points& normals;    // prescribed ones at fixed vertices
-    const Points& reference;  // M0
+    const Points& normals;      // prescribed ones at fixed vertices
+    const VectorX& curvatures;  // likewise; empty: none
+    const Points& reference;    // M0
 };
 
 struct ComponentAnswer {
@@ -31,6 +33,7 @@ struct ComponentAnswer {
     Problem problem;
     Solution solution;
     Diagnostics warnings;
+    Points detail;  // 3 × free vertices, in the caller's units: to be added to the solution; none: 3 × 0
 };
 
 // Refers to patch and options.
@@ -45,24 +48,34 @@ public:
     void options_changed() {
         given_reference_.resize(3, 0);
         instead_.reset();
+        skin_.reset();
     }
 
 private:
     // Whether a solve starts from its last answer.
     [[nodiscard]] bool keeps() const;
     void read_reference(const Points& reference, const Normalisation& unit);
+    void read_skin(const Points& reference, const Progress& progress);
+    void put_back_detail(ComponentAnswer& answer, const Progress& progress);
     [[nodiscard]] const FairOptions& options() const { return usable_ ? options_.asked : options_.uniform; }
     [[nodiscard]] Solution solve_by_paper(const Problem& problem, const Progress& progress) const;
     [[nodiscard]] Solution solve_globally(ComponentAnswer& answer, const Progress& progress);
+    // From the last answer where there is one.
+    [[nodiscard]] Solution solve_tangent(const Problem& problem, const Progress& progress);
     [[nodiscard]] std::optional<Solution> solve_near_last(const Problem& problem, const Progress& progress);
     [[nodiscard]] std::size_t tolerated_folds() const;
 
     const Patch& patch_;
     const CallOptions& options_;
-    Points given_reference_;  // 3 × local vertices, as the caller gave it
-    Points reference_;        // in units of D
+    Points given_reference_;      // 3 × local vertices, as the caller gave it
+    Points reference_;            // in units of D
+    std::unique_ptr<Skin> skin_;  // null: no detail is asked for, or there is none
+    Points skin_of_;              // the reference it was read off
+    double skin_unit_ = 1.0;      // D of that
+    double skin_seconds_ = 0.0;   // spent on reading it since the last answer
     bool usable_ = true;
     Diagnostics reference_warnings_;
+    Diagnostics skin_warnings_;
     Lambda lambda_;
     WarmStart warm_;
     std::optional<Outline> instead_;  // of the last answer, where it is of least variation instead

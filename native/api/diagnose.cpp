@@ -99,6 +99,15 @@ Reason reason_of(const Solution& solution, const VectorX& angles) {
     return {"did not converge; its positions are the best that were found", {}};
 }
 
+std::string_view reason_of(Join join) {
+    switch (join) {
+        case Join::other_mesh: return "the surface was solved on a mesh of the engine's own";
+        case Join::no_tangent_join: return "the surface that is only tangent was not found either";
+        case Join::not_found: return "no acceptable surface has that curvature";
+        default: return "the surroundings say too little about it";
+    }
+}
+
 }  // namespace
 
 Indices input_numbers(const Patch& patch, Indices triangles) {
@@ -106,21 +115,28 @@ Indices input_numbers(const Patch& patch, Indices triangles) {
     return triangles;
 }
 
+bool has_collapsed_fan(const Patch& patch, const Points& points) {
+    std::vector<char> has_area(at(patch.vertex_count()), 0);
+    for (const auto corners : patch.triangles.colwise()) {
+        if (!(triangle_shape(points.col(corners[0]), points.col(corners[1]), points.col(corners[2])) > 0.0)) continue;
+        for (int v : corners) has_area[at(v)] = 1;
+    }
+    const auto end = has_area.begin() + patch.free_count;
+    return std::find(has_area.begin(), end, 0) != end;
+}
+
 bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostics& warnings) {
     constexpr double needle = 0.02;  // a right triangle of 90 : 1
     constexpr double tolerated_share = 0.1;
     Indices bad = input_numbers(patch, flipped_triangles(patch, reference));
-    std::vector<char> has_area(at(patch.vertex_count()), 0);
     for (int t = 0; t < patch.triangle_count(); ++t) {
         const auto corners = patch.triangles.col(t);
         const double shape =
             triangle_shape(reference.col(corners[0]), reference.col(corners[1]), reference.col(corners[2]));
         if (!(shape >= needle)) bad.push_back(patch.input_triangle[at(t)]);
-        for (int v : corners) has_area[at(v)] = has_area[at(v)] || shape > 0.0;
     }
     // A vertex whose whole neighbourhood is a point or a line hangs on nothing.
-    const bool collapsed =
-        std::find(has_area.begin(), has_area.begin() + patch.free_count, 0) != has_area.begin() + patch.free_count;
+    const bool collapsed = has_collapsed_fan(patch, reference);
     std::sort(bad.begin(), bad.end());
     bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
     if (!collapsed && static_cast<double>(bad.size()) <= tolerated_share * patch.triangle_count()) return true;
@@ -132,6 +148,26 @@ bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostic
                         ElementKind::triangle,
                         {{"triangles", size_of(bad)}}});
     return false;
+}
+
+void warn_of_missing_detail(Diagnostics& warnings) {
+    warnings.push_back(
+        {Code::reference_unusable,
+         "triangles of the old patch have no area, so that no detail can be read off it; it was left out",
+         {},
+         {},
+         {}});
+}
+
+void warn_of_folded_detail(const Patch& patch, const Indices& triangles, Diagnostics& warnings) {
+    if (triangles.empty()) return;
+    warnings.push_back({Code::flipped_triangles,
+                        counted(triangles.size(), "triangle is", "triangles are") +
+                            " turned over by the detail put back: there is less room for it than there was; less of it "
+                            "or a smaller size avoids that",
+                        input_numbers(patch, triangles),
+                        ElementKind::triangle,
+                        {{"triangles", size_of(triangles)}}});
 }
 
 void warn_of_precision(const Patch& patch, const Points& input, const Precision& wanted, Diagnostics& warnings) {
@@ -173,6 +209,23 @@ Diagnostics failures_of(const Patch& patch, const Solution& solution, Terminatio
                           std::move(reason.figures)});
     }
     return result;
+}
+
+void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& warnings) {
+    if (solution.join == Join::tangent || solution.join == Join::curvature) return;
+    const auto fixed = fixed_vertices(patch);
+    Indices vertices;
+    if (solution.join == Join::partly_curvature) {
+        for (int place : solution.tangent_only) vertices.push_back(fixed[at(place)]);
+    } else {
+        vertices.assign(fixed.begin(), fixed.end());
+    }
+    warnings.push_back({Code::g2_not_met,
+                        counted(vertices.size(), "outline vertex is", "outline vertices are") +
+                            " met in its slope, not in its curvature: " + std::string(reason_of(solution.join)),
+                        vertices,
+                        ElementKind::vertex,
+                        {{"vertices", size_of(vertices)}, {"reason", static_cast<double>(solution.join)}}});
 }
 
 Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation equation) {

@@ -11,6 +11,13 @@ namespace fairing {
 // more than a tenth of it is needles, collapsed or turned over, or the whole one-ring of a free vertex has no area.
 bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostics& warnings);
 
+// Whether the triangles at some free vertex all lack area (3 × local vertices).
+bool has_collapsed_fan(const Patch& patch, const Points& points);
+
+// About detail: REFERENCE_UNUSABLE, and FLIPPED_TRIANGLES where it turns triangles over (local numbers).
+void warn_of_missing_detail(Diagnostics& warnings);
+void warn_of_folded_detail(const Patch& patch, const Indices& triangles, Diagnostics& warnings);
+
 // D and the largest move, in units of D, at which the solve stops.
 struct Precision {
     double diameter;
@@ -25,6 +32,8 @@ void warn_of_precision(const Patch& patch, const Points& input, const Precision&
 // between the normals prescribed and obtained.
 Diagnostics failures_of(const Patch& patch, const Solution& solution, Termination end, const VectorX& angles);
 
+// G2_NOT_MET where a curvature was asked for and the surface is only tangent; with these fixed vertices.
+void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& warnings);
 // NO_SOLUTION: the surface of least variation was taken instead. Figures: "free_vertices"; "harmonic", 1, for that
 // equation; for a bulb "variation", how many times as much its curvatures varied.
 Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation equation);

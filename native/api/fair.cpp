@@ -23,6 +23,7 @@ public:
     Call(const PreparedMesh& prepared, const MeshInput& input, const FairOptions& options)
         : prepared_(prepared), options_(options) {
         result_.vertices = input.vertices;
+        if (options.detail.share > 0.0) result_.base = input.vertices;
         result_.fixed = prepared.mesh.fixed;
         result_.equation = options.solver.equation;
         for (const Diagnostics* list :
@@ -44,6 +45,9 @@ public:
         result_.initial_residual = std::max(result_.initial_residual, solution.initial_residual);
         result_.iterations = std::max(result_.iterations, solution.iterations);
         result_.polished = result_.polished && solution.polished && end_of(solution) == Termination::converged;
+        result_.joins_curvature =
+            result_.joins_curvature && (solution.join == Join::curvature || solution.join == Join::partly_curvature);
+        warn_of_join(patch, solution, result_.warnings);
         add_levels(solution.levels.empty() ? Indices{patch.vertex_count()} : solution.levels);
         for (const auto& [stage, seconds] : solution.seconds) result_.seconds[stage] += seconds;
         result_.ways.insert(result_.ways.end(), solution.ways.begin(), solution.ways.end());
@@ -76,7 +80,11 @@ private:
     void write_back(const Patch& patch, const ComponentAnswer& answer) {
         const Points points = answer.unit.from_unit(answer.solution.points);
         if (!points.allFinite()) throw SolverError("the solution is not finite; nothing was changed");
-        for (int v = 0; v < patch.free_count; ++v) result_.vertices.col(patch.to_input[at(v)]) = points.col(v);
+        Points shown = points.leftCols(patch.free_count);
+        if (answer.detail.cols() > 0) shown += answer.detail;
+        const auto free = free_vertices(patch);
+        result_.vertices(Eigen::all, free) = shown;
+        if (result_.base.cols() > 0) result_.base(Eigen::all, free) = points.leftCols(patch.free_count);
         // The paper's method leaves H to be measured.
         const VectorX& H = answer.solution.mean_curvature;
         for (int v = 0; v < H.size(); ++v) {
@@ -169,7 +177,8 @@ FairResult run_call(const MeshInput& input, const std::optional<Points>& referen
     check_memory(largest_free_count(prepared->patches));
     Call call(*prepared, input, options.asked);
     const double topology_seconds = watch.seconds();
-    const ComponentData data{input.vertices, prepared->mesh.normals, reference ? *reference : input.vertices};
+    const ComponentData data{input.vertices, prepared->mesh.normals, prepared->mesh.curvatures,
+                             reference ? *reference : input.vertices};
     double done = begin;
     double total = 0.0;
     for (const Patch& patch : prepared->patches) total += patch.vertex_count();

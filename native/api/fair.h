@@ -10,6 +10,13 @@ namespace fairing {
 
 enum class Method { global, paper };
 
+// What of the reference is put back on the fair surface (detail/skin.h). With it vertices sit conformally to the base
+// of the reference, whatever `inner_fairness` says.
+struct DetailOptions {
+    double share = 0.0;  // 0 … 1; 0: nothing
+    double size = 0.0;   // what is shorter than this, in units of D, counts as detail; 0: detail_wavelength
+};
+
 struct FairOptions {
     SolverOptions solver;  // the load in units of length⁻³
     double bulge = 0.0;    // of the constant equation: adds 8 bulge / a³ to the load, a: the component's outline_radius
@@ -19,16 +26,19 @@ struct FairOptions {
     // Edges (input vertices) that uniform weights use instead of the triangles' own.
     std::optional<std::vector<std::array<int, 2>>> neighbours;
     std::vector<DirectedWeight> custom;  // λ of input vertices, for InnerFairness::custom
-    int threads = 0;                     // 0: one on each core; the result doesn't depend on it
+    DetailOptions detail;
+    int threads = 0;  // 0: one on each core; the result doesn't depend on it
 };
 
 struct FairResult {
     Equation equation = Equation::harmonic;  // that holds: least_variation where any component took it instead
     Points vertices;
+    Points base;  // without detail: the fair surface, which all figures below are about; no columns: `vertices`
     Indices fixed;
-    VectorX mean_curvature;  // eq. 8: −1/R on a sphere with outward normals; the mean of the sides on cut curves
-    VectorX boundary_angle;  // degrees, in the order of `fixed`
-    VectorX join;            // likewise: how visible the outline is from the patch's side
+    VectorX mean_curvature;       // eq. 8: −1/R on a sphere with outward normals; the mean of the sides on cut curves
+    VectorX boundary_angle;       // degrees, in the order of `fixed`
+    VectorX join;                 // likewise: how visible the outline is from the patch's side
+    bool joins_curvature = true;  // G2, wherever a curvature was known
     bool converged = true;
     bool polished = true;
     Termination termination = Termination::converged;

@@ -57,10 +57,12 @@ py::dict to_dict(const FairResult& result) {
     py::dict dict;
     dict["equation"] = equation_words.word(result.equation);
     dict["vertices"] = from_points(result.vertices);
+    dict["base"] = result.base.cols() > 0 ? from_points(result.base) : dict["vertices"];
     dict["fixed"] = from_indices(result.fixed);
     dict["mean_curvature"] = from_vector(result.mean_curvature);
     dict["boundary_angle"] = from_vector(result.boundary_angle);
     dict["join"] = from_vector(result.join);
+    dict["continuity"] = result.joins_curvature ? "G2" : "G1";
     dict["converged"] = result.converged;
     dict["polished"] = result.polished;
     dict["termination"] = termination_words.word(result.termination);
@@ -85,6 +87,8 @@ struct Options {
     double tolerance;
     int max_iterations;
     int threads;
+    double detail;
+    double detail_size;
 };
 
 // Rows (i, j, λ).
@@ -116,6 +120,7 @@ FairOptions to_fair_options(const Options& options, const PaperOptions& paper, c
     result.solver.tolerance = options.tolerance;
     result.solver.max_iterations = options.max_iterations;
     result.threads = options.threads;
+    result.detail = {options.detail, options.detail_size};
     result.solver.nested = paper.levels != 1;
     result.inner_fairness = fairness.weights ? InnerFairness::custom : fairness_words.value(options.inner_fairness);
     if (fairness.neighbours) {
@@ -142,11 +147,12 @@ py::dict solved(const py::object& callback, const Solve& solve) {
 }
 
 py::dict fair_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
-                     const std::optional<DoubleArray>& fixed_normals, const std::optional<DoubleArray>& reference,
+                     const std::optional<DoubleArray>& fixed_normals,
+                     const std::optional<DoubleArray>& fixed_curvatures, const std::optional<DoubleArray>& reference,
                      const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
                      const Options& options, const PaperOptions& paper, const py::object& callback) {
     const MeshInput input{to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices),
-                          to_optional(fixed_normals, to_points)};
+                          to_optional(fixed_normals, to_points), to_optional(fixed_curvatures, to_vector)};
     const auto m0 = to_optional(reference, to_points);
     const FairOptions fair_options = to_fair_options(options, paper, {neighbours, weights});
     return solved(callback, [&](const ProgressCallback& progress) { return fair(input, m0, fair_options, progress); });
@@ -168,13 +174,15 @@ public:
     }
 
     py::dict solve(const DoubleArray& vertices, const std::optional<DoubleArray>& fixed_normals,
-                   const std::optional<DoubleArray>& reference, const py::object& callback) {
+                   const std::optional<DoubleArray>& fixed_curvatures, const std::optional<DoubleArray>& reference,
+                   const py::object& callback) {
         const Hold hold(busy_);
         Points points = to_points(vertices);
         auto normals = to_optional(fixed_normals, to_points);
+        auto curvatures = to_optional(fixed_curvatures, to_vector);
         const auto m0 = to_optional(reference, to_points);
         return solved(callback, [&](const ProgressCallback& progress) {
-            return solver_.solve(std::move(points), std::move(normals), m0, progress);
+            return solver_.solve(std::move(points), std::move(normals), std::move(curvatures), m0, progress);
         });
     }
 
@@ -242,22 +250,22 @@ py::dict all_words() {
 void bind_fair(py::module_& module) {
     module.attr("WORDS") = all_words();
     py::class_<Options>(module, "Options")
-        .def(py::init<std::string, std::string, double, double, std::string, std::string, std::string, double, int,
-                      int>(),
+        .def(py::init<std::string, std::string, double, double, std::string, std::string, std::string, double, int, int,
+                      double, double>(),
              py::kw_only(), py::arg("equation"), py::arg("otherwise"), py::arg("load"), py::arg("bulge"),
              py::arg("inner_fairness"), py::arg("method"), py::arg("normals"), py::arg("tolerance"),
-             py::arg("max_iterations"), py::arg("threads"));
+             py::arg("max_iterations"), py::arg("threads"), py::arg("detail") = 0.0, py::arg("detail_size") = 0.0);
     bind_paper_options(module);
     py::class_<PythonSolver>(module, "Solver")
         .def(py::init<const IntArray&, const std::optional<IntArray>&, const std::optional<IntArray>&,
                       const std::optional<DoubleArray>&, const std::pair<Options, PaperOptions>&>(),
              py::arg("triangles"), py::arg("fixed"), py::arg("neighbours"), py::arg("weights"), py::arg("options"))
         .def("change", &PythonSolver::change, py::arg("neighbours"), py::arg("weights"), py::arg("options"))
-        .def("solve", &PythonSolver::solve, py::arg("vertices"), py::arg("fixed_normals"), py::arg("reference"),
-             py::arg("progress"));
+        .def("solve", &PythonSolver::solve, py::arg("vertices"), py::arg("fixed_normals"), py::arg("fixed_curvatures"),
+             py::arg("reference"), py::arg("progress"));
     module.def("fair", &fair_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
-               py::arg("fixed_normals"), py::arg("reference"), py::arg("neighbours"), py::arg("weights"),
-               py::arg("options"), py::arg("paper"), py::arg("progress"));
+               py::arg("fixed_normals"), py::arg("fixed_curvatures"), py::arg("reference"), py::arg("neighbours"),
+               py::arg("weights"), py::arg("options"), py::arg("paper"), py::arg("progress"));
 }
 
 }  // namespace fairing::bindings

@@ -50,8 +50,9 @@ Solution solve_on_proxy(const Problem& problem, const std::optional<OwnSurface>&
     const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
     Workspace work{make_normal_operator(problem),
                    make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())};
+    const auto put = proxy.converged() ? place : place_roughly;
     const Placed placed =
-        place(problem, *work.tangential, {proxy.history, proxy.mesh, target}, own, progress.range(0.6, 0.8));
+        put(problem, *work.tangential, {proxy.history, proxy.mesh, target}, own, progress.range(0.6, 0.8));
     Solution solution = placed_solution(problem, proxy, target, placed);
     const double placement_seconds = watch.lap();
     if (solution.termination == Termination::converged) {

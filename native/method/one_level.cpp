@@ -33,10 +33,6 @@ Way on_proxy() {
             0.5, 0.9};
 }
 
-Solution solve_on_one_level(const Problem& problem, const Progress& progress) {
-    return run_ways(std::array{directly(), on_proxy()}, problem, progress);
-}
-
 Solution solve_on_own_mesh(const Problem& problem, const Progress& progress) {
     return run_ways(std::array{directly()}, problem, progress);
 }

@@ -7,10 +7,7 @@
 
 namespace fairing {
 
-// Directly on its own mesh, on a proxy where that fails.
-Solution solve_on_one_level(const Problem& problem, const Progress& progress);
-
-// Directly only.
+// Directly on its own mesh, judged by method/accept.
 Solution solve_on_own_mesh(const Problem& problem, const Progress& progress);
 
 // The same ways for a table of more.

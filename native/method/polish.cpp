@@ -12,7 +12,7 @@ namespace {
 
 // From the surface itself few iterations are needed; after many, it is another solution.
 constexpr int most_iterations = 40;
-constexpr int patience = 6;
+constexpr int patience = 4;
 
 }  // namespace
 

@@ -11,10 +11,6 @@ inline constexpr int smallest_nested = 1500;
 // 20k, 1.4 times faster at 40k; at 100k only the proxy gets there).
 inline constexpr int largest_direct = 25000;
 
-// Where the coarsest level's own mesh fails, a proxy of it costs less than one of the whole patch from here on: a proxy
-// takes 0.2 to 0.5 s, whatever the size.
-inline constexpr int smallest_with_coarse_proxy = 6000;
-
 inline bool is_large(const Problem& problem) {
     return problem.options.nested && problem.patch.free_count > smallest_nested;
 }

@@ -32,7 +32,7 @@ Removals collapse_level(CollapseMesh& mesh, int target) {
 
 }  // namespace
 
-std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights, const Outline& outline,
+std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights, const FixedPlaces& outline,
                                  int coarsest) {
     std::vector<CoarseLevel> levels;
     CollapseMesh mesh(patch, weights, outline);

@@ -16,6 +16,7 @@ struct CoarseLevel {
 
 // Fine to coarse, each about a quarter of the one before, down to about `coarsest` free vertices; fewer where collapses
 // run out.
-std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights, const Outline& outline, int coarsest);
+std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights, const FixedPlaces& outline,
+                                 int coarsest);
 
 }  // namespace fairing

@@ -16,7 +16,7 @@ constexpr double far_share = 0.77;  // keeps the mean energy of a linear functio
 
 }  // namespace
 
-CollapseMesh::CollapseMesh(const Patch& patch, const InnerWeights& weights, const Outline& outline)
+CollapseMesh::CollapseMesh(const Patch& patch, const InnerWeights& weights, const FixedPlaces& outline)
     : outline_(outline),
       patch_free_count_(patch.free_count),
       free_count_(patch.free_count),

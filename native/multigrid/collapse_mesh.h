@@ -17,7 +17,7 @@ struct Removals {
 };
 
 // Where the fixed vertices are: thinned loops have to follow the outline. 3 × local vertices, free columns unused.
-struct Outline {
+struct FixedPlaces {
     const Points& points;
     const Points& normals;
 };
@@ -26,7 +26,7 @@ struct Outline {
 // otherwise of the weights, which are large along short edges.
 class CollapseMesh {
 public:
-    CollapseMesh(const Patch& patch, const InnerWeights& weights, const Outline& outline);
+    CollapseMesh(const Patch& patch, const InnerWeights& weights, const FixedPlaces& outline);
 
     // Removes vertices, no two of them neighbours, and returns the free ones among them: about a quarter of the mesh.
     // Collapses keep the topology, valences between 4 and 9 where they were, and make no chord between fixed vertices.
@@ -61,7 +61,7 @@ private:
     [[nodiscard]] bool is_fixed(int v) const { return v >= patch_free_count_; }
     [[nodiscard]] double valence_penalty(int v, int valence) const;
 
-    const Outline& outline_;
+    const FixedPlaces& outline_;
     int patch_free_count_;
     int free_count_;
     std::vector<char> pin_;

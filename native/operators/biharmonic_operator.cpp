@@ -75,6 +75,20 @@ void BiharmonicOperator::find_slots() {
 }
 
 bool BiharmonicOperator::update(const Stiffness& stiffness, const Progress& progress) {
+    assemble(stiffness);
+    return factor_.factorise(matrix_, "the fairness operator", progress);
+}
+
+bool BiharmonicOperator::update_with_mass(const Stiffness& stiffness, double factor, const Progress& progress) {
+    assemble(stiffness);
+    // Rows begin at the diagonal.
+    for (int i = 0; i < patch_.free_count; ++i) {
+        matrix_.valuePtr()[matrix_.outerIndexPtr()[i]] += factor * stiffness.mass[i];
+    }
+    return factor_.factorise(matrix_, "the smoothing operator", progress);
+}
+
+void BiharmonicOperator::assemble(const Stiffness& stiffness) {
     VectorX diagonal(patch_.vertex_count());
     for_ranges(patch_.vertex_count(), coarse_grain, [&](int begin, int end) {
         for (int k = begin; k < end; ++k) diagonal[k] = stiffness.diagonal(patch_, k);
@@ -91,7 +105,6 @@ bool BiharmonicOperator::update(const Stiffness& stiffness, const Progress& prog
             });
         }
     });
-    return factor_.factorise(matrix_, "the fairness operator", progress);
 }
 
 }  // namespace fairing

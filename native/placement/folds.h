@@ -5,6 +5,10 @@
 
 namespace fairing {
 
+// Folds that are worked on whatever their number does. More of them that do not become fewer are a sheet that lies
+// turned over as a whole.
+inline constexpr std::size_t few_folds = 20;
+
 // Twice the area of triangle `t` along its normal. `points`: 3 × local vertices.
 Vector3 area_vector(const Patch& patch, const Points& points, int t);
 

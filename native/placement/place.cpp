@@ -18,17 +18,15 @@ public:
             const Progress& progress)
         : problem_(problem), tangential_(tangential), target_(target), progress_(progress) {}
 
-    // True where nothing is folded: no other way is needed.
-    bool by_springs(const Placement& start) {
+    // By the springs; where their folds stay, from where the start itself is. True where nothing is folded: no other
+    // start is needed.
+    bool from(const Placement& start) {
         Placement placement = start;
         settle(problem_, tangential_, target_, placement, progress_.here());
         const std::size_t folded = folds_of_placement(problem_, target_, placement).size();
         folded_by_springs_ = std::min(folded_by_springs_, folded);
-        return keep_untangled(std::move(placement));
+        return keep_untangled(std::move(placement)) || keep_untangled(start);
     }
-
-    // From where the start is, not from where the springs would take it.
-    bool as_it_is(Placement start) { return keep_untangled(std::move(start)); }
 
     [[nodiscard]] Placed best() && {
         best_->folded_by_springs = folded_by_springs_;
@@ -40,8 +38,11 @@ private:
         Indices folded = folds_of_placement(problem_, target_, placement);
         constexpr int most_rounds = 3;
         for (int round = 0; round < most_rounds && !folded.empty(); ++round) {
+            const std::size_t before = folded.size();
             untangle(problem_, target_, placement);
-            folded = relax_unfolded(placement);
+            folded = folds_of_placement(problem_, target_, placement);
+            if (folded.size() > few_folds && 2 * folded.size() > before) break;
+            folded = relax_unfolded(placement, std::move(folded));
         }
         const bool done = folded.empty();
         const double merit = tangential_.merit(placement.points, normals_at(placement, target_));
@@ -54,8 +55,7 @@ private:
     }
 
     // As even as the springs get without new folds; gives the folds.
-    Indices relax_unfolded(Placement& placement) const {
-        Indices before = folds_of_placement(problem_, target_, placement);
+    Indices relax_unfolded(Placement& placement, Indices before) const {
         Placement relaxed = placement;
         relax(problem_, tangential_, target_, relaxed, Folds::held_back);
         Indices after = folds_of_placement(problem_, target_, relaxed);
@@ -78,23 +78,24 @@ private:
 Placed place(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
              const std::optional<Points>& guess, const Progress& progress) {
     const TargetSurface& target = surface.target;
-    std::vector<Placement> starts;
-    if (guess) starts.push_back(by_surface(problem, *guess, surface.mesh.patch, target));
     Placing placing(problem, tangential, target, progress);
-    if (!starts.empty() && placing.by_springs(starts.front())) return std::move(placing).best();
-    starts.push_back(by_history(problem, surface.history, surface.mesh, target));
-    if (placing.by_springs(starts.back())) return std::move(placing).best();
-    for (Placement& start : starts) {
-        if (placing.as_it_is(std::move(start))) break;
-    }
+    if (!guess || !placing.from(by_surface(problem, *guess, surface.mesh.patch, target)))
+        placing.from(by_history(problem, surface.history, surface.mesh, target));
     return std::move(placing).best();
+}
+
+Placed place_roughly(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
+                     const std::optional<Points>& guess, const Progress& progress) {
+    Placement placement = guess ? by_surface(problem, *guess, surface.mesh.patch, surface.target)
+                                : by_history(problem, surface.history, surface.mesh, surface.target);
+    settle(problem, tangential, surface.target, placement, progress.here());
+    return {std::move(placement), {}, 0};
 }
 
 Placed place_own(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
                  const Points& points, const Progress& progress) {
-    const Placement start = at_vertices(problem, target, points);
     Placing placing(problem, tangential, target, progress);
-    if (!placing.by_springs(start)) placing.as_it_is(start);
+    placing.from(at_vertices(problem, target, points));
     return std::move(placing).best();
 }
 

@@ -31,7 +31,12 @@ struct OwnMeshSurface {
 Placed place(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
              const std::optional<Points>& guess, const Progress& progress);
 
-// The same from where the vertices of a surface of the problem's own patch are (3 × local vertices; the target's).
+// The same without care for folds, for a surface that is no solution: the springs alone, from `guess` or by history.
+Placed place_roughly(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
+                     const std::optional<Points>& guess, const Progress& progress);
+
+// The same as place() from where the vertices of a surface of the problem's own patch are (3 × local vertices; the
+// target's).
 Placed place_own(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
                  const Points& points, const Progress& progress);
 

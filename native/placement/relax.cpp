@@ -15,6 +15,7 @@ constexpr int most_held_steps = 15;   // what is held back comes no further
 constexpr double largest_step = 0.1;  // units of D
 constexpr double done = 1e-7;
 constexpr int most_halvings = 8;
+constexpr int most_held_halvings = 3;
 constexpr int history_depth = 5;
 
 class Relaxation {
@@ -53,7 +54,8 @@ private:
         Points move = Eigen::Map<const Points>(far.data(), 3, d.cols());
         if (accepts(move * std::min(1.0, largest_step / largest_length(move)))) return true;
         double length = std::min(1.0, largest_step / largest);
-        for (int halving = 0; halving < most_halvings; ++halving, length *= 0.5) {
+        const int most = folds_ == Folds::allowed ? most_halvings : most_held_halvings;
+        for (int halving = 0; halving < most; ++halving, length *= 0.5) {
             if (accepts(length * d)) return true;
         }
         return false;

@@ -81,10 +81,12 @@ public:
         : problem_(problem), patch_(problem.patch), target_(target), placement_(placement) {}
 
     void run() {
-        for (const int rings : {3, 6, 12}) {
+        constexpr int fewest_rings = 3;
+        for (const int rings : {fewest_rings, 6, 12}) {
             const Indices folded = folded_triangles(problem_, target_, placement_);
             if (folded.empty()) return;
-            spread(region(folded, rings));
+            // A sheet that lies turned over as a whole keeps its folds from the first sweeps on.
+            if (!spread(region(folded, rings)) && rings == fewest_rings) return;
         }
     }
 
@@ -124,21 +126,39 @@ private:
         return result;
     }
 
-    void spread(const Region& where) {
+    // False where many folds hardly fall in number within the first window of sweeps.
+    bool spread(const Region& where) {
         constexpr int most_sweeps = 60;
         constexpr int settling_sweeps = 3;  // once nothing is folded
+        constexpr std::size_t window = 10;
+        constexpr double falls_at_first = 0.6;  // in a window
+        constexpr double falls = 0.93;
+        std::vector<double> folded{count_folded(where)};
         int settled = 0;
         for (int sweep = 0; sweep < most_sweeps && settled < settling_sweeps; ++sweep) {
-            const double area = mean_area(where);
-            const double epsilon = smoothing(where, area);
-            for (const int v : where.vertices) {
-                checkpoint(v);
-                move(v, area, epsilon);
-            }
-            const bool any = std::any_of(where.triangles.begin(), where.triangles.end(),
-                                         [&](int t) { return is_folded(problem_, target_, placement_, t); });
-            settled = any ? 0 : settled + 1;
+            sweep_once(where);
+            folded.push_back(count_folded(where));
+            settled = folded.back() > 0 ? 0 : settled + 1;
+            if (folded.size() <= window || folded.back() <= few_folds) continue;
+            const double share = folded.back() / folded[folded.size() - 1 - window];
+            if (folded.size() == window + 1 && share > falls_at_first) return false;
+            if (share > falls) return true;
         }
+        return true;
+    }
+
+    void sweep_once(const Region& where) {
+        const double area = mean_area(where);
+        const double epsilon = smoothing(where, area);
+        for (const int v : where.vertices) {
+            checkpoint(v);
+            move(v, area, epsilon);
+        }
+    }
+
+    [[nodiscard]] double count_folded(const Region& where) const {
+        const auto folded = [&](int t) { return is_folded(problem_, target_, placement_, t); };
+        return static_cast<double>(std::count_if(where.triangles.begin(), where.triangles.end(), folded));
     }
 
     [[nodiscard]] double mean_area(const Region& where) const {

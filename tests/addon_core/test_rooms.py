@@ -24,12 +24,20 @@ GROUND = {"loading", "preferences", "translations"}  # modules beside the rooms 
 BLENDER = {
     "core": set(),
     "host": {"bpy", "blf"},
-    "mesh": {"bpy", "bmesh", "mathutils"},
+    "mesh": {"bpy", "bmesh"},
     "run": {"bpy"},
     "follow": {"bpy"},
-    "show": {"bpy", "gpu", "gpu_extras"},
+    "show": {"bpy", "gpu", "gpu_extras", "blf"},
 }
-OF_BLENDER = set().union(*BLENDER.values()) | {"blf", "bl_ui", "addon_utils", "idprop", "freestyle", "aud", "imbuf"}
+OF_BLENDER = set().union(*BLENDER.values()) | {
+    "mathutils",
+    "bl_ui",
+    "addon_utils",
+    "idprop",
+    "freestyle",
+    "aud",
+    "imbuf",
+}
 FILES = sorted(path for room in ROOMS for path in (ADDON / room).glob("*.py"))
 
 

@@ -22,6 +22,8 @@ class Options:
         tolerance: float,
         max_iterations: int,
         threads: int,
+        detail: float = ...,
+        detail_size: float = ...,
     ) -> None: ...
 
 class PaperOptions:
@@ -54,6 +56,7 @@ class Solver:
         self,
         vertices: _Floats,
         fixed_normals: _Floats | None,
+        fixed_curvatures: _Floats | None,
         reference: _Floats | None,
         progress: Callable[[float, str], bool | None] | None,
     ) -> dict[str, Any]: ...
@@ -63,6 +66,7 @@ def fair(
     triangles: _Ints,
     fixed: _Ints | None,
     fixed_normals: _Floats | None,
+    fixed_curvatures: _Floats | None,
     reference: _Floats | None,
     neighbours: _Ints | None,
     weights: _Floats | None,

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _mending, _options, _paper
+from fairing import _arguments, _core, _joining, _mending, _options, _paper
 from fairing._paper import PaperOptions
 from fairing._types import FairResult
 
@@ -37,6 +37,10 @@ def fair(
     paper: PaperOptions | None = None,
     outline: str = "given",
     outside: npt.ArrayLike | None = None,
+    detail: float = 0.0,
+    detail_size: float = 0.0,
+    continuity: str = "G1",
+    fixed_curvatures: npt.ArrayLike | None = None,
 ) -> FairResult:
     """Replace the free vertices of a mesh by the fairest surface with the given boundary data.
 
@@ -106,9 +110,23 @@ def fair(
         "mended": a noisy outline is moved onto the fit of its surroundings first, and the two rings outside with it, as
         :func:`fairing.mend_outline` does; the normals there are the fit's. The result names what ``moved``. Where that
         gives folds or no solution, and the outline as given does not, the latter is kept (warning OUTLINE_KEPT).
+    continuity : "G1" | "G2"
+        "G2": the surface continues the curvature of its surroundings, too, and Δ_B² H = 0 (docs/joins.md). Where that
+        is not known, or no such surface is found, the tangent join is kept, and the warning G2_NOT_MET says so. For
+        ``equation`` "harmonic".
+    fixed_curvatures : (k,) float
+        Of "G2": mean curvatures H at ``fixed``, in length⁻¹, −1/R on a sphere with outward normals; NaN where the
+        curvature is not known. Default: fitted to the triangles outside.
     outside : (o, 3) int
-        Triangles around the patch, which stay: what "mended" and ``join`` look at. Triangles whose corners are all
-        ``fixed`` count among them.
+        Triangles around the patch, which stay: what "mended", "G2" and ``join`` look at. Triangles whose corners are
+        all ``fixed`` count among them.
+    detail : float
+        0 … 1: how much of the detail of ``reference`` is put back on the fair surface. The old patch is split into a
+        smooth base and what is left, its detail, which the new surface takes over, turned as the base turns. Vertices
+        then sit conformally to the old base, whatever ``inner_fairness`` says. docs/detail.md.
+    detail_size : float
+        Shape that repeats within less than this counts as detail: a wavelength as a share of D. 0: ten mean edges, a
+        quarter of D at most.
 
     Returns
     -------
@@ -139,14 +157,29 @@ def fair(
     of_paper = _paper.engine_options(method, levels, paper)
     options = _options.engine_options(
         equation=equation, otherwise=otherwise, load=load, bulge=bulge, fairness=kind, method=method, normals=normals,
-        tolerance=tolerance, max_iterations=max_iterations, threads=threads,
+        tolerance=tolerance, max_iterations=max_iterations, threads=threads, detail=detail, detail_size=detail_size,
     )  # fmt: skip
-    as_given = _mending.Boundary(points, fixed_list, given_normals)
+    joins = _options.continuity(continuity, equation, method)
     around = _mending.Surroundings.of(points, faces, fixed_list, outside)
+    as_given = _mending.Boundary(points, fixed_list, given_normals)
+    if not joins and fixed_curvatures is not None:
+        raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
+    if joins:
+        as_given = _joining.with_curvatures(as_given, around, fixed_curvatures)
 
     def call(boundary: _mending.Boundary) -> dict[str, Any]:
         return _core.fair(
-            boundary.vertices, faces, boundary.fixed, boundary.normals, m0, edges, weights, options, of_paper, progress
+            boundary.vertices,
+            faces,
+            boundary.fixed,
+            boundary.normals,
+            boundary.curvatures,
+            m0,
+            edges,
+            weights,
+            options,
+            of_paper,
+            progress,
         )
 
     mended = _arguments.choice("outline", outline, _options.OUTLINES) == "mended"

@@ -76,6 +76,9 @@ class FairResult:
     ``otherwise`` of :func:`fairing.fair`; the warning NO_SOLUTION names the component). ``converged`` refers to it."""
     vertices: FloatArray
     """(n, 3) positions; vertices that are neither free nor in ``moved`` keep their bits."""
+    base: FloatArray
+    """(n, 3) the fair surface alone: ``vertices`` without their ``detail``, which is linear in that option. All figures
+    are about this surface."""
     fixed: IntArray
     """(k',) all fixed vertices: those given, in their order, then the other border vertices."""
     mean_curvature: FloatArray
@@ -85,6 +88,9 @@ class FairResult:
     join: FloatArray
     """(k',) degrees, in the order of ``fixed``: how visible the join is (see :func:`fairing.visible_join`). Where no
     triangles outside were given, they are taken for the patch's mirror image across the prescribed tangent planes."""
+    continuity: Literal["G1", "G2"]
+    """"G2": the surface continues the curvature of its surroundings, wherever that is known (G2_NOT_MET names the other
+    vertices). "G1": only their slopes, because no more was asked for or because G2_NOT_MET says why."""
     converged: bool
     """Whether every component has its surface: the equation is solved to the tolerance, and the vertices lie on the
     solution without folds. Where not, the best positions found are given."""

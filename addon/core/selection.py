@@ -1,0 +1,138 @@
+"""Selections as people make them: loops of edges, faces left out, outlines that lie on a fold. Plain numpy, no bpy."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+import fairing
+
+from .around import numbered, outside_triangles, wound_alike
+from .arrays import Floats, Ints, Mask
+from .engine import Problem, bad_outline
+from .outline import outline_edges, two_sided_edges
+from .region import MeshArrays, free_vertices, make_patch
+
+LEFT_OUT = 4  # faces at most of a hole in a selection that is taken for an oversight
+ROUNDS = 5  # of growing
+
+
+def visible(mesh: MeshArrays) -> Mask:
+    """Return the (f,) mask of the faces that are not hidden."""
+    shown: Mask = np.ones(len(mesh.in_patch), dtype=bool) if mesh.hidden is None else ~mesh.hidden
+    return shown
+
+
+def pieces(mesh: MeshArrays, faces: Mask, walls: Mask | None = None) -> Ints:
+    """Return (f,): the lowest face of the piece that each face of the mask belongs to; -1 for the others.
+
+    Pieces hang together across edges, those in the (e,) mask `walls` aside.
+    """
+    ways = np.ones(len(mesh.edges), dtype=bool) if walls is None else ~walls
+    pairs = two_sided_edges(mesh, ways).faces
+    first, second = pairs[faces[pairs].all(axis=1)].T
+    label = np.arange(len(faces))
+    while True:
+        low = np.minimum(label[first], label[second])
+        joined = label.copy()
+        np.minimum.at(joined, label[first], low)
+        np.minimum.at(joined, label[second], low)
+        while (joined[joined] != joined).any():
+            joined = joined[joined]
+        if np.array_equal(joined, label):
+            return np.where(faces, label, -1)
+        label = joined
+
+
+def enclosed_faces(mesh: MeshArrays, walls: Mask) -> Mask:
+    """Return the (f,) mask of the visible faces that selected edges, the (e,) mask `walls`, enclose.
+
+    Between several loops the faces that touch all of them; else everything but the largest piece of each connected
+    part of the mesh. Nothing where no piece is cut off.
+    """
+    shown = visible(mesh)
+    whole, cut = pieces(mesh, shown), pieces(mesh, shown, walls)
+    sides = two_sided_edges(mesh, walls)
+    parting = sides.faces[shown[sides.faces].all(axis=1)]
+    parting = parting[cut[parting[:, 0]] != cut[parting[:, 1]]]
+    chosen = np.zeros(len(shown), dtype=bool)
+    for part in np.unique(whole[parting]):
+        chosen |= np.isin(cut, _inside(cut, cut[parting[whole[parting[:, 0]] == part]]))
+    return chosen
+
+
+def _inside(cut: Ints, sides: Ints) -> Ints:
+    """Choose among the pieces of one connected part; sides (k, 2): those on both sides of each parting edge."""
+    touching = np.unique(sides)
+    order = touching[np.argsort([np.count_nonzero(cut == piece) for piece in touching], kind="stable")]
+    between = [piece for piece in order[:-1] if (sides == piece).any(axis=1).all()]
+    return np.array(between[:1]) if between else order[:-1]
+
+
+def left_out_faces(mesh: MeshArrays) -> Mask:
+    """Return the (f,) mask of small holes in the selection: visible faces with selected ones all around."""
+    rest = visible(mesh) & ~mesh.in_patch
+    label = pieces(mesh, rest)
+    sizes = np.bincount(label[rest], minlength=len(rest))
+    uses = np.bincount(mesh.corner_edges, minlength=len(mesh.edges))
+    open_faces = np.zeros(len(rest), dtype=bool)
+    open_faces[mesh.corner_faces[uses[mesh.corner_edges] == 1]] = True
+    open_faces[mesh.corner_faces[_beside_hidden(mesh)[mesh.corner_edges]]] = True
+    is_open = np.zeros(len(rest), dtype=bool)
+    is_open[label[rest & open_faces]] = True
+    small: Mask = rest & (sizes[label] <= LEFT_OUT) & ~is_open[label]
+    return small
+
+
+def far_sides(mesh: MeshArrays) -> list[Ints]:
+    """Return the faces of each piece that is left without the patch and hangs together with it, the smallest first.
+
+    Of a region that cuts an end off, the first one is the end.
+    """
+    rest = visible(mesh) & ~mesh.in_patch
+    label = pieces(mesh, rest)
+    rim = two_sided_edges(mesh, outline_edges(mesh)).faces
+    touching = np.unique(label[rim])
+    sides = [np.flatnonzero(label == piece) for piece in touching if piece >= 0]
+    return sorted(sides, key=len)
+
+
+def _beside_hidden(mesh: MeshArrays) -> Mask:
+    """Return the (e,) mask of the edges of hidden faces."""
+    edges = np.zeros(len(mesh.edges), dtype=bool)
+    edges[mesh.corner_edges[~visible(mesh)[mesh.corner_faces]]] = True
+    return edges
+
+
+def problem_of(mesh: MeshArrays, matrix: Floats) -> Problem:
+    """Return the patch and what is around it in world space, without normals: enough to look at the outline."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        world = mesh.transformed(matrix)
+        patch = make_patch(world)
+        vertices, outside = numbered(patch, wound_alike(world, outside_triangles(world, patch)))
+    return Problem(patch, world.positions[vertices], np.empty((0, 3)), vertices, outside)
+
+
+def grown_until_smooth(mesh: MeshArrays, matrix: Floats) -> Mask:
+    """Return the (f,) mask of the selection, grown over the faces at the bad vertices of its outline.
+
+    Ends where the outline has none, after ROUNDS, or before another outline or a vertex without any would come of it.
+    Raises what make_patch does.
+    """
+    for _ in range(ROUNDS):
+        bad = bad_outline(problem_of(mesh, matrix))
+        touched = np.zeros(len(mesh.positions), dtype=bool)
+        touched[bad] = True
+        larger = mesh.in_patch.copy()
+        larger[mesh.corner_faces[touched[mesh.corner_vertices]]] = True
+        larger &= visible(mesh)
+        grown = replace(mesh, in_patch=larger)
+        if np.array_equal(larger, mesh.in_patch) or _outlines(grown) != _outlines(mesh):
+            break
+        mesh = grown
+    return mesh.in_patch
+
+
+def _outlines(mesh: MeshArrays) -> int:
+    return len(fairing.boundary_loops(make_patch(mesh).triangles)) if free_vertices(mesh).any() else 0

@@ -1,0 +1,82 @@
+"""One mesh with a live region, as it was last seen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import bpy
+import numpy as np
+
+from ..core.arrays import Floats, Ints
+from ..core.live_region import LiveRegion
+from ..core.options import FairOptions
+from ..core.region import free_vertices
+from ..mesh import live_mesh, mesh_io
+
+
+@dataclass
+class Session:
+    """One mesh with a region, as it was last seen."""
+
+    faces: Ints
+    corners: Ints
+    counts: tuple[int, int, int]
+    region: LiveRegion
+    positions: Floats = field(default_factory=lambda: np.empty((0, 3)))  # of region.vertices
+    matrix: Floats = field(default_factory=lambda: np.zeros((4, 4)))
+    seconds: float = 0.0  # of the last answer
+    lost: bool = False  # no fair surface is shown: the last good one, carried along
+    skip: int = 0  # changes for which no answer is asked for, as the last ones took too long
+    waited: int = 0  # changes that were skipped before the last try
+    points: Floats = field(default_factory=lambda: np.empty((0, 3)))  # of the outline in world space, where lost
+    checked: bool = True  # an undo may have brought back another region
+
+    def mark_outline(self) -> None:
+        """Remember where the outline is now."""
+        at = np.searchsorted(self.region.vertices, self.region.outline)
+        self.points = self.positions[at] @ self.matrix[:3, :3].T + self.matrix[:3, 3]
+
+
+def matrix_of(obj: bpy.types.Object) -> Floats:
+    """Return the (4, 4) map to world space."""
+    matrix: Floats = np.array(obj.matrix_world, dtype=np.float64)
+    return matrix
+
+
+def read(obj: bpy.types.Object, options: FairOptions, marked: bpy.types.Mesh | None) -> LiveRegion:
+    """Read the object's mesh with its selection, or the region that is marked, as the patch."""
+    mesh_io.writable_key(obj)
+    if options.boundary_normals == "CUSTOM":
+        raise ValueError("Custom normals along the outline can't be followed: choose Surroundings or Average")
+    mesh = mesh_io.read_edit_mesh(obj, options, live_mesh.LAYER if marked is not None else "")
+    if not free_vertices(mesh).any():
+        raise ValueError("No vertex inside the region is free to move")
+    return LiveRegion(mesh, matrix_of(obj), options)
+
+
+def check_key(obj: bpy.types.Object) -> None:
+    """Raise ValueError while another shape key is active than the one that the region was made in, or it is locked."""
+    active, own = mesh_io.writable_key(obj), live_mesh.region_key(obj.data)
+    if active != own:
+        own = f"the shape key {own!r}" if own else "the Basis"
+        raise ValueError(
+            f"Live rests while another shape key is active: its region belongs to {own}. "
+            "Go back there, or make the region anew here"
+        )
+
+
+def session_of(obj: bpy.types.Object, region: LiveRegion) -> Session:
+    """Open a session with a region of the object that is marked in its mesh."""
+    faces = live_mesh.region_faces(obj.data)
+    assert faces is not None
+    return Session(faces, live_mesh.corners(obj.data, faces), live_mesh.counts(obj.data), region)
+
+
+def fits(session: Session, mesh: bpy.types.Mesh) -> bool:
+    """Tell whether the mesh still has the connectivity and the region of the session."""
+    if live_mesh.counts(mesh) != session.counts:
+        return False
+    if not session.checked:
+        faces = live_mesh.region_faces(mesh)
+        session.checked = faces is not None and np.array_equal(faces, session.faces)
+    return session.checked and np.array_equal(live_mesh.corners(mesh, session.faces), session.corners)

@@ -1,0 +1,34 @@
+"""Numbers of the vertices as an attribute of the mesh."""
+
+from __future__ import annotations
+
+import bmesh
+import bpy
+import numpy as np
+
+from ..core.arrays import Floats
+
+
+def write_attribute(mesh: bpy.types.Mesh, name: str, values: Floats) -> None:
+    """Write one number per vertex (n,) to the vertex attribute `name`, in whichever mode.
+
+    Raises ValueError where the mesh has an attribute of that name for something else.
+    """
+    present = mesh.attributes.get(name)
+    if present is not None and (present.data_type, present.domain) != ("FLOAT", "POINT"):
+        raise ValueError(f"The mesh has another attribute named {name!r}: rename or remove it")
+    if mesh.is_editmode:
+        _write_edit_attribute(mesh, name, values)
+        return
+    layer = present or mesh.attributes.new(name, "FLOAT", "POINT")
+    layer.data.foreach_set("value", values.astype(np.float32))
+    mesh.update()
+
+
+def _write_edit_attribute(mesh: bpy.types.Mesh, name: str, values: Floats) -> None:
+    bm = bmesh.from_edit_mesh(mesh)
+    layers = bm.verts.layers.float
+    layer = layers.get(name) or layers.new(name)
+    for vertex, value in zip(bm.verts, values.tolist(), strict=True):
+        vertex[layer] = value
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)

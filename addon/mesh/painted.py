@@ -1,0 +1,79 @@
+"""Faces chosen by what is painted on a mesh in object mode: a mask, face sets, a vertex group, the live region."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..core.arrays import Ints, Mask
+from .live_mesh import LAYER
+
+MASK, FACE_SET = ".sculpt_mask", ".sculpt_face_set"  # Blender's own names of what sculpt mode paints
+HALF = 0.5  # of the mask, from which on a vertex is masked
+
+
+def _values(mesh: bpy.types.Mesh, name: str, dtype: Any) -> Any:
+    """Return the values of an attribute; None where there is none."""
+    attribute = mesh.attributes.get(name)
+    if attribute is None:
+        return None
+    values = np.empty(len(attribute.data), dtype=dtype)
+    attribute.data.foreach_get("value", values)
+    return values
+
+
+def _faces_of(mesh: bpy.types.Mesh, vertices: Mask) -> Ints:
+    """Return the faces with all vertices in the (n,) mask."""
+    starts = np.empty(len(mesh.polygons), dtype=np.int32)
+    corners = np.empty(len(mesh.loops), dtype=np.int32)
+    mesh.polygons.foreach_get("loop_start", starts)
+    mesh.loops.foreach_get("vertex_index", corners)
+    if not len(starts):
+        return np.empty(0, dtype=np.int64)
+    return np.flatnonzero(np.logical_and.reduceat(vertices[corners], starts))
+
+
+def masked_faces(mesh: bpy.types.Mesh) -> Ints:
+    """Return the faces that are masked by half or more at all corners."""
+    mask = _values(mesh, MASK, np.float32)
+    return np.empty(0, dtype=np.int64) if mask is None else _faces_of(mesh, mask >= HALF)
+
+
+def face_set(mesh: bpy.types.Mesh, number: int) -> Ints:
+    """Return the faces of a face set."""
+    sets = _values(mesh, FACE_SET, np.int32)
+    return np.empty(0, dtype=np.int64) if sets is None else np.flatnonzero(sets == number)
+
+
+def face_set_at(mesh: bpy.types.Mesh, face: int) -> int:
+    """Return the number of the face set that a face is in; 0 without face sets."""
+    sets = _values(mesh, FACE_SET, np.int32)
+    return 0 if sets is None else int(sets[face])
+
+
+def only_visible_face_set(mesh: bpy.types.Mesh) -> int:
+    """Return the number of the face set that all visible faces are in; 0 where they are in several."""
+    sets = _values(mesh, FACE_SET, np.int32)
+    if sets is None:
+        return 0
+    hidden = np.empty(len(mesh.polygons), dtype=bool)
+    mesh.polygons.foreach_get("hide", hidden)
+    shown = np.unique(sets[~hidden])
+    return int(shown[0]) if len(shown) == 1 else 0
+
+
+def group_faces(obj: bpy.types.Object, name: str) -> Ints:
+    """Return the faces with all vertices in a vertex group; raises ValueError where there is none of that name."""
+    if name not in obj.vertex_groups:
+        raise ValueError(f"There is no vertex group named {name!r}")
+    index = obj.vertex_groups[name].index
+    member = [any(e.group == index and e.weight > 0.0 for e in v.groups) for v in obj.data.vertices]
+    return _faces_of(obj.data, np.array(member, dtype=bool))
+
+
+def live_faces(mesh: bpy.types.Mesh) -> Ints:
+    """Return the faces of the live region."""
+    region = _values(mesh, LAYER, np.int32)
+    return np.empty(0, dtype=np.int64) if region is None else np.flatnonzero(region)

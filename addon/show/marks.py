@@ -1,0 +1,89 @@
+"""Marks in the 3D view: bad vertices of a selection's outline, and a live region that has lost its surface."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import blf
+import bpy
+import gpu
+import numpy as np
+from gpu_extras.batch import batch_for_shader
+
+from ..core.arrays import Floats
+from ..follow.live import CARRIED, live
+from ..follow.watch import watch
+from ..translations import translated
+
+BAD = (1.0, 0.45, 0.0, 1.0)
+LOST = (1.0, 0.1, 0.1, 1.0)
+SIZE = 9.0  # pixels
+
+Mark = tuple[Floats, tuple[float, float, float, float]]
+
+
+class _Marks:
+    """The handles that Blender gives for drawing."""
+
+    def __init__(self) -> None:
+        self.handles: list[Any] = []
+
+
+_marks = _Marks()
+
+
+def shown(context: bpy.types.Context) -> list[Mark]:
+    """Return points (k, 3) in world space with their colours; none of a selection that has changed since the look."""
+    if context.mode != "EDIT_MESH":
+        return []
+    marks: list[Mark] = [(live.lost_points(), LOST)]
+    if not watch.stale:
+        marks += [(found.bad, BAD) for found in watch.found]
+    return [mark for mark in marks if len(mark[0])]
+
+
+def draw(context: bpy.types.Context) -> None:
+    """Draw them over everything, so that none hides behind the mesh."""
+    marks = shown(context)
+    if not marks:
+        return
+    shader = gpu.shader.from_builtin("UNIFORM_COLOR")
+    gpu.state.point_size_set(SIZE)
+    gpu.state.depth_test_set("NONE")
+    for points, colour in marks:
+        shader.bind()
+        shader.uniform_float("color", colour)
+        batch_for_shader(shader, "POINTS", {"pos": points.astype(np.float32)}).draw(shader)
+    gpu.state.point_size_set(1.0)
+
+
+def draw_message(context: bpy.types.Context) -> None:
+    """Write what is wrong with a live region into the 3D view, whichever panels are open."""
+    if context.mode != "EDIT_MESH" or not (live.message or len(live.lost_points())):
+        return
+    scale = context.preferences.system.ui_scale
+    blf.size(0, 13.0 * scale)
+    blf.color(0, *LOST)
+    blf.position(0, 70.0 * scale, 40.0 * scale, 0.0)
+    blf.draw(0, translated(live.message or CARRIED))
+
+
+def _draw() -> None:
+    draw(bpy.context)
+
+
+def _draw_message() -> None:
+    draw_message(bpy.context)
+
+
+def register() -> None:
+    """Draw from now on; costs nothing without marks."""
+    if not bpy.app.background:
+        add = bpy.types.SpaceView3D.draw_handler_add
+        _marks.handles = [add(_draw, (), "WINDOW", "POST_VIEW"), add(_draw_message, (), "WINDOW", "POST_PIXEL")]
+
+
+def unregister() -> None:
+    """Draw no more."""
+    while _marks.handles:
+        bpy.types.SpaceView3D.draw_handler_remove(_marks.handles.pop(), "WINDOW")

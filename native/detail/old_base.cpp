@@ -1,0 +1,52 @@
+#include "detail/old_base.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/surface_fit.h"
+#include "operators/biharmonic_operator.h"
+#include "problem/willmore.h"
+
+namespace fairing {
+
+namespace {
+
+// Two passes leave 1 − (q/(1 + q))² of a wave, q = (2π l/wavelength)⁴: one half at q = 1 + √2.
+double mass_factor(double wavelength) {
+    const double half = 1.0 + std::numbers::sqrt2;
+    return std::pow(2.0 * std::numbers::pi / wavelength, 4) / half;
+}
+
+// c of the slopes at which the old patch meets its outline, fitted to its own side. Those prescribed for the new base
+// would make detail of a crease along the outline, which is what has to go.
+Points own_conormals(const Patch& patch, const Points& old) {
+    const Points normals = one_sided_normals(patch, old);
+    return conormals(patch, old.rightCols(normals.cols()), normals);
+}
+
+}  // namespace
+
+double detail_wavelength(const Patch& patch, const Points& old) {
+    constexpr double edges = 10.0;
+    constexpr double share_of_patch = 0.25;
+    double length = 0.0;
+    for (const auto& [a, b] : patch.edge_ends) length += (old.col(a) - old.col(b)).norm();
+    return std::min(edges * length / patch.edge_count(), share_of_patch);
+}
+
+std::optional<Points> old_base(const Patch& patch, const Stiffness& stiffness, const Points& old, double wavelength,
+                               const Progress& progress) {
+    BiharmonicOperator smoothing(patch, old.leftCols(patch.free_count));
+    const double mass = mass_factor(wavelength);
+    if (!smoothing.update_with_mass(stiffness, mass, progress)) return std::nullopt;
+    Points h = mixed_curvature_vectors(patch, stiffness, old, own_conormals(patch, old));
+    h.array().rowwise() /= 2.0 * stiffness.mass.transpose().array();
+    const Eigen::MatrixXd first = smoothing.solve(stiffness.apply(patch, h, patch.free_count).transpose());
+    const Eigen::MatrixXd left = mass * stiffness.mass.head(patch.free_count).asDiagonal() * first;
+    Points base = old;
+    base.leftCols(patch.free_count) += (first - smoothing.solve(left)).transpose();
+    return base;
+}
+
+}  // namespace fairing

@@ -1,0 +1,163 @@
+"""Selections as people make them: loops that enclose, faces left out, outlines to grow, one side of two."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core.arrays import Floats, Mask
+from core.engine import bad_outline, mended_outline
+from core.region import MeshArrays, make_patch
+from core.selection import enclosed_faces, grown_until_smooth, left_out_faces, pieces, problem_of
+from core.symmetry import mirror_map, with_image
+from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh
+
+SIZE = 12
+FLAT = grid(SIZE, 0.0)
+CENTRES = grid_points(SIZE)[np.array(grid_quads(SIZE))].mean(axis=1)
+
+
+def chosen(mask: Mask, mesh: MeshArrays = FLAT) -> MeshArrays:
+    return replace(mesh, in_patch=mask)
+
+
+def where(test: Callable[[Floats], Mask]) -> Mask:
+    return np.array(test(CENTRES.T))
+
+
+def outline_of(mesh: MeshArrays, faces: Mask) -> Mask:
+    """The edges between the faces and the others."""
+    uses = np.bincount(mesh.corner_edges[faces[mesh.corner_faces]], minlength=len(mesh.edges))
+    rest = np.bincount(mesh.corner_edges[~faces[mesh.corner_faces]], minlength=len(mesh.edges))
+    between: Mask = (uses > 0) & (rest > 0)
+    return between
+
+
+def tube(around: int = 10, along: int = 20) -> MeshArrays:
+    """An open tube of quads; face row · around + column, the axis along z."""
+    angle = 2.0 * np.pi * np.arange(around) / around
+    points = np.array([(np.cos(a), np.sin(a), z) for z in range(along + 1) for a in angle])
+    quads = [
+        [around * r + c, around * r + (c + 1) % around, around * (r + 1) + (c + 1) % around, around * (r + 1) + c]
+        for r in range(along)
+        for c in range(around)
+    ]
+    return polygon_mesh(points, quads, [False] * len(quads))
+
+
+def test_a_loop_of_edges_encloses_the_smaller_side() -> None:
+    inside = where(lambda c: np.abs(c).max(axis=0) < 0.5)
+    assert np.array_equal(enclosed_faces(FLAT, outline_of(FLAT, inside)), inside)
+
+
+def test_two_loops_far_apart_enclose_one_region_each() -> None:
+    inside = where(lambda c: (np.abs(np.abs(c[0]) - 0.55) < 0.3) & (np.abs(c[1]) < 0.4))
+    assert np.array_equal(enclosed_faces(FLAT, outline_of(FLAT, inside)), inside)
+
+
+@pytest.mark.parametrize(("low", "high"), [(3, 6), (12, 19)])
+def test_two_loops_round_a_limb_enclose_what_is_between(low: int, high: int) -> None:
+    mesh = tube()
+    row = np.arange(len(mesh.in_patch)) // 10
+    between = (row >= low) & (row < high)
+    assert np.array_equal(enclosed_faces(mesh, outline_of(mesh, between)), between)
+
+
+def test_a_loop_that_does_not_close_encloses_nothing() -> None:
+    walls = outline_of(FLAT, where(lambda c: np.abs(c).max(axis=0) < 0.5))
+    walls[np.flatnonzero(walls)[0]] = False
+    assert not enclosed_faces(FLAT, walls).any()
+    assert not enclosed_faces(FLAT, np.zeros_like(walls)).any()
+
+
+def test_hidden_faces_are_not_enclosed() -> None:
+    inside = where(lambda c: np.abs(c).max(axis=0) < 0.5)
+    hidden = where(lambda c: np.hypot(c[0], c[1]) < 0.3)
+    found = enclosed_faces(replace(FLAT, hidden=hidden), outline_of(FLAT, inside))
+    assert np.array_equal(found, inside & ~hidden)
+
+
+def test_pieces_are_named_by_their_lowest_face() -> None:
+    apart = where(lambda c: np.abs(c[0]) > 0.5)
+    label = pieces(FLAT, apart)
+    assert set(label[apart]) == {0, 9}
+    assert (label[~apart] == -1).all()
+    assert (label[where(lambda c: c[0] > 0.5)] == 9).all()
+
+
+def test_a_lasso_that_left_faces_out() -> None:
+    inside = where(lambda c: np.abs(c).max(axis=0) < 0.7)
+    hole = np.zeros_like(inside)
+    hole[[SIZE * 5 + 5, SIZE * 5 + 6, SIZE * 7 + 7]] = True
+    assert np.array_equal(left_out_faces(chosen(inside & ~hole)), hole)
+    large = where(lambda c: np.abs(c).max(axis=0) < 0.3)  # a hole on purpose
+    assert not left_out_faces(chosen(inside & ~large)).any()
+    corner = np.ones_like(inside)
+    corner[0] = False  # at the mesh's own border
+    assert not left_out_faces(chosen(corner)).any()
+    assert not left_out_faces(replace(chosen(inside), hidden=hole)).any()
+
+
+def folded_rim() -> MeshArrays:
+    """A sphere's side with a fold pressed into its surroundings at one place of the outline."""
+    mesh = grid(20, 0.6, on_sphere)
+    points = mesh.positions.copy()
+    centre = points[21 * 10 + 16]  # on the outline, in the middle of its right side
+    near = np.linalg.norm(points - centre, axis=1) < 0.13
+    near &= points[:, 0] > centre[0] - 0.02
+    points[near] += 0.12 * np.random.default_rng(4).normal(size=(np.count_nonzero(near), 3))
+    return replace(mesh, positions=points)
+
+
+def test_growing_leaves_the_bad_vertices_inside() -> None:
+    mesh = folded_rim()
+    bad = bad_outline(problem_of(mesh, np.eye(4)))
+    assert len(bad) > 0
+    faces = grown_until_smooth(mesh, np.eye(4))
+    assert (faces & ~mesh.in_patch).any()
+    assert faces[mesh.in_patch].all()
+    grown = replace(mesh, in_patch=faces)
+    patch = make_patch(grown)
+    assert set(bad) <= set(patch.vertices[patch.free])
+    assert len(bad_outline(problem_of(grown, np.eye(4)))) == 0
+    clean = grid(20, 0.6, on_sphere)
+    assert np.array_equal(grown_until_smooth(clean, np.eye(4)), clean.in_patch)
+    hidden = ~mesh.in_patch
+    assert np.array_equal(grown_until_smooth(replace(mesh, hidden=hidden), np.eye(4)), mesh.in_patch)
+
+
+def test_a_noisy_outline_is_moved_towards_the_sphere() -> None:
+    mesh = grid(20, 0.6, on_sphere)
+    noise = 0.012 * np.random.default_rng(2).normal(size=mesh.positions.shape)
+    noisy = replace(mesh, positions=mesh.positions + noise)
+    mended = mended_outline(problem_of(noisy, np.eye(4)))
+    off = np.abs(np.linalg.norm(mended.points, axis=1) - 1.0)
+    was = np.abs(np.linalg.norm(noisy.positions[mended.vertices], axis=1) - 1.0)
+    assert len(off) > 20
+    assert np.median(off) < 0.7 * np.median(was)
+    assert len(mended_outline(problem_of(mesh, np.eye(4))).vertices) == 0
+
+
+def test_a_selection_on_one_side_gets_its_image() -> None:
+    one = where(lambda c: (np.abs(c[0] - 0.5) < 0.3) & (np.abs(c[1]) < 0.5))
+    mesh = replace(chosen(one, grid(SIZE, 0.0, on_sphere)), mirror_x=True)
+    points = mesh.positions.copy()
+    patch = make_patch(mesh)
+    points[patch.vertices[patch.free]] *= 1.3  # inside anything may be
+    both = with_image(replace(mesh, positions=points))
+    assert np.array_equal(both.in_patch, one | where(lambda c: (np.abs(c[0] + 0.5) < 0.3) & (np.abs(c[1]) < 0.5)))
+    assert mirror_map(both, make_patch(both)) is not None
+    assert np.array_equal(with_image(replace(mesh, mirror_x=False)).in_patch, one)
+
+
+def test_no_image_where_there_is_none() -> None:
+    one = where(lambda c: (np.abs(c[0] - 0.5) < 0.3) & (np.abs(c[1]) < 0.5))
+    bent = FLAT.positions.copy()
+    bent[bent[:, 0] < 0.0, 2] = 0.1
+    mesh = replace(chosen(one), mirror_x=True)
+    assert np.array_equal(with_image(replace(mesh, positions=bent)).in_patch, one)
+    across = where(lambda c: (np.abs(c[0] - 0.1) < 0.3) & (np.abs(c[1]) < 0.5))  # meets its own image
+    assert np.array_equal(with_image(replace(mesh, in_patch=across)).in_patch, across)

@@ -1,0 +1,170 @@
+"""What can be done about a selection before a run: loops, left-out faces, bad outlines, the other side."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bmesh
+import bpy
+import meshes
+import numpy as np
+import pytest
+from extension import inspect, module
+from test_panel import drawn
+
+
+def square(obj: bpy.types.Object, half: float = 0.6) -> Any:
+    return meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < half)
+
+
+def bumpy(size: int = 16) -> bpy.types.Object:
+    obj = meshes.grid(size)
+    points = meshes.positions(obj)
+    points[:, 2] = 0.2 * np.cos(2.0 * points[:, 0]) * np.cos(1.5 * points[:, 1])
+    meshes.move(obj, points)
+    return obj
+
+
+def chosen_faces(obj: bpy.types.Object) -> list[int]:
+    return [face.index for face in bmesh.from_edit_mesh(obj.data).faces if face.select]
+
+
+def select_loop(obj: bpy.types.Object, faces: Any, kind: str) -> None:
+    """Select the outline of the faces in edit mode, by its edges or its vertices."""
+    mode = (kind == "VERT", kind == "EDGE", False)
+    bpy.context.tool_settings.mesh_select_mode = mode
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.select_mode = {kind}
+    inside = {bm.faces[face] for face in np.flatnonzero(faces)} if not bm.faces.ensure_lookup_table() else set()
+    for edge in bm.edges:
+        if sum(face in inside for face in edge.link_faces) == 1:
+            edge.select_set(True)
+            for vertex in edge.verts:
+                vertex.select_set(True)
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(obj.data)
+
+
+@pytest.mark.parametrize("kind", ["EDGE", "VERT"])
+def test_a_loop_stands_for_the_faces_inside(kind: str) -> None:
+    obj, control = bumpy(), bumpy()
+    faces = square(obj)
+    meshes.fair(control, faces)
+    meshes.edit(obj)
+    select_loop(obj, faces, kind)
+    assert obj.data.total_face_sel == 0 or kind == "VERT"
+    found = module("follow.inspection").inspect(obj, module("core.options").FairOptions())
+    assert (found.faces, found.refusal) == (faces.sum(), "")
+    assert meshes.run() == {"FINISHED"}
+    meshes.leave()
+    assert meshes.positions(obj).tobytes() == meshes.positions(control).tobytes()
+
+
+def test_left_out_faces_are_offered_and_added() -> None:
+    obj = bumpy()
+    faces = square(obj)
+    hole = faces & meshes.faces_where(obj, lambda c: 0.0 < c.x < 0.12 and 0.0 < c.y < 0.12)
+    assert hole.sum() == 1
+    assert inspect(obj, faces & ~hole).left_out == 1
+    assert inspect(obj, faces).left_out == 0
+    meshes.select(obj, faces & ~hole)
+    meshes.edit(obj)
+    watch = module("follow.watch").watch
+    watch.look(bpy.context)
+    assert "mesh.fair_add_left_out" in drawn("VIEW3D_PT_fairing_selection")
+    assert bpy.ops.mesh.fair_add_left_out() == {"FINISHED"}
+    assert chosen_faces(obj) == np.flatnonzero(faces).tolist()
+    assert bpy.ops.mesh.fair_add_left_out() == {"CANCELLED"}
+    meshes.leave()
+
+
+def folded() -> tuple[bpy.types.Object, Any]:
+    """Add a fine bumpy grid with a fold pressed into one place of a selection's outline."""
+    obj = bumpy(24)
+    faces = square(obj, 0.5)
+    points = meshes.positions(obj)
+    near = np.linalg.norm(points[:, :2] - np.array([0.55, 0.0]), axis=1) < 0.12
+    points[near] += 0.12 * np.random.default_rng(4).normal(size=(np.count_nonzero(near), 3))
+    meshes.move(obj, points)
+    return obj, faces
+
+
+def test_bad_outline_vertices_are_marked_selected_and_grown_over() -> None:
+    obj, faces = folded()
+    points = meshes.positions(obj)
+    obj.location = (0.0, 0.0, 5.0)
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    watch = module("follow.watch").watch
+    marks = module("show.marks")
+    bpy.context.view_layer.update()
+    watch.look(bpy.context)
+    ((places, colour),) = marks.shown(bpy.context)
+    assert colour == marks.BAD
+    text = drawn("VIEW3D_PT_fairing_selection")
+    assert {"Bad Vertices", "mesh.fair_select_bad", "mesh.fair_grow", "mesh.fair_smooth_outline"} <= set(
+        text.split("\n")
+    )
+    assert bpy.ops.mesh.fair_select_bad() == {"FINISHED"}
+    bad = [vertex.index for vertex in bmesh.from_edit_mesh(obj.data).verts if vertex.select]
+    np.testing.assert_allclose(sorted(map(tuple, places)), sorted(map(tuple, points[bad] + [0.0, 0.0, 5.0])), atol=1e-5)
+    assert np.abs(points[bad, :2] - [0.5, 0.0]).max() < 0.3
+    meshes.leave()
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    bpy.context.tool_settings.mesh_select_mode = (False, False, True)
+    assert bpy.ops.mesh.fair_grow() == {"FINISHED"}
+    grown = set(chosen_faces(obj))
+    assert grown > set(np.flatnonzero(faces).tolist())
+    watch.look(bpy.context)
+    assert not set(map(tuple, watch.found[0].bad.round(5).tolist())) & set(map(tuple, places.round(5).tolist()))
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bpy.context.view_layer.update()
+    assert marks.shown(bpy.context) == []  # of another selection
+    meshes.leave()
+
+
+def test_a_clean_outline_offers_nothing() -> None:
+    obj = bumpy()
+    assert len(inspect(obj, square(obj)).bad) == 0
+    meshes.select(obj, square(obj))
+    meshes.edit(obj)
+    for tool in (bpy.ops.mesh.fair_select_bad, bpy.ops.mesh.fair_grow, bpy.ops.mesh.fair_smooth_outline):
+        assert tool() == {"CANCELLED"}
+    assert chosen_faces(obj) == np.flatnonzero(square(obj)).tolist()
+    meshes.leave()
+
+
+def test_smoothing_the_outline_moves_nothing_inside() -> None:
+    obj = meshes.grid(16)
+    points = meshes.positions(obj)
+    points[:, 2] = 0.012 * np.random.default_rng(8).normal(size=len(points))
+    meshes.move(obj, points)
+    faces = square(obj, 0.5)
+    before = meshes.in_edit_mode_once(obj, faces)
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    assert bpy.ops.mesh.fair_smooth_outline() == {"FINISHED"}
+    meshes.leave()
+    moved = meshes.moved(before, meshes.contents(obj))
+    assert moved.any()
+    assert not moved[meshes.free_vertices(obj, faces)].any()
+    assert np.abs(meshes.positions(obj)[moved, 2]).mean() < 0.8 * np.abs(points[moved, 2]).mean()
+
+
+def test_with_x_mirror_one_side_stands_for_both() -> None:
+    obj = bumpy(24)
+    obj.data.use_mirror_x = True
+    right = meshes.faces_where(obj, lambda c: 0.2 < c.x < 0.7 and abs(c.y) < 0.5)
+    left = meshes.faces_where(obj, lambda c: -0.7 < c.x < -0.2 and abs(c.y) < 0.5)
+    points = meshes.positions(obj)
+    points[meshes.free_vertices(obj, right), 2] += 0.1
+    meshes.move(obj, points)
+    meshes.fair(obj, right)
+    after = meshes.positions(obj)
+    assert (after[meshes.free_vertices(obj, left)] != points[meshes.free_vertices(obj, left)]).any()
+    places = {tuple(p) for p in after.tolist()}
+    faired = after[meshes.free_vertices(obj, right | left)]
+    assert all((-x, y, z) in places for x, y, z in faired.tolist())
+    assert "not symmetric" not in meshes.report().warnings

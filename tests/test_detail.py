@@ -1,0 +1,237 @@
+"""`detail`: the skin of the old patch put back on the fair surface."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import fairing
+import shapes
+from curves import FloatArray
+from shapes import Patch
+from solving import codes
+
+Rotation = FloatArray
+
+
+def mean_edge(patch: Patch) -> float:
+    corners = patch.vertices[patch.triangles]
+    return float(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean())
+
+
+def rough(patch: Patch, edges: float = 0.25, seed: int = 0) -> FloatArray:
+    """Free vertices moved along the normals by noise of this standard deviation."""
+    heights = np.random.default_rng(seed).normal(size=len(patch.vertices)) * edges * mean_edge(patch)
+    heights[patch.fixed] = 0
+    return patch.vertices + heights[:, None] * patch.normals
+
+
+def fair(patch: Patch, old: FloatArray, **options: Any) -> fairing.FairResult:
+    return fairing.fair(old, patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals, **options)
+
+
+def heights(patch: Patch, vertices: FloatArray, over: FloatArray) -> FloatArray:
+    """Along the normals, of free vertices over another surface."""
+    return np.asarray(((vertices - over) * patch.normals).sum(axis=1)[patch.free])
+
+
+def some_rotation() -> Rotation:
+    q, _ = np.linalg.qr(np.random.default_rng(1).normal(size=(3, 3)))
+    return np.asarray(q * np.sign(np.linalg.det(q)))
+
+
+@pytest.fixture(scope="module")
+def cap() -> Patch:
+    return shapes.cap(1500, half_angle=60.0)
+
+
+def test_without_detail_nothing_changes(cap: Patch) -> None:
+    plain = fair(cap, rough(cap))
+    assert plain.base is not None
+    assert np.array_equal(plain.base, plain.vertices)
+    again = fair(cap, rough(cap), detail=0.0, detail_size=0.3)
+    assert np.array_equal(plain.vertices, again.vertices)
+
+
+def test_a_rough_swelling_turns_into_a_rough_sphere(cap: Patch) -> None:
+    """The swelling goes, the noise stays: its amplitude within 15 %, and the same noise vertex by vertex."""
+    noisy = rough(cap)
+    above = np.clip(cap.vertices[:, 2] - cap.vertices[cap.fixed, 2].max(), 0, None) ** 2
+    swollen = noisy * (1 + 0.4 * above)[:, None]
+    result = fair(cap, swollen, detail=1.0)
+    assert result.converged
+    assert cap.distance(result.base).max() < 1e-5 * cap.diameter
+    kept = heights(cap, result.vertices, result.base)
+    wanted = heights(cap, noisy, cap.vertices)
+    assert kept.std() == pytest.approx(wanted.std(), rel=0.15)
+    assert np.corrcoef(kept, wanted)[0, 1] > 0.9
+
+
+def test_edges_keep_their_lengths() -> None:
+    """Rough tube, straightened: the pipe bends no more, its skin is not stretched."""
+    tube = shapes.cylinder(1500, length=2.0)
+    bent = rough(tube)
+    bent[:, 0] += 0.25 * np.cos(np.pi * tube.vertices[:, 2] / 2) ** 2
+    result = fair(tube, bent, detail=1.0)
+    ends = np.concatenate([tube.triangles[:, [k, (k + 1) % 3]] for k in range(3)])
+    before, after = (np.linalg.norm(p[ends[:, 0]] - p[ends[:, 1]], axis=1) for p in (bent, result.vertices))
+    assert tube.distance(result.base).max() < 1e-4
+    ratio = after / before
+    assert ratio.min() > 0.75
+    assert ratio.max() < 1.3
+
+
+def test_fixed_vertices_keep_their_bits(cap: Patch) -> None:
+    old = rough(cap)
+    result = fair(cap, old, detail=1.0)
+    assert np.array_equal(result.vertices[cap.fixed], old[cap.fixed])
+    assert np.array_equal(result.base[cap.fixed], old[cap.fixed])
+
+
+def test_detail_is_linear(cap: Patch) -> None:
+    half, full = (fair(cap, rough(cap), detail=share) for share in (0.5, 1.0))
+    assert np.array_equal(half.base, full.base)
+    assert half.vertices == pytest.approx(0.5 * (full.base + full.vertices), abs=1e-14)
+
+
+def test_a_fair_patch_stays_as_it_is() -> None:
+    """Flat, with vertices anywhere: base and old patch are one, and so are the places of all vertices."""
+    disc = shapes.plane(800)
+    result = fair(disc, disc.vertices, detail=1.0, detail_size=0.2)
+    assert np.abs(result.vertices - disc.vertices).max() < 1e-3 * disc.diameter
+    assert disc.distance(result.vertices).max() < 1e-9
+
+
+def test_a_crease_along_the_outline_is_no_detail() -> None:
+    """A sphere's cap lies flat before: what stays of it is the fair sphere."""
+    whole = shapes.cap(800, half_angle=60.0)
+    flat = whole.vertices.copy()
+    flat[:, 2] = whole.vertices[whole.fixed, 2].mean()
+    result = fair(whole, flat, detail=1.0)
+    assert whole.distance(result.vertices).max() < 1e-3 * whole.diameter
+
+
+def test_position_size_and_turn_do_not_matter(cap: Patch) -> None:
+    old = rough(cap)
+    turn = some_rotation()
+    here = fair(cap, old, detail=1.0, tolerance=1e-9)
+    there = fairing.fair(
+        30 * old @ turn.T + [5, -3, 8], cap.triangles,
+        fixed=cap.fixed, fixed_normals=cap.fixed_normals @ turn.T, detail=1.0, tolerance=1e-9,
+    )  # fmt: skip
+    assert there.vertices == pytest.approx(30 * here.vertices @ turn.T + [5, -3, 8], abs=30 * 1e-6)
+
+
+def test_the_reference_has_the_detail(cap: Patch) -> None:
+    """The old patch may be another one than the vertices: turned and with its own outline."""
+    old = rough(cap)
+    turn = some_rotation()
+    from_vertices = fair(cap, old, detail=1.0, tolerance=1e-9)
+    from_reference = fair(cap, shapes.start_from_nothing(cap), reference=old @ turn.T, detail=1.0, tolerance=1e-9)
+    assert from_reference.vertices == pytest.approx(from_vertices.vertices, abs=1e-6)
+
+
+def test_size_decides_what_is_detail(cap: Patch) -> None:
+    """Ripples of a sixth of D: detail at a size of a third, shape at a tenth."""
+    k = 2 * np.pi / (cap.diameter / 6)
+    ripple = 0.01 * np.sin(k * cap.vertices[:, :1])
+    ripple[cap.fixed] = 0
+    old = cap.vertices + ripple * cap.normals
+    wide, narrow = (fair(cap, old, detail=1.0, detail_size=size) for size in (1 / 3, 1 / 12))
+    inner = np.linalg.norm(cap.vertices[cap.free, :2], axis=1) < 0.5
+    wanted = ripple[cap.free][inner, 0]
+    kept = [heights(cap, r.vertices, r.base)[inner] for r in (wide, narrow)]
+    assert kept[0].std() > 0.85 * wanted.std()
+    assert kept[1].std() < 0.15 * wanted.std()
+
+
+def test_a_solver_keeps_the_skin_while_the_outline_moves(cap: Patch) -> None:
+    old = rough(cap)
+    turn = some_rotation()
+    solver = fairing.Solver(cap.triangles, fixed=cap.fixed, detail=1.0, tolerance=1e-9)
+    first = solver.solve(old, cap.fixed_normals, reference=old)
+    assert np.array_equal(first.vertices, fair(cap, old, detail=1.0, tolerance=1e-9).vertices)
+    moved = solver.solve(old @ turn.T, cap.fixed_normals @ turn.T, reference=old)
+    assert moved.vertices == pytest.approx(first.vertices @ turn.T, abs=1e-6)
+    solver.change(detail=0.0)
+    without = solver.solve(old, cap.fixed_normals, reference=old)
+    assert np.array_equal(without.base, without.vertices)
+
+
+@pytest.mark.parametrize("equation", ["harmonic", "constant", "minimal_energy", "minimal", "least_variation"])
+def test_every_equation(equation: str) -> None:
+    patch = shapes.cap(300, half_angle=45.0)
+    options: dict[str, Any] = {"equation": equation, "detail_size": 0.4}
+    if equation == "constant":
+        options["bulge"] = 0.3
+    old = rough(patch)
+    result = fair(patch, old, detail=1.0, **options)
+    kept = heights(patch, result.vertices, result.base)
+    assert np.corrcoef(kept, heights(patch, old, patch.vertices))[0, 1] > 0.9
+    # The base is the surface of the run without.
+    assert np.abs(result.base - fair(patch, old, **options).vertices).max() < 0.05 * patch.diameter
+
+
+def test_the_published_method(cap: Patch) -> None:
+    patch = shapes.cap(150, half_angle=45.0)
+    result = fair(patch, rough(patch), detail=1.0, detail_size=0.4, method="paper")
+    assert heights(patch, result.vertices, result.base).std() > 0.1 * mean_edge(patch)
+
+
+def test_components_each_have_their_own(cap: Patch) -> None:
+    old = rough(cap)
+    shifted = np.concatenate([old, 0.1 * old + [9, 0, 0]])
+    twice = np.concatenate([cap.triangles, cap.triangles + len(old)])
+    fixed = np.concatenate([cap.fixed, cap.fixed + len(old)])
+    both = fairing.fair(
+        shifted, twice, fixed=fixed, fixed_normals=np.tile(cap.fixed_normals, (2, 1)), detail=1.0, tolerance=1e-9
+    )
+    alone = fair(cap, old, detail=1.0, tolerance=1e-9)
+    assert both.vertices[: len(old)] == pytest.approx(alone.vertices, abs=1e-6)
+    assert both.vertices[len(old) :] == pytest.approx(0.1 * alone.vertices + [9, 0, 0], abs=1e-7)
+
+
+def test_the_same_bits_for_any_number_of_threads() -> None:
+    patch = shapes.cap(4000)
+    one, two = (fair(patch, rough(patch), detail=1.0, threads=count) for count in (1, 2))
+    assert np.array_equal(one.vertices, two.vertices)
+
+
+def test_a_collapsed_patch_has_no_detail(cap: Patch) -> None:
+    old = cap.vertices.copy()
+    old[cap.free] = 0
+    result = fair(cap, old, detail=1.0)
+    assert "REFERENCE_UNUSABLE" in codes(result)
+    assert np.array_equal(result.base, result.vertices)
+    assert result.converged
+
+
+def test_detail_without_room_is_told() -> None:
+    """Deep folds of a wide skin, on a base of half its size."""
+    patch = shapes.plane(2000)
+    old = rough(patch, 0.9)
+    shrunk = 0.3 * patch.vertices
+    result = fairing.fair(
+        shrunk, patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals, reference=old, detail=1.0
+    )
+    assert "FLIPPED_TRIANGLES" in codes(result)
+    same = fairing.fair(
+        patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals, reference=old, detail=1.0
+    )
+    assert "FLIPPED_TRIANGLES" not in codes(same)
+
+
+@pytest.mark.parametrize("name", ["detail", "detail_size"])
+@pytest.mark.parametrize("value", [-0.1, 1.1, float("nan"), "much", None, True])
+def test_shares_are_from_0_to_1(cap: Patch, name: str, value: Any) -> None:
+    with pytest.raises(ValueError, match=f"{name}: "):
+        fair(cap, cap.vertices, **{name: value})
+    with pytest.raises(ValueError, match=f"{name}: "):
+        fairing.Solver(cap.triangles, fixed=cap.fixed, **{name: value})
+
+
+def test_cancelled_while_detail_is_read(cap: Patch) -> None:
+    with pytest.raises(fairing.Cancelled):
+        fair(cap, rough(cap), detail=1.0, progress=lambda fraction, stage: stage != "detail")
