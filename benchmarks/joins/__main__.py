@@ -15,15 +15,17 @@ from typing import Any
 
 import numpy as np
 
-ROOT = Path(__file__).resolve().parents[2]
-for part in ("tests", "benchmarks/accuracy"):
-    sys.path.insert(0, str(ROOT / part))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "accuracy"))
 
 import exact_joins
-import fairing
 import scenes
+
+import fairing
 import shapes
 import stripes
+
+PICTURE = Path(__file__).resolve().parents[2] / "docs" / "pictures" / "joins_joint.png"
 
 
 def _timed(patch: shapes.Patch, **options: Any) -> tuple[fairing.FairResult, float]:
@@ -89,7 +91,7 @@ def pictures() -> None:
         result = scene.solved(continuity)
         print(scene.name, result.continuity, result.iterations, [str(warning) for warning in result.warnings])
         views.append(stripes.draw(result.vertices, scene.drawn(), scene.view))
-    stripes.write(ROOT / "docs" / "pictures" / f"joins_{scene.name}.png", views)
+    stripes.write(PICTURE, views)
 
 
 TABLES: dict[str, Callable[[], None]] = {"exact": exact, "fitted": fitted, "cost": cost, "pictures": pictures}

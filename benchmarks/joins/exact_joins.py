@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-import outlines
-from outlines import Chart
 
 import fairing
+import outlines
 import shapes
 import test_joins
+from outlines import Chart
 from stripes import FloatArray
 
 FAMILIES: dict[str, Callable[[int], shapes.Patch]] = {

@@ -96,7 +96,7 @@ ComponentAnswer ComponentSolver::solve(const ComponentData& data, const Progress
         answer.warnings.insert(answer.warnings.end(), list->begin(), list->end());
     }
     answer.solution =
-        options().method == Method::paper ? solve_by_paper(answer.problem, progress) : solve_globally(answer, progress);
+        options().method == Method::paper ? solve_by_paper(answer.problem, progress) : solve_globally(answer, data, progress);
     if (skin_) put_back_detail(answer, progress);
     return answer;
 }
@@ -159,18 +159,30 @@ Solution ComponentSolver::solve_by_paper(const Problem& problem, const Progress&
     return solution;
 }
 
-Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Progress& progress) {
+// Conformal weights of the vertices given leave them where they are within the surface.
+std::optional<NearStart> ComponentSolver::given_start(const ComponentAnswer& answer, const ComponentData& data) const {
+    const Equation equation = options().solver.equation;
+    if (options().start != Start::given || equation == Equation::minimal || equation == Equation::least_variation)
+        return std::nullopt;
+    const Points start = answer.unit.to_unit(gather(data.vertices, patch_.to_input));
+    return NearStart{start, options().inner_fairness == InnerFairness::conformal && reference_ == start};
+}
+
+Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const ComponentData& data, const Progress& progress) {
     Problem& problem = answer.problem;
     problem.weights = lambda_;
     problem.tolerated_folds = tolerated_folds();
     const bool joins = problem.fixed_curvatures.size() > 0;
-    Solution solution = solve_tangent(problem, joins ? progress.range(0.0, share_of_tangent) : progress);
+    const std::optional<NearStart> start = given_start(answer, data);
+    Solution solution = solve_tangent(problem, start, joins ? progress.range(0.0, share_of_tangent) : progress);
     if (solution.even_weights) warn_of_even_weights(answer.warnings);
     return joins ? joined(problem, std::move(solution), progress.range(share_of_tangent, 1.0)) : solution;
 }
 
-Solution ComponentSolver::solve_tangent(const Problem& problem, const Progress& progress) {
+Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optional<NearStart>& start,
+                                        const Progress& progress) {
     std::optional<Solution> near_last = keeps() ? solve_near_last(problem, progress) : std::nullopt;
+    if (!near_last && start) near_last = solve_near(problem, *start, progress.range(0.0, 0.4));
     Solution solution = near_last ? std::move(*near_last) : solve_or_else(problem, progress);
     if (!keeps()) return solution;
     instead_.reset();

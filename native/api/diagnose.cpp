@@ -221,11 +221,12 @@ void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& war
         vertices.assign(fixed.begin(), fixed.end());
     }
     warnings.push_back({Code::g2_not_met,
-                        counted(vertices.size(), "outline vertex is", "outline vertices are") +
-                            " met in its slope, not in its curvature: " + std::string(reason_of(solution.join)),
+                        counted(vertices.size(), "outline vertex is met in its slope, not in its curvature: ",
+                                "outline vertices are met in their slope, not in their curvature: ") +
+                            std::string(reason_of(solution.join)),
                         vertices,
                         ElementKind::vertex,
-                        {{"vertices", size_of(vertices)}, {"reason", static_cast<double>(solution.join)}}});
+                        {{"vertices", size_of(vertices)}}});
 }
 
 Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation equation) {

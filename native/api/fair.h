@@ -10,6 +10,9 @@ namespace fairing {
 
 enum class Method { global, paper };
 
+// Where a solve begins: the outline alone, or the vertices given, where they lead to a surface.
+enum class Start { outline, given };
+
 // What of the reference is put back on the fair surface (detail/skin.h). With it vertices sit conformally to the base
 // of the reference, whatever `inner_fairness` says.
 struct DetailOptions {
@@ -21,6 +24,7 @@ struct FairOptions {
     SolverOptions solver;  // the load in units of length⁻³
     double bulge = 0.0;    // of the constant equation: adds 8 bulge / a³ to the load, a: the component's outline_radius
     Method method = Method::global;
+    Start start = Start::outline;  // of Method::global
     PaperOptions paper;
     InnerFairness inner_fairness = InnerFairness::uniform;
     // Edges (input vertices) that uniform weights use instead of the triangles' own.

@@ -2,6 +2,7 @@
 
 from fairing._core import __version__
 from fairing._fair import fair
+from fairing._fill import FillResult, RemeshResult, fill, remesh
 from fairing._growing import GrownOutline, grown_outline
 from fairing._hierarchy import hierarchy
 from fairing._measure import (
@@ -31,10 +32,12 @@ __all__ = [
     "Cancelled",
     "Diagnostic",
     "FairResult",
+    "FillResult",
     "GrownOutline",
     "MendedOutline",
     "MeshError",
     "PaperOptions",
+    "RemeshResult",
     "Solver",
     "SolverError",
     "SurroundingNormals",
@@ -45,11 +48,13 @@ __all__ = [
     "conformal_distortion",
     "cotan_laplacian",
     "fair",
+    "fill",
     "flipped_triangles",
     "grown_outline",
     "hierarchy",
     "mean_curvature",
     "mend_outline",
+    "remesh",
     "self_intersections",
     "surrounding_normals",
     "vertex_normals",

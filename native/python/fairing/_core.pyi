@@ -24,6 +24,7 @@ class Options:
         threads: int,
         detail: float = ...,
         detail_size: float = ...,
+        start: str = ...,
     ) -> None: ...
 
 class PaperOptions:
@@ -95,3 +96,27 @@ def mend_outline(vertices: _Floats, outside: _Ints, outline: _Ints) -> dict[str,
 def visible_join(
     vertices: _Floats, inside: _Ints, outside: _Ints, outline: _Ints, before: _Floats | None
 ) -> _Floats: ...
+def fill_loops(
+    vertices: _Floats,
+    loops: list[_Ints],
+    normals: list[_Floats],
+    bridge: bool,
+    equation: str,
+    progress: Callable[[float, str], bool | None] | None,
+) -> dict[str, Any]: ...
+def remesh(
+    vertices: _Floats,
+    triangles: _Ints,
+    fixed: _Ints | None,
+    fixed_normals: _Floats | None,
+    wanted: tuple[float, int],
+    threads: int,
+    progress: Callable[[float, str], bool | None] | None,
+) -> dict[str, Any]: ...
+def expected_count(
+    vertices: _Floats,
+    triangles: _Ints,
+    fixed: _Ints | None,
+    fixed_normals: _Floats | None,
+    wanted: tuple[float, int],
+) -> float: ...

@@ -41,6 +41,7 @@ def fair(
     detail_size: float = 0.0,
     continuity: str = "G1",
     fixed_curvatures: npt.ArrayLike | None = None,
+    start: str = "outline",
 ) -> FairResult:
     """Replace the free vertices of a mesh by the fairest surface with the given boundary data.
 
@@ -127,6 +128,10 @@ def fair(
     detail_size : float
         Shape that repeats within less than this counts as detail: a wavelength as a share of D. 0: ten mean edges, a
         quarter of D at most.
+    start : "outline" | "given"
+        "given": begin at the vertices given, which lie near the surface. Where the iteration does not find it from
+        there, within a few steps and without folds, the outline alone decides as always. For the harmonic equations
+        and "global"; where conformal weights are those of these same vertices, these move along the normals only.
 
     Returns
     -------
@@ -158,6 +163,7 @@ def fair(
     options = _options.engine_options(
         equation=equation, otherwise=otherwise, load=load, bulge=bulge, fairness=kind, method=method, normals=normals,
         tolerance=tolerance, max_iterations=max_iterations, threads=threads, detail=detail, detail_size=detail_size,
+        start=start,
     )  # fmt: skip
     joins = _options.continuity(continuity, equation, method)
     around = _mending.Surroundings.of(points, faces, fixed_list, outside)

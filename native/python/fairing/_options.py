@@ -18,6 +18,7 @@ OTHERWISE = _core.WORDS["otherwise"]
 INNER_FAIRNESS = _core.WORDS["inner_fairness"]
 OUTLINES = ("given", "mended")
 CONTINUITIES = ("G1", "G2")
+STARTS = ("outline", "given")
 
 
 def engine_options(
@@ -34,6 +35,7 @@ def engine_options(
     threads: Any,
     detail: Any,
     detail_size: Any,
+    start: str = "outline",
 ) -> _core.Options:
     """Checks the options that both methods have; ``fairness`` is the engine's word for it."""
     _arguments.choice("normals", normals, NORMALS)
@@ -52,6 +54,7 @@ def engine_options(
         threads=_arguments.whole("threads", threads, 0),
         detail=_arguments.share("detail", detail),
         detail_size=_arguments.share("detail_size", detail_size),
+        start=_arguments.choice("start", start, STARTS),
     )
 
 
