@@ -17,6 +17,10 @@ namespace fairing {
 // Cancelled.
 Solution solve_or_else(const Problem& problem, const Progress& progress);
 
+// Whether the equation was not seen to have a surface: no answer, although iterations were left, the whole load was
+// tried, and not only because the vertices fold on it.
+bool lacks_surface(const Solution& solution);
+
 // The surface of least variation at once, for a problem near one where it was taken. Nothing where it is not accepted.
 std::optional<Solution> solve_else(const Problem& problem, const Progress& progress);
 

@@ -2,6 +2,7 @@
 
 #include "meshes.h"
 #include "method/accept.h"
+#include "method/otherwise.h"
 #include "method/ways.h"
 #include "problem/solution.h"
 
@@ -84,6 +85,21 @@ TEST_CASE("folds are a flaw and are named, unless the weights come from as many"
     solved.problem.tolerated_folds = solution.bad_triangles.size();
     solution.crosses = true;
     CHECK(flaw_of(solved.problem, solution) == Flaw::absent);
+}
+
+TEST_CASE("an equation lacks a surface where none was found, not where vertices fold on it") {
+    const Solved solved;
+    Solution solution = solved.solution();
+    CHECK(!lacks_surface(solution));
+    solution.flaw = Flaw::folded;
+    CHECK(!lacks_surface(solution));
+    solution.flaw = Flaw::crossing;
+    CHECK(lacks_surface(solution));
+    solution.flaw = Flaw::not_converged;
+    solution.termination = Termination::stalled;
+    CHECK(lacks_surface(solution));
+    solution.reached_load = 0.5;
+    CHECK(!lacks_surface(solution));
 }
 
 TEST_CASE("crossings are a flaw where the surface itself has none") {
