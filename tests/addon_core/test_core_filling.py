@@ -144,7 +144,7 @@ def test_unknown_options_are_refused() -> None:
 def test_a_loop_that_is_no_border_is_refused_in_the_meshs_numbers() -> None:
     mesh = holed((4, 4))
     inner = [np.array([vertex(1, 1), vertex(1, 2), vertex(2, 2), vertex(2, 1)])]
-    with pytest.raises(MeshRefusal, match="no border") as error:
+    with pytest.raises(MeshRefusal, match="no loop of border edges") as error:
         fill(mesh, np.eye(4), inner, FillOptions())
     assert set(error.value.elements.tolist()) <= set(inner[0].tolist())
 

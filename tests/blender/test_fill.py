@@ -319,6 +319,40 @@ def test_live_region_does_not_grow() -> None:
     assert set(values[old:]) == {0}
 
 
+def test_a_seam_of_uvs_begins_with_the_mean_and_is_told(capfd: pytest.CaptureFixture[str]) -> None:
+    obj = open_sphere()
+    layer = obj.data.uv_layers.new(name="Map").uv
+    sides = [float(p.center.x > 0.0) for p in obj.data.polygons for _ in p.loop_indices]
+    layer.foreach_set("vector", np.column_stack([sides, sides]).astype(np.float32).ravel())
+    old = len(sides)
+    assert fill_hole(obj) == {"FINISHED"}
+    values = np.array([item.vector[0] for item in obj.data.uv_layers["Map"].uv])
+    assert values[:old].tolist() == sides
+    assert ((values[old:] >= 0.0) & (values[old:] <= 1.0)).all()
+    assert (values[old:] == 0.5).any()
+    assert "2 vertices of the outline lie on a seam" in "".join(capfd.readouterr())
+
+
+def test_custom_normals_outside_stay_and_new_corners_have_none() -> None:
+    obj = open_sphere()
+    obj.data.normals_split_custom_set_from_vertices([(0.0, 0.6, 0.8)] * len(obj.data.vertices))
+    old = len(obj.data.loops)
+    assert fill_hole(obj) == {"FINISHED"}
+    normals = np.array([item.vector[:] for item in obj.data.corner_normals])
+    np.testing.assert_allclose(normals[:old], [(0.0, 0.6, 0.8)] * old, atol=1e-3)
+    centres = np.array([polygon.normal[:] for polygon in obj.data.polygons for _ in polygon.loop_indices])
+    assert ((normals[old:] * centres[old:]).sum(axis=1) > 0.8).all()
+
+
+def test_several_holes_at_once_and_an_object_without_a_border() -> None:
+    obj = open_sphere(lambda c: abs(c.z) > 0.8)
+    assert fill_hole(obj) == {"FINISHED"}
+    assert border_edges(obj) == 0
+    assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 2e-3
+    select_vertices(meshes.sphere(16), lambda _: True)
+    refused("No border is selected")
+
+
 def test_operator_has_the_documented_properties() -> None:
     found = [p for p in bpy.ops.mesh.fair_fill.get_rna_type().properties if p.identifier != "rna_type"]
     assert {p.identifier: p.default for p in found} == {
