@@ -11,7 +11,7 @@ import fairing
 from .arrays import Floats, Ints
 
 LEAST_WEIGHT = 1e-3  # of an edge: where angles are too wide for a positive one
-ACCURACY = 1e-9  # of the residual at the start; values are stored in 24 bits
+ACCURACY = 1e-8  # of the residual at the start; values are stored in 24 bits
 MOST_STEPS = 5000
 
 
@@ -19,14 +19,21 @@ def harmonic(points: Floats, triangles: Ints, values: Floats) -> Floats:
     """Return (q − r, c): the harmonic function with the given values (r, c) at the first r of the points (q, 3).
 
     Cotangent weights, none below LEAST_WEIGHT: no value leaves the range of its column. A linear function stays linear
-    on a flat mesh without wide angles; a constant one keeps its bits. Dirichlet data at the first r points.
+    on a flat mesh without wide angles; a constant one keeps its bits. What is not finite counts as 0.
     """
-    known = len(values)
-    if known == len(points) or not values.shape[1]:
-        return np.empty((len(points) - known, values.shape[1]))
-    rows, columns, weights = _weights(points, triangles, known)
+    values = np.where(np.isfinite(values), values, 0.0)
     # The first row is taken off and put back, so that nothing is left to solve for a constant.
     given = values - values[0]
+    varied = np.flatnonzero(given.any(axis=0))
+    inside = np.zeros((len(points) - len(values), values.shape[1]))
+    if len(inside) and len(varied):
+        inside[:, varied] = _solved(points, triangles, given[:, varied])
+    carried: Floats = np.clip(inside + values[0], values.min(axis=0), values.max(axis=0))
+    return carried
+
+
+def _solved(points: Floats, triangles: Ints, given: Floats) -> Floats:
+    rows, columns, weights = _weights(points, triangles, len(given))
     starts = np.flatnonzero(np.diff(rows, prepend=-1))
     diagonal = np.add.reduceat(weights, starts)[:, None]
 
@@ -37,10 +44,8 @@ def harmonic(points: Floats, triangles: Ints, values: Floats) -> Floats:
     def operator(inside: Floats) -> Floats:
         return diagonal * inside - neighbours(np.concatenate([np.zeros_like(given), inside]))
 
-    right = neighbours(np.concatenate([given, np.zeros((len(points) - known, values.shape[1]))]))
-    found = _conjugate_gradients(operator, diagonal, right) + values[0]
-    carried: Floats = np.clip(found, values.min(axis=0), values.max(axis=0))
-    return carried
+    right = neighbours(np.concatenate([given, np.zeros((len(points) - len(given), given.shape[1]))]))
+    return _conjugate_gradients(operator, diagonal, right)
 
 
 def _weights(points: Floats, triangles: Ints, known: int) -> tuple[Ints, Ints, Floats]:

@@ -183,6 +183,17 @@ def test_every_value_lies_within_the_range_of_the_outline() -> None:
     assert found.max() < 1.0
 
 
+def test_what_is_not_finite_counts_as_nought() -> None:
+    points, triangles, rim = disc()
+    values = np.ones((rim, 2))
+    values[3, 0] = np.nan
+    values[5, 0] = np.inf
+    found = harmonic(points, triangles, values)
+    assert np.isfinite(found).all()
+    assert 0.0 < found[:, 0].min() < found[:, 0].max() <= 1.0
+    assert (found[:, 1] == 1.0).all()
+
+
 def test_without_new_vertices_nothing_is_carried() -> None:
     assert harmonic(np.eye(3), np.array([[0, 1, 2]]), np.eye(3)).shape == (0, 3)
 

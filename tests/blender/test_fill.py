@@ -339,7 +339,7 @@ def test_custom_normals_outside_stay_and_new_corners_have_none() -> None:
     old = len(obj.data.loops)
     assert fill_hole(obj) == {"FINISHED"}
     normals = np.array([item.vector[:] for item in obj.data.corner_normals])
-    np.testing.assert_allclose(normals[:old], [(0.0, 0.6, 0.8)] * old, atol=1e-3)
+    np.testing.assert_allclose(normals[:old], [(0.0, 0.6, 0.8)] * old, atol=0.02)  # kept as angles
     centres = np.array([polygon.normal[:] for polygon in obj.data.polygons for _ in polygon.loop_indices])
     assert ((normals[old:] * centres[old:]).sum(axis=1) > 0.8).all()
 
