@@ -125,7 +125,7 @@ def _piece(
         points=points,
         positions=to_local(result.vertices, matrix),
         triangles=triangles[:, ::-1] if world.mirrored else triangles,
-        verdict=_judge(world, outline, (points, triangles), result),
+        verdict=judge(world, outline, (points, triangles), result),
         notes=_notes(options, result),
     )
 
@@ -154,7 +154,11 @@ def _notes(options: FillOptions, result: fairing.FillResult) -> tuple[str, ...]:
     return ()
 
 
-def _judge(world: MeshArrays, outline: Ints, surface: tuple[Floats, Ints], result: fairing.FillResult) -> Verdict:
+def judge(world: MeshArrays, outline: Ints, surface: tuple[Floats, Ints], result: fairing.FillResult) -> Verdict:
+    """Return the verdict on a surface: its points, those of the outline first, and its triangles.
+
+    world: the mesh around, in the same space. outline: (r,) its vertices. result: of the surface's solve.
+    """
     points, triangles = surface
     edges = counted(len(outline), "edge", "edges")
     if not result.converged and result.termination != "folded":

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from core.arrays import Floats, Ints, Mask
 from core.border import BorderRefusal, border_loops
-from core.filling import FillOptions, Piece, fill
+from core.filling import FillOptions, Piece, fill, judge
 from core.harmonic import harmonic, nearest
 from core.region import MeshArrays
-from core.verdict import UNUSABLE
+from core.verdict import GOOD, LOOK, UNUSABLE
 from core.words import MeshRefusal
 from polygon_mesh import grid_points, grid_quads, on_sphere, polygon_mesh
 
@@ -133,6 +134,37 @@ def test_a_surface_through_the_mesh_is_unusable() -> None:
     assert "pass" in piece.verdict.reason
     (piece,) = filled(mesh, vertex(2, 2))
     assert piece.verdict.grade != UNUSABLE
+
+
+def test_what_has_not_converged_is_unusable() -> None:
+    """The outer border of a flat sheet: its surface would be the other side of a pillow without any height."""
+    flat = polygon_mesh(grid_points(SIZE), grid_quads(SIZE), np.zeros(SIZE * SIZE, dtype=bool))
+    (piece,) = filled(flat, 0)
+    assert piece.verdict.grade == UNUSABLE
+    assert "No fair surface was found for an outline of 32 edges" in piece.verdict.reason
+    assert set(piece.verdict.spots.tolist()) == set(piece.outline.tolist())
+
+
+def test_a_fold_is_unusable() -> None:
+    points, triangles, rim = disc(3)
+    sheet = polygon_mesh(points, triangles.tolist(), np.zeros(len(triangles), dtype=bool))
+    empty = replace(sheet, triangles=sheet.triangles[:0])
+    result = SimpleNamespace(converged=True, termination="converged", join=np.zeros(rim))
+    assert judge(empty, np.arange(rim), (points, triangles), result).grade == GOOD  # type: ignore[arg-type]
+    points = points.copy()
+    points[-1, 0] += 2.5  # the middle, far beyond its neighbours
+    verdict = judge(empty, np.arange(rim), (points, triangles), result)  # type: ignore[arg-type]
+    assert (verdict.grade, "folded over" in verdict.reason) == (UNUSABLE, True)
+
+
+def test_a_kink_is_worth_a_look() -> None:
+    points, triangles, rim = disc(3)
+    sheet = polygon_mesh(points, triangles.tolist(), np.zeros(len(triangles), dtype=bool))
+    result = SimpleNamespace(converged=True, termination="converged", join=np.where(np.arange(rim) == 2, 30.0, 1.0))
+    empty = replace(sheet, triangles=sheet.triangles[:0])
+    verdict = judge(empty, np.arange(rim), (points, triangles), result)  # type: ignore[arg-type]
+    assert verdict.grade == LOOK
+    assert "1 vertex of the outline, of 30°" in verdict.reason
 
 
 def test_unknown_options_are_refused() -> None:
