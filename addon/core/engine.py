@@ -54,16 +54,17 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
     Raises MeshRefusal (its `elements` are mesh vertices), ValueError, fairing.SolverError and fairing.Cancelled.
     """
     patch = problem.patch
-    mended = options.outline == "MENDED"
+    wide = options.reads_surroundings
     with in_mesh_words(problem.origin):
         return fairing.fair(
-            problem.points if mended else problem.own_points,
+            problem.points if wide else problem.own_points,
             patch.triangles,
             fixed=patch.fixed,
             fixed_normals=problem.normals,
-            neighbours=patch.neighbours,
+            neighbours=patch.neighbours if options.feather == 0.0 else None,  # the band has none
             outline=options.outline.lower(),
-            outside=problem.outside if mended else None,
+            outside=problem.outside if wide else None,
+            feather=options.feather,
             progress=progress,
             **options.engine_arguments(),
         )

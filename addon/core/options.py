@@ -35,7 +35,10 @@ class FairOptions:
     otherwise: str = "LEAST_VARIATION"  # where the equation has no surface
     bulge: float = 0.0  # for CONSTANT: 1 lifts a flat disc by a quarter of its radius
     inner_fairness: str = "AUTOMATIC"  # CONFORMAL for a patch with a texture, UNIFORM for others
+    detail: float = 0.0  # how much of the old patch's detail is put back, 0 … 1
+    detail_size: float = 0.0  # what is shorter counts as detail: a part of the patch's size; 0: ten edges
     boundary_normals: str = "SURROUNDING"
+    feather: float = 0.0  # width of the band outside in which the change fades out: a part of the patch's size
     method: str = "GLOBAL"
     levels: int = 0  # 0: chosen by the engine
     tolerance: float = 1e-6  # of the patch's diameter
@@ -50,8 +53,9 @@ class FairOptions:
             value = getattr(self, name)
             if value not in choices:
                 raise ValueError(f"{name}: expected one of {', '.join(choices)}, got {value!r}")
-        if not 0.0 <= self.factor <= 1.0:
-            raise ValueError(f"factor: expected a number from 0 to 1, got {self.factor!r}")
+        for name in ("factor", "detail", "detail_size", "feather"):
+            if not 0.0 <= getattr(self, name) <= 1.0:
+                raise ValueError(f"{name}: expected a number from 0 to 1, got {getattr(self, name)!r}")
 
     @classmethod
     def of(cls, properties: Any) -> FairOptions:
@@ -64,6 +68,11 @@ class FairOptions:
             return self
         return replace(self, inner_fairness="CONFORMAL" if textured else "UNIFORM")
 
+    @property
+    def reads_surroundings(self) -> bool:
+        """Whether the engine needs the faces outside: then it can't be asked again and again."""
+        return self.outline == "MENDED" or self.feather > 0.0
+
     def engine_arguments(self) -> dict[str, Any]:
         """Return the keyword arguments of `fairing.fair` that need no mesh; the options must be resolved."""
         return {
@@ -71,6 +80,8 @@ class FairOptions:
             "otherwise": self.otherwise.lower(),
             "bulge": self.bulge if self.equation == "CONSTANT" else 0.0,
             "inner_fairness": self.inner_fairness.lower(),
+            "detail": self.detail,
+            "detail_size": self.detail_size,
             "method": self.method.lower(),
             "levels": self.levels,
             "tolerance": self.tolerance,

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _mending, _options, _paper
+from fairing import _arguments, _core, _feather, _mending, _options, _paper
 from fairing._paper import PaperOptions
-from fairing._types import FairResult
+from fairing._types import FairResult, IntArray
 
 Progress = Callable[[float, str], "bool | None"]
 
@@ -39,6 +39,8 @@ def fair(
     outside: npt.ArrayLike | None = None,
     detail: float = 0.0,
     detail_size: float = 0.0,
+    feather: float = 0.0,
+    weights: npt.ArrayLike | None = None,
 ) -> FairResult:
     """Replace the free vertices of a mesh by the fairest surface with the given boundary data.
 
@@ -118,6 +120,14 @@ def fair(
     detail_size : float
         Shape that repeats within less than this counts as detail: a wavelength as a share of D. 0: ten mean edges, a
         quarter of D at most.
+    feather : float
+        Width of a band outside the patch that takes part, as a share of the outline's D. The surface is computed for
+        the outer edge of the band. From the old outline outwards each vertex goes a smaller part of the way, down to
+        nothing at that edge. Needs the triangles ``outside``; normals are fitted beyond the band. The result names the
+        vertices that only moved with the band as ``moved``, and has the outer edge as ``fixed``. docs/detail.md.
+    weights : (n,) float
+        In place of ``feather``: the part of the way that each vertex goes, 0 … 1, those inside too. The band is where
+        vertices of ``outside`` have a weight.
 
     Returns
     -------
@@ -144,7 +154,7 @@ def fair(
     edges = _options.neighbour_edges(neighbours, count)
     _arguments.choice("method", method, _options.METHODS)
     _options.callback(progress)
-    kind, weights = _options.inner_fairness(inner_fairness, count)
+    kind, rows = _options.inner_fairness(inner_fairness, count)
     of_paper = _paper.engine_options(method, levels, paper)
     options = _options.engine_options(
         equation=equation, otherwise=otherwise, load=load, bulge=bulge, fairness=kind, method=method, normals=normals,
@@ -153,11 +163,15 @@ def fair(
     as_given = _mending.Boundary(points, fixed_list, given_normals)
     around = _mending.Surroundings.of(points, faces, fixed_list, outside)
 
-    def call(boundary: _mending.Boundary) -> dict[str, Any]:
+    def call(boundary: _mending.Boundary, triangles: IntArray = faces) -> dict[str, Any]:
         return _core.fair(
-            boundary.vertices, faces, boundary.fixed, boundary.normals, m0, edges, weights, options, of_paper, progress
+            boundary.vertices, triangles, boundary.fixed, boundary.normals, m0, edges, rows, options, of_paper, progress
         )
 
     mended = _arguments.choice("outline", outline, _options.OUTLINES) == "mended"
+    share = _feather.vertex_weights(weights, count)
+    width = _feather.width(feather, given=share is not None, mended=mended)
+    if width > 0.0 or share is not None:
+        return FairResult(**_feather.solve_feathered(call, as_given, around, width if share is None else share))
     answer = _mending.solve_mended(call, as_given, faces, around) if mended else call(as_given)
     return FairResult(**_mending.with_join(answer, around))

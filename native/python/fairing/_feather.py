@@ -1,0 +1,143 @@
+"""``feather`` and ``weights``: a band around the patch takes part, and its vertices go part of the way."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from fairing import _arguments, _core, _mending
+from fairing._mending import Answer, Boundary, Surroundings
+from fairing._types import Diagnostic, FloatArray, IntArray
+
+Marks = npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Band:
+    """The patch with the band around it, as one wider patch."""
+
+    boundary: Boundary
+    around: Surroundings
+    """``inside``: the triangles of both; ``outside``: those beyond the band."""
+    freed: IntArray
+    """Vertices that only move with the band, ascending."""
+
+
+def vertex_weights(value: npt.ArrayLike | None, count: int) -> FloatArray | None:
+    """(n,) from 0 to 1, or None."""
+    if value is None:
+        return None
+    weights = _arguments.numbers("weights", value, count)
+    if not ((weights >= 0) & (weights <= 1)).all():
+        raise ValueError("weights: numbers from 0 to 1 are needed")
+    return weights
+
+
+def width(value: Any, *, given: bool, mended: bool) -> float:
+    """The feather, 0 where ``weights`` are ``given`` instead."""
+    share = _arguments.finite("feather", value)
+    if share < 0.0:
+        raise ValueError(f"feather: 0 or a positive number is needed, not {value!r}")
+    if given and share > 0.0:
+        raise ValueError("feather: is not accepted beside `weights`, which take its place")
+    if mended and (given or share > 0.0):
+        raise ValueError("outline: 'mended' is not accepted with `feather` or `weights`: their band fades out instead")
+    return share
+
+
+def solve_feathered(
+    call: Callable[[Boundary, IntArray], Answer], given: Boundary, around: Surroundings, how: float | FloatArray
+) -> Answer:
+    """Solve the patch with its band, and let each vertex go its part of the way.
+
+    how: the width of the band as a share of D, or the weights (n,) themselves.
+    """
+    if not len(around.rim):
+        raise ValueError(
+            "feather: a band needs the triangles outside: pass them as `outside`, or among the triangles with all "
+            "their vertices in `fixed`"
+        )
+    weights = _faded(given, around, how) if isinstance(how, float) else how
+    band = _widened(given, around, weights)
+    answer = _mending.with_join(call(band.boundary, band.around.inside), band.around)
+    for name in ("vertices", "base"):
+        answer[name] = _part_of_the_way(given.vertices, answer[name], weights)
+    answer["moved"] = band.freed
+    answer["warnings"] = tuple(_renumbered(told, band.around.rows) for told in answer["warnings"])
+    return answer
+
+
+def _faded(given: Boundary, around: Surroundings, share: float) -> FloatArray:
+    """Weights of bands, each as wide as its component asks for."""
+    points = given.vertices
+    component = _core.components(around.inside, given.fixed, len(points))
+    weights = np.zeros(len(points))
+    for number in range(component.max(initial=-1) + 1):
+        inside = around.inside[component == number]
+        rim = points[np.intersect1d(inside, around.rim)]
+        if len(rim):
+            diameter = 2.0 * float(np.linalg.norm(rim - rim.mean(axis=0), axis=1).max())
+            faded = _core.feather_weights(points, inside, around.outside, share * diameter)
+            np.maximum(weights, faded, out=weights)
+    return weights
+
+
+def _marked(vertices: npt.NDArray[Any], count: int) -> Marks:
+    mask = np.zeros(count, dtype=bool)
+    mask[vertices[(vertices >= 0) & (vertices < count)]] = True
+    return mask
+
+
+def _widened(given: Boundary, around: Surroundings, weights: FloatArray) -> Band:
+    """Free the vertices of the triangles outside that have a weight.
+
+    Those on the mesh border or at edges with more than two triangles stay, as do pins and curves inside the patch.
+    """
+    count = len(given.vertices)
+    both = np.concatenate([around.inside, around.outside])
+    held = _at_odd_edges(both, count)
+    freed = _marked(around.outside, count) & (weights > 0.0) & ~held
+    fixed = _marked(around.rim if given.fixed is None else given.fixed, count)
+    free = (_marked(around.inside, count) & ~fixed & ~held) | freed
+    taken = np.concatenate([np.ones(len(around.inside), dtype=bool), free[around.outside].any(axis=1)])
+    rows = np.concatenate([around.rows[taken], around.rows[~taken]])
+    wider = Surroundings.between(given.vertices, both[taken], both[~taken], rows)
+    ends = np.flatnonzero(_marked(wider.inside, count) & ~free).astype(np.int32)
+    boundary = Boundary(given.vertices, ends, _normals(given, wider, ends))
+    return Band(boundary, wider, np.flatnonzero(freed).astype(np.int32))
+
+
+def _at_odd_edges(triangles: IntArray, count: int) -> Marks:
+    """Marks (n,) of the ends of edges that don't have two triangles."""
+    sides = np.sort(np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
+    edges, uses = np.unique(sides, axis=0, return_counts=True)
+    return _marked(edges[uses != 2], count)
+
+
+def _normals(given: Boundary, wider: Surroundings, ends: IntArray) -> FloatArray:
+    """As given at vertices that were fixed before, else fitted where triangles lie beyond, else averaged."""
+    normals = _core.vertex_normals(given.vertices, wider.inside, "averaged")[ends]
+    fitted = _core.surrounding_normals(given.vertices, wider.outside, wider.rim)["normals"]
+    _, here, there = np.intersect1d(ends, wider.rim, return_indices=True)
+    normals[here] = fitted[there]
+    if given.normals is not None and given.fixed is not None:
+        _, here, there = np.intersect1d(ends, given.fixed, return_indices=True)
+        normals[here] = given.normals[there]
+    return normals
+
+
+def _part_of_the_way(old: FloatArray, new: FloatArray, weights: FloatArray) -> FloatArray:
+    """Whole ones get the bits of the new positions, those without a weight keep their own."""
+    some = (weights > 0.0) & (weights < 1.0)
+    result = np.where((weights > 0.0)[:, None], new, old)
+    result[some] = old[some] + weights[some, None] * (new[some] - old[some])
+    result.flags.writeable = False
+    return result
+
+
+def _renumbered(told: Diagnostic, rows: IntArray) -> Diagnostic:
+    return replace(told, elements=rows[told.elements]) if told.kind == "triangle" else told
