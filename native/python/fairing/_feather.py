@@ -107,7 +107,8 @@ def _widened(given: Boundary, around: Surroundings, weights: FloatArray) -> Band
     rows = np.concatenate([around.rows[taken], around.rows[~taken]])
     wider = Surroundings.between(given.vertices, both[taken], both[~taken], rows)
     ends = np.flatnonzero(_marked(wider.inside, count) & ~free).astype(np.int32)
-    boundary = Boundary(given.vertices, ends, _normals(given, wider, ends))
+    own = np.intersect1d(ends, around.inside)
+    boundary = Boundary(given.vertices, ends, _normals(given, own, wider, ends))
     return Band(boundary, wider, np.flatnonzero(freed).astype(np.int32))
 
 
@@ -118,15 +119,15 @@ def _at_odd_edges(triangles: IntArray, count: int) -> Marks:
     return _marked(edges[uses != 2], count)
 
 
-def _normals(given: Boundary, wider: Surroundings, ends: IntArray) -> FloatArray:
-    """As given at vertices that were fixed before, else fitted where triangles lie beyond, else averaged."""
+def _normals(given: Boundary, own: IntArray, wider: Surroundings, ends: IntArray) -> FloatArray:
+    """As given at the patch's ``own``, else fitted where triangles lie beyond, else averaged."""
     normals = _core.vertex_normals(given.vertices, wider.inside, "averaged")[ends]
     fitted = _core.surrounding_normals(given.vertices, wider.outside, wider.rim)["normals"]
     _, here, there = np.intersect1d(ends, wider.rim, return_indices=True)
     normals[here] = fitted[there]
     if given.normals is not None and given.fixed is not None:
-        _, here, there = np.intersect1d(ends, given.fixed, return_indices=True)
-        normals[here] = given.normals[there]
+        kept, _, there = np.intersect1d(own, given.fixed, return_indices=True)
+        normals[np.searchsorted(ends, kept)] = given.normals[there]
     return normals
 
 
