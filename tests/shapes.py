@@ -80,7 +80,7 @@ class Patch:
         return float(self.distance(points).max() / self.diameter)
 
 
-def _patch(domain: Domain, n_free: int, style: Style | None) -> Patch:
+def on_domain(domain: Domain, n_free: int, style: Style | None = None) -> Patch:
     return patch_of(domain, mesh(domain, n_free, style or Style()))
 
 
@@ -97,13 +97,13 @@ def patch_of(domain: Domain, made: Mesh) -> Patch:
 def cap(n_free: int, style: Style | None = None, *, half_angle: float = 90.0, radius: float = 1.0) -> Patch:
     """Spherical cap about the north pole, outward normals; 90° is the hemisphere, up to 160°."""
     arc = curves.Arc(0.0, radius * np.radians(half_angle), -radius)
-    return _patch(Domain(Sphere(arc), "disc"), n_free, style)
+    return on_domain(Domain(Sphere(arc), "disc"), n_free, style)
 
 
 def _revolved(curve: curves.Curve, shape: Shape, n_free: int, style: Style | None, opening: float) -> Patch:
     """All the way round, or an opening (radians) of a rectangle or oval; outward normals."""
     high = 2 * np.pi if shape == "tube" else opening
-    return _patch(Domain(Revolution(curve, -1), shape, 0.0, high), n_free, style)
+    return on_domain(Domain(Revolution(curve, -1), shape, 0.0, high), n_free, style)
 
 
 def cylinder(n_free: int, style: Style | None = None, *, shape: Shape = "tube", length: float = 2.0) -> Patch:
@@ -153,13 +153,13 @@ def clothoid(
     The oval has no corners, at which a one-sided fit of curvature is ill-conditioned.
     """
     surface = Extrusion(curves.clothoid(-1.0, 1.0, a, b), 1)
-    return _patch(Domain(surface, shape, 0.0, height), n_free, style)
+    return on_domain(Domain(surface, shape, 0.0, height), n_free, style)
 
 
 def plane(n_free: int, style: Style | None = None, *, shape: Literal["rectangle", "oval"] = "oval") -> Patch:
     """A flat patch, H = 0."""
     surface = Extrusion(curves.Line(-1.0, 1.0), 1)
-    return _patch(Domain(surface, shape, 0.0, 1.6), n_free, style)
+    return on_domain(Domain(surface, shape, 0.0, 1.6), n_free, style)
 
 
 FAMILIES: dict[str, Callable[..., Patch]] = {

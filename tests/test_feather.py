@@ -181,6 +181,7 @@ def test_warnings_name_the_callers_triangles(region: Region) -> None:
         ({"weights": [0.5]}, "weights: shape"),
         ({"weights": "all"}, "weights: numbers"),
         ({"feather": 0.1, "outline": "mended"}, "outline: 'mended' is not accepted with"),
+        ({"feather": 0.1, "continuity": "G2"}, "continuity: 'G2' is not accepted with"),
     ],
 )
 def test_what_is_refused(region: Region, options: dict[str, Any], message: str) -> None:

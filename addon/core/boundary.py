@@ -28,6 +28,18 @@ def custom_normals(mesh: MeshArrays) -> Floats:
     return unit(sum_at(mesh.corner_vertices, mesh.corner_normals, len(mesh.positions)))
 
 
+def _fit_outside(mesh: MeshArrays, fixed: Ints, outside: Ints) -> tuple[fairing.SurroundingNormals | None, Mask]:
+    """Fit surfaces at those of the `fixed` vertices (mesh indices, k) that have triangles outside: the mask (k,)."""
+    touched = np.zeros(len(mesh.positions), dtype=bool)
+    touched[outside] = True
+    found = touched[fixed]
+    if not found.any():
+        return None, found
+    used, triangles = np.unique(outside, return_inverse=True)
+    at = np.searchsorted(used, fixed[found])
+    return fairing.surrounding_normals(mesh.positions[used], triangles.reshape(-1, 3).astype(np.int64), at), found
+
+
 def surrounding_normals(mesh: MeshArrays, fixed: Ints, outside: Ints) -> tuple[Floats, Mask]:
     """Fit normals at the `fixed` vertices (mesh indices, k) to the triangles `outside` (o, 3) the patch.
 
@@ -36,14 +48,10 @@ def surrounding_normals(mesh: MeshArrays, fixed: Ints, outside: Ints) -> tuple[F
     normals are turned round.
     """
     normals = average_normals(mesh)[fixed]
-    touched = np.zeros(len(mesh.positions), dtype=bool)
-    touched[outside] = True
-    found = touched[fixed]
-    if not found.any():
+    fits, found = _fit_outside(mesh, fixed, outside)
+    if fits is None:
         return normals, found
-    used, triangles = np.unique(outside, return_inverse=True)
-    at = np.searchsorted(used, fixed[found])
-    fitted, _ = fairing.surrounding_normals(mesh.positions[used], triangles.reshape(-1, 3).astype(np.int64), at)
+    fitted = fits.normals
     # A zero normal is one that even the average of the outside faces leaves open.
     decided = np.linalg.norm(fitted, axis=1) > 0.5
     fitted = np.where(turned_over(mesh)[fixed[found], None], -fitted, fitted)
@@ -71,3 +79,13 @@ def prescribed_normals(mesh: MeshArrays, patch: Patch, source: str, outside: Int
         "border vertices have no faces outside: their normals come from the patch",
     )
     return normals, (text,)
+
+
+def prescribed_curvatures(mesh: MeshArrays, patch: Patch, outside: Ints) -> Floats:
+    """Return (k,) H of the triangles outside in the order of `patch.fixed`, NaN where they say too little about it."""
+    fixed = patch.vertices[patch.fixed]
+    curvatures = np.full(len(fixed), np.nan)
+    fits, found = _fit_outside(mesh, fixed, outside)
+    if fits is not None:
+        curvatures[found] = np.where(turned_over(mesh)[fixed[found]], -1.0, 1.0) * fits.trusted_curvatures
+    return curvatures

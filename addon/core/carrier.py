@@ -37,4 +37,5 @@ def _weights(fixed: Floats, free: Floats) -> Floats:
     squares = (free**2).sum(axis=1)[:, None] + (fixed**2).sum(axis=1) - 2.0 * free @ fixed.T
     smallest = np.finfo(np.float64).eps * max(float(squares.max(initial=0.0)), 1e-300)
     weights: Floats = 1.0 / np.maximum(squares, smallest)
-    return weights / weights.sum(axis=1, keepdims=True)
+    weights /= weights.sum(axis=1, keepdims=True)
+    return weights

@@ -31,11 +31,12 @@ class Problem:
     normals: Floats  # (k, 3) unit, in the order of patch.fixed
     vertices: Ints  # (q,) mesh indices: the patch's p, then those of the faces around it
     outside: Ints  # (o, 3) triangles around the patch, in numbers of `vertices`
+    curvatures: Floats | None = None  # (k,) H outside, NaN where it is not known; None: not to be continued
 
     @classmethod
-    def of(cls, patch: Patch, points: Floats, normals: Floats) -> Problem:
+    def of(cls, patch: Patch, points: Floats, normals: Floats, curvatures: Floats | None = None) -> Problem:
         """Pose it for the patch (p, 3) alone, without what is around it."""
-        return cls(patch, points, normals, patch.vertices, np.empty((0, 3), dtype=np.int64))
+        return cls(patch, points, normals, patch.vertices, np.empty((0, 3), dtype=np.int64), curvatures)
 
     @property
     def origin(self) -> Origin:
@@ -61,6 +62,7 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
             patch.triangles,
             fixed=patch.fixed,
             fixed_normals=problem.normals,
+            fixed_curvatures=problem.curvatures if options.joins_curvature else None,
             neighbours=patch.neighbours if options.feather == 0.0 else None,  # the band has none
             outline=options.outline.lower(),
             outside=problem.outside if wide else None,
@@ -133,7 +135,9 @@ class RepeatedSolve:
     def __call__(self, problem: Problem, progress: Progress | None = None) -> fairing.FairResult:
         """Fair the patch, which must be the one given, as `solve` does; raises the same."""
         with in_mesh_words(problem.patch.origin):
-            return self._solver.solve(problem.own_points, problem.normals, self._reference, progress)
+            return self._solver.solve(
+                problem.own_points, problem.normals, self._reference, progress, fixed_curvatures=problem.curvatures
+            )
 
 
 def sub_range(progress: Progress | None, begin: float, end: float) -> Progress | None:

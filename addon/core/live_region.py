@@ -10,7 +10,7 @@ import fairing
 
 from .around import RINGS, outside_triangles
 from .arrays import Floats, Ints, Mask
-from .boundary import prescribed_normals
+from .boundary import prescribed_curvatures, prescribed_normals
 from .carrier import Carrier
 from .engine import Problem, Progress, RepeatedSolve, solve
 from .options import FairOptions
@@ -119,8 +119,9 @@ class LiveRegion:
 
     def stand_in(self, positions: Floats, matrix: Floats, progress: Progress | None = None) -> Floats | None:
         """Return the surface of least variation where `answer` has none; the same contract. Takes a while."""
-        options = replace(self._options, equation="LEAST_VARIATION", inner_fairness="UNIFORM")
-        return self._kept(positions, matrix, solve(self._problem(positions, matrix), options, progress))
+        options = replace(self._options, equation="LEAST_VARIATION", inner_fairness="UNIFORM", continuity="G1")
+        problem = replace(self._problem(positions, matrix), curvatures=None)
+        return self._kept(positions, matrix, solve(problem, options, progress))
 
     def carried(self, positions: Floats) -> Floats:
         """Return the last good answer (k, 3), carried along by the motion of the fixed vertices since then."""
@@ -133,7 +134,8 @@ class LiveRegion:
             world = replace(self._around.mesh, positions=positions).transformed(matrix)
             outside = outside_triangles(world, patch)
             normals, _ = prescribed_normals(world, patch, self._options.boundary_normals, outside)
-        return Problem.of(self._patch, world.positions[patch.vertices], normals)
+            curvatures = prescribed_curvatures(world, patch, outside) if self._options.joins_curvature else None
+        return Problem.of(self._patch, world.positions[patch.vertices], normals, curvatures)
 
     def _kept(self, positions: Floats, matrix: Floats, result: fairing.FairResult) -> Floats | None:
         """Return the result where it is good, and remember it."""

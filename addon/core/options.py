@@ -9,6 +9,7 @@ EQUATIONS = ("HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATI
 OTHERWISE = ("LEAST_VARIATION", "STOP")
 INNER_FAIRNESS = ("AUTOMATIC", "UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING")
 BOUNDARY_NORMALS = ("SURROUNDING", "AVERAGE", "CUSTOM")
+CONTINUITIES = ("G1", "G2")
 METHODS = ("GLOBAL", "PAPER")
 PIN_EDGES = ("NONE", "SHARP", "SEAM", "CREASE")
 OUTLINES = ("GIVEN", "MENDED")
@@ -19,6 +20,7 @@ _CHOICES = {
     "otherwise": OTHERWISE,
     "inner_fairness": INNER_FAIRNESS,
     "boundary_normals": BOUNDARY_NORMALS,
+    "continuity": CONTINUITIES,
     "method": METHODS,
     "pin_edges": PIN_EDGES,
     "outline": OUTLINES,
@@ -39,6 +41,7 @@ class FairOptions:
     detail_size: float = 0.0  # what is shorter counts as detail: a part of the patch's size; 0: ten edges
     boundary_normals: str = "SURROUNDING"
     feather: float = 0.0  # width of the band outside in which the change fades out: a part of the patch's size
+    continuity: str = "G1"  # G2: the curvature of the faces outside is continued, too
     method: str = "GLOBAL"
     levels: int = 0  # 0: chosen by the engine
     tolerance: float = 1e-6  # of the patch's diameter
@@ -73,6 +76,13 @@ class FairOptions:
         """Whether the engine needs the faces outside: then it can't be asked again and again."""
         return self.outline == "MENDED" or self.feather > 0.0
 
+    @property
+    def joins_curvature(self) -> bool:
+        """Whether the curvature outside counts: only for the harmonic shape of the fast solver, without a band."""
+        return (
+            self.continuity == "G2" and self.equation == "HARMONIC" and self.method == "GLOBAL" and self.feather == 0.0
+        )
+
     def engine_arguments(self) -> dict[str, Any]:
         """Return the keyword arguments of `fairing.fair` that need no mesh; the options must be resolved."""
         return {
@@ -86,6 +96,7 @@ class FairOptions:
             "levels": self.levels,
             "tolerance": self.tolerance,
             "max_iterations": self.max_iterations,
+            "continuity": "G2" if self.joins_curvature else "G1",
         }
 
 

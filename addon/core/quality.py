@@ -74,12 +74,14 @@ def folded(patch: Patch, points: Floats) -> Ints:
     """Return the faces that are turned over, those aside that have no vertex free to move."""
     found = fairing.flipped_triangles(points, patch.triangles, fixed=patch.fixed).astype(np.int64)
     movable = np.isin(patch.triangles[found], patch.free).any(axis=1)
-    return np.unique(patch.faces[found[movable]])
+    faces: Ints = np.unique(patch.faces[found[movable]])
+    return faces
 
 
 def crossing(patch: Patch, points: Floats) -> Ints:
     """Return the faces that pass through others of the patch."""
-    return np.unique(patch.faces[fairing.self_intersections(points, patch.triangles)])
+    faces: Ints = np.unique(patch.faces[fairing.self_intersections(points, patch.triangles)])
+    return faces
 
 
 def degenerate(positions: Floats, triangles: Ints) -> Mask:

@@ -11,7 +11,7 @@ import fairing
 from . import engine
 from .around import numbered, outside_triangles, wound_alike
 from .arrays import Floats
-from .boundary import prescribed_normals
+from .boundary import prescribed_curvatures, prescribed_normals
 from .engine import Progress
 from .memory import Memory, digest
 from .options import FairOptions
@@ -89,10 +89,11 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
         patch = make_patch(world, even=options.inner_fairness != "CONFORMAL" and options.detail == 0.0)
         outside = outside_triangles(world, patch, options.feather)
         normals, warnings = prescribed_normals(world, patch, options.boundary_normals, outside)
+        curvatures = prescribed_curvatures(world, patch, outside) if options.joins_curvature else None
         vertices, around = numbered(patch, wound_alike(world, outside))
         precision = precision_note(mesh)
         notes = outline_notes(world) + ((precision,) if precision else ()) + mesh.notes
-    return engine.Problem(patch, world.positions[vertices], normals, vertices, around), warnings + notes
+    return engine.Problem(patch, world.positions[vertices], normals, vertices, around, curvatures), warnings + notes
 
 
 def _solve_again(

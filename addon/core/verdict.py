@@ -98,7 +98,8 @@ def _troubled(problem: Problem) -> Ints:
 
 def _corners(problem: Problem, faces: Ints) -> Ints:
     patch = problem.patch
-    return patch.vertices[patch.triangles[np.isin(patch.faces, faces)].ravel()]
+    corners: Ints = patch.vertices[patch.triangles[np.isin(patch.faces, faces)].ravel()]
+    return corners
 
 
 def _folded(evidence: Evidence, options: FairOptions) -> Found:

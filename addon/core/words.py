@@ -179,6 +179,12 @@ WORDS: dict[str, tuple[Words, ...]] = {
     "PRECISION": (
         Words("This far from the origin, coordinates can't be told apart finely enough: move the object nearer to it"),
     ),
+    "G2_NOT_MET": (
+        Words(
+            "{n} vertex of the outline is met in its slope, not in its curvature",
+            "{n} vertices of the outline are met in their slope, not in their curvature",
+        ),
+    ),
     "OUTLINE_KEPT": (
         Words(
             "{n} vertex of a noisy outline keeps its place",

@@ -63,21 +63,20 @@ class Live:
         session = self.sessions[obj.data.name] = session_of(obj, region)
         self._write(obj, session, answer)
 
-    def follow(self, obj: bpy.types.Object, patience: float = LEISURE) -> bool:
+    def follow(self, obj: bpy.types.Object, hurried: bool = False) -> bool:
         """Make the region fair again where something has changed around it; tell whether it was written.
 
-        patience: seconds for the answer; below LEISURE the region is carried along where there is none so soon.
+        hurried: in the middle of changes; the region is carried along where there is no answer so soon.
         """
         session = self._current(obj)
         if session is None:
             return False
-        hurried = patience < LEISURE
         positions, matrix = live_mesh.positions(obj.data, session.region.vertices), matrix_of(obj)
         same = np.array_equal(positions, session.positions) and np.array_equal(matrix, session.matrix)
         if same and (hurried or not session.lost):
             return False
         session.positions, session.matrix = positions, matrix
-        answer = self._hurried(session, patience) if hurried else self._at_leisure(session, patience)
+        answer = self._hurried(session) if hurried else self._at_leisure(session)
         session.lost = answer is None
         if answer is None:
             session.mark_outline()
@@ -86,12 +85,12 @@ class Live:
         self._write(obj, session, answer)
         return True
 
-    def _hurried(self, session: Session, patience: float) -> Floats | None:
+    def _hurried(self, session: Session) -> Floats | None:
         """Answer in the middle of changes, or not: after an answer that took too long some changes do without."""
         if session.waited < session.skip:
             session.waited += 1
             return None
-        answer = _asked(session, session.region.answer, patience)
+        answer = _asked(session, session.region.answer, PATIENCE)
         failed = answer is None
         session.skip = min(2 * session.skip + 1, MOST_SKIPPED) if failed else 0
         session.waited = 0
@@ -99,12 +98,12 @@ class Live:
             self.message = ""
         return answer
 
-    def _at_leisure(self, session: Session, patience: float) -> Floats | None:
+    def _at_leisure(self, session: Session) -> Floats | None:
         """Answer at the end of changes: the surface itself, or the one that stands in for it."""
-        answer = _asked(session, session.region.answer, patience)
+        answer = _asked(session, session.region.answer, LEISURE)
         self.message = ""
         if answer is None:
-            answer = _asked(session, session.region.stand_in, patience)
+            answer = _asked(session, session.region.stand_in, LEISURE)
             self.message = STAND_IN
         return answer
 
@@ -190,10 +189,10 @@ def edited_objects() -> Iterator[bpy.types.Object]:
             yield obj
 
 
-def follow(obj: bpy.types.Object, patience: float = LEISURE) -> bool:
+def follow(obj: bpy.types.Object, hurried: bool = False) -> bool:
     """Follow one object; what goes wrong is told in the panel, and the mesh is left as it is."""
     try:
-        return live.follow(obj, patience)
+        return live.follow(obj, hurried)
     except REFUSALS as cause:
         live.message = f"{obj.name}: {cause}"
         return False
@@ -201,7 +200,7 @@ def follow(obj: bpy.types.Object, patience: float = LEISURE) -> bool:
 
 def _on_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     for obj in _edited(depsgraph):
-        if follow(obj, PATIENCE) and live.is_lost(obj):
+        if follow(obj, hurried=True) and live.is_lost(obj):
             live.changed_at = time.monotonic()
             call_later(_follow_later, PAUSE)
 

@@ -73,7 +73,9 @@ def _is_before(pair: Pair) -> bool:
     if obj is None or obj.type != "MESH" or selecting.count(obj.data) != pair.vertex_count:
         return False
     places = selecting.places(obj.data, pair.vertices)
-    return np.array_equal(places, pair.before) and not np.array_equal(pair.before, pair.after)
+    if places is None or np.array_equal(pair.before, pair.after):
+        return False
+    return np.array_equal(places, pair.before)
 
 
 def toggle(context: bpy.types.Context) -> bool:

@@ -61,6 +61,15 @@ _BOUNDARY_NORMALS = (
     ("AVERAGE", "Average", "Leans half way between the faces inside and outside: keeps some of the old shape's slope"),
     ("CUSTOM", "Custom Normals", "Follows the shading normals along the outline, custom split normals included"),
 )
+_CONTINUITIES = (
+    ("G1", "Tangent", "The surface leaves its outline with the slope of the faces around it"),
+    (
+        "G2",
+        "Curvature",
+        "The surface takes up the curvature of the faces around it, too, and reflections run on without an elbow. "
+        "For the shape Harmonic",
+    ),
+)
 _METHODS = (
     ("GLOBAL", "Global", "The fast solver. The old shape inside the selection does not matter"),
     ("PAPER", "Multigrid", "The published iteration, step by step: slow, for comparison"),
@@ -158,6 +167,12 @@ class FairProperties:
         soft_max=0.5,
         precision=3,
         subtype="FACTOR",
+    )
+    continuity: EnumProperty(
+        name="Join",
+        description="How smoothly the surface continues its surroundings",
+        items=_CONTINUITIES,
+        default="G1",
     )
     method: EnumProperty(name="Method", description="How the surface is computed", items=_METHODS, default="GLOBAL")
     levels: IntProperty(

@@ -71,7 +71,7 @@ REPORTED = (("sphere", "cylinder", "torus", "inner torus", "cubic", "ellipsoid")
 
 @dataclass(frozen=True)
 class Case:
-    """exact, noisy, normals (n, 3); inside, outside (m, 3); outline (k,)."""
+    """exact, noisy, normals (n, 3); inside, outside (m, 3); outline (k,); places (n, 2) in the chart."""
 
     exact: FloatArray
     noisy: FloatArray
@@ -79,6 +79,7 @@ class Case:
     inside: IntArray
     outside: IntArray
     outline: IntArray
+    places: FloatArray
 
 
 def unit(vectors: FloatArray) -> FloatArray:
@@ -108,7 +109,7 @@ def make_case(name: str, seed: int, noise: float) -> Case:
     within = np.linalg.norm(chart[triangles].mean(axis=1), axis=1) < PATCH
     outline = np.intersect1d(triangles[within], triangles[~within])
     noisy = exact + noise / np.sqrt(3) * rng.normal(size=exact.shape)
-    return Case(exact, noisy, normals, triangles[within], triangles[~within], outline)
+    return Case(exact, noisy, normals, triangles[within], triangles[~within], outline, chart)
 
 
 def degrees(first: FloatArray, second: FloatArray) -> FloatArray:

@@ -12,6 +12,7 @@
 #include "geometry/flips.h"
 #include "geometry/surface_fit.h"
 #include "method/accept.h"
+#include "method/joined.h"
 #include "method/otherwise.h"
 
 namespace fairing {
@@ -25,6 +26,9 @@ constexpr int largest_warm = 50000;
 
 // Moves can't be told from rounding below: an iteration that waits for less ends by luck or not at all.
 constexpr double least_tolerance = 1e-15;
+
+// Of the time, where the curvature is met, too.
+constexpr double share_of_tangent = 0.5;
 
 FairOptions reachable(FairOptions options) {
     options.solver.tolerance = std::max(options.solver.tolerance, least_tolerance);
@@ -83,6 +87,7 @@ ComponentAnswer ComponentSolver::solve(const ComponentData& data, const Progress
     ComponentAnswer answer{
         unit, {patch_, unit.to_unit(fixed_points), gather(data.normals, fixed), {}, solver}, {}, {}, Points(3, 0)};
     answer.problem.options.load = load_in_units(patch_, answer.problem.fixed_points, unit.diameter, options_.asked);
+    if (data.curvatures.size() > 0) answer.problem.fixed_curvatures = unit.diameter * data.curvatures(fixed);
     warn_of_precision(patch_, data.vertices, {unit.diameter, solver.tolerance}, answer.warnings);
     const Points reference = gather(data.reference, patch_.to_input);
     if (options_.asked.detail.share > 0.0) read_skin(reference, progress);
@@ -91,7 +96,7 @@ ComponentAnswer ComponentSolver::solve(const ComponentData& data, const Progress
         answer.warnings.insert(answer.warnings.end(), list->begin(), list->end());
     }
     answer.solution =
-        options().method == Method::paper ? solve_by_paper(answer.problem, progress) : solve_globally(answer, progress);
+        options().method == Method::paper ? solve_by_paper(answer.problem, progress) : solve_globally(answer, data, progress);
     if (skin_) put_back_detail(answer, progress);
     return answer;
 }
@@ -154,13 +159,31 @@ Solution ComponentSolver::solve_by_paper(const Problem& problem, const Progress&
     return solution;
 }
 
-Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Progress& progress) {
+// Conformal weights of the vertices given leave them where they are within the surface.
+std::optional<NearStart> ComponentSolver::given_start(const ComponentAnswer& answer, const ComponentData& data) const {
+    const Equation equation = options().solver.equation;
+    if (options().start != Start::given || equation == Equation::minimal || equation == Equation::least_variation)
+        return std::nullopt;
+    const Points start = answer.unit.to_unit(gather(data.vertices, patch_.to_input));
+    return NearStart{start, options().inner_fairness == InnerFairness::conformal && reference_ == start};
+}
+
+Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const ComponentData& data, const Progress& progress) {
     Problem& problem = answer.problem;
     problem.weights = lambda_;
     problem.tolerated_folds = tolerated_folds();
-    std::optional<Solution> near_last = keeps() ? solve_near_last(problem, progress) : std::nullopt;
-    Solution solution = near_last ? std::move(*near_last) : solve_or_else(problem, progress);
+    const bool joins = problem.fixed_curvatures.size() > 0;
+    const std::optional<NearStart> start = given_start(answer, data);
+    Solution solution = solve_tangent(problem, start, joins ? progress.range(0.0, share_of_tangent) : progress);
     if (solution.even_weights) warn_of_even_weights(answer.warnings);
+    return joins ? joined(problem, std::move(solution), progress.range(share_of_tangent, 1.0)) : solution;
+}
+
+Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optional<NearStart>& start,
+                                        const Progress& progress) {
+    std::optional<Solution> near_last = keeps() ? solve_near_last(problem, progress) : std::nullopt;
+    if (!near_last && start) near_last = solve_near(problem, *start, progress.range(0.0, 0.4));
+    Solution solution = near_last ? std::move(*near_last) : solve_or_else(problem, progress);
     if (!keeps()) return solution;
     instead_.reset();
     if (solution.instead && end_of(solution) == Termination::converged) instead_ = outline_of(problem);

@@ -5,6 +5,7 @@
 #include "base/progress.h"
 #include "detail/skin.h"
 #include "method/outline_move.h"
+#include "method/near_start.h"
 #include "method/warm_start.h"
 #include "problem/solution.h"
 
@@ -23,8 +24,9 @@ struct CallOptions {
 // Columns belong to the input's vertices.
 struct ComponentData {
     const Points& vertices;
-    const Points& normals;    // prescribed ones at fixed vertices
-    const Points& reference;  // M0
+    const Points& normals;      // prescribed ones at fixed vertices
+    const VectorX& curvatures;  // likewise; empty: none
+    const Points& reference;    // M0
 };
 
 struct ComponentAnswer {
@@ -58,7 +60,11 @@ private:
     void put_back_detail(ComponentAnswer& answer, const Progress& progress);
     [[nodiscard]] const FairOptions& options() const { return usable_ ? options_.asked : options_.uniform; }
     [[nodiscard]] Solution solve_by_paper(const Problem& problem, const Progress& progress) const;
-    [[nodiscard]] Solution solve_globally(ComponentAnswer& answer, const Progress& progress);
+    [[nodiscard]] std::optional<NearStart> given_start(const ComponentAnswer& answer, const ComponentData& data) const;
+    [[nodiscard]] Solution solve_globally(ComponentAnswer& answer, const ComponentData& data, const Progress& progress);
+    // From the last answer or `start` where there is one.
+    [[nodiscard]] Solution solve_tangent(const Problem& problem, const std::optional<NearStart>& start,
+                                         const Progress& progress);
     [[nodiscard]] std::optional<Solution> solve_near_last(const Problem& problem, const Progress& progress);
     [[nodiscard]] std::size_t tolerated_folds() const;
 

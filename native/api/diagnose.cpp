@@ -99,6 +99,15 @@ Reason reason_of(const Solution& solution, const VectorX& angles) {
     return {"did not converge; its positions are the best that were found", {}};
 }
 
+std::string_view reason_of(Join join) {
+    switch (join) {
+        case Join::other_mesh: return "the surface was solved on a mesh of the engine's own";
+        case Join::no_tangent_join: return "the surface that is only tangent was not found either";
+        case Join::not_found: return "no acceptable surface has that curvature";
+        default: return "the surroundings say too little about it";
+    }
+}
+
 }  // namespace
 
 Indices input_numbers(const Patch& patch, Indices triangles) {
@@ -200,6 +209,24 @@ Diagnostics failures_of(const Patch& patch, const Solution& solution, Terminatio
                           std::move(reason.figures)});
     }
     return result;
+}
+
+void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& warnings) {
+    if (solution.join == Join::tangent || solution.join == Join::curvature) return;
+    const auto fixed = fixed_vertices(patch);
+    Indices vertices;
+    if (solution.join == Join::partly_curvature) {
+        for (int place : solution.tangent_only) vertices.push_back(fixed[at(place)]);
+    } else {
+        vertices.assign(fixed.begin(), fixed.end());
+    }
+    warnings.push_back({Code::g2_not_met,
+                        counted(vertices.size(), "outline vertex is met in its slope, not in its curvature: ",
+                                "outline vertices are met in their slope, not in their curvature: ") +
+                            std::string(reason_of(solution.join)),
+                        vertices,
+                        ElementKind::vertex,
+                        {{"vertices", size_of(vertices)}}});
 }
 
 Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation equation) {

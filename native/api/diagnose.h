@@ -32,6 +32,8 @@ void warn_of_precision(const Patch& patch, const Points& input, const Precision&
 // between the normals prescribed and obtained.
 Diagnostics failures_of(const Patch& patch, const Solution& solution, Termination end, const VectorX& angles);
 
+// G2_NOT_MET where a curvature was asked for and the surface is only tangent; with these fixed vertices.
+void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& warnings);
 // NO_SOLUTION: the surface of least variation was taken instead. Figures: "free_vertices"; "harmonic", 1, for that
 // equation; for a bulb "variation", how many times as much its curvatures varied.
 Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation equation);

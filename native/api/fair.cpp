@@ -45,6 +45,9 @@ public:
         result_.initial_residual = std::max(result_.initial_residual, solution.initial_residual);
         result_.iterations = std::max(result_.iterations, solution.iterations);
         result_.polished = result_.polished && solution.polished && end_of(solution) == Termination::converged;
+        result_.joins_curvature =
+            result_.joins_curvature && (solution.join == Join::curvature || solution.join == Join::partly_curvature);
+        warn_of_join(patch, solution, result_.warnings);
         add_levels(solution.levels.empty() ? Indices{patch.vertex_count()} : solution.levels);
         for (const auto& [stage, seconds] : solution.seconds) result_.seconds[stage] += seconds;
         result_.ways.insert(result_.ways.end(), solution.ways.begin(), solution.ways.end());
@@ -174,7 +177,8 @@ FairResult run_call(const MeshInput& input, const std::optional<Points>& referen
     check_memory(largest_free_count(prepared->patches));
     Call call(*prepared, input, options.asked);
     const double topology_seconds = watch.seconds();
-    const ComponentData data{input.vertices, prepared->mesh.normals, reference ? *reference : input.vertices};
+    const ComponentData data{input.vertices, prepared->mesh.normals, prepared->mesh.curvatures,
+                             reference ? *reference : input.vertices};
     double done = begin;
     double total = 0.0;
     for (const Patch& patch : prepared->patches) total += patch.vertex_count();

@@ -10,6 +10,9 @@ namespace fairing {
 
 enum class Method { global, paper };
 
+// Where a solve begins: the outline alone, or the vertices given, where they lead to a surface.
+enum class Start { outline, given };
+
 // What of the reference is put back on the fair surface (detail/skin.h). With it vertices sit conformally to the base
 // of the reference, whatever `inner_fairness` says.
 struct DetailOptions {
@@ -21,6 +24,7 @@ struct FairOptions {
     SolverOptions solver;  // the load in units of length⁻³
     double bulge = 0.0;    // of the constant equation: adds 8 bulge / a³ to the load, a: the component's outline_radius
     Method method = Method::global;
+    Start start = Start::outline;  // of Method::global
     PaperOptions paper;
     InnerFairness inner_fairness = InnerFairness::uniform;
     // Edges (input vertices) that uniform weights use instead of the triangles' own.
@@ -35,9 +39,10 @@ struct FairResult {
     Points vertices;
     Points base;  // without detail: the fair surface, which all figures below are about; no columns: `vertices`
     Indices fixed;
-    VectorX mean_curvature;  // eq. 8: −1/R on a sphere with outward normals; the mean of the sides on cut curves
-    VectorX boundary_angle;  // degrees, in the order of `fixed`
-    VectorX join;            // likewise: how visible the outline is from the patch's side
+    VectorX mean_curvature;       // eq. 8: −1/R on a sphere with outward normals; the mean of the sides on cut curves
+    VectorX boundary_angle;       // degrees, in the order of `fixed`
+    VectorX join;                 // likewise: how visible the outline is from the patch's side
+    bool joins_curvature = true;  // G2, wherever a curvature was known
     bool converged = true;
     bool polished = true;
     Termination termination = Termination::converged;

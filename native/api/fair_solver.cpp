@@ -25,7 +25,7 @@ std::optional<int> vertex_count(const MeshInput& input) {
 }  // namespace
 
 FairSolver::FairSolver(Triangles triangles, std::optional<Indices> fixed, FairOptions options)
-    : input_{{}, std::move(triangles), std::move(fixed), {}},
+    : input_{{}, std::move(triangles), std::move(fixed), {}, {}},
       options_(std::make_unique<CallOptions>(std::move(options), true)) {
     const auto count = vertex_count(input_);
     if (!count) return;
@@ -42,9 +42,11 @@ void FairSolver::change(FairOptions options) {
 }
 
 FairResult FairSolver::solve(Points vertices, std::optional<Points> fixed_normals,
-                             const std::optional<Points>& reference, const ProgressCallback& progress) {
+                             std::optional<VectorX> fixed_curvatures, const std::optional<Points>& reference,
+                             const ProgressCallback& progress) {
     input_.vertices = std::move(vertices);
     input_.fixed_normals = std::move(fixed_normals);
+    input_.fixed_curvatures = std::move(fixed_curvatures);
     return run_call(input_, reference, *options_, prepared_, progress);
 }
 

@@ -21,8 +21,8 @@ public:
     ~FairSolver();
 
     // What fair() gives: the first time bit for bit, then to the tolerance. Throws the same; the solver stays usable.
-    FairResult solve(Points vertices, std::optional<Points> fixed_normals, const std::optional<Points>& reference,
-                     const ProgressCallback& progress);
+    FairResult solve(Points vertices, std::optional<Points> fixed_normals, std::optional<VectorX> fixed_curvatures,
+                     const std::optional<Points>& reference, const ProgressCallback& progress);
 
     // Other options from the next solve on; what does not depend on them is kept, the last answer too.
     void change(FairOptions options);

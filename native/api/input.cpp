@@ -1,6 +1,7 @@
 #include "api/input.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -223,6 +224,14 @@ void warn_of_flat_triangles(const MeshInput& input, const CutMesh& mesh, Diagnos
                         {{"without_area", size_of(offenders)}}});
 }
 
+// H of all vertices, NaN where nothing is prescribed.
+VectorX curvatures_of(const MeshInput& input) {
+    if (!input.fixed_curvatures) return {};
+    VectorX curvatures = VectorX::Constant(input.vertices.cols(), std::numeric_limits<double>::quiet_NaN());
+    curvatures(*input.fixed) = *input.fixed_curvatures;
+    return curvatures;
+}
+
 }  // namespace
 
 MeshTopology check_topology(const MeshInput& input) {
@@ -254,10 +263,11 @@ void check_geometry(const MeshInput& input, CheckedMesh& mesh) {
         warn_of_opposed_normals(mesh, averaged, mesh.warnings);
     }
     warn_of_normals(input, mesh);
+    mesh.curvatures = curvatures_of(input);
 }
 
 CheckedMesh check_mesh(const MeshInput& input) {
-    CheckedMesh mesh{check_topology(input), {}, {}};
+    CheckedMesh mesh{check_topology(input), {}, {}, {}};
     check_geometry(input, mesh);
     return mesh;
 }

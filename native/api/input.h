@@ -10,8 +10,9 @@ namespace fairing {
 struct MeshInput {
     Points vertices;
     Triangles triangles;
-    std::optional<Indices> fixed;         // left out: the mesh border
-    std::optional<Points> fixed_normals;  // 3 × |fixed|
+    std::optional<Indices> fixed;                  // left out: the mesh border
+    std::optional<Points> fixed_normals;           // 3 × |fixed|
+    std::optional<VectorX> fixed_curvatures = {};  // H at `fixed`, NaN where it is not known
 };
 
 // What the connectivity and the choice of fixed vertices say. Border vertices are fixed, given or not.
@@ -25,6 +26,7 @@ struct MeshTopology {
 // The mesh after all checks.
 struct CheckedMesh : MeshTopology {
     Points normals;        // 3 × vertices: prescribed unit normals at fixed vertices, zero elsewhere
+    VectorX curvatures;    // prescribed H of each vertex, NaN elsewhere; empty where none are prescribed
     Diagnostics warnings;  // of the geometry
 };
 

@@ -6,7 +6,7 @@ namespace fairing {
 
 namespace {
 
-constexpr auto last = Code::precision;
+constexpr auto last = Code::g2_not_met;
 
 constexpr std::array<std::string_view, static_cast<std::size_t>(last) + 1> names{
     "NONFINITE",
@@ -31,6 +31,7 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(last) + 1> names
     "NOT_CONVERGED",
     "NO_SOLUTION",
     "PRECISION",
+    "G2_NOT_MET",
 };
 static_assert(!names.back().empty(), "each code has a name");
 

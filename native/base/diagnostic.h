@@ -34,6 +34,7 @@ enum class Code {
     not_converged,
     no_solution,
     precision,
+    g2_not_met,
 };
 
 // The upper-case names that callers see, e.g. "NONMANIFOLD_EDGE", in the order of the enumeration.

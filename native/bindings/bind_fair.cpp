@@ -1,9 +1,8 @@
 #include <atomic>
-#include <exception>
 
 #include "api/fair_solver.h"
 #include "base/errors.h"
-#include "bindings/convert.h"
+#include "bindings/python_progress.h"
 #include "bindings/topics.h"
 #include "bindings/words.h"
 #include "problem/solution.h"
@@ -11,43 +10,6 @@
 namespace fairing::bindings {
 
 namespace {
-
-// Calls back into Python with the GIL held. A Python exception (KeyboardInterrupt included) travels as a Cancelled
-// through the engine and is rethrown by the caller, so that it is never destroyed without the GIL.
-class PythonProgress {
-public:
-    explicit PythonProgress(py::object callback) : callback_(std::move(callback)) {}
-
-    bool operator()(double fraction, std::string_view stage) {
-        const py::gil_scoped_acquire gil;
-        try {
-            if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-            if (callback_.is_none()) return true;
-            return goes_on(callback_(fraction, py::str(stage.data(), stage.size())));
-        } catch (...) {
-            failure_ = std::current_exception();
-            return false;
-        }
-    }
-
-    [[nodiscard]] const std::exception_ptr& failure() const { return failure_; }
-
-private:
-    // A callback that returns its fraction would cancel at 0: truth is asked of nothing but booleans, NumPy's included.
-    static bool goes_on(const py::object& answer) {
-        if (answer.is_none()) return true;
-        py::detail::make_caster<bool> boolean;
-        constexpr bool convert = false;
-        if (!boolean.load(answer, convert)) {
-            throw py::type_error("progress: the callback returned " + std::string(py::repr(answer)) +
-                                 "; False cancels, None or True goes on");
-        }
-        return py::detail::cast_op<bool>(boolean);
-    }
-
-    py::object callback_;
-    std::exception_ptr failure_;
-};
 
 py::dict to_dict(const FairResult& result) {
     py::list warnings;
@@ -62,6 +24,7 @@ py::dict to_dict(const FairResult& result) {
     dict["mean_curvature"] = from_vector(result.mean_curvature);
     dict["boundary_angle"] = from_vector(result.boundary_angle);
     dict["join"] = from_vector(result.join);
+    dict["continuity"] = result.joins_curvature ? "G2" : "G1";
     dict["converged"] = result.converged;
     dict["polished"] = result.polished;
     dict["termination"] = termination_words.word(result.termination);
@@ -88,6 +51,7 @@ struct Options {
     int threads;
     double detail;
     double detail_size;
+    std::string start;
 };
 
 // Rows (i, j, λ).
@@ -120,6 +84,7 @@ FairOptions to_fair_options(const Options& options, const PaperOptions& paper, c
     result.solver.max_iterations = options.max_iterations;
     result.threads = options.threads;
     result.detail = {options.detail, options.detail_size};
+    result.start = solve_start_words.value(options.start);
     result.solver.nested = paper.levels != 1;
     result.inner_fairness = fairness.weights ? InnerFairness::custom : fairness_words.value(options.inner_fairness);
     if (fairness.neighbours) {
@@ -130,30 +95,17 @@ FairOptions to_fair_options(const Options& options, const PaperOptions& paper, c
     return result;
 }
 
-// Runs without the GIL; an exception of the callback comes out in place of the Cancelled that it became.
-template <typename Solve>
-py::dict solved(const py::object& callback, const Solve& solve) {
-    PythonProgress progress(callback);
-    FairResult result;
-    try {
-        const py::gil_scoped_release released;
-        result = solve(std::ref(progress));
-    } catch (const Cancelled&) {
-        if (progress.failure()) std::rethrow_exception(progress.failure());
-        throw;
-    }
-    return to_dict(result);
-}
-
 py::dict fair_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
-                     const std::optional<DoubleArray>& fixed_normals, const std::optional<DoubleArray>& reference,
+                     const std::optional<DoubleArray>& fixed_normals,
+                     const std::optional<DoubleArray>& fixed_curvatures, const std::optional<DoubleArray>& reference,
                      const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
                      const Options& options, const PaperOptions& paper, const py::object& callback) {
     const MeshInput input{to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices),
-                          to_optional(fixed_normals, to_points)};
+                          to_optional(fixed_normals, to_points), to_optional(fixed_curvatures, to_vector)};
     const auto m0 = to_optional(reference, to_points);
     const FairOptions fair_options = to_fair_options(options, paper, {neighbours, weights});
-    return solved(callback, [&](const ProgressCallback& progress) { return fair(input, m0, fair_options, progress); });
+    return to_dict(without_gil(
+        callback, [&](const ProgressCallback& progress) { return fair(input, m0, fair_options, progress); }));
 }
 
 // fairing.Solver's engine. A second call while one is running (from another thread, or from `progress`) is refused.
@@ -172,14 +124,16 @@ public:
     }
 
     py::dict solve(const DoubleArray& vertices, const std::optional<DoubleArray>& fixed_normals,
-                   const std::optional<DoubleArray>& reference, const py::object& callback) {
+                   const std::optional<DoubleArray>& fixed_curvatures, const std::optional<DoubleArray>& reference,
+                   const py::object& callback) {
         const Hold hold(busy_);
         Points points = to_points(vertices);
         auto normals = to_optional(fixed_normals, to_points);
+        auto curvatures = to_optional(fixed_curvatures, to_vector);
         const auto m0 = to_optional(reference, to_points);
-        return solved(callback, [&](const ProgressCallback& progress) {
-            return solver_.solve(std::move(points), std::move(normals), m0, progress);
-        });
+        return to_dict(without_gil(callback, [&](const ProgressCallback& progress) {
+            return solver_.solve(std::move(points), std::move(normals), std::move(curvatures), m0, progress);
+        }));
     }
 
 private:
@@ -247,21 +201,22 @@ void bind_fair(py::module_& module) {
     module.attr("WORDS") = all_words();
     py::class_<Options>(module, "Options")
         .def(py::init<std::string, std::string, double, double, std::string, std::string, std::string, double, int, int,
-                      double, double>(),
+                      double, double, std::string>(),
              py::kw_only(), py::arg("equation"), py::arg("otherwise"), py::arg("load"), py::arg("bulge"),
              py::arg("inner_fairness"), py::arg("method"), py::arg("normals"), py::arg("tolerance"),
-             py::arg("max_iterations"), py::arg("threads"), py::arg("detail") = 0.0, py::arg("detail_size") = 0.0);
+             py::arg("max_iterations"), py::arg("threads"), py::arg("detail") = 0.0, py::arg("detail_size") = 0.0,
+             py::arg("start") = "outline");
     bind_paper_options(module);
     py::class_<PythonSolver>(module, "Solver")
         .def(py::init<const IntArray&, const std::optional<IntArray>&, const std::optional<IntArray>&,
                       const std::optional<DoubleArray>&, const std::pair<Options, PaperOptions>&>(),
              py::arg("triangles"), py::arg("fixed"), py::arg("neighbours"), py::arg("weights"), py::arg("options"))
         .def("change", &PythonSolver::change, py::arg("neighbours"), py::arg("weights"), py::arg("options"))
-        .def("solve", &PythonSolver::solve, py::arg("vertices"), py::arg("fixed_normals"), py::arg("reference"),
-             py::arg("progress"));
+        .def("solve", &PythonSolver::solve, py::arg("vertices"), py::arg("fixed_normals"), py::arg("fixed_curvatures"),
+             py::arg("reference"), py::arg("progress"));
     module.def("fair", &fair_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
-               py::arg("fixed_normals"), py::arg("reference"), py::arg("neighbours"), py::arg("weights"),
-               py::arg("options"), py::arg("paper"), py::arg("progress"));
+               py::arg("fixed_normals"), py::arg("fixed_curvatures"), py::arg("reference"), py::arg("neighbours"),
+               py::arg("weights"), py::arg("options"), py::arg("paper"), py::arg("progress"));
 }
 
 }  // namespace fairing::bindings

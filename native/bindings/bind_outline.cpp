@@ -21,6 +21,8 @@ py::dict to_dict(const SurroundingNormals& result) {
     dict["normals"] = from_points(result.normals);
     dict["fitted"] = from_flags(result.fitted);
     dict["errors"] = from_vector(result.errors);
+    dict["curvatures"] = from_vector(result.curvatures);
+    dict["curvature_errors"] = from_vector(result.curvature_errors);
     return dict;
 }
 

@@ -31,6 +31,8 @@ py::array from_points(const Points& points) {
     return read_only(py::array_t<double>({points.cols(), Eigen::Index{3}}, points.data()));
 }
 
+VectorX to_vector(const DoubleArray& array) { return Eigen::Map<const VectorX>(array.data(), array.size()); }
+
 py::array from_vector(const VectorX& values) { return read_only(py::array_t<double>(values.size(), values.data())); }
 
 py::array from_indices(const Indices& indices) {

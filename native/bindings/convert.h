@@ -19,6 +19,7 @@ using IntArray = py::array_t<int, py::array::c_style | py::array::forcecast>;
 Points to_points(const DoubleArray& array);
 Triangles to_triangles(const IntArray& array);
 Indices to_indices(const IntArray& array);
+VectorX to_vector(const DoubleArray& array);  // (k,)
 
 template <typename Array, typename Convert>
 auto to_optional(const std::optional<Array>& array, Convert convert) -> std::optional<decltype(convert(*array))> {

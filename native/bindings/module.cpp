@@ -9,6 +9,7 @@ PYBIND11_MODULE(_core, module) {
     module.attr("CODES") = pybind11::tuple(codes);
     fairing::bindings::register_errors();
     fairing::bindings::bind_fair(module);
+    fairing::bindings::bind_fill(module);
     fairing::bindings::bind_hierarchy(module);
     fairing::bindings::bind_measure(module);
     fairing::bindings::bind_outline(module);

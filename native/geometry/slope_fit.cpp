@@ -30,6 +30,7 @@ struct Round {
     double constant;
     double error;
     double scatter;
+    double curvature_error;
 };
 
 // The axes in which the quadratic terms are written. Where the direction isn't known yet, chords stretch all of them.
@@ -105,11 +106,22 @@ private:
                      {},
                      constants_ > 0 ? solution[terms_] : 0.0,
                      inverse.norm() * residual,
-                     residual / root_mean_square_weight()};
+                     residual / root_mean_square_weight(),
+                     error_of_curvature(factor) * residual};
         result.terms.setZero();
         result.terms.head(terms_) = solution.head(terms_);
         if (!result.slopes.allFinite() || !std::isfinite(result.error)) return std::nullopt;
         return result;
+    }
+
+    // Of the sum of the terms of x² and y², for a residual of one.
+    template <typename Factor>
+    [[nodiscard]] double error_of_curvature(const Factor& factor) const {
+        VectorX covariance = VectorX::Zero(unknowns());
+        covariance[0] = 1.0;
+        covariance[2] = 1.0;
+        factor.transpose().template triangularView<Eigen::Lower>().solveInPlace(covariance);
+        return covariance.norm();
     }
 
     [[nodiscard]] double root_mean_square_weight() const {
@@ -148,6 +160,8 @@ void take(SlopeFit& fit, const Round& round, const Axes& axes) {
     fit.error = round.error + round.slopes.norm();
     fit.height = scale * round.constant;
     fit.scatter = scale * round.scatter;
+    fit.mean_curvature = (round.terms[0] + round.terms[2]) / scale;
+    fit.curvature_error = round.curvature_error / scale;
     fit.x = axes.x;
     fit.y = axes.y;
     fit.terms = round.terms;

@@ -17,6 +17,8 @@ struct SlopeFit {
     double error = 0.0;    // of the slopes: their standard error, and what the last round still changed
     double height = 0.0;   // of the surface over the centre, along the normal; 0 where the centre is met
     double scatter = 0.0;  // standard deviation of the points' heights from the surface
+    double mean_curvature = 0.0;   // at the foot of the centre, in length⁻¹; −1/R on a sphere with outward normals
+    double curvature_error = 0.0;  // its standard error
 
     // Unit, of the fitted surface beside the point at this offset from the centre.
     [[nodiscard]] Vector3 normal_at(const Vector3& offset) const;

@@ -64,9 +64,15 @@ SurfaceFits::SurfaceFits(const Points& points, const Triangles& triangles, Centr
 std::optional<SlopeFit> SurfaceFits::at_vertex(int vertex) {
     around_.gather(vertex);
     std::optional<SlopeFit> best;
+    std::optional<SlopeFit> most_certain;  // of its curvature
     for (const auto& [points, degree] : candidates(around_, at_centres_)) {
         const auto fit = fit_slopes(points_.col(vertex), points, averaged_.col(vertex), degree, at_centres_);
         if (fit && (!best || fit->error < best->error)) best = fit;
+        if (fit && (!most_certain || fit->curvature_error < most_certain->curvature_error)) most_certain = fit;
+    }
+    if (best) {
+        best->mean_curvature = most_certain->mean_curvature;
+        best->curvature_error = most_certain->curvature_error;
     }
     return best;
 }

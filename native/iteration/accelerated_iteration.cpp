@@ -15,6 +15,8 @@ namespace {
 
 constexpr int history_depth = 6;
 constexpr double largest_step = 0.1;  // units of D
+constexpr double undamped = 1.0;
+constexpr double damped = 0.4;
 // The residual may grow for a while: near clusters of valence 3 only the history tames a growing mode of the plain
 // map. Far above the best it is hopeless, unless the steps still shrink now and then: in clusters of a large mesh
 // triangles are so small that the residual there is noise.
@@ -29,10 +31,11 @@ constexpr double share_of_factor = 0.2;  // of the time, in large problems
 
 class AcceleratedIteration {
 public:
-    AcceleratedIteration(const Problem& problem, Workspace& work, const Progress& progress)
+    AcceleratedIteration(const Problem& problem, Workspace& work, double damping, const Progress& progress)
         : problem_(problem),
           patch_(problem.patch),
           work_(work),
+          damping_(damping),
           progress_(progress),
           conormals_(conormals(problem.patch, problem.fixed_points, problem.fixed_normals)),
           anderson_(3L * problem.patch.free_count, history_depth) {}
@@ -146,7 +149,7 @@ private:
 
     void accelerate(const Points& d) {
         Eigen::Map<VectorX> x(state_.points.data(), 3L * patch_.free_count);
-        VectorX step = anderson_.step(x, Eigen::Map<const VectorX>(d.data(), d.size()));
+        VectorX step = anderson_.step(x, damping_ * Eigen::Map<const VectorX>(d.data(), d.size()));
         const double largest = largest_length(Eigen::Map<const Points>(step.data(), 3, patch_.free_count));
         if (largest > largest_step) step *= largest_step / largest;
         x += step;
@@ -155,6 +158,7 @@ private:
     const Problem& problem_;
     const Patch& patch_;
     Workspace& work_;
+    double damping_;
     const Progress& progress_;
     Points conormals_;
     Anderson anderson_;
@@ -174,7 +178,11 @@ private:
 }  // namespace
 
 Solution iterate(const Problem& problem, Workspace& work, const Points& start, const Progress& progress) {
-    return AcceleratedIteration(problem, work, progress).run(start);
+    return AcceleratedIteration(problem, work, undamped, progress).run(start);
+}
+
+Solution iterate_damped(const Problem& problem, Workspace& work, const Points& start, const Progress& progress) {
+    return AcceleratedIteration(problem, work, damped, progress).run(start);
 }
 
 }  // namespace fairing

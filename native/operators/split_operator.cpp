@@ -13,26 +13,17 @@ constexpr int most_cycles = 50;
 }  // namespace
 
 SplitBiharmonicOperator::SplitBiharmonicOperator(const Patch& patch, const Points& fixed_points, Points layout)
-    : laplace_(patch, std::move(layout)), outline_(patch, fixed_points) {
-    for (int j = patch.free_count; j < patch.vertex_count(); ++j) {
-        const RingView ring = patch.ring(j);
-        for (std::size_t k = 0; k < ring.valence(); ++k) {
-            if (patch.is_free(ring.vertices[k]))
-                couplings_.push_back({ring.vertices[k], j - patch.free_count, ring.spokes[k]});
-        }
-    }
+    : laplace_(patch, std::move(layout)), outline_(patch, fixed_points), coupling_(patch) {
     free_mass_.resize(patch.free_count);
     fixed_mass_.resize(fixed_points.cols());
 }
 
 bool SplitBiharmonicOperator::update(const Stiffness& stiffness, const Progress& progress) {
-    weights_ = stiffness.weights;
+    coupling_.update(stiffness);
     free_mass_ = 4.0 * stiffness.mass.head(free_mass_.size());
     fixed_mass_ = 4.0 * stiffness.mass.tail(fixed_mass_.size()).transpose();
     if (!outline_.update(fixed_mass_.transpose()) || !laplace_.update(stiffness, progress)) return false;
-    Indices beside;
-    for (const Coupling& coupling : couplings_) beside.push_back(coupling.i);
-    beside_outline_ = laplace_.factor().reach(beside);
+    beside_outline_ = laplace_.factor().reach(coupling_.beside());
     return true;
 }
 
@@ -45,29 +36,20 @@ Eigen::MatrixXd SplitBiharmonicOperator::solve(const Eigen::MatrixXd& rhs) const
 VectorX SplitBiharmonicOperator::solve_column(const VectorX& rhs) const {
     const SparseCholesky& factor = laplace_.factor();
     // S_II⁻¹ C
-    const auto harmonic = [&](const Row& outline) { return factor.solve_vector(spread(outline), beside_outline_); };
+    const auto harmonic = [&](const OutlineRow& outline) {
+        return factor.solve_vector(coupling_.spread(outline), beside_outline_);
+    };
     // Cᵀ S_II⁻¹ 4M_I
     const auto turned = [&](const VectorX& u) {
-        return gather(factor.solve_vector(u.cwiseProduct(free_mass_), FrontReach(), beside_outline_));
+        return coupling_.gather(factor.solve_vector(u.cwiseProduct(free_mass_), FrontReach(), beside_outline_));
     };
-    const auto apply = [&](const Row& p, Row& product) { product = p.cwiseProduct(fixed_mass_) + turned(harmonic(p)); };
-    const auto precondition = [&](const Row& r, Row& z) { z = outline_.approximate_inverse(r); };
+    const auto apply = [&](const OutlineRow& p, OutlineRow& product) {
+        product = p.cwiseProduct(fixed_mass_) + turned(harmonic(p));
+    };
+    const auto precondition = [&](const OutlineRow& r, OutlineRow& z) { z = outline_.approximate_inverse(r); };
     VectorX u = factor.solve_vector(rhs);
     u -= harmonic(conjugate_gradients(turned(u), relative_tolerance, most_cycles, apply, precondition));
     return factor.solve_vector(u.cwiseProduct(free_mass_));
-}
-
-// C: −w_ij of the edge between them.
-VectorX SplitBiharmonicOperator::spread(const Row& outline) const {
-    VectorX field = VectorX::Zero(free_mass_.size());
-    for (const auto& [i, j, edge] : couplings_) field[i] -= weights_[edge] * outline[j];
-    return field;
-}
-
-SplitBiharmonicOperator::Row SplitBiharmonicOperator::gather(const VectorX& field) const {
-    Row outline = Row::Zero(fixed_mass_.size());
-    for (const auto& [i, j, edge] : couplings_) outline[j] -= weights_[edge] * field[i];
-    return outline;
 }
 
 }  // namespace fairing

@@ -3,6 +3,7 @@
 
 #include "base/progress.h"
 #include "operators/laplace_operator.h"
+#include "operators/outline_coupling.h"
 #include "operators/outline_system.h"
 
 namespace fairing {
@@ -19,25 +20,13 @@ public:
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const override;
 
 private:
-    using Row = OutlineSystem::Row;
-
     [[nodiscard]] VectorX solve_column(const VectorX& rhs) const;
-    [[nodiscard]] VectorX spread(const Row& outline) const;
-    [[nodiscard]] Row gather(const VectorX& field) const;
-
-    // C_ij of a free vertex i and a fixed one j, counted from the first one.
-    struct Coupling {
-        int i;
-        int j;
-        int edge;
-    };
 
     LaplaceOperator laplace_;
     OutlineSystem outline_;
-    std::vector<Coupling> couplings_;
-    VectorX weights_;    // of the edges
+    OutlineCoupling coupling_;
     VectorX free_mass_;  // 4M
-    Row fixed_mass_;
+    OutlineRow fixed_mass_;
     FrontReach beside_outline_;
 };
 

@@ -78,12 +78,16 @@ SurroundingFit fit_surroundings(const Points& given, const Triangles& triangles,
 SurroundingNormals normals_of(const SurroundingFit& fit) {
     const auto count = static_cast<Eigen::Index>(fit.fits.size());
     SurroundingNormals result{filtered_normals(fit), std::vector<char>(fit.fits.size(), 0),
+                              VectorX::Constant(count, std::numeric_limits<double>::infinity()),
+                              VectorX::Constant(count, std::numeric_limits<double>::quiet_NaN()),
                               VectorX::Constant(count, std::numeric_limits<double>::infinity())};
     for (Eigen::Index k = 0; k < count; ++k) {
         const auto& here = fit.fits[at(static_cast<int>(k))];
         if (!here) continue;
         result.fitted[at(static_cast<int>(k))] = 1;
         result.errors[k] = here->error;
+        result.curvatures[k] = here->mean_curvature / fit.size;
+        result.curvature_errors[k] = here->curvature_error / fit.size;
     }
     return result;
 }

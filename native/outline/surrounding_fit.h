@@ -28,6 +28,8 @@ struct SurroundingNormals {
     Points normals;            // 3 × k, unit; zero where there is no triangle
     std::vector<char> fitted;  // 0: averaged, for want of points
     VectorX errors;            // k, radians: standard errors of the fits; infinite where not fitted
+    VectorX curvatures;        // k, length⁻¹: H (eq. 8); NaN where not fitted
+    VectorX curvature_errors;  // k: their standard errors; infinite where not fitted
 };
 
 // Normals at `vertices` of the surface formed by `triangles` alone (the surroundings of a patch), filtered along the

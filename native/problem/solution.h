@@ -24,6 +24,17 @@ enum class Flaw {
     not_converged,
 };
 
+// How a surface meets its outline. The last four: tangent, although a curvature was asked for.
+enum class Join {
+    tangent,            // nothing else was asked for
+    curvature,          // with the curvature prescribed
+    partly_curvature,   // not where it isn't known
+    curvature_unknown,  // nearly nowhere is it known
+    no_tangent_join,    // the tangent join, from which it begins, was not found either
+    other_mesh,         // the tangent join was solved on a mesh of the engine's own only
+    not_found,          // no surface, or none that is accepted
+};
+
 // A way that was tried (method/ways), and how long it took.
 struct WayTaken {
     std::string name;
@@ -52,6 +63,8 @@ struct Solution {
     bool instead = false;          // of least variation, in place of the problem's equation
     double variation_ratio = 0.0;  // of the bulb that it replaces, where it is one
     bool even_weights = false;     // uniform weights were taken instead of the problem's
+    Join join = Join::tangent;
+    Indices tangent_only;  // of partly_curvature: fixed vertices, counted from the first one
 };
 
 }  // namespace fairing

@@ -21,14 +21,17 @@ namespace fairing {
 
 namespace {
 
-// Edge lengths of the fine mesh and of the coarse one (Beginning), as shares of the outline's mean edge, within bounds
-// (units of D); `growth`: proxy/proxy_mesh.h.
+// Edges of the fine mesh and of the coarse one (Beginning) are as long as a share of the outline's mean edge where the
+// surface turns by more than `turn` radians along them (35 and 18 edges around a tube), up to `range_of_edges` times
+// as long elsewhere, within bounds (units of D); `growth`: proxy/proxy_mesh.h.
 constexpr double fine_share = 1.0;
-constexpr double shortest_coarse = 0.02;
-constexpr double shortest_fine = 0.012;
-constexpr double longest = 0.15;
-constexpr double coarse_growth = 0.2;
+constexpr double fine_turn = 0.18;
 constexpr double fine_growth = 0.15;
+constexpr double coarse_turn = 0.35;
+constexpr double coarse_growth = 0.3;
+constexpr double range_of_edges = 4.0;  // the proxy's own: edges that turn stop at a quarter of the longest ones
+constexpr double shortest = 0.05;       // of the longest edges
+constexpr double longest = 0.5;
 constexpr int most_coarse = 1200;  // free vertices
 constexpr int most_fine = 20000;
 constexpr int most_fine_steps = 60;  // those that converge take 30 at most
@@ -53,14 +56,25 @@ Points start_of(const Problem& problem, const Progress& progress) {
     return problem.patch.loop_count() > 1 ? inflated(uniform, fill, progress) : fill;
 }
 
+struct Fineness {
+    double share;  // of the outline's mean edge
+    double turn;
+    double growth;
+};
+
+// The interior needs the outline's resolution only where it bends.
+Sizing sizing_of(const Problem& problem, const Fineness& fineness, int most) {
+    const double edge = fineness.share * mean_outline_edge(problem);
+    return {fineness.growth, std::clamp(range_of_edges * edge, shortest, longest), most, fineness.turn};
+}
+
 // On a coarse mesh from a rough start; the mesh is made anew in between, for vertices move along normals only.
 SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginning& beginning,
                          const Progress& progress) {
     constexpr int most_rounds = 8;
     constexpr double tolerance = 1e-3;
     constexpr double settled = 0.02;  // relative change of the merit from one mesh to the next
-    const double edge = std::clamp(beginning.share * mean_outline_edge(problem), shortest_coarse, longest);
-    const Sizing sizing{coarse_growth, edge, most_coarse};
+    const Sizing sizing = sizing_of(problem, {beginning.share, coarse_turn, coarse_growth}, most_coarse);
     std::optional<SolvedSheet> last;
     double merit = 0.0;  // of the last mesh
     for (int k = 0; k < most_rounds; ++k) {
@@ -75,9 +89,8 @@ SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginnin
 }
 
 SolvedSheet solve_fine(ProxyMesh& mesh, const Problem& problem, const SolvedSheet& coarse, const Progress& progress) {
-    const double edge = std::clamp(fine_share * mean_outline_edge(problem), shortest_fine, longest);
     const int limit = std::clamp(3 * problem.patch.free_count, 3000, most_fine);
-    mesh.adapt({fine_growth, edge, limit});
+    mesh.adapt(sizing_of(problem, {fine_share, fine_turn, fine_growth}, limit));
     const int most_steps = std::min(problem.options.max_iterations, most_fine_steps);
     return solve_on(mesh, problem, coarse, Measure::scale_free, {problem.options.tolerance, most_steps}, progress);
 }

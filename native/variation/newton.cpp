@@ -19,6 +19,7 @@ constexpr double largest_turn = 0.7;  // tangent of the angle of a normal in one
 constexpr double largest_rise = 0.5;  // of the mean edge at a vertex
 constexpr double folded = 0.1;        // cosine between a triangle and its vertices' normals
 constexpr double roundoff = 1e-14;
+constexpr int steps_until_more = 4;  // each factorisation in vain costs as much as one that is used
 
 // The place of each unknown, for the order of elimination.
 Points layout_of(const VariationEnergy& energy, const Sheet& sheet) {
@@ -90,11 +91,12 @@ private:
     // One step of less merit; false where none is found. Where the second derivatives are not positive definite, less
     // of their indefinite part is taken before damping is: damping slows what is smooth most.
     bool step() {
-        bending_ = std::min(1.0, 2.0 * std::max(bending_, 0.125));
+        if (--rest_ <= 0) bending_ = std::min(1.0, 2.0 * std::max(bending_, 0.125));
         while (damping_ <= largest_damping) {
             const auto motions = solved();
             if (!motions && bending_ > 0.0) {
                 bending_ = bending_ > 0.2 ? 0.5 * bending_ : 0.0;
+                rest_ = steps_until_more;
                 continue;
             }
             if (motions && search(*motions)) {
@@ -204,6 +206,7 @@ private:
     double damping_;
     double used_damping_ = 0.0;
     double bending_ = 1.0;  // share of the indefinite part
+    int rest_ = 0;          // steps before more of it is tried
     double share_ = 0.0;
     double largest_height_ = 0.0;
     double largest_rise_ = 0.0;  // in edges

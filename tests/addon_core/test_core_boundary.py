@@ -9,7 +9,7 @@ import pytest
 
 from core.around import RINGS, numbered, outside_triangles, wound_alike
 from core.arrays import Floats
-from core.boundary import average_normals, prescribed_normals
+from core.boundary import average_normals, prescribed_curvatures, prescribed_normals
 from core.region import MeshArrays, Patch, make_patch
 from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh
 
@@ -114,3 +114,17 @@ def test_triangles_around_are_wound_like_the_patch(turned: bool) -> None:
     outside = wound_alike(mesh, outside_triangles(mesh, make_patch(mesh)))
     a, b, c = (mesh.positions[column] for column in outside.T)
     assert (np.sign(np.cross(b - a, c - a)[:, 2]) == (-1.0 if turned else 1.0)).all()
+
+
+def test_curvatures_of_the_faces_outside() -> None:
+    """−1/R on a sphere, on the patch's side where the faces outside are wound against it; NaN where there are none."""
+    for wound in (1, -1):
+        selected = grid(16, 0.6).in_patch
+        quads = [loop if k else loop[::wound] for loop, k in zip(grid_quads(16), selected, strict=True)]
+        mesh = polygon_mesh(on_sphere(grid_points(16)), quads, selected)
+        patch = make_patch(mesh)
+        found = prescribed_curvatures(mesh, patch, outside_triangles(mesh, patch))
+        np.testing.assert_allclose(found, -1.0, atol=1e-9)
+    alone = grid(4, 2.0)
+    patch = make_patch(alone)
+    assert np.isnan(prescribed_curvatures(alone, patch, outside_triangles(alone, patch))).all()

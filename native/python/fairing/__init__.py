@@ -2,6 +2,7 @@
 
 from fairing._core import __version__
 from fairing._fair import fair
+from fairing._fill import fill, remesh
 from fairing._growing import GrownOutline, grown_outline
 from fairing._hierarchy import hierarchy
 from fairing._measure import (
@@ -14,6 +15,7 @@ from fairing._measure import (
     self_intersections,
     vertex_normals,
 )
+from fairing._new_mesh import FillResult, RemeshResult
 from fairing._outline import (
     MendedOutline,
     SurroundingNormals,
@@ -31,10 +33,12 @@ __all__ = [
     "Cancelled",
     "Diagnostic",
     "FairResult",
+    "FillResult",
     "GrownOutline",
     "MendedOutline",
     "MeshError",
     "PaperOptions",
+    "RemeshResult",
     "Solver",
     "SolverError",
     "SurroundingNormals",
@@ -45,11 +49,13 @@ __all__ = [
     "conformal_distortion",
     "cotan_laplacian",
     "fair",
+    "fill",
     "flipped_triangles",
     "grown_outline",
     "hierarchy",
     "mean_curvature",
     "mend_outline",
+    "remesh",
     "self_intersections",
     "surrounding_normals",
     "vertex_normals",

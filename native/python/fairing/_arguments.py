@@ -91,6 +91,20 @@ def boundary(
     return held, floats("fixed_normals", fixed_normals, held.shape[0])
 
 
+def curvatures(value: npt.ArrayLike, held: IntArray | None) -> FloatArray:
+    """``fixed_curvatures`` as (k,) float64, NaN where it is not known, or ValueError."""
+    if held is None:
+        raise ValueError("fixed_curvatures: needs `fixed`, whose order it follows")
+    array = _array("fixed_curvatures", value)
+    if array.dtype.kind not in "fiu":
+        raise ValueError(f"fixed_curvatures: numbers are needed, not {array.dtype}")
+    if array.shape != held.shape:
+        raise ValueError(f"fixed_curvatures: shape {held.shape} is needed, not {array.shape}")
+    if np.isinf(array).any():
+        raise ValueError("fixed_curvatures: finite numbers are needed, or NaN where the curvature is not known")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
 def indices_within(name: str, array: IntArray, count: int) -> IntArray:
     """The array itself, or MeshError INDEX_RANGE where an index is outside 0 … count − 1.
 

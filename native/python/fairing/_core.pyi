@@ -24,6 +24,7 @@ class Options:
         threads: int,
         detail: float = ...,
         detail_size: float = ...,
+        start: str = ...,
     ) -> None: ...
 
 class PaperOptions:
@@ -56,6 +57,7 @@ class Solver:
         self,
         vertices: _Floats,
         fixed_normals: _Floats | None,
+        fixed_curvatures: _Floats | None,
         reference: _Floats | None,
         progress: Callable[[float, str], bool | None] | None,
     ) -> dict[str, Any]: ...
@@ -65,6 +67,7 @@ def fair(
     triangles: _Ints,
     fixed: _Ints | None,
     fixed_normals: _Floats | None,
+    fixed_curvatures: _Floats | None,
     reference: _Floats | None,
     neighbours: _Ints | None,
     weights: _Floats | None,
@@ -94,3 +97,27 @@ def feather_weights(vertices: _Floats, inside: _Ints, outside: _Ints, width: flo
 def visible_join(
     vertices: _Floats, inside: _Ints, outside: _Ints, outline: _Ints, before: _Floats | None
 ) -> _Floats: ...
+def fill_loops(
+    vertices: _Floats,
+    loops: list[_Ints],
+    normals: list[_Floats],
+    bridge: bool,
+    equation: str,
+    progress: Callable[[float, str], bool | None] | None,
+) -> dict[str, Any]: ...
+def remesh(
+    vertices: _Floats,
+    triangles: _Ints,
+    fixed: _Ints | None,
+    fixed_normals: _Floats | None,
+    wanted: tuple[float, int],
+    threads: int,
+    progress: Callable[[float, str], bool | None] | None,
+) -> dict[str, Any]: ...
+def expected_count(
+    vertices: _Floats,
+    triangles: _Ints,
+    fixed: _Ints | None,
+    fixed_normals: _Floats | None,
+    wanted: tuple[float, int],
+) -> float: ...

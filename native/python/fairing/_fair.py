@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _feather, _mending, _options, _paper
+from fairing import _arguments, _core, _feather, _joining, _mending, _options, _paper
 from fairing._paper import PaperOptions
 from fairing._types import FairResult, IntArray
 
@@ -41,6 +41,9 @@ def fair(
     detail_size: float = 0.0,
     feather: float = 0.0,
     weights: npt.ArrayLike | None = None,
+    continuity: str = "G1",
+    fixed_curvatures: npt.ArrayLike | None = None,
+    start: str = "outline",
 ) -> FairResult:
     """Replace the free vertices of a mesh by the fairest surface with the given boundary data.
 
@@ -110,9 +113,16 @@ def fair(
         "mended": a noisy outline is moved onto the fit of its surroundings first, and the two rings outside with it, as
         :func:`fairing.mend_outline` does; the normals there are the fit's. The result names what ``moved``. Where that
         gives folds or no solution, and the outline as given does not, the latter is kept (warning OUTLINE_KEPT).
+    continuity : "G1" | "G2"
+        "G2": the surface continues the curvature of its surroundings, too, and Δ_B² H = 0 (docs/joins.md). Where that
+        is not known, or no such surface is found, the tangent join is kept, and the warning G2_NOT_MET says so. For
+        ``equation`` "harmonic".
+    fixed_curvatures : (k,) float
+        Of "G2": mean curvatures H at ``fixed``, in length⁻¹, −1/R on a sphere with outward normals; NaN where the
+        curvature is not known. Default: fitted to the triangles outside.
     outside : (o, 3) int
-        Triangles around the patch, which stay: what "mended" and ``join`` look at. Triangles whose corners are all
-        ``fixed`` count among them.
+        Triangles around the patch, which stay: what "mended", "G2" and ``join`` look at. Triangles whose corners are
+        all ``fixed`` count among them.
     detail : float
         0 … 1: how much of the detail of ``reference`` is put back on the fair surface. The old patch is split into a
         smooth base and what is left, its detail, which the new surface takes over, turned as the base turns. Vertices
@@ -128,6 +138,10 @@ def fair(
     weights : (n,) float
         In place of ``feather``: the part of the way that each vertex goes, 0 … 1, those inside too. The band is where
         vertices of ``outside`` have a weight.
+    start : "outline" | "given"
+        "given": begin at the vertices given, which lie near the surface. Where the iteration does not find it from
+        there, within a few steps and without folds, the outline alone decides as always. For the harmonic equations
+        and "global"; where conformal weights are those of these same vertices, these move along the normals only.
 
     Returns
     -------
@@ -159,18 +173,34 @@ def fair(
     options = _options.engine_options(
         equation=equation, otherwise=otherwise, load=load, bulge=bulge, fairness=kind, method=method, normals=normals,
         tolerance=tolerance, max_iterations=max_iterations, threads=threads, detail=detail, detail_size=detail_size,
+        start=start,
     )  # fmt: skip
-    as_given = _mending.Boundary(points, fixed_list, given_normals)
+    joins = _options.continuity(continuity, equation, method)
     around = _mending.Surroundings.of(points, faces, fixed_list, outside)
+    as_given = _mending.Boundary(points, fixed_list, given_normals)
+    if not joins and fixed_curvatures is not None:
+        raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
+    if joins:
+        as_given = _joining.with_curvatures(as_given, around, fixed_curvatures)
 
     def call(boundary: _mending.Boundary, triangles: IntArray = faces) -> dict[str, Any]:
         return _core.fair(
-            boundary.vertices, triangles, boundary.fixed, boundary.normals, m0, edges, rows, options, of_paper, progress
+            boundary.vertices,
+            triangles,
+            boundary.fixed,
+            boundary.normals,
+            boundary.curvatures,
+            m0,
+            edges,
+            rows,
+            options,
+            of_paper,
+            progress,
         )
 
     mended = _arguments.choice("outline", outline, _options.OUTLINES) == "mended"
     share = _feather.vertex_weights(weights, count)
-    width = _feather.width(feather, given=share is not None, mended=mended)
+    width = _feather.width(feather, given=share is not None, mended=mended, joins=joins)
     if width > 0.0 or share is not None:
         return FairResult(**_feather.solve_feathered(call, as_given, around, width if share is None else share))
     answer = _mending.solve_mended(call, as_given, faces, around) if mended else call(as_given)

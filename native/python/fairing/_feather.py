@@ -37,7 +37,7 @@ def vertex_weights(value: npt.ArrayLike | None, count: int) -> FloatArray | None
     return weights
 
 
-def width(value: Any, *, given: bool, mended: bool) -> float:
+def width(value: Any, *, given: bool, mended: bool, joins: bool) -> float:
     """The feather, 0 where ``weights`` are ``given`` instead."""
     share = _arguments.finite("feather", value)
     if share < 0.0:
@@ -46,6 +46,8 @@ def width(value: Any, *, given: bool, mended: bool) -> float:
         raise ValueError("feather: is not accepted beside `weights`, which take its place")
     if mended and (given or share > 0.0):
         raise ValueError("outline: 'mended' is not accepted with `feather` or `weights`: their band fades out instead")
+    if joins and (given or share > 0.0):
+        raise ValueError("continuity: 'G2' is not accepted with `feather` or `weights`: their band has no curvatures")
     return share
 
 

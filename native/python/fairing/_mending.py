@@ -16,11 +16,15 @@ Answer = dict[str, Any]
 
 @dataclass(frozen=True)
 class Boundary:
-    """What a solve is given: vertices (n, 3), ``fixed`` (k,) and its normals (k, 3), None where left out."""
+    """What a solve is given: vertices (n, 3), ``fixed`` (k,), its normals (k, 3) and curvatures (k,).
+
+    None where left out.
+    """
 
     vertices: FloatArray
     fixed: IntArray | None
     normals: FloatArray | None
+    curvatures: FloatArray | None = None
 
 
 @dataclass(frozen=True)

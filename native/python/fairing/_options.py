@@ -17,6 +17,8 @@ EQUATIONS = _core.WORDS["equation"]
 OTHERWISE = _core.WORDS["otherwise"]
 INNER_FAIRNESS = _core.WORDS["inner_fairness"]
 OUTLINES = ("given", "mended")
+CONTINUITIES = ("G1", "G2")
+STARTS = ("outline", "given")
 
 
 def engine_options(
@@ -33,6 +35,7 @@ def engine_options(
     threads: Any,
     detail: Any,
     detail_size: Any,
+    start: str = "outline",
 ) -> _core.Options:
     """Checks the options that both methods have; ``fairness`` is the engine's word for it."""
     _arguments.choice("normals", normals, NORMALS)
@@ -51,7 +54,20 @@ def engine_options(
         threads=_arguments.whole("threads", threads, 0),
         detail=_arguments.share("detail", detail),
         detail_size=_arguments.share("detail_size", detail_size),
+        start=_arguments.choice("start", start, STARTS),
     )
+
+
+def continuity(value: str, equation: str, method: str) -> bool:
+    """Whether curvatures are to be met; only Δ_B H = 0 of the fast solver has a version that meets them."""
+    if _arguments.choice("continuity", value, CONTINUITIES) == "G1":
+        return False
+    if equation != "harmonic" or method != "global":
+        raise ValueError(
+            f"continuity: 'G2' is not accepted with equation {equation!r} and method {method!r}; "
+            "accepted with 'harmonic' and 'global'"
+        )
+    return True
 
 
 def neighbour_edges(neighbours: npt.ArrayLike | None, count: int) -> IntArray | None:

@@ -23,11 +23,26 @@ class _OutlineNormals:
     """(k,) False where there were too few points: the normal is the average of the adjacent triangles' then."""
     errors: FloatArray
     """(k,) standard error of each fit's normal, radians; infinite where ``fitted`` is False."""
+    curvatures: FloatArray
+    """(k,) mean curvature H of the surroundings, length⁻¹: −1/R on a sphere with outward normals; NaN where ``fitted``
+    is False."""
+    curvature_errors: FloatArray
+    """(k,) their standard errors; infinite where ``fitted`` is False."""
 
 
 @dataclass(frozen=True, eq=False)
 class SurroundingNormals(_OutlineNormals):
     """What :func:`surrounding_normals` gives back; unpacks as ``normals, fitted``. All arrays are read-only."""
+
+    @property
+    def trusted_curvatures(self) -> FloatArray:
+        """(k,) ``curvatures``, NaN where a fit is far less certain than the others: for ``fixed_curvatures``."""
+        errors = self.curvature_errors
+        if not self.fitted.any():
+            return self.curvatures
+        largest = float(np.abs(self.curvatures[self.fitted]).max())
+        usual = max(4.0 * float(np.median(errors[self.fitted])), 0.25 * largest)
+        return np.where(errors <= usual, self.curvatures, np.nan)
 
     def __iter__(self) -> Iterator[npt.NDArray[Any]]:
         return iter((self.normals, self.fitted))

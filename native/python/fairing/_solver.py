@@ -17,7 +17,7 @@ _SHARED = (
     "equation", "otherwise", "load", "bulge", "normals", "tolerance", "max_iterations", "threads", "detail",
     "detail_size",
 )  # fmt: skip
-_CHANGEABLE = (*_SHARED, "inner_fairness", "neighbours", "method", "levels", "paper")
+_CHANGEABLE = (*_SHARED, "inner_fairness", "neighbours", "method", "levels", "paper", "continuity")
 
 
 class Solver:
@@ -69,6 +69,7 @@ class Solver:
         paper: PaperOptions | None = None,
         detail: float = 0.0,
         detail_size: float = 0.0,
+        continuity: str = "G1",
     ) -> None:
         """Check and copy everything; nothing is solved yet. Raises what fairing.fair does for these arguments.
 
@@ -105,6 +106,7 @@ class Solver:
         """Edges, λ by rows, and the engine's options; how many vertices there are is known at the first solve."""
         edges = _options.neighbour_edges(options["neighbours"], _ANY_COUNT)
         method = _arguments.choice("method", options["method"], _options.METHODS)
+        _options.continuity(options["continuity"], options["equation"], method)
         kind, weights = _options.inner_fairness(options["inner_fairness"], _ANY_COUNT)
         paper = _paper.engine_options(method, options["levels"], options["paper"])
         shared = {name: options[name] for name in _SHARED}
@@ -116,20 +118,32 @@ class Solver:
         fixed_normals: npt.ArrayLike | None = None,
         reference: npt.ArrayLike | None = None,
         progress: Progress | None = None,
+        fixed_curvatures: npt.ArrayLike | None = None,
     ) -> FairResult:
         """Solve for these positions and normals; arguments, result and errors are those of fairing.fair.
 
         ``reference`` left out is ``vertices``, as there. Give the same one each time for weights that depend on
-        it, or they are made anew, and factorised, whenever a vertex has moved.
+        it, or they are made anew, and factorised, whenever a vertex has moved. With continuity "G2"
+        ``fixed_curvatures`` must be given; :func:`fairing.surrounding_normals` fits them.
         """
         points = _arguments.floats("vertices", vertices)
         count = points.shape[0]
         if fixed_normals is not None and self._fixed is None:
             raise ValueError("fixed_normals: needs `fixed`, whose order it follows")
         _, given_normals = _arguments.boundary(self._fixed, fixed_normals)
+        curvatures = self._curvatures(fixed_curvatures)
         m0 = None if reference is None else _arguments.floats("reference", reference, count)
         if self._neighbours is not None:
             _arguments.indices_within("neighbours", self._neighbours, count)
         if self._weights is not None:
             _arguments.indices_within("inner_fairness", self._weights[:, :2].astype(np.int32), count)
-        return FairResult(**self._engine.solve(points, given_normals, m0, _options.callback(progress)))
+        return FairResult(**self._engine.solve(points, given_normals, curvatures, m0, _options.callback(progress)))
+
+    def _curvatures(self, given: npt.ArrayLike | None) -> FloatArray | None:
+        """Checked; needed for "G2" and refused without it."""
+        joins = self._options["continuity"] == "G2"
+        if joins != (given is not None):
+            raise ValueError(
+                f"fixed_curvatures: {'needed' if joins else 'refused'} with continuity {self._options['continuity']!r}"
+            )
+        return None if given is None else _arguments.curvatures(given, self._fixed)

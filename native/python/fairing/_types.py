@@ -12,7 +12,7 @@ from fairing import _core
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int32]
-CODES: tuple[str, ...] = (*_core.CODES, "OUTLINE_KEPT")  # all that a `Diagnostic` may have
+CODES: tuple[str, ...] = (*_core.CODES, "OUTLINE_KEPT", "NOT_A_LOOP")  # all that a `Diagnostic` may have
 FOLDS = ("FOLDED", "FLIPPED_TRIANGLES", "SELF_INTERSECTION")  # codes of warnings about the surface itself
 
 
@@ -88,6 +88,9 @@ class FairResult:
     join: FloatArray
     """(k',) degrees, in the order of ``fixed``: how visible the join is (see :func:`fairing.visible_join`). Where no
     triangles outside were given, they are taken for the patch's mirror image across the prescribed tangent planes."""
+    continuity: Literal["G1", "G2"]
+    """"G2": the surface continues the curvature of its surroundings, wherever that is known (G2_NOT_MET names the other
+    vertices). "G1": only their slopes, because no more was asked for or because G2_NOT_MET says why."""
     converged: bool
     """Whether every component has its surface: the equation is solved to the tolerance, and the vertices lie on the
     solution without folds. Where not, the best positions found are given."""

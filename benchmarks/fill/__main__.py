@@ -1,0 +1,167 @@
+"""Holes and bridges: exact surfaces, independence of the spacing, real meshes, pictures.
+
+    python benchmarks/fill [hemisphere | spacing | caps | size | bridges | real | peers | pictures …]
+
+Prints the tables of docs/fill.md; `pictures` writes docs/pictures/fill_holes.png and fill_bridges.png. Processor time,
+one thread. `real` and `pictures` need shared/data beside the checkout, `peers` takes what is installed of pymeshfix.
+"""
+
+from __future__ import annotations
+
+import importlib
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+
+import bridges
+
+import fairing
+import holes
+import real_meshes
+from holes import FloatArray, IntArray
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def timed(vertices: FloatArray, triangles: IntArray, *loops: Any, **options: Any) -> tuple[fairing.FillResult, float]:
+    """The filling and its seconds of processor time."""
+    start = time.process_time()
+    result = fairing.fill(vertices, triangles, *loops, threads=1, **options)
+    return result, time.process_time() - start
+
+
+def shape_of(vertices: FloatArray, result: fairing.FillResult) -> str:
+    """Least angle away from corners that the outline forces, and the highest valence of a new vertex."""
+    points = np.concatenate([vertices, result.vertices])
+    free_corners = (result.triangles >= len(vertices)).sum(axis=1)
+    angles = holes.angles(points, result.triangles[free_corners > 0])
+    valence = np.bincount(holes.edges_of(result.triangles).ravel())[len(vertices) :].max()
+    return f"{angles.min():.0f}° | {valence}"
+
+
+def hemisphere() -> Iterator[str]:
+    """Rims of a hemisphere, normals from the surroundings."""
+    yield "| rim | new vertices | error of the apex | largest error | least angle | valence | s |"
+    for edges in (12, 24, 48, 96, 192):
+        vertices, triangles = holes.bowl(edges)
+        result, seconds = timed(vertices, triangles)
+        lengths = np.linalg.norm(result.vertices, axis=1)
+        apex = abs(lengths[result.vertices[:, 2].argmax()] - 1)
+        shape = shape_of(vertices, result)
+        yield f"| {edges} | {len(lengths)} | {apex:.1e} | {abs(lengths - 1).max():.1e} | {shape} | {seconds:.3f} |"
+
+
+def spacing() -> Iterator[str]:
+    """The same hole at spacings between a quarter and four times the rim's."""
+    yield "| spacing | new vertices | height of the apex | largest error | s |"
+    edge = 2 * np.sin(np.pi / 24)
+    for factor in (0.25, 0.5, 1.0, 2.0, 4.0):
+        result, seconds = timed(*holes.bowl(24), spacing=factor * edge)
+        lengths = np.linalg.norm(result.vertices, axis=1)
+        apex = lengths[result.vertices[:, 2].argmax()]
+        yield f"| {factor:g} | {len(lengths)} | {apex:.6f} | {abs(lengths - 1).max():.1e} | {seconds:.3f} |"
+
+
+def caps() -> Iterator[str]:
+    """Holes of other openings in a sphere, rims of 48 edges."""
+    yield "| half-angle | new vertices | converged | largest error | s |"
+    for half_angle in (30, 60, 75, 90, 110, 130, 140, 150):
+        result, seconds = timed(*holes.bowl(48, half_angle))
+        error = abs(np.linalg.norm(result.vertices, axis=1) - 1).max()
+        yield f"| {half_angle}° | {len(result.vertices)} | {result.converged} | {error:.1e} | {seconds:.2f} |"
+
+
+def size() -> Iterator[str]:
+    """Many new vertices."""
+    yield "| rim | new vertices | largest error | s |"
+    for edges, length in ((48, 0.0), (192, 0.0), (192, 0.0085)):
+        result, seconds = timed(*holes.bowl(edges), spacing=length)
+        error = abs(np.linalg.norm(result.vertices, axis=1) - 1).max()
+        yield f"| {edges} | {len(result.vertices)} | {error:.1e} | {seconds:.2f} |"
+
+
+def joined() -> Iterator[str]:
+    """Bridges between tubes."""
+    yield "| bridge | new vertices | converged | angle | least angle | valence | equation | s |"
+    for name, (vertices, triangles, loops) in bridges.all_of_them().items():
+        result, seconds = timed(vertices, triangles, loops, bridge=True)
+        yield (
+            f"| {name} | {len(result.vertices)} | {result.converged} | {result.boundary_angle.max():.1f}° | "
+            f"{shape_of(vertices, result)} | {result.equation} | {seconds:.2f} |"
+        )
+
+
+def real() -> Iterator[str]:
+    """The patches of patches.json, deleted and filled; the holes that plane_holes has."""
+    yield "| hole | rim | new | converged | angle, median | join > 12° | warnings | least angle | valence | s |"
+    for patch in real_meshes.listed_patches():
+        loops = [patch.vertices_in_mesh[loop] for loop in fairing.boundary_loops(patch.triangles)]
+        yield row(patch.name, patch.whole, patch.outside, loops, len(loops) > 1)
+    plane = real_meshes.mesh("plane_holes")
+    for k, loop in enumerate(fairing.boundary_loops(plane.triangles)):
+        yield row(f"plane_holes, hole {k}", plane.vertices, plane.triangles, [loop], False)
+
+
+def row(name: str, vertices: FloatArray, triangles: IntArray, loops: list[Any], bridge: bool) -> str:
+    """One hole."""
+    rim = sum(map(len, loops))
+    try:
+        result, seconds = timed(vertices, triangles, loops, bridge=bridge)
+    except fairing.MeshError as error:
+        return f"| {name} | {rim} | refused: {error.code} |"
+    codes = " ".join(warning.code for warning in result.warnings if warning.code != "SHARP_BOUNDARY")
+    return (
+        f"| {name} | {rim} | {len(result.vertices)} | {result.converged} | {np.median(result.boundary_angle):.1f}° | "
+        f"{np.mean(result.join > 12):.0%} | {codes} | {shape_of(vertices, result)} | {seconds:.2f} |"
+    )
+
+
+def peers() -> Iterator[str]:
+    """The apex that another hole filler gives, at several sizes of the rim."""
+    try:
+        meshfix = importlib.import_module("pymeshfix")
+    except ImportError:
+        return
+    yield "| rim | height of the apex, pymeshfix | ours |"
+    for edges in (12, 24, 48, 96):
+        vertices, triangles = holes.bowl(edges)
+        tin = meshfix.PyTMesh()
+        tin.load_array(vertices, triangles.astype(np.int32))
+        tin.fill_small_boundaries(refine=True)
+        filled, _ = tin.return_arrays()
+        near_axis = np.hypot(filled[:, 0], filled[:, 1]) + 10 * (filled[:, 2] < -0.5)
+        theirs = np.linalg.norm(filled[near_axis.argmin()])
+        ours = fairing.fill(vertices, triangles).vertices
+        yield f"| {edges} | {theirs:.4f} | {np.linalg.norm(ours[ours[:, 2].argmax()]):.5f} |"
+
+
+def pictures() -> Iterator[str]:
+    """Real holes and bridges, before and after, with stripes."""
+    import sheet
+
+    yield from sheet.write_all(ROOT / "docs/pictures")
+
+
+TABLES: dict[str, Callable[[], Iterator[str]]] = {
+    "hemisphere": hemisphere, "spacing": spacing, "caps": caps, "size": size, "bridges": joined, "real": real,
+    "peers": peers, "pictures": pictures,
+}  # fmt: skip
+
+
+def main(chosen: list[str]) -> None:
+    """The tables named, or all."""
+    for name in chosen or TABLES:
+        print(f"\n{name}: {TABLES[name].__doc__}\n")
+        for line in TABLES[name]():
+            print(line, flush=True)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

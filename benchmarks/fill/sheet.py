@@ -1,0 +1,93 @@
+"""Pictures of holes and bridges before and after, with reflection stripes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import bridges
+import matplotlib.pyplot as plt
+import numpy as np
+from PIL import Image
+
+import fairing
+import real_meshes
+from holes import FloatArray, IntArray
+from stripes import Layer, facing, render
+
+TILE, COLOURS = 240, 48
+AROUND, NEW = (0.9, 0.9, 0.9), (0.5, 0.75, 1.0)
+HOLES = (
+    "ict_head:nose", "ict_head:scalp", "mh_body:ear_left", "mh_body:nose", "demosthenes-low-res:chest",
+    "wingnut:wing_root_blend", "skull_low_resolution:cranium", "hammer:handle_end", "hand_lowres:palm",
+    "spot_low_resolution:back",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A mesh, its loops, and from where to look."""
+
+    name: str
+    vertices: FloatArray
+    triangles: IntArray
+    loops: list[Any]
+    eye: FloatArray
+    reach: float
+
+    def tiles(self) -> Iterator[FloatArray]:
+        """Before; after; after with its edges."""
+        result = fairing.fill(self.vertices, self.triangles, self.loops, bridge=len(self.loops) > 1)
+        centre = self.vertices[np.concatenate(self.loops)].mean(axis=0)
+        near = np.linalg.norm(self.vertices - centre, axis=1) < 3 * self.reach
+        around = Layer(self.vertices, self.triangles[near[self.triangles].all(axis=1)], AROUND, striped=True)
+        points = np.concatenate([self.vertices, result.vertices])
+        view = facing(self.eye, centre, self.reach, TILE)
+        yield render([around], view)
+        yield render([around, Layer(points, result.triangles, NEW, striped=True)], view)
+        yield render([around, Layer(points, result.triangles, NEW, wire=True)], view)
+
+
+def real_holes() -> Iterator[Shown]:
+    for patch in real_meshes.listed_patches():
+        if patch.name not in HOLES:
+            continue
+        loops = [patch.vertices_in_mesh[loop] for loop in fairing.boundary_loops(patch.triangles)]
+        rim = patch.vertices[patch.fixed]
+        reach = 1.2 * float(np.linalg.norm(rim - rim.mean(axis=0), axis=1).max())
+        mean = patch.normals.mean(axis=0) + 1e-3
+        across = np.cross(mean, [0.3, 0.5, 0.8])
+        eye = mean / np.linalg.norm(mean) + 0.8 * across / np.linalg.norm(across)
+        yield Shown(patch.name, patch.whole, patch.outside, loops, eye, reach)
+
+
+def gaps() -> Iterator[Shown]:
+    for name, (vertices, triangles, loops) in bridges.all_of_them().items():
+        yield Shown(name, vertices, triangles, loops, np.array([0.5, -1.0, 0.7]), 1.9)
+
+
+def save(shown: list[Shown], path: Path) -> None:
+    """Two in each row, three tiles each."""
+    lines = (len(shown) + 1) // 2
+    figure, axes = plt.subplots(lines, 6, figsize=(6 * 1.6, lines * 1.75), squeeze=False, dpi=130)
+    for axis in axes.ravel():
+        axis.axis("off")
+    for k, one in enumerate(shown):
+        row = axes[k // 2, 3 * (k % 2) : 3 * (k % 2) + 3]
+        for axis, image in zip(row, one.tiles(), strict=True):
+            axis.imshow(image)
+        row[0].set_title(one.name, fontsize=7, loc="left", pad=2)
+    figure.subplots_adjust(0, 0, 1, 0.97, 0.01, 0.1)
+    figure.canvas.draw()
+    picture = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[:, :, :3])  # type: ignore[attr-defined]
+    picture.quantize(COLOURS).save(path, optimize=True)
+    plt.close(figure)
+
+
+def write_all(folder: Path) -> Iterator[str]:
+    """Both pictures; the names of the files."""
+    for name, shown in (("fill_holes.png", list(real_holes())), ("fill_bridges.png", list(gaps()))):
+        save(shown, folder / name)
+        yield f"{folder / name}: {(folder / name).stat().st_size // 1000} kB"

@@ -1,0 +1,65 @@
+"""A patch in surroundings that no tangent join continues without an elbow."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+import fairing
+from stripes import FloatArray, IntArray, View
+
+
+@dataclass(frozen=True)
+class Scene:
+    """vertices (n, 3); triangles within and around the patch; how it is looked at."""
+
+    name: str
+    vertices: FloatArray
+    inside: IntArray
+    outside: IntArray
+    view: View
+
+    def solved(self, continuity: str) -> fairing.FairResult:
+        """From normals, and curvatures, that are fitted to what lies outside."""
+        outline = np.intersect1d(self.inside, self.outside)
+        normals = fairing.surrounding_normals(self.vertices, self.outside, outline).normals
+        return fairing.fair(
+            self.vertices, self.inside, fixed=outline, fixed_normals=normals, outside=self.outside,
+            continuity=continuity, threads=1,
+        )  # fmt: skip
+
+    def drawn(self) -> IntArray:
+        """All triangles."""
+        return np.concatenate([self.inside, self.outside])
+
+
+def _grid(rows: int, columns: int, closed: bool) -> IntArray:
+    """Triangles of a grid of vertices numbered row by row, by alternating diagonals."""
+    row, column = (part.ravel() for part in np.mgrid[: rows - 1, : columns if closed else columns - 1])
+    a, b = row * columns + column, row * columns + (column + 1) % columns
+    c, d = b + columns, a + columns
+    even = ((row + column) % 2 == 0)[:, None]
+    first = np.where(even, np.stack([a, b, c], 1), np.stack([a, b, d], 1))
+    second = np.where(even, np.stack([a, c, d], 1), np.stack([b, c, d], 1))
+    return np.concatenate([first, second]).astype(np.int32)
+
+
+def joint(around: int = 144) -> Scene:
+    """A cylinder of radius ½ that stands on one of radius 1: the blend between them."""
+    angle = 2 * np.pi * np.arange(around) / around
+    far = np.linspace(2.2, 1.05, 30)
+    wide = [_on_cylinder(r * np.cos(angle), r * np.sin(angle)) for r in far]
+    heights = np.linspace(1.7, 2.6, 26)
+    narrow = [np.stack([0.5 * np.cos(angle), 0.5 * np.sin(angle), np.full(around, z)], 1) for z in heights]
+    between = [wide[-1] + t * (narrow[0] - wide[-1]) for t in np.linspace(0, 1, 27)[1:-1]]
+    vertices = np.concatenate(wide + between + narrow)
+    triangles = _grid(len(vertices) // around, around, True)
+    row = triangles.min(axis=1) // around
+    within = (row >= len(wide) - 1) & (row < len(wide) + len(between))
+    view = View((0.0, 0.0, 1.35), (1.0, -1.6, 0.75), 3.2, (0.2, 0.3, 1.0))
+    return Scene("joint", vertices, triangles[within], triangles[~within], view)
+
+
+def _on_cylinder(x: FloatArray, s: FloatArray) -> FloatArray:
+    return np.stack([x, np.sin(s), np.cos(s)], 1)

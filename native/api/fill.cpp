@@ -1,0 +1,187 @@
+#include "api/fill.h"
+
+#include <cmath>
+
+#include "api/component.h"
+#include "base/errors.h"
+#include "base/parallel.h"
+#include "fill/even_mesh.h"
+#include "fill/first_surface.h"
+#include "fill/joined_loops.h"
+#include "mesh/pieces.h"
+
+namespace fairing {
+
+namespace {
+
+// The vertices of some loops, numbered anew in the loops' order.
+struct OutlineData {
+    Indices to_input;
+    std::vector<Indices> loops;
+    Points points;
+    Points normals;
+};
+
+OutlineData gathered(const OpenLoops& input, std::span<const int> chosen) {
+    OutlineData data;
+    std::vector<Vector3> normals;
+    for (const int l : chosen) {
+        Indices& loop = data.loops.emplace_back();
+        const Indices& given = input.loops[at(l)];
+        for (std::size_t k = 0; k < given.size(); ++k) {
+            loop.push_back(static_cast<int>(data.to_input.size()));
+            data.to_input.push_back(given[k]);
+            normals.emplace_back(input.normals[at(l)].col(static_cast<Eigen::Index>(k)));
+        }
+    }
+    data.points = gather(input.vertices, data.to_input);
+    data.normals.resize(3, data.points.cols());
+    for (Eigen::Index k = 0; k < data.normals.cols(); ++k) data.normals.col(k) = normals[static_cast<std::size_t>(k)];
+    return data;
+}
+
+// Triangles and vertices of all parts, the old vertices' numbers first.
+class Assembly {
+public:
+    explicit Assembly(int old_count) : old_count_(old_count) {}
+
+    // `to_input`: of the local vertices from `free_count` on; those before are new.
+    void add(const Triangles& triangles, const Points& free_points, std::span<const int> to_input) {
+        const int first = old_count_ + static_cast<int>(points_.size());
+        const int free_count = static_cast<int>(free_points.cols());
+        for (int v = 0; v < free_count; ++v) points_.emplace_back(free_points.col(v));
+        for (const auto corners : triangles.colwise()) {
+            Eigen::Vector3i& added = triangles_.emplace_back();
+            for (int k = 0; k < 3; ++k)
+                added[k] = corners[k] < free_count ? first + corners[k] : to_input[at(corners[k] - free_count)];
+        }
+    }
+    void keep(const Eigen::Vector3i& triangle) { triangles_.push_back(triangle); }
+
+    [[nodiscard]] Points points() const {
+        Points result(3, static_cast<Eigen::Index>(points_.size()));
+        for (std::size_t k = 0; k < points_.size(); ++k) result.col(static_cast<Eigen::Index>(k)) = points_[k];
+        return result;
+    }
+    [[nodiscard]] Triangles triangles() const {
+        Triangles result(3, static_cast<Eigen::Index>(triangles_.size()));
+        for (std::size_t k = 0; k < triangles_.size(); ++k) result.col(static_cast<Eigen::Index>(k)) = triangles_[k];
+        return result;
+    }
+
+private:
+    int old_count_;
+    std::vector<Vector3> points_;
+    std::vector<Eigen::Vector3i> triangles_;
+};
+
+// The patch of one component with the surface on it, in units of D.
+struct OldSurface {
+    OldSurface(const MeshInput& input, const CheckedMesh& mesh, const Patch& component)
+        : patch(component),
+          unit(normalise(gather(input.vertices, fixed_vertices(component)))),
+          points(unit.to_unit(gather(input.vertices, component.to_input))) {
+        FaceGeometry faces;
+        faces.update(points, patch.triangles);
+        normals = vertex_normals(patch, points, faces, gather(mesh.normals, fixed_vertices(patch)), NormalKind::fitted);
+    }
+
+    [[nodiscard]] VectorX lengths(const WantedLengths& wanted) const {
+        return edge_lengths(patch, points, {wanted.spacing / unit.diameter, wanted.least_count});
+    }
+
+    const Patch& patch;
+    Normalisation unit;
+    Points points;
+    Points normals;
+};
+
+std::vector<Patch> patches_of(const CheckedMesh& mesh) {
+    std::vector<Patch> patches = make_patches(mesh.cut, mesh.roles);
+    std::erase_if(patches, [](const Patch& patch) { return patch.free_count == patch.vertex_count(); });
+    if (!patches.empty()) return patches;
+    throw MeshError({Code::no_free_vertices, "there is no vertex that may move, or none that holds them", {}, {}, {}});
+}
+
+}  // namespace
+
+NewSurface fill_loops(const OpenLoops& input, bool bridge, const SolverOptions& options,
+                      const ProgressCallback& callback) {
+    const Progress progress(callback);
+    const Checkpoints checkpoints(progress);
+    const int count = static_cast<int>(input.loops.size());
+    const int surfaces = bridge ? 1 : count;
+    Assembly assembly(static_cast<int>(input.vertices.cols()));
+    NewSurface result;
+    for (int s = 0; s < surfaces; ++s) {
+        const Progress part = progress.range(double(s) / surfaces, double(s + 1) / surfaces);
+        part.report(0.0, "triangulation");
+        Indices chosen{s};
+        for (int l = 1; bridge && l < count; ++l) chosen.push_back(l);
+        const OutlineData data = gathered(input, chosen);
+        const Normalisation unit = normalise(data.points);
+        const Points points = unit.to_unit(data.points);
+        const FirstSurface first =
+            first_surface({points, data.normals, joined_loops(points, data.loops)}, options, part.range(0.1, 1.0));
+        const int free_count = first.patch.free_count;
+        assembly.add(first.patch.triangles, unit.from_unit(first.solution.points.leftCols(free_count)), data.to_input);
+        result.converged = result.converged && first.solution.termination == Termination::converged;
+    }
+    result.vertices = assembly.points();
+    result.triangles = assembly.triangles();
+    return result;
+}
+
+NewMesh remesh(const MeshInput& input, const WantedLengths& wanted, int threads, const ProgressCallback& callback) {
+    const Threads team(threads);
+    const Progress progress(callback);
+    const Checkpoints checkpoints(progress);
+    const CheckedMesh mesh = check_mesh(input);
+    const std::vector<Patch> patches = patches_of(mesh);
+    Assembly assembly(static_cast<int>(input.vertices.cols()));
+    std::vector<char> replaced(static_cast<std::size_t>(input.triangles.cols()), 0);
+    NewMesh result;
+    std::vector<Vector3> weights;
+    std::vector<Vector3> normals;
+    for (const Patch& patch : patches) {
+        progress.report(static_cast<double>(&patch - patches.data()) / static_cast<double>(patches.size()), "mesh");
+        const OldSurface old(input, mesh, patch);
+        const TargetSurface surface(patch, old.points, old.normals);
+        const VectorX lengths = old.lengths(wanted);
+        EvenMesh even(patch, old.points, surface, lengths);
+        even.make_even();
+        const EvenMesh::Result made = even.result();
+        assembly.add(made.triangles, old.unit.from_unit(made.points), fixed_vertices(patch));
+        for (const SurfacePoint& where : made.where) {
+            result.triangle.push_back(patch.input_triangle[at(where.triangle)]);
+            weights.push_back(where.weights);
+            normals.push_back(surface.normal(where));
+        }
+        for (const int t : patch.input_triangle) replaced[at(t)] = 1;
+    }
+    for (Eigen::Index t = 0; t < input.triangles.cols(); ++t) {
+        if (!replaced[static_cast<std::size_t>(t)]) assembly.keep(input.triangles.col(t));
+    }
+    result.vertices = assembly.points();
+    result.triangles = assembly.triangles();
+    result.weights.resize(3, result.vertices.cols());
+    result.normals.resize(3, result.vertices.cols());
+    for (Eigen::Index k = 0; k < result.weights.cols(); ++k) {
+        result.weights.col(k) = weights[static_cast<std::size_t>(k)];
+        result.normals.col(k) = normals[static_cast<std::size_t>(k)];
+    }
+    progress.report(1.0, "done");
+    return result;
+}
+
+double expected_remesh_count(const MeshInput& input, const WantedLengths& wanted) {
+    const CheckedMesh mesh = check_mesh(input);
+    double count = 0.0;
+    for (const Patch& patch : patches_of(mesh)) {
+        const OldSurface old(input, mesh, patch);
+        count += expected_count(patch, old.points, old.lengths(wanted));
+    }
+    return count;
+}
+
+}  // namespace fairing

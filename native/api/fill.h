@@ -1,0 +1,45 @@
+// Surfaces where there is none yet, and new meshes for surfaces that are there.
+#pragma once
+
+#include "api/fair.h"
+#include "fill/edge_lengths.h"
+
+namespace fairing {
+
+// Closed loops of vertices, the new surface on their left, with a unit normal for each vertex.
+struct OpenLoops {
+    Points vertices;
+    std::vector<Indices> loops;
+    std::vector<Points> normals;  // 3 × size of each loop
+};
+
+// A triangle mesh whose first vertices are the caller's, all of them; then come new ones.
+struct NewSurface {
+    Points vertices;  // the new ones
+    Triangles triangles;
+    bool converged = true;  // whether each is the equation's surface
+};
+
+// One surface over all loops, or one over each. The mesh is coarse (some 300 new vertices each), a start for `remesh`
+// and `fair`. Throws SolverError, Cancelled; MeshError (NONMANIFOLD_EDGE) where loops can't be joined. Preconditions:
+// finite vertices, loops of three vertices or more that don't touch.
+NewSurface fill_loops(const OpenLoops& input, bool bridge, const SolverOptions& options,
+                      const ProgressCallback& progress);
+
+struct NewMesh {
+    Points vertices;      // new ones
+    Points normals;       // of the surface there, unit
+    Triangles triangles;  // numbers below the count of old vertices are those, the others new ones
+    Indices triangle;     // of the old mesh, for each new vertex,
+    Points weights;       // and its barycentric coordinates there
+};
+
+// A new mesh for the surface of the old one, whose fixed and border vertices stay. Vertices lie on curved triangles
+// (geometry/target_surface) over the old ones. `wanted.least_count` holds for each component. Components without free
+// vertices stay as they are. Throws what check_mesh throws, and NO_FREE_VERTICES.
+NewMesh remesh(const MeshInput& input, const WantedLengths& wanted, int threads, const ProgressCallback& progress);
+
+// How many vertices that mesh would have, about.
+double expected_remesh_count(const MeshInput& input, const WantedLengths& wanted);
+
+}  // namespace fairing

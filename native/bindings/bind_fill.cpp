@@ -1,0 +1,71 @@
+#include "api/fill.h"
+#include "bindings/python_progress.h"
+#include "bindings/topics.h"
+#include "bindings/words.h"
+
+namespace fairing::bindings {
+
+namespace {
+
+py::array from_triangles(const Triangles& triangles) {
+    py::array_t<int> array({triangles.cols(), Eigen::Index{3}}, triangles.data());
+    array.attr("flags").attr("writeable") = false;
+    return array;
+}
+
+py::dict fill_arrays(const DoubleArray& vertices, const std::vector<IntArray>& loops,
+                     const std::vector<DoubleArray>& normals, bool bridge, const std::string& equation,
+                     const py::object& callback) {
+    OpenLoops input{to_points(vertices), {}, {}};
+    for (const IntArray& loop : loops) input.loops.push_back(to_indices(loop));
+    for (const DoubleArray& of_loop : normals) input.normals.push_back(to_points(of_loop));
+    SolverOptions options;
+    options.equation = equation_words.value(equation);
+    const NewSurface result = without_gil(
+        callback, [&](const ProgressCallback& progress) { return fill_loops(input, bridge, options, progress); });
+    py::dict dict;
+    dict["vertices"] = from_points(result.vertices);
+    dict["triangles"] = from_triangles(result.triangles);
+    dict["converged"] = result.converged;
+    return dict;
+}
+
+MeshInput to_input(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
+                   const std::optional<DoubleArray>& fixed_normals) {
+    return {to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices),
+            to_optional(fixed_normals, to_points)};
+}
+
+py::dict remesh_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
+                       const std::optional<DoubleArray>& fixed_normals, const std::pair<double, int>& wanted,
+                       int threads, const py::object& callback) {
+    const MeshInput input = to_input(vertices, triangles, fixed, fixed_normals);
+    const NewMesh result = without_gil(callback, [&](const ProgressCallback& progress) {
+        return remesh(input, {wanted.first, wanted.second}, threads, progress);
+    });
+    py::dict dict;
+    dict["vertices"] = from_points(result.vertices);
+    dict["normals"] = from_points(result.normals);
+    dict["triangles"] = from_triangles(result.triangles);
+    dict["triangle"] = from_indices(result.triangle);
+    dict["weights"] = from_points(result.weights);
+    return dict;
+}
+
+double expected_count_of(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
+                         const std::optional<DoubleArray>& fixed_normals, const std::pair<double, int>& wanted) {
+    return expected_remesh_count(to_input(vertices, triangles, fixed, fixed_normals), {wanted.first, wanted.second});
+}
+
+}  // namespace
+
+void bind_fill(py::module_& module) {
+    module.def("fill_loops", &fill_arrays, py::arg("vertices"), py::arg("loops"), py::arg("normals"), py::arg("bridge"),
+               py::arg("equation"), py::arg("progress"));
+    module.def("remesh", &remesh_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
+               py::arg("fixed_normals"), py::arg("wanted"), py::arg("threads"), py::arg("progress"));
+    module.def("expected_count", &expected_count_of, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
+               py::arg("fixed_normals"), py::arg("wanted"));
+}
+
+}  // namespace fairing::bindings

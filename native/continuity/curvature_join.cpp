@@ -1,0 +1,137 @@
+#include "continuity/curvature_join.h"
+
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+#include "continuity/join_operator.h"
+#include "linear/anderson.h"
+#include "problem/surface_state.h"
+#include "tangential/tangential_step.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr int history_depth = 6;
+constexpr double largest_step = 0.1;  // units of D
+// Exact data need 3 to 9 iterations.
+constexpr int most_iterations = 30;
+constexpr int patience = 6;  // iterations without a shorter step
+
+class CurvatureJoin {
+public:
+    CurvatureJoin(const Problem& problem, const KnownCurvature& known, const Points& start, const Progress& progress)
+        : problem_(problem),
+          patch_(problem.patch),
+          known_(known),
+          progress_(progress),
+          modes_(known.curves, problem.fixed_points),
+          operator_(problem.patch, problem.fixed_points, modes_, start.leftCols(problem.patch.free_count)),
+          tangential_(make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())),
+          anderson_(3L * problem.patch.free_count, history_depth),
+          coefficients_(VectorX::Zero(modes_.count())) {
+        state_.points = start;
+        is_known_ = VectorX::Zero(problem.fixed_points.cols());
+        for (const OutlineCurve& curve : known.curves) is_known_(curve.places).setOnes();
+    }
+
+    Solution run() {
+        const int most = std::min(most_iterations, problem_.options.max_iterations);
+        solution_.termination = Termination::iteration_limit;
+        for (int k = 0; k < most; ++k) {
+            progress_.report(static_cast<double>(k) / most, "curvature");
+            if (!measure()) return failed();
+            const Points d = step();
+            const double largest = largest_length(d);
+            solution_.iterations = k + 1;
+            solution_.last_step = largest;
+            if (k == 0) solution_.first_step = largest;
+            if (largest <= problem_.options.tolerance) {
+                solution_.termination = Termination::converged;
+                break;
+            }
+            if (!goes_on(largest, k)) return failed();
+            accelerate(d);
+        }
+        solution_.points = state_.points;
+        solution_.mean_curvature = state_.curvature.mean;
+        return std::move(solution_);
+    }
+
+private:
+    Solution failed() {
+        solution_.termination = Termination::stalled;
+        solution_.points = state_.points;
+        return std::move(solution_);
+    }
+
+    // False where the surface has degenerated.
+    bool measure() {
+        state_.measure_faces(patch_);
+        state_.measure_curvature(problem_);
+        if (!state_.curvature.mean.allFinite()) return false;
+        if (!operator_.update(state_.stiffness, progress_.here())) return false;
+        const VectorX mass = state_.stiffness.mass.head(patch_.free_count);
+        residual_ = harmonic_residual(problem_, state_) - mass.cwiseProduct(operator_.harmonic(coefficients_));
+        solution_.residual = residual_.cwiseAbs().cwiseQuotient(2.0 * mass).maxCoeff();
+        return std::isfinite(solution_.residual);
+    }
+
+    // Along the normals, and within the surface, whose curvature a long way there follows.
+    Points step() {
+        const VectorX H = state_.curvature.mean.tail(problem_.fixed_points.cols());
+        const JoinOperator::Step step = operator_.solve(residual_, is_known_.cwiseProduct(known_.values - H));
+        coefficients_ += step.coefficients;
+        Points d = tangential_->displacement(state_.points, state_.normals);
+        for_ranges(patch_.free_count, coarse_grain, [&](int begin, int end) {
+            for (int i = begin; i < end; ++i) {
+                const Vector3 n = state_.normals.col(i);
+                d.col(i) += (step.heights[i] + state_.curvature.fit(i).rise(n, d.col(i))) * n;
+            }
+        });
+        return d;
+    }
+
+    bool goes_on(double largest, int k) {
+        if (!std::isfinite(largest)) return false;
+        if (largest < least_step_) {
+            least_step_ = largest;
+            least_step_at_ = k;
+        }
+        return k - least_step_at_ <= patience;
+    }
+
+    void accelerate(const Points& d) {
+        Eigen::Map<VectorX> x(state_.points.data(), 3L * patch_.free_count);
+        VectorX step = anderson_.step(x, Eigen::Map<const VectorX>(d.data(), d.size()));
+        const double largest = largest_length(Eigen::Map<const Points>(step.data(), 3, patch_.free_count));
+        if (largest > largest_step) step *= largest_step / largest;
+        x += step;
+    }
+
+    const Problem& problem_;
+    const Patch& patch_;
+    const KnownCurvature& known_;
+    const Progress& progress_;
+    OutlineModes modes_;
+    JoinOperator operator_;
+    std::unique_ptr<TangentialStep> tangential_;
+    Anderson anderson_;
+    VectorX coefficients_;  // of the multipliers
+    VectorX is_known_;      // 1 on the curves, 0 off them
+    SurfaceState state_;
+    VectorX residual_;
+    double least_step_ = std::numeric_limits<double>::infinity();
+    int least_step_at_ = 0;
+    Solution solution_;
+};
+
+}  // namespace
+
+Solution join_curvatures(const Problem& problem, const KnownCurvature& known, const Points& start,
+                         const Progress& progress) {
+    return CurvatureJoin(problem, known, start, progress).run();
+}
+
+}  // namespace fairing

@@ -1,0 +1,112 @@
+#include "continuity/outline_modes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace fairing {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr int evening_sweeps = 10;
+
+// Lengths of the edges from each vertex to the next one; on an open curve the last one repeats.
+VectorX edge_lengths(const OutlineCurve& curve, const Points& points) {
+    const auto count = static_cast<Eigen::Index>(curve.places.size());
+    VectorX lengths(count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        const Eigen::Index next = (k + 1) % count;
+        lengths[k] = (points.col(curve.places[std::size_t(next)]) - points.col(curve.places[std::size_t(k)])).norm();
+    }
+    if (!curve.closed) lengths[count - 1] = lengths[std::max<Eigen::Index>(count - 2, 0)];
+    return lengths.cwiseMax(1e-9 * lengths.maxCoeff() + 1e-300);
+}
+
+// Means with the neighbours along the curve.
+VectorX evened(VectorX values, bool closed) {
+    const Eigen::Index count = values.size();
+    for (int sweep = 0; sweep < evening_sweeps; ++sweep) {
+        const VectorX old = values;
+        for (Eigen::Index k = 0; k < count; ++k) {
+            const Eigen::Index before = k > 0 ? k - 1 : (closed ? count - 1 : k);
+            const Eigen::Index after = k + 1 < count ? k + 1 : (closed ? 0 : k);
+            values[k] = 0.25 * old[before] + 0.5 * old[k] + 0.25 * old[after];
+        }
+    }
+    return values;
+}
+
+// Vertices from the first one, counted by length over spacing.
+VectorX parameters(const VectorX& lengths, const VectorX& spacing) {
+    VectorX t = VectorX::Zero(lengths.size());
+    for (Eigen::Index k = 1; k < t.size(); ++k) t[k] = t[k - 1] + 2.0 * lengths[k - 1] / (spacing[k - 1] + spacing[k]);
+    return t;
+}
+
+}  // namespace
+
+OutlineModes::OutlineModes(const std::vector<OutlineCurve>& curves, const Points& fixed_points, int vertices_per_wave)
+    : fixed_count_(fixed_points.cols()) {
+    for (const OutlineCurve& curve : curves) add_curve(curve, fixed_points, vertices_per_wave);
+}
+
+void OutlineModes::add_curve(const OutlineCurve& curve, const Points& fixed_points, int vertices_per_wave) {
+    const auto vertices = static_cast<Eigen::Index>(curve.places.size());
+    const VectorX lengths = edge_lengths(curve, fixed_points);
+    const VectorX spacing = evened(lengths, curve.closed);
+    const VectorX t = parameters(lengths, spacing);
+    // Once around, or from just before the first vertex to just after the last one.
+    const double period = t[vertices - 1] + (curve.closed ? lengths[vertices - 1] / spacing[vertices - 1] : 2.0);
+    const Eigen::Index pairs = vertices / vertices_per_wave;
+    const Eigen::Index waves = curve.closed ? 1 + 2 * pairs : std::max<Eigen::Index>(1, 2 * pairs);
+    Curve made{curve.places, Eigen::MatrixXd(vertices, waves), VectorX(waves), spacing.cwiseAbs2().cwiseInverse()};
+    const double slowest = 2.0 * pi / period;
+    for (Eigen::Index m = 0; m < waves; ++m) {
+        const double frequency =
+            curve.closed ? slowest * static_cast<double>((m + 1) / 2) : 0.5 * slowest * static_cast<double>(m + 1);
+        const bool cosine = curve.closed && m % 2 == 0;
+        if (cosine) {
+            made.waves.col(m) = (frequency * t.array()).cos();
+        } else {
+            made.waves.col(m) = (frequency * (t.array() + (curve.closed ? 0.0 : 1.0))).sin();
+        }
+        made.waves.col(m).normalize();
+        made.symbol[m] = 8.0 * (frequency + slowest) * (frequency + 2.0 * slowest);
+    }
+    count_ += waves;
+    curves_.push_back(std::move(made));
+}
+
+VectorX OutlineModes::combined(const VectorX& coefficients) const {
+    VectorX values = VectorX::Zero(fixed_count_);
+    Eigen::Index first = 0;
+    for (const Curve& curve : curves_) {
+        values(curve.places) += curve.waves * coefficients.segment(first, curve.waves.cols());
+        first += curve.waves.cols();
+    }
+    return values;
+}
+
+VectorX OutlineModes::projected(const VectorX& values) const {
+    VectorX coefficients(count_);
+    Eigen::Index first = 0;
+    for (const Curve& curve : curves_) {
+        coefficients.segment(first, curve.waves.cols()) = curve.waves.transpose() * values(curve.places);
+        first += curve.waves.cols();
+    }
+    return coefficients;
+}
+
+VectorX OutlineModes::multipliers(const VectorX& coefficients) const {
+    VectorX values = VectorX::Zero(fixed_count_);
+    Eigen::Index first = 0;
+    for (const Curve& curve : curves_) {
+        const VectorX weighed = curve.symbol.cwiseProduct(coefficients.segment(first, curve.waves.cols()));
+        values(curve.places) += curve.inverse_square.cwiseProduct(curve.waves * weighed);
+        first += curve.waves.cols();
+    }
+    return values;
+}
+
+}  // namespace fairing

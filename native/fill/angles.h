@@ -1,0 +1,26 @@
+// Angles of single triangles, in degrees.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "base/types.h"
+
+namespace fairing {
+
+inline double angle_at(const Vector3& corner, const Vector3& a, const Vector3& b) {
+    const Vector3 u = a - corner;
+    const Vector3 v = b - corner;
+    return std::atan2(u.cross(v).norm(), u.dot(v)) * 180.0 / std::numbers::pi;
+}
+
+inline double least_angle(const Vector3& a, const Vector3& b, const Vector3& c) {
+    const double first = angle_at(a, b, c);
+    const double second = angle_at(b, c, a);
+    return std::min({first, second, 180.0 - first - second});
+}
+
+}  // namespace fairing

@@ -1,0 +1,142 @@
+#include "fill/edge_lengths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <utility>
+
+#include "base/progress.h"
+#include "geometry/face_geometry.h"
+#include "operators/laplace_operator.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr double even_growth = 0.5;   // of lengths by distance
+constexpr double steep_growth = 1.0;  // where the outline is so coarse that an even one gives too few vertices
+constexpr double shortest = 1e-12;
+
+// Mean length of the two border edges at each vertex of the border, zero elsewhere.
+VectorX border_lengths(const Patch& patch, const Points& points) {
+    VectorX lengths = VectorX::Zero(patch.vertex_count());
+    for (int e = 0; e < patch.edge_count(); ++e) {
+        if (patch.edge_triangles[at(e)][1] != none) continue;
+        const auto [a, b] = patch.edge_ends[at(e)];
+        for (const int v : {a, b}) lengths[v] += 0.5 * (points.col(a) - points.col(b)).norm();
+    }
+    return lengths;
+}
+
+// exp of the harmonic continuation of the border's log lengths.
+VectorX continued(const Patch& patch, const Points& points, const VectorX& border) {
+    double sum = 0.0;
+    Eigen::Index count = 0;
+    VectorX logarithms = VectorX::Zero(patch.vertex_count());
+    for (int v = 0; v < patch.vertex_count(); ++v) {
+        if (border[v] <= 0.0) continue;
+        sum += logarithms[v] = std::log(border[v] + shortest);
+        ++count;
+    }
+    const double mean = count > 0 ? sum / static_cast<double>(count) : 0.0;
+    for (int v = 0; v < patch.vertex_count(); ++v) {
+        if (border[v] <= 0.0) logarithms[v] = mean;  // pins, too
+    }
+    FaceGeometry faces;
+    faces.update(points, patch.triangles);
+    Stiffness stiffness;
+    stiffness.update(faces, patch);
+    stiffness.weights = stiffness.weights.cwiseMax(1e-3);  // obtuse angles would overshoot
+    LaplaceOperator laplace(patch, points.leftCols(patch.free_count));
+    if (patch.free_count == 0 || !laplace.update(stiffness, Progress())) return logarithms.array().exp();
+    logarithms.head(patch.free_count).setZero();
+    const Eigen::RowVectorXd row = logarithms.transpose();
+    logarithms.head(patch.free_count) = -laplace.solve(stiffness.apply(patch, row, patch.free_count).transpose());
+    return logarithms.array().exp();
+}
+
+// Makes every length at most (or, with `sign` −1, at least) that of a neighbour plus (minus) `growth` times the way.
+void grade(const Patch& patch, const Points& points, double growth, double sign, VectorX& lengths) {
+    using Entry = std::pair<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    for (int v = 0; v < patch.vertex_count(); ++v) queue.emplace(sign * lengths[v], v);
+    while (!queue.empty()) {
+        checkpoint();
+        const auto [key, v] = queue.top();
+        queue.pop();
+        if (key > sign * lengths[v]) continue;
+        for (const int u : patch.ring(v).vertices) {
+            const double reached = key + growth * (points.col(u) - points.col(v)).norm();
+            if (reached < sign * lengths[u]) {
+                lengths[u] = sign * reached;
+                queue.emplace(reached, u);
+            }
+        }
+    }
+}
+
+// The outline's edges are what they are: where they are longer than wanted, lengths shrink inwards, and the other way
+// round.
+VectorX graded(const Patch& patch, const Points& points, double growth, const VectorX& border, const VectorX& inside) {
+    VectorX lengths = inside;
+    const auto hold = [&] {
+        for (int v = 0; v < patch.vertex_count(); ++v) {
+            if (border[v] > 0.0) lengths[v] = border[v];
+        }
+    };
+    for (int v = 0; v < patch.vertex_count(); ++v) {
+        if (border[v] > 0.0) lengths[v] = std::min(border[v], inside[v]);
+    }
+    grade(patch, points, growth, 1.0, lengths);
+    hold();
+    grade(patch, points, growth, -1.0, lengths);
+    return lengths;
+}
+
+}  // namespace
+
+double expected_count(const Patch& patch, const Points& points, const VectorX& lengths) {
+    constexpr double vertices_per_square = 1.1547;  // of the edge: 2/√3
+    FaceGeometry faces;
+    faces.update(points, patch.triangles);
+    double count = 0.0;
+    for (int t = 0; t < patch.triangle_count(); ++t) {
+        double inverse = 0.0;
+        for (const int v : patch.triangles.col(t)) inverse += 1.0 / (3.0 * lengths[v] * lengths[v]);
+        count += vertices_per_square * faces.areas[t] * inverse;
+    }
+    return count;
+}
+
+VectorX edge_lengths(const Patch& patch, const Points& points, const WantedLengths& wanted) {
+    constexpr int halvings = 12;
+    constexpr double smallest_scale = 1e-2;
+    const VectorX border = border_lengths(patch, points);
+    const VectorX inside = wanted.spacing > 0.0 ? VectorX(VectorX::Constant(patch.vertex_count(), wanted.spacing))
+                                                : continued(patch, points, border);
+    VectorX lengths = graded(patch, points, even_growth, border, inside);
+    const auto suffices = [&](const VectorX& tried) {
+        return expected_count(patch, points, tried) >= wanted.least_count;
+    };
+    if (suffices(lengths)) return lengths;
+    for (const double growth : {even_growth, steep_growth}) {
+        double enough = smallest_scale;
+        double few = 1.0;
+        lengths = graded(patch, points, growth, border, enough * inside);
+        if (!suffices(lengths)) continue;
+        for (int k = 0; k < halvings; ++k) {
+            const double scale = std::sqrt(enough * few);
+            VectorX tried = graded(patch, points, growth, border, scale * inside);
+            if (suffices(tried)) {
+                enough = scale;
+                lengths = std::move(tried);
+            } else {
+                few = scale;
+            }
+        }
+        break;
+    }
+    return lengths;
+}
+
+}  // namespace fairing

@@ -1,0 +1,20 @@
+// How long the edges of a new mesh are to be.
+#pragma once
+
+#include "mesh/patch.h"
+
+namespace fairing {
+
+struct WantedLengths {
+    double spacing = 0.0;  // 0: as the outline's own edges, harmonic in between
+    int least_count = 0;   // about so many vertices at least: lengths shrink evenly until they give that many
+};
+
+// A length at each vertex of a patch (`points`: 3 × local vertices). At the outline it is that of the outline's edges;
+// from there it grows or shrinks to the wanted one by at most a half of the distance.
+VectorX edge_lengths(const Patch& patch, const Points& points, const WantedLengths& wanted);
+
+// How many vertices a mesh of equilateral triangles of these lengths has on the patch, about.
+double expected_count(const Patch& patch, const Points& points, const VectorX& lengths);
+
+}  // namespace fairing

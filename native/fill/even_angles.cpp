@@ -1,0 +1,97 @@
+// The last triangles with small angles.
+#include <array>
+
+#include "base/progress.h"
+#include "fill/angles.h"
+#include "fill/even_mesh.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr double wanted_angle = 30.0;  // degrees; promised are 25
+constexpr double gain = 0.1;
+constexpr int most_rounds = 12;
+
+}  // namespace
+
+// Of the star around v if v were there; negative where a triangle turns away from the surface.
+double EvenMesh::worst_angle_around(Vertex v, const Vector3& position) const {
+    const Vector3 normal = surface_.normal(where_[at(v.idx())]);
+    double worst = 180.0;
+    for (const Halfedge spoke : mesh_.voh_range(v)) {
+        if (mesh_.is_boundary(spoke)) continue;
+        const Vector3 b = point(mesh_.to_vertex_handle(spoke));
+        const Vector3 c = point(apex(spoke));
+        if (!((b - position).cross(c - position).dot(normal) > 0.0)) return -1.0;
+        worst = std::min(worst, least_angle(position, b, c));
+    }
+    return worst;
+}
+
+int EvenMesh::improve_flips() {
+    int flips = 0;
+    for (const Edge e : mesh_.edges()) {
+        if (mesh_.is_boundary(e)) continue;
+        const Halfedge h = mesh_.halfedge_handle(e, 0);
+        const Vector3 a = point(mesh_.from_vertex_handle(h));
+        const Vector3 b = point(mesh_.to_vertex_handle(h));
+        const Vector3 c = point(apex(h));
+        const Vector3 d = point(apex(mesh_.halfedge_handle(e, 1)));
+        const double before = std::min(least_angle(a, b, c), least_angle(b, a, d));
+        if (before >= wanted_angle) continue;
+        const double after = std::min(least_angle(c, d, b), least_angle(d, c, a));
+        if (after <= before + gain || !may_flip(e)) continue;
+        mesh_.flip(e);
+        ++flips;
+    }
+    return flips;
+}
+
+// A pattern search for each vertex, in six directions of the surface, from a quarter of its length downwards.
+int EvenMesh::improve_places(const std::vector<int>& vertices) {
+    int moves = 0;
+    for (const int k : vertices) {
+        checkpoint();
+        const Vertex v(k);
+        double best = worst_angle_around(v, point(v));
+        for (double step = 0.25 * wanted_[at(k)]; step > 0.01 * wanted_[at(k)]; step *= 0.5) {
+            const Vector3 normal = surface_.normal(where_[at(k)]);
+            const Vector3 along = normal.unitOrthogonal();
+            const Vector3 across = normal.cross(along);
+            for (int j = 0; j < 6; ++j) {
+                const double turn = j * std::numbers::pi / 3.0;
+                const Vector3 goal = point(v) + step * (std::cos(turn) * along + std::sin(turn) * across);
+                const SurfacePoint where = surface_.project(goal, where_[at(k)].triangle);
+                const double worst = worst_angle_around(v, surface_.position(where));
+                if (worst <= best + gain) continue;
+                best = worst;
+                put(v, goal, where_[at(k)].triangle);
+                ++moves;
+                break;
+            }
+        }
+    }
+    return moves;
+}
+
+void EvenMesh::improve() {
+    for (int round = 0; round < most_rounds; ++round) {
+        std::vector<int> vertices;
+        std::vector<char> listed(mesh_.n_vertices(), 0);
+        for (const SurfaceMesh::FaceHandle f : mesh_.faces()) {
+            std::array<Vertex, 3> corners;
+            std::size_t k = 0;
+            for (const Vertex v : mesh_.fv_range(f)) corners[k++] = v;
+            if (least_angle(point(corners[0]), point(corners[1]), point(corners[2])) >= wanted_angle) continue;
+            for (const Vertex v : corners) {
+                if (fixed(v) || listed[at(v.idx())] != 0) continue;
+                listed[at(v.idx())] = 1;
+                vertices.push_back(v.idx());
+            }
+        }
+        if (improve_flips() + improve_places(vertices) == 0) return;
+    }
+}
+
+}  // namespace fairing

@@ -1,0 +1,300 @@
+#include "fill/even_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "fill/angles.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr double split_above = 4.0 / 3.0;  // of the wanted length
+constexpr double collapse_below = 0.75;
+constexpr double longest_after = 1.4;  // edges that a collapse makes
+constexpr int highest_valence = 8;     // flips and collapses make none higher
+constexpr double cos_of_fold = 0.5;    // a flip may not bend the mesh more than this, or further than it is bent
+constexpr double sharp_corner = 75.0;  // degrees
+constexpr double delaunay_slack = -1e-9;
+
+Vector3 cross_product(const Vector3& a, const Vector3& b, const Vector3& c) { return (b - a).cross(c - a); }
+
+double cotangent(const Vector3& apex, const Vector3& a, const Vector3& b) {
+    const double sine = (a - apex).cross(b - apex).norm();
+    return (a - apex).dot(b - apex) / std::max(sine, 1e-300);
+}
+
+using QueuedEdge = std::pair<double, int>;  // relative length, half-edge
+using ShortestFirst = std::priority_queue<QueuedEdge, std::vector<QueuedEdge>, std::greater<>>;
+
+}  // namespace
+
+EvenMesh::EvenMesh(const Patch& patch, const Points& points, const TargetSurface& surface, const VectorX& lengths)
+    : patch_(patch), surface_(surface), lengths_(lengths), mesh_(surface_mesh(patch)), free_count_(patch.free_count) {
+    mesh_.request_vertex_status();
+    mesh_.request_edge_status();
+    mesh_.request_face_status();
+    mesh_.request_halfedge_status();
+    for (int v = 0; v < patch.vertex_count(); ++v) {
+        mesh_.set_point(mesh_.vertex_handle(unsigned(v)), points.col(v));
+        fixed_.push_back(patch.is_free(v) ? 0 : 1);
+        where_.push_back(surface.at_vertex(v));
+        wanted_.push_back(lengths[v]);
+    }
+}
+
+double EvenMesh::relative_length(Edge e) const {
+    const Halfedge h = mesh_.halfedge_handle(e, 0);
+    const double wanted = wanted_[at(mesh_.from_vertex_handle(h).idx())] + wanted_[at(mesh_.to_vertex_handle(h).idx())];
+    return 2.0 * mesh_.calc_edge_length(e) / wanted;
+}
+
+bool EvenMesh::is_chord(Edge e) const {
+    const Halfedge h = mesh_.halfedge_handle(e, 0);
+    return !mesh_.is_boundary(e) && fixed(mesh_.from_vertex_handle(h)) && fixed(mesh_.to_vertex_handle(h));
+}
+
+// A corner that is sharper stays one triangle: halved, its angle would be too small.
+bool EvenMesh::cuts_sharp_corner(Edge e) const {
+    for (const unsigned side : {0U, 1U}) {
+        const Halfedge h = mesh_.halfedge_handle(e, side);
+        const Halfedge next = mesh_.next_halfedge_handle(h);
+        const Halfedge last = mesh_.next_halfedge_handle(next);
+        if (!mesh_.is_boundary(mesh_.edge_handle(next)) || !mesh_.is_boundary(mesh_.edge_handle(last))) continue;
+        const Vector3 corner = point(apex(h));
+        const Vector3 a = point(mesh_.from_vertex_handle(h));
+        const Vector3 b = point(mesh_.to_vertex_handle(h));
+        if (angle_at(corner, a, b) < sharp_corner) return true;
+    }
+    return false;
+}
+
+// The place on the surface that a walk from `triangle` finds.
+void EvenMesh::put(Vertex v, const Vector3& position, int triangle) {
+    const SurfacePoint where = surface_.project(position, triangle);
+    where_[at(v.idx())] = where;
+    mesh_.set_point(v, surface_.position(where));
+    wanted_[at(v.idx())] = surface_.interpolate(lengths_, where);
+}
+
+EvenMesh::Vertex EvenMesh::split(Edge e) {
+    const Vertex end = mesh_.to_vertex_handle(mesh_.halfedge_handle(e, 0));
+    const Vector3 middle = mesh_.calc_edge_midpoint(e);
+    const Vertex v = mesh_.add_vertex(middle);
+    mesh_.split(e, v);
+    ++free_count_;
+    fixed_.push_back(0);
+    where_.emplace_back();
+    wanted_.push_back(0.0);
+    put(v, middle, where_[at(end.idx())].triangle);
+    return v;
+}
+
+int EvenMesh::split_chords() {
+    int splits = 0;
+    const auto count = mesh_.n_edges();
+    for (unsigned k = 0; k < count; ++k) {
+        const Edge e(static_cast<int>(k));
+        if (mesh_.status(e).deleted() || !is_chord(e) || cuts_sharp_corner(e)) continue;
+        split(e);
+        ++splits;
+    }
+    return splits;
+}
+
+// Longest first.
+int EvenMesh::split_long() {
+    std::vector<QueuedEdge> long_edges;
+    for (const Edge e : mesh_.edges()) {
+        if (mesh_.is_boundary(e)) continue;
+        const double length = relative_length(e);
+        if (length > split_above && !(is_chord(e) && cuts_sharp_corner(e))) long_edges.emplace_back(-length, e.idx());
+    }
+    std::sort(long_edges.begin(), long_edges.end());
+    for (const auto& [length, index] : long_edges) {
+        checkpoint();
+        split(Edge(index));
+    }
+    return static_cast<int>(long_edges.size());
+}
+
+// Whether the vertex at the start of h may move into its end.
+bool EvenMesh::may_collapse(Halfedge h) {
+    const Vertex gone = mesh_.from_vertex_handle(h);
+    const Vertex kept = mesh_.to_vertex_handle(h);
+    if (fixed(gone) || !mesh_.is_collapse_ok(h)) return false;
+    const Vector3 place = point(kept);
+    const Vector3 normal = surface_.normal(where_[at(kept.idx())]);
+    if (static_cast<int>(mesh_.valence(gone) + mesh_.valence(kept)) - 4 > highest_valence) return false;
+    for (const Halfedge spoke : mesh_.voh_range(gone)) {
+        const Vertex other = mesh_.to_vertex_handle(spoke);
+        const Vertex next = apex(spoke);
+        if (other == kept) continue;
+        const double wanted = 0.5 * (wanted_[at(other.idx())] + wanted_[at(kept.idx())]);
+        if ((place - point(other)).norm() > longest_after * wanted) return false;
+        if (fixed(kept) && fixed(other) && !mesh_.find_halfedge(kept, other).is_valid()) return false;
+        if (next == kept) continue;
+        if (!(cross_product(place, point(other), point(next)).dot(normal) > 0.0)) return false;
+    }
+    return true;
+}
+
+// Shortest first.
+int EvenMesh::collapse_short() {
+    ShortestFirst queue;
+    const auto push = [&](Halfedge h) {
+        const double length = relative_length(mesh_.edge_handle(h));
+        if (!fixed(mesh_.from_vertex_handle(h)) && length < collapse_below) queue.emplace(length, h.idx());
+    };
+    for (const Halfedge h : mesh_.halfedges()) push(h);
+    int collapses = 0;
+    for (; !queue.empty() && free_count_ > 1; queue.pop()) {
+        checkpoint();
+        const Halfedge h(queue.top().second);
+        if (mesh_.status(h).deleted() || relative_length(mesh_.edge_handle(h)) != queue.top().first) continue;
+        if (!may_collapse(h)) continue;
+        const Vertex kept = mesh_.to_vertex_handle(h);
+        mesh_.collapse(h);
+        --free_count_;
+        ++collapses;
+        for (const Halfedge spoke : mesh_.voh_range(kept)) {
+            push(spoke);
+            push(mesh_.opposite_halfedge_handle(spoke));
+        }
+    }
+    return collapses;
+}
+
+bool EvenMesh::may_flip(Edge e) const {
+    if (mesh_.is_boundary(e) || !mesh_.is_flip_ok(e)) return false;
+    const Halfedge h = mesh_.halfedge_handle(e, 0);
+    const Vertex above = apex(h);
+    const Vertex below = apex(mesh_.halfedge_handle(e, 1));
+    if (fixed(above) && fixed(below)) return false;
+    for (const Vertex v : {above, below}) {
+        if (static_cast<int>(mesh_.valence(v)) >= highest_valence) return false;
+    }
+    const Vector3 a = point(mesh_.from_vertex_handle(h));
+    const Vector3 b = point(mesh_.to_vertex_handle(h));
+    const Vector3 c = point(above);
+    const Vector3 d = point(below);
+    const auto bend = [](const Vector3& n, const Vector3& m) { return n.dot(m) / (n.norm() * m.norm() + 1e-300); };
+    const double before = bend(cross_product(a, b, c), cross_product(b, a, d));
+    const double after = bend(cross_product(c, d, b), cross_product(d, c, a));
+    return after >= cos_of_fold || after >= before;
+}
+
+bool EvenMesh::is_delaunay(Edge e) const {
+    const Halfedge h = mesh_.halfedge_handle(e, 0);
+    const Vector3 a = point(mesh_.from_vertex_handle(h));
+    const Vector3 b = point(mesh_.to_vertex_handle(h));
+    const double sum = cotangent(point(apex(h)), a, b) + cotangent(point(apex(mesh_.halfedge_handle(e, 1))), a, b);
+    return !(sum < delaunay_slack);
+}
+
+int EvenMesh::flip_edges() {
+    constexpr int most_rounds = 4;
+    int flips = 0;
+    for (int round = 0; round < most_rounds; ++round) {
+        const int before = flips;
+        for (const Edge e : mesh_.edges()) {
+            checkpoint(e.idx());
+            if (mesh_.is_boundary(e) || is_delaunay(e) || !may_flip(e)) continue;
+            mesh_.flip(e);
+            ++flips;
+        }
+        if (flips == before) break;
+    }
+    return flips;
+}
+
+// Each free vertex to the centroid of its star, where large triangles count more: those around come to one size, in
+// units of the wanted length.
+void EvenMesh::smooth(int sweeps) {
+    const int count = static_cast<int>(mesh_.n_vertices());
+    std::vector<SurfacePoint> moved(at(count));
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+        for_ranges(count, coarse_grain, [&](int begin, int end) {
+            for (int k = begin; k < end; ++k) {
+                const Vertex v(k);
+                if (fixed(v) || mesh_.status(v).deleted()) continue;
+                Vector3 sum = Vector3::Zero();
+                double total = 0.0;
+                for (const Halfedge spoke : mesh_.voh_range(v)) {
+                    const Vertex b = mesh_.to_vertex_handle(spoke);
+                    const Vertex c = apex(spoke);
+                    const double wanted = wanted_[at(k)] + wanted_[at(b.idx())] + wanted_[at(c.idx())];
+                    const double weight =
+                        cross_product(point(v), point(b), point(c)).norm() / (wanted * wanted * wanted);
+                    sum += weight / 3.0 * (point(v) + point(b) + point(c));
+                    total += weight;
+                }
+                const Vector3 goal = total > 0.0 ? Vector3(sum / total) : point(v);
+                moved[at(k)] = surface_.project(goal, where_[at(k)].triangle);
+            }
+        });
+        for (int k = 0; k < count; ++k) {
+            const Vertex v(k);
+            if (fixed(v) || mesh_.status(v).deleted()) continue;
+            where_[at(k)] = moved[at(k)];
+            mesh_.set_point(v, surface_.position(moved[at(k)]));
+            wanted_[at(k)] = surface_.interpolate(lengths_, moved[at(k)]);
+        }
+    }
+}
+
+void EvenMesh::make_even() {
+    constexpr int most_rounds = 20;
+    constexpr int settling_rounds = 4;
+    int settled = 0;
+    split_chords();
+    for (int round = 0; round < most_rounds && settled < settling_rounds; ++round) {
+        const int before = static_cast<int>(mesh_.n_vertices());
+        int changes = split_long();
+        changes += collapse_short();
+        flip_edges();
+        changes += split_chords();
+        smooth(2);
+        flip_edges();
+        if (20 * changes <= before) ++settled;
+    }
+    smooth(3);
+    flip_edges();
+    split_chords();
+    improve();
+}
+
+EvenMesh::Result EvenMesh::result() const {
+    Result result;
+    Indices number(mesh_.n_vertices(), none);
+    for (const Vertex v : mesh_.vertices()) {
+        if (fixed(v)) continue;
+        number[at(v.idx())] = static_cast<int>(result.where.size());
+        result.where.push_back(where_[at(v.idx())]);
+    }
+    const int free_count = static_cast<int>(result.where.size());
+    for (int v = patch_.free_count; v < patch_.vertex_count(); ++v) number[at(v)] = free_count + v - patch_.free_count;
+    result.points.resize(3, free_count);
+    for (const Vertex v : mesh_.vertices()) {
+        if (!fixed(v)) result.points.col(number[at(v.idx())]) = point(v);
+    }
+    std::vector<Eigen::Vector3i> triangles;
+    for (const SurfaceMesh::FaceHandle f : mesh_.faces()) {
+        Eigen::Vector3i corners;
+        int k = 0;
+        for (const Vertex v : mesh_.fv_ccw_range(f)) corners[k++] = number[at(v.idx())];
+        triangles.push_back(corners);
+    }
+    result.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        result.triangles.col(static_cast<Eigen::Index>(t)) = triangles[t];
+    return result;
+}
+
+}  // namespace fairing

@@ -1,0 +1,61 @@
+// A mesh of nearly equilateral triangles on a surface that is known.
+#pragma once
+
+#include "geometry/target_surface.h"
+#include "mesh/surface_mesh.h"
+
+namespace fairing {
+
+// Begins as the triangles of the surface's own patch, whose fixed vertices and border edges stay. The other vertices
+// come, go and slide on the surface until the edges are as long as wanted. Deterministic.
+class EvenMesh {
+public:
+    // Needs one free vertex. `lengths`: wanted at the vertices of `patch`. Keeps references.
+    EvenMesh(const Patch& patch, const Points& points, const TargetSurface& surface, const VectorX& lengths);
+    // Splits, collapses, flips and smooths. Asks whether to stop.
+    void make_even();
+    // Splits edges between fixed vertices, at which a patch would end, but for those at sharp corners. Returns how
+    // many.
+    int split_chords();
+    // Vertices 0 … k − 1 are free, at these places; then come the patch's fixed vertices in their order.
+    struct Result {
+        std::vector<SurfacePoint> where;
+        Points points;  // 3 × k
+        Triangles triangles;
+    };
+    [[nodiscard]] Result result() const;
+
+private:
+    using Vertex = SurfaceMesh::VertexHandle;
+    using Halfedge = SurfaceMesh::HalfedgeHandle;
+    using Edge = SurfaceMesh::EdgeHandle;
+    [[nodiscard]] bool fixed(Vertex v) const { return fixed_[at(v.idx())] != 0; }
+    [[nodiscard]] Vector3 point(Vertex v) const { return mesh_.point(v); }
+    [[nodiscard]] Vertex apex(Halfedge h) const { return mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)); }
+    [[nodiscard]] double relative_length(Edge e) const;
+    [[nodiscard]] bool is_chord(Edge e) const;
+    [[nodiscard]] bool cuts_sharp_corner(Edge e) const;
+    void put(Vertex v, const Vector3& position, int triangle);
+    Vertex split(Edge e);
+    int split_long();
+    int collapse_short();
+    [[nodiscard]] bool may_collapse(Halfedge h);
+    [[nodiscard]] bool may_flip(Edge e) const;
+    [[nodiscard]] bool is_delaunay(Edge e) const;
+    int flip_edges();
+    void smooth(int sweeps);
+    int improve_flips();
+    int improve_places(const std::vector<int>& vertices);
+    [[nodiscard]] double worst_angle_around(Vertex v, const Vector3& position) const;
+    void improve();
+    const Patch& patch_;
+    const TargetSurface& surface_;
+    const VectorX& lengths_;
+    SurfaceMesh mesh_;
+    std::vector<char> fixed_;
+    std::vector<SurfacePoint> where_;
+    std::vector<double> wanted_;
+    int free_count_;
+};
+
+}  // namespace fairing

@@ -1,0 +1,129 @@
+#include "fill/first_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "fill/edge_lengths.h"
+#include "fill/even_mesh.h"
+#include "method/near_start.h"
+#include "method/otherwise.h"
+#include "problem/surface_state.h"
+#include "proxy/proxy_mesh.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr Sizing sizing{0.5, 0.06, 20000};  // units of D
+
+Patch made_patch(int free_count, Triangles triangles, Eigen::Index vertex_count) {
+    PatchMembers members;
+    members.free_count = free_count;
+    members.to_input.resize(static_cast<std::size_t>(vertex_count));
+    std::iota(members.to_input.begin(), members.to_input.end(), 0);
+    members.input_triangle.resize(static_cast<std::size_t>(triangles.cols()));
+    std::iota(members.input_triangle.begin(), members.input_triangle.end(), 0);
+    members.pin.assign(members.to_input.size(), 0);
+    members.triangles = std::move(triangles);
+    return Patch(std::move(members));
+}
+
+// The triangulation. A lone triangle has no chord to split: it gets a vertex in its middle.
+ProxyMesh outline_mesh(const OpenOutline& outline) {
+    if (outline.triangles.cols() > 1) {
+        return {made_patch(0, outline.triangles, outline.points.cols()), outline.points};
+    }
+    const Eigen::Vector3i corners = outline.triangles.col(0) + Eigen::Vector3i::Ones();
+    Triangles fan(3, 3);
+    for (int k = 0; k < 3; ++k) fan.col(k) << corners[k], corners[(k + 1) % 3], 0;
+    Points points(3, outline.points.cols() + 1);
+    points << outline.points.rowwise().mean(), outline.points;
+    return {made_patch(1, std::move(fan), points.cols()), points};
+}
+
+// A mesh whose first patch.free_count vertices are free.
+struct Meshed {
+    Patch patch;
+    Points points;
+};
+
+Meshed meshed(const EvenMesh& mesh, const Points& outline) {
+    EvenMesh::Result made = mesh.result();
+    Points points(3, made.points.cols() + outline.cols());
+    points << made.points, outline;
+    const int free_count = static_cast<int>(made.points.cols());
+    return {made_patch(free_count, std::move(made.triangles), points.cols()), std::move(points)};
+}
+
+// Coarse and flat, no two vertices of the outline joined across it.
+Meshed first_mesh(const OpenOutline& outline) {
+    ProxyMesh mesh = outline_mesh(outline);
+    mesh.adapt(sizing);
+    const auto snapshot = mesh.snapshot();
+    const Points flat = Points::Zero(3, snapshot.points.cols());
+    const TargetSurface surface(snapshot.patch, snapshot.points, flat);
+    const VectorX lengths = VectorX::Ones(snapshot.points.cols());
+    EvenMesh chordless(snapshot.patch, snapshot.points, surface, lengths);
+    chordless.split_chords();
+    return meshed(chordless, outline.points);
+}
+
+Problem problem_on(const OpenOutline& outline, const Patch& patch, const SolverOptions& options) {
+    return {patch, outline.points, outline.normals, uniform_weights(patch), options};
+}
+
+VectorX even_lengths(const Patch& patch, const Points& points) {
+    constexpr double even_count = 400.0;
+    constexpr double square_per_vertex = 1.1547;  // of the edge: 2/√3
+    FaceGeometry faces;
+    faces.update(points, patch.triangles);
+    return edge_lengths(patch, points, {std::sqrt(square_per_vertex * faces.areas.sum() / even_count), 0});
+}
+
+// Whether the mesh suits its surface: a dome that has grown from a flat mesh, or a tube that has opened, is stretched.
+bool is_even(const FirstSurface& surface) {
+    constexpr double longest = 3.0;  // of the wanted length; 2.4 on a hemisphere
+    const Points& points = surface.solution.points;
+    const VectorX lengths = even_lengths(surface.patch, points);
+    return std::all_of(surface.patch.edge_ends.begin(), surface.patch.edge_ends.end(), [&](const auto& ends) {
+        const auto [a, b] = ends;
+        return 2.0 * (points.col(a) - points.col(b)).norm() <= longest * (lengths[a] + lengths[b]);
+    });
+}
+
+// A mesh of some 400 vertices on the surface found, or more where the outline is fine.
+FirstSurface on_even_mesh(const OpenOutline& outline, const FirstSurface& last, const SolverOptions& options,
+                          const Progress& progress) {
+    const Points& points = last.solution.points;
+    const SurfaceState state = measured_surface(problem_on(outline, last.patch, options), points);
+    const TargetSurface surface(last.patch, points, state.normals);
+    const VectorX lengths = even_lengths(last.patch, points);
+    EvenMesh mesh(last.patch, points, surface, lengths);
+    mesh.make_even();
+    Meshed even = meshed(mesh, outline.points);
+    const Problem problem = problem_on(outline, even.patch, options);
+    std::optional<Solution> solution = solve_near(problem, {std::move(even.points), true}, progress.range(0.0, 0.3));
+    if (!solution) solution = solve_or_else(problem, progress.range(0.3, 1.0));
+    return {std::move(even.patch), std::move(*solution)};
+}
+
+}  // namespace
+
+FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
+    constexpr int most_rounds = 4;
+    Meshed first = first_mesh(outline);
+    Solution solution = solve_or_else(problem_on(outline, first.patch, options), progress.range(0.0, 0.4));
+    FirstSurface result{std::move(first.patch), std::move(solution)};
+    for (int round = 0; round < most_rounds; ++round) {
+        const bool converged = result.solution.termination == Termination::converged;
+        if (converged && result.solution.flaw == Flaw::absent && is_even(result)) break;
+        const double begin = 0.4 + 0.15 * round;
+        FirstSurface next = on_even_mesh(outline, result, options, progress.range(begin, begin + 0.15));
+        if (converged && next.solution.termination != Termination::converged) break;
+        result = std::move(next);
+    }
+    return result;
+}
+
+}  // namespace fairing

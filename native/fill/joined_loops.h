@@ -1,0 +1,14 @@
+// Several outlines joined by one triangulation without inner vertices.
+#pragma once
+
+#include "base/types.h"
+
+namespace fairing {
+
+// Triangles over the vertices of the loops (columns of `points`), with the loops as their border; the surface lies on
+// the left of each loop. One loop: the triangulation of least area. Several: a sphere with as many holes (two loops: a
+// tube). Its triangles are those that cover each direction once, seen from between the loops, as far as they can.
+// Preconditions: three vertices or more in a loop, none of them twice.
+Triangles joined_loops(const Points& points, const std::vector<Indices>& loops);
+
+}  // namespace fairing

@@ -1,0 +1,169 @@
+"""Loops to be filled: found, checked and turned so that the new surface lies on their left."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from fairing import _arguments
+from fairing._measure import boundary_loops
+from fairing._outline import surrounding_normals
+from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
+
+
+@dataclass(frozen=True)
+class Outline:
+    """Loops with the new surface on their left; ``turned`` are those that run against the caller's order."""
+
+    loops: tuple[IntArray, ...]
+    turned: tuple[bool, ...]
+    named: bool
+    """Whether the caller named the loops."""
+
+    @property
+    def vertices(self) -> IntArray:
+        return np.concatenate(self.loops)
+
+    def split(self, rows: FloatArray) -> list[FloatArray]:
+        """Rows in the loops' order, those of each loop apart."""
+        return np.split(rows, np.cumsum([len(loop) for loop in self.loops])[:-1])
+
+    def from_given_order(self, rows: FloatArray) -> FloatArray:
+        parts = zip(self.split(rows), self.turned, strict=True)
+        return np.concatenate([part[::-1] if turned else part for part, turned in parts])
+
+
+def border_loops(triangles: IntArray, longest: int) -> Outline:
+    """All border loops of up to ``longest`` edges (0: of any length)."""
+    found = [loop[::-1].copy() for loop in boundary_loops(triangles)]
+    chosen = [loop for loop in found if not longest or len(loop) <= longest]
+    if not chosen:
+        text = "the mesh has no border: there is nothing to fill"
+        if found:
+            text = f"no border loop has {longest} edges or fewer; the shortest has {min(map(len, found))}"
+        raise MeshError(Diagnostic("NO_BOUNDARY", text, np.empty(0, np.int32), "vertex", {"loops": len(found)}))
+    return Outline(tuple(chosen), (False,) * len(chosen), False)
+
+
+def given_loops(loops: Any, vertices: FloatArray, triangles: IntArray) -> Outline:
+    """The caller's loops, in range; those along the mesh turned so that the new surface lies on their left."""
+    if isinstance(loops, np.ndarray) and loops.ndim == 1 and loops.dtype != object:
+        loops = [loops]
+    if not isinstance(loops, (Sequence, np.ndarray)) or isinstance(loops, str) or not len(loops):
+        raise ValueError("loops: a list of vertex indices for each loop is needed")
+    if all(isinstance(entry, (int, np.integer)) for entry in loops):
+        loops = [loops]
+    named = [_arguments.integers("loops", loop, None) for loop in loops]
+    inside = [_arguments.indices_within("loops", loop, len(vertices)) for loop in named]
+    sides = _directed_edges(triangles, len(vertices))
+    turned = tuple(_runs_along(loop, sides, len(vertices)) for loop in inside)
+    oriented = (loop[::-1].copy() if turn else loop for loop, turn in zip(inside, turned, strict=True))
+    return Outline(tuple(oriented), turned, True)
+
+
+def check(outline: Outline, vertices: FloatArray) -> None:
+    """MeshError where a loop is too short, passes a vertex twice, touches another loop or is not finite."""
+    seen = outline.vertices
+    for loop in outline.loops:
+        if len(np.unique(loop)) < 3:
+            _refuse("NOT_A_LOOP", f"a loop of {len(loop)} vertices bounds nothing: three are needed", loop)
+        if len(np.unique(loop)) < len(loop):
+            twice = _repeated(loop)
+            _refuse("NONMANIFOLD_VERTEX", f"a loop touches itself at {_listed(twice)}: split these vertices", twice)
+    twice = _repeated(seen)
+    if len(twice):
+        _refuse("NONMANIFOLD_VERTEX", f"two loops touch each other at {_listed(twice)}: split these vertices", twice)
+    broken = seen[~np.isfinite(vertices[seen]).all(axis=1)]
+    if len(broken):
+        _refuse("NONFINITE", f"coordinates are not finite at {_listed(broken)}", broken)
+    for loop in outline.loops:
+        after = np.roll(loop, -1)
+        same = loop[(vertices[loop] == vertices[after]).all(axis=1)]
+        if len(same):
+            _refuse("NOT_A_LOOP", f"an edge of a loop has no length at {_listed(same)}: merge these vertices", same)
+
+
+def loop_normals(normals: Any, outline: Outline, vertices: FloatArray, triangles: IntArray) -> FloatArray:
+    """(Σ k, 3) unit normals in the order of the loops."""
+    where = outline.vertices
+    around = surrounding_normals(vertices, triangles, where).normals
+    if normals is None:
+        missing = where[~(np.linalg.norm(around, axis=1) > 0)]
+        if len(missing):
+            _refuse("ZERO_NORMAL", f"no triangle touches {_listed(missing)}: pass `normals`", missing)
+        return around
+    rows = _stacked(normals, len(where), len(vertices))
+    if outline.named and len(rows) == len(where):
+        rows = outline.from_given_order(rows)
+    elif len(rows) == len(vertices):
+        rows = rows[where]
+    size = np.linalg.norm(rows, axis=1)
+    bad = where[~(np.isfinite(size) & (size > 0))]
+    if len(bad):
+        _refuse("ZERO_NORMAL", f"normals: zero or not finite at {_listed(bad)}", bad)
+    against = where[(rows * around).sum(axis=1) < 0]
+    if 2 * len(against) > len(where):
+        text = f"normals: {len(against)} of {len(where)} point against the triangles around: turn them"
+        _refuse("NORMALS_OPPOSE_WINDING", text, against)
+    unit: FloatArray = rows / size[:, None]
+    return unit
+
+
+def _stacked(normals: Any, outline: int, count: int) -> FloatArray:
+    if isinstance(normals, (list, tuple)) and len(normals) and np.ndim(normals[0]) == 2:
+        normals = np.concatenate([np.asarray(rows) for rows in normals])
+    rows = _arguments.floats("normals", normals)
+    if len(rows) not in (outline, count):
+        text = f"normals: {outline} rows, one for each vertex of the loops, or {count}, one for each vertex of the mesh"
+        raise ValueError(f"{text}, are needed, not {len(rows)}")
+    return rows
+
+
+def _directed_edges(triangles: IntArray, count: int) -> npt.NDArray[np.int64]:
+    tails = triangles.astype(np.int64)
+    return (tails * count + np.roll(tails, -1, axis=1)).ravel()
+
+
+def _runs_along(loop: IntArray, sides: npt.NDArray[np.int64], count: int) -> bool:
+    """Whether the mesh lies on the loop's left; False where there is no mesh. MeshError where it is no border."""
+    if len(loop) < 3:
+        return False  # `check` refuses it
+    tails, heads = loop.astype(np.int64), np.roll(loop, -1).astype(np.int64)
+    along = np.isin(tails * count + heads, sides)
+    against = np.isin(heads * count + tails, sides)
+    if (along & against).any():
+        inner = _ends(loop, along & against)
+        _refuse("NOT_A_LOOP", f"edges of a loop are no border, faces lie on both sides: {_listed(inner)}", inner)
+    if along.any() and not along.all():
+        odd = _ends(loop, ~along)
+        text = f"a loop leaves the border of the mesh, or the triangles' windings differ along it: {_listed(odd)}"
+        _refuse("NOT_A_LOOP", text, odd)
+    if against.any() and not against.all():
+        odd = _ends(loop, ~against)
+        _refuse("NOT_A_LOOP", f"a loop leaves the border of the mesh at {_listed(odd)}", odd)
+    return bool(along.all())
+
+
+def _ends(loop: IntArray, edges: npt.NDArray[np.bool_]) -> IntArray:
+    ends: IntArray = np.unique(np.concatenate([loop[edges], np.roll(loop, -1)[edges]]))
+    return ends
+
+
+def _repeated(indices: IntArray) -> IntArray:
+    values, counts = np.unique(indices, return_counts=True)
+    repeated: IntArray = values[counts > 1]
+    return repeated
+
+
+def _listed(indices: IntArray) -> str:
+    shown = ", ".join(str(index) for index in indices[:5])
+    more = f" and {len(indices) - 5} more" if len(indices) > 5 else ""
+    return f"vertex {shown}" if len(indices) == 1 else f"vertices {shown}{more}"
+
+
+def _refuse(code: str, text: str, elements: IntArray) -> None:
+    raise MeshError(Diagnostic(code, text, np.asarray(elements, np.int32), "vertex", {"vertices": len(elements)}))

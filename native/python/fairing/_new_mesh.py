@@ -1,0 +1,61 @@
+"""What `fill` and `remesh` give back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from fairing._types import Diagnostic, FloatArray, IntArray
+
+Origin = tuple[IntArray, FloatArray]
+
+
+@dataclass(frozen=True, eq=False)
+class NewMeshResult:
+    """What a fairing on a new mesh gives back. All arrays are read-only; see :class:`fairing.FairResult`."""
+
+    vertices: FloatArray
+    """(k, 3) the new vertices."""
+    triangles: IntArray
+    """(m, 3) the new triangles: indices below n are the caller's vertices, n … n + k − 1 the new ones, as in
+    ``np.concatenate([vertices, result.vertices])``. They are wound as the triangles around."""
+    mean_curvature: FloatArray
+    """(k,) H at the new vertices."""
+    fixed: IntArray
+    """(k',) the outline's vertices."""
+    boundary_angle: FloatArray
+    """(k',) degrees between prescribed and obtained normals, in the order of ``fixed``."""
+    join: FloatArray
+    """(k',) degrees, in the order of ``fixed``: how visible the join is."""
+    continuity: Literal["G1", "G2"]
+    converged: bool
+    polished: bool
+    """Whether the discrete equation holds on the new mesh. False, with ``converged``: the surface was solved on a finer
+    mesh, and the new vertices lie on that surface."""
+    termination: Literal["converged", "iteration_limit", "stalled", "folded"]
+    equation: str
+    """The equation that holds (see ``otherwise`` of :func:`fairing.fair`)."""
+    iterations: int
+    residual: float
+    initial_residual: float
+    levels: tuple[int, ...]
+    seconds: dict[str, float]
+    way: tuple[tuple[str, float], ...]
+    warnings: tuple[Diagnostic, ...]
+    """Triangles and vertices that they name are those of the mesh that was solved; with ``polished`` it is this one."""
+
+
+@dataclass(frozen=True, eq=False)
+class FillResult(NewMeshResult):
+    """What :func:`fairing.fill` gives back: the new part of the mesh and what :func:`fairing.fair` reports."""
+
+    loops: tuple[IntArray, ...]
+    """The loops that were filled, each in the direction that has the new surface on its left."""
+
+
+@dataclass(frozen=True, eq=False)
+class RemeshResult(NewMeshResult):
+    """What :func:`fairing.remesh` gives back: a new mesh of a patch and what :func:`fairing.fair` reports."""
+
+    origin: Origin
+    """Where each new vertex lies on the old patch: (k,) triangles and (k, 3) barycentric weights at their corners."""

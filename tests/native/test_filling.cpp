@@ -1,0 +1,181 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <random>
+
+#include "fill/edge_lengths.h"
+#include "fill/joined_loops.h"
+#include "fill/triangulation.h"
+#include "meshes.h"
+
+using namespace fairing;
+
+namespace {
+
+Indices first_numbers(int n, int begin = 0) {
+    Indices numbers(at(n));
+    std::iota(numbers.begin(), numbers.end(), begin);
+    return numbers;
+}
+
+double total(const std::vector<Eigen::Vector3i>& triangles, const TriangleCost& cost) {
+    double sum = 0.0;
+    for (const Eigen::Vector3i& t : triangles) sum += cost(t[0], t[1], t[2]);
+    return sum;
+}
+
+// Of all triangulations, one after the other.
+double cheapest_by_trying(const Indices& polygon, const TriangleCost& cost) {
+    if (polygon.size() < 3) return 0.0;
+    double least = 1e300;
+    for (std::size_t j = 1; j + 1 < polygon.size(); ++j) {
+        const Indices before(polygon.begin(), polygon.begin() + static_cast<std::ptrdiff_t>(j) + 1);
+        const Indices after(polygon.begin() + static_cast<std::ptrdiff_t>(j), polygon.end());
+        const double here = cost(polygon.front(), polygon[j], polygon.back()) + cheapest_by_trying(before, cost) +
+                            cheapest_by_trying(after, cost);
+        least = std::min(least, here);
+    }
+    return least;
+}
+
+Points random_polygon(int n, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> noise(-0.4, 0.4);
+    Points points(3, n);
+    for (int k = 0; k < n; ++k) {
+        const double turn = 2.0 * std::numbers::pi * k / n;
+        points.col(k) << std::cos(turn) + noise(random), std::sin(turn) + noise(random), noise(random);
+    }
+    return points;
+}
+
+// Each side once, and those without a partner in the other direction.
+std::vector<std::pair<int, int>> open_sides(const Triangles& triangles) {
+    std::map<std::pair<int, int>, int> sides;
+    for (const auto t : triangles.colwise()) {
+        for (int k = 0; k < 3; ++k) ++sides[{t[k], t[(k + 1) % 3]}];
+    }
+    std::vector<std::pair<int, int>> open;
+    for (const auto& [side, count] : sides) {
+        CHECK(count == 1);
+        if (!sides.contains({side.second, side.first})) open.push_back(side);
+    }
+    return open;
+}
+
+Points ring(int n, double height, double turn = 0.0) {
+    Points points(3, n);
+    for (int k = 0; k < n; ++k) {
+        const double angle = turn + 2.0 * std::numbers::pi * k / n;
+        points.col(k) << std::cos(angle), std::sin(angle), height;
+    }
+    return points;
+}
+
+}  // namespace
+
+TEST_CASE("no triangulation of a small polygon is cheaper than the one found") {
+    for (unsigned seed = 0; seed < 8; ++seed) {
+        const Points points = random_polygon(9, seed);
+        const TriangleCost cost(points);
+        const Indices polygon = first_numbers(9);
+        const auto triangles = cheapest_triangulation(polygon, cost);
+        CHECK(triangles.size() == 7);
+        CHECK(total(triangles, cost) == doctest::Approx(cheapest_by_trying(polygon, cost)).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("a flat polygon that is not convex is covered once") {
+    constexpr int n = 40;
+    Points points(3, n);
+    double area = 0.0;
+    for (int k = 0; k < n; ++k) {
+        const double turn = 2.0 * std::numbers::pi * k / n;
+        const double radius = k % 2 == 0 ? 1.0 : 0.5;
+        points.col(k) << radius * std::cos(turn), radius * std::sin(turn), 0.0;
+    }
+    for (int k = 0; k < n; ++k)
+        area += 0.5 * (points(0, k) * points(1, (k + 1) % n) - points(1, k) * points(0, (k + 1) % n));
+    double covered = 0.0;
+    for (const Eigen::Vector3i& t : cheapest_triangulation(first_numbers(n), TriangleCost(points))) {
+        const Vector3 across = (points.col(t[1]) - points.col(t[0])).cross(points.col(t[2]) - points.col(t[0]));
+        CHECK(across.z() > 0.0);
+        covered += 0.5 * across.z();
+    }
+    CHECK(covered == doctest::Approx(area));
+}
+
+TEST_CASE("a long polygon is triangulated in little time and completely") {
+    constexpr int n = 5000;
+    const Points points = ring(n, 0.0);
+    const auto triangles = cheapest_triangulation(first_numbers(n), TriangleCost(points));
+    CHECK(triangles.size() == n - 2);
+    double area = 0.0;
+    for (const Eigen::Vector3i& t : triangles)
+        area += 0.5 * (points.col(t[1]) - points.col(t[0])).cross(points.col(t[2]) - points.col(t[0])).z();
+    CHECK(area == doctest::Approx(std::numbers::pi).epsilon(1e-5));
+}
+
+TEST_CASE("two rings become a tube without caps, however far apart") {
+    for (const double gap : {0.2, 2.0, 8.0}) {
+        Points points(3, 36);
+        points << ring(20, 0.0), ring(16, gap, 0.1);
+        const Indices below = first_numbers(20);
+        Indices above = first_numbers(16, 20);
+        std::reverse(above.begin(), above.end());
+        const Triangles triangles = joined_loops(points, {below, above});
+        CHECK(triangles.cols() == 36);
+        CHECK(open_sides(triangles).size() == 36);
+        for (const auto t : triangles.colwise()) {
+            const bool rises = std::min({t[0], t[1], t[2]}) < 20 && std::max({t[0], t[1], t[2]}) >= 20;
+            CHECK(rises);
+            const Vector3 across = (points.col(t[1]) - points.col(t[0])).cross(points.col(t[2]) - points.col(t[0]));
+            CHECK(across.dot(points.col(t[0]) - Vector3(0.0, 0.0, points(2, t[0]))) > 0.0);  // outwards
+        }
+    }
+}
+
+TEST_CASE("four rings become a sphere with four holes") {
+    constexpr int n = 12;
+    Points points(3, 4 * n);
+    std::vector<Indices> loops;
+    for (int l = 0; l < 4; ++l) {
+        const Eigen::AngleAxisd turn(2.0 * std::numbers::pi * l / 4.0, Vector3::UnitX());
+        points.middleCols(l * n, n) = turn.toRotationMatrix() * ring(n, 2.5);
+        Indices loop = first_numbers(n, l * n);
+        std::reverse(loop.begin(), loop.end());
+        loops.push_back(loop);
+    }
+    const Triangles triangles = joined_loops(points, loops);
+    CHECK(triangles.cols() == 4 * n + 2 * 2);  // n − 2 + 2 (holes − 1) triangles for holes of n edges in all
+    CHECK(open_sides(triangles).size() == 4 * n);
+}
+
+TEST_CASE("lengths are the outline's at the outline and grow by half of the way") {
+    const test::Single single = test::single_patch(test::grid(24, 0.0, test::flat));
+    const Patch& patch = single.patch();
+    const double edge = (single.points.col(patch.edge_ends[0][0]) - single.points.col(patch.edge_ends[0][1])).norm();
+    for (const double spacing : {0.25 * edge, 4.0 * edge}) {
+        const VectorX lengths = edge_lengths(patch, single.points, {spacing, 0});
+        for (int e = 0; e < patch.edge_count(); ++e) {
+            const auto [a, b] = patch.edge_ends[at(e)];
+            const double length = (single.points.col(a) - single.points.col(b)).norm();
+            if (patch.edge_triangles[at(e)][1] == none) CHECK(lengths[a] > 0.0);
+            CHECK(std::abs(lengths[a] - lengths[b]) <= 0.5 * length + 1e-12);
+        }
+        const double middle = spacing < edge ? lengths.minCoeff() : lengths.maxCoeff();
+        CHECK(middle == doctest::Approx(spacing));
+    }
+}
+
+TEST_CASE("lengths shrink until they give the vertices wanted") {
+    const test::Single single = test::single_patch(test::grid(12, 0.0, test::flat));
+    const VectorX few = edge_lengths(single.patch(), single.points, {0.0, 0});
+    const VectorX many = edge_lengths(single.patch(), single.points, {0.0, 1000});
+    CHECK(expected_count(single.patch(), single.points, few) < 500.0);
+    CHECK(expected_count(single.patch(), single.points, many) >= 1000.0);
+    CHECK(expected_count(single.patch(), single.points, many) < 1100.0);
+}

@@ -1,0 +1,357 @@
+"""fairing.fill: holes in exact surfaces come back, whatever the spacing; clean meshes; clear errors."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+import fairing
+import holes
+from holes import FloatArray, IntArray
+
+EMPTY = np.empty((0, 3), dtype=int)
+
+
+def whole(vertices: FloatArray, triangles: IntArray, result: fairing.FillResult) -> tuple[FloatArray, IntArray]:
+    """The mesh with its new part."""
+    return np.concatenate([vertices, result.vertices]), np.concatenate([triangles, result.triangles])
+
+
+def apex(result: fairing.FillResult) -> float:
+    """Height of the highest new vertex over the origin."""
+    return float(np.linalg.norm(result.vertices[result.vertices[:, 2].argmax()]))
+
+
+@pytest.mark.parametrize(("edges", "bound"), [(12, 5e-2), (24, 5e-3), (48, 6e-4), (96, 2e-4), (192, 5e-5)])
+def test_a_hemisphere_comes_back(edges: int, bound: float) -> None:
+    result = fairing.fill(*holes.bowl(edges))
+    assert result.converged
+    assert abs(apex(result) - 1) < bound
+    assert abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < bound
+    assert abs(result.mean_curvature + 1).max() < 60 * bound
+
+
+@pytest.mark.parametrize("half_angle", [20, 60, 75, 110, 130])
+def test_caps_of_other_heights(half_angle: float) -> None:
+    result = fairing.fill(*holes.bowl(48, half_angle))
+    assert result.converged
+    assert abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 1e-4
+
+
+def test_the_surface_does_not_depend_on_the_spacing() -> None:
+    edge = 2 * np.sin(np.pi / 24)
+    results = [fairing.fill(*holes.bowl(24), spacing=factor * edge) for factor in (0.25, 0.5, 1.0, 2.0, 4.0)]
+    heights = [apex(result) for result in results]
+    assert max(heights) - min(heights) < 1e-3
+    counts = [len(result.vertices) for result in results]
+    assert counts == sorted(counts, reverse=True)
+    assert counts[0] > 8 * counts[2]
+    for result in results:
+        assert abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 3e-4
+
+
+Place = Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray, FloatArray]]
+
+
+def cylinder_side(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    return np.cos(2.4 * u), np.sin(2.4 * u), 2.4 * v
+
+
+def saddle(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    height = 1.6 * v - 0.8
+    return np.cosh(height) * np.cos(2 * u), np.cosh(height) * np.sin(2 * u), height
+
+
+def torus(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    radius, turn = 2 + 0.7 * np.cos(2 * v - 1), 0.8 * u
+    return radius * np.cos(turn), radius * np.sin(turn), 0.7 * np.sin(2 * v - 1)
+
+
+def tube(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    return np.cos(2 * np.pi * u), np.sin(2 * np.pi * u), 3 * v - 1.5
+
+
+def catenoid(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    height = 2 * v - 1
+    return np.cosh(height) * np.cos(2 * np.pi * u), np.cosh(height) * np.sin(2 * np.pi * u), height
+
+
+def radius(points: FloatArray) -> FloatArray:
+    return np.hypot(points[:, 0], points[:, 1])
+
+
+# The harmonic surface over the torus' hole is another one; a ten-thousandth of its diameter away.
+@pytest.mark.parametrize(
+    ("place", "distance", "bound"),
+    [
+        (cylinder_side, lambda p: radius(p) - 1, 1e-5),
+        (saddle, lambda p: radius(p) - np.cosh(p[:, 2]), 2e-5),
+        (torus, lambda p: np.hypot(radius(p) - 2, p[:, 2]) - 0.7, 6e-4),
+    ],
+)
+def test_holes_in_other_surfaces(place: Place, distance: Callable[[FloatArray], FloatArray], bound: float) -> None:
+    vertices, triangles = holes.sheet(place, (60, 60), holes.disc)
+    loop = min(fairing.boundary_loops(triangles), key=len)
+    result = fairing.fill(vertices, triangles, [loop])
+    diameter = 2 * np.linalg.norm(vertices[loop] - vertices[loop].mean(axis=0), axis=1).max()
+    assert result.converged
+    assert abs(distance(result.vertices)).max() < bound * diameter
+    assert result.boundary_angle.max() < 0.1
+
+
+def test_a_coarse_mesh_is_cut_from_a_fine_surface() -> None:
+    """A coarse mesh that is solved itself is 4e-5 D away."""
+    vertices, triangles = holes.sheet(saddle, (60, 60), holes.disc)
+    loop = min(fairing.boundary_loops(triangles), key=len)
+    rim = vertices[loop]
+    edge = np.linalg.norm(rim - np.roll(rim, 1, axis=0), axis=1).mean()
+    result = fairing.fill(vertices, triangles, [loop], spacing=8 * edge)
+    assert not result.polished
+    diameter = 2 * np.linalg.norm(rim - rim.mean(axis=0), axis=1).max()
+    away = radius(result.vertices) - np.cosh(result.vertices[:, 2])
+    assert abs(away).max() < 8e-6 * diameter
+
+
+@pytest.mark.parametrize(
+    ("place", "distance"),
+    [(tube, lambda p: radius(p) - 1), (catenoid, lambda p: radius(p) - np.cosh(p[:, 2]))],
+)
+def test_two_outlines_become_a_tube(place: Place, distance: Callable[[FloatArray], FloatArray]) -> None:
+    vertices, triangles = holes.sheet(place, (60, 30), holes.band, closed=True)
+    loops = sorted(fairing.boundary_loops(triangles), key=lambda loop: abs(vertices[loop, 2].mean()))[:2]
+    result = fairing.fill(vertices, triangles, loops, bridge=True)
+    diameter = 2 * np.linalg.norm(vertices[result.fixed] - vertices[result.fixed].mean(axis=0), axis=1).max()
+    assert result.converged
+    assert abs(distance(result.vertices)).max() < 2e-4 * diameter
+    _, joined = whole(vertices, triangles, result)
+    assert len(fairing.boundary_loops(joined)) == len(fairing.boundary_loops(triangles)) - 2
+
+
+def three_tubes() -> tuple[FloatArray, IntArray]:
+    """Open tubes towards three sides of the plane, outward normals."""
+    part, faces = holes.sheet(
+        lambda u, v: (1.6 + v, 0.5 * np.cos(2 * np.pi * u), 0.5 * np.sin(2 * np.pi * u)), (24, 8),
+        lambda u, v: np.zeros(len(u), dtype=bool), closed=True,
+    )  # fmt: skip
+    turned = []
+    for k in range(3):
+        c, s = np.cos(2 * np.pi * k / 3), np.sin(2 * np.pi * k / 3)
+        turned.append(part @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1.0]]))
+    return np.concatenate(turned), np.concatenate([faces[:, ::-1] + k * len(part) for k in range(3)])
+
+
+def test_three_outlines_become_a_blend() -> None:
+    vertices, triangles = three_tubes()
+    loops = [loop for loop in fairing.boundary_loops(triangles) if np.linalg.norm(vertices[loop[0]]) < 2]
+    result = fairing.fill(vertices, triangles, loops, bridge=True)
+    assert result.converged
+    assert not [warning.code for warning in result.warnings]
+    points, faces = whole(vertices, triangles, result)
+    assert len(fairing.boundary_loops(faces)) == 3
+    edges = holes.edges_of(faces)
+    assert len(points) - len(edges) + len(faces) == -1  # a sphere with three holes
+    # The surface has the threefold symmetry and the mirror plane of its outlines; its mesh does not.
+    top = result.vertices[np.argsort(np.linalg.norm(result.vertices[:, :2], axis=1))[:12]]
+    assert np.ptp(np.abs(top[:, 2])) < 0.05
+    assert {*np.sign(top[:, 2])} == {-1.0, 1.0}
+
+
+@pytest.mark.parametrize("edges", [6, 24, 48, 96])
+@pytest.mark.parametrize("factor", [0.25, 0.5, 1.0, 2.0])
+def test_triangles_are_nearly_equilateral(edges: int, factor: float) -> None:
+    vertices, triangles = holes.bowl(edges)
+    wanted = factor * 2 * np.sin(np.pi / edges)
+    result = fairing.fill(vertices, triangles, spacing=wanted)
+    points = np.concatenate([vertices, result.vertices])
+    assert holes.angles(points, result.triangles).min() >= 25
+    sides = holes.edges_of(result.triangles)
+    assert np.bincount(sides.ravel())[len(vertices) :].max() <= 9
+    # Lengths come to the wanted one within a distance of twice the difference.
+    reach = 2 * abs(2 * np.sin(np.pi / edges) - wanted) + 2 * wanted
+    middle = points[sides].mean(axis=1)
+    away = np.linalg.norm(middle[:, None] - vertices[None, :edges], axis=2).min(axis=1) > reach
+    lengths = np.linalg.norm(points[sides[away, 0]] - points[sides[away, 1]], axis=1) / wanted
+    if len(lengths) > 20:
+        assert 1 / np.sqrt(2) < np.median(lengths) < np.sqrt(2)
+        assert np.mean((lengths > 1 / np.sqrt(2)) & (lengths < np.sqrt(2))) > 0.97
+
+
+def test_the_new_part_closes_the_mesh_and_leaves_the_rest() -> None:
+    vertices, triangles = holes.bowl(48)
+    before = vertices.copy(), triangles.copy()
+    result = fairing.fill(vertices, triangles)
+    _, faces = whole(vertices, triangles, result)
+    assert not fairing.boundary_loops(faces)
+    sides = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    assert len(np.unique(sides, axis=0)) == len(sides)  # consistently wound: no side twice
+    assert np.array_equal(vertices, before[0])
+    assert np.array_equal(triangles, before[1])
+    assert sorted(result.fixed) == [*range(48)]
+    assert not result.vertices.flags.writeable
+    assert not result.triangles.flags.writeable
+
+
+def test_all_holes_are_filled_or_only_short_ones() -> None:
+    def two_holes(u: FloatArray, v: FloatArray) -> Any:
+        small = (u - 0.2) ** 2 + (v - 0.5) ** 2 < 0.01
+        return small | ((u - 0.7) ** 2 + (v - 0.5) ** 2 < 0.03)
+
+    vertices, triangles = holes.sheet(cylinder_side, (40, 40), two_holes)
+    lengths = sorted(len(loop) for loop in fairing.boundary_loops(triangles))
+    result = fairing.fill(vertices, triangles, longest=lengths[1])
+    assert [*sorted(len(loop) for loop in result.loops)] == lengths[:2]
+    assert abs(radius(result.vertices) - 1).max() < 1e-4
+    assert len(fairing.boundary_loops(whole(vertices, triangles, result)[1])) == 1
+    with pytest.raises(fairing.MeshError, match="NO_BOUNDARY"):
+        fairing.fill(vertices, triangles, longest=3)
+
+
+def test_moving_turning_and_scaling_make_no_difference() -> None:
+    vertices, triangles = holes.bowl(24, 70)
+    turn = np.linalg.qr(np.random.default_rng(1).standard_normal((3, 3)))[0]
+    turn *= np.sign(np.linalg.det(turn))
+    plain = fairing.fill(vertices, triangles)
+    moved = fairing.fill(1e3 * vertices @ turn.T + [5, -7, 9], triangles)
+    assert abs(np.linalg.norm((moved.vertices - [5, -7, 9]) / 1e3, axis=1) - 1).max() < 3e-4
+    assert abs(len(moved.vertices) - len(plain.vertices)) < 0.1 * len(plain.vertices)
+
+
+@pytest.mark.parametrize("order", ["forward", "backward"])
+@pytest.mark.parametrize("shape", ["mesh", "loop", "list"])
+def test_given_normals_belong_to_their_vertices(order: str, shape: str) -> None:
+    vertices, triangles = holes.bowl(24)
+    loop = fairing.boundary_loops(triangles)[0][:: 1 if order == "forward" else -1]
+    exact = vertices / np.linalg.norm(vertices, axis=1)[:, None]
+    normals: Any = {"mesh": 2 * exact, "loop": 2 * exact[loop], "list": [2 * exact[loop]]}[shape]
+    result = fairing.fill(vertices, triangles, [loop], normals=normals)
+    assert abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 2e-4
+    assert abs(result.mean_curvature + 1).max() < 0.02
+
+
+def test_loops_without_a_mesh_need_normals_only() -> None:
+    turn = 2 * np.pi * np.arange(48) / 48
+    rim = np.column_stack([np.cos(turn), np.sin(turn), 0 * turn])
+    dome = fairing.fill(rim, EMPTY, [np.arange(48)], normals=rim)
+    assert abs(np.linalg.norm(dome.vertices, axis=1) - 1).max() < 1e-4
+    flat = fairing.fill(rim, EMPTY, [np.arange(48)], normals=np.tile([0.0, 0.0, 1.0], (48, 1)))
+    assert abs(flat.vertices[:, 2]).max() < 1e-12
+    corners = np.concatenate([rim, flat.vertices])[flat.triangles]
+    assert (np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2] > 0).all()
+
+
+@pytest.mark.parametrize("edges", [3, 4, 5])
+def test_the_smallest_holes(edges: int) -> None:
+    vertices, triangles = holes.bowl(edges, 40)
+    result = fairing.fill(vertices, triangles)
+    assert len(result.vertices) >= 1
+    assert not fairing.boundary_loops(whole(vertices, triangles, result)[1])
+
+
+def test_long_outlines_are_thinned_before_they_are_triangulated() -> None:
+    result = fairing.fill(*holes.bowl(600, 30), spacing=0.05)
+    assert result.converged
+    assert abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 1e-5
+
+
+def test_other_options_reach_the_solve() -> None:
+    vertices, triangles = holes.bowl(48, 40)
+    dome = fairing.fill(vertices, triangles, equation="constant", bulge=0.1)
+    assert dome.converged
+    assert apex(dome) > 1.001
+    varied = fairing.fill(vertices, triangles, equation="least_variation")
+    assert "variation" in [name for name, _ in varied.way]
+    assert abs(apex(varied) - 1) < 1e-4
+
+
+def refused(code: str, elements: set[int], *arguments: Any, **options: Any) -> None:
+    with pytest.raises(fairing.MeshError) as caught:
+        fairing.fill(*arguments, **options)
+    assert caught.value.code == code
+    assert {*caught.value.elements} == elements
+
+
+def test_bad_loops_are_refused_with_their_vertices() -> None:
+    vertices, triangles = holes.bowl(24)
+    rim = fairing.boundary_loops(triangles)[0]
+    refused("NOT_A_LOOP", {*(rim + 24)}, vertices, triangles, [rim + 24])  # an inner ring
+    refused("NOT_A_LOOP", {rim[0], rim[9]}, vertices, triangles, [rim[:10]])  # not closed
+    refused("NOT_A_LOOP", {*rim[:2]}, vertices, triangles, [rim[:2]])
+    refused("NONMANIFOLD_VERTEX", {*rim}, vertices, triangles, [rim, rim])
+    refused("INDEX_RANGE", {999}, vertices, triangles, [[0, 1, 999]])
+    turn = np.exp(2j * np.pi * np.arange(12) / 12)
+    free = np.column_stack([turn.real, turn.imag, 0 * turn.real])
+    eight = np.array([0, 1, 2, 3, 4, 5, 0, 7, 8, 9])
+    refused("NONMANIFOLD_VERTEX", {0}, free, EMPTY, [eight], normals=np.tile([0, 0, 1.0], (12, 1)))
+    refused("ZERO_NORMAL", {*range(12)}, free, EMPTY, [np.arange(12)])
+    doubled = free.copy()
+    doubled[4] = doubled[5]
+    refused("NOT_A_LOOP", {4}, doubled, EMPTY, [np.arange(12)], normals=np.tile([0, 0, 1.0], (12, 1)))
+    broken = free.copy()
+    broken[3] = np.nan
+    refused("NONFINITE", {3}, broken, EMPTY, [np.arange(12)], normals=np.tile([0, 0, 1.0], (12, 1)))
+
+
+def test_bad_normals_are_refused_with_their_vertices() -> None:
+    vertices, triangles = holes.bowl(24)
+    exact = vertices / np.linalg.norm(vertices, axis=1)[:, None]
+    refused("NORMALS_OPPOSE_WINDING", {*range(24)}, vertices, triangles, normals=-exact)
+    some = exact.copy()
+    some[[3, 7]] = 0
+    refused("ZERO_NORMAL", {3, 7}, vertices, triangles, normals=some)
+    with pytest.raises(ValueError, match="normals: 24 rows"):
+        fairing.fill(vertices, triangles, normals=exact[:5])
+
+
+def test_a_closed_mesh_has_nothing_to_fill() -> None:
+    vertices, triangles = holes.bowl(24)
+    refused("NO_BOUNDARY", set(), *whole(vertices, triangles, fairing.fill(vertices, triangles)))
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"spacing": -1.0}, "spacing: a length"),
+        ({"spacing": 1e-7}, "spacing: 1e-07 gives about"),
+        ({"spacing": np.nan}, "spacing: a finite number"),
+        ({"bridge": 2}, "bridge: True or False"),
+        ({"longest": -1}, "longest: -1"),
+        ({"loops": "rim"}, "loops: a list"),
+        ({"loops": []}, "loops: a list"),
+        ({"fixed": [0]}, "fixed: not accepted here"),
+        ({"equation": "minimal"}, "equation: 'minimal'"),
+        ({"equation": "maximal"}, "equation: 'maximal'"),
+    ],
+)
+def test_options_are_checked(options: dict[str, Any], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        fairing.fill(*holes.bowl(12), **options)
+
+
+def test_a_knotted_loop_says_that_its_surface_crosses_itself() -> None:
+    turn = 2 * np.pi * np.arange(96) / 96
+    knot = np.column_stack(
+        [np.sin(turn) + 2 * np.sin(2 * turn), np.cos(turn) - 2 * np.cos(2 * turn), -np.sin(3 * turn)]
+    )
+    normals = np.cross(np.roll(knot, -1, axis=0) - np.roll(knot, 1, axis=0), [0, 0, 1.0])
+    result = fairing.fill(knot, EMPTY, [np.arange(96)], normals=normals)
+    assert "SELF_INTERSECTION" in [warning.code for warning in result.warnings]
+
+
+def test_cancelling_and_progress() -> None:
+    seen: list[float] = []
+    fairing.fill(*holes.bowl(48), progress=lambda fraction, _: seen.append(fraction))
+    assert seen == sorted(seen)
+    assert 0 <= seen[0] < 0.3
+    assert seen[-1] == 1
+    with pytest.raises(fairing.Cancelled):
+        fairing.fill(*holes.bowl(48), progress=lambda fraction, _: fraction < 0.5)
+
+
+def test_the_same_bits_for_any_number_of_threads() -> None:
+    edge = 2 * np.sin(np.pi / 48)
+    one, two = (fairing.fill(*holes.bowl(48), spacing=0.4 * edge, threads=threads) for threads in (1, 2))
+    assert np.array_equal(one.vertices, two.vertices)
+    assert np.array_equal(one.triangles, two.triangles)

@@ -1,0 +1,228 @@
+"""`continuity="G2"`: surfaces that continue the curvature of their surroundings (Δ_B² H = 0)."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+import curves
+import fairing
+import measures
+import shapes
+from curves import FloatArray
+from domains import Domain
+from shapes import Patch
+from solving import codes, fair_patch
+from surfaces import Extrusion, Revolution
+
+
+def cubic_cylinder(n_free: int) -> Patch:
+    """An extrusion with H a cubic function of the arc length: Δ_B² H = 0 but Δ_B H ≠ 0."""
+    curve = curves.OdeCurve(-1.0, 1.0, (0.0, 0.0, 0.0), lambda s, _: 0.4 + 0.5 * s + 0.6 * s**2 - 2.0 * s**3)
+    return shapes.on_domain(Domain(Extrusion(curve, 1), "oval", 0.0, 1.6), n_free)
+
+
+def ellipsoid(n_free: int) -> Patch:
+    """A side of an ellipsoid of revolution with half-axes 1 and 1.6, no solution of either equation."""
+
+    def curvature(_: Any, state: Any) -> Any:
+        return (state[0] ** 2 + (state[1] / 1.6**2) ** 2) ** -1.5 / 1.6**2
+
+    curve = curves.OdeCurve(-1.0, 1.0, (1.0, 0.0, np.pi / 2), curvature)
+    return shapes.on_domain(Domain(Revolution(curve, -1), "rectangle", -0.8, 0.8), n_free)
+
+
+MAKERS = {
+    "torus": shapes.torus,
+    "cubic": cubic_cylinder,
+    "ellipsoid": ellipsoid,
+    "hemisphere": lambda n_free: shapes.cap(n_free),
+    "cylinder": lambda n_free: shapes.cylinder(n_free),
+}
+
+
+@lru_cache(maxsize=16)
+def joined(family: str, n_free: int) -> tuple[Patch, fairing.FairResult, fairing.FairResult]:
+    """A patch, the surface that meets positions and slopes of its outline, and the one that meets H as well."""
+    patch = MAKERS[family](n_free)
+    tangent = fair_patch(patch, tolerance=1e-6)
+    return patch, tangent, with_curvature(patch, patch.mean_curvature[patch.fixed])
+
+
+def with_curvature(patch: Patch, curvatures: FloatArray, **options: Any) -> fairing.FairResult:
+    return fair_patch(patch, tolerance=1e-6, continuity="G2", fixed_curvatures=curvatures, **options)
+
+
+@pytest.mark.parametrize(("family", "goal"), [("cubic", 1e-4), ("torus", 3e-5)])
+def test_surfaces_that_tangent_joins_miss(family: str, goal: float) -> None:
+    patch, tangent, curved = joined(family, 4000)
+    assert curved.continuity == "G2"
+    assert curved.converged
+    assert not codes(curved)
+    assert patch.error(tangent.vertices) > 2e-3
+    assert patch.error(curved.vertices) < goal
+
+
+def test_error_falls_with_the_edge_length() -> None:
+    """With its square; a wrong condition keeps a part of the tangent join's error."""
+    coarse, _, coarse_result = joined("cubic", 1000)
+    fine, _, fine_result = joined("cubic", 4000)
+    errors = coarse.error(coarse_result.vertices), fine.error(fine_result.vertices)
+    assert measures.observed_order((len(coarse.free), len(fine.free)), errors) >= 1.5
+
+
+@pytest.mark.parametrize("family", ["torus", "cubic", "ellipsoid"])
+def test_curvature_does_not_jump(family: str) -> None:
+    """Between the prescribed H and that of the free vertices beside the outline."""
+    patch, tangent, curved = joined(family, 4000)
+    ring = patch.triangles[np.isin(patch.triangles, patch.fixed).any(axis=1)]
+    first = np.setdiff1d(ring, patch.fixed)
+    exact = patch.mean_curvature[first]
+    before = np.sqrt(np.mean((tangent.mean_curvature[first] - exact) ** 2))
+    after = np.sqrt(np.mean((curved.mean_curvature[first] - exact) ** 2))
+    assert after < 0.1 * before
+
+
+@pytest.mark.parametrize("family", ["hemisphere", "cylinder"])
+def test_what_the_tangent_join_solves_stays_as_exact(family: str) -> None:
+    patch, tangent, curved = joined(family, 1000)
+    assert curved.continuity == "G2"
+    assert patch.error(curved.vertices) <= patch.error(tangent.vertices)
+
+
+def test_curvature_is_read_off_the_surroundings() -> None:
+    """A wave, whose H is no harmonic function: half as far from it as with tangent joins."""
+    steps = np.linspace(-12.0, 12.0, 49)
+    s, t = (grid.ravel() for grid in np.meshgrid(steps, steps))
+    vertices = np.column_stack([s, t, 1.5 * np.sin(s / 5) * np.cos(t / 7)])
+    corner = np.arange(49 * 48).reshape(48, 49)[:, :-1].ravel()
+    quads = np.column_stack([corner, corner + 1, corner + 50, corner + 49])
+    triangles = np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]])
+    inside = np.linalg.norm(vertices[triangles].mean(axis=1)[:, :2], axis=1) < 7
+    outline = np.intersect1d(triangles[inside], triangles[~inside])
+    fits = fairing.surrounding_normals(vertices, triangles[~inside], outline)
+    options = {"fixed": outline, "fixed_normals": fits.normals, "outside": triangles[~inside]}
+    off = []
+    for continuity in ("G1", "G2"):
+        result = fairing.fair(vertices, triangles[inside], continuity=continuity, **options)
+        x, y, z = result.vertices[np.unique(triangles[inside])].T
+        off.append(np.abs(z - 1.5 * np.sin(x / 5) * np.cos(y / 7)).max())
+        assert result.continuity == continuity
+    assert off[1] < 0.5 * off[0]
+
+
+def test_slopes_are_met_as_well() -> None:
+    _, tangent, curved = joined("torus", 4000)
+    assert curved.boundary_angle.max() < 0.05
+    assert tangent.continuity == "G1"
+
+
+def test_tangent_join_where_no_surface_has_the_curvature() -> None:
+    """H of the other sign and ten times as large: the answer with tangent joins comes back, bit for bit."""
+    patch, tangent, _ = joined("cubic", 1000)
+    curved = with_curvature(patch, np.full(len(patch.fixed), -300.0))
+    assert curved.continuity == "G1"
+    assert codes(curved) == {"G2_NOT_MET"}
+    np.testing.assert_array_equal(curved.vertices, tangent.vertices)
+
+
+def test_unknown_curvature_is_left_to_the_surface() -> None:
+    patch, tangent, _ = joined("cubic", 1000)
+    nothing = with_curvature(patch, np.full(len(patch.fixed), np.nan))
+    assert codes(nothing) == {"G2_NOT_MET"}
+    np.testing.assert_array_equal(nothing.vertices, tangent.vertices)
+    part = patch.mean_curvature[patch.fixed].copy()
+    order = np.argsort(patch.vertices[patch.fixed] @ [0.0, 0.0, 1.0])
+    part[order[: len(part) // 5]] = np.nan  # one end of the oval
+    partly = with_curvature(patch, part)
+    assert partly.continuity == "G2"
+    (warning,) = partly.warnings
+    assert warning.code == "G2_NOT_MET"
+    assert set(warning.elements) == set(patch.fixed[np.isnan(part)])
+    assert patch.error(partly.vertices) < 0.2 * patch.error(tangent.vertices)
+
+
+def test_single_gaps_are_bridged() -> None:
+    patch, _, _ = joined("cubic", 1000)
+    part = patch.mean_curvature[patch.fixed].copy()
+    part[::9] = np.nan
+    assert not codes(with_curvature(patch, part))
+
+
+def test_noise_is_not_followed() -> None:
+    patch, tangent, _ = joined("torus", 1000)
+    noise = np.random.default_rng(4).normal(0.0, 0.5, len(patch.fixed))
+    rough = with_curvature(patch, patch.mean_curvature[patch.fixed] + noise)
+    assert codes(rough) == {"G2_NOT_MET"}
+    np.testing.assert_array_equal(rough.vertices, tangent.vertices)
+
+
+def test_unit_sign_and_place_do_not_matter() -> None:
+    """Scaled by 1000, moved, and with normals and triangles turned round."""
+    patch, _, curved = joined("torus", 1000)
+    shift = np.array([5.0, -3.0, 2.0])
+    other = fairing.fair(
+        1000.0 * (shapes.start_from_nothing(patch) + shift), patch.triangles[:, ::-1], fixed=patch.fixed,
+        fixed_normals=-patch.fixed_normals, tolerance=1e-6, continuity="G2",
+        fixed_curvatures=-patch.mean_curvature[patch.fixed] / 1000.0,
+    )  # fmt: skip
+    assert np.abs(other.vertices / 1000.0 - shift - curved.vertices).max() < 1e-5 * patch.diameter
+
+
+def test_same_bits_for_any_number_of_threads() -> None:
+    patch, _, _ = joined("torus", 1000)
+    curvatures = patch.mean_curvature[patch.fixed]
+    one, three = (with_curvature(patch, curvatures, threads=count) for count in (1, 3))
+    np.testing.assert_array_equal(one.vertices, three.vertices)
+
+
+def test_solver_gives_the_same_surface_again() -> None:
+    patch, _, curved = joined("torus", 1000)
+    solver = fairing.Solver(patch.triangles, fixed=patch.fixed, continuity="G2", tolerance=1e-6)
+    curvatures = patch.mean_curvature[patch.fixed]
+    start = shapes.start_from_nothing(patch)
+    first = solver.solve(start, patch.fixed_normals, fixed_curvatures=curvatures)
+    np.testing.assert_array_equal(first.vertices, curved.vertices)
+    start[patch.fixed] += [0.01, 0.0, 0.0]
+    again = solver.solve(start, patch.fixed_normals, fixed_curvatures=curvatures)
+    assert again.continuity == "G2"
+    assert np.abs(again.vertices - [0.01, 0.0, 0.0] - curved.vertices).max() < 1e-5 * patch.diameter
+
+
+def test_cancelled_between_the_steps() -> None:
+    patch, _, _ = joined("torus", 1000)
+    seen: list[str] = []
+
+    def stop(_: float, stage: str) -> bool:
+        seen.append(stage)
+        return stage != "curvature"
+
+    with pytest.raises(fairing.Cancelled):
+        with_curvature(patch, patch.mean_curvature[patch.fixed], progress=stop)
+    assert seen[-1] == "curvature"
+
+
+WRONG = [
+    ({"continuity": "G3"}, "continuity"),
+    ({"continuity": "G2", "equation": "minimal"}, "continuity"),
+    ({"continuity": "G2", "method": "paper"}, "continuity"),
+    ({"continuity": "G2", "fixed_curvatures": [1.0, 2.0]}, "fixed_curvatures"),
+    ({"continuity": "G2"}, "outside"),  # no curvature and nothing to read it off
+    ({"fixed_curvatures": [0.0]}, "fixed_curvatures"),  # asked for nothing that reads them
+]
+
+
+@pytest.mark.parametrize(("options", "named"), WRONG)
+def test_wrong_options_are_refused(options: dict[str, Any], named: str) -> None:
+    patch, _, _ = joined("torus", 1000)
+    with pytest.raises(ValueError, match=named):
+        fair_patch(patch, **options)
+
+
+def test_infinite_curvature_is_refused() -> None:
+    patch, _, _ = joined("torus", 1000)
+    with pytest.raises(ValueError, match="fixed_curvatures"):
+        with_curvature(patch, np.full(len(patch.fixed), np.inf))

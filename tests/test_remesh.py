@@ -1,0 +1,92 @@
+"""fairing.remesh: another mesh for the same fair surface, with the way back to the old one."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import fairing
+import holes
+import shapes
+from holes import FloatArray
+
+
+@pytest.fixture(scope="module")
+def cap() -> shapes.Patch:
+    return shapes.cap(1500, shapes.Style(jitter=0.8, seed=4), half_angle=70)
+
+
+def remeshed(patch: shapes.Patch, spacing: float = 0.0) -> fairing.RemeshResult:
+    start = shapes.start_from_nothing(patch)
+    return fairing.remesh(start, patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals, spacing=spacing)
+
+
+def rim_edge(patch: shapes.Patch) -> float:
+    loop = fairing.boundary_loops(patch.triangles)[0]
+    return float(np.linalg.norm(patch.vertices[loop] - patch.vertices[np.roll(loop, 1)], axis=1).mean())
+
+
+@pytest.mark.parametrize("factor", [0.5, 1.0, 3.0])
+def test_the_surface_stays_and_the_mesh_is_clean(cap: shapes.Patch, factor: float) -> None:
+    wanted = factor * rim_edge(cap)
+    result = remeshed(cap, wanted)
+    assert result.converged
+    assert abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 2e-5
+    points = np.concatenate([cap.vertices, result.vertices])
+    assert holes.angles(points, result.triangles).min() >= 25
+    sides = holes.edges_of(result.triangles)
+    new = (sides >= len(cap.vertices)).all(axis=1)
+    lengths = np.linalg.norm(points[sides[new, 0]] - points[sides[new, 1]], axis=1) / wanted
+    assert 1 / np.sqrt(2) < np.median(lengths) < np.sqrt(2)
+
+
+def test_the_outline_and_its_edges_stay(cap: shapes.Patch) -> None:
+    result = remeshed(cap)
+    before, after = (fairing.boundary_loops(faces) for faces in (cap.triangles, result.triangles))
+    assert [loop.tolist() for loop in before] == [loop.tolist() for loop in after]
+    used = np.unique(result.triangles)
+    assert np.array_equal(used[used < len(cap.vertices)], np.sort(cap.fixed))
+
+
+def test_origins_lie_where_the_old_patch_has_the_new_vertices(cap: shapes.Patch) -> None:
+    """Any smooth field on the old mesh comes over by these weights: here the coordinates themselves."""
+    result = fairing.remesh(
+        cap.vertices, cap.triangles, fixed=cap.fixed, fixed_normals=cap.fixed_normals, spacing=0.5 * rim_edge(cap)
+    )
+    triangle, weights = result.origin
+    assert weights.shape == (len(result.vertices), 3)
+    assert weights.min() >= 0
+    assert abs(weights.sum(axis=1) - 1).max() < 1e-12
+    carried = (cap.vertices[cap.triangles[triangle]] * weights[:, :, None]).sum(axis=1)
+    edge = rim_edge(cap)
+    assert np.linalg.norm(carried - result.vertices, axis=1).max() < 0.3 * edge
+    corners = np.concatenate([cap.vertices, carried])[result.triangles]
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    assert ((across * corners.mean(axis=1)).sum(axis=1) > 0).all()  # one to one: nothing turns over
+
+
+def test_a_torn_patch_is_no_input() -> None:
+    patch = shapes.cap(50)
+    with pytest.raises(fairing.MeshError, match="NO_FREE_VERTICES"):
+        fairing.remesh(patch.vertices, patch.triangles, fixed=np.arange(len(patch.vertices)))
+    with pytest.raises(ValueError, match="spacing"):
+        fairing.remesh(patch.vertices, patch.triangles, fixed=patch.fixed, spacing=-2.0)
+
+
+def test_inner_fixed_curves_stay() -> None:
+    vertices, triangles = whole_sphere()
+    belt = np.arange(24)
+    normals = vertices[belt] / np.linalg.norm(vertices[belt], axis=1)[:, None]
+    result = fairing.remesh(vertices, triangles, fixed=belt, fixed_normals=normals, spacing=0.2)
+    assert result.converged
+    assert abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 5e-4
+    assert not fairing.boundary_loops(result.triangles)
+    sides = {tuple(side) for side in holes.edges_of(result.triangles)}
+    assert all(tuple(sorted((i, (i + 1) % 24))) in sides for i in belt)
+
+
+def whole_sphere() -> tuple[FloatArray, holes.IntArray]:
+    """A bowl with its filling: vertices 0 … 23 are the equator."""
+    vertices, triangles = holes.bowl(24)
+    filled = fairing.fill(vertices, triangles)
+    return np.concatenate([vertices, filled.vertices]), np.concatenate([triangles, filled.triangles])
