@@ -71,6 +71,7 @@ WORDS: dict[str, tuple[Words, ...]] = {
     "ZERO_NORMAL": (
         Words("The surface has no direction at vertex {first}: the normals there cancel. Choose others, or pin it"),
     ),
+    "NOT_A_LOOP": (Words("The outline to be filled is no loop of border edges: look at vertex {first}"),),
     "DEGENERATE_FACE": (
         Words(
             "{n} face has a corner twice and was left out",
