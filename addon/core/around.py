@@ -11,10 +11,9 @@ from .region import MeshArrays, Patch
 RINGS = 4  # of outside faces handed to the engine's fit, which uses the nearest of them
 
 
-def outside_triangles(mesh: MeshArrays, patch: Patch, feather: float = 0.0) -> Ints:
+def outside_triangles(mesh: MeshArrays, patch: Patch) -> Ints:
     """Return the (o, 3) triangles outside the patch within RINGS of its fixed vertices, in the mesh's numbers.
 
-    feather: width of a band around the patch, a part of its size; RINGS are counted from its outer edge then.
     Left out are those with a corner that is not finite.
     """
     usable = np.isfinite(mesh.positions).all(axis=1)
@@ -22,20 +21,7 @@ def outside_triangles(mesh: MeshArrays, patch: Patch, feather: float = 0.0) -> I
     outside = outside[usable[outside].all(axis=1)]
     start = np.zeros(len(mesh.positions), dtype=bool)
     start[patch.vertices[patch.fixed]] = True
-    return _nearby(outside, _with_band(mesh, outside, start, feather) if feather > 0.0 else start)
-
-
-def _with_band(mesh: MeshArrays, outside: Ints, start: Mask, feather: float) -> Mask:
-    """Return the vertices in `start`, and those reached from there within a ball that holds the band."""
-    rim = mesh.positions[start]
-    away = np.linalg.norm(mesh.positions - rim.mean(axis=0), axis=1)
-    ball = away <= (1.0 + 2.0 * feather) * away[start].max()
-    triangles = outside[ball[outside].any(axis=1)]
-    reached, count = start.copy(), 0
-    while np.count_nonzero(reached) > count:
-        count = np.count_nonzero(reached)
-        reached[triangles[reached[triangles].any(axis=1)]] = True
-    return reached
+    return _nearby(outside, start)
 
 
 def _nearby(triangles: Ints, start: Mask) -> Ints:

@@ -55,18 +55,17 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
     Raises MeshRefusal (its `elements` are mesh vertices), ValueError, fairing.SolverError and fairing.Cancelled.
     """
     patch = problem.patch
-    wide = options.reads_surroundings
+    mended = options.outline == "MENDED"
     with in_mesh_words(problem.origin):
         return fairing.fair(
-            problem.points if wide else problem.own_points,
+            problem.points if mended else problem.own_points,
             patch.triangles,
             fixed=patch.fixed,
             fixed_normals=problem.normals,
             fixed_curvatures=problem.curvatures if options.joins_curvature else None,
-            neighbours=patch.neighbours if options.feather == 0.0 else None,  # the band has none
+            neighbours=patch.neighbours,
             outline=options.outline.lower(),
-            outside=problem.outside if wide else None,
-            feather=options.feather,
+            outside=problem.outside if mended else None,
             progress=progress,
             **options.engine_arguments(),
         )

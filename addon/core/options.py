@@ -40,7 +40,6 @@ class FairOptions:
     detail: float = 0.0  # how much of the old patch's detail is put back, 0 … 1
     detail_size: float = 0.0  # what is shorter counts as detail: a part of the patch's size; 0: ten edges
     boundary_normals: str = "SURROUNDING"
-    feather: float = 0.0  # width of the band outside in which the change fades out: a part of the patch's size
     continuity: str = "G1"  # G2: the curvature of the faces outside is continued, too
     method: str = "GLOBAL"
     levels: int = 0  # 0: chosen by the engine
@@ -56,7 +55,7 @@ class FairOptions:
             value = getattr(self, name)
             if value not in choices:
                 raise ValueError(f"{name}: expected one of {', '.join(choices)}, got {value!r}")
-        for name in ("factor", "detail", "detail_size", "feather"):
+        for name in ("factor", "detail", "detail_size"):
             if not 0.0 <= getattr(self, name) <= 1.0:
                 raise ValueError(f"{name}: expected a number from 0 to 1, got {getattr(self, name)!r}")
 
@@ -72,16 +71,9 @@ class FairOptions:
         return replace(self, inner_fairness="CONFORMAL" if textured else "UNIFORM")
 
     @property
-    def reads_surroundings(self) -> bool:
-        """Whether the engine needs the faces outside: then it can't be asked again and again."""
-        return self.outline == "MENDED" or self.feather > 0.0
-
-    @property
     def joins_curvature(self) -> bool:
-        """Whether the curvature outside counts: only for the harmonic shape of the fast solver, without a band."""
-        return (
-            self.continuity == "G2" and self.equation == "HARMONIC" and self.method == "GLOBAL" and self.feather == 0.0
-        )
+        """Whether the curvature outside counts: only for the harmonic shape of the fast solver."""
+        return self.continuity == "G2" and self.equation == "HARMONIC" and self.method == "GLOBAL"
 
     def engine_arguments(self) -> dict[str, Any]:
         """Return the keyword arguments of `fairing.fair` that need no mesh; the options must be resolved."""

@@ -157,17 +157,6 @@ class FairProperties:
         items=_BOUNDARY_NORMALS,
         default="SURROUNDING",
     )
-    feather: FloatProperty(
-        name="Feather",
-        description="Width of a band around the selection in which the change fades out, a part of the selection's "
-        "size. The faces there move too; the surface is tangent to what lies beyond",
-        default=0.0,
-        min=0.0,
-        max=1.0,
-        soft_max=0.5,
-        precision=3,
-        subtype="FACTOR",
-    )
     continuity: EnumProperty(
         name="Join",
         description="How smoothly the surface continues its surroundings",

@@ -54,12 +54,9 @@ def _draw_outline(group: Any, options: Any, obj: bpy.types.Object) -> None:
     row.active = options.equation != "MINIMAL"  # meets positions only
     row.prop(options, "boundary_normals")
     row = group.row()
-    row.active = options.equation == "HARMONIC" and options.method == "GLOBAL" and options.feather == 0.0
+    row.active = options.equation == "HARMONIC" and options.method == "GLOBAL"
     row.prop(options, "continuity")
-    row = group.row()
-    row.active = options.feather == 0.0
-    row.prop(options, "outline")
-    group.prop(options, "feather", slider=True)
+    group.prop(options, "outline")
     group.prop_search(options, "pin_group", obj, "vertex_groups")
     group.prop(options, "pin_edges")
 

@@ -23,7 +23,6 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import cases
 import fairing
-import sheets
 from cases import Case
 from engine import FloatArray
 
@@ -90,6 +89,8 @@ def main() -> None:
             case = cases.sphere(count, 0.25, 11, along_normal=along_normal)
             print(row(case, "normal" if along_normal else "isotropic"), flush=True)
     if arguments.pictures:
+        import sheets  # needs Pillow
+
         sheets.write(arguments.pictures)
 
 

@@ -1,4 +1,4 @@
-"""Pictures: before, fair, fair with detail, and with detail and feather; the whole patch and close up."""
+"""Pictures: before, fair, and fair with detail; the whole patch and close up."""
 
 from __future__ import annotations
 
@@ -15,9 +15,7 @@ from stripes import Layer, facing, render
 TILE = 330  # pixels
 COLOURS = 64
 GREY, TINT = (0.86, 0.86, 0.86), (0.93, 0.82, 0.7)
-WAYS: tuple[tuple[str, dict[str, float]], ...] = (
-    ("fair", {}), ("detail", {"detail": 1.0}), ("detail and feather", {"detail": 1.0, "feather": 0.12}),
-)  # fmt: skip
+WAYS: tuple[tuple[str, dict[str, float]], ...] = (("fair", {}), ("fair, with detail", {"detail": 1.0}))
 
 
 def write(folder: Path) -> None:
@@ -28,7 +26,7 @@ def write(folder: Path) -> None:
 
 
 def sheet(case: Case) -> Image.Image:
-    """Two rows of four tiles, labelled."""
+    """Two rows of three tiles, labelled."""
     shown = [("before", case.vertices)] + [(name, case.fair(**options).vertices) for name, options in WAYS]
     picture = Image.new("RGB", (len(shown) * TILE, 2 * TILE + 16), "white")
     draw = ImageDraw.Draw(picture)

@@ -63,8 +63,8 @@ void OutlineModes::add_curve(const OutlineCurve& curve, const Points& fixed_poin
     Curve made{curve.places, Eigen::MatrixXd(vertices, waves), VectorX(waves), spacing.cwiseAbs2().cwiseInverse()};
     const double slowest = 2.0 * pi / period;
     for (Eigen::Index m = 0; m < waves; ++m) {
-        const double frequency =
-            curve.closed ? slowest * static_cast<double>((m + 1) / 2) : 0.5 * slowest * static_cast<double>(m + 1);
+        const Eigen::Index halves = curve.closed ? m + m % 2 : m + 1;  // half waves on the curve
+        const double frequency = 0.5 * slowest * static_cast<double>(halves);
         const bool cosine = curve.closed && m % 2 == 0;
         if (cosine) {
             made.waves.col(m) = (frequency * t.array()).cos();

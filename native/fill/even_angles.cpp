@@ -50,12 +50,14 @@ int EvenMesh::improve_flips() {
 
 // A pattern search for each vertex, in six directions of the surface, from a quarter of its length downwards.
 int EvenMesh::improve_places(const std::vector<int>& vertices) {
+    constexpr int most_halvings = 5;
     int moves = 0;
     for (const int k : vertices) {
         checkpoint();
         const Vertex v(k);
         double best = worst_angle_around(v, point(v));
-        for (double step = 0.25 * wanted_[at(k)]; step > 0.01 * wanted_[at(k)]; step *= 0.5) {
+        for (int halvings = 0; halvings < most_halvings; ++halvings) {
+            const double step = std::ldexp(0.25 * wanted_[at(k)], -halvings);
             const Vector3 normal = surface_.normal(where_[at(k)]);
             const Vector3 along = normal.unitOrthogonal();
             const Vector3 across = normal.cross(along);

@@ -22,7 +22,6 @@ DEFAULTS = {
     "detail": 0.0,
     "detail_size": 0.0,
     "boundary_normals": "SURROUNDING",
-    "feather": 0.0,
     "continuity": "G1",
     "method": "GLOBAL",
     "levels": 0,

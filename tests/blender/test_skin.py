@@ -1,4 +1,4 @@
-"""Keep Detail and Feather as users meet them: on a rough sphere with a dent in it."""
+"""Keep Detail as users meet it: on a rough sphere with a dent in it."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ import numpy as np
 import pytest
 from extension import module
 
-NOISE = 0.02
+NOISE = 0.01
 LIMIT = 0.4  # faces above this height are selected
 
 
 def dented(rim: int = 48) -> tuple[bpy.types.Object, meshes.Mask, meshes.Floats]:
-    """Add a rough unit sphere, dented in the middle of the selection; with the selection, and (n,) its roughness."""
+    """Add a unit sphere, rough and dented within the selection; with the selection, and (n,) its roughness."""
     obj = meshes.sphere(rim)
     points = meshes.positions(obj)
     faces = meshes.faces_where(obj, lambda centre: centre.z > LIMIT)
-    noise = NOISE * np.random.default_rng(7).normal(size=len(points))
+    noise = NOISE * np.random.default_rng(7).normal(size=len(points)) * (points[:, 2] > LIMIT + 0.1)
     dent = 0.25 * np.clip((points[:, 2] - 0.55) / 0.45, 0, 1) ** 2
     meshes.move(obj, points * (1 + noise - dent)[:, None])
     return obj, faces, noise
@@ -29,7 +29,7 @@ def heights(obj: bpy.types.Object) -> meshes.Floats:
     return np.asarray(np.linalg.norm(meshes.positions(obj), axis=1) - 1)
 
 
-def band(obj: bpy.types.Object, faces: meshes.Mask, **options: Any) -> Any:
+def fair(obj: bpy.types.Object, faces: meshes.Mask, **options: Any) -> Any:
     """Run; return which vertices moved, after a look at everything else."""
     before = meshes.in_edit_mode_once(obj, faces)
     assert meshes.fair(obj, faces, **options) == {"FINISHED"}
@@ -53,16 +53,16 @@ def nothing_solves(monkeypatch: pytest.MonkeyPatch) -> Any:
 
 def test_the_skin_comes_back_and_the_dent_goes() -> None:
     """Without detail noise and dent go. With it the same noise stays, vertex by vertex."""
-    smooth, faces, noise = dented()
-    rough, _, _ = dented()
+    smooth, faces, noise = dented(96)
+    rough, _, _ = dented(96)
     free = meshes.free_vertices(smooth, faces)
-    assert np.array_equal(band(smooth, faces), free)
-    assert np.array_equal(band(rough, faces, detail=1.0), free)
+    assert np.array_equal(fair(smooth, faces), free)
+    assert np.array_equal(fair(rough, faces, detail=1.0), free)
     base, kept = heights(smooth)[free], heights(rough)[free]
-    assert base.std() < 0.5 * NOISE
+    assert np.abs(base).max() < 0.1 * NOISE
     assert np.corrcoef(kept - base, noise[free])[0, 1] > 0.85
     assert (kept - base).std() == pytest.approx(noise[free].std(), rel=0.25)
-    assert kept.min() > -0.25 + 0.1  # the dent was 0.25 deep
+    assert (kept - noise[free])[meshes.positions(rough)[free, 2].argmax()] > -0.05  # the dent was 0.25 deep
 
 
 def test_detail_is_the_engines() -> None:
@@ -84,8 +84,8 @@ def test_the_size_counts() -> None:
     """Longer waves are kept with a larger size: more of the dent stays."""
     fine, faces, _ = dented()
     coarse, _, _ = dented()
-    band(fine, faces, detail=1.0, detail_size=0.15)
-    band(coarse, faces, detail=1.0, detail_size=0.8)
+    fair(fine, faces, detail=1.0, detail_size=0.15)
+    fair(coarse, faces, detail=1.0, detail_size=0.8)
     top = meshes.positions(fine)[:, 2].argmax()
     assert heights(coarse)[top] < heights(fine)[top] - 0.02
 
@@ -95,48 +95,17 @@ def test_the_detail_slider_answers_from_memory(nothing_solves: Any) -> None:
     module("run.job").memory.clear()
     whole, faces, _ = dented()
     free = meshes.free_vertices(whole, faces)
-    band(whole, faces, detail=1.0)
+    fair(whole, faces, detail=1.0)
     nothing_solves()
     part, _, _ = dented()
-    band(part, faces, detail=0.4)
+    fair(part, faces, detail=0.4)
     blended, _, _ = dented()
     old = meshes.positions(blended)
-    band(blended, faces, detail=1.0, factor=0.5)
+    fair(blended, faces, detail=1.0, factor=0.5)
     assert meshes.positions(blended)[free] == pytest.approx(0.5 * (old + meshes.positions(whole))[free], abs=1e-6)
     assert np.ptp(heights(part)[free]) < np.ptp(heights(whole)[free])
     with pytest.raises(RuntimeError, match="solved again"):
-        band(dented()[0], faces, detail=0.4, detail_size=0.3)
-
-
-def test_a_feather_moves_its_band_and_no_more() -> None:
-    obj, faces, _ = dented()
-    before = meshes.positions(obj)
-    free = meshes.free_vertices(obj, faces)
-    rim = np.zeros(len(before), dtype=bool)
-    for polygon, chosen in zip(obj.data.polygons, faces, strict=True):
-        rim[list(polygon.vertices)] |= bool(chosen)
-    rim &= ~free
-    points = before[rim]
-    size = 2 * np.linalg.norm(points - points.mean(axis=0), axis=1).max()
-    away = np.linalg.norm(before[:, None] - points, axis=2).min(axis=1)
-    moved = band(obj, faces, feather=0.2)
-    assert moved[free].all()
-    assert moved[rim].all()
-    outside = ~free & ~rim
-    assert moved[outside & (away < 0.15 * size)].all()
-    assert not moved[outside & (away > 0.2 * size)].any()
-    step = np.linalg.norm(meshes.positions(obj) - before, axis=1)
-    far = outside & (away > 0.15 * size) & moved
-    assert step[far].mean() < 0.5 * step[rim].mean()
-
-
-def test_a_feather_smooths_the_noisy_rim() -> None:
-    plain, faces, _ = dented()
-    faded, _, _ = dented()
-    free = meshes.free_vertices(plain, faces)
-    band(plain, faces)
-    band(faded, faces, feather=0.3)
-    assert heights(faded)[free].std() < 0.7 * heights(plain)[free].std()
+        fair(dented()[0], faces, detail=0.4, detail_size=0.3)
 
 
 def test_a_script_gives_the_same_bits() -> None:
@@ -144,13 +113,13 @@ def test_a_script_gives_the_same_bits() -> None:
 
     obj, faces, _ = dented(32)
     scripted, _, _ = dented(32)
-    chosen = {"detail": 0.7, "detail_size": 0.25, "feather": 0.2}
-    band(obj, faces, **chosen)
+    chosen = {"detail": 0.7, "detail_size": 0.25}
+    fair(obj, faces, **chosen)
     fair_mesh(scripted.data, np.flatnonzero(faces), matrix=scripted.matrix_world, **chosen)
     assert np.abs(meshes.positions(obj) - meshes.positions(scripted)).max() < 1e-6
 
 
-@pytest.mark.parametrize("name", ["detail", "detail_size", "feather"])
+@pytest.mark.parametrize("name", ["detail", "detail_size"])
 def test_shares_are_from_0_to_1(name: str) -> None:
     from bl_ext.user_default.intrinsic_fairing import fair_mesh
 

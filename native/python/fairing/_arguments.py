@@ -37,16 +37,6 @@ def floats(name: str, value: npt.ArrayLike, rows: int | None = None) -> FloatArr
         return np.ascontiguousarray(array, dtype=np.float64)
 
 
-def numbers(name: str, value: npt.ArrayLike, count: int) -> FloatArray:
-    """(n,) float64, or ValueError; ``count``: the n that is needed."""
-    array = _array(name, value)
-    if array.dtype.kind not in "fiub":
-        raise ValueError(f"{name}: numbers are needed, not {array.dtype}")
-    if array.shape != (count,):
-        raise ValueError(f"{name}: shape ({count},) is needed, not {array.shape}")
-    return np.ascontiguousarray(array, dtype=np.float64)
-
-
 def integers(name: str, value: npt.ArrayLike, columns: int | None) -> IntArray:
     """(n, columns), or (n,) for None, as int32 in C order, or ValueError."""
     array = _array(name, value)

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _feather, _joining, _mending, _options, _paper
+from fairing import _arguments, _core, _joining, _mending, _options, _paper
 from fairing._paper import PaperOptions
-from fairing._types import FairResult, IntArray
+from fairing._types import FairResult
 
 Progress = Callable[[float, str], "bool | None"]
 
@@ -39,8 +39,6 @@ def fair(
     outside: npt.ArrayLike | None = None,
     detail: float = 0.0,
     detail_size: float = 0.0,
-    feather: float = 0.0,
-    weights: npt.ArrayLike | None = None,
     continuity: str = "G1",
     fixed_curvatures: npt.ArrayLike | None = None,
     start: str = "outline",
@@ -130,14 +128,6 @@ def fair(
     detail_size : float
         Shape that repeats within less than this counts as detail: a wavelength as a share of D. 0: ten mean edges, a
         quarter of D at most.
-    feather : float
-        Width of a band outside the patch that takes part, as a share of the outline's D. The surface is computed for
-        the outer edge of the band. From the old outline outwards each vertex goes a smaller part of the way, down to
-        nothing at that edge. Needs the triangles ``outside``; normals are fitted beyond the band. The result names the
-        vertices that only moved with the band as ``moved``, and has the outer edge as ``fixed``. docs/detail.md.
-    weights : (n,) float
-        In place of ``feather``: the part of the way that each vertex goes, 0 … 1, those inside too. The band is where
-        vertices of ``outside`` have a weight.
     start : "outline" | "given"
         "given": begin at the vertices given, which lie near the surface. Where the iteration does not find it from
         there, within a few steps and without folds, the outline alone decides as always. For the harmonic equations
@@ -168,7 +158,7 @@ def fair(
     edges = _options.neighbour_edges(neighbours, count)
     _arguments.choice("method", method, _options.METHODS)
     _options.callback(progress)
-    kind, rows = _options.inner_fairness(inner_fairness, count)
+    kind, weights = _options.inner_fairness(inner_fairness, count)
     of_paper = _paper.engine_options(method, levels, paper)
     options = _options.engine_options(
         equation=equation, otherwise=otherwise, load=load, bulge=bulge, fairness=kind, method=method, normals=normals,
@@ -183,25 +173,21 @@ def fair(
     if joins:
         as_given = _joining.with_curvatures(as_given, around, fixed_curvatures)
 
-    def call(boundary: _mending.Boundary, triangles: IntArray = faces) -> dict[str, Any]:
+    def call(boundary: _mending.Boundary) -> dict[str, Any]:
         return _core.fair(
             boundary.vertices,
-            triangles,
+            faces,
             boundary.fixed,
             boundary.normals,
             boundary.curvatures,
             m0,
             edges,
-            rows,
+            weights,
             options,
             of_paper,
             progress,
         )
 
     mended = _arguments.choice("outline", outline, _options.OUTLINES) == "mended"
-    share = _feather.vertex_weights(weights, count)
-    width = _feather.width(feather, given=share is not None, mended=mended, joins=joins)
-    if width > 0.0 or share is not None:
-        return FairResult(**_feather.solve_feathered(call, as_given, around, width if share is None else share))
     answer = _mending.solve_mended(call, as_given, faces, around) if mended else call(as_given)
     return FairResult(**_mending.with_join(answer, around))

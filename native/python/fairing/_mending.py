@@ -35,8 +35,6 @@ class Surroundings:
     outside: IntArray
     rim: IntArray
     """Vertices of both, ascending."""
-    rows: IntArray
-    """Of the triangles inside, then outside: their rows in ``triangles``; those of ``outside`` are counted on."""
 
     @classmethod
     def of(cls, vertices: FloatArray, triangles: IntArray, fixed: IntArray | None, given: Any) -> Surroundings:
@@ -47,26 +45,19 @@ class Surroundings:
         if given is not None:
             named = _arguments.integers("outside", given, 3)
             outside = _arguments.indices_within("outside", named, vertices.shape[0])
-            return cls.between(vertices, triangles, outside, _rows(len(triangles) + len(outside)))
+            return cls._between(vertices, triangles, outside)
         held = np.zeros(vertices.shape[0], dtype=bool)
         held[_within(fixed, vertices.shape[0])] = True
         idle = held[triangles].all(axis=1)
-        rows = np.argsort(idle, kind="stable").astype(np.int32)
-        around = cls.between(vertices, triangles[~idle], triangles[idle], rows)
+        around = cls._between(vertices, triangles[~idle], triangles[idle])
         if 2 * len(around.rim) < held[np.unique(around.inside)].sum():
-            return cls.between(vertices, triangles, triangles[:0], _rows(len(triangles)))
+            return cls._between(vertices, triangles, triangles[:0])
         return around
 
     @classmethod
-    def between(cls, vertices: FloatArray, inside: IntArray, outside: IntArray, rows: IntArray) -> Surroundings:
-        """Leave out what is not finite outside."""
-        finite = np.isfinite(vertices[outside]).all(axis=(1, 2))
-        kept = np.concatenate([np.ones(len(inside), dtype=bool), finite])
-        return cls(inside, outside[finite], np.intersect1d(inside, outside[finite]).astype(np.int32), rows[kept])
-
-
-def _rows(count: int) -> IntArray:
-    return np.arange(count, dtype=np.int32)
+    def _between(cls, vertices: FloatArray, inside: IntArray, outside: IntArray) -> Surroundings:
+        finite = outside[np.isfinite(vertices[outside]).all(axis=(1, 2))]
+        return cls(inside, finite, np.intersect1d(inside, finite).astype(np.int32))
 
 
 def _within(fixed: IntArray | None, count: int) -> IntArray:
