@@ -20,6 +20,7 @@ from .preferences import FairPreferences
 from .run import cli, compare, job, last_run
 from .run.again import MESH_OT_fair_again, MESH_OT_fair_spots
 from .run.curvature import MESH_OT_fair_curvature
+from .run.fill import MESH_OT_fair_fill
 from .run.masked import MESH_OT_fair_masked
 from .run.operators import MESH_OT_fair_region
 from .run.report_properties import FairCheck, FairProgress, FairReport
@@ -37,6 +38,7 @@ _register_classes, _unregister_classes = bpy.utils.register_classes_factory(
         FairLive,
         MESH_OT_fair_region,
         MESH_OT_fair_masked,
+        MESH_OT_fair_fill,
         MESH_OT_fair_live_region,
         MESH_OT_fair_live_select,
         MESH_OT_fair_live_far_side,
@@ -65,7 +67,7 @@ def register() -> None:
     bpy.types.WindowManager.fairing_more = bpy.props.BoolProperty(
         name="More", description="Show how exactly the surface is found, and which results are written"
     )
-    bpy.types.VIEW3D_MT_edit_mesh_faces.append(ui.draw_menu)
+    bpy.types.VIEW3D_MT_edit_mesh_faces.append(ui.draw_face_menu)
     bpy.types.VIEW3D_MT_edit_mesh_context_menu.append(ui.draw_context_menu)
     bpy.types.VIEW3D_MT_mask.append(ui.draw_mask_menu)
     bpy.types.VIEW3D_MT_face_sets.append(ui.draw_face_set_menu)
@@ -99,7 +101,7 @@ def unregister() -> None:
     bpy.types.VIEW3D_MT_face_sets.remove(ui.draw_face_set_menu)
     bpy.types.VIEW3D_MT_mask.remove(ui.draw_mask_menu)
     bpy.types.VIEW3D_MT_edit_mesh_context_menu.remove(ui.draw_context_menu)
-    bpy.types.VIEW3D_MT_edit_mesh_faces.remove(ui.draw_menu)
+    bpy.types.VIEW3D_MT_edit_mesh_faces.remove(ui.draw_face_menu)
     del bpy.types.WindowManager.fairing_more
     del bpy.types.WindowManager.fairing_live
     del bpy.types.WindowManager.fairing_overlay

@@ -21,10 +21,10 @@ def outside_triangles(mesh: MeshArrays, patch: Patch) -> Ints:
     outside = outside[usable[outside].all(axis=1)]
     start = np.zeros(len(mesh.positions), dtype=bool)
     start[patch.vertices[patch.fixed]] = True
-    return _nearby(outside, start)
+    return nearby(outside, start)
 
 
-def _nearby(triangles: Ints, start: Mask) -> Ints:
+def nearby(triangles: Ints, start: Mask) -> Ints:
     """Return the triangles within RINGS steps of the vertices in `start`."""
     reached = start.copy()
     near = np.zeros(len(triangles), dtype=bool)

@@ -16,7 +16,7 @@ def select_vertices(mesh: bpy.types.Mesh, vertices: Ints) -> None:
     bm = bmesh.from_edit_mesh(mesh)
     bm.select_mode = {"VERT"}
     bm.verts.ensure_lookup_table()
-    _deselect(bm)
+    deselect(bm)
     for vertex in vertices.tolist():
         bm.verts[vertex].select = True
     bm.select_flush_mode()
@@ -28,7 +28,7 @@ def select_faces(mesh: bpy.types.Mesh, faces: Ints) -> None:
     bm = bmesh.from_edit_mesh(mesh)
     bm.select_mode = {"FACE"}
     bm.faces.ensure_lookup_table()
-    _deselect(bm)
+    deselect(bm)
     table: Any = bm.faces
     for face in faces.tolist():
         table[face].select_set(not table[face].hide)
@@ -40,7 +40,8 @@ def selected_faces(mesh: bpy.types.Mesh) -> Ints:
     return np.array([face.index for face in bmesh.from_edit_mesh(mesh).faces if face.select], dtype=np.int64)
 
 
-def _deselect(bm: Any) -> None:
+def deselect(bm: Any) -> None:
+    """Take every vertex, edge and face out of the selection."""
     for element in (*bm.faces, *bm.edges, *bm.verts):
         element.select = False
 

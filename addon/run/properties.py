@@ -6,7 +6,7 @@ No postponed annotations here: Blender reads them as property definitions.
 
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 
-_EQUATIONS = (
+EQUATIONS = (
     (
         "HARMONIC",
         "Harmonic",
@@ -82,7 +82,7 @@ _OUTLINES = (
         "A noisy outline and two rings of faces around it are smoothed first, by a quarter of an edge at most",
     ),
 )
-_ACCEPT = (
+ACCEPT = (
     ("USABLE", "Usable Results", "A result that folds, crosses itself or is none leaves the mesh as it was"),
     ("ALL", "All Results", "Whatever comes out is written"),
 )
@@ -108,7 +108,7 @@ class FairProperties:
     equation: EnumProperty(
         name="Shape",
         description="Which surface spans the outline",
-        items=_EQUATIONS,
+        items=EQUATIONS,
         default="HARMONIC",
     )
     otherwise: EnumProperty(
@@ -205,7 +205,7 @@ class FairProperties:
     accept: EnumProperty(
         name="Write",
         description="Which results are written",
-        items=_ACCEPT,
+        items=ACCEPT,
         default="USABLE",
         options={"SKIP_SAVE"},
     )

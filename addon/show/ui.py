@@ -18,6 +18,7 @@ from ..host.text import draw_text
 from ..run.again import WAY_NAMES, MESH_OT_fair_again, MESH_OT_fair_spots
 from ..run.compare import MESH_OT_fair_compare
 from ..run.curvature import MESH_OT_fair_curvature
+from ..run.fill import MESH_OT_fair_fill
 from ..run.masked import MESH_OT_fair_masked
 from ..run.operators import MESH_OT_fair_region
 from ..run.selection_tools import (
@@ -56,6 +57,7 @@ class VIEW3D_PT_fairing(_Panel, bpy.types.Panel):
         column.scale_y = 1.3
         if context.mode == "EDIT_MESH":
             column.operator(MESH_OT_fair_region.bl_idname, icon="MOD_SMOOTH")
+            column.operator(MESH_OT_fair_fill.bl_idname, icon="MESH_ICOSPHERE")
         else:
             _draw_masked(column, context)
         layout.operator(MESH_OT_fair_compare.bl_idname, icon="ARROW_LEFTRIGHT")
@@ -251,16 +253,18 @@ def _draw_overlay(layout: Any, settings: Any) -> None:
         draw_text(layout, overlay.message, "ERROR")
 
 
-def draw_menu(menu: Any, _context: bpy.types.Context) -> None:
-    """Add the operator to a menu."""
+def draw_face_menu(menu: Any, _context: bpy.types.Context) -> None:
+    """Add the operators to the menu Face."""
     menu.layout.separator()
     menu.layout.operator(MESH_OT_fair_region.bl_idname)
+    menu.layout.operator(MESH_OT_fair_fill.bl_idname)
 
 
 def draw_context_menu(menu: Any, context: bpy.types.Context) -> None:
-    """Add the operator to the context menu of faces, which vertices and edges share."""
-    if context.tool_settings.mesh_select_mode[2]:
-        draw_menu(menu, context)
+    """Add to the context menu, which vertices, edges and faces share, what fits the selection."""
+    faces = context.tool_settings.mesh_select_mode[2]
+    menu.layout.separator()
+    menu.layout.operator((MESH_OT_fair_region if faces else MESH_OT_fair_fill).bl_idname)
 
 
 def draw_mask_menu(menu: Any, _context: bpy.types.Context) -> None:

@@ -1,0 +1,219 @@
+"""Holes: which border a selection stands for, what is carried over new faces, and which surface is refused."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core.arrays import Floats, Ints, Mask
+from core.border import BorderRefusal, border_loops
+from core.filling import FillOptions, Piece, fill
+from core.harmonic import harmonic, nearest
+from core.region import MeshArrays
+from core.verdict import UNUSABLE
+from core.words import MeshRefusal
+from polygon_mesh import grid_points, grid_quads, on_sphere, polygon_mesh
+
+SIZE = 8
+
+
+def holed(*holes: tuple[int, int], half: int = 1) -> MeshArrays:
+    """A grid of quads on a sphere without the 2 half × 2 half quads around each of the vertices (row, column)."""
+    rows, columns = np.divmod(np.arange(SIZE * SIZE), SIZE)
+    gone = np.zeros(SIZE * SIZE, dtype=bool)
+    for row, column in holes:
+        gone |= (np.abs(rows + 0.5 - row) < half) & (np.abs(columns + 0.5 - column) < half)
+    quads = [quad for quad, left_out in zip(grid_quads(SIZE), gone, strict=True) if not left_out]
+    return polygon_mesh(on_sphere(grid_points(SIZE)), quads, np.zeros(len(quads), dtype=bool))
+
+
+def only(mesh: MeshArrays, *vertices: int) -> Mask:
+    seeds = np.zeros(len(mesh.positions), dtype=bool)
+    seeds[list(vertices)] = True
+    return seeds
+
+
+def vertex(row: int, column: int) -> int:
+    return row * (SIZE + 1) + column
+
+
+def test_one_vertex_stands_for_its_whole_loop() -> None:
+    mesh = holed((2, 2), (6, 6))
+    (loop,) = border_loops(mesh, only(mesh, vertex(1, 1)))
+    # Seen from above the hole is on the left: counter-clockwise.
+    around = [(1, 1), (1, 2), (1, 3), (2, 3), (3, 3), (3, 2), (3, 1), (2, 1)]
+    assert loop.tolist() == [vertex(*place) for place in around]
+
+
+def test_seeds_of_two_loops_give_both_and_inner_ones_none() -> None:
+    mesh = holed((2, 2), (6, 6))
+    assert len(border_loops(mesh, only(mesh, vertex(1, 1), vertex(3, 3), vertex(5, 6)))) == 2
+    assert border_loops(mesh, only(mesh, vertex(4, 4))) == []
+
+
+def test_loops_that_touch_are_refused() -> None:
+    mesh = holed((2, 2), (4, 4))
+    with pytest.raises(BorderRefusal, match="touches itself") as error:
+        border_loops(mesh, only(mesh, vertex(1, 1)))
+    assert error.value.elements.tolist() == [vertex(3, 3)]
+
+
+def test_faces_wound_against_each_other_are_refused() -> None:
+    quads = [quad for number, quad in enumerate(grid_quads(3)) if number != 4]
+    quads[1] = quads[1][::-1]
+    mesh = polygon_mesh(grid_points(3), quads, np.zeros(8, dtype=bool))
+    with pytest.raises(BorderRefusal, match="wound against"):
+        border_loops(mesh, only(mesh, 5))
+
+
+@pytest.mark.parametrize(("value", "text"), [(np.nan, "NaN"), (None, "without length")])
+def test_borders_without_a_shape_are_refused(value: float | None, text: str) -> None:
+    mesh = holed((4, 4))
+    points = mesh.positions.copy()
+    points[vertex(3, 3)] = points[vertex(3, 4)] if value is None else value
+    with pytest.raises(BorderRefusal, match=text):
+        border_loops(replace(mesh, positions=points), only(mesh, vertex(3, 4)))
+
+
+def filled(mesh: MeshArrays, *seeds: int, matrix: Floats | None = None, **options: object) -> list[Piece]:
+    matrix = np.eye(4) if matrix is None else matrix
+    return fill(mesh, matrix, border_loops(mesh, only(mesh, *seeds)), FillOptions(**options))  # type: ignore[arg-type]
+
+
+def directed(triangles: Ints) -> set[tuple[int, int]]:
+    return {(int(a), int(b)) for a, b in zip(triangles.ravel(), np.roll(triangles, -1, axis=1).ravel(), strict=True)}
+
+
+@pytest.mark.parametrize("scale", [(1.0, 1.0, 1.0), (-2.0, 2.0, 2.0)])
+def test_hole_of_a_sphere_is_closed_by_the_sphere(scale: tuple[float, float, float]) -> None:
+    mesh = holed((4, 4), half=2)
+    (piece,) = filled(mesh, vertex(2, 2), matrix=np.diag([*scale, 1.0]))
+    assert np.abs(np.linalg.norm(piece.positions, axis=1) - 1.0).max() < 1e-2
+    rim = np.arange(len(piece.outline))
+    edges = directed(piece.triangles)
+    assert {(int(a), int(b)) for a, b in zip(rim, piece.following, strict=True)} <= edges  # wound like the mesh
+    assert not {(int(b), int(a)) for a, b in zip(rim, piece.following, strict=True)} & edges
+    assert not piece.verdict.spots.size
+
+
+def test_spacing_is_a_factor_of_the_outlines_edges() -> None:
+    mesh = holed((4, 4), half=2)
+    counts = [len(filled(mesh, vertex(2, 2), spacing=factor)[0].positions) for factor in (1.0, 0.5)]
+    assert 2.0 < counts[1] / counts[0] < 5.0  # the outline's edges stay, so that it is less than 4 near it
+
+
+def test_each_loop_for_itself_or_all_joined() -> None:
+    steps = np.linspace(0.0, 2.0 * np.pi, 25)[:-1]
+    rings = [(np.cos(steps), np.sin(steps), np.full(24, height)) for height in (-1.6, -1.3, -1.0, 1.0, 1.3, 1.6)]
+    points = np.concatenate([np.stack(ring, axis=1) for ring in rings])
+    quads = [
+        [24 * ring + i, 24 * ring + (i + 1) % 24, 24 * ring + 24 + (i + 1) % 24, 24 * ring + 24 + i]
+        for ring in (0, 1, 3, 4)
+        for i in range(24)
+    ]
+    mesh = polygon_mesh(points, quads, np.zeros(len(quads), dtype=bool))
+    seeds = (48, 72)
+    assert len(filled(mesh, *seeds)) == 2
+    (tube,) = filled(mesh, *seeds, bridge=True)
+    assert [len(loop) for loop in tube.loops] == [24, 24]
+    assert np.abs(np.linalg.norm(tube.positions[:, :2], axis=1) - 1.0).max() < 1e-2
+
+
+def test_a_surface_through_the_mesh_is_unusable() -> None:
+    mesh = holed((4, 4), half=2)
+    apex = len(mesh.positions)
+    blade = np.array([[0.1, 0.1, 0.5], [0.12, 0.1, 2.0], [0.1, 0.12, 2.0]])
+    points = np.concatenate([mesh.positions, blade])
+    quads = mesh.corner_vertices.reshape(-1, 4).tolist()
+    through = polygon_mesh(points, [*quads, [apex, apex + 1, apex + 2]], np.zeros(len(quads) + 1, dtype=bool))
+    (piece,) = filled(through, vertex(2, 2))
+    assert piece.verdict.grade == UNUSABLE
+    assert "pass" in piece.verdict.reason
+    (piece,) = filled(mesh, vertex(2, 2))
+    assert piece.verdict.grade != UNUSABLE
+
+
+def test_unknown_options_are_refused() -> None:
+    for options in ({"equation": "MINIMAL"}, {"spacing": 0.0}, {"spacing": float("nan")}, {"accept": "SOME"}):
+        with pytest.raises(ValueError, match=next(iter(options))):
+            FillOptions(**options)  # type: ignore[arg-type]
+
+
+def test_a_loop_that_is_no_border_is_refused_in_the_meshs_numbers() -> None:
+    mesh = holed((4, 4))
+    inner = [np.array([vertex(1, 1), vertex(1, 2), vertex(2, 2), vertex(2, 1)])]
+    with pytest.raises(MeshRefusal, match="no loop of border edges") as error:
+        fill(mesh, np.eye(4), inner, FillOptions())
+    assert set(error.value.elements.tolist()) <= set(inner[0].tolist())
+
+
+def disc(rings: int = 6) -> tuple[Floats, Ints, int]:
+    """A flat hexagon of equilateral triangles, its rim first; number of the rim's vertices."""
+    places = [
+        (i, j) for i in range(-rings, rings + 1) for j in range(-rings, rings + 1) if abs(i + j) <= rings
+    ]  # fmt: skip
+    places.sort(key=lambda p: -max(abs(p[0]), abs(p[1]), abs(p[0] + p[1])))
+    number = {place: k for k, place in enumerate(places)}
+    triangles = [
+        [number[(i, j)], number[b], number[c]]
+        for i, j in places
+        for b, c in (((i + 1, j), (i, j + 1)), ((i + 1, j - 1), (i + 1, j)))
+        if b in number and c in number
+    ]
+    points = np.array([(i + 0.5 * j, np.sqrt(0.75) * j, 0.0) for i, j in places])
+    return points, np.array(triangles), 6 * rings
+
+
+def test_linear_values_stay_linear_and_constants_keep_their_bits() -> None:
+    points, triangles, rim = disc()
+    everywhere = np.column_stack([points[:, 0], 3.0 * points[:, 1] - 1.0, np.full(len(points), 0.1)])
+    found = harmonic(points, triangles, everywhere[:rim])
+    np.testing.assert_allclose(found, everywhere[rim:], atol=1e-7)
+    assert (found[:, 2] == 0.1).all()
+
+
+def test_every_value_lies_within_the_range_of_the_outline() -> None:
+    points, triangles, rim = disc()
+    points[rim:, 0] += 1.5 * np.sin(5.0 * points[rim:, 1])  # angles far wider than a right one
+    values = (points[:rim, :1] > 3.0).astype(np.float64)
+    found = harmonic(points, triangles, values)
+    assert found.min() > 0.0  # not only cut off at the range
+    assert found.max() < 1.0
+
+
+def test_what_is_not_finite_counts_as_nought() -> None:
+    points, triangles, rim = disc()
+    values = np.ones((rim, 2))
+    values[3, 0] = np.nan
+    values[5, 0] = np.inf
+    found = harmonic(points, triangles, values)
+    assert np.isfinite(found).all()
+    assert 0.0 < found[:, 0].min() < found[:, 0].max() <= 1.0
+    assert (found[:, 1] == 1.0).all()
+
+
+def test_without_new_vertices_nothing_is_carried() -> None:
+    assert harmonic(np.eye(3), np.array([[0, 1, 2]]), np.eye(3)).shape == (0, 3)
+
+
+def test_nearest_is_next_to_it() -> None:
+    points, triangles, rim = disc()
+    label = nearest(triangles, len(points), rim)
+    np.testing.assert_array_equal(label[:rim], np.arange(rim))
+    second = np.linalg.norm(points[:, None] - points[None, :rim], axis=2).min(axis=1) < 1.001
+    distance = np.linalg.norm(points - points[label], axis=1)
+    assert (distance[second] < 1.001).all()
+    assert label.min() >= 0
+
+
+def test_a_face_at_the_outline_follows_the_face_across() -> None:
+    (piece,) = filled(holed((4, 4), half=2), vertex(2, 2))
+    _, of_face = piece.examples()
+    following = piece.following
+    rim = len(piece.outline)
+    for triangle, example in zip(piece.triangles.tolist(), of_face.tolist(), strict=True):
+        for tail, head in zip(triangle, triangle[1:] + triangle[:1], strict=True):
+            if tail < rim and following[tail] == head:
+                assert example == tail

@@ -1,0 +1,361 @@
+"""Fair Fill in Blender: the surface over a hole, what belongs to its faces, and what is left as it was."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import bmesh
+import bpy
+import meshes
+import numpy as np
+import pytest
+
+Chosen = Callable[[Any], bool]
+
+
+def open_sphere(removed: Chosen = lambda c: c.z > 0.55) -> bpy.types.Object:
+    """A unit sphere without the faces whose centre `removed` accepts."""
+    obj = meshes.sphere(48)
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    gone = [face for face in bm.faces if removed(face.calc_center_median().normalized())]
+    bmesh.ops.delete(bm, geom=gone, context="FACES")
+    bm.to_mesh(obj.data)
+    bm.free()
+    return obj
+
+
+def tubes() -> bpy.types.Object:
+    """Two tubes around the z-axis with a gap of one unit, of 24 edges; open at both ends."""
+    steps = np.linspace(0.0, 2.0 * np.pi, 25)[:-1]
+    heights = (-1.1, -0.8, -0.5, 0.5, 0.8, 1.1)
+    points = [(np.cos(s), np.sin(s), z) for z in heights for s in steps]
+    faces = [
+        [24 * ring + i, 24 * ring + (i + 1) % 24, 24 * ring + 24 + (i + 1) % 24, 24 * ring + 24 + i]
+        for ring in (0, 1, 3, 4)
+        for i in range(24)
+    ]
+    return meshes.add(points, faces, "Tubes")
+
+
+def select_vertices(obj: bpy.types.Object, chosen: Chosen, most: int | None = None) -> None:
+    """Enter edit mode with these vertices selected, in vertex mode; with nothing else."""
+    bpy.context.tool_settings.mesh_select_mode = (True, False, False)
+    meshes.select(obj, np.zeros(len(obj.data.polygons), dtype=bool))
+    meshes.edit(obj)
+    bm = bmesh.from_edit_mesh(obj.data)
+    for vertex in [v for v in bm.verts if v.is_boundary and chosen(v.co)][:most]:
+        vertex.select = True
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(obj.data)
+
+
+def fill(**properties: Any) -> set[str]:
+    status: set[str] = bpy.ops.mesh.fair_fill("EXEC_DEFAULT", True, **properties)
+    return status
+
+
+def fill_hole(obj: bpy.types.Object, chosen: Chosen = lambda _: True, **properties: Any) -> set[str]:
+    """Fill the holes with these border vertices, from and to object mode."""
+    select_vertices(obj, chosen)
+    try:
+        return fill(**properties)
+    finally:
+        meshes.leave()
+
+
+def border_edges(obj: bpy.types.Object) -> int:
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    count = sum(edge.is_boundary for edge in bm.edges)
+    assert all(edge.is_manifold or edge.is_boundary for edge in bm.edges)
+    assert all(edge.is_contiguous for edge in bm.edges if not edge.is_boundary)
+    bm.free()
+    return count
+
+
+def test_hole_of_a_sphere_becomes_the_sphere() -> None:
+    obj = open_sphere()
+    before = len(obj.data.polygons)
+    select_vertices(obj, lambda _: True, most=1)
+    assert fill() == {"FINISHED"}
+    meshes.leave()
+    assert border_edges(obj) == 0
+    radii = np.linalg.norm(meshes.positions(obj), axis=1)
+    assert np.abs(radii - 1.0).max() < 2e-4
+    assert meshes.positions(obj)[:, 2].max() > 0.99
+    chosen = [polygon.index for polygon in obj.data.polygons if polygon.select]
+    assert chosen == list(range(before, len(obj.data.polygons)))
+
+
+def test_edges_in_edge_mode_stand_for_the_loop() -> None:
+    obj = open_sphere()
+    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
+    meshes.select(obj, np.zeros(len(obj.data.polygons), dtype=bool))
+    meshes.edit(obj)
+    bm = bmesh.from_edit_mesh(obj.data)
+    next(edge for edge in bm.edges if edge.is_boundary).select_set(True)
+    assert fill() == {"FINISHED"}
+    meshes.leave()
+    assert border_edges(obj) == 0
+
+
+def test_bits_outside_are_kept() -> None:
+    obj = open_sphere()
+    dress(obj)
+    select_vertices(obj, lambda _: True)
+    meshes.leave()
+    before = meshes.contents(obj)
+    points, corners = len(obj.data.vertices), len(obj.data.loops)
+    assert fill_hole(obj) == {"FINISHED"}
+    after = meshes.contents(obj)
+    assert {name for name in before.keys() ^ after.keys() if "select" not in name} == set()
+    for name in before:
+        if name == "weights":
+            assert after[name][:-1].startswith(before[name][:-1])
+        elif "select" not in name:
+            assert after[name].startswith(before[name]), name
+    assert len(obj.data.vertices) > points
+    assert len(obj.data.loops) > corners
+
+
+def dress(obj: bpy.types.Object) -> None:
+    """Give it what a mesh can have; all of it linear in the position, or the same everywhere."""
+    mesh = obj.data
+    for number in range(2):
+        mesh.materials.append(bpy.data.materials.new(f"Material {number}"))
+    mesh.polygons.foreach_set("material_index", [1] * len(mesh.polygons))
+    mesh.polygons.foreach_set("use_smooth", [True] * len(mesh.polygons))
+    mesh.attributes.new(".sculpt_face_set", "INT", "FACE").data.foreach_set("value", [7] * len(mesh.polygons))
+    mesh.attributes.new("number", "INT", "CORNER").data.foreach_set("value", [5] * len(mesh.loops))
+    points = meshes.positions(obj)
+    places = points[[loop.vertex_index for loop in mesh.loops], :2]
+    mesh.uv_layers.new(name="Map").uv.foreach_set("vector", (0.5 + 0.4 * places).astype(np.float32).ravel())
+    colours = np.column_stack([0.5 + 0.4 * points[:, 0], 0.5 * np.ones((len(points), 3))])
+    mesh.color_attributes.new("Paint", "FLOAT_COLOR", "POINT").data.foreach_set("color", colours.ravel())
+    mesh.attributes.new("heat", "FLOAT", "POINT").data.foreach_set("value", points[:, 0])
+    group = obj.vertex_groups.new(name="Left")
+    for vertex, x in enumerate(points[:, 0]):
+        group.add([vertex], float(0.5 + 0.4 * x), "REPLACE")
+    for name in ("Basis", "Wide"):
+        obj.shape_key_add(name=name)
+    wide = points * (2.0, 1.0, 1.0) + (0.0, 0.0, 0.25)
+    mesh.shape_keys.key_blocks["Wide"].data.foreach_set("co", wide.astype(np.float32).ravel())
+
+
+@pytest.fixture
+def dressed() -> tuple[bpy.types.Object, Any, Any]:
+    """A dressed sphere, filled; its new polygons and the numbers of its new vertices."""
+    obj = open_sphere()
+    dress(obj)
+    old, points = len(obj.data.polygons), len(obj.data.vertices)
+    assert fill_hole(obj) == {"FINISHED"}
+    return obj, list(obj.data.polygons)[old:], np.arange(points, len(obj.data.vertices))
+
+
+def test_new_faces_are_like_their_neighbours(dressed: tuple[bpy.types.Object, Any, Any]) -> None:
+    obj, new, _ = dressed
+    assert new
+    assert {(polygon.material_index, polygon.use_smooth) for polygon in new} == {(1, True)}
+    sets, numbers = obj.data.attributes[".sculpt_face_set"].data, obj.data.attributes["number"].data
+    assert {sets[polygon.index].value for polygon in new} == {7}
+    assert {numbers[corner].value for polygon in new for corner in polygon.loop_indices} == {5}
+
+
+def test_values_are_carried_over(dressed: tuple[bpy.types.Object, Any, Any]) -> None:
+    """Coordinates of a symmetric hole are carried nearly as they are on the disc: monotonous, odd in x."""
+    obj, new, vertices = dressed
+    x = meshes.positions(obj)[:, 0]
+    heat = np.array([item.value for item in obj.data.attributes["heat"].data])
+    rim = np.abs(x[vertices]).max()
+    assert np.corrcoef(heat[vertices], x[vertices])[0, 1] > 0.99
+    assert np.abs(heat[vertices] - x[vertices]).max() < 0.2 * rim
+    paint = np.array([item.color[:] for item in obj.data.color_attributes["Paint"].data])
+    np.testing.assert_allclose(paint[vertices, 0], 0.5 + 0.4 * heat[vertices], atol=1e-5)
+    assert (paint[vertices, 1:] == 0.5).all()
+    weights = [obj.data.vertices[vertex].groups[0].weight for vertex in vertices.tolist()]
+    np.testing.assert_allclose(weights, 0.5 + 0.4 * heat[vertices], atol=1e-5)
+    for polygon in new:
+        for corner in polygon.loop_indices:
+            u = obj.data.uv_layers["Map"].uv[corner].vector[0]
+            assert u == pytest.approx(0.5 + 0.4 * heat[obj.data.loops[corner].vertex_index], abs=1e-5)
+
+
+def test_shape_keys_are_continued(dressed: tuple[bpy.types.Object, Any, Any]) -> None:
+    obj, _, vertices = dressed
+    heat = np.array([item.value for item in obj.data.attributes["heat"].data])[vertices]
+    keys = obj.data.shape_keys.key_blocks
+    basis, wide = (np.array([point.co[:] for point in keys[name].data])[vertices] for name in ("Basis", "Wide"))
+    np.testing.assert_array_equal(basis, meshes.positions(obj)[vertices])
+    np.testing.assert_allclose(wide - basis, np.column_stack([heat, 0.0 * heat, 0.0 * heat + 0.25]), atol=1e-5)
+
+
+def test_an_edited_basis_takes_new_vertices_of_its_keys_along() -> None:
+    obj = open_sphere()
+    dress(obj)
+    obj.active_shape_key_index = 0
+    count = len(obj.data.vertices)
+    select_vertices(obj, lambda _: True)
+    for vertex in bmesh.from_edit_mesh(obj.data).verts:
+        vertex.co.z += 1.0
+    assert fill() == {"FINISHED"}
+    meshes.leave()
+    keys = obj.data.shape_keys.key_blocks
+    offsets = np.array([b.co[2] - a.co[2] for a, b in zip(keys["Basis"].data, keys["Wide"].data, strict=True)])
+    assert len(offsets) > count
+    np.testing.assert_allclose(offsets, 0.25, atol=1e-5)
+
+
+def test_two_rims_are_bridged_or_capped() -> None:
+    inner: Chosen = lambda co: abs(co.z) < 0.6  # noqa: E731
+    obj = tubes()
+    assert fill_hole(obj, inner, bridge=True) == {"FINISHED"}
+    assert border_edges(obj) == 48  # the far ends
+    assert np.abs(np.linalg.norm(meshes.positions(obj)[:, :2], axis=1) - 1.0).max() < 1e-3
+    capped = tubes()
+    assert fill_hole(capped, lambda co: co.z > 1.0) == {"FINISHED"}
+    assert border_edges(capped) == 72
+    assert meshes.positions(capped)[:, 2].max() > 1.5
+
+
+def test_spacing_gives_more_faces_on_the_same_surface() -> None:
+    counts = []
+    for spacing in (2.0, 1.0, 0.5):
+        obj = open_sphere()
+        old = len(obj.data.vertices)
+        assert fill_hole(obj, spacing=spacing) == {"FINISHED"}
+        counts.append(len(obj.data.vertices) - old)
+        assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 2e-3
+    assert counts[0] < counts[1] < counts[2]
+
+
+def test_scale_of_the_object_counts() -> None:
+    """What is a sphere in world space becomes one there, with a scale that turns it inside out."""
+    obj = open_sphere()
+    points = meshes.positions(obj)
+    meshes.move(obj, points / (2.0, -1.0, 1.0))
+    obj.data.flip_normals()
+    obj.scale = (2.0, -1.0, 1.0)
+    assert fill_hole(obj) == {"FINISHED"}
+    assert border_edges(obj) == 0
+    assert np.abs(np.linalg.norm(meshes.positions(obj) * (2.0, -1.0, 1.0), axis=1) - 1.0).max() < 2e-4
+
+
+def refused(text: str, **properties: Any) -> None:
+    """The operator must refuse with these words and change nothing."""
+    obj = bpy.context.edit_object
+    meshes.leave()
+    before = {key: data for key, data in meshes.contents(obj).items() if ".select" not in key}
+    bpy.ops.object.mode_set(mode="EDIT")
+    with pytest.raises(RuntimeError, match=text):
+        fill(**properties)
+    meshes.leave()
+    assert {key: data for key, data in meshes.contents(obj).items() if ".select" not in key} == before
+
+
+def test_nothing_selected_is_refused() -> None:
+    select_vertices(open_sphere(), lambda _: False)
+    refused("No border is selected")
+
+
+def test_multiresolution_is_refused() -> None:
+    obj = open_sphere()
+    obj.modifiers.new("Levels", "MULTIRES")
+    select_vertices(obj, lambda _: True)
+    refused("Multiresolution")
+
+
+def test_a_locked_shape_key_is_refused() -> None:
+    obj = open_sphere()
+    dress(obj)
+    obj.data.shape_keys.key_blocks["Basis"].lock_shape = True
+    obj.active_shape_key_index = 0
+    select_vertices(obj, lambda _: True)
+    refused("locked")
+
+
+def test_a_surface_through_the_mesh_is_written_on_demand_only() -> None:
+    obj = open_sphere()
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    blade = [bm.verts.new(place) for place in ((0.1, 0.1, 0.3), (0.11, 0.1, 2.0), (0.1, 0.11, 2.0))]
+    bm.faces.new(blade)
+    bm.to_mesh(obj.data)
+    bm.free()
+    old = len(obj.data.polygons)
+    select_vertices(obj, lambda co: co.length > 0.9 and co.z < 1.5)
+    refused("through others.*Nothing was changed")
+    select_vertices(obj, lambda co: 0.9 < co.length < 1.1)
+    assert fill(accept="ALL") == {"FINISHED"}
+    meshes.leave()
+    assert len(obj.data.polygons) > old
+
+
+def test_one_step_of_undo_takes_it_back() -> None:
+    obj = open_sphere()
+    name = obj.name
+    meshes.select(obj, np.zeros(len(obj.data.polygons), dtype=bool))
+    bpy.ops.ed.undo_push(message="open")
+    select_vertices(obj, lambda _: True)
+    bpy.ops.ed.undo_push(message="selected")
+    before = len(bmesh.from_edit_mesh(obj.data).faces)
+    assert fill() == {"FINISHED"}
+    assert len(bmesh.from_edit_mesh(obj.data).faces) > before
+    bpy.ops.ed.undo()
+    found = bpy.data.objects[name]
+    assert bpy.context.mode == "EDIT_MESH"
+    assert len(bmesh.from_edit_mesh(found.data).faces) == before
+
+
+def test_live_region_does_not_grow() -> None:
+    obj = open_sphere()
+    layer = obj.data.attributes.new("fair_live", "INT", "FACE")
+    layer.data.foreach_set("value", [1] * len(obj.data.polygons))
+    old = len(obj.data.polygons)
+    assert fill_hole(obj) == {"FINISHED"}
+    values = [item.value for item in obj.data.attributes["fair_live"].data]
+    assert set(values[:old]) == {1}
+    assert set(values[old:]) == {0}
+
+
+def test_a_seam_of_uvs_begins_with_the_mean_and_is_told(capfd: pytest.CaptureFixture[str]) -> None:
+    obj = open_sphere()
+    layer = obj.data.uv_layers.new(name="Map").uv
+    sides = [float(p.center.x > 0.0) for p in obj.data.polygons for _ in p.loop_indices]
+    layer.foreach_set("vector", np.column_stack([sides, sides]).astype(np.float32).ravel())
+    old = len(sides)
+    assert fill_hole(obj) == {"FINISHED"}
+    values = np.array([item.vector[0] for item in obj.data.uv_layers["Map"].uv])
+    assert values[:old].tolist() == sides
+    assert ((values[old:] >= 0.0) & (values[old:] <= 1.0)).all()
+    assert (values[old:] == 0.5).any()
+    assert "2 vertices of the outline lie on a seam" in "".join(capfd.readouterr())
+
+
+def test_custom_normals_outside_stay_and_new_corners_have_none() -> None:
+    obj = open_sphere()
+    obj.data.normals_split_custom_set_from_vertices([(0.0, 0.6, 0.8)] * len(obj.data.vertices))
+    old = len(obj.data.loops)
+    assert fill_hole(obj) == {"FINISHED"}
+    normals = np.array([item.vector[:] for item in obj.data.corner_normals])
+    np.testing.assert_allclose(normals[:old], [(0.0, 0.6, 0.8)] * old, atol=0.02)  # kept as angles
+    centres = np.array([polygon.normal[:] for polygon in obj.data.polygons for _ in polygon.loop_indices])
+    assert ((normals[old:] * centres[old:]).sum(axis=1) > 0.8).all()
+
+
+def test_several_holes_at_once_and_an_object_without_a_border() -> None:
+    obj = open_sphere(lambda c: abs(c.z) > 0.8)
+    assert fill_hole(obj) == {"FINISHED"}
+    assert border_edges(obj) == 0
+    assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 2e-3
+    select_vertices(meshes.sphere(16), lambda _: True)
+    refused("No border is selected")
+
+
+def test_operator_has_the_documented_properties() -> None:
+    found = [p for p in bpy.ops.mesh.fair_fill.get_rna_type().properties if p.identifier != "rna_type"]
+    assert {p.identifier: p.default for p in found} == {
+        "equation": "HARMONIC", "bridge": False, "spacing": 1.0, "accept": "USABLE",
+    }  # fmt: skip
+    assert all(p.description for p in found)
