@@ -37,6 +37,8 @@ class FairOptions:
     otherwise: str = "LEAST_VARIATION"  # where the equation has no surface
     bulge: float = 0.0  # for CONSTANT: 1 lifts a flat disc by a quarter of its radius
     inner_fairness: str = "AUTOMATIC"  # CONFORMAL for a patch with a texture, UNIFORM for others
+    detail: float = 0.0  # how much of the old patch's detail is put back, 0 … 1
+    detail_size: float = 0.0  # what is shorter counts as detail: a part of the patch's size; 0: ten edges
     boundary_normals: str = "SURROUNDING"
     continuity: str = "G1"  # G2: the curvature of the faces outside is continued, too
     method: str = "GLOBAL"
@@ -53,8 +55,9 @@ class FairOptions:
             value = getattr(self, name)
             if value not in choices:
                 raise ValueError(f"{name}: expected one of {', '.join(choices)}, got {value!r}")
-        if not 0.0 <= self.factor <= 1.0:
-            raise ValueError(f"factor: expected a number from 0 to 1, got {self.factor!r}")
+        for name in ("factor", "detail", "detail_size"):
+            if not 0.0 <= getattr(self, name) <= 1.0:
+                raise ValueError(f"{name}: expected a number from 0 to 1, got {getattr(self, name)!r}")
 
     @classmethod
     def of(cls, properties: Any) -> FairOptions:
@@ -79,6 +82,8 @@ class FairOptions:
             "otherwise": self.otherwise.lower(),
             "bulge": self.bulge if self.equation == "CONSTANT" else 0.0,
             "inner_fairness": self.inner_fairness.lower(),
+            "detail": self.detail,
+            "detail_size": self.detail_size,
             "method": self.method.lower(),
             "levels": self.levels,
             "tolerance": self.tolerance,

@@ -48,7 +48,8 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     after = before.copy()
     after[moving] = positions @ matrix[:3, :3].T + matrix[:3, 3]
     own = len(patch.vertices)
-    clear = options.factor == 1.0 and not mesh.mirror_x and _is_clear(patch, result)
+    as_solved = options.factor == 1.0 and options.detail == 0.0
+    clear = as_solved and not mesh.mirror_x and _is_clear(patch, result)
     quality_before, quality_after = quality.compare(patch, (before[:own], after[:own]), clear)
     join = quality.join(problem, after)
     evidence = Evidence(problem, result, solved.failures, quality_before, quality_after, join)

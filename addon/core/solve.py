@@ -24,7 +24,7 @@ NO_ANSWER = ("FOLDED", "NOT_CONVERGED")  # codes that are reasons of a verdict
 
 @dataclass(frozen=True)
 class Solved:
-    """What the engine gave, before blending: the factor changes nothing here."""
+    """What the engine gave, before blending: the factor changes nothing here, and detail nothing but positions."""
 
     problem: engine.Problem
     result: fairing.FairResult
@@ -36,7 +36,7 @@ class Solved:
 class Kept:
     """What the redo panel answers from."""
 
-    results: Memory[Solved]  # where nothing but the factor changed since a former call
+    results: Memory[Solved]  # where nothing but factor and detail changed since a former call
     solvers: Memory[engine.RepeatedSolve | None]  # where only options changed; None: a mesh that was solved once
     ahead: bool = False  # make a solver at the first call already, whose start for the next one takes a while
 
@@ -55,6 +55,7 @@ def solve(
     fairing.SolverError and fairing.Cancelled. `mesh` is never changed.
     """
     options = options.resolved(mesh.textured)
+    share, options = options.detail, replace(options, detail=float(options.detail > 0.0))
     # Of two results for the same input the bits are the same, so that a former one is as good.
     key = digest(mesh, matrix, replace(options, factor=1.0, accept="ALL")) if kept is not None else ""
     solved = kept.results.get(key) if kept is not None else None
@@ -66,7 +67,16 @@ def solve(
             kept.results.put(key, solved)
         else:
             solved = _solved(problem, engine.solve(problem, options, progress), warnings)
-    return solved
+    return _with_detail(solved, share)
+
+
+def _with_detail(solved: Solved, share: float) -> Solved:
+    """Return the answer with a part of the detail put back; the engine gives all of it or none."""
+    if share in (0.0, 1.0):
+        return solved
+    result = solved.result
+    vertices = result.base + share * (result.vertices - result.base)
+    return replace(solved, result=replace(result, vertices=vertices))
 
 
 def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine.Problem, tuple[str, ...]]:
@@ -75,8 +85,8 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
     # What is not finite outside the patch is none of our business, and the engine looks inside.
     with np.errstate(invalid="ignore", over="ignore"):
         world = mesh.transformed(matrix)
-        # Conformal weights belong to the present shape, and so do its triangles.
-        patch = make_patch(world, even=options.inner_fairness != "CONFORMAL")
+        # Conformal weights and detail belong to the present shape, and so do its triangles.
+        patch = make_patch(world, even=options.inner_fairness != "CONFORMAL" and options.detail == 0.0)
         outside = outside_triangles(world, patch)
         normals, warnings = prescribed_normals(world, patch, options.boundary_normals, outside)
         curvatures = prescribed_curvatures(world, patch, outside) if options.joins_curvature else None

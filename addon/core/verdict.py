@@ -104,6 +104,8 @@ def _corners(problem: Problem, faces: Ints) -> Ints:
 
 def _folded(evidence: Evidence, options: FairOptions) -> Found:
     after = evidence.after.folded
+    if options.detail > 0.0:
+        after = np.setdiff1d(after, evidence.before.folded)  # the skin's own folds come back with it
     if options.factor < 1.0 and len(after) <= len(evidence.before.folded):
         return _NOTHING  # half-way to a fair surface something of the old one is left
     if evidence.result.termination == "folded" and not len(after):

@@ -133,6 +133,24 @@ class FairProperties:
         items=_INNER_FAIRNESS,
         default="AUTOMATIC",
     )
+    detail: FloatProperty(
+        name="Keep Detail",
+        description="How much of the old skin is put back on the new shape: grain, pores and scales stay, and what is "
+        "larger than Size goes. 0: the surface is smooth",
+        default=0.0,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+    )
+    detail_size: FloatProperty(
+        name="Size",
+        description="What repeats within less than this counts as detail: a part of the selection's size; 0: ten edges",
+        default=0.0,
+        min=0.0,
+        max=1.0,
+        precision=3,
+        subtype="FACTOR",
+    )
     boundary_normals: EnumProperty(
         name="Tangent To",
         description="The slope with which the surface leaves its outline",

@@ -14,6 +14,7 @@ def draw_options(layout: Any, options: Any, obj: bpy.types.Object, manager: Any)
     layout.prop(options, "factor")
     _draw_shape(_group(layout, "Shape"), options)
     _group(layout, "Vertices").prop(options, "inner_fairness")
+    _draw_detail(_group(layout, "Skin"), options)
     _draw_outline(_group(layout, "At the Outline"), options, obj)
     # No collapsible layout panel: not every place that shows these options has them.
     opened = bool(getattr(manager, OPEN))
@@ -39,6 +40,13 @@ def _draw_shape(group: Any, options: Any) -> None:
     row = group.row()
     row.active = options.equation == "CONSTANT"
     row.prop(options, "bulge", slider=True)
+
+
+def _draw_detail(group: Any, options: Any) -> None:
+    group.prop(options, "detail", slider=True)
+    row = group.row()
+    row.active = options.detail > 0.0
+    row.prop(options, "detail_size", slider=True)
 
 
 def _draw_outline(group: Any, options: Any, obj: bpy.types.Object) -> None:

@@ -103,6 +103,30 @@ def test_a_former_result_is_not_computed_again(monkeypatch: pytest.MonkeyPatch) 
     assert solve(mesh, EYE, FairOptions(factor=0.5), kept=kept) is first
 
 
+def test_the_engine_is_asked_for_all_of_the_detail_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every share of it follows from that answer; none of it is another one."""
+    mesh, kept = spoilt_sphere(), counting_kept()
+    whole = solve(mesh, EYE, FairOptions(detail=1.0), kept=kept).result
+    assert np.abs(whole.vertices - whole.base).max() > 0.01
+    with monkeypatch.context() as nothing_solves:
+        nothing_solves.setattr(fairing, "fair", lambda *_args, **_options: pytest.fail("solved again"))
+        nothing_solves.setattr(engine, "RepeatedSolve", lambda *_args: pytest.fail("solved again"))
+        part = solve(mesh, EYE, FairOptions(detail=0.25), kept=kept).result
+    np.testing.assert_allclose(part.vertices, whole.base + 0.25 * (whole.vertices - whole.base), atol=1e-15)
+    longer = FairOptions(detail=1.0, detail_size=0.8)
+    again, anew = solve(mesh, EYE, longer, kept=kept).result, solve(mesh, EYE, longer).result
+    np.testing.assert_allclose(again.vertices, anew.vertices, atol=1e-5)
+    assert np.abs(again.vertices - whole.vertices).max() > 0.01
+
+
+def test_detail_belongs_to_the_triangles_of_the_old_shape() -> None:
+    """Quads are cut as for a texture, which belongs to the old shape too."""
+    mesh = spoilt_sphere()
+    posed = [pose(mesh, EYE, FairOptions(**chosen))[0] for chosen in ({"detail": 1.0}, {"inner_fairness": "CONFORMAL"})]
+    assert np.array_equal(posed[0].patch.triangles, posed[1].patch.triangles)
+    assert not np.array_equal(posed[0].patch.triangles, pose(mesh, EYE, FairOptions())[0].patch.triangles)
+
+
 def test_other_options_start_from_the_solver_that_was_kept(monkeypatch: pytest.MonkeyPatch) -> None:
     mesh, kept = spoilt_sphere(), counting_kept(ahead=True)
     solve(mesh, EYE, FairOptions(), kept=kept)

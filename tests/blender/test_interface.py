@@ -19,6 +19,8 @@ DEFAULTS = {
     "otherwise": "LEAST_VARIATION",
     "bulge": 0.0,
     "inner_fairness": "AUTOMATIC",
+    "detail": 0.0,
+    "detail_size": 0.0,
     "boundary_normals": "SURROUNDING",
     "continuity": "G1",
     "method": "GLOBAL",

@@ -1,0 +1,46 @@
+"""Pictures: before, fair, and fair with detail; the whole patch and close up."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from PIL import Image, ImageDraw
+
+import cases
+from cases import Case
+from engine import FloatArray
+from stripes import Layer, facing, render
+
+TILE = 330  # pixels
+COLOURS = 64
+GREY, TINT = (0.86, 0.86, 0.86), (0.93, 0.82, 0.7)
+WAYS: tuple[tuple[str, dict[str, float]], ...] = (("fair", {}), ("fair, with detail", {"detail": 1.0}))
+
+
+def write(folder: Path) -> None:
+    """One picture for each case."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for case in (cases.sphere(6000, 0.25, 3, along_normal=True), *cases.scans()):
+        sheet(case).save(folder / f"detail_{case.name.split('-')[0]}.png", optimize=True)
+
+
+def sheet(case: Case) -> Image.Image:
+    """Two rows of three tiles, labelled."""
+    shown = [("before", case.vertices)] + [(name, case.fair(**options).vertices) for name, options in WAYS]
+    picture = Image.new("RGB", (len(shown) * TILE, 2 * TILE + 16), "white")
+    draw = ImageDraw.Draw(picture)
+    for k, (name, points) in enumerate(shown):
+        draw.text((k * TILE + 6, 2), name, fill="black")
+        for line, reach in enumerate((0.75, 0.3)):
+            picture.paste(tile(case, points, reach * case.diameter, close=line == 1), (k * TILE, 16 + line * TILE))
+    return picture.quantize(COLOURS)
+
+
+def tile(case: Case, points: FloatArray, reach: float, *, close: bool) -> Image.Image:
+    """Shaded; close up it looks at a piece of the outline."""
+    rim = case.vertices[case.outline]
+    centre = rim[np.argmax(rim @ np.array([1.0, -0.3, 0.2]))] if close else rim.mean(axis=0)
+    view = facing(case.facing, centre, reach, TILE)
+    image = render([Layer(points, case.outside, GREY), Layer(points, case.inside, TINT)], view)
+    return Image.fromarray((255 * image.clip(0, 1)).astype(np.uint8))

@@ -1,0 +1,130 @@
+"""Keep Detail as users meet it: on a rough sphere with a dent in it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+import meshes
+import numpy as np
+import pytest
+from extension import module
+
+NOISE = 0.01
+LIMIT = 0.4  # faces above this height are selected
+
+
+def dented(rim: int = 48) -> tuple[bpy.types.Object, meshes.Mask, meshes.Floats]:
+    """Add a unit sphere, rough and dented within the selection; with the selection, and (n,) its roughness."""
+    obj = meshes.sphere(rim)
+    points = meshes.positions(obj)
+    faces = meshes.faces_where(obj, lambda centre: centre.z > LIMIT)
+    noise = NOISE * np.random.default_rng(7).normal(size=len(points)) * (points[:, 2] > LIMIT + 0.1)
+    dent = 0.25 * np.clip((points[:, 2] - 0.55) / 0.45, 0, 1) ** 2
+    meshes.move(obj, points * (1 + noise - dent)[:, None])
+    return obj, faces, noise
+
+
+def heights(obj: bpy.types.Object) -> meshes.Floats:
+    return np.asarray(np.linalg.norm(meshes.positions(obj), axis=1) - 1)
+
+
+def fair(obj: bpy.types.Object, faces: meshes.Mask, **options: Any) -> Any:
+    """Run; return which vertices moved, after a look at everything else."""
+    before = meshes.in_edit_mode_once(obj, faces)
+    assert meshes.fair(obj, faces, **options) == {"FINISHED"}
+    return meshes.moved(before, meshes.contents(obj))
+
+
+@pytest.fixture
+def nothing_solves(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """From the call on no solver answers."""
+    import fairing
+
+    def refuse(*_arguments: Any, **_options: Any) -> None:
+        raise AssertionError("solved again")
+
+    def call() -> None:
+        monkeypatch.setattr(fairing, "fair", refuse)
+        monkeypatch.setattr(fairing.Solver, "solve", refuse)
+
+    return call
+
+
+def test_the_skin_comes_back_and_the_dent_goes() -> None:
+    """Without detail noise and dent go. With it the same noise stays, vertex by vertex."""
+    smooth, faces, noise = dented(96)
+    rough, _, _ = dented(96)
+    free = meshes.free_vertices(smooth, faces)
+    assert np.array_equal(fair(smooth, faces), free)
+    assert np.array_equal(fair(rough, faces, detail=1.0), free)
+    base, kept = heights(smooth)[free], heights(rough)[free]
+    assert np.abs(base).max() < 0.1 * NOISE
+    assert np.corrcoef(kept - base, noise[free])[0, 1] > 0.85
+    assert (kept - base).std() == pytest.approx(noise[free].std(), rel=0.25)
+    assert (kept - noise[free])[meshes.positions(rough)[free, 2].argmax()] > -0.05  # the dent was 0.25 deep
+
+
+def test_detail_is_the_engines() -> None:
+    """In the mesh is base + detail · (vertices − base) of the engine's own result."""
+    from bl_ext.user_default.intrinsic_fairing import fair_mesh
+
+    for share in (1.0, 0.3):
+        obj, faces, _ = dented(32)
+        whole, _, _ = dented(32)
+        chosen = np.flatnonzero(faces)
+        result = fair_mesh(whole.data, chosen, detail=1.0, detail_size=0.3)
+        part = fair_mesh(obj.data, chosen, detail=share, detail_size=0.3)
+        assert part.vertices == pytest.approx(result.base + share * (result.vertices - result.base), abs=1e-12)
+        own = np.unique([v for face in chosen for v in obj.data.polygons[int(face)].vertices])
+        assert meshes.positions(obj)[own] == pytest.approx(part.vertices, abs=1e-6)
+
+
+def test_the_size_counts() -> None:
+    """Longer waves are kept with a larger size: more of the dent stays."""
+    fine, faces, _ = dented()
+    coarse, _, _ = dented()
+    fair(fine, faces, detail=1.0, detail_size=0.15)
+    fair(coarse, faces, detail=1.0, detail_size=0.8)
+    top = meshes.positions(fine)[:, 2].argmax()
+    assert heights(coarse)[top] < heights(fine)[top] - 0.02
+
+
+def test_the_detail_slider_answers_from_memory(nothing_solves: Any) -> None:
+    """As the factor does: the same mesh, another share."""
+    module("run.job").memory.clear()
+    whole, faces, _ = dented()
+    free = meshes.free_vertices(whole, faces)
+    fair(whole, faces, detail=1.0)
+    nothing_solves()
+    part, _, _ = dented()
+    fair(part, faces, detail=0.4)
+    blended, _, _ = dented()
+    old = meshes.positions(blended)
+    fair(blended, faces, detail=1.0, factor=0.5)
+    assert meshes.positions(blended)[free] == pytest.approx(0.5 * (old + meshes.positions(whole))[free], abs=1e-6)
+    assert np.ptp(heights(part)[free]) < np.ptp(heights(whole)[free])
+    with pytest.raises(RuntimeError, match="solved again"):
+        fair(dented()[0], faces, detail=0.4, detail_size=0.3)
+
+
+def test_a_script_gives_the_same_bits() -> None:
+    from bl_ext.user_default.intrinsic_fairing import fair_mesh
+
+    obj, faces, _ = dented(32)
+    scripted, _, _ = dented(32)
+    chosen = {"detail": 0.7, "detail_size": 0.25}
+    fair(obj, faces, **chosen)
+    fair_mesh(scripted.data, np.flatnonzero(faces), matrix=scripted.matrix_world, **chosen)
+    assert np.abs(meshes.positions(obj) - meshes.positions(scripted)).max() < 1e-6
+
+
+@pytest.mark.parametrize("name", ["detail", "detail_size"])
+def test_shares_are_from_0_to_1(name: str) -> None:
+    from bl_ext.user_default.intrinsic_fairing import fair_mesh
+
+    obj, faces, _ = dented(32)
+    before = meshes.contents(obj)
+    with pytest.raises(ValueError, match=f"{name}: expected a number from 0 to 1"):
+        fair_mesh(obj.data, np.flatnonzero(faces), **{name: 1.5})
+    assert meshes.contents(obj) == before
