@@ -95,8 +95,8 @@ ComponentAnswer ComponentSolver::solve(const ComponentData& data, const Progress
     for (const Diagnostics* list : {&reference_warnings_, &skin_warnings_}) {
         answer.warnings.insert(answer.warnings.end(), list->begin(), list->end());
     }
-    answer.solution =
-        options().method == Method::paper ? solve_by_paper(answer.problem, progress) : solve_globally(answer, data, progress);
+    answer.solution = options().method == Method::paper ? solve_by_paper(answer.problem, progress)
+                                                        : solve_globally(answer, data, progress);
     if (skin_) put_back_detail(answer, progress);
     return answer;
 }

@@ -4,8 +4,8 @@
 #include "api/component.h"
 #include "base/progress.h"
 #include "detail/skin.h"
-#include "method/outline_move.h"
 #include "method/near_start.h"
+#include "method/outline_move.h"
 #include "method/warm_start.h"
 #include "problem/solution.h"
 

@@ -13,10 +13,10 @@ enum class Degree { quadratic, cubic };
 enum class Centre { met, free };
 
 struct SlopeFit {
-    Vector3 normal;        // unit
-    double error = 0.0;    // of the slopes: their standard error, and what the last round still changed
-    double height = 0.0;   // of the surface over the centre, along the normal; 0 where the centre is met
-    double scatter = 0.0;  // standard deviation of the points' heights from the surface
+    Vector3 normal;                // unit
+    double error = 0.0;            // of the slopes: their standard error, and what the last round still changed
+    double height = 0.0;           // of the surface over the centre, along the normal; 0 where the centre is met
+    double scatter = 0.0;          // standard deviation of the points' heights from the surface
     double mean_curvature = 0.0;   // at the foot of the centre, in length⁻¹; −1/R on a sphere with outward normals
     double curvature_error = 0.0;  // its standard error
 

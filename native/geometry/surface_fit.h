@@ -14,8 +14,8 @@ public:
     // Coordinates beyond ±1e100 or within ±1e-100 lose their digits: scale them. Keeps references.
     SurfaceFits(const Points& points, const Triangles& triangles, Centre at_centres);
 
-    // The fit whose slopes have the least standard error, with the curvature of the fit that knows it best; nothing where
-    // the points are too few.
+    // The fit whose slopes have the least standard error, with the curvature of the fit that knows it best; nothing
+    // where the points are too few.
     std::optional<SlopeFit> at_vertex(int vertex);
     // The normalised sum of the adjacent triangles' cross products; zero where there are none.
     [[nodiscard]] Vector3 averaged(int vertex) const { return averaged_.col(vertex); }
