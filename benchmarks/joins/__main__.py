@@ -14,17 +14,20 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from PIL import Image
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "accuracy"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import exact_joins
 import scenes
 
 import fairing
 import shapes
-import stripes
+from stripes import Layer, render
 
+GREY, COLOURS = (0.9, 0.9, 0.9), 32
 PICTURE = Path(__file__).resolve().parents[2] / "docs" / "pictures" / "joins_joint.png"
 
 
@@ -90,8 +93,9 @@ def pictures() -> None:
     for continuity in ("G1", "G2"):
         result = scene.solved(continuity)
         print(scene.name, result.continuity, result.iterations, [str(warning) for warning in result.warnings])
-        views.append(stripes.draw(result.vertices, scene.drawn(), scene.view))
-    stripes.write(PICTURE, views)
+        views.append(render([Layer(result.vertices, scene.drawn(), GREY, striped=True)], scene.view))
+    both = Image.fromarray((255 * np.hstack(views)).astype(np.uint8))
+    both.resize((2 * scenes.PIXELS, scenes.PIXELS), Image.Resampling.LANCZOS).quantize(COLOURS).save(PICTURE)
 
 
 TABLES: dict[str, Callable[[], None]] = {"exact": exact, "fitted": fitted, "cost": cost, "pictures": pictures}

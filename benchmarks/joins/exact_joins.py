@@ -10,8 +10,8 @@ import fairing
 import outlines
 import shapes
 import test_joins
+from engine import FloatArray
 from outlines import Chart
-from stripes import FloatArray
 
 FAMILIES: dict[str, Callable[[int], shapes.Patch]] = {
     "sphere": test_joins.MAKERS["hemisphere"],

@@ -7,7 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 import fairing
-from stripes import FloatArray, IntArray, View
+from engine import FloatArray
+from meshing import IntArray
+from stripes import View, facing
+
+PIXELS = 360  # of a picture's side, which is drawn twice as fine
 
 
 @dataclass(frozen=True)
@@ -57,7 +61,7 @@ def joint(around: int = 144) -> Scene:
     triangles = _grid(len(vertices) // around, around, True)
     row = triangles.min(axis=1) // around
     within = (row >= len(wide) - 1) & (row < len(wide) + len(between))
-    view = View((0.0, 0.0, 1.35), (1.0, -1.6, 0.75), 3.2, (0.2, 0.3, 1.0))
+    view = facing(np.array([1.0, -1.6, 0.75]), np.array([0.0, 0.0, 1.35]), 1.6, 2 * PIXELS)
     return Scene("joint", vertices, triangles[within], triangles[~within], view)
 
 
