@@ -7,12 +7,6 @@ namespace fairing::bindings {
 
 namespace {
 
-py::array from_triangles(const Triangles& triangles) {
-    py::array_t<int> array({triangles.cols(), Eigen::Index{3}}, triangles.data());
-    array.attr("flags").attr("writeable") = false;
-    return array;
-}
-
 py::dict fill_arrays(const DoubleArray& vertices, const std::vector<IntArray>& loops,
                      const std::vector<DoubleArray>& normals, bool bridge, const std::string& equation,
                      const py::object& callback) {

@@ -6,12 +6,6 @@ namespace fairing::bindings {
 
 namespace {
 
-py::array from_triangles(const Triangles& triangles) {
-    py::array_t<int> array({triangles.cols(), Eigen::Index{3}}, triangles.data());
-    array.attr("flags").attr("writeable") = false;
-    return array;
-}
-
 py::list hierarchy_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
                           int levels) {
     const MeshInput input{to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices), {}};

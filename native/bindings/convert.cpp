@@ -31,6 +31,10 @@ py::array from_points(const Points& points) {
     return read_only(py::array_t<double>({points.cols(), Eigen::Index{3}}, points.data()));
 }
 
+py::array from_triangles(const Triangles& triangles) {
+    return read_only(py::array_t<int>({triangles.cols(), Eigen::Index{3}}, triangles.data()));
+}
+
 VectorX to_vector(const DoubleArray& array) { return Eigen::Map<const VectorX>(array.data(), array.size()); }
 
 py::array from_vector(const VectorX& values) { return read_only(py::array_t<double>(values.size(), values.data())); }

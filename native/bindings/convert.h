@@ -29,6 +29,7 @@ auto to_optional(const std::optional<Array>& array, Convert convert) -> std::opt
 
 // Arrays handed out are marked read-only.
 py::array from_points(const Points& points);
+py::array from_triangles(const Triangles& triangles);
 py::array from_vector(const VectorX& values);
 py::array from_indices(const Indices& indices);
 

@@ -2,19 +2,13 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
-#include <Eigen/Geometry>
-
-#include "base/types.h"
+#include "geometry/outline_angles.h"
 
 namespace fairing {
 
 inline double angle_at(const Vector3& corner, const Vector3& a, const Vector3& b) {
-    const Vector3 u = a - corner;
-    const Vector3 v = b - corner;
-    return std::atan2(u.cross(v).norm(), u.dot(v)) * 180.0 / std::numbers::pi;
+    return degrees_between(a - corner, b - corner);
 }
 
 inline double least_angle(const Vector3& a, const Vector3& b, const Vector3& c) {

@@ -1,5 +1,7 @@
 // The last triangles with small angles.
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "base/progress.h"
 #include "fill/angles.h"

@@ -19,16 +19,9 @@ constexpr double split_above = 4.0 / 3.0;  // of the wanted length
 constexpr double collapse_below = 0.75;
 constexpr double longest_after = 1.4;  // edges that a collapse makes
 constexpr int highest_valence = 8;     // flips and collapses make none higher
-constexpr double cos_of_fold = 0.5;    // a flip may not bend the mesh more than this, or further than it is bent
 constexpr double sharp_corner = 75.0;  // degrees
-constexpr double delaunay_slack = -1e-9;
 
 Vector3 cross_product(const Vector3& a, const Vector3& b, const Vector3& c) { return (b - a).cross(c - a); }
-
-double cotangent(const Vector3& apex, const Vector3& a, const Vector3& b) {
-    const double sine = (a - apex).cross(b - apex).norm();
-    return (a - apex).dot(b - apex) / std::max(sine, 1e-300);
-}
 
 using QueuedEdge = std::pair<double, int>;  // relative length, half-edge
 using ShortestFirst = std::priority_queue<QueuedEdge, std::vector<QueuedEdge>, std::greater<>>;
@@ -180,22 +173,13 @@ bool EvenMesh::may_flip(Edge e) const {
     for (const Vertex v : {above, below}) {
         if (static_cast<int>(mesh_.valence(v)) >= highest_valence) return false;
     }
-    const Vector3 a = point(mesh_.from_vertex_handle(h));
-    const Vector3 b = point(mesh_.to_vertex_handle(h));
-    const Vector3 c = point(above);
-    const Vector3 d = point(below);
-    const auto bend = [](const Vector3& n, const Vector3& m) { return n.dot(m) / (n.norm() * m.norm() + 1e-300); };
-    const double before = bend(cross_product(a, b, c), cross_product(b, a, d));
-    const double after = bend(cross_product(c, d, b), cross_product(d, c, a));
-    return after >= cos_of_fold || after >= before;
+    return diagonal(e).flips_without_fold();
 }
 
-bool EvenMesh::is_delaunay(Edge e) const {
+Diagonal EvenMesh::diagonal(Edge e) const {
     const Halfedge h = mesh_.halfedge_handle(e, 0);
-    const Vector3 a = point(mesh_.from_vertex_handle(h));
-    const Vector3 b = point(mesh_.to_vertex_handle(h));
-    const double sum = cotangent(point(apex(h)), a, b) + cotangent(point(apex(mesh_.halfedge_handle(e, 1))), a, b);
-    return !(sum < delaunay_slack);
+    return {point(mesh_.from_vertex_handle(h)), point(mesh_.to_vertex_handle(h)), point(apex(h)),
+            point(apex(mesh_.halfedge_handle(e, 1)))};
 }
 
 int EvenMesh::flip_edges() {
@@ -205,7 +189,7 @@ int EvenMesh::flip_edges() {
         const int before = flips;
         for (const Edge e : mesh_.edges()) {
             checkpoint(e.idx());
-            if (mesh_.is_boundary(e) || is_delaunay(e) || !may_flip(e)) continue;
+            if (mesh_.is_boundary(e) || diagonal(e).is_delaunay() || !may_flip(e)) continue;
             mesh_.flip(e);
             ++flips;
         }

@@ -1,6 +1,7 @@
 // A mesh of nearly equilateral triangles on a surface that is known.
 #pragma once
 
+#include "geometry/edge_flip.h"
 #include "geometry/target_surface.h"
 #include "mesh/surface_mesh.h"
 
@@ -41,7 +42,7 @@ private:
     int collapse_short();
     [[nodiscard]] bool may_collapse(Halfedge h);
     [[nodiscard]] bool may_flip(Edge e) const;
-    [[nodiscard]] bool is_delaunay(Edge e) const;
+    [[nodiscard]] Diagonal diagonal(Edge e) const;
     int flip_edges();
     void smooth(int sweeps);
     int improve_flips();

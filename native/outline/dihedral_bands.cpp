@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 
 #include "base/direction.h"
+#include "geometry/outline_angles.h"
 
 namespace fairing {
 
@@ -47,7 +47,7 @@ void AngleRange::include(const AngleRange& other) {
 }
 
 double dihedral_angle(const Vector3& first, const Vector3& second, const Vector3& a, const Vector3& opposite) {
-    const double angle = std::atan2(first.cross(second).norm(), first.dot(second)) * 180.0 / std::numbers::pi;
+    const double angle = degrees_between(first, second);
     return first.dot(opposite - a) > 0.0 ? -angle : angle;
 }
 

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "base/progress.h"
-#include "geometry/cotangent.h"
+#include "geometry/edge_flip.h"
 #include "geometry/face_geometry.h"
 #include "geometry/vertex_normal.h"
 
@@ -15,8 +15,6 @@ namespace fairing {
 
 namespace {
 
-constexpr double delaunay_slack = -1e-9;
-constexpr double cos_of_fold = 0.5;  // a flip may not bend the surface more than this, or further than it is bent
 constexpr unsigned highest_valence = 9;
 constexpr double cos_of_turned = 0.2;   // normals of a triangle before and after a collapse
 constexpr double collapse_below = 0.7;  // of the local length
@@ -47,27 +45,16 @@ ProxyMesh::ProxyMesh(const Patch& patch, const Points& points)
     for (int v = 0; v < patch.vertex_count(); ++v) mesh_.set_point(mesh_.vertex_handle(unsigned(v)), points.col(v));
 }
 
-double ProxyMesh::cotangent_opposite(Halfedge h) const {
-    const Vector3 apex = point(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)));
-    return cotangent(point(mesh_.from_vertex_handle(h)) - apex, point(mesh_.to_vertex_handle(h)) - apex);
-}
-
 bool ProxyMesh::should_flip(Edge e) const {
     if (mesh_.is_boundary(e)) return false;
     const Halfedge h = mesh_.halfedge_handle(e, 0);
     const Halfedge g = mesh_.halfedge_handle(e, 1);
-    if (!(cotangent_opposite(h) + cotangent_opposite(g) < delaunay_slack)) return false;
     const Vertex above = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h));
     const Vertex below = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(g));
     if ((fixed(above) && fixed(below)) || !mesh_.is_flip_ok(e)) return false;
-    const Vector3 a = point(mesh_.from_vertex_handle(h));
-    const Vector3 b = point(mesh_.to_vertex_handle(h));
-    const Vector3 c = point(above);
-    const Vector3 d = point(below);
-    const auto bend = [](const Vector3& n, const Vector3& m) { return n.dot(m) / (n.norm() * m.norm() + 1e-300); };
-    const double before = bend(cross_product(a, b, c), cross_product(b, a, d));
-    const double after = bend(cross_product(c, d, b), cross_product(d, c, a));
-    return after >= cos_of_fold || after >= before;
+    const Diagonal diagonal{point(mesh_.from_vertex_handle(h)), point(mesh_.to_vertex_handle(h)), point(above),
+                            point(below)};
+    return !diagonal.is_delaunay() && diagonal.flips_without_fold();
 }
 
 int ProxyMesh::flip_round() {

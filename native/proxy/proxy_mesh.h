@@ -61,7 +61,6 @@ private:
 
     [[nodiscard]] bool fixed(Vertex v) const { return fixed_[static_cast<std::size_t>(v.idx())] != 0; }
     [[nodiscard]] Vector3 point(Vertex v) const { return mesh_.point(v); }
-    [[nodiscard]] double cotangent_opposite(Halfedge h) const;
     [[nodiscard]] bool should_flip(Edge e) const;
     int flip_round();
     void smooth();

@@ -1,0 +1,30 @@
+// Whether the edge that two triangles share should be replaced by the other diagonal.
+#pragma once
+
+#include "geometry/cotangent.h"
+
+namespace fairing {
+
+// The edge from a to b with the triangles (a, b, c) and (b, a, d).
+struct Diagonal {
+    Vector3 a, b, c, d;
+
+    // cot α + cot β ≥ 0 of the angles at c and d, up to round-off.
+    [[nodiscard]] bool is_delaunay() const {
+        constexpr double slack = -1e-9;
+        return !(cotangent(a - c, b - c) + cotangent(a - d, b - d) < slack);
+    }
+
+    // A flip may not bend the mesh by more than 60°, or further than it is bent.
+    [[nodiscard]] bool flips_without_fold() const {
+        constexpr double cos_of_fold = 0.5;
+        const double after = cos_of_bend(normal(c, d, b), normal(d, c, a));
+        return after >= cos_of_fold || after >= cos_of_bend(normal(a, b, c), normal(b, a, d));
+    }
+
+private:
+    static Vector3 normal(const Vector3& p, const Vector3& q, const Vector3& r) { return (q - p).cross(r - p); }
+    static double cos_of_bend(const Vector3& n, const Vector3& m) { return n.dot(m) / (n.norm() * m.norm() + 1e-300); }
+};
+
+}  // namespace fairing
