@@ -1,3 +1,4 @@
+# mypy: disable-error-code="valid-type"
 """The operator: at once for scripts and where it takes but a moment, else in the background.
 
 What it does is in job.py and fair_arrays.py, the thread in core's runner.py.
@@ -9,16 +10,17 @@ from typing import Any
 
 import bpy
 import numpy as np
+from bpy.props import StringProperty
 
 import fairing
 
 from ..core.engine import Progress
 from ..core.options import FairOptions
 from ..core.outcome import Fairing
-from ..core.report import make_report, summary
+from ..core.report import GRADE_NAMES, Report, make_report, summary
 from ..core.runner import Run
 from ..host.polling import NO_FACE, NO_FREE, SELECT_FACES, require, require_edit_mode
-from ..host.status import hide_progress, show_progress
+from ..host.status import hide_progress, redraw_sidebars, show_progress
 from ..mesh import selecting
 from ..preferences import background_from
 from ..translations import translated
@@ -49,6 +51,12 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
     bl_idname = "mesh.fair_region"
     bl_label = "Fair Region"
     bl_options = {"REGISTER", "UNDO", "PRESET"}  # noqa: RUF012 - the form that Blender asks for
+
+    way: StringProperty(
+        name="Way",
+        description="Tried after a run that was not good: written only where the verdict improves",
+        options={"HIDDEN", "SKIP_SAVE", "SKIP_PRESET"},
+    )
 
     _run: Run[list[Fairing]] | None = None
     _timer: Any = None
@@ -169,8 +177,10 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
     def _apply(self, context: bpy.types.Context, outcomes: list[Fairing]) -> set[str]:
         named = [(task.object_name, outcome) for task, outcome in zip(self._tasks, outcomes, strict=True)]
         report = make_report(named, self._options, time.perf_counter() - self._begin, self._notes)
+        if self.way and not self.options.is_repeat and not last_run.is_improved_by(report):
+            return self._keep(context, report)
         store(context.window_manager.fairing_report, report)
-        last_run.remember(self._tasks, outcomes, self._options)
+        last_run.remember(self._tasks, outcomes, self._options, report)
         if not report.written:
             return self._leave(context, summary(report))
         job.write(context, self._tasks, outcomes)
@@ -184,6 +194,16 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
         """Leave every mesh as it is, and show where the result is no good."""
         last_run.select_spots(context)
         self.report({"ERROR"}, reason)
+        return {"CANCELLED"}
+
+    def _keep(self, context: bpy.types.Context, report: Report) -> set[str]:
+        """Leave what the last run has left, offer this way no more, and tell how it would have come out."""
+        last_run.select_region(context)
+        shown = context.window_manager.fairing_report
+        shown.remedies = ",".join(name for name in shown.remedies.split(",") if name != self.way)
+        outcome = ": ".join(filter(None, (GRADE_NAMES[report.verdict.grade], report.verdict.reason)))
+        self.report({"INFO"}, f"That is no better and was not written ({outcome})")
+        redraw_sidebars(context)
         return {"CANCELLED"}
 
     def _refuse(self, context: bpy.types.Context, refusal: job.Refused) -> set[str]:

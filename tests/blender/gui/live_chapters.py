@@ -10,6 +10,7 @@ from typing import Any
 import bpy
 import numpy as np
 import scenes
+import spoilt_scenes
 from driver import Story, click, in_view, middle, press, screenshot, tell
 from panel import drag, module, open_tab, report, run_operator, set_options, wait_until
 
@@ -35,6 +36,43 @@ def live_follows_a_pin() -> Story:
     yield from _make_live("live_pin", scenes.hill, pin_group="Pin")
     scenes.select_vertices(np.linalg.norm(scenes.positions(), axis=1) < 1e-6)
     yield from _follow("live_pin", (0, 90), "Z")
+
+
+def live_moves_the_far_side() -> Story:
+    """The bottle's neck is selected by Select Far Side and dragged."""
+    yield from _make_live("live_far", scenes.bottle)
+    run_operator("mesh.fair_live_far_side")
+    yield 1.0
+    screenshot("live_far_selected")
+    height = scenes.positions()[:, 2]
+    chosen = spoilt_scenes.selected_vertices()
+    tell(f"far side: {len(chosen)} vertices")
+    assert height[chosen].min() > 0.59 - 1e-6, "the far side is not the neck"
+    yield from _follow("live_far", (90, 60))
+
+
+def live_finds_no_surface() -> Story:
+    """The neck is pulled through the body: the region goes along, says so, and mends when the drag is given up."""
+    yield from _make_live("live_lost", scenes.bottle)
+    run_operator("mesh.fair_live_far_side")
+    yield 1.0
+    start = scenes.positions()
+    with _answers() as spent:
+        yield from drag(STEPS, (0, -330), "Z")
+    wall = np.array([seconds for seconds, _ in spent])
+    tell(f"lost: {len(spent)} steps, the longest {wall.max():.2f} s, marked {len(_live().lost_points())} points")
+    screenshot("live_lost_during")
+    press("LEFTMOUSE", *_target((0, -330)))
+    yield 6.0
+    tell(f"at the end: {_live().message or 'no message'}")
+    screenshot("live_lost_released")
+    assert np.isfinite(scenes.positions()).all()
+    press("Z", *middle(), ctrl=True)
+    yield 1.5
+    np.testing.assert_allclose(scenes.positions(), start, atol=AGAIN)
+    assert _live().message == "", _live().message
+    screenshot("live_lost_undone")
+    yield from _switch(False)
 
 
 def _live() -> Any:
