@@ -100,8 +100,9 @@ class MESH_OT_fair_again(bpy.types.Operator):
             if self.way == GROW:
                 bpy.ops.mesh.select_more()
             bpy.ops.ed.undo_push(message="Select Region")  # what the redo panel goes back to
+            last_run.try_way("" if self.way == WRITE else self.way)
             how = "EXEC_DEFAULT" if bpy.app.background or context.window is None else "INVOKE_DEFAULT"
-            status = bpy.ops.mesh.fair_region(how, True, way="" if self.way == WRITE else self.way, **asdict(options))
+            status = bpy.ops.mesh.fair_region(how, True, **asdict(options))
         except (last_run.Changed, RuntimeError) as error:  # RuntimeError: what the run has reported
             self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
             return {"CANCELLED"}

@@ -35,6 +35,7 @@ class _Last:
         self.seen: tuple[Region, ...] = ()  # whose selection gave way to some vertices
         self.options = FairOptions()
         self.standing: tuple[int, float] = (0, 0.0)
+        self.way = ""  # that the next run is to try
 
 
 _last = _Last()
@@ -59,6 +60,17 @@ def _region(task: Task, spots: Ints) -> Region:
 def forget() -> None:
     """Drop what was kept."""
     _last.regions = _last.seen = ()
+
+
+def try_way(way: str) -> None:
+    """Have the next run written only where it comes out better than the last one; empty: in any case."""
+    _last.way = way
+
+
+def way_to_try() -> str:
+    """Return what try_way has set, once."""
+    way, _last.way = _last.way, ""
+    return way
 
 
 def is_improved_by(report: Report) -> bool:

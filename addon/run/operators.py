@@ -1,4 +1,3 @@
-# mypy: disable-error-code="valid-type"
 """The operator: at once for scripts and where it takes but a moment, else in the background.
 
 What it does is in job.py and fair_arrays.py, the thread in core's runner.py.
@@ -10,7 +9,6 @@ from typing import Any
 
 import bpy
 import numpy as np
-from bpy.props import StringProperty
 
 import fairing
 
@@ -52,18 +50,13 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
     bl_label = "Fair Region"
     bl_options = {"REGISTER", "UNDO", "PRESET"}  # noqa: RUF012 - the form that Blender asks for
 
-    way: StringProperty(
-        name="Way",
-        description="Tried after a run that was not good: written only where the verdict improves",
-        options={"HIDDEN", "SKIP_SAVE", "SKIP_PRESET"},
-    )
-
     _run: Run[list[Fairing]] | None = None
     _timer: Any = None
     _tasks: list[job.Task]
     _options: FairOptions
     _notes: tuple[str, ...] = ()  # on objects that there is nothing to do for
     _begin: float
+    _way = ""  # tried after a run that was not good: written only where the verdict improves
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -106,7 +99,7 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
         self._stop_watching(context)
 
     def _begin_with(self, context: bpy.types.Context, go_on: Any) -> set[str]:
-        self._begin = time.perf_counter()
+        self._begin, self._way = time.perf_counter(), last_run.way_to_try()
         context.view_layer.update()  # a script may just have changed an object's matrix
         try:
             self._options = FairOptions.of(self)
@@ -177,7 +170,7 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
     def _apply(self, context: bpy.types.Context, outcomes: list[Fairing]) -> set[str]:
         named = [(task.object_name, outcome) for task, outcome in zip(self._tasks, outcomes, strict=True)]
         report = make_report(named, self._options, time.perf_counter() - self._begin, self._notes)
-        if self.way and not self.options.is_repeat and not last_run.is_improved_by(report):
+        if self._way and not last_run.is_improved_by(report):
             return self._keep(context, report)
         store(context.window_manager.fairing_report, report)
         last_run.remember(self._tasks, outcomes, self._options, report)
@@ -200,7 +193,7 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
         """Leave what the last run has left, offer this way no more, and tell how it would have come out."""
         last_run.select_region(context)
         shown = context.window_manager.fairing_report
-        shown.remedies = ",".join(name for name in shown.remedies.split(",") if name != self.way)
+        shown.remedies = ",".join(name for name in shown.remedies.split(",") if name != self._way)
         outcome = ": ".join(filter(None, (GRADE_NAMES[report.verdict.grade], report.verdict.reason)))
         self.report({"INFO"}, f"That is no better and was not written ({outcome})")
         redraw_sidebars(context)

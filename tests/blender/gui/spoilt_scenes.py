@@ -33,10 +33,24 @@ def object_positions() -> Any:
     return flat.reshape(-1, 3)
 
 
+def mask() -> Any:
+    """The mask (n,) of the active object; zeros where there is none."""
+    mesh = bpy.context.object.data
+    values = np.zeros(len(mesh.vertices), dtype=np.float32)
+    if ".sculpt_mask" in mesh.attributes:
+        mesh.attributes[".sculpt_mask"].data.foreach_get("value", values)
+    return values
+
+
 def selected_vertices() -> list[int]:
     """The vertices that are selected in edit mode."""
     bm = bmesh.from_edit_mesh(bpy.context.object.data)
     return [vertex.index for vertex in bm.verts if vertex.select]
+
+
+def face_count() -> int:
+    """The number of faces in edit mode."""
+    return len(bmesh.from_edit_mesh(bpy.context.object.data).faces)
 
 
 def _hills(points: Any) -> Any:
