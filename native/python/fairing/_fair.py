@@ -183,6 +183,7 @@ def fair(
             m0,
             edges,
             weights,
+            around.outside,
             options,
             of_paper,
             progress,
