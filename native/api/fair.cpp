@@ -182,11 +182,9 @@ FairResult run_call(const MeshInput& input, const std::optional<Points>& referen
     check_memory(largest_free_count(prepared->patches));
     Call call(*prepared, input, options.asked);
     const double topology_seconds = watch.seconds();
-    const ComponentData data{input.vertices, prepared->mesh.normals, prepared->mesh.curvatures,
-                             reference ? *reference : input.vertices,
-                             input.outside,
-                             input.weights,
-                             input.fixed_normals.has_value()};
+    const ComponentData data{
+        input.vertices, prepared->mesh.normals, prepared->mesh.curvatures,      reference ? *reference : input.vertices,
+        input.outside,  input.weights,          input.fixed_normals.has_value()};
     double done = begin;
     double total = 0.0;
     for (const Patch& patch : prepared->patches) total += patch.vertex_count();

@@ -74,9 +74,12 @@ BaseOutline KeptSkin::low_pass_outline(const ComponentData& data, const Points& 
     const bool keeps_normals =
         data.given_normals && are_chosen(result.normals(Eigen::all, places), rim, positions, data.outside);
     for (std::size_t k = 0; k < rim.size(); ++k) {
-        if (!smooth.found[k] || result.normals.col(places[k]).isZero(0.0)) continue;
-        if (!keeps_normals) result.normals.col(places[k]) = smooth.normals.col(static_cast<Eigen::Index>(k));
+        if (!smooth.found[k]) continue;
         result.moved = true;
+        auto normal = result.normals.col(places[k]);
+        const Vector3 fitted = smooth.normals.col(static_cast<Eigen::Index>(k));
+        if (keeps_normals || normal.isZero(0.0)) continue;
+        normal = fitted.dot(normal) < 0.0 ? Vector3(-fitted) : fitted;  // the windings may differ
     }
     return result;
 }
@@ -86,14 +89,14 @@ BaseOutline KeptSkin::outline(const ComponentData& data) const { return low_pass
 Dressed KeptSkin::put_back(const ComponentData& data, const Points& new_base) const {
     const int free = patch_.free_count;
     const auto fixed = fixed_vertices(patch_);
-    const Points at_outline = gather(data.vertices, fixed) - new_base.rightCols(static_cast<Eigen::Index>(fixed.size()));
+    const Points at_outline =
+        gather(data.vertices, fixed) - new_base.rightCols(static_cast<Eigen::Index>(fixed.size()));
     Dressed result{new_base, Points::Zero(3, new_base.cols()), {}};
     VectorX weights = VectorX::Ones(new_base.cols());
     if (data.weights.size() > 0) {
         weights = data.weights(patch_.to_input);
         const Points old_base = unit_.from_unit(skin_->base());
-        result.base.leftCols(free) =
-            (old_base + (new_base - old_base) * weights.asDiagonal()).leftCols(free);
+        result.base.leftCols(free) = (old_base + (new_base - old_base) * weights.asDiagonal()).leftCols(free);
     }
     Points all = Points::Zero(3, new_base.cols());
     all.leftCols(free) = unit_.diameter * skin_->detail_on(result.base, at_outline / unit_.diameter);

@@ -38,7 +38,6 @@ public:
     // Low-pass where triangles lie outside. Normals that the caller gave stay where they are others than triangles
     // outside show.
     [[nodiscard]] BaseOutline outline(const ComponentData& data) const;
-    // All vertices of the reference's base.
     [[nodiscard]] const Points& base() const { return skin_->base(); }
     // The detail on a new base (3 × local vertices, in the caller's units). data.weights blend both bases, and keep the
     // detail that `base` loses where they are below 1.

@@ -101,9 +101,13 @@ py::dict fair_arrays(const DoubleArray& vertices, const IntArray& triangles, con
                      const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
                      const std::optional<IntArray>& outside, const Options& options, const PaperOptions& paper,
                      const py::object& callback) {
-    const MeshInput input{to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices),
-                          to_optional(fixed_normals, to_points), to_optional(fixed_curvatures, to_vector),
-                          outside ? to_triangles(*outside) : Triangles(3, 0), {}};
+    const MeshInput input{to_points(vertices),
+                          to_triangles(triangles),
+                          to_optional(fixed, to_indices),
+                          to_optional(fixed_normals, to_points),
+                          to_optional(fixed_curvatures, to_vector),
+                          outside ? to_triangles(*outside) : Triangles(3, 0),
+                          {}};
     const auto m0 = to_optional(reference, to_points);
     const FairOptions fair_options = to_fair_options(options, paper, {neighbours, weights});
     return to_dict(without_gil(

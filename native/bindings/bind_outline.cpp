@@ -1,6 +1,5 @@
 #include "bindings/convert.h"
 #include "bindings/topics.h"
-#include "detail/low_pass.h"
 #include "outline/bad_outline.h"
 #include "outline/mended_outline.h"
 #include "outline/visible_join.h"
@@ -54,15 +53,6 @@ py::array visible_join_array(const DoubleArray& vertices, const IntArray& inside
     return from_vector(visible_join(mesh, to_indices(outline)));
 }
 
-py::dict low_pass_arrays(const DoubleArray& vertices, const IntArray& triangles, const IntArray& where, double wavelength) {
-    const LowPass r = low_pass(to_points(vertices), to_triangles(triangles), to_indices(where), wavelength);
-    py::dict dict;
-    dict["points"] = from_points(r.points);
-    dict["normals"] = from_points(r.normals);
-    dict["found"] = from_flags(r.found);
-    return dict;
-}
-
 }  // namespace
 
 void bind_outline(py::module_& module) {
@@ -70,7 +60,6 @@ void bind_outline(py::module_& module) {
                py::arg("at"));
     module.def("bad_outline", &bad_outline_array, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
     module.def("mend_outline", &mended_outline_arrays, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
-    module.def("low_pass", &low_pass_arrays);
     module.def("visible_join", &visible_join_array, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
                py::arg("outline"), py::arg("before"));
 }

@@ -67,9 +67,7 @@ public:
         }
     }
 
-    [[nodiscard]] std::span<const Vector3> within(double radius) const {
-        return std::span(near_).first(count(radius));
-    }
+    [[nodiscard]] std::span<const Vector3> within(double radius) const { return std::span(near_).first(count(radius)); }
     [[nodiscard]] Vector3 mean_normal(double radius) const { return direction(sums_[count(radius)]); }
     // Whether the centre lies on the side that most of it shows.
     [[nodiscard]] bool is_flat(double radius) const {

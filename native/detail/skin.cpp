@@ -12,8 +12,7 @@ Eigen::Matrix3d corners_of(const Patch& patch, const Points& points, int triangl
 
 }  // namespace
 
-std::unique_ptr<Skin> Skin::read(const Patch& patch, const OldPatch& old, double wavelength,
-                                 const Progress& progress) {
+std::unique_ptr<Skin> Skin::read(const Patch& patch, const OldPatch& old, double wavelength, const Progress& progress) {
     std::unique_ptr<Skin> skin(new Skin(patch, old.points));
     return skin->split(old, wavelength, progress) ? std::move(skin) : nullptr;
 }
@@ -51,7 +50,8 @@ Points Skin::sources(const Points& new_base, const Points& at_outline) const {
     std::vector<Eigen::Matrix3d> pulls(at(patch_.triangle_count()));  // column k: at corner k
     for_ranges(patch_.triangle_count(), coarse_grain, [&](int begin, int end) {
         for (int t = begin; t < end; ++t) {
-            const Eigen::Matrix3d turn = turn_of_triangle(corners_of(patch_, base_, t), corners_of(patch_, new_base, t));
+            const Eigen::Matrix3d turn =
+                turn_of_triangle(corners_of(patch_, base_, t), corners_of(patch_, new_base, t));
             pulls[at(t)] = turn * pull(t, detail_) - pull(t, known);
         }
     });

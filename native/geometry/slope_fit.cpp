@@ -60,6 +60,7 @@ public:
         }
         scale_ = std::sqrt(offsets_.colwise().squaredNorm().maxCoeff());
         if (scale_ > 0.0) offsets_ /= scale_;
+        weights_ = (-offsets_.colwise().squaredNorm().array() / (width_of_weights * width_of_weights)).exp();
     }
 
     [[nodiscard]] bool usable() const { return scale_ > 0.0 && offsets_.cols() > unknowns(); }
@@ -74,10 +75,6 @@ public:
 
 private:
     [[nodiscard]] Eigen::Index unknowns() const { return terms_ + constants_ + 2; }
-
-    [[nodiscard]] double weight(Eigen::Index k) const {
-        return std::exp(-offsets_.col(k).squaredNorm() / (width_of_weights * width_of_weights));
-    }
 
     void fill_row(Eigen::Index k, const Vector3& normal, const Axes& axes, double constant) {
         const Vector3 d = offsets_.col(k);
@@ -99,7 +96,7 @@ private:
         if (terms_ > quadratic_terms) row.segment<4>(3) << x * x * x, x * x * y, x * y * y, y * y * y;
         row.segment(terms_, constants_).setOnes();
         row.tail<3>() << x, y, height;
-        row *= weight(k);
+        row *= weights_[k];
     }
 
     // From the triangular factor in place of the system. The slopes are the last unknowns: their covariance needs the
@@ -142,14 +139,13 @@ private:
     }
 
     [[nodiscard]] double root_mean_square_weight() const {
-        double sum = 0.0;
-        for (Eigen::Index k = 0; k < offsets_.cols(); ++k) sum += weight(k) * weight(k);
-        return std::sqrt(sum / static_cast<double>(offsets_.cols()));
+        return std::sqrt(weights_.squaredNorm() / static_cast<double>(offsets_.cols()));
     }
 
     Eigen::Index terms_;
     Eigen::Index constants_;
     Points offsets_;  // in units of the farthest
+    VectorX weights_;
     Eigen::MatrixXd system_;
     double scale_ = 0.0;
 };
