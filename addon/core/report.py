@@ -48,6 +48,7 @@ class Report:
     verdict: Verdict  # of the object with the worst; its spots are that object's
     written: bool
     join: tuple[float, float]  # degrees: typical, worst
+    deed: str = "faired"  # what was done to so many vertices
 
 
 def make_report(named: list[Named], options: FairOptions, seconds: float, notes: tuple[str, ...] = ()) -> Report:
@@ -187,4 +188,5 @@ def summary(report: Report) -> str:
     if not report.written:
         return f"{grade}: {report.verdict.reason}. Nothing was changed"
     reason = f". {report.verdict.reason}" if report.verdict.reason else ""
-    return f"{grade}: faired {counted(report.free_vertices, 'vertex', 'vertices')} in {report.seconds:.2f} s{reason}"
+    vertices = counted(report.free_vertices, "vertex", "vertices")
+    return f"{grade}: {report.deed} {vertices} in {report.seconds:.2f} s{reason}"

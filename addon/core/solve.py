@@ -116,11 +116,11 @@ def _solve_again(
 
 
 def _solved(problem: engine.Problem, result: fairing.FairResult, warnings: tuple[str, ...]) -> Solved:
-    rest = tuple(told for told in result.warnings if told.code not in NO_ANSWER and not _is_measured(told))
+    rest = tuple(told for told in result.warnings if told.code not in NO_ANSWER and not is_measured(told))
     failed = tuple(told for told in result.warnings if told.code in NO_ANSWER)
     return Solved(problem, result, warnings + sentences(rest, problem.origin), sentences(failed, problem.origin))
 
 
-def _is_measured(told: fairing.Diagnostic) -> bool:
+def is_measured(told: fairing.Diagnostic) -> bool:
     """Tell whether `quality` counts it in what is written, mirrored or blended as that may be."""
     return told.code == "SELF_INTERSECTION" or (told.code == "FLIPPED_TRIANGLES" and "triangles" in told.figures)

@@ -74,7 +74,7 @@ def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str,
     was_tried = any(name == "variation" for name, _ in evidence.result.way)
     offered = {
         GROW: has_outside,
-        SMOOTH_OUTLINE: has_outside and options.outline == "GIVEN",
+        SMOOTH_OUTLINE: has_outside and options.outline == "GIVEN" and options.mesh == "KEEP",
         EVEN_CURVATURE: bad and not was_tried and options.equation in ("HARMONIC", "MINIMAL_ENERGY"),
         WRITE: bad and options.accept != "ALL",
     }

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..core.arrays import Floats, Ints
 from ..core.outcome import Fairing
+from ..core.remeshing import Remeshed
 from ..host.polling import require, require_edit_mode
 from ..mesh import mesh_io, selecting
 from .job import Task, objects_in_mode
@@ -47,6 +48,8 @@ def remember(tasks: list[Task], outcomes: list[Fairing]) -> None:
         )
         for task, outcome in zip(tasks, outcomes, strict=True)
     )
+    if any(isinstance(outcome, Remeshed) for outcome in outcomes):
+        forget()  # there are no pairs
 
 
 def forget() -> None:

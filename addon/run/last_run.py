@@ -11,6 +11,7 @@ from ..core.arrays import Ints
 from ..core.options import FairOptions
 from ..core.outcome import Fairing
 from ..mesh import selecting
+from ..mesh.remeshed import Written
 from .job import Task, objects_in_mode
 
 
@@ -41,6 +42,14 @@ def remember(tasks: list[Task], outcomes: list[Fairing], options: FairOptions) -
     _last.regions = tuple(
         Region(task.object_name, len(task.mesh.in_patch), np.flatnonzero(task.mesh.in_patch), outcome.verdict.spots)
         for task, outcome in zip(tasks, outcomes, strict=True)
+    )
+
+
+def renumber(written: list[Written | None]) -> None:
+    """Follow the faces and vertices of objects whose patch was meshed anew."""
+    _last.regions = tuple(
+        region if new is None else Region(region.object_name, new.face_count, new.faces, new.spots)
+        for region, new in zip(_last.regions, written, strict=True)
     )
 
 
