@@ -64,7 +64,7 @@ def new_part(mesh: MeshArrays, patch: Patch, result: fairing.RemeshResult, lines
     number[count + on_line] = len(fixed) + np.arange(len(on_line))
     number[count + new] = len(stay) + np.arange(len(new))
     numbered = number[triangles]
-    origin = result.origin[0][new], result.origin[1][new]
+    origin = result.origin[0][new].astype(np.int64), result.origin[1][new]
     walls = _walls(patch, lines, mesh)
     places = _corner_places(patch, numbered, stay, origin, walls)
     corner_of = _corner_numbers(mesh, patch)

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-import fairing
-
 from .arrays import Ints
+from .engine import Result
 from .options import FairOptions
 from .outcome import Fairing
 from .quality import Quality
@@ -77,7 +76,7 @@ def is_written(outcomes: list[Fairing], options: FairOptions) -> bool:
     return options.accept == "ALL" or all(outcome.verdict.grade != UNUSABLE for outcome in outcomes)
 
 
-def _widest(result: fairing.FairResult) -> float:
+def _widest(result: Result) -> float:
     return float(result.boundary_angle.max(initial=0.0))
 
 
@@ -167,7 +166,7 @@ def _endings(outcomes: list[Fairing]) -> str:
     return f"{told}, on a proxy" if by_proxy else told
 
 
-def _residual_text(result: fairing.FairResult) -> str:
+def _residual_text(result: Result) -> str:
     """Say how far down the residual came: alone its size, which grows with the mesh's resolution, tells little."""
     return f"{result.initial_residual:.0e} → {result.residual:.0e}"
 

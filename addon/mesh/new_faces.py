@@ -54,8 +54,11 @@ def make_vertices(bm: Any, shapes: Shapes, data: VertexData) -> list[Any]:
     own, groups, offsets = np.split(values, [layers.width, layers.width + weights.width], axis=1)
     layers.write(made, own)
     weights.write(made, groups)
-    moves = data.before is None or shapes.follow
-    shapes.write(made, offsets, data.positions.astype(np.float32) if moves else data.before)
+    # As Blender keeps them.
+    starts: Floats = data.positions.astype(np.float32).astype(np.float64)
+    if data.before is not None and not shapes.follow:
+        starts = data.before
+    shapes.write(made, offsets, starts)
     return made
 
 

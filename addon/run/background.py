@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
 
@@ -44,6 +44,12 @@ def at_once(context: bpy.types.Context, work: Work) -> Any:
 
 class Watched:
     """What an operator needs besides `_apply`, `_refuse` and `_is_current` to watch a run."""
+
+    if TYPE_CHECKING:
+        report: Callable[[set[str], str], None]
+        _apply: Callable[[bpy.types.Context, Any], set[str]]
+        _refuse: Callable[[bpy.types.Context, job.Refused], set[str]]
+        _is_current: Callable[[bpy.types.Context], bool]
 
     _run: Run[Any] | None = None
     _timer: Any = None

@@ -22,7 +22,7 @@ from .fair_arrays import fair_arrays
 
 def fair_mesh(
     mesh: bpy.types.Mesh, /, faces: Sequence[int], *, matrix: Any = None, **properties: Any
-) -> fairing.FairResult:
+) -> fairing.FairResult | fairing.RemeshResult:
     """Make the polygons `faces` of `mesh` the fair surface of their surroundings.
 
     matrix: 4×4, to the space in which the surface is fair; default: the mesh's own.

@@ -39,8 +39,9 @@ struct NewMesh {
 using VertexPairs = std::vector<std::array<int, 2>>;
 
 // A new mesh for the surface of the old one, whose fixed and border vertices stay, and the edges `kept` with the
-// vertices there. Vertices lie on curved triangles (geometry/target_surface) over the old ones. `wanted.least_count` holds for each component. Components without free
-// vertices stay as they are. Throws what check_mesh throws, and NO_FREE_VERTICES.
+// vertices there. Vertices lie on curved triangles (geometry/target_surface) over the old ones. `wanted.least_count`
+// holds for each component. Components without free vertices stay as they are. Throws what check_mesh throws, and
+// NO_FREE_VERTICES.
 NewMesh remesh(const MeshInput& input, const VertexPairs& kept, const WantedLengths& wanted, int threads,
                const ProgressCallback& progress);
 

@@ -12,7 +12,8 @@ namespace {
 // Of `values` (a row for each vertex of the mesh), at these vertices.
 Eigen::MatrixXd rows_at(const Eigen::MatrixXd& values, std::span<const int> vertices) {
     Eigen::MatrixXd result(static_cast<Eigen::Index>(vertices.size()), values.cols());
-    for (std::size_t k = 0; k < vertices.size(); ++k) result.row(static_cast<Eigen::Index>(k)) = values.row(vertices[k]);
+    for (std::size_t k = 0; k < vertices.size(); ++k)
+        result.row(static_cast<Eigen::Index>(k)) = values.row(vertices[k]);
     return result;
 }
 

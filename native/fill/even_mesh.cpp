@@ -53,9 +53,7 @@ EvenMesh::EvenMesh(const Patch& patch, const Points& points, const TargetSurface
     }
 }
 
-bool EvenMesh::fixed_in_patch(Vertex v) const {
-    return v.idx() < patch_.vertex_count() && !patch_.is_free(v.idx());
-}
+bool EvenMesh::fixed_in_patch(Vertex v) const { return v.idx() < patch_.vertex_count() && !patch_.is_free(v.idx()); }
 
 double EvenMesh::relative_length(Edge e) const {
     const Halfedge h = mesh_.halfedge_handle(e, 0);
@@ -95,8 +93,8 @@ void EvenMesh::put(Vertex v, const Vector3& position, int triangle) {
 // vertices around.
 int EvenMesh::triangle_beside(Edge e) const {
     const Halfedge h = mesh_.halfedge_handle(e, 0);
-    for (const Vertex v : {mesh_.to_vertex_handle(h), mesh_.from_vertex_handle(h), apex(h),
-                           apex(mesh_.halfedge_handle(e, 1))}) {
+    for (const Vertex v :
+         {mesh_.to_vertex_handle(h), mesh_.from_vertex_handle(h), apex(h), apex(mesh_.halfedge_handle(e, 1))}) {
         if (!fixed(v)) return where_[at(v.idx())].triangle;
     }
     return patch_.edge_triangles[at(e.idx())][0];

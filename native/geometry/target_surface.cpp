@@ -46,8 +46,7 @@ Vector3 border_weights(const Vector3& p, const std::array<Vector3, 3>& corners) 
 
 }  // namespace
 
-TargetSurface::TargetSurface(const Patch& patch, const Points& points, const Points& normals,
-                             std::vector<char> walls)
+TargetSurface::TargetSurface(const Patch& patch, const Points& points, const Points& normals, std::vector<char> walls)
     : patch_(patch),
       points_(points),
       normals_(normals),

@@ -14,13 +14,13 @@ struct SurfacePoint {
 // Curved PN triangles (Vlachos et al. 2001) over a patch with unit normals at its vertices.
 class TargetSurface {
 public:
-    // The arguments must outlive the surface. Columns: local vertices of the patch. `walls`: edges that no walk crosses,
-    // one entry for each; empty: none but the border.
+    // The arguments must outlive the surface. Columns: local vertices of the patch. `walls`: edges that no walk
+    // crosses, one entry for each; empty: none but the border.
     TargetSurface(const Patch& patch, const Points& points, const Points& normals, std::vector<char> walls = {});
 
     // The point of the mesh near `position` that a walk from `start` reaches. It goes across edges towards the foot of
-    // the perpendicular, never over the border or a wall. Where folded triangles send it to and fro, it takes the nearest point
-    // of those around. The walk is local: a surface that comes close to itself does not confuse it.
+    // the perpendicular, never over the border or a wall. Where folded triangles send it to and fro, it takes the
+    // nearest point of those around. The walk is local: a surface that comes close to itself does not confuse it.
     [[nodiscard]] SurfacePoint project(const Vector3& position, int start) const;
 
     [[nodiscard]] Vector3 position(const SurfacePoint& where) const;
