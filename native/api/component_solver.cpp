@@ -138,6 +138,7 @@ void ComponentSolver::put_back_detail(ComponentAnswer& answer, const Progress& p
     const Stopwatch watch;
     Points& points = answer.solution.points;
     points = relaid(answer.problem, points, skin_->base(), progress.here());
+    answer.solution.crossings.reset();
     const Points full = skin_unit_ * skin_->detail_on(points);
     if (!full.allFinite()) throw SolverError("the detail is not finite; nothing was changed");
     answer.detail = options_.asked.detail.share * full;
