@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -57,7 +57,7 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     return Fairing(
         vertices=problem.vertices[moving][order],
         positions=positions[order],
-        result=result,
+        result=_of_patch(result, own),
         warnings=solved.warnings + warnings + (() if verdict.grade == GOOD else solved.hints),
         before=quality_before,
         after=quality_after,
@@ -66,6 +66,17 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
         join=join,
         verdict=verdict,
         free_count=len(patch.free),
+    )
+
+
+def _of_patch(result: fairing.FairResult, own: int) -> fairing.FairResult:
+    """Leave out the vertices of the faces around the patch."""
+    return replace(
+        result,
+        vertices=result.vertices[:own],
+        base=None if result.base is None else result.base[:own],
+        mean_curvature=result.mean_curvature[:own],
+        moved=result.moved[result.moved < own],
     )
 
 

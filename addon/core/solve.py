@@ -9,7 +9,7 @@ import numpy as np
 import fairing
 
 from . import engine
-from .around import numbered, outside_triangles, wound_alike
+from .around import numbered, outside_triangles, wide_outside, wound_alike
 from .arrays import Floats
 from .boundary import prescribed_curvatures, prescribed_normals
 from .engine import Progress
@@ -90,7 +90,7 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
         world = mesh.transformed(matrix)
         # Conformal weights and detail belong to the present shape, and so do its triangles.
         patch = make_patch(world, even=options.inner_fairness != "CONFORMAL" and options.detail == 0.0)
-        outside = outside_triangles(world, patch)
+        outside = wide_outside(world, patch) if options.detail > 0.0 else outside_triangles(world, patch)
         normals, warnings = prescribed_normals(world, patch, options.boundary_normals, outside)
         curvatures = prescribed_curvatures(world, patch, outside) if options.joins_curvature else None
         vertices, around = numbered(patch, wound_alike(world, outside))
@@ -103,7 +103,7 @@ def _solve_again(
     key: str, problem: engine.Problem, options: FairOptions, progress: Progress | None, kept: Kept
 ) -> fairing.FairResult:
     """Solve with the solver of a former call for the same patch, if there was one: other options move less."""
-    if options.outline == "MENDED":  # what a repeated solve doesn't do
+    if options.reads_surroundings:
         return engine.solve(problem, options, progress)
     was_here = key in kept.solvers
     solver = kept.solvers.take(key)
