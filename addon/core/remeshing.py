@@ -17,9 +17,9 @@ from .new_part import NewPart, new_part
 from .options import FairOptions
 from .outcome import Fairing
 from .region import MeshArrays, Patch, to_local
-from .solve import NO_ANSWER, is_measured, pose
-from .verdict import Evidence, judge
-from .words import in_mesh_words, sentences
+from .solve import pose, told_by
+from .verdict import GOOD, Evidence, judge
+from .words import in_mesh_words
 
 
 @dataclass(frozen=True)
@@ -59,22 +59,21 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
     measured = quality.measure(problem.patch, problem.own_points), quality.measure(after.patch, points)
     own = replace(after, points=np.concatenate([points, after.points[len(points) :]]))
     join = quality.join(own, own.points)
-    told = tuple(w for w in result.warnings if w.code not in NO_ANSWER and not is_measured(w))
-    failed = sentences(tuple(w for w in result.warnings if w.code in NO_ANSWER), _origin(problem, result))
-    evidence = Evidence(after, result, failed, *measured, join)
+    told, failures, hints = told_by(result, _origin(problem, result))
+    verdict = judge(Evidence(after, result, failures, *measured, join), options)
     local = to_local(points, matrix)
     stay = len(part.stay)
     return Remeshed(
         vertices=part.stay[part.fixed_count :],
         positions=local[part.fixed_count : stay],
         result=result,
-        warnings=warnings + sentences(told, _origin(problem, result)) + _mirror_note(mesh),
+        warnings=warnings + told + _mirror_note(mesh) + (() if verdict.grade == GOOD else hints),
         before=measured[0],
         after=measured[1],
         distortion=quality.texture_distortion(before, points, part.triangles),
         curvature=_largest_curvatures(result),
         join=join,
-        verdict=judge(evidence, options),
+        verdict=verdict,
         free_count=len(points) - part.fixed_count,
         part=_wound_back(part) if mesh.transformed(matrix).mirrored else part,
         new_positions=local[stay:],

@@ -38,18 +38,28 @@ _last = _Last()
 
 def remember(tasks: list[Task], outcomes: list[Fairing]) -> None:
     """Keep both states of a run that was written."""
-    _last.pairs = tuple(
-        Pair(
-            object_name=task.object_name,
-            vertex_count=len(task.mesh.positions),
-            vertices=outcome.vertices,
-            before=task.mesh.positions[outcome.vertices],
-            after=outcome.positions.astype(np.float32).astype(np.float64),
-        )
-        for task, outcome in zip(tasks, outcomes, strict=True)
-    )
-    if any(isinstance(outcome, Remeshed) for outcome in outcomes):
+    _remember([(task.object_name, task.mesh.positions, outcome) for task, outcome in zip(tasks, outcomes, strict=True)])
+
+
+def remember_one(object_name: str, before: Floats, outcome: Fairing) -> None:
+    """Keep both states of a run outside edit mode; before: the positions (n, 3) of the whole mesh."""
+    _remember([(object_name, before, outcome)])
+
+
+def _remember(runs: list[tuple[str, Floats, Fairing]]) -> None:
+    _last.pairs = tuple(_pair(*run) for run in runs)
+    if any(isinstance(outcome, Remeshed) for _, _, outcome in runs):
         forget()  # there are no pairs
+
+
+def _pair(object_name: str, before: Floats, outcome: Fairing) -> Pair:
+    return Pair(
+        object_name=object_name,
+        vertex_count=len(before),
+        vertices=outcome.vertices,
+        before=before[outcome.vertices],
+        after=outcome.positions.astype(np.float32).astype(np.float64),
+    )
 
 
 def forget() -> None:
