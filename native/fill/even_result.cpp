@@ -1,0 +1,36 @@
+// The finished mesh, numbered as a patch is: free vertices first.
+#include "fill/even_mesh.h"
+
+namespace fairing {
+
+bool EvenMesh::fixed_in_patch(Vertex v) const { return v.idx() < patch_.vertex_count() && !patch_.is_free(v.idx()); }
+
+EvenMesh::Result EvenMesh::result() const {
+    Result result;
+    Indices number(mesh_.n_vertices(), none);
+    for (const Vertex v : mesh_.vertices()) {
+        if (fixed_in_patch(v)) continue;
+        number[at(v.idx())] = static_cast<int>(result.where.size());
+        result.where.push_back(where_[at(v.idx())]);
+        result.old.push_back(fixed(v) ? v.idx() : none);
+    }
+    const int free_count = static_cast<int>(result.where.size());
+    for (int v = patch_.free_count; v < patch_.vertex_count(); ++v) number[at(v)] = free_count + v - patch_.free_count;
+    result.points.resize(3, free_count);
+    for (const Vertex v : mesh_.vertices()) {
+        if (!fixed_in_patch(v)) result.points.col(number[at(v.idx())]) = point(v);
+    }
+    std::vector<Eigen::Vector3i> triangles;
+    for (const SurfaceMesh::FaceHandle f : mesh_.faces()) {
+        Eigen::Vector3i corners;
+        int k = 0;
+        for (const Vertex v : mesh_.fv_ccw_range(f)) corners[k++] = number[at(v.idx())];
+        triangles.push_back(corners);
+    }
+    result.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        result.triangles.col(static_cast<Eigen::Index>(t)) = triangles[t];
+    return result;
+}
+
+}  // namespace fairing
