@@ -16,7 +16,7 @@ from .quality import Join, Quality
 from .region import MeshArrays, Patch, to_local
 from .solve import Solved
 from .symmetry import mirror_map, symmetrised
-from .verdict import Evidence, Verdict, judge
+from .verdict import GOOD, Evidence, Verdict, judge
 
 
 @dataclass(frozen=True)
@@ -52,19 +52,19 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     clear = as_solved and not mesh.mirror_x and _is_clear(patch, result)
     quality_before, quality_after = quality.compare(patch, (before[:own], after[:own]), clear)
     join = quality.join(problem, after)
-    evidence = Evidence(problem, result, solved.failures, quality_before, quality_after, join)
+    verdict = judge(Evidence(problem, result, solved.failures, quality_before, quality_after, join), options)
     order = np.argsort(problem.vertices[moving])
     return Fairing(
         vertices=problem.vertices[moving][order],
         positions=positions[order],
         result=_of_patch(result, own),
-        warnings=solved.warnings + warnings,
+        warnings=solved.warnings + warnings + (() if verdict.grade == GOOD else solved.hints),
         before=quality_before,
         after=quality_after,
         distortion=quality.texture_distortion(before, after, patch.triangles),
         curvature=_largest_curvatures(patch, result),
         join=join,
-        verdict=judge(evidence, options),
+        verdict=verdict,
         free_count=len(patch.free),
     )
 
