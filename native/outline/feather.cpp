@@ -45,7 +45,8 @@ double distance_to(const Vector3& point, const Vector3& a, const Vector3& b) {
     return (point - a - share * along).norm();
 }
 
-// From vertex to vertex goes the nearest edge, with those next to it.
+// A walk from the outline outwards, the nearest first: from vertex to vertex goes the nearest edge, with those next to
+// it.
 class Walk {
 public:
     Walk(const Points& points, const Triangles& outside, std::vector<Edge> edges)
