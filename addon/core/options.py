@@ -14,6 +14,8 @@ METHODS = ("GLOBAL", "PAPER")
 PIN_EDGES = ("NONE", "SHARP", "SEAM", "CREASE")
 OUTLINES = ("GIVEN", "MENDED")
 ACCEPT = ("USABLE", "ALL")
+MESHES = ("KEEP", "NEW")
+LEAST_SPACING = 0.05  # of the outline's edges
 
 _CHOICES = {
     "equation": EQUATIONS,
@@ -25,6 +27,7 @@ _CHOICES = {
     "pin_edges": PIN_EDGES,
     "outline": OUTLINES,
     "accept": ACCEPT,
+    "mesh": MESHES,
 }
 
 
@@ -49,6 +52,8 @@ class FairOptions:
     pin_edges: str = "NONE"
     outline: str = "GIVEN"  # MENDED: a noisy outline is smoothed first, with two rings around it
     accept: str = "USABLE"  # ALL: written whatever it is worth
+    mesh: str = "KEEP"  # NEW: other vertices and triangles for the same surface
+    spacing: float = 1.0  # of a new mesh, as a factor of the outline's edges
 
     def __post_init__(self) -> None:
         for name, choices in _CHOICES.items():
@@ -58,6 +63,8 @@ class FairOptions:
         for name in ("factor", "detail", "detail_size"):
             if not 0.0 <= getattr(self, name) <= 1.0:
                 raise ValueError(f"{name}: expected a number from 0 to 1, got {getattr(self, name)!r}")
+        if not self.spacing >= LEAST_SPACING:
+            raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
 
     @classmethod
     def of(cls, properties: Any) -> FairOptions:

@@ -31,6 +31,8 @@ DEFAULTS = {
     "pin_edges": "NONE",
     "outline": "GIVEN",
     "accept": "USABLE",
+    "mesh": "KEEP",
+    "spacing": 1.0,
 }
 CHOICES = {
     "equation": ["HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION"],
@@ -42,6 +44,7 @@ CHOICES = {
     "pin_edges": ["NONE", "SHARP", "SEAM", "CREASE"],
     "outline": ["GIVEN", "MENDED"],
     "accept": ["USABLE", "ALL"],
+    "mesh": ["KEEP", "NEW"],
 }
 
 
