@@ -12,6 +12,8 @@ BOUNDARY_NORMALS = ("SURROUNDING", "AVERAGE", "CUSTOM")
 CONTINUITIES = ("G1", "G2")
 METHODS = ("GLOBAL", "PAPER")
 PIN_EDGES = ("NONE", "SHARP", "SEAM", "CREASE")
+PIN_SLOPES = ("AUTOMATIC", "CREASE", "SMOOTH", "AVERAGE")
+OPEN_BORDERS = ("HELD", "FAIRED")
 OUTLINES = ("GIVEN", "MENDED")
 ACCEPT = ("USABLE", "ALL")
 
@@ -23,6 +25,8 @@ _CHOICES = {
     "continuity": CONTINUITIES,
     "method": METHODS,
     "pin_edges": PIN_EDGES,
+    "pin_slope": PIN_SLOPES,
+    "open_border": OPEN_BORDERS,
     "outline": OUTLINES,
     "accept": ACCEPT,
 }
@@ -47,6 +51,9 @@ class FairOptions:
     max_iterations: int = 200
     pin_group: str = ""  # name of a vertex group, empty for none
     pin_edges: str = "NONE"
+    pin_slope: str = "AUTOMATIC"  # of these edges: CREASE for SHARP, AVERAGE for others
+    pin_radius: float = 0.1  # over which part of the patch's size a pinned vertex lifts the surface
+    open_border: str = "HELD"  # FAIRED: it becomes fair, too
     outline: str = "GIVEN"  # MENDED: a noisy outline is smoothed first, with two rings around it
     accept: str = "USABLE"  # ALL: written whatever it is worth
 
@@ -55,7 +62,7 @@ class FairOptions:
             value = getattr(self, name)
             if value not in choices:
                 raise ValueError(f"{name}: expected one of {', '.join(choices)}, got {value!r}")
-        for name in ("factor", "detail", "detail_size"):
+        for name in ("factor", "detail", "detail_size", "pin_radius"):
             if not 0.0 <= getattr(self, name) <= 1.0:
                 raise ValueError(f"{name}: expected a number from 0 to 1, got {getattr(self, name)!r}")
 
@@ -75,6 +82,20 @@ class FairOptions:
         """Whether the curvature outside counts: only for the harmonic shape of the fast solver."""
         return self.continuity == "G2" and self.equation == "HARMONIC" and self.method == "GLOBAL"
 
+    @property
+    def slope_at_pinned_edges(self) -> str:
+        """What AUTOMATIC stands for; the published method knows averages alone."""
+        if self.method != "GLOBAL":
+            return "AVERAGE"
+        if self.pin_slope != "AUTOMATIC":
+            return self.pin_slope
+        return "CREASE" if self.pin_edges == "SHARP" else "AVERAGE"
+
+    @property
+    def fairs_border(self) -> bool:
+        """Whether open borders move."""
+        return self.open_border == "FAIRED" and self.method == "GLOBAL"
+
     def engine_arguments(self) -> dict[str, Any]:
         """Return the keyword arguments of `fairing.fair` that need no mesh; the options must be resolved."""
         return {
@@ -88,6 +109,7 @@ class FairOptions:
             "levels": self.levels,
             "tolerance": self.tolerance,
             "max_iterations": self.max_iterations,
+            "pin_radius": self.pin_radius,
             "continuity": "G2" if self.joins_curvature else "G1",
         }
 

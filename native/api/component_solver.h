@@ -27,6 +27,7 @@ struct ComponentData {
     const Points& normals;      // prescribed ones at fixed vertices
     const VectorX& curvatures;  // likewise; empty: none
     const Points& reference;    // M0
+    const std::vector<char>& faired;  // border vertices that become fair
 };
 
 struct ComponentAnswer {

@@ -50,6 +50,34 @@ std::vector<char> mark_fixed(const MeshInput& input) {
     return fixed;
 }
 
+std::vector<char> marks_of(const MeshInput& input, const Indices& vertices, const char* name) {
+    const auto count = static_cast<int>(input.vertices.cols());
+    std::vector<char> marks(at(count), 0);
+    for (int v : vertices) {
+        if (v < 0 || v >= count) {
+            throw MeshError({Code::index_range,
+                             std::string(name) + " names vertex " + std::to_string(v) + ", outside 0 … " +
+                                 std::to_string(count - 1),
+                             {v},
+                             ElementKind::vertex,
+                             {{"vertex", v}, {"vertices", count}}});
+        }
+        marks[at(v)] = 1;
+    }
+    return marks;
+}
+
+void check_slopes(const GivenRoles& given, const VertexRoles& roles) {
+    for (std::size_t v = 0; v < given.fixed.size(); ++v) {
+        if (!given.crease[v] && !given.smooth[v]) continue;
+        const std::string name = given.crease[v] ? "creases" : "smooth_curves";
+        if (roles.used[v] && !roles.fixed[v])
+            throw std::invalid_argument(name + " names vertex " + std::to_string(v) + ", which is not fixed");
+        if (given.crease[v] && given.smooth[v])
+            throw std::invalid_argument("vertex " + std::to_string(v) + " is named by creases and by smooth_curves");
+    }
+}
+
 // Triangles that nothing moves and that have a corner at infinity or nowhere say nothing about the rest: left out.
 Triangles drop_unbounded_triangles(const MeshInput& input, const Triangles& triangles,
                                    const std::vector<char>& given_fixed, Indices& kept, Diagnostics& warnings) {
@@ -101,7 +129,7 @@ Indices all_fixed(const MeshInput& input, const VertexRoles& roles, Diagnostics&
     for (int v : fixed) given[at(v)] = 1;
     Indices added;
     for (int v = 0; v < static_cast<int>(roles.fixed.size()); ++v) {
-        if (roles.border[at(v)] && !given[at(v)]) added.push_back(v);
+        if (roles.border[at(v)] && !roles.faired[at(v)] && !given[at(v)]) added.push_back(v);
     }
     fixed.insert(fixed.end(), added.begin(), added.end());
     if (input.fixed && !added.empty()) {
@@ -172,7 +200,8 @@ void warn_of_normals(const MeshInput& input, CheckedMesh& mesh) {
     Indices pins;
     for (std::size_t k = 0; k < input.fixed->size(); ++k) {
         const int v = (*input.fixed)[k];
-        if (mesh.roles.pin[at(v)] && input.fixed_normals->col(static_cast<Eigen::Index>(k)).norm() > 0.0)
+        if (mesh.roles.pin[at(v)] && !mesh.roles.free_slope[at(v)] &&
+            input.fixed_normals->col(static_cast<Eigen::Index>(k)).norm() > 0.0)
             pins.push_back(v);
     }
     if (pins.empty()) return;
@@ -239,11 +268,13 @@ MeshTopology check_topology(const MeshInput& input) {
     MeshTopology mesh;
     Diagnostics& warnings = mesh.topology_warnings;
     Indices kept;
-    const std::vector<char> given_fixed = mark_fixed(input);
+    const GivenRoles given{mark_fixed(input), marks_of(input, input.held.creases, "creases"),
+                           marks_of(input, input.held.smooth_curves, "smooth_curves"), input.held.fair_border};
     Triangles triangles = drop_collapsed_triangles(input.triangles, kept, warnings);
-    triangles = drop_unbounded_triangles(input, triangles, given_fixed, kept, warnings);
+    triangles = drop_unbounded_triangles(input, triangles, given.fixed, kept, warnings);
     const EdgeTable edges = make_edges(triangles, static_cast<int>(input.vertices.cols()));
-    mesh.roles = classify_vertices(edges, given_fixed);
+    mesh.roles = classify_vertices(edges, given);
+    check_slopes(given, mesh.roles);
     check_finite(input, mesh.roles);
     mesh.fixed = all_fixed(input, mesh.roles, warnings);
     mesh.cut = cut_mesh(triangles, edges, kept, mesh.roles, warnings);

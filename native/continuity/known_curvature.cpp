@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "geometry/outline_angles.h"
 
 namespace fairing {
 
@@ -53,10 +56,65 @@ void split(const Indices& loop, const VectorX& curvatures, std::vector<OutlineCu
     }
 }
 
+std::vector<char> corners_of(const Patch& patch, const Points& points) {
+    constexpr double widest = 120.0;  // degrees
+    VectorX filled = VectorX::Zero(patch.vertex_count());
+    for (const auto t : patch.triangles.colwise()) {
+        for (int k = 0; k < 3; ++k) {
+            const Vector3 here = points.col(t[k]);
+            filled[t[k]] += degrees_between(points.col(t[(k + 1) % 3]) - here, points.col(t[(k + 2) % 3]) - here);
+        }
+    }
+    std::vector<char> corner;
+    for (int v = patch.free_count; v < patch.vertex_count(); ++v) corner.push_back(filled[v] < widest);
+    return corner;
+}
+
+// NaNs of a curve from the nearest numbers before and behind, by linear interpolation; at the ends of an open curve from
+// one of them. There is a number.
+void interpolate(const OutlineCurve& curve, VectorX& values) {
+    const auto count = static_cast<int>(curve.places.size());
+    const VectorX given = values(curve.places);
+    // The number nearest to place k in that direction and how far it is, or no number.
+    const auto nearest = [&](int k, int direction) {
+        for (int away = 1; away < count; ++away) {
+            const int there = k + direction * away;
+            if (!curve.closed && (there < 0 || there >= count)) break;
+            const double value = given[(there + count) % count];
+            if (std::isfinite(value)) return std::pair(value, static_cast<double>(away));
+        }
+        return std::pair(0.0, HUGE_VAL);
+    };
+    for (int k = 0; k < count; ++k) {
+        if (std::isfinite(given[k])) continue;
+        const auto [before, back] = nearest(k, -1);
+        const auto [after, on] = nearest(k, 1);
+        values[curve.places[at(k)]] = (before / back + after / on) / (1.0 / back + 1.0 / on);
+    }
+}
+
 }  // namespace
 
-KnownCurvature known_curvature(const Patch& patch, const VectorX& curvatures) {
-    KnownCurvature known{VectorX::Zero(curvatures.size()), {}, {}};
+VectorX KnownCurvature::missing(const VectorX& curvatures) const {
+    const double unknown_yet = std::numeric_limits<double>::quiet_NaN();
+    VectorX result = VectorX::Zero(curvatures.size());
+    for (const OutlineCurve& curve : curves) {
+        bool all_corners = true;
+        for (int place : curve.places) {
+            result[place] = corner[at(place)] ? unknown_yet : values[place] - curvatures[place];
+            all_corners = all_corners && corner[at(place)];
+        }
+        if (all_corners) {
+            result(curve.places).setZero();
+        } else {
+            interpolate(curve, result);
+        }
+    }
+    return result;
+}
+
+KnownCurvature known_curvature(const Patch& patch, const Points& points, const VectorX& curvatures) {
+    KnownCurvature known{VectorX::Zero(curvatures.size()), {}, {}, corners_of(patch, points)};
     VectorX filled = curvatures;
     for (Indices loop : patch.loops()) {
         for (int& v : loop) v -= patch.free_count;
