@@ -102,15 +102,30 @@ def test_an_open_curve_stays_bounded() -> None:
     assert peaks[1] < 1.5 * peaks[0]
 
 
+def test_a_loop_of_creases_is_a_soap_film() -> None:
+    """Over a bent rim with nothing else: H = 0, although spheres and saddles vary as little."""
+    disc = creased.lid(6)
+    top = (disc.side[disc.triangles] == 0).all(axis=1) & (disc.vertices[disc.triangles][:, :, 2] == 0).all(axis=1)
+    triangles = disc.triangles[top]
+    vertices = disc.vertices[: triangles.max() + 1].copy()
+    rim = disc.curve
+    angle = np.arctan2(vertices[rim, 1], vertices[rim, 0])
+    vertices[rim, 2] = 0.1 * np.cos(2 * angle)
+    result = fairing.fair(vertices, triangles, fixed=rim, creases=rim)
+    film = fairing.fair(vertices, triangles, fixed=rim, equation="minimal")
+    assert result.converged
+    assert result.equation == "minimal"
+    assert np.array_equal(result.vertices, film.vertices)
+    assert 0.05 < np.ptp(result.vertices[:, 2]) < 0.21
+
+
 def test_slopes_have_to_be_those_of_fixed_vertices() -> None:
     patch = creased.box_edge(4)
     given = {"fixed": patch.fixed, "fixed_normals": patch.normals[patch.fixed]}
     with pytest.raises(ValueError, match=f"creases names vertex {patch.free[0]}, which is not fixed"):
         fairing.fair(patch.vertices, patch.triangles, **given, creases=patch.free[:1])
     with pytest.raises(ValueError, match="is named by creases and by smooth_curves"):
-        fairing.fair(
-            patch.vertices, patch.triangles, **given, creases=patch.curve[1:2], smooth_curves=patch.curve[1:2]
-        )
+        fairing.fair(patch.vertices, patch.triangles, **given, creases=patch.curve[1:2], smooth_curves=patch.curve[1:2])
     with pytest.raises(fairing.MeshError, match="smooth_curves names vertex 999999") as told:
         fairing.fair(patch.vertices, patch.triangles, **given, smooth_curves=[999999])
     assert told.value.code == "INDEX_RANGE"

@@ -203,7 +203,7 @@ Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optio
                                         const Progress& progress) {
     std::optional<Solution> near_last = keeps() ? solve_near_last(problem, progress) : std::nullopt;
     if (!near_last && start) near_last = solve_near(problem, *start, progress.range(0.0, 0.4));
-    Solution solution = near_last ? std::move(*near_last) : solve_or_else(problem, progress);
+    Solution solution = near_last ? std::move(*near_last) : solve_pinned(problem, options().pin_radius, progress);
     if (!keeps()) return solution;
     instead_.reset();
     if (solution.instead && end_of(solution) == Termination::converged) instead_ = outline_of(problem);

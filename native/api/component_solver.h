@@ -24,9 +24,9 @@ struct CallOptions {
 // Columns belong to the input's vertices.
 struct ComponentData {
     const Points& vertices;
-    const Points& normals;      // prescribed ones at fixed vertices
-    const VectorX& curvatures;  // likewise; empty: none
-    const Points& reference;    // M0
+    const Points& normals;            // prescribed ones at fixed vertices
+    const VectorX& curvatures;        // likewise; empty: none
+    const Points& reference;          // M0
     const std::vector<char>& faired;  // border vertices that become fair
 };
 

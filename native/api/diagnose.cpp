@@ -250,9 +250,7 @@ void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& war
                         counted(pins.size(), "pin acts in a point, not over its radius: ",
                                 "pins act in a point, not over their radius: ") +
                             std::string(reason_of(solution.pins)),
-                        pins,
-                        ElementKind::vertex,
-                        figures});
+                        pins, ElementKind::vertex, figures});
 }
 
 Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation equation) {

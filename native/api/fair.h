@@ -32,7 +32,7 @@ struct FairOptions {
     std::vector<DirectedWeight> custom;  // λ of input vertices, for InnerFairness::custom
     DetailOptions detail;
     double pin_radius = 0.0;  // in units of D; 0: pins act in a point
-    int threads = 0;  // 0: one on each core; the result doesn't depend on it
+    int threads = 0;          // 0: one on each core; the result doesn't depend on it
 };
 
 struct FairResult {

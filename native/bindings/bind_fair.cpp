@@ -105,8 +105,11 @@ py::dict fair_arrays(const DoubleArray& vertices, const IntArray& triangles, con
                      const std::optional<DoubleArray>& fixed_curvatures, const std::optional<DoubleArray>& reference,
                      const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
                      const Options& options, const PaperOptions& paper, const py::object& callback) {
-    const MeshInput input{to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices),
-                          to_optional(fixed_normals, to_points), to_optional(fixed_curvatures, to_vector),
+    const MeshInput input{to_points(vertices),
+                          to_triangles(triangles),
+                          to_optional(fixed, to_indices),
+                          to_optional(fixed_normals, to_points),
+                          to_optional(fixed_curvatures, to_vector),
                           {options.creases, options.smooth_curves, options.fair_border}};
     const auto m0 = to_optional(reference, to_points);
     const FairOptions fair_options = to_fair_options(options, paper, {neighbours, weights});

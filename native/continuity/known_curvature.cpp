@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "geometry/outline_angles.h"
 
@@ -46,12 +45,13 @@ void bridge(const Indices& loop, VectorX& curvatures) {
 void split(const Indices& loop, const VectorX& curvatures, std::vector<OutlineCurve>& curves) {
     const auto is_known = [&](int place) { return std::isfinite(curvatures[place]); };
     if (std::all_of(loop.begin(), loop.end(), is_known)) {
-        curves.push_back({loop, true});
+        curves.push_back({loop, true, {}});
         return;
     }
     for (auto first = loop.begin(); first != loop.end();) {
         const auto last = std::find_if_not(first, loop.end(), is_known);
-        if (last - first >= static_cast<std::ptrdiff_t>(shortest_arc)) curves.push_back({Indices(first, last), false});
+        if (last - first >= static_cast<std::ptrdiff_t>(shortest_arc))
+            curves.push_back({Indices(first, last), false, {}});
         first = std::find_if(last, loop.end(), is_known);
     }
 }
@@ -70,51 +70,17 @@ std::vector<char> corners_of(const Patch& patch, const Points& points) {
     return corner;
 }
 
-// NaNs of a curve from the nearest numbers before and behind, by linear interpolation; at the ends of an open curve from
-// one of them. There is a number.
-void interpolate(const OutlineCurve& curve, VectorX& values) {
-    const auto count = static_cast<int>(curve.places.size());
-    const VectorX given = values(curve.places);
-    // The number nearest to place k in that direction and how far it is, or no number.
-    const auto nearest = [&](int k, int direction) {
-        for (int away = 1; away < count; ++away) {
-            const int there = k + direction * away;
-            if (!curve.closed && (there < 0 || there >= count)) break;
-            const double value = given[(there + count) % count];
-            if (std::isfinite(value)) return std::pair(value, static_cast<double>(away));
-        }
-        return std::pair(0.0, HUGE_VAL);
-    };
-    for (int k = 0; k < count; ++k) {
-        if (std::isfinite(given[k])) continue;
-        const auto [before, back] = nearest(k, -1);
-        const auto [after, on] = nearest(k, 1);
-        values[curve.places[at(k)]] = (before / back + after / on) / (1.0 / back + 1.0 / on);
-    }
-}
-
 }  // namespace
 
 VectorX KnownCurvature::missing(const VectorX& curvatures) const {
-    const double unknown_yet = std::numeric_limits<double>::quiet_NaN();
     VectorX result = VectorX::Zero(curvatures.size());
-    for (const OutlineCurve& curve : curves) {
-        bool all_corners = true;
-        for (int place : curve.places) {
-            result[place] = corner[at(place)] ? unknown_yet : values[place] - curvatures[place];
-            all_corners = all_corners && corner[at(place)];
-        }
-        if (all_corners) {
-            result(curve.places).setZero();
-        } else {
-            interpolate(curve, result);
-        }
-    }
+    for (const OutlineCurve& curve : curves) result(curve.places) = values_along(curve, values - curvatures);
     return result;
 }
 
 KnownCurvature known_curvature(const Patch& patch, const Points& points, const VectorX& curvatures) {
-    KnownCurvature known{VectorX::Zero(curvatures.size()), {}, {}, corners_of(patch, points)};
+    KnownCurvature known{VectorX::Zero(curvatures.size()), {}, {}};
+    const std::vector<char> corners = corners_of(patch, points);
     VectorX filled = curvatures;
     for (Indices loop : patch.loops()) {
         for (int& v : loop) v -= patch.free_count;
@@ -123,8 +89,9 @@ KnownCurvature known_curvature(const Patch& patch, const Points& points, const V
         known.unknown.insert(known.unknown.end(), loop.begin(), loop.end());
     }
     std::vector<char> covered(static_cast<std::size_t>(curvatures.size()), 0);
-    for (const OutlineCurve& curve : known.curves) {
+    for (OutlineCurve& curve : known.curves) {
         for (int place : curve.places) {
+            curve.skipped.push_back(corners[at(place)]);
             covered[at(place)] = 1;
             known.values[place] = filled[place];
         }

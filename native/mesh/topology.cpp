@@ -278,7 +278,8 @@ VertexRoles classify_vertices(const EdgeTable& edges, const GivenRoles& given) {
     for (std::size_t v = 0; v < count; ++v) {
         roles.smooth[v] = !given.smooth.empty() && given.smooth[v] && roles.used[v];
         roles.faired[v] = given.fair_border && roles.border[v] && !given.fixed[v];
-        roles.free_slope[v] = roles.smooth[v] || roles.faired[v] || (!given.crease.empty() && given.crease[v] && roles.used[v]);
+        roles.free_slope[v] =
+            roles.smooth[v] || roles.faired[v] || (!given.crease.empty() && given.crease[v] && roles.used[v]);
         roles.pin[v] = roles.free_slope[v] || (roles.pin[v] && roles.used[v]);
     }
     return roles;
@@ -293,7 +294,8 @@ std::vector<char> find_cut_edges(const Triangles& triangles, const EdgeTable& ed
         const bool many = edges.side_count(e) > 2;
         const bool beside_free =
             has_free_corner(triangles, edges.side(e, 0), roles) || has_free_corner(triangles, edges.side(e, 1), roles);
-        cut[at(e)] = many || (beside_free && !is_smooth(edges, e, roles) && !is_corner_chord(triangles, edges, e, roles));
+        cut[at(e)] =
+            many || (beside_free && !is_smooth(edges, e, roles) && !is_corner_chord(triangles, edges, e, roles));
     }
     if (!offenders.empty()) {
         throw MeshError({Code::nonmanifold_edge,

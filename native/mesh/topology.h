@@ -8,14 +8,14 @@ namespace fairing {
 
 // What the caller's vertices are.
 struct VertexRoles {
-    std::vector<char> given;   // fixed by the caller
-    std::vector<char> fixed;   // keeps its position: given, or on the mesh border
-    std::vector<char> border;  // on an edge with a single triangle
-    std::vector<char> pin;     // position only: none of its neighbours is fixed, or its slope is free
-    std::vector<char> used;    // in some triangle
+    std::vector<char> given;       // fixed by the caller
+    std::vector<char> fixed;       // keeps its position: given, or on the mesh border
+    std::vector<char> border;      // on an edge with a single triangle
+    std::vector<char> pin;         // position only: none of its neighbours is fixed, or its slope is free
+    std::vector<char> used;        // in some triangle
     std::vector<char> free_slope;  // of the pins: by the caller's word
-    std::vector<char> smooth;  // of these: the surface runs through, curves of them are not cut
-    std::vector<char> faired;  // of these: on an open border that becomes fair itself
+    std::vector<char> smooth;      // of these: the surface runs through, curves of them are not cut
+    std::vector<char> faired;      // of these: on an open border that becomes fair itself
 };
 
 // The caller's words, per vertex; both kinds of free slopes may be empty.

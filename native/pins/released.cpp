@@ -39,4 +39,12 @@ Released released(const Patch& given, const Indices& pins) {
     return {Patch(std::move(members)), std::move(from), std::move(to)};
 }
 
+Problem on_released(const Problem& problem, const Released& free) {
+    Indices places;
+    for (int v = free.patch.free_count; v < free.patch.vertex_count(); ++v)
+        places.push_back(free.from[at(v)] - problem.patch.free_count);
+    return {free.patch, problem.fixed_points(Eigen::all, places), problem.fixed_normals(Eigen::all, places),
+            uniform_weights(free.patch), problem.options};
+}
+
 }  // namespace fairing

@@ -1,7 +1,7 @@
 // A patch whose isolated pins are numbered among the free vertices.
 #pragma once
 
-#include "mesh/patch.h"
+#include "problem/problem.h"
 
 namespace fairing {
 
@@ -13,5 +13,8 @@ struct Released {
 
 // `pins`: places among the fixed vertices. They come right after the free ones, in their order.
 Released released(const Patch& given, const Indices& pins);
+
+// The problem without these pins, with uniform weights. `free` must outlive it.
+Problem on_released(const Problem& problem, const Released& free);
 
 }  // namespace fairing

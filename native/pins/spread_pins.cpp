@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
 
 #include <Eigen/LU>
 
 #include "base/parallel.h"
 #include "linear/anderson.h"
 #include "operators/normal_operator.h"
+#include "pins/bells.h"
 #include "pins/released.h"
 #include "problem/surface_state.h"
 #include "tangential/tangential_step.h"
@@ -20,21 +23,10 @@ namespace {
 constexpr int history_depth = 6;
 constexpr double largest_step = 0.05;  // units of D
 constexpr int most_iterations = 60;
-constexpr int patience = 12;         // iterations without a shorter step
-constexpr double reach = 5.0;        // radii: beyond, a Gaussian is less than 4e-6
-constexpr double slow = 0.5;         // contraction that asks for a new factor
+constexpr int patience = 12;  // iterations without a shorter step
+constexpr int first_surfaces = 4;
+constexpr double slow = 0.5;          // contraction that asks for a new factor
 constexpr double least_pivot = 1e-8;  // of the largest: pins that act alike
-
-Problem on_released(const Problem& problem, const Released& free, int pins) {
-    Indices places;
-    for (int v = problem.patch.free_count + pins; v < problem.patch.vertex_count(); ++v)
-        places.push_back(free.from[at(v)] - problem.patch.free_count);
-    return {free.patch,
-            problem.fixed_points(Eigen::all, places),
-            problem.fixed_normals(Eigen::all, places),
-            uniform_weights(free.patch),
-            problem.options};
-}
 
 class SpreadPins {
 public:
@@ -43,14 +35,16 @@ public:
           pins_(isolated_pins(problem.patch)),
           count_(static_cast<int>(pins_.size())),
           released_(released(problem.patch, pins_)),
-          problem_(on_released(problem, released_, count_)),
+          problem_(on_released(problem, released_)),
           radius_(radius),
           progress_(progress),
-          normal_(make_normal_operator(problem_, start(Eigen::all, released_.from).leftCols(released_.patch.free_count))),
+          normal_(
+              make_normal_operator(problem_, start(Eigen::all, released_.from).leftCols(released_.patch.free_count))),
           tangential_(make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())),
-          anderson_(3L * problem.patch.free_count, history_depth),
+          anderson_(3L * released_.patch.free_count, history_depth),
           forces_(VectorX::Zero(count_)) {
         state_.points = start(Eigen::all, released_.from);
+        targets_ = problem.fixed_points(Eigen::all, pins_);
     }
 
     Solution run() {
@@ -77,7 +71,11 @@ public:
     }
 
 private:
+    // How far the pins have to go, 3 × pins.
+    [[nodiscard]] Points to_go() const { return targets_ - state_.points.middleCols(given_.patch.free_count, count_); }
+
     Solution finished() {
+        state_.points.middleCols(given_.patch.free_count, count_) = targets_;
         solution_.points = state_.points(Eigen::all, released_.to);
         solution_.mean_curvature = state_.curvature.mean(released_.to);
         return std::move(solution_);
@@ -97,47 +95,33 @@ private:
         return !refresh || normal_->update(state_.stiffness, progress_.here());
     }
 
-    // Free count × pins.
-    [[nodiscard]] Eigen::MatrixXd weighted_gaussians() const {
-        Eigen::MatrixXd result = Eigen::MatrixXd::Zero(problem_.patch.free_count, count_);
-        for (int k = 0; k < count_; ++k) {
-            const int pin = given_.patch.free_count + k;
-            for (int v : sheet_around(pin)) {
-                const double away = (state_.points.col(v) - state_.points.col(pin)).squaredNorm();
-                result(v, k) = state_.stiffness.mass[v] * std::exp(-0.5 * away / (radius_ * radius_));
-            }
-        }
-        return result;
+    // Free count × pins. The bells of the first few surfaces do for all that follow, which are close.
+    const Eigen::MatrixXd& weighted_bells() {
+        if (bells_of_ >= first_surfaces) return bells_;
+        ++bells_of_;
+        Indices centres(at(count_));
+        std::iota(centres.begin(), centres.end(), given_.patch.free_count);
+        bells_ = state_.stiffness.mass.head(problem_.patch.free_count).asDiagonal() *
+                 bells(problem_.patch, state_.points, state_.stiffness, centres, radius_, progress_.here())
+                     .topRows(problem_.patch.free_count);
+        return bells_;
     }
 
-    // The free vertices within reach of a pin that hang together with it there: not the far side of a thin wall.
-    [[nodiscard]] Indices sheet_around(int pin) const {
-        Indices found{pin};
-        std::vector<char> seen(at(problem_.patch.vertex_count()), 0);
-        seen[at(pin)] = 1;
-        for (std::size_t k = 0; k < found.size(); ++k) {
-            for (int u : problem_.patch.ring(found[k]).vertices) {
-                if (seen[at(u)] || !problem_.patch.is_free(u)) continue;
-                seen[at(u)] = 1;
-                if ((state_.points.col(u) - state_.points.col(pin)).norm() < reach * radius_) found.push_back(u);
-            }
-        }
-        return found;
-    }
-
-    // Heights along the normals that solve the equation to first order and are zero at the pins; nothing where pins
-    // act alike.
+    // Heights along the normals that solve the equation to first order and bring the pins to their places; nothing
+    // where pins act alike.
     std::optional<VectorX> heights() {
-        const Eigen::MatrixXd gaussians = weighted_gaussians();
+        const Eigen::MatrixXd& acting = weighted_bells();
         Eigen::MatrixXd rhs(problem_.patch.free_count, 1 + count_);
-        rhs << outer_residual(problem_, state_) - gaussians * forces_, gaussians;
+        rhs << outer_residual(problem_, state_) - acting * forces_, acting;
         solution_.residual = largest_residual(problem_, state_, rhs.col(0));
         const Eigen::MatrixXd u = normal_->solve(rhs);
         const Eigen::MatrixXd at_pins = u.middleRows(given_.patch.free_count, count_);
         const Eigen::FullPivLU<Eigen::MatrixXd> factor(at_pins.rightCols(count_));
         const auto pivots = factor.matrixLU().diagonal().cwiseAbs();
         if (!(pivots.minCoeff() > least_pivot * pivots.maxCoeff())) return std::nullopt;
-        const VectorX change = factor.solve(at_pins.col(0));
+        const Points normals = state_.normals.middleCols(given_.patch.free_count, count_);
+        const VectorX wanted = to_go().cwiseProduct(normals).colwise().sum().transpose();
+        const VectorX change = factor.solve(at_pins.col(0) - wanted);
         forces_ += change;
         return u.col(0) - u.rightCols(count_) * change;
     }
@@ -147,7 +131,8 @@ private:
         if (!rises || !rises->allFinite()) return std::nullopt;
         const Points points = state_.points(Eigen::all, released_.to);
         const Points normals = state_.normals(Eigen::all, released_.to);
-        Points d = tangential_->displacement(points, normals);
+        Points d(3, problem_.patch.free_count);
+        d << tangential_->displacement(points, normals), to_go();
         for_ranges(given_.patch.free_count, coarse_grain, [&](int begin, int end) {
             for (int i = begin; i < end; ++i) {
                 const Vector3 n = state_.normals.col(i);
@@ -167,9 +152,9 @@ private:
     }
 
     void accelerate(const Points& d) {
-        Eigen::Map<VectorX> x(state_.points.data(), 3L * given_.patch.free_count);
+        Eigen::Map<VectorX> x(state_.points.data(), d.size());
         VectorX step = anderson_.step(x, Eigen::Map<const VectorX>(d.data(), d.size()));
-        const double largest = largest_length(Eigen::Map<const Points>(step.data(), 3, given_.patch.free_count));
+        const double largest = largest_length(Eigen::Map<const Points>(step.data(), 3, d.cols()));
         if (largest > largest_step) step *= largest_step / largest;
         x += step;
     }
@@ -184,7 +169,10 @@ private:
     std::unique_ptr<NormalOperator> normal_;
     std::unique_ptr<TangentialStep> tangential_;  // the pins are fixed
     Anderson anderson_;
+    Points targets_;  // of the pins
     VectorX forces_;  // λ
+    Eigen::MatrixXd bells_;
+    int bells_of_ = 0;    // surfaces they were measured on
     SurfaceState state_;  // of the released patch
     double contraction_ = 0.0;
     double least_step_ = std::numeric_limits<double>::infinity();
@@ -198,7 +186,8 @@ Indices isolated_pins(const Patch& patch) {
     Indices places;
     for (int v = patch.free_count; v < patch.vertex_count(); ++v) {
         const RingView ring = patch.ring(v);
-        const bool alone = std::all_of(ring.vertices.begin(), ring.vertices.end(), [&](int u) { return patch.is_free(u); });
+        const bool alone =
+            std::all_of(ring.vertices.begin(), ring.vertices.end(), [&](int u) { return patch.is_free(u); });
         if (patch.pin[at(v)] && ring.closed() && alone) places.push_back(v - patch.free_count);
     }
     return places;

@@ -29,6 +29,9 @@ DEFAULTS = {
     "max_iterations": 200,
     "pin_group": "",
     "pin_edges": "NONE",
+    "pin_slope": "AUTOMATIC",
+    "pin_radius": 0.1,
+    "open_border": "HELD",
     "outline": "GIVEN",
     "accept": "USABLE",
 }
@@ -40,6 +43,8 @@ CHOICES = {
     "continuity": ["G1", "G2"],
     "method": ["GLOBAL", "PAPER"],
     "pin_edges": ["NONE", "SHARP", "SEAM", "CREASE"],
+    "pin_slope": ["AUTOMATIC", "CREASE", "SMOOTH", "AVERAGE"],
+    "open_border": ["HELD", "FAIRED"],
     "outline": ["GIVEN", "MENDED"],
     "accept": ["USABLE", "ALL"],
 }

@@ -109,9 +109,9 @@ TEST_CASE("where the curvature of an outline is known") {
         const KnownCurvature known = known_curvature(patch, single.points, curvatures);
         VectorX present = VectorX::Constant(curvatures.size(), 1.5);
         int corners = 0;
-        for (std::size_t k = 0; k < known.corner.size(); ++k) {
-            if (!known.corner[k]) continue;
-            present[static_cast<Eigen::Index>(k)] = -7.0;
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            if (!known.curves[0].skipped[k]) continue;
+            present[known.curves[0].places[k]] = -7.0;
             ++corners;
         }
         CHECK(corners == 4);
