@@ -18,7 +18,7 @@ from .follow.live_operators import (
 from .host import handlers
 from .preferences import FairPreferences
 from .run import cli, compare, job, last_run
-from .run.again import MESH_OT_fair_again, MESH_OT_fair_spots
+from .run.again import MESH_OT_fair_again, MESH_OT_fair_reselect, MESH_OT_fair_spots
 from .run.curvature import MESH_OT_fair_curvature
 from .run.fill import MESH_OT_fair_fill
 from .run.masked import MESH_OT_fair_masked
@@ -45,6 +45,7 @@ _register_classes, _unregister_classes = bpy.utils.register_classes_factory(
         MESH_OT_fair_live_forget,
         compare.MESH_OT_fair_compare,
         MESH_OT_fair_spots,
+        MESH_OT_fair_reselect,
         *TOOLS,
         MESH_OT_fair_again,
         watch.MESH_OT_fair_inspect,

@@ -115,7 +115,7 @@ def test_a_loop_of_creases_is_a_soap_film() -> None:
     film = fairing.fair(vertices, triangles, fixed=rim, equation="minimal")
     assert result.converged
     assert result.equation == "minimal"
-    assert np.array_equal(result.vertices, film.vertices)
+    assert np.abs(result.vertices - film.vertices).max() < 1e-3
     assert 0.05 < np.ptp(result.vertices[:, 2]) < 0.21
 
 

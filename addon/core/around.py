@@ -16,12 +16,29 @@ def outside_triangles(mesh: MeshArrays, patch: Patch) -> Ints:
 
     Left out are those with a corner that is not finite.
     """
-    usable = np.isfinite(mesh.positions).all(axis=1)
-    outside = mesh.triangles[~mesh.in_patch[mesh.triangle_faces]]
-    outside = outside[usable[outside].all(axis=1)]
+    outside = _usable(mesh)
     start = np.zeros(len(mesh.positions), dtype=bool)
     start[patch.vertices[patch.fixed]] = True
     return nearby(outside, start)
+
+
+def wide_outside(mesh: MeshArrays, patch: Patch) -> Ints:
+    """Return those within a patch's size of it, which say what its surroundings are without their detail."""
+    outside = _usable(mesh)
+    rim = mesh.positions[patch.vertices[patch.fixed]]
+    low, high = rim.min(axis=0), rim.max(axis=0)
+    around = (high - low).max()
+    near = ((mesh.positions >= low - around) & (mesh.positions <= high + around)).all(axis=1)
+    found: Ints = outside[near[outside].all(axis=1)]
+    return found
+
+
+def _usable(mesh: MeshArrays) -> Ints:
+    """Return the triangles outside the selection whose corners are finite."""
+    finite = np.isfinite(mesh.positions).all(axis=1)
+    outside = mesh.triangles[~mesh.in_patch[mesh.triangle_faces]]
+    usable: Ints = outside[finite[outside].all(axis=1)]
+    return usable
 
 
 def nearby(triangles: Ints, start: Mask) -> Ints:

@@ -56,17 +56,17 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
     Raises MeshRefusal (its `elements` are mesh vertices), ValueError, fairing.SolverError and fairing.Cancelled.
     """
     patch = problem.patch
-    mended = options.outline == "MENDED"
+    reads = options.reads_surroundings
     with in_mesh_words(problem.origin):
         return fairing.fair(
-            problem.points if mended else problem.own_points,
+            problem.points if reads else problem.own_points,
             patch.triangles,
             fixed=patch.fixed,
             fixed_normals=problem.normals,
             fixed_curvatures=problem.curvatures if options.joins_curvature else None,
             neighbours=patch.neighbours,
             outline=options.outline.lower(),
-            outside=problem.outside if mended else None,
+            outside=problem.outside if reads else None,
             progress=progress,
             **_held_inside(patch, options),
             **options.engine_arguments(),

@@ -88,7 +88,8 @@ class LiveRegion:
         self._image = mirror_map(mesh, patch) if mesh.mirror_x else None
         self.faces = np.flatnonzero(mesh.in_patch)  # of the mesh
         self._patch = patch  # in the numbers of the whole mesh, which refusals name
-        self._solve = RepeatedSolve(patch, options, world.positions[patch.vertices])
+        self._reference = world.positions[patch.vertices]
+        self._solve = RepeatedSolve(patch, options, self._reference)
         self._good = Carrier(mesh.positions[patch.vertices[patch.fixed]], mesh.positions[patch.vertices[patch.free]])
 
     @property
@@ -116,6 +117,14 @@ class LiveRegion:
         positions: (n, 3) of `vertices`, in the mesh's own coordinates. Raises what engine.solve does.
         """
         return self._kept(positions, matrix, self._solve(self._problem(positions, matrix), progress))
+
+    def afresh(self, positions: Floats, matrix: Floats, progress: Progress | None = None) -> Floats | None:
+        """Answer without what former answers left, as the operator would; the same contract.
+
+        After a step that was too long to be followed, the last answer is no start for the next one.
+        """
+        self._solve = RepeatedSolve(self._patch, self._options, self._reference)
+        return self.answer(positions, matrix, progress)
 
     def stand_in(self, positions: Floats, matrix: Floats, progress: Progress | None = None) -> Floats | None:
         """Return the surface of least variation where `answer` has none; the same contract. Takes a while."""

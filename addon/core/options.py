@@ -42,7 +42,7 @@ class FairOptions:
     bulge: float = 0.0  # for CONSTANT: 1 lifts a flat disc by a quarter of its radius
     inner_fairness: str = "AUTOMATIC"  # CONFORMAL for a patch with a texture, UNIFORM for others
     detail: float = 0.0  # how much of the old patch's detail is put back, 0 … 1
-    detail_size: float = 0.0  # what is shorter counts as detail: a part of the patch's size; 0: ten edges
+    detail_size: float = 0.0  # what is shorter counts as detail: a part of the patch's size; 0: twelve edges
     boundary_normals: str = "SURROUNDING"
     continuity: str = "G1"  # G2: the curvature of the faces outside is continued, too
     method: str = "GLOBAL"
@@ -95,6 +95,11 @@ class FairOptions:
     def fairs_border(self) -> bool:
         """Whether open borders move."""
         return self.open_border == "FAIRED" and self.method == "GLOBAL"
+
+    @property
+    def reads_surroundings(self) -> bool:
+        """Whether the engine looks at the faces outside itself: what a repeated solve does not."""
+        return self.outline == "MENDED" or self.detail > 0.0
 
     def engine_arguments(self) -> dict[str, Any]:
         """Return the keyword arguments of `fairing.fair` that need no mesh; the options must be resolved."""

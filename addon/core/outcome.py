@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from .quality import Join, Quality
 from .region import MeshArrays, Patch, to_local
 from .solve import Solved
 from .symmetry import mirror_map, symmetrised
-from .verdict import Evidence, Verdict, judge
+from .verdict import GOOD, Evidence, Verdict, judge
 
 
 @dataclass(frozen=True)
@@ -52,20 +52,31 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     clear = as_solved and not mesh.mirror_x and _is_clear(patch, result)
     quality_before, quality_after = quality.compare(patch, (before[:own], after[:own]), clear)
     join = quality.join(problem, after)
-    evidence = Evidence(problem, result, solved.failures, quality_before, quality_after, join)
+    verdict = judge(Evidence(problem, result, solved.failures, quality_before, quality_after, join), options)
     order = np.argsort(problem.vertices[moving])
     return Fairing(
         vertices=problem.vertices[moving][order],
         positions=positions[order],
-        result=result,
-        warnings=solved.warnings + warnings,
+        result=_of_patch(result, own),
+        warnings=solved.warnings + warnings + (() if verdict.grade == GOOD else solved.hints),
         before=quality_before,
         after=quality_after,
         distortion=quality.texture_distortion(before, after, patch.triangles),
         curvature=_largest_curvatures(patch, result),
         join=join,
-        verdict=judge(evidence, options),
+        verdict=verdict,
         free_count=len(patch.free),
+    )
+
+
+def _of_patch(result: fairing.FairResult, own: int) -> fairing.FairResult:
+    """Leave out the vertices of the faces around the patch."""
+    return replace(
+        result,
+        vertices=result.vertices[:own],
+        base=None if result.base is None else result.base[:own],
+        mean_curvature=result.mean_curvature[:own],
+        moved=result.moved[result.moved < own],
     )
 
 

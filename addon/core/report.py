@@ -76,6 +76,11 @@ def is_written(outcomes: list[Fairing], options: FairOptions) -> bool:
     return options.accept == "ALL" or all(outcome.verdict.grade != UNUSABLE for outcome in outcomes)
 
 
+def standing(report: Report) -> tuple[int, float]:
+    """Return what two runs are compared by, the smaller the better: the verdict, then the worst kink in degrees."""
+    return GRADES.index(report.verdict.grade), report.join[1]
+
+
 def _widest(result: fairing.FairResult) -> float:
     return float(result.boundary_angle.max(initial=0.0))
 
@@ -111,8 +116,8 @@ def _bulge_note(named: list[Named], options: FairOptions) -> tuple[str, ...]:
 
 
 def _checks(outcomes: list[Fairing], options: FairOptions) -> tuple[Check, ...]:
-    typical, worst = _worst_join(outcomes)
-    kink = Check("Kink at the outline", f"{angle_text(typical)}, at most {angle_text(worst)}", _state(worst <= VISIBLE))
+    _, worst = _worst_join(outcomes)
+    kink = Check("Kink at the outline", f"≤ {angle_text(worst)}", _state(worst <= VISIBLE))
     return (
         *((kink,) if judges_join(options) and any(len(o.join.vertices) for o in outcomes) else ()),
         _count_check("Folded faces", outcomes, lambda quality: quality.folded),
@@ -144,6 +149,7 @@ def _details(outcomes: list[Fairing]) -> tuple[Check, ...]:
     lines = (
         ("Equation solved", _endings(outcomes)),
         ("Residual", _residual_text(max(results, key=lambda result: result.residual))),
+        ("Usual kink", angle_text(_worst_join(outcomes)[0])),
         ("Angle to the slope asked for", angle_text(max(_widest(result) for result in results))),
         ("Curvature inside", f"{inside:.3g} {'≤' if inside <= outline else '>'} {outline:.3g}"),
         ("Ways tried", ", ".join(name for result in results for name, _ in result.way)),

@@ -9,7 +9,7 @@ import numpy as np
 import fairing
 
 from . import engine
-from .around import numbered, outside_triangles, wound_alike
+from .around import numbered, outside_triangles, wide_outside, wound_alike
 from .arrays import Floats
 from .boundary import prescribed_curvatures, prescribed_normals
 from .engine import Progress
@@ -20,6 +20,7 @@ from .region import MeshArrays, make_patch
 from .words import sentences
 
 NO_ANSWER = ("FOLDED", "NOT_CONVERGED")  # codes that are reasons of a verdict
+HINTS = ("SHARP_BOUNDARY",)  # codes that explain a bad result, and nothing where it is good
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,7 @@ class Solved:
     result: fairing.FairResult
     warnings: tuple[str, ...]
     failures: tuple[str, ...] = ()  # why there is no answer, where there is none
+    hints: tuple[str, ...] = ()  # what may be the reason where the result is not good
 
 
 @dataclass(frozen=True)
@@ -54,15 +56,16 @@ def solve(
     Raises fairing.MeshError (its `elements` are vertices of `mesh` here), ValueError,
     fairing.SolverError and fairing.Cancelled. `mesh` is never changed.
     """
-    options = options.resolved(mesh.textured)
+    options, mesh = options.resolved(mesh.textured), replace(mesh, textured=False)  # asked for by some options only
     share, options = options.detail, replace(options, detail=float(options.detail > 0.0))
     # Of two results for the same input the bits are the same, so that a former one is as good.
-    key = digest(mesh, matrix, replace(options, factor=1.0, accept="ALL")) if kept is not None else ""
+    place = digest(mesh, matrix) if kept is not None else ""
+    key = digest(place, replace(options, factor=1.0, accept="ALL"))
     solved = kept.results.get(key) if kept is not None else None
     if solved is None:
         problem, warnings = pose(mesh, matrix, options)
         if kept is not None:
-            result = _solve_again(digest(mesh, matrix, problem.patch), problem, options, progress, kept)
+            result = _solve_again(digest(place, problem.patch), problem, options, progress, kept)
             solved = _solved(problem, result, warnings)
             kept.results.put(key, solved)
         else:
@@ -87,7 +90,7 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
         world = mesh.transformed(matrix)
         # Conformal weights and detail belong to the present shape, and so do its triangles.
         patch = make_patch(world, even=options.inner_fairness != "CONFORMAL" and options.detail == 0.0)
-        outside = outside_triangles(world, patch)
+        outside = wide_outside(world, patch) if options.detail > 0.0 else outside_triangles(world, patch)
         normals, warnings = prescribed_normals(world, patch, options.boundary_normals, outside)
         curvatures = prescribed_curvatures(world, patch, outside) if options.joins_curvature else None
         vertices, around = numbered(patch, wound_alike(world, outside))
@@ -100,7 +103,7 @@ def _solve_again(
     key: str, problem: engine.Problem, options: FairOptions, progress: Progress | None, kept: Kept
 ) -> fairing.FairResult:
     """Solve with the solver of a former call for the same patch, if there was one: other options move less."""
-    if options.outline == "MENDED":  # what a repeated solve doesn't do
+    if options.reads_surroundings:
         return engine.solve(problem, options, progress)
     was_here = key in kept.solvers
     solver = kept.solvers.take(key)
@@ -116,9 +119,13 @@ def _solve_again(
 
 
 def _solved(problem: engine.Problem, result: fairing.FairResult, warnings: tuple[str, ...]) -> Solved:
-    rest = tuple(told for told in result.warnings if told.code not in NO_ANSWER and not _is_measured(told))
-    failed = tuple(told for told in result.warnings if told.code in NO_ANSWER)
-    return Solved(problem, result, warnings + sentences(rest, problem.origin), sentences(failed, problem.origin))
+    told = tuple(warning for warning in result.warnings if not _is_measured(warning))
+    apart = (*NO_ANSWER, *HINTS)
+    rest, failed, hints = (
+        sentences(tuple(warning for warning in told if belongs(warning.code)), problem.origin)
+        for belongs in (lambda code: code not in apart, NO_ANSWER.__contains__, HINTS.__contains__)
+    )
+    return Solved(problem, result, warnings + rest, failed, hints)
 
 
 def _is_measured(told: fairing.Diagnostic) -> bool:

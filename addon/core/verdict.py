@@ -24,7 +24,7 @@ GROW, SMOOTH_OUTLINE, EVEN_CURVATURE, WRITE = "GROW", "SMOOTH_OUTLINE", "EVEN_CU
 
 @dataclass(frozen=True)
 class Verdict:
-    """One grade, and for all but GOOD a sentence, the mesh vertices that it is about, and what may help."""
+    """One grade, and for all but GOOD a sentence, the mesh vertices that it is about (worst kink first), what helps."""
 
     grade: str
     reason: str = ""
@@ -61,8 +61,14 @@ def judge(evidence: Evidence, options: FairOptions) -> Verdict:
             return Verdict(UNUSABLE, reason, np.unique(spots), _remedies(evidence, options, bad=True))
     reason, spots = _visible(evidence, options)
     if reason:
-        return Verdict(LOOK, reason, np.unique(spots), _remedies(evidence, options, bad=False))
+        return Verdict(LOOK, reason, _once(spots), _remedies(evidence, options, bad=False))
     return Verdict(GOOD)
+
+
+def _once(spots: Ints) -> Ints:
+    """Return each of them once, in the order of their first."""
+    first: Ints = spots[np.sort(np.unique(spots, return_index=True)[1])]
+    return first
 
 
 Found = tuple[str, Ints]
@@ -98,7 +104,7 @@ def _troubled(problem: Problem) -> Ints:
 
 def _corners(problem: Problem, faces: Ints) -> Ints:
     patch = problem.patch
-    corners: Ints = patch.vertices[patch.triangles[np.isin(patch.faces, faces)].ravel()]
+    corners: Ints = np.unique(patch.vertices[patch.triangles[np.isin(patch.faces, faces)]])
     return corners
 
 

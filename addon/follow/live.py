@@ -100,12 +100,13 @@ class Live:
 
     def _at_leisure(self, session: Session) -> Floats | None:
         """Answer at the end of changes: the surface itself, or the one that stands in for it."""
-        answer = _asked(session, session.region.answer, LEISURE)
         self.message = ""
-        if answer is None:
-            answer = _asked(session, session.region.stand_in, LEISURE)
-            self.message = STAND_IN
-        return answer
+        for ask in (session.region.answer, session.region.afresh):
+            answer = _asked(session, ask, LEISURE)
+            if answer is not None:
+                return answer
+        self.message = STAND_IN
+        return _asked(session, session.region.stand_in, LEISURE)
 
     def is_lost(self, obj: bpy.types.Object) -> bool:
         """Tell whether the region still waits for an answer."""

@@ -1,6 +1,11 @@
 """Progress where the user looks: mouse pointer, status bar, sidebar."""
 
+from typing import Any
+
 import bpy
+from mathutils import Vector
+
+ASKEW = 0.5  # cosine between the view and a surface's normal, below which little can be seen of the surface
 
 
 def show_progress(context: bpy.types.Context, fraction: float, stage: str) -> None:
@@ -38,15 +43,20 @@ def redraw_views(context: bpy.types.Context) -> None:
                 area.tag_redraw()
 
 
-def view_selected(context: bpy.types.Context) -> None:
-    """Turn the 3D view to what is selected: the one in use, or else the first one of the window."""
-    window = context.window
-    if window is None or bpy.app.background:
-        return
-    areas = [area for area in window.screen.areas if area.type == "VIEW_3D"]
+def look_at(context: bpy.types.Context, place: Any, normal: Any, size: float) -> None:
+    """Turn the 3D view in use, or else the window's first one, to a place in world space, and go near it.
+
+    normal: points to where it can be seen from. size: what is to be in sight at least.
+    """
+    areas = [area for area in context.window.screen.areas if area.type == "VIEW_3D"] if context.window else []
     area = context.area if context.area in areas else next(iter(areas), None)
     if area is None:
         return
-    region = next(region for region in area.regions if region.type == "WINDOW")
-    with context.temp_override(window=window, area=area, region=region):
-        bpy.ops.view3d.view_selected()
+    view = area.spaces.active.region_3d
+    towards_us = view.view_rotation @ Vector((0.0, 0.0, 1.0))
+    away = Vector(normal)
+    if away.length > 0.0 and away.normalized().dot(towards_us) < ASKEW:
+        view.view_rotation = away.to_track_quat("Z", "Y")
+    view.view_location = place
+    view.view_distance = min(view.view_distance, size)
+    area.tag_redraw()

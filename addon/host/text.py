@@ -9,7 +9,7 @@ import blf
 import bpy
 
 UNIT = 20.0  # pixels of a button's height at scale 1
-MARGINS = 2.6  # units that a panel and its scroll bar take of the sidebar
+MARGINS = 3.4  # units that a panel and its scroll bar take of the sidebar
 NARROWEST = 60.0  # pixels that are left for words at least
 USUAL = 260.0  # pixels of a sidebar where there is none to ask
 

@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..core.arrays import Ints, Mask
+from ..core.arrays import Floats, Ints, Mask
 from .live_mesh import LAYER
 
 MASK, FACE_SET = ".sculpt_mask", ".sculpt_face_set"  # Blender's own names of what sculpt mode paints
@@ -22,6 +22,13 @@ def _values(mesh: bpy.types.Mesh, name: str, dtype: Any) -> Any:
     values = np.empty(len(attribute.data), dtype=dtype)
     attribute.data.foreach_get("value", values)
     return values
+
+
+def positions(mesh: bpy.types.Mesh) -> Floats:
+    """Return the positions (n, 3) of a mesh in object mode."""
+    flat = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+    mesh.vertices.foreach_get("co", flat)
+    return flat.reshape(-1, 3).astype(np.float64)
 
 
 def _faces_of(mesh: bpy.types.Mesh, vertices: Mask) -> Ints:

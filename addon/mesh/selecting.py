@@ -23,6 +23,16 @@ def select_vertices(mesh: bpy.types.Mesh, vertices: Ints) -> None:
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
 
 
+def surroundings(mesh: bpy.types.Mesh, vertex: int) -> tuple[Floats, Floats, float]:
+    """Return the position and the normal (3,) of a vertex in edit mode, and the mean length of its edges."""
+    bm = bmesh.from_edit_mesh(mesh)
+    bm.verts.ensure_lookup_table()
+    table: Any = bm.verts
+    found = table[vertex]
+    lengths = [edge.calc_length() for edge in found.link_edges]
+    return np.array(found.co), np.array(found.normal), float(np.mean(lengths)) if lengths else 0.0
+
+
 def select_faces(mesh: bpy.types.Mesh, faces: Ints) -> None:
     """Select exactly these faces, as far as they are visible. Needs face mode."""
     bm = bmesh.from_edit_mesh(mesh)

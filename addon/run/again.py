@@ -12,7 +12,7 @@ from bpy.props import EnumProperty
 
 from ..core.verdict import EVEN_CURVATURE, GROW, SMOOTH_OUTLINE, WRITE
 from ..host.polling import require, require_edit_mode
-from ..host.status import view_selected
+from ..host.status import look_at
 from . import last_run
 
 
@@ -35,7 +35,25 @@ class MESH_OT_fair_spots(bpy.types.Operator):
         except last_run.Changed as change:
             self.report({"ERROR"}, str(change))
             return {"CANCELLED"}
-        view_selected(context)
+        look_at(context, *last_run.worst_spot(context))
+        return {"FINISHED"}
+
+
+class MESH_OT_fair_reselect(bpy.types.Operator):
+    """Select the faces of the last run again, or those whose outline was looked at"""
+
+    bl_idname = "mesh.fair_reselect"
+    bl_label = "Select Region Again"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """There must have been a run, or a look at an outline."""
+        return require_edit_mode(cls, context) and require(cls, last_run.can_reselect(context), "There is no region")
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Select in face mode."""
+        last_run.reselect(context)
         return {"FINISHED"}
 
 
@@ -75,15 +93,17 @@ class MESH_OT_fair_again(bpy.types.Operator):
         return require_edit_mode(cls, context) and require(cls, last_run.has_regions(), "Nothing has been faired yet")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Select what the last run had, change one thing, run."""
+        """Select what the last run had, change one thing, run; what is no better than before isn't written."""
         options = replace(last_run.options(), **{"accept": "USABLE", **CHANGES[self.way]})
         try:
             last_run.select_region(context)
             if self.way == GROW:
                 bpy.ops.mesh.select_more()
+            bpy.ops.ed.undo_push(message="Select Region")  # what the redo panel goes back to
+            last_run.try_way("" if self.way == WRITE else self.way)
             how = "EXEC_DEFAULT" if bpy.app.background or context.window is None else "INVOKE_DEFAULT"
-            bpy.ops.mesh.fair_region(how, True, **asdict(options))
+            status = bpy.ops.mesh.fair_region(how, True, **asdict(options))
         except (last_run.Changed, RuntimeError) as error:  # RuntimeError: what the run has reported
             self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
             return {"CANCELLED"}
-        return {"FINISHED"}
+        return {"CANCELLED"} if "CANCELLED" in status else {"FINISHED"}

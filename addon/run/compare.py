@@ -38,14 +38,22 @@ _last = _Last()
 def remember(tasks: list[Task], outcomes: list[Fairing]) -> None:
     """Keep both states of a run that was written."""
     _last.pairs = tuple(
-        Pair(
-            object_name=task.object_name,
-            vertex_count=len(task.mesh.positions),
-            vertices=outcome.vertices,
-            before=task.mesh.positions[outcome.vertices],
-            after=outcome.positions.astype(np.float32).astype(np.float64),
-        )
-        for task, outcome in zip(tasks, outcomes, strict=True)
+        _pair(task.object_name, task.mesh.positions, outcome) for task, outcome in zip(tasks, outcomes, strict=True)
+    )
+
+
+def remember_one(object_name: str, before: Floats, outcome: Fairing) -> None:
+    """Keep both states of a run outside edit mode; before: the positions (n, 3) of the whole mesh."""
+    _last.pairs = (_pair(object_name, before, outcome),)
+
+
+def _pair(object_name: str, before: Floats, outcome: Fairing) -> Pair:
+    return Pair(
+        object_name=object_name,
+        vertex_count=len(before),
+        vertices=outcome.vertices,
+        before=before[outcome.vertices],
+        after=outcome.positions.astype(np.float32).astype(np.float64),
     )
 
 

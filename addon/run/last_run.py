@@ -7,11 +7,14 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..core.arrays import Ints
+from ..core.arrays import Floats, Ints
 from ..core.options import FairOptions
 from ..core.outcome import Fairing
+from ..core.report import Report, standing
 from ..mesh import selecting
 from .job import Task, objects_in_mode
+
+SIGHT = 25.0  # edges around a spot that are in sight
 
 
 @dataclass(frozen=True)
@@ -29,24 +32,50 @@ class _Last:
 
     def __init__(self) -> None:
         self.regions: tuple[Region, ...] = ()
+        self.seen: tuple[Region, ...] = ()  # whose selection gave way to some vertices
         self.options = FairOptions()
+        self.standing: tuple[int, float] = (0, 0.0)
+        self.way = ""  # that the next run is to try
 
 
 _last = _Last()
 
 
-def remember(tasks: list[Task], outcomes: list[Fairing], options: FairOptions) -> None:
-    """Keep what a run was about."""
-    _last.options = options
-    _last.regions = tuple(
-        Region(task.object_name, len(task.mesh.in_patch), np.flatnonzero(task.mesh.in_patch), outcome.verdict.spots)
-        for task, outcome in zip(tasks, outcomes, strict=True)
-    )
+def remember(tasks: list[Task], outcomes: list[Fairing], options: FairOptions, report: Report) -> None:
+    """Keep what a run was about, and what came of it."""
+    _last.options, _last.standing = options, standing(report)
+    _last.regions = tuple(_region(task, outcome.verdict.spots) for task, outcome in zip(tasks, outcomes, strict=True))
+    _last.seen = _last.regions
+
+
+def keep_selection(tasks: list[Task]) -> None:
+    """Keep which faces are selected, as something else will be."""
+    _last.seen = tuple(_region(task, np.empty(0, dtype=np.int64)) for task in tasks)
+
+
+def _region(task: Task, spots: Ints) -> Region:
+    return Region(task.object_name, len(task.mesh.in_patch), np.flatnonzero(task.mesh.in_patch), spots)
 
 
 def forget() -> None:
     """Drop what was kept."""
-    _last.regions = ()
+    _last.regions = _last.seen = ()
+
+
+def try_way(way: str) -> None:
+    """Have the next run written only where it comes out better than the last one; empty: in any case."""
+    _last.way = way
+
+
+def way_to_try() -> str:
+    """Return what try_way has set, once."""
+    way, _last.way = _last.way, ""
+    return way
+
+
+def is_improved_by(report: Report) -> bool:
+    """Tell whether another way has come out better than the last run."""
+    return standing(report) < _last.standing
 
 
 def has_regions() -> bool:
@@ -68,11 +97,11 @@ class Changed(Exception):
     """The objects of the last run are not in edit mode any more, or have other faces."""
 
 
-def _found(context: bpy.types.Context) -> list[tuple[Region, bpy.types.Mesh]]:
-    """Return the meshes of the last run; raises Changed."""
+def _found(context: bpy.types.Context, regions: tuple[Region, ...]) -> list[tuple[Region, bpy.types.Mesh]]:
+    """Return the meshes of these regions; raises Changed."""
     objects = objects_in_mode(context)
     found = []
-    for region in _last.regions:
+    for region in regions:
         obj = objects.get(region.object_name)
         if obj is None:
             raise Changed(f"{region.object_name} is not in edit mode")
@@ -82,9 +111,32 @@ def _found(context: bpy.types.Context) -> list[tuple[Region, bpy.types.Mesh]]:
     return found
 
 
+def worst_spot(context: bpy.types.Context) -> tuple[Floats, Floats, float]:
+    """Return where in world space the worst of the spots is, its normal, and how much around it is of interest."""
+    region, mesh = next(pair for pair in _found(context, _last.regions) if len(pair[0].spots))
+    place, normal, edge = selecting.surroundings(mesh, int(region.spots[0]))
+    matrix = np.array(objects_in_mode(context)[region.object_name].matrix_world)
+    linear = matrix[:3, :3]
+    size = float(np.cbrt(abs(np.linalg.det(linear))))
+    return linear @ place + matrix[:3, 3], np.linalg.solve(linear.T, normal), SIGHT * edge * size
+
+
+def can_reselect(context: bpy.types.Context) -> bool:
+    """Tell whether the faces of the last run, or those that were looked at, are there still."""
+    try:
+        return bool(_found(context, _last.seen))
+    except Changed:
+        return False
+
+
+def reselect(context: bpy.types.Context) -> None:
+    """Select these faces, in face mode; raises Changed."""
+    _select_faces(context, _last.seen)
+
+
 def select_spots(context: bpy.types.Context) -> None:
     """Select the vertices that the verdict is about, in vertex mode; raises Changed."""
-    found = _found(context)
+    found = _found(context, _last.regions)
     context.tool_settings.mesh_select_mode = (True, False, False)
     for region, mesh in found:
         selecting.select_vertices(mesh, region.spots)
@@ -92,7 +144,11 @@ def select_spots(context: bpy.types.Context) -> None:
 
 def select_region(context: bpy.types.Context) -> None:
     """Select the faces that were faired, in face mode; raises Changed."""
-    found = _found(context)
+    _select_faces(context, _last.regions)
+
+
+def _select_faces(context: bpy.types.Context, regions: tuple[Region, ...]) -> None:
+    found = _found(context, regions)
     context.tool_settings.mesh_select_mode = (False, False, True)
     for region, mesh in found:
         selecting.select_faces(mesh, region.faces)

@@ -114,7 +114,7 @@ class MESH_OT_fair_masked(FairProperties, bpy.types.Operator):
         faces = self._faces(obj)
         if not len(faces):
             raise ValueError("Nothing is chosen: paint a mask, or choose a face set or a vertex group")
-        options = FairOptions.of(self)
+        options, before = FairOptions.of(self), painted.positions(obj.data)
         outcome = fair_faces(obj.data, faces.tolist(), np.array(obj.matrix_world, dtype=np.float64), options)
         report = make_report([(obj.name, outcome)], options, time.perf_counter() - begin)
         store(context.window_manager.fairing_report, report)
@@ -122,7 +122,7 @@ class MESH_OT_fair_masked(FairProperties, bpy.types.Operator):
         if not report.written:
             self.report({"ERROR"}, summary(report))
             return {"CANCELLED"}
-        compare.forget()
+        compare.remember_one(obj.name, before, outcome)
         self.report({"INFO"}, summary(report))
         return {"FINISHED"}
 

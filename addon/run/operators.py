@@ -15,10 +15,10 @@ import fairing
 from ..core.engine import Progress
 from ..core.options import FairOptions
 from ..core.outcome import Fairing
-from ..core.report import make_report, summary
+from ..core.report import GRADE_NAMES, Report, make_report, summary
 from ..core.runner import Run
 from ..host.polling import NO_FACE, NO_FREE, SELECT_FACES, require, require_edit_mode
-from ..host.status import hide_progress, show_progress
+from ..host.status import hide_progress, redraw_sidebars, show_progress
 from ..mesh import selecting
 from ..preferences import background_from
 from ..translations import translated
@@ -56,6 +56,7 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
     _options: FairOptions
     _notes: tuple[str, ...] = ()  # on objects that there is nothing to do for
     _begin: float
+    _way = ""  # tried after a run that was not good: written only where the verdict improves
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -98,7 +99,7 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
         self._stop_watching(context)
 
     def _begin_with(self, context: bpy.types.Context, go_on: Any) -> set[str]:
-        self._begin = time.perf_counter()
+        self._begin, self._way = time.perf_counter(), last_run.way_to_try()
         context.view_layer.update()  # a script may just have changed an object's matrix
         try:
             self._options = FairOptions.of(self)
@@ -169,8 +170,10 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
     def _apply(self, context: bpy.types.Context, outcomes: list[Fairing]) -> set[str]:
         named = [(task.object_name, outcome) for task, outcome in zip(self._tasks, outcomes, strict=True)]
         report = make_report(named, self._options, time.perf_counter() - self._begin, self._notes)
+        if self._way and not last_run.is_improved_by(report):
+            return self._keep(context, report)
         store(context.window_manager.fairing_report, report)
-        last_run.remember(self._tasks, outcomes, self._options)
+        last_run.remember(self._tasks, outcomes, self._options, report)
         if not report.written:
             return self._leave(context, summary(report))
         job.write(context, self._tasks, outcomes)
@@ -184,6 +187,16 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
         """Leave every mesh as it is, and show where the result is no good."""
         last_run.select_spots(context)
         self.report({"ERROR"}, reason)
+        return {"CANCELLED"}
+
+    def _keep(self, context: bpy.types.Context, report: Report) -> set[str]:
+        """Leave what the last run has left, offer this way no more, and tell how it would have come out."""
+        last_run.select_region(context)
+        shown = context.window_manager.fairing_report
+        shown.remedies = ",".join(name for name in shown.remedies.split(",") if name != self._way)
+        outcome = ": ".join(filter(None, (GRADE_NAMES[report.verdict.grade], report.verdict.reason)))
+        self.report({"INFO"}, f"That is no better and was not written ({outcome})")
+        redraw_sidebars(context)
         return {"CANCELLED"}
 
     def _refuse(self, context: bpy.types.Context, refusal: job.Refused) -> set[str]:

@@ -154,7 +154,8 @@ class FairProperties:
     )
     detail_size: FloatProperty(
         name="Size",
-        description="What repeats within less than this counts as detail: a part of the selection's size; 0: ten edges",
+        description="What repeats within less than this counts as detail: a part of the selection's size; "
+        "0: twelve edges",
         default=0.0,
         min=0.0,
         max=1.0,

@@ -15,7 +15,7 @@ from ..core.words import counted
 from ..host.context import edited_objects
 from ..host.polling import SELECT_FACES, require_edit_mode
 from ..mesh import mesh_io, selecting
-from . import job
+from . import job, last_run
 
 
 class _Tool:
@@ -60,12 +60,16 @@ class MESH_OT_fair_select_bad(_Tool, bpy.types.Operator):
         """Select them in vertex mode, where there are any."""
         found: list[tuple[bpy.types.Object, Ints]] = []
 
+        tasks: list[job.Task] = []
+
         def look(obj: bpy.types.Object, task: job.Task) -> int:
+            tasks.append(task)
             found.append((obj, bad_outline(problem_of(task.mesh, task.matrix))))
             return len(found[-1][1])
 
         count = self._each(context, look)
         if count:
+            last_run.keep_selection(tasks)
             context.tool_settings.mesh_select_mode = (True, False, False)
             for obj, vertices in found:
                 selecting.select_vertices(obj.data, vertices)

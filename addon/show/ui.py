@@ -15,7 +15,7 @@ from ..follow.live_operators import (
 )
 from ..follow.watch import MESH_OT_fair_inspect, is_large, request, watch
 from ..host.text import draw_text
-from ..run.again import WAY_NAMES, MESH_OT_fair_again, MESH_OT_fair_spots
+from ..run.again import WAY_NAMES, MESH_OT_fair_again, MESH_OT_fair_reselect, MESH_OT_fair_spots
 from ..run.compare import MESH_OT_fair_compare
 from ..run.curvature import MESH_OT_fair_curvature
 from ..run.fill import MESH_OT_fair_fill
@@ -82,6 +82,8 @@ class VIEW3D_PT_fairing_selection(_Panel, bpy.types.Panel):
             return
         for found in watch.found:
             _draw_inspection(self.layout, found, len(watch.found) > 1)
+        if not any(found.faces for found in watch.found) and MESH_OT_fair_reselect.poll(context):
+            self.layout.operator(MESH_OT_fair_reselect.bl_idname, icon="FILE_REFRESH")
 
 
 class VIEW3D_PT_fairing_report(_Panel, bpy.types.Panel):

@@ -72,10 +72,12 @@ def row(case: Case, name: str, **options: object) -> str:
     ends = np.concatenate([case.inside[:, [k, (k + 1) % 3]] for k in range(3)])
     lengths = [np.linalg.norm(p[ends[:, 0]] - p[ends[:, 1]], axis=1) for p in (case.vertices, result.vertices)]
     edges = lengths[1] / lengths[0]
+    true = lengths[1] / np.linalg.norm(case.skin[ends[:, 0]] - case.skin[ends[:, 1]], axis=1)
     with_detail, without = seconds(case, detail=1.0, **options), seconds(case, **options)
     figures = [name, len(free), f"{kept[free].std() / wanted[free].std():.2f}", *(f"{ratio:.2f}" for ratio in ratios)]
     figures += [f"{np.sqrt((base**2).mean()) / case.diameter:.1e}", f"{base.max() / case.diameter:.1e}"]
-    figures += [f"{edges.min():.2f} … {edges.max():.2f}", f"{with_detail:.3f}", f"{with_detail / without:.2f}"]
+    figures += [f"{edges.min():.2f} … {edges.max():.2f}", f"{true.min():.2f} … {true.max():.2f}"]
+    figures += [f"{with_detail:.3f}", f"{with_detail / without:.2f}"]
     return "| " + " | ".join(map(str, figures)) + " |"
 
 
@@ -86,7 +88,7 @@ def main() -> None:
     arguments = parser.parse_args()
     for count in (2000, 8000, 30000):
         for along_normal in (False, True):
-            case = cases.sphere(count, 0.25, 11, along_normal=along_normal)
+            case = cases.sphere(count, 0.25, 21, along_normal=along_normal)
             print(row(case, "normal" if along_normal else "isotropic"), flush=True)
     if arguments.pictures:
         import sheets  # needs Pillow

@@ -23,6 +23,18 @@ Normalisation normalise(const Points& fixed_points);
 // the component on one side only; of a closed component, held by pins, all fixed vertices. 3 × fixed points.
 double outline_radius(const Patch& patch, const Points& fixed_points);
 
+// Columns belong to the input's vertices.
+struct ComponentData {
+    const Points& vertices;
+    const Points& normals;            // prescribed ones at fixed vertices
+    const VectorX& curvatures;        // likewise; empty: none
+    const Points& reference;          // M0
+    const Triangles& outside;         // around the patches
+    const VectorX& weights;           // of the blend of both bases; empty: 1
+    bool given_normals;               // by the caller
+    const std::vector<char>& faired;  // border vertices that become fair
+};
+
 // Local vertices 0 … n − 1 of a patch, input numbers: free ones, then fixed ones.
 std::span<const int> free_vertices(const Patch& patch);
 std::span<const int> fixed_vertices(const Patch& patch);

@@ -7,7 +7,6 @@
 #include "base/errors.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
-#include "detail/old_base.h"
 #include "detail/relaid.h"
 #include "geometry/flips.h"
 #include "geometry/surface_fit.h"
@@ -46,6 +45,27 @@ void warn_of_even_weights(Diagnostics& warnings) {
                         {}});
 }
 
+// D of a component must be a number above 0.
+Normalisation checked_unit(const Patch& patch, const Points& fixed_points) {
+    const auto fixed = fixed_vertices(patch);
+    const Normalisation unit = normalise(fixed_points);
+    if (!unit.centre.allFinite() || std::isinf(unit.diameter)) {
+        throw MeshError({Code::nonfinite,
+                         "coordinates this large overflow when they are added: scale the mesh down",
+                         Indices(fixed.begin(), fixed.end()),
+                         ElementKind::vertex,
+                         {{"largest_coordinate", fixed_points.cwiseAbs().maxCoeff()}}});
+    }
+    if (!(unit.diameter > 0.0)) {
+        throw MeshError({Code::no_boundary,
+                         "a component is held in a single point: fix more of its vertices",
+                         Indices(fixed.begin(), fixed.end()),
+                         ElementKind::vertex,
+                         {{"points", 1}}});
+    }
+    return unit;
+}
+
 // In units of D⁻³, for a component's fixed points in units of D.
 double load_in_units(const Patch& patch, const Points& fixed_points, double diameter, const FairOptions& options) {
     double load = 0.0;
@@ -75,48 +95,47 @@ CallOptions::CallOptions(FairOptions options, bool keeps)
 }
 
 ComponentSolver::ComponentSolver(const Patch& patch, const CallOptions& options)
-    : patch_(patch), options_(options), warm_(patch) {}
+    : patch_(patch), options_(options), skin_(patch), warm_(patch) {}
 
 bool ComponentSolver::keeps() const {
     return options_.repeated && options_.asked.method == Method::global && patch_.free_count <= largest_warm;
 }
 
 ComponentAnswer ComponentSolver::solve(const ComponentData& data, const Progress& progress) {
+    const bool wants_skin = options_.asked.detail.share > 0.0 || data.weights.size() > 0;
+    if (!wants_skin) return solve_between(data, outline_as_given(data), progress);
+    skin_.read(data, options_.asked.detail.size, progress);
+    const BaseOutline outline = skin_.found() ? skin_.outline(data) : outline_as_given(data);
+    ComponentAnswer answer = solve_between(data, outline, progress);
+    if (outline.moved && end_of(answer.solution) != Termination::converged) {
+        const BaseOutline rough = outline_as_given(data);
+        ComponentAnswer other = solve_between(data, rough, progress);
+        if (end_of(other.solution) == Termination::converged) return dressed(std::move(other), data, rough, progress);
+    }
+    return dressed(std::move(answer), data, outline, progress);
+}
+
+BaseOutline ComponentSolver::outline_as_given(const ComponentData& data) const {
     const auto fixed = fixed_vertices(patch_);
-    const Points fixed_points = gather(data.vertices, fixed);
-    const Normalisation unit = normalise(fixed_points);
-    if (!unit.centre.allFinite() || std::isinf(unit.diameter)) {
-        throw MeshError({Code::nonfinite,
-                         "coordinates this large overflow when they are added: scale the mesh down",
-                         Indices(fixed.begin(), fixed.end()),
-                         ElementKind::vertex,
-                         {{"largest_coordinate", fixed_points.cwiseAbs().maxCoeff()}}});
-    }
-    if (!(unit.diameter > 0.0)) {
-        throw MeshError({Code::no_boundary,
-                         "a component is held in a single point: fix more of its vertices",
-                         Indices(fixed.begin(), fixed.end()),
-                         ElementKind::vertex,
-                         {{"points", 1}}});
-    }
+    return {gather(data.vertices, fixed), gather(data.normals, fixed)};
+}
+
+ComponentAnswer ComponentSolver::solve_between(const ComponentData& data, const BaseOutline& outline,
+                                               const Progress& progress) {
+    const Normalisation unit = checked_unit(patch_, outline.points);
     const SolverOptions& solver = options_.asked.solver;
-    ComponentAnswer answer{
-        unit, {patch_, unit.to_unit(fixed_points), gather(data.normals, fixed), {}, solver}, {}, {}, Points(3, 0)};
+    ComponentAnswer answer{unit, {patch_, unit.to_unit(outline.points), outline.normals, {}, solver}, {}, {}, {}};
     answer.problem.options.equation = equation_for(patch_, solver.equation);
     answer.problem.options.load = load_in_units(patch_, answer.problem.fixed_points, unit.diameter, options_.asked);
-    if (data.curvatures.size() > 0 && answer.problem.options.equation == Equation::harmonic)
-        answer.problem.fixed_curvatures = unit.diameter * data.curvatures(fixed);
+    if (data.curvatures.size() > 0 && answer.problem.options.equation == Equation::harmonic) {
+        answer.problem.fixed_curvatures = unit.diameter * data.curvatures(fixed_vertices(patch_));
+    }
     hold_border(data.faired, answer.problem);
     warn_of_precision(patch_, data.vertices, {unit.diameter, solver.tolerance}, answer.warnings);
-    const Points reference = gather(data.reference, patch_.to_input);
-    if (options_.asked.detail.share > 0.0) read_skin(reference, progress);
-    read_reference(reference, unit);
-    for (const Diagnostics* list : {&reference_warnings_, &skin_warnings_}) {
-        answer.warnings.insert(answer.warnings.end(), list->begin(), list->end());
-    }
+    read_reference(gather(data.reference, patch_.to_input), unit);
+    answer.warnings.insert(answer.warnings.end(), reference_warnings_.begin(), reference_warnings_.end());
     answer.solution = options().method == Method::paper ? solve_by_paper(answer.problem, progress)
                                                         : solve_globally(answer, data, progress);
-    if (skin_) put_back_detail(answer, progress);
     return answer;
 }
 
@@ -134,37 +153,21 @@ void ComponentSolver::read_reference(const Points& reference, const Normalisatio
     given_reference_ = reference;
 }
 
-// The skin stays as long as what it is read off does.
-void ComponentSolver::read_skin(const Points& reference, const Progress& progress) {
-    if (skin_ && reference == skin_of_) return;
-    const Stopwatch watch;
-    progress.here().report(0.0, "detail");
-    skin_warnings_.clear();
-    const Normalisation own = normalise(reference.rightCols(reference.cols() - patch_.free_count));
-    const double size = options_.asked.detail.size;
-    const Points old = own.to_unit(reference);
-    skin_.reset();
-    if (old.allFinite() && !has_collapsed_fan(patch_, old)) {
-        skin_ = Skin::read(patch_, old, size > 0.0 ? size : detail_wavelength(patch_, old), progress.here());
-    }
-    if (!skin_) warn_of_missing_detail(skin_warnings_);
-    skin_of_ = reference;
-    skin_unit_ = own.diameter;
-    skin_seconds_ = watch.seconds();
-}
-
-void ComponentSolver::put_back_detail(ComponentAnswer& answer, const Progress& progress) {
+ComponentAnswer ComponentSolver::dressed(ComponentAnswer answer, const ComponentData& data, const BaseOutline& outline,
+                                         const Progress& progress) {
+    answer.warnings.insert(answer.warnings.end(), skin_.warnings().begin(), skin_.warnings().end());
+    if (!skin_.found()) return answer;
     const Stopwatch watch;
     Points& points = answer.solution.points;
-    points = relaid(answer.problem, points, skin_->base(), progress.here());
-    const Points full = skin_unit_ * skin_->detail_on(points);
-    if (!full.allFinite()) throw SolverError("the detail is not finite; nothing was changed");
-    answer.detail = options_.asked.detail.share * full;
-    Points shown = points;
-    shown.leftCols(patch_.free_count) += answer.detail / answer.unit.diameter;
-    warn_of_folded_detail(patch_, skin_->turned_over(points, shown), answer.warnings);
-    answer.solution.seconds["detail"] = skin_seconds_ + watch.seconds();
-    skin_seconds_ = 0.0;
+    points = relaid(answer.problem, points, skin_.base(), progress.here());
+    Points base = answer.unit.from_unit(points);
+    base.rightCols(outline.points.cols()) = outline.points;
+    answer.dressed = skin_.put_back(data, base);
+    if (!answer.dressed->detail.allFinite()) throw SolverError("the detail is not finite; nothing was changed");
+    answer.dressed->detail *= options_.asked.detail.share;
+    warn_of_folded_detail(patch_, answer.dressed->turned_over, answer.warnings);
+    answer.solution.seconds["detail"] = skin_.take_seconds() + watch.seconds();
+    return answer;
 }
 
 Solution ComponentSolver::solve_by_paper(const Problem& problem, const Progress& progress) const {

@@ -1,9 +1,7 @@
 // The solve of one component, in units of D, and what the next solve of the same component can use of it.
 #pragma once
 
-#include "api/component.h"
-#include "base/progress.h"
-#include "detail/skin.h"
+#include "api/kept_skin.h"
 #include "method/near_start.h"
 #include "method/outline_move.h"
 #include "method/warm_start.h"
@@ -21,21 +19,12 @@ struct CallOptions {
     bool repeated;
 };
 
-// Columns belong to the input's vertices.
-struct ComponentData {
-    const Points& vertices;
-    const Points& normals;            // prescribed ones at fixed vertices
-    const VectorX& curvatures;        // likewise; empty: none
-    const Points& reference;          // M0
-    const std::vector<char>& faired;  // border vertices that become fair
-};
-
 struct ComponentAnswer {
     Normalisation unit;
     Problem problem;
     Solution solution;
     Diagnostics warnings;
-    Points detail;  // 3 × free vertices, in the caller's units: to be added to the solution; none: 3 × 0
+    std::optional<Dressed> dressed;  // the solution with the detail that is to be put back
 };
 
 // Refers to patch and options.
@@ -50,15 +39,19 @@ public:
     void options_changed() {
         given_reference_.resize(3, 0);
         instead_.reset();
-        skin_.reset();
+        skin_.forget();
     }
 
 private:
     // Whether a solve starts from its last answer.
     [[nodiscard]] bool keeps() const;
     void read_reference(const Points& reference, const Normalisation& unit);
-    void read_skin(const Points& reference, const Progress& progress);
-    void put_back_detail(ComponentAnswer& answer, const Progress& progress);
+    [[nodiscard]] BaseOutline outline_as_given(const ComponentData& data) const;
+    [[nodiscard]] ComponentAnswer solve_between(const ComponentData& data, const BaseOutline& outline,
+                                                const Progress& progress);
+    // With the detail put back; `outline`: that the answer was solved between.
+    [[nodiscard]] ComponentAnswer dressed(ComponentAnswer answer, const ComponentData& data, const BaseOutline& outline,
+                                          const Progress& progress);
     [[nodiscard]] const FairOptions& options() const { return usable_ ? options_.asked : options_.uniform; }
     [[nodiscard]] Solution solve_by_paper(const Problem& problem, const Progress& progress) const;
     [[nodiscard]] std::optional<NearStart> given_start(const ComponentAnswer& answer, const ComponentData& data) const;
@@ -71,15 +64,11 @@ private:
 
     const Patch& patch_;
     const CallOptions& options_;
-    Points given_reference_;      // 3 × local vertices, as the caller gave it
-    Points reference_;            // in units of D
-    std::unique_ptr<Skin> skin_;  // null: no detail is asked for, or there is none
-    Points skin_of_;              // the reference it was read off
-    double skin_unit_ = 1.0;      // D of that
-    double skin_seconds_ = 0.0;   // spent on reading it since the last answer
+    Points given_reference_;  // 3 × local vertices, as the caller gave it
+    Points reference_;        // in units of D
+    KeptSkin skin_;
     bool usable_ = true;
     Diagnostics reference_warnings_;
-    Diagnostics skin_warnings_;
     Lambda lambda_;
     WarmStart warm_;
     std::optional<Outline> instead_;  // of the last answer, where it is of least variation instead

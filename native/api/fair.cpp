@@ -82,21 +82,26 @@ private:
     void write_back(const Patch& patch, const ComponentAnswer& answer) {
         const Points points = answer.unit.from_unit(answer.solution.points);
         if (!points.allFinite()) throw SolverError("the solution is not finite; nothing was changed");
-        Points shown = points.leftCols(patch.free_count);
-        if (answer.detail.cols() > 0) shown += answer.detail;
         const auto free = free_vertices(patch);
-        result_.vertices(Eigen::all, free) = shown;
+        result_.vertices(Eigen::all, free) = points.leftCols(patch.free_count);
         if (result_.base.cols() > 0) result_.base(Eigen::all, free) = points.leftCols(patch.free_count);
         const std::vector<char>& moved = answer.problem.free_edge;
         for (int k = 0; k < static_cast<int>(moved.size()); ++k) {
             if (moved[at(k)]) result_.vertices.col(fixed_vertices(patch)[at(k)]) = points.col(patch.free_count + k);
         }
+        if (answer.dressed) write_dressed(patch, *answer.dressed);
         // The paper's method leaves H to be measured.
         const VectorX& H = answer.solution.mean_curvature;
         for (int v = 0; v < H.size(); ++v) {
             solved_curvature_[patch.to_input[at(v)]] += H[v] / answer.unit.diameter;
             solved_sides_[patch.to_input[at(v)]] += 1.0;
         }
+    }
+
+    void write_dressed(const Patch& patch, const Dressed& dressed) {
+        const Points shown = dressed.base + dressed.detail;
+        result_.vertices(Eigen::all, free_vertices(patch)) = shown.leftCols(patch.free_count);
+        if (result_.base.cols() > 0) result_.base(Eigen::all, patch.to_input) = dressed.base;
     }
 
     // Level counts of several components are added up, counted from the finest level.
@@ -189,8 +194,14 @@ FairResult run_call(const MeshInput& input, const std::optional<Points>& referen
     check_memory(largest_free_count(prepared->patches));
     Call call(*prepared, input, options.asked);
     const double topology_seconds = watch.seconds();
-    const ComponentData data{input.vertices, prepared->mesh.normals, prepared->mesh.curvatures,
-                             reference ? *reference : input.vertices, prepared->mesh.roles.faired};
+    const ComponentData data{input.vertices,
+                             prepared->mesh.normals,
+                             prepared->mesh.curvatures,
+                             reference ? *reference : input.vertices,
+                             input.outside,
+                             input.weights,
+                             input.fixed_normals.has_value(),
+                             prepared->mesh.roles.faired};
     double done = begin;
     double total = 0.0;
     for (const Patch& patch : prepared->patches) total += patch.vertex_count();

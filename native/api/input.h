@@ -20,6 +20,8 @@ struct MeshInput {
     std::optional<Indices> fixed;                  // left out: the mesh border
     std::optional<Points> fixed_normals;           // 3 × |fixed|
     std::optional<VectorX> fixed_curvatures = {};  // H at `fixed`, NaN where it is not known
+    Triangles outside = {};                        // around the patches; they stay
+    VectorX weights = {};                          // per vertex, 0 … 1: see FairOptions' detail; empty: 1
     HeldInside held = {};
 };
 

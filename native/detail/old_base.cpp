@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
+#include "detail/low_pass.h"
 #include "geometry/surface_fit.h"
 #include "operators/biharmonic_operator.h"
 #include "problem/willmore.h"
@@ -20,31 +22,41 @@ double mass_factor(double wavelength) {
 
 // c of the slopes at which the old patch meets its outline, fitted to its own side. Those prescribed for the new base
 // would make detail of a crease along the outline, which is what has to go.
-Points own_conormals(const Patch& patch, const Points& old) {
-    const Points normals = one_sided_normals(patch, old);
-    return conormals(patch, old.rightCols(normals.cols()), normals);
+Points own_conormals(const Patch& patch, const OldPatch& old, double wavelength) {
+    Indices fixed(at(patch.vertex_count() - patch.free_count));
+    std::iota(fixed.begin(), fixed.end(), patch.free_count);
+    const LowPass smooth = low_pass(old.points, patch.triangles, fixed, wavelength);
+    Points normals = smooth.normals;
+    if (std::count(smooth.found.begin(), smooth.found.end(), 0) > 0) {
+        const Points narrow = one_sided_normals(patch, old.points);
+        for (int k = 0; k < static_cast<int>(fixed.size()); ++k) {
+            if (!smooth.found[at(k)]) normals.col(k) = narrow.col(k);
+        }
+    }
+    return conormals(patch, old.outline, normals);
 }
 
 }  // namespace
 
 double detail_wavelength(const Patch& patch, const Points& old) {
-    constexpr double edges = 10.0;
-    constexpr double share_of_patch = 0.25;
+    constexpr double edges = 12.0;
+    constexpr double share_of_patch = 0.4;
     double length = 0.0;
     for (const auto& [a, b] : patch.edge_ends) length += (old.col(a) - old.col(b)).norm();
     return std::min(edges * length / patch.edge_count(), share_of_patch);
 }
 
-std::optional<Points> old_base(const Patch& patch, const Stiffness& stiffness, const Points& old, double wavelength,
+std::optional<Points> old_base(const Patch& patch, const Stiffness& stiffness, const OldPatch& old, double wavelength,
                                const Progress& progress) {
-    BiharmonicOperator smoothing(patch, old.leftCols(patch.free_count));
+    BiharmonicOperator smoothing(patch, old.points.leftCols(patch.free_count));
     const double mass = mass_factor(wavelength);
     if (!smoothing.update_with_mass(stiffness, mass, progress)) return std::nullopt;
-    Points h = mixed_curvature_vectors(patch, stiffness, old, own_conormals(patch, old));
+    Points base = old.points;
+    base.rightCols(old.outline.cols()) = old.outline;
+    Points h = mixed_curvature_vectors(patch, stiffness, base, own_conormals(patch, old, wavelength));
     h.array().rowwise() /= 2.0 * stiffness.mass.transpose().array();
     const Eigen::MatrixXd first = smoothing.solve(stiffness.apply(patch, h, patch.free_count).transpose());
     const Eigen::MatrixXd left = mass * stiffness.mass.head(patch.free_count).asDiagonal() * first;
-    Points base = old;
     base.leftCols(patch.free_count) += (first - smoothing.solve(left)).transpose();
     return base;
 }

@@ -14,8 +14,8 @@ Points relaid(const Problem& problem, const Points& points, const Points& base, 
     const auto tangential = make_tangential_step(patch, conformal.weights, problem.fixed_points, progress);
     Points slid = points;
     slide(conformal, *tangential, measured_surface(problem, points).normals, most_steps, slid);
-    const bool worse =
-        !slid.allFinite() || flipped_triangles(patch, slid).size() > flipped_triangles(patch, points).size();
+    const std::size_t usual = flipped_triangles(patch, points).size() + flipped_triangles(patch, base).size();
+    const bool worse = !slid.allFinite() || flipped_triangles(patch, slid).size() > usual;
     return worse ? points : slid;
 }
 

@@ -1,6 +1,8 @@
 // Whether the edge that two triangles share should be replaced by the other diagonal.
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "geometry/cotangent.h"
 
 namespace fairing {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 
 #include "base/parallel.h"
 #include "geometry/one_ring_buffer.h"

@@ -17,12 +17,19 @@ constexpr double least_pivot = 1e-4;      // of the largest, where the columns a
 constexpr int least_rounds = 3;           // the direction is known from the second one on
 constexpr int most_rounds = 10;
 constexpr double settled = 1e-12;
+constexpr double settled_in_noise = 1e-3;  // standard errors
 constexpr double cos_of_widest_turn = 0.5;
 
 // Columns of the system: quadratic and cubic terms, the constant where the centre is free, then x and y; the heights
 // stand in the last one.
+constexpr Eigen::Index sphere_terms = 1;
 constexpr Eigen::Index quadratic_terms = 3;
 constexpr Eigen::Index cubic_terms = 4;
+
+Eigen::Index terms_of(Degree degree) {
+    if (degree == Degree::sphere) return sphere_terms;
+    return degree == Degree::cubic ? quadratic_terms + cubic_terms : quadratic_terms;
+}
 
 struct Round {
     Eigen::Vector2d slopes;  // along the frame's u and v
@@ -43,7 +50,7 @@ struct Axes {
 class Fit {
 public:
     Fit(const Vector3& centre, std::span<const Vector3> points, Degree degree, Centre at_centre)
-        : terms_(degree == Degree::cubic ? quadratic_terms + cubic_terms : quadratic_terms),
+        : terms_(terms_of(degree)),
           constants_(at_centre == Centre::free ? 1 : 0),
           offsets_(3, static_cast<Eigen::Index>(points.size()) + constants_),
           system_(offsets_.cols(), terms_ + constants_ + 3) {
@@ -53,6 +60,7 @@ public:
         }
         scale_ = std::sqrt(offsets_.colwise().squaredNorm().maxCoeff());
         if (scale_ > 0.0) offsets_ /= scale_;
+        weights_ = (-offsets_.colwise().squaredNorm().array() / (width_of_weights * width_of_weights)).exp();
     }
 
     [[nodiscard]] bool usable() const { return scale_ > 0.0 && offsets_.cols() > unknowns(); }
@@ -68,26 +76,27 @@ public:
 private:
     [[nodiscard]] Eigen::Index unknowns() const { return terms_ + constants_ + 2; }
 
-    [[nodiscard]] double weight(Eigen::Index k) const {
-        return std::exp(-offsets_.col(k).squaredNorm() / (width_of_weights * width_of_weights));
-    }
-
     void fill_row(Eigen::Index k, const Vector3& normal, const Axes& axes, double constant) {
         const Vector3 d = offsets_.col(k);
         const double x = axes.x.dot(d);
         const double y = axes.y.dot(d);
         const double height = normal.dot(d);
+        const double above = height - constant;
         auto row = system_.row(k);
-        row.head<3>() << x * x, x * y, y * y;
-        if (axes.known) {
-            row[0] += (height - constant) * (height - constant);
+        if (terms_ == sphere_terms) {
+            row[0] = x * x + y * y + above * above;
         } else {
-            row.head<3>() *= d.squaredNorm() / std::max(x * x + y * y, 1e-24);
+            row.head<3>() << x * x, x * y, y * y;
+            if (axes.known) {
+                row[0] += above * above;
+            } else {
+                row.head<3>() *= d.squaredNorm() / std::max(x * x + y * y, 1e-24);
+            }
         }
         if (terms_ > quadratic_terms) row.segment<4>(3) << x * x * x, x * x * y, x * y * y, y * y * y;
         row.segment(terms_, constants_).setOnes();
         row.tail<3>() << x, y, height;
-        row *= weight(k);
+        row *= weights_[k];
     }
 
     // From the triangular factor in place of the system. The slopes are the last unknowns: their covariance needs the
@@ -110,6 +119,7 @@ private:
                      error_of_curvature(factor) * residual};
         result.terms.setZero();
         result.terms.head(terms_) = solution.head(terms_);
+        if (terms_ == sphere_terms) result.terms[2] = result.terms[0];
         if (!result.slopes.allFinite() || !std::isfinite(result.error)) return std::nullopt;
         return result;
     }
@@ -118,21 +128,24 @@ private:
     template <typename Factor>
     [[nodiscard]] double error_of_curvature(const Factor& factor) const {
         VectorX covariance = VectorX::Zero(unknowns());
-        covariance[0] = 1.0;
-        covariance[2] = 1.0;
+        if (terms_ == sphere_terms) {
+            covariance[0] = 2.0;
+        } else {
+            covariance[0] = 1.0;
+            covariance[2] = 1.0;
+        }
         factor.transpose().template triangularView<Eigen::Lower>().solveInPlace(covariance);
         return covariance.norm();
     }
 
     [[nodiscard]] double root_mean_square_weight() const {
-        double sum = 0.0;
-        for (Eigen::Index k = 0; k < offsets_.cols(); ++k) sum += weight(k) * weight(k);
-        return std::sqrt(sum / static_cast<double>(offsets_.cols()));
+        return std::sqrt(weights_.squaredNorm() / static_cast<double>(offsets_.cols()));
     }
 
     Eigen::Index terms_;
     Eigen::Index constants_;
     Points offsets_;  // in units of the farthest
+    VectorX weights_;
     Eigen::MatrixXd system_;
     double scale_ = 0.0;
 };
@@ -186,21 +199,41 @@ std::optional<SlopeFit> fit_slopes(const Vector3& centre, std::span<const Vector
         const Vector3 direction = most_curved(round->terms, axes);
         take(result, *round, axes);
         axes = turned_into(direction, result.normal);
-        if (k + 1 >= least_rounds && change < settled) break;
+        if (k + 1 >= least_rounds && change < std::max(settled, settled_in_noise * round->error)) break;
     }
     if (!(result.normal.dot(start) > cos_of_widest_turn)) return std::nullopt;
     return result;
 }
 
-Vector3 SlopeFit::normal_at(const Vector3& offset) const {
-    const double across = x.dot(offset) / scale;
-    const double along = y.dot(offset) / scale;
-    const double above = (normal.dot(offset) - height) / scale;
+SlopeFit::Local SlopeFit::local(const Vector3& offset) const {
+    return {x.dot(offset) / scale, y.dot(offset) / scale, (normal.dot(offset) - height) / scale};
+}
+
+Vector3 SlopeFit::gradient(const Local& place) const {
+    const auto [across, along, above] = place;
     const double slope_x = 2.0 * terms[0] * across + terms[1] * along + 3.0 * terms[3] * across * across +
                            2.0 * terms[4] * across * along + terms[5] * along * along;
     const double slope_y = terms[1] * across + 2.0 * terms[2] * along + terms[4] * across * across +
                            2.0 * terms[5] * across * along + 3.0 * terms[6] * along * along;
-    return ((1.0 - 2.0 * terms[0] * above) * normal - slope_x * x - slope_y * y).normalized();
+    return (1.0 - 2.0 * terms[0] * above) * normal - slope_x * x - slope_y * y;
+}
+
+Vector3 SlopeFit::normal_at(const Vector3& offset) const { return gradient(local(offset)).normalized(); }
+
+Vector3 SlopeFit::foot(const Vector3& offset) const {
+    constexpr int newton_steps = 3;
+    Vector3 result = offset;
+    for (int k = 0; k < newton_steps; ++k) {
+        const Local place = local(result);
+        const auto [across, along, above] = place;
+        const double surface = terms[0] * (across * across + above * above) + terms[1] * across * along +
+                               terms[2] * along * along + terms[3] * across * across * across +
+                               terms[4] * across * across * along + terms[5] * across * along * along +
+                               terms[6] * along * along * along;
+        const Vector3 slope = gradient(place);
+        result -= scale * (above - surface) / slope.squaredNorm() * slope;
+    }
+    return result;
 }
 
 }  // namespace fairing

@@ -8,7 +8,7 @@
 
 namespace fairing {
 
-enum class Degree { quadratic, cubic };
+enum class Degree { sphere, quadratic, cubic };
 // Whether the surface passes through the centre, or the centre is a noisy point like the others.
 enum class Centre { met, free };
 
@@ -22,18 +22,30 @@ struct SlopeFit {
 
     // Unit, of the fitted surface beside the point at this offset from the centre.
     [[nodiscard]] Vector3 normal_at(const Vector3& offset) const;
+    // Where the surface is nearest to that point, as an offset from the centre, to first order in the distance.
+    [[nodiscard]] Vector3 foot(const Vector3& offset) const;
 
     // The terms belong to x², xy, y², x³, x²y, xy², y³ along `x` and `y`, all in units of `scale`.
     Vector3 x = Vector3::Zero();
     Vector3 y = Vector3::Zero();
     double scale = 1.0;
     Eigen::Vector<double, 7> terms = Eigen::Vector<double, 7>::Zero();
+
+private:
+    struct Local {
+        double across;
+        double along;
+        double above;
+    };
+    [[nodiscard]] Local local(const Vector3& offset) const;
+    [[nodiscard]] Vector3 gradient(const Local& place) const;
 };
 
 // Fits h = a (x² + h²) + b xy + c y² (and cubic terms) by least squares with Gaussian weights. h = ⟨d, n⟩ − c₀ for
 // d = p − centre; x and y run along and across the direction that is curved most. Along x this is a circle: spheres and
 // cylinders are met exactly, by any points, however far around they reach. c₀ = 0 where the centre is met. Where it is
 // free, c₀ is fitted and the centre is a point of weight 1. n, the direction and c₀ are iterated from `start`.
+// Degree::sphere: h = a (x² + y² + h²), with the same slopes and constant.
 // Nothing where the points are too few to estimate an error (6 and 10), don't determine the terms, or lead more than
 // 60° away from `start`.
 std::optional<SlopeFit> fit_slopes(const Vector3& centre, std::span<const Vector3> points, const Vector3& start,

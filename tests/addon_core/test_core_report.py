@@ -59,7 +59,7 @@ def test_of_several_objects_the_worst_counts(sphere: Fairing) -> None:
     assert (both.converged, both.residual, both.boundary_angle) == (False, 0.5, 3.0)
     assert both.free_vertices == 2 * len(sphere.vertices)
     assert both.join == (4.0, 30.0)
-    assert values(both)["Kink at the outline"] == "4°, at most 30°"
+    assert values(both)["Kink at the outline"] == "≤ 30°"
     assert states(both)["Kink at the outline"] == MISSED
     assert values(both)["Equation solved"] == "no further progress, yes"
     assert (both.verdict.grade, both.verdict.reason) == (UNUSABLE, f"Object 0: {BAD.reason}")

@@ -102,7 +102,7 @@ def test_crossings_count_where_the_original_had_none(
 def test_a_kink_deserves_a_look_at_its_vertices(fine: Evidence) -> None:
     kinked = replace(fine, join=Join(ints(7, 8, 9), np.array([12.5, 3.0, 31.0])))
     verdict = judged(kinked)
-    assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [7, 9])
+    assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [9, 7])
     assert verdict.reason == "A kink shows at 2 vertices of the outline, of 31° at worst"
     assert verdict.remedies == (GROW, SMOOTH_OUTLINE)
     assert judged(kinked, equation="MINIMAL").grade == GOOD

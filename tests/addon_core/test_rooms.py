@@ -23,7 +23,7 @@ ROOMS: dict[str, set[str]] = {
 GROUND = {"loading", "preferences", "translations"}  # modules beside the rooms that import none of them
 BLENDER = {
     "core": set(),
-    "host": {"bpy", "blf"},
+    "host": {"blf", "bpy", "mathutils"},
     "mesh": {"bpy", "bmesh"},
     "run": {"bpy"},
     "follow": {"bpy"},

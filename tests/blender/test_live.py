@@ -8,6 +8,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import bmesh
@@ -499,3 +500,28 @@ def test_forgetting_leaves_no_trace(live: Any) -> None:
     meshes.edit(obj)
     assert not bpy.ops.mesh.fair_live_forget.poll()
     assert not bpy.ops.mesh.fair_live_select.poll()
+
+
+@pytest.mark.parametrize(("solvable", "asked", "message"), [
+    ("answer", 1, ""), ("afresh", 2, ""), ("stand_in", 3, "Even Curvature stands in"), ("", 3, "Even Curvature"),
+])  # fmt: skip
+def test_another_surface_stands_in_only_where_none_is_found_afresh(
+    live: Any, solvable: str, asked: int, message: str
+) -> None:
+    """After steps that were too long to follow, the last answer may be no start: the region is solved anew then."""
+    tried: list[str] = []
+
+    class Region:
+        def __getattr__(self, name: str) -> Any:
+            def ask(*_arguments: Any) -> Any:
+                tried.append(name)
+                return np.zeros((1, 3)) if name == solvable else None
+
+            return ask
+
+    session = SimpleNamespace(region=Region(), positions=None, matrix=None, seconds=0.0)
+    answer = live._at_leisure(session)
+    assert (answer is None) == (not solvable)
+    assert tried == ["answer", "afresh", "stand_in"][:asked]
+    assert (live.message == "") == (message == "")
+    assert message in live.message

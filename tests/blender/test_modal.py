@@ -25,7 +25,7 @@ def started(obj: bpy.types.Object, faces: Any, go_on: threading.Event) -> Any:
         modal, cancel = original.modal, original.cancel
         _collect, _apply, _refuse = original._collect, original._apply, original._refuse
         _stop_watching = original._stop_watching
-        _timer, _begin, _options, _notes = None, 0.0, options, ()
+        _timer, _begin, _options, _notes, _way = None, 0.0, options, (), ""
 
         def report(self, kinds: set[str], text: str) -> None:
             told.append((kinds, text))
@@ -91,6 +91,7 @@ def test_few_vertices_go_to_the_background_when_they_take_long(
         invoke, _begin_with, _solve_or_start = original.invoke, original._begin_with, original._solve_or_start
         modal, cancel, _collect, _apply = original.modal, original.cancel, original._collect, original._apply
         _stop_watching, _refuse, _timer = original._stop_watching, original._refuse, None
+        _way = ""
 
         def _start_watching(self, _context: Any) -> None:
             watched.append(self)

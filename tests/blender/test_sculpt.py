@@ -59,8 +59,10 @@ def test_what_is_painted_is_faired_with_undo(sculpted: Any, source: str) -> None
     obj = bpy.data.objects["Sphere"]
     assert bpy.context.mode == "SCULPT"
     assert meshes.positions(obj).tobytes() == spoilt.tobytes()
+    assert meshes.report().undone
     bpy.ops.ed.redo()
     assert_round(bpy.data.objects["Sphere"])
+    assert not meshes.report().undone
     assert bpy.context.mode == "SCULPT"
 
 

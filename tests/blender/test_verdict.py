@@ -79,28 +79,105 @@ def test_write_it_all_the_same() -> None:
 
 
 def test_grow_by_a_ring() -> None:
-    obj, faces = meshes.domed_grid()
+    """The thorn is inside then: nothing is left of it."""
+    obj, faces = thorn()
     meshes.select(obj, faces)
     meshes.edit(obj)
     meshes.run()
+    assert meshes.report().verdict == "LOOK"
     free = meshes.report().free_vertices
     bpy.ops.mesh.select_all(action="DESELECT")
     assert bpy.ops.mesh.fair_again(way="GROW") == {"FINISHED"}
     assert len(selected_faces(obj)) > faces.sum()
     assert meshes.report().free_vertices > free
+    assert meshes.report().verdict == "GOOD"
     meshes.leave()
 
 
-@pytest.mark.parametrize(("way", "name", "value"), [
-    ("SMOOTH_OUTLINE", "outline", "MENDED"), ("EVEN_CURVATURE", "equation", "LEAST_VARIATION"),
-])  # fmt: skip
-def test_again_in_another_way(way: str, name: str, value: str) -> None:
+def thorn(height: float = 0.06) -> tuple[bpy.types.Object, Any]:
+    """Return a plain with one vertex of the outline standing up: a kink is left there."""
+    obj = meshes.grid(24)
+    points = meshes.positions(obj)
+    points[np.linalg.norm(points[:, :2] - [-0.5, 0.0], axis=1).argmin(), 2] = height
+    meshes.move(obj, points)
+    return obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.5)
+
+
+def test_again_with_even_curvature() -> None:
     obj, faces = kinked()
     meshes.select(obj, faces)
     meshes.edit(obj)
+    with pytest.raises(RuntimeError, match="Not usable"):
+        meshes.run(**NONE)
+    assert bpy.ops.mesh.fair_again(way="EVEN_CURVATURE") == {"FINISHED"}
+    assert module("run.last_run").options().equation == "LEAST_VARIATION"
+    assert meshes.report().written
+    meshes.leave()
+
+
+def test_again_with_a_smooth_outline() -> None:
+    obj = meshes.grid(16)
+    points = meshes.positions(obj)
+    points[:, 2] = 0.012 * np.random.default_rng(8).normal(size=len(points))
+    meshes.move(obj, points)
+    meshes.select(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.5))
+    meshes.edit(obj)
     meshes.run()
-    assert bpy.ops.mesh.fair_again(way=way) == {"FINISHED"}
-    assert getattr(module("run.last_run").options(), name) == value
+    worst = meshes.report().join_worst
+    assert bpy.ops.mesh.fair_again(way="SMOOTH_OUTLINE") == {"FINISHED"}
+    assert module("run.last_run").options().outline == "MENDED"
+    assert meshes.report().join_worst < worst
+    meshes.leave()
+
+
+def test_another_way_that_is_no_better_is_not_written() -> None:
+    """A good result is as good as it gets: the mesh, the report and the selection stay, the button goes."""
+    obj = meshes.grid(16)
+    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.5)
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    meshes.run()
+    report = meshes.report()
+    assert report.verdict == "GOOD"
+    report.remedies = "GROW,SMOOTH_OUTLINE"
+    free = report.free_vertices
+    before = meshes.contents_in_edit_mode(obj.name)
+    for way, left in (("SMOOTH_OUTLINE", "GROW"), ("GROW", "")):
+        assert bpy.ops.mesh.fair_again(way=way) == {"CANCELLED"}
+        assert (report.remedies, report.free_vertices) == (left, free)
+        assert meshes.contents_in_edit_mode(obj.name) == before
+        assert selected_faces(bpy.data.objects[obj.name]) == np.flatnonzero(faces).tolist()
+    meshes.leave()
+
+
+def test_the_region_is_selected_again() -> None:
+    """After the spots of a run and after Select Bad Outline."""
+    obj, faces = thorn()
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    meshes.run()
+    for other in (bpy.ops.mesh.fair_spots, bpy.ops.mesh.fair_select_bad):
+        assert other() == {"FINISHED"}
+        assert selected_faces(obj) == []
+        module("follow.watch").watch.look(bpy.context)
+        assert "mesh.fair_reselect" in drawn("VIEW3D_PT_fairing_selection")
+        assert bpy.ops.mesh.fair_reselect() == {"FINISHED"}
+        assert selected_faces(obj) == np.flatnonzero(faces).tolist()
+        module("follow.watch").watch.look(bpy.context)
+        assert "mesh.fair_reselect" not in drawn("VIEW3D_PT_fairing_selection")
+    meshes.leave()
+
+
+def test_the_view_goes_to_the_worst_spot() -> None:
+    obj, faces = thorn()
+    obj.location, obj.scale = (5.0, 0.0, 0.0), (2.0, 2.0, 2.0)
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    meshes.run()
+    place, normal, size = module("run.last_run").worst_spot(bpy.context)
+    assert np.linalg.norm(np.array(place) - [4.0, 0.0, 0.0]) < 0.6
+    assert normal[2] > 0.5 * np.linalg.norm(normal)
+    assert 2.0 < size < 10.0
     meshes.leave()
 
 
@@ -118,11 +195,9 @@ def test_a_changed_mesh_is_not_faired_again() -> None:
 
 def test_worst_spots_are_the_kinks() -> None:
     """One vertex of the outline stands out of a plane: a kink is left there, and nowhere else."""
-    obj = meshes.grid(24)
+    obj, faces = thorn()
     points = meshes.positions(obj)
-    points[np.linalg.norm(points[:, :2] - [-0.5, 0.0], axis=1).argmin(), 2] = 0.06
-    meshes.move(obj, points)
-    meshes.fair(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.5))
+    meshes.fair(obj, faces)
     report = meshes.report()
     assert (report.verdict, report.written) == ("LOOK", True)
     assert report.join_worst > 12.0

@@ -19,22 +19,33 @@ Eigen::Matrix3d some_rotation() {
 
 Vector3 wavy(double u, double v) { return {u, v, 0.02 * std::sin(31.0 * u + 2.0) * std::sin(40.0 * v)}; }
 
-// A patch with detail; wavelength in its own units.
+Points outline_of(const test::Single& single) {
+    return single.points.rightCols(single.patch().vertex_count() - single.patch().free_count);
+}
+
+// A patch with detail, none at its outline unless that is moved; wavelength in its own units.
 struct Skinned {
     test::Single single;
+    Points outline;
     std::unique_ptr<Skin> skin;
 
-    explicit Skinned(const test::Mesh& mesh, double wavelength)
-        : single(test::single_patch(mesh)), skin(Skin::read(single.patch(), single.points, wavelength, Progress())) {}
+    Skinned(const test::Mesh& mesh, double wavelength, const Vector3& shift = Vector3::Zero())
+        : single(test::single_patch(mesh)),
+          outline(outline_of(single).colwise() + shift),
+          skin(Skin::read(single.patch(), {single.points, outline}, wavelength, Progress())) {}
 
     [[nodiscard]] Points detail() const { return (single.points - skin->base()).leftCols(single.patch().free_count); }
     [[nodiscard]] double error(const Points& new_base, const Points& expected) const {
-        return (skin->detail_on(new_base) - expected).cwiseAbs().maxCoeff();
+        return error(new_base, expected, outline_of(single) - outline);
+    }
+    [[nodiscard]] double error(const Points& new_base, const Points& expected, const Points& at_outline) const {
+        return (skin->detail_on(new_base, at_outline) - expected).cwiseAbs().maxCoeff();
     }
 };
 
 Points smoothed(const test::Single& single, double wavelength) {
-    return *old_base(single.patch(), test::stiffness_of(single), single.points, wavelength, Progress());
+    const Points outline = outline_of(single);
+    return *old_base(single.patch(), test::stiffness_of(single), {single.points, outline}, wavelength, Progress());
 }
 
 }  // namespace
@@ -64,6 +75,16 @@ TEST_CASE("on the old base the old patch comes back") {
     const Skinned skinned(test::grid(24, 0.3, wavy), 0.4);
     REQUIRE(skinned.detail().norm() > 0.1);
     CHECK(skinned.error(skinned.skin->base(), skinned.detail()) < 1e-12);
+}
+
+TEST_CASE("a base may meet its outline beside the patch's own") {
+    const Skinned skinned(test::grid(24, 0.3, wavy), 0.4, {0.01, -0.02, 0.03});
+    const Points& base = skinned.skin->base();
+    CHECK(base.rightCols(skinned.outline.cols()) == skinned.outline);
+    CHECK(skinned.error(base, skinned.detail()) < 1e-12);
+    const Eigen::Matrix3d rotation = some_rotation();
+    const Points rim = rotation * (outline_of(skinned.single) - skinned.outline);
+    CHECK(skinned.error(rotation * base, rotation * skinned.detail(), rim) < 1e-12);
 }
 
 TEST_CASE("detail turns with its base, and keeps its size when that grows") {
@@ -139,12 +160,12 @@ TEST_CASE("what the new base turns over is told from what was turned over before
     CHECK(skinned.skin->turned_over(base, mirrored).size() > 1000);
 }
 
-TEST_CASE("Size is ten edges, a quarter of the patch at most") {
+TEST_CASE("Size is twelve edges, two fifths of the patch at most") {
     const auto wavelength = [](int n) {
         const test::Single single = test::single_patch(test::grid(n, 0.0, test::flat, false));
         return detail_wavelength(single.patch(), single.points);
     };
-    CHECK(wavelength(10) == 0.25);
+    CHECK(wavelength(10) == 0.4);
     // Two sides and a diagonal for each two triangles.
-    CHECK(wavelength(100) == doctest::Approx(0.1 * (2.0 + std::numbers::sqrt2) / 3.0).epsilon(0.01));
+    CHECK(wavelength(100) == doctest::Approx(0.12 * (2.0 + std::numbers::sqrt2) / 3.0).epsilon(0.01));
 }

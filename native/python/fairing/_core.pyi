@@ -75,6 +75,7 @@ def fair(
     reference: _Floats | None,
     neighbours: _Ints | None,
     weights: _Floats | None,
+    outside: _Ints | None,
     options: Options,
     paper: PaperOptions,
     progress: Callable[[float, str], bool | None] | None,

@@ -123,15 +123,17 @@ def fair(
         Of "G2": mean curvatures H at ``fixed``, in length⁻¹, −1/R on a sphere with outward normals; NaN where the
         curvature is not known. Default: fitted to the triangles outside.
     outside : (o, 3) int
-        Triangles around the patch, which stay: what "mended", "G2" and ``join`` look at. Triangles whose corners are
-        all ``fixed`` count among them.
+        Triangles around the patch, which stay: what "mended", "G2", ``detail`` and ``join`` look at. Triangles whose
+        corners are all ``fixed`` count among them.
     detail : float
         0 … 1: how much of the detail of ``reference`` is put back on the fair surface. The old patch is split into a
         smooth base and what is left, its detail, which the new surface takes over, turned as the base turns. Vertices
-        then sit conformally to the old base, whatever ``inner_fairness`` says. docs/detail.md.
+        then sit conformally to the old base, whatever ``inner_fairness`` says. With triangles ``outside`` both bases
+        meet the outline that these would have without their detail; so ``result.base`` does not pass through noise.
+        Normals given that are others than the triangles outside show stay. docs/detail.md.
     detail_size : float
-        Shape that repeats within less than this counts as detail: a wavelength as a share of D. 0: ten mean edges, a
-        quarter of D at most.
+        Shape that repeats within less than this counts as detail: a wavelength as a share of D. 0: twelve mean edges,
+        .4 D at most.
     start : "outline" | "given"
         "given": begin at the vertices given, which lie near the surface. Where the iteration does not find it from
         there, within a few steps and without folds, the outline alone decides as always. For the harmonic equations
@@ -203,6 +205,7 @@ def fair(
             m0,
             edges,
             weights,
+            around.outside,
             options,
             of_paper,
             progress,

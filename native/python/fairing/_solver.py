@@ -45,6 +45,9 @@ class Solver:
     jump while it is dragged; and it stays with the equation's own surface where its last answer led to one, however it
     grows. A larger move, or :meth:`change`, has the equation tried again.
 
+    With ``detail`` the base meets its outline as it is given: fairing.fair has a low-pass one where it knows the
+    triangles outside.
+
     ``initial_residual`` is that of the surface that the solve started from. An error or a cancelled solve leaves the
     solver usable, with the answers that it had. One call at a time: another one meanwhile, from a second thread
     or from ``progress``, raises RuntimeError. Different solvers are independent of each other.

@@ -36,6 +36,14 @@ def move_mouse(x: int, y: int) -> None:
     view()[0].event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
 
 
+def leave_popup() -> Story:
+    """Move the pointer away from a report that has popped up under it, and back."""
+    x, y = middle()
+    for place in ((x + 300, y + 250), (x - 300, y - 250), (x, y)):
+        move_mouse(*place)
+        yield 0.3
+
+
 def press(key: str, x: int, y: int, **modifiers: bool) -> None:
     """Press and release a key or mouse button at a place."""
     window = view()[0]

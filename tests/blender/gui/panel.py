@@ -8,10 +8,15 @@ import time
 from typing import Any
 
 import bpy
-from driver import Story, click, middle, move_mouse, press, view
+from driver import Story, click, in_view, middle, move_mouse, press, view
 
 ID = "bl_ext.user_default.intrinsic_fairing"
-KEY = "F19"  # runs the operator, so that it is run by an event as from a menu
+KEYS = {  # run operators, so that they are run by an event as from a menu
+    "mesh.fair_region": "F19",
+    "mesh.fair_fill": "F18",
+    "mesh.fair_spots": "F16",
+    "mesh.fair_live_far_side": "F15",
+}
 
 
 def extension() -> None:
@@ -19,8 +24,9 @@ def extension() -> None:
     bpy.ops.extensions.package_install_files(
         repo="user_default", filepath=os.environ["FAIRING_ZIP"], enable_on_install=True, overwrite=True
     )
-    keymap = bpy.context.window_manager.keyconfigs.addon.keymaps.new("Mesh", space_type="EMPTY")
-    keymap.keymap_items.new("mesh.fair_region", KEY, "PRESS")
+    keymap = bpy.context.window_manager.keyconfigs.addon.keymaps.new("3D View", space_type="VIEW_3D")
+    for operator, key in KEYS.items():
+        keymap.keymap_items.new(operator, key, "PRESS")
     bpy.context.preferences.view.show_splash = False
     # Else the sidebar's redraws take the whole 3D view along, eight times each: slow without a GPU.
     bpy.context.preferences.system.viewport_aa = "OFF"
@@ -51,8 +57,15 @@ def wait_until(condition: Any, seconds: float) -> Story:
         yield 0.05
 
 
-def run_operator() -> None:
-    press(KEY, *middle())
+def run_operator(operator: str = "mesh.fair_region") -> None:
+    """Run it by an event, with the properties that it had last."""
+    press(KEYS[operator], *middle())
+
+
+def run_with(operator: str, **properties: Any) -> None:
+    """Run an operator of meshes as a button with these properties does."""
+    with in_view():
+        getattr(bpy.ops.mesh, operator)("INVOKE_DEFAULT", True, **properties)
 
 
 def set_options(**options: Any) -> None:
@@ -75,7 +88,7 @@ def open_redo_panel() -> Story:
     if hud.height < 100:
         yield from click(hud.x + hud.width // 2, hud.y + hud.height // 2)
         yield 1.0
-    assert redo_panel().height > 200, "the redo panel is closed"
+    assert redo_panel().height > 100, "the redo panel is closed"
 
 
 def drag(steps: int, by: tuple[int, int], axis: str = "") -> Story:

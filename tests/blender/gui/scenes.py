@@ -36,7 +36,7 @@ def contents() -> bytes:
     return positions().tobytes() + repr(flags).encode()
 
 
-def _start(chosen: Any) -> int:
+def start(chosen: Any) -> int:
     """Enter edit mode with these polygons selected; return their number."""
     obj = bpy.context.object
     obj.data.shade_smooth()
@@ -47,7 +47,8 @@ def _start(chosen: Any) -> int:
     return int(np.count_nonzero(chosen))
 
 
-def _clear() -> None:
+def clear() -> None:
+    """Remove all objects, from whichever mode."""
     if bpy.context.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
     for obj in list(bpy.data.objects):
@@ -56,16 +57,16 @@ def _clear() -> None:
 
 def ear() -> int:
     """Suzanne, subdivided twice, an ear selected; return the number of faces selected."""
-    _clear()
+    clear()
     monkey = demo_scenes.suzanne()
-    return _start(demo_scenes.ear_faces(monkey.data))
+    return start(demo_scenes.ear_faces(monkey.data))
 
 
 def single_face() -> int:
     """Suzanne with one face selected: nothing is free to move."""
-    _clear()
+    clear()
     monkey = demo_scenes.suzanne()
-    return _start(np.arange(len(monkey.data.polygons)) == 700)
+    return start(np.arange(len(monkey.data.polygons)) == 700)
 
 
 def _profile(points: list[tuple[float, float]], counts: list[int]) -> Any:
@@ -79,7 +80,7 @@ def _profile(points: list[tuple[float, float]], counts: list[int]) -> Any:
 
 def bottle(around: int = 96) -> int:
     """A bottle whose shoulder, some 2k free vertices between body and neck, is selected; return its faces' number."""
-    _clear()
+    clear()
     profile = _profile([(0.8, -1.3), (0.8, -0.2), (0.3, 0.6), (0.3, 1.3)], [40, 23, 30])
     turns = 2.0 * np.pi * np.arange(around) / around
     points = [(r * np.cos(a), r * np.sin(a), z) for r, z in profile for a in turns]
@@ -88,23 +89,24 @@ def bottle(around: int = 96) -> int:
         for k in range(len(profile) - 1)
         for j in range(around)
     ]
-    _add("Bottle", points, faces)
+    add("Bottle", points, faces)
     rings = np.arange(len(faces)) // around
-    return _start((rings >= 40) & (rings < 63))
+    return start((rings >= 40) & (rings < 63))
 
 
 def hill(size: int = 100) -> int:
     """A plain of size × size quads with its middle selected, some 2k free vertices, the centre in the group "Pin"."""
-    _clear()
+    clear()
     bpy.ops.mesh.primitive_grid_add(x_subdivisions=size, y_subdivisions=size, size=3.0)
     obj = bpy.context.object
     centre = int(np.linalg.norm(demo_scenes.positions(obj.data), axis=1).argmin())
     obj.vertex_groups.new(name="Pin").add([centre], 1.0, "REPLACE")
     centres = np.array([polygon.center for polygon in obj.data.polygons])
-    return _start(np.linalg.norm(centres[:, :2], axis=1) < 0.8)
+    return start(np.linalg.norm(centres[:, :2], axis=1) < 0.8)
 
 
-def _add(name: str, points: Any, faces: Any) -> None:
+def add(name: str, points: Any, faces: Any) -> None:
+    """Add a mesh object and make it the active one."""
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata(points, [], faces)
     obj = bpy.data.objects.new(name, mesh)
@@ -139,15 +141,15 @@ def _select(mode: tuple[bool, bool, bool], chosen: Any) -> None:
 
 def hopeless() -> int:
     """A quarter of a coarse torus, 132 free vertices: the engine looks for a fair surface for seconds."""
-    _clear()
+    clear()
     bpy.ops.mesh.primitive_torus_add()
     centres = [polygon.center for polygon in bpy.context.object.data.polygons]
-    return _start(np.array([centre.x > 0.0 and centre.y > 0.0 for centre in centres]))
+    return start(np.array([centre.x > 0.0 and centre.y > 0.0 for centre in centres]))
 
 
 def large() -> int:
     """A sphere of 98k faces with a dented upper half; return the number of faces selected."""
-    _clear()
+    clear()
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=7)
     mesh = bpy.context.object.data
     points = np.empty(3 * len(mesh.vertices), dtype=np.float32)
@@ -159,4 +161,4 @@ def large() -> int:
     upper = points[:, 2] > 0.01
     corners = np.empty(3 * len(mesh.polygons), dtype=np.int32)
     mesh.polygons.foreach_get("vertices", corners)
-    return _start(upper[corners.reshape(-1, 3)].all(axis=1))
+    return start(upper[corners.reshape(-1, 3)].all(axis=1))

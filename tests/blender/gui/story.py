@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import time
 from collections.abc import Generator
@@ -13,7 +14,7 @@ import bpy
 import numpy as np
 import scenes
 from driver import Story, click, in_view, middle, play, press, screenshot, tell, type_text, view
-from live_chapters import live_follows_a_drag, live_follows_a_pin
+from live_chapters import live_finds_no_surface, live_follows_a_drag, live_follows_a_pin, live_moves_the_far_side
 from panel import (
     extension,
     module,
@@ -25,9 +26,18 @@ from panel import (
     set_options,
     wait_until,
 )
+from sculpt_chapters import face_set_by_a_click, fills_a_hole, masked_in_sculpt_mode
+from verdict_chapters import (
+    again_in_other_ways,
+    joins_curvature,
+    keeps_detail,
+    marks_before_a_run,
+    not_usable,
+    worth_a_look,
+)
 
-VERTICES_FIELD = 188  # pixels from the redo panel's upper edge down to the field
-KEEP_SPACING = 70  # from there down to the entry of its menu
+VERTICES_FIELD = 207  # pixels from the redo panel's upper edge down to the field
+KEEP_SPACING = 93  # from there down to the entry of its menu
 
 
 def seconds_of_redraw() -> Generator[float, None, float]:
@@ -292,25 +302,43 @@ def in_german() -> Story:
     yield 0.5
 
 
+CHAPTERS = (
+    look_before_running,
+    told_before_running,
+    fair_it,
+    adjust_in_redo_panel,
+    cancel_a_hopeless_run,
+    cancel_a_long_run,
+    finish_a_long_run,
+    redo_after_a_long_run,
+    in_german,
+    judge,
+    marks_before_a_run,
+    worth_a_look,
+    not_usable,
+    again_in_other_ways,
+    keeps_detail,
+    joins_curvature,
+    fills_a_hole,
+    masked_in_sculpt_mode,
+    face_set_by_a_click,
+    live_follows_a_drag,
+    live_follows_a_pin,
+    live_moves_the_far_side,
+    live_finds_no_surface,
+)
+
+
 def story() -> Story:
+    """Play every chapter, or those that FAIRING_CHAPTERS names."""
+    chosen = os.environ.get("FAIRING_CHAPTERS", "").split()
     extension()
     yield 1.0
     press("ESC", *middle())  # the splash screen of a first start
     yield 0.5
-    for chapter in (
-        look_before_running,
-        told_before_running,
-        fair_it,
-        adjust_in_redo_panel,
-        cancel_a_hopeless_run,
-        cancel_a_long_run,
-        finish_a_long_run,
-        redo_after_a_long_run,
-        in_german,
-        judge,
-        live_follows_a_drag,
-        live_follows_a_pin,
-    ):
+    for chapter in CHAPTERS:
+        if chosen and chapter.__name__ not in chosen:
+            continue
         tell(f"== {chapter.__name__}")
         yield from chapter()
 

@@ -1,0 +1,60 @@
+// The detail of one component's old patch, kept between calls, and the outline without detail that both bases meet.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "api/component.h"
+#include "base/progress.h"
+#include "detail/skin.h"
+
+namespace fairing {
+
+// Where a base meets its outline: 3 × fixed vertices, in the caller's units.
+struct BaseOutline {
+    Points points;
+    Points normals;      // unit; zero at pins
+    bool moved = false;  // whether it is not the outline itself
+};
+
+// A surface with detail: 3 × local vertices each, in the caller's units.
+struct Dressed {
+    Points base;
+    Points detail;  // all of it; zero where nothing may change
+    Indices turned_over;
+};
+
+// Refers to the patch.
+class KeptSkin {
+public:
+    explicit KeptSkin(const Patch& patch) : patch_(patch) {}
+
+    // Reads the skin off data.reference, unless it was read off the same one. `size`: of FairOptions. Throws Cancelled.
+    void read(const ComponentData& data, double size, const Progress& progress);
+    void forget() { skin_.reset(); }
+    // False where no detail can be read off: warnings() say so.
+    [[nodiscard]] bool found() const { return skin_ != nullptr; }
+    [[nodiscard]] const Diagnostics& warnings() const { return warnings_; }
+    // Low-pass where triangles lie outside. Normals that the caller gave stay where they are others than triangles
+    // outside show.
+    [[nodiscard]] BaseOutline outline(const ComponentData& data) const;
+    [[nodiscard]] const Points& base() const { return skin_->base(); }
+    // The detail on a new base (3 × local vertices, in the caller's units). data.weights blend both bases, and keep the
+    // detail that `base` loses where they are below 1.
+    [[nodiscard]] Dressed put_back(const ComponentData& data, const Points& new_base) const;
+    // Spent on reading since the last time that this was asked.
+    [[nodiscard]] double take_seconds() { return std::exchange(seconds_, 0.0); }
+
+private:
+    [[nodiscard]] BaseOutline low_pass_outline(const ComponentData& data, const Points& positions) const;
+
+    const Patch& patch_;
+    std::unique_ptr<Skin> skin_;
+    Points read_off_;          // 3 × local vertices, the caller's
+    Normalisation unit_{};     // of that
+    double wavelength_ = 0.0;  // share of D
+    double seconds_ = 0.0;
+    Diagnostics warnings_;
+};
+
+}  // namespace fairing

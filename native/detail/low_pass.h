@@ -1,0 +1,22 @@
+// What the edge of a rough surface would be without the roughness.
+#pragma once
+
+#include "base/types.h"
+
+namespace fairing {
+
+// At vertices on the edge of a surface.
+struct LowPass {
+    Points points;            // 3 × k; the given one where nothing was found
+    Points normals;           // 3 × k, unit, likewise zero
+    std::vector<char> found;  // per vertex
+};
+
+// Places and normals at `vertices` (each on the edge of the surface that `triangles` form, or within it) of that
+// surface without what repeats within less than `wavelength`, in units of the points. Spheres and quadrics are fitted
+// a quarter of a wavelength apart, over reaches from half a wavelength to two; of each place the fit is taken whose
+// normal is known best among those that no less certain one contradicts (Lepski 1990): wide fits where the surface has
+// one curvature, narrow ones where it has not. Each vertex takes the mean of the fits around it. Throws Cancelled.
+LowPass low_pass(const Points& points, const Triangles& triangles, const Indices& vertices, double wavelength);
+
+}  // namespace fairing

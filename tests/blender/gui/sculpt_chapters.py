@@ -1,0 +1,132 @@
+"""Outside edit mode: what is masked or a face set in sculpt mode, with strokes and undo; and holes that are filled."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import bpy
+import numpy as np
+import spoilt_scenes
+from driver import Story, in_view, middle, press, screenshot, tell
+from panel import open_redo_panel, open_tab, report, run_operator, run_with, wait_until
+
+
+def _reported() -> bool:
+    return bool(report().free_vertices)
+
+
+def _undo(redo: bool = False) -> Story:
+    press("Z", *middle(), ctrl=True, shift=redo)
+    yield 1.0
+
+
+def _sculpt() -> None:
+    """Turn the mask round: a step of sculpt mode's own. Brushes are assets, which not every Blender brings."""
+    with in_view():
+        bpy.ops.paint.mask_flood_fill("EXEC_DEFAULT", True, mode="INVERT")
+
+
+def _now() -> np.ndarray:
+    """Positions and mask (n, 4) of the object, whichever mode it is in."""
+    return np.column_stack([spoilt_scenes.object_positions(), spoilt_scenes.mask()])
+
+
+def masked_in_sculpt_mode() -> Story:
+    """The mask turned round and back, Fair Masked, the mask turned round; then back step by step, and forth again."""
+    tell(f"masked: {spoilt_scenes.masked()} faces")
+    with in_view():
+        bpy.ops.view3d.view_all()
+        bpy.ops.object.mode_set(mode="SCULPT")
+        bpy.ops.ed.undo_push(message="start")
+    open_tab()
+    yield 1.0
+    screenshot("sculpt_before")
+    states = [_now()]
+    for _ in range(2):
+        _sculpt()
+        yield 0.7
+        states.append(_now())
+    report().free_vertices = 0
+    run_with("fair_masked", source="MASK")
+    yield from wait_until(_reported, 30.0)
+    yield 1.0
+    assert bpy.context.mode == "SCULPT"
+    assert report().written, report().reason
+    states.append(_now())
+    screenshot("sculpt_after")
+    _sculpt()
+    yield 0.7
+    states.append(_now())
+    for first, second in pairwise(states):
+        assert np.abs(first - second).max() > 1e-4, "a step did nothing"
+    yield from _back_and_forth(states)
+
+
+def _back_and_forth(states: list[np.ndarray]) -> Story:
+    """Undo until the start, and redo until the end: each state must come, in its order."""
+    for redo, wanted in ((False, states[-2::-1]), (True, states[1:])):
+        for k, state in enumerate(wanted):
+            for _ in range(3):  # a step of another kind may lie in between
+                yield from _undo(redo)
+                if np.array_equal(_now(), state):
+                    break
+            else:
+                raise AssertionError(f"{'redo' if redo else 'undo'} {k} led elsewhere")
+            assert bpy.context.mode == "SCULPT", bpy.context.mode
+    screenshot("sculpt_redone")
+
+
+def face_set_by_a_click() -> Story:
+    """Two face sets: the operator asks which, a click answers."""
+    tell(f"face sets: {spoilt_scenes.face_sets()} faces in one of them")
+    with in_view():
+        bpy.ops.view3d.view_all()
+        bpy.ops.object.mode_set(mode="SCULPT")
+        bpy.ops.ed.undo_push(message="start")
+    open_tab()
+    yield 0.7
+    before = _now()
+    report().free_vertices = 0
+    run_with("fair_masked", source="FACE_SET")
+    yield 0.7
+    screenshot("face_set_asks")
+    press("LEFTMOUSE", *middle())
+    yield from wait_until(_reported, 30.0)
+    yield 1.0
+    assert report().written, report().reason
+    assert np.abs(_now() - before).max() > 1e-2
+    screenshot("face_set_after")
+    yield from _undo()
+    np.testing.assert_array_equal(_now(), before)
+    assert report().undone, "a run that was undone is shown as the last"
+    for menu in ("VIEW3D_MT_mask", "VIEW3D_MT_face_sets"):
+        with in_view():
+            bpy.ops.wm.call_menu(name=menu)
+        yield 0.7
+        screenshot(f"menu_{menu[10:]}")
+        press("ESC", *middle())
+        yield 0.3
+
+
+def fills_a_hole() -> Story:
+    """One vertex of a hole's outline is selected: the hole is filled, and the redo panel makes it finer."""
+    tell(f"hole: {spoilt_scenes.hole()} vertex selected")
+    faces = spoilt_scenes.face_count()
+    with in_view():
+        bpy.ops.view3d.view_all()
+    open_tab()
+    yield 0.7
+    screenshot("fill_before")
+    run_operator("mesh.fair_fill")
+    yield 1.5
+    screenshot("fill_after")
+    assert spoilt_scenes.face_count() > faces
+    yield from open_redo_panel()
+    screenshot("fill_redo")
+    yield from _undo()
+    assert spoilt_scenes.face_count() == faces
+    with in_view():
+        bpy.ops.object.mode_set(mode="OBJECT")
+    open_tab()
+    yield 0.7
+    screenshot("object_mode")

@@ -1,0 +1,173 @@
+"""What the story's later chapters play on: outlines in a bad state, half a sphere, masks, face sets, a hole."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import bmesh
+import bpy
+import numpy as np
+import scenes
+
+
+def centres() -> Any:
+    """(f, 3): the middles of the active object's polygons."""
+    return np.array([polygon.center for polygon in bpy.context.object.data.polygons])
+
+
+def move(change: Callable[[Any], Any]) -> None:
+    """Move the active object's vertices (n, 3) in object mode."""
+    mesh = bpy.context.object.data
+    flat = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+    mesh.vertices.foreach_get("co", flat)
+    mesh.vertices.foreach_set("co", np.asarray(change(flat.reshape(-1, 3)), dtype=np.float32).ravel())
+    mesh.update()
+
+
+def object_positions() -> Any:
+    """The positions (n, 3) of the active object's mesh outside edit mode."""
+    mesh = bpy.context.object.data
+    flat = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+    mesh.vertices.foreach_get("co", flat)
+    return flat.reshape(-1, 3)
+
+
+def mask() -> Any:
+    """The mask (n,) of the active object; zeros where there is none."""
+    mesh = bpy.context.object.data
+    values = np.zeros(len(mesh.vertices), dtype=np.float32)
+    if ".sculpt_mask" in mesh.attributes:
+        mesh.attributes[".sculpt_mask"].data.foreach_get("value", values)
+    return values
+
+
+def selected_vertices() -> list[int]:
+    """The vertices that are selected in edit mode."""
+    bm = bmesh.from_edit_mesh(bpy.context.object.data)
+    return [vertex.index for vertex in bm.verts if vertex.select]
+
+
+def face_count() -> int:
+    """The number of faces in edit mode."""
+    return len(bmesh.from_edit_mesh(bpy.context.object.data).faces)
+
+
+def _hills(points: Any) -> Any:
+    points[:, 2] = 0.25 * np.cos(1.6 * points[:, 0]) * np.cos(1.3 * points[:, 1])
+    return points
+
+
+def spoilt_rim(size: int = 48) -> int:
+    """A gentle hill, its top selected; on one side the faces around the outline are crumpled."""
+    scenes.clear()
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=size, y_subdivisions=size, size=3.0)
+    random = np.random.default_rng(4)
+
+    def crumple(points: Any) -> Any:
+        points = _hills(points)
+        band = (np.abs(np.linalg.norm(points[:, :2], axis=1) - 0.85) < 0.12) & (points[:, 0] > 0.3)
+        points[band] += random.normal(0.0, 0.03, (np.count_nonzero(band), 3))
+        return points
+
+    move(crumple)
+    return scenes.start(np.linalg.norm(centres()[:, :2], axis=1) < 0.8)
+
+
+def thorn(size: int = 24) -> int:
+    """A plain, its middle selected; one vertex of the outline stands up."""
+    scenes.clear()
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=size, y_subdivisions=size, size=2.0)
+
+    def raised(points: Any) -> Any:
+        points[np.linalg.norm(points[:, :2] - [-0.5, 0.0], axis=1).argmin(), 2] = 0.06
+        return points
+
+    move(raised)
+    return scenes.start(np.abs(centres()[:, :2]).max(axis=1) < 0.5)
+
+
+def _ball() -> None:
+    scenes.clear()
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=64, ring_count=32)
+
+
+def dome() -> int:
+    """A sphere, its upper half selected: no surface with a bulge of 0.3 fits."""
+    _ball()
+    return scenes.start(centres()[:, 2] > 0.0)
+
+
+def grainy() -> int:
+    """A sphere with a skin, swollen on top, the swelling selected."""
+    scenes.clear()
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=6)
+
+    def swollen(points: Any) -> Any:
+        grain = 0.012 * np.sin(45.0 * points[:, :1]) * np.sin(45.0 * points[:, 1:2])
+        return points * (1.0 + grain + 0.35 * np.exp(-8.0 * (1.0 - points[:, 2:])))
+
+    move(swollen)
+    found = centres()
+    return scenes.start(found[:, 2] / np.linalg.norm(found, axis=1) > 0.6)
+
+
+def egg() -> int:
+    """A flattened sphere, its top selected along a ring of edges."""
+    scenes.clear()
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=64, ring_count=32)
+    move(lambda points: points * np.array([1.3, 1.3, 0.8]))
+    return scenes.start(centres()[:, 2] > 0.36)
+
+
+def _squashed_ball() -> Any:
+    """Add a sphere with a shaken upper half; return its faces (f,) of that half."""
+    _ball()
+    random = np.random.default_rng(0)
+
+    def squashed(points: Any) -> Any:
+        upper = points[:, 2] > 0.01
+        points[upper, 2] *= 0.3
+        points[upper] += random.normal(0.0, 0.01, (np.count_nonzero(upper), 3))
+        return points
+
+    upper = centres()[:, 2] > 0.0
+    move(squashed)
+    bpy.context.object.data.shade_smooth()
+    return upper
+
+
+def masked() -> int:
+    """A sphere in object mode, its squashed upper half masked; return the number of faces."""
+    upper = _squashed_ball()
+    mesh = bpy.context.object.data
+    values = np.zeros(len(mesh.vertices), dtype=np.float32)
+    for face in np.flatnonzero(upper):
+        values[list(mesh.polygons[face].vertices)] = 1.0
+    mesh.attributes.new(".sculpt_mask", "FLOAT", "POINT").data.foreach_set("value", values)
+    return int(np.count_nonzero(upper))
+
+
+def face_sets() -> int:
+    """A sphere in object mode, its squashed upper half one face set, the rest another; return the first one's size."""
+    upper = _squashed_ball()
+    layer = bpy.context.object.data.attributes.new(".sculpt_face_set", "INT", "FACE")
+    layer.data.foreach_set("value", np.where(upper, 7, 3).astype(np.int32))
+    return int(np.count_nonzero(upper))
+
+
+def hole() -> int:
+    """A sphere with a hole in front, in vertex mode with one vertex of the outline selected."""
+    _ball()
+    obj = bpy.context.object
+    obj.data.shade_smooth()
+    bpy.ops.object.mode_set(mode="EDIT")
+    bm = bmesh.from_edit_mesh(obj.data)
+    towards = np.array([0.5, -0.7, 0.5]) / np.linalg.norm([0.5, -0.7, 0.5])
+    gone = [face for face in bm.faces if np.dot(face.calc_center_median().normalized(), towards) > 0.85]
+    bmesh.ops.delete(bm, geom=gone, context="FACES")
+    bmesh.update_edit_mesh(obj.data)
+    rim = [vertex.index for vertex in bm.verts if vertex.is_boundary]
+    scenes.select_vertices(np.arange(len(bm.verts)) == rim[0])
+    bpy.ops.ed.undo_push(message="scene")
+    return 1

@@ -1,0 +1,155 @@
+"""After a run in the window: good, worth a look, not usable; what the buttons do, and marks before a run."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+import numpy as np
+import scenes
+import spoilt_scenes
+from driver import Story, in_view, leave_popup, middle, press, screenshot, tell
+from panel import module, open_tab, report, run_operator, run_with, set_options, wait_until
+
+
+def reported() -> bool:
+    return bool(report().free_vertices)
+
+
+def idle() -> bool:
+    return not bpy.context.window_manager.fairing_progress.running
+
+
+def run_and_wait(**options: Any) -> Story:
+    """Run the operator with its defaults, apart from these."""
+    set_options(**options)
+    report().free_vertices = 0
+    run_operator()
+    yield from wait_until(reported, 60.0)
+    yield 1.0
+
+
+def _look() -> Story:
+    """Wait until the panel has looked at the selection."""
+    watch = module("follow.watch").watch
+    open_tab()
+
+    def looked() -> bool:
+        return bool(not watch.stale and watch.found)
+
+    yield from wait_until(looked, 10.0)
+    yield 0.7
+
+
+def _framed(make: Any) -> Story:
+    tell(f"{make.__name__}: {make()} faces selected of {len(bpy.context.object.data.polygons)}")
+    with in_view():
+        bpy.ops.view3d.view_selected()
+    open_tab()
+    yield 0.7
+
+
+def marks_before_a_run() -> Story:
+    """A spoilt rim: its vertices are marked, and the buttons below mend it."""
+    set_options()
+    yield from _framed(spoilt_scenes.spoilt_rim)
+    yield from _look()
+    (found,) = module("follow.watch").watch.found
+    assert len(found.bad) > 3, found
+    tell(f"bad outline vertices: {len(found.bad)}")
+    screenshot("marks")
+    for name in ("fair_select_bad", "fair_reselect", "fair_grow"):
+        with in_view():
+            getattr(bpy.ops.mesh, name)("EXEC_DEFAULT", True)
+        yield from _look()
+        screenshot(f"marks_{name}")
+    (found,) = module("follow.watch").watch.found
+    tell(f"bad outline vertices after Grow Until Smooth: {len(found.bad)}")
+
+
+def worth_a_look() -> Story:
+    """A vertex of the outline stands out: written, and the button shows where."""
+    yield from _framed(spoilt_scenes.thorn)
+    yield from run_and_wait()
+    assert (report().verdict, report().written) == ("LOOK", True), report().reason
+    tell(f"look here: {report().reason}")
+    screenshot("look")
+    run_operator("mesh.fair_spots")
+    yield 1.0
+    chosen = spoilt_scenes.selected_vertices()
+    assert 0 < len(chosen) < 10, chosen
+    screenshot("look_spots")
+    for _ in range(2):  # the selection of the spots, then the run
+        press("Z", *middle(), ctrl=True)
+        yield 0.7
+    assert report().undone
+    screenshot("look_undone")
+
+
+def not_usable() -> Story:
+    """Half a sphere with a bulge that it hasn't got: nothing changes, the reason and the buttons are there."""
+    yield from _framed(spoilt_scenes.dome)
+    before = scenes.positions()
+    yield from run_and_wait(equation="CONSTANT", bulge=0.3)
+    assert (report().verdict, report().written) == ("UNUSABLE", False), report().reason
+    assert scenes.positions().tobytes() == before.tobytes()
+    tell(f"not usable: {report().reason}")
+    screenshot("not_usable")
+    yield from leave_popup()
+    run_with("fair_again", way="WRITE")
+
+    def written() -> bool:
+        return bool(report().written)
+
+    yield from wait_until(written, 20.0)
+    yield 1.0
+    assert scenes.positions().tobytes() != before.tobytes()
+    screenshot("not_usable_written")
+    press("Z", *middle(), ctrl=True)
+    yield 1.0
+    screenshot("not_usable_undone")
+    np.testing.assert_array_equal(scenes.positions(), before)
+
+
+def again_in_other_ways() -> Story:
+    """Each of the other buttons runs once more."""
+    for way in ("GROW", "SMOOTH_OUTLINE", "EVEN_CURVATURE"):
+        yield from _framed(spoilt_scenes.thorn)
+        yield from run_and_wait()
+        before, first = scenes.positions(), report().join_worst
+        run_with("fair_again", way=way)
+        yield 1.0
+        yield from wait_until(idle, 60.0)
+        yield 1.0
+        moved = np.abs(scenes.positions() - before).max() > 1e-6
+        tell(f"{way}: {report().verdict} {first:.1f}° → {report().join_worst:.1f}°, written: {moved}")
+        assert moved == (report().join_worst < first), "what was written and what is reported differ"
+        screenshot(f"again_{way.lower()}")
+
+
+def keeps_detail() -> Story:
+    """A swelling goes, its grain stays."""
+    yield from _framed(spoilt_scenes.grainy)
+    yield from run_and_wait()
+    screenshot("detail_without")
+    smooth = scenes.positions()
+    press("Z", *middle(), ctrl=True)
+    yield 0.7
+    yield from run_and_wait(detail=1.0)
+    assert np.abs(scenes.positions() - smooth).max() > 1e-3
+    tell(f"keep detail: {report().verdict} {report().reason}, {report().seconds:.2f} s")
+    screenshot("detail_with")
+
+
+def joins_curvature() -> Story:
+    """Reflections at the join of an egg: with its slope, then with its curvature."""
+    settings = bpy.context.window_manager.fairing_overlay
+    settings.scope = "OBJECT"
+    settings.show = True
+    for name, value in (("tangent", "G1"), ("curvature", "G2")):
+        yield from _framed(spoilt_scenes.egg)
+        yield from run_and_wait(continuity=value)
+        tell(f"join {value}: {report().verdict}, {report().warnings or 'no warnings'}")
+        screenshot(f"join_{name}")
+    settings.show = False
+    set_options()
