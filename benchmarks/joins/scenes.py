@@ -80,6 +80,7 @@ def panel(size: int = 60) -> Scene:
 def ear() -> Scene:
     """Suzanne without an ear, as in the demo (needs bpy)."""
     import bpy
+
     import demo_scenes
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
