@@ -8,5 +8,6 @@ else:
     from .core.verdict import NotUsable
     from .registration import register, unregister
     from .run.fair_mesh import fair_mesh
+    from .run.fill_mesh import fill_mesh
 
-__all__ = ["NotUsable", "fair_mesh", "register", "unregister"]
+__all__ = ["NotUsable", "fair_mesh", "fill_mesh", "register", "unregister"]

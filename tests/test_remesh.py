@@ -90,3 +90,95 @@ def whole_sphere() -> tuple[FloatArray, holes.IntArray]:
     vertices, triangles = holes.bowl(24)
     filled = fairing.fill(vertices, triangles)
     return np.concatenate([vertices, filled.vertices]), np.concatenate([triangles, filled.triangles])
+
+
+def across(patch: shapes.Patch) -> holes.IntArray:
+    """Edges (k, 2) on a shortest path from outline to outline through the top."""
+    neighbours: dict[int, set[int]] = {}
+    for a, b in holes.edges_of(patch.triangles).tolist():
+        neighbours.setdefault(a, set()).add(b)
+        neighbours.setdefault(b, set()).add(a)
+    top = int(np.argmax(patch.vertices[:, 2]))
+    before = {top: top}
+    reached = [top]
+    for vertex in reached:
+        for other in sorted(neighbours[vertex] - before.keys()):
+            before[other] = vertex
+            reached.append(other)
+    rim = patch.fixed[np.argsort(patch.vertices[patch.fixed, 0])]
+    edges = []
+    for end in (int(rim[0]), int(rim[-1])):
+        while end != top:
+            edges.append((end, before[end]))
+            end = before[end]
+    return np.array(edges, dtype=np.int32)
+
+
+@pytest.mark.parametrize("factor", [0.6, 2.0])
+def test_kept_edges_are_in_the_new_mesh_and_nothing_runs_across(cap: shapes.Patch, factor: float) -> None:
+    lines = across(cap)
+    result = fairing.remesh(
+        cap.vertices, cap.triangles, fixed=cap.fixed, fixed_normals=cap.fixed_normals,
+        kept=lines, spacing=factor * rim_edge(cap),
+    )  # fmt: skip
+    assert result.converged
+    assert abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 2e-5  # they move with the surface
+    number = {v: v for v in cap.fixed.tolist()}
+    number |= {int(v): len(cap.vertices) + k for k, v in enumerate(result.old) if v >= 0}
+    assert set(number) - set(cap.fixed.tolist()) == set(lines.ravel().tolist()) - set(cap.fixed.tolist())
+    sides = {tuple(side) for side in holes.edges_of(result.triangles).tolist()}
+    kept = {tuple(sorted((number[a], number[b]))) for a, b in lines.tolist()}
+    assert kept <= sides
+    # Old and new triangles fall into two parts alike.
+    walls = {tuple(sorted(line)) for line in lines.tolist()}
+    new_part, old_part = parts(result.triangles, kept), parts(cap.triangles, walls)
+    where = {v: k for k, v in enumerate(np.flatnonzero(result.old < 0) + len(cap.vertices))}
+    origin = result.origin[0][result.old < 0]
+    pairs = {
+        (new_part[t], old_part[origin[where[v]]])
+        for t, corners in enumerate(result.triangles.tolist())
+        for v in corners
+        if v in where
+    }
+    assert len(pairs) == 2
+
+
+def parts(triangles: holes.IntArray, walls: set[tuple[int, int]]) -> list[int]:
+    """The part of each triangle, parts being joined across edges that are no walls."""
+    at: dict[tuple[int, int], list[int]] = {}
+    for t, corners in enumerate(triangles.tolist()):
+        for k in range(3):
+            at.setdefault(tuple(sorted((corners[k], corners[(k + 1) % 3]))), []).append(t)
+    label = list(range(len(triangles)))
+
+    def root(t: int) -> int:
+        while label[t] != t:
+            t = label[t]
+        return t
+
+    for side, both in at.items():
+        if side not in walls and len(both) == 2:
+            label[root(both[0])] = root(both[1])
+    return [root(t) for t in range(len(triangles))]
+
+
+def test_kept_edges_must_be_edges(cap: shapes.Patch) -> None:
+    with pytest.raises(ValueError, match="not joined by an edge"):
+        fairing.remesh(
+            cap.vertices, cap.triangles, fixed=cap.fixed, kept=[[int(cap.fixed[0]), int(cap.fixed[-1] // 2)]]
+        )
+
+
+def test_interpolated_values_are_linear_on_a_plane_and_never_overshoot() -> None:
+    patch = shapes.cap(300, shapes.Style(jitter=0.3, seed=2), half_angle=60)
+    flat = patch.vertices * (1.0, 1.0, 0.0)
+    rim = patch.fixed
+    values = fairing.interpolate(flat, patch.triangles, rim, flat[rim, :2])
+    np.testing.assert_allclose(values, flat[:, :2], atol=0.02)
+    noise = np.random.default_rng(1).normal(size=(len(rim), 4))
+    carried = fairing.interpolate(patch.vertices, patch.triangles, rim, noise)
+    assert (carried >= noise.min(axis=0)).all()
+    assert (carried <= noise.max(axis=0)).all()
+    assert np.array_equal(carried[rim], noise)
+    with pytest.raises(ValueError, match="needs a value"):
+        fairing.interpolate(flat, patch.triangles, rim[1:], flat[rim[1:], :2])

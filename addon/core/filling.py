@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 import numpy as np
@@ -11,16 +13,17 @@ import fairing
 
 from .around import nearby
 from .arrays import Floats, Ints
+from .border import BorderRefusal
 from .engine import Progress, sub_range
 from .findings import Origin
 from .harmonic import harmonic, nearest
-from .options import ACCEPT
+from .options import ACCEPT, LEAST_SPACING
 from .region import MeshArrays, to_local
 from .verdict import GOOD, LOOK, UNUSABLE, VISIBLE, Verdict
 from .words import counted, in_mesh_words
 
+_TOO_MANY = "Bridge joins all {} selected outlines in one surface: select only those that belong together"
 SHAPES = ("HARMONIC", "MINIMAL_ENERGY", "LEAST_VARIATION")
-LEAST_SPACING = 0.05  # of the outline's edges
 
 
 @dataclass(frozen=True)
@@ -55,6 +58,7 @@ class Piece:
     positions: Floats  # (k, 3) of the new vertices, in the mesh's own coordinates
     triangles: Ints  # (m, 3) in numbers of `points`, wound like the mesh
     verdict: Verdict
+    result: fairing.FillResult
     notes: tuple[str, ...] = field(default=())
 
     @property
@@ -110,7 +114,10 @@ def _piece(
     outline = np.concatenate(loops)
     vertices, around = _surroundings(world, outline)
     given = [np.searchsorted(vertices, loop) for loop in loops]
-    with in_mesh_words(Origin(vertices, around, np.zeros(len(around), dtype=np.int64))):
+    with (
+        _joining(options, outline, len(loops)),
+        in_mesh_words(Origin(vertices, around, np.zeros(len(around), np.int64))),
+    ):
         result = fairing.fill(
             world.positions[vertices], around, given, bridge=options.bridge, spacing=_spacing(world, loops, options),
             equation=options.equation.lower(), progress=progress,
@@ -125,7 +132,8 @@ def _piece(
         points=points,
         positions=to_local(result.vertices, matrix),
         triangles=triangles[:, ::-1] if world.mirrored else triangles,
-        verdict=judge(world, outline, (points, triangles), result),
+        verdict=_advised(judge(world, outline, (points, triangles), result), options, len(loops)),
+        result=result,
         notes=_notes(options, result),
     )
 
@@ -177,6 +185,24 @@ def judge(world: MeshArrays, outline: Ints, surface: tuple[Floats, Ints], result
         worst = float(result.join.max())
         return Verdict(LOOK, f"A kink shows at {text} of the outline, of {worst:.0f}° at worst", np.unique(outline))
     return Verdict(GOOD)
+
+
+def _advised(verdict: Verdict, options: FillOptions, loops: int) -> Verdict:
+    """Return the verdict with what to do about it where too many outlines were joined."""
+    if verdict.grade != UNUSABLE or not options.bridge or loops < 3:
+        return verdict
+    return replace(verdict, reason=f"{verdict.reason}. {_TOO_MANY.format(loops)}")
+
+
+@contextmanager
+def _joining(options: FillOptions, outline: Ints, loops: int) -> Iterator[None]:
+    """Let the engine's MeshErrors tell what to do about outlines that no surface joins."""
+    try:
+        yield
+    except fairing.MeshError as error:
+        if not options.bridge or error.code != "NONMANIFOLD_EDGE":
+            raise
+        raise BorderRefusal(f"No surface joins these outlines. {_TOO_MANY.format(loops)}", outline) from error
 
 
 def _crossing(world: MeshArrays, outline: Ints, points: Floats, triangles: Ints) -> int:

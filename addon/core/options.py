@@ -16,6 +16,8 @@ PIN_SLOPES = ("AUTOMATIC", "CREASE", "SMOOTH", "AVERAGE")
 OPEN_BORDERS = ("HELD", "FAIRED")
 OUTLINES = ("GIVEN", "MENDED")
 ACCEPT = ("USABLE", "ALL")
+MESHES = ("KEEP", "NEW")
+LEAST_SPACING = 0.05  # of the outline's edges
 
 _CHOICES = {
     "equation": EQUATIONS,
@@ -29,6 +31,7 @@ _CHOICES = {
     "open_border": OPEN_BORDERS,
     "outline": OUTLINES,
     "accept": ACCEPT,
+    "mesh": MESHES,
 }
 
 
@@ -56,6 +59,8 @@ class FairOptions:
     open_border: str = "HELD"  # FAIRED: it becomes fair, too
     outline: str = "GIVEN"  # MENDED: a noisy outline is smoothed first, with two rings around it
     accept: str = "USABLE"  # ALL: written whatever it is worth
+    mesh: str = "KEEP"  # NEW: other vertices and triangles for the same surface
+    spacing: float = 1.0  # of a new mesh, as a factor of the outline's edges
 
     def __post_init__(self) -> None:
         for name, choices in _CHOICES.items():
@@ -65,6 +70,8 @@ class FairOptions:
         for name in ("factor", "detail", "detail_size", "pin_radius"):
             if not 0.0 <= getattr(self, name) <= 1.0:
                 raise ValueError(f"{name}: expected a number from 0 to 1, got {getattr(self, name)!r}")
+        if not self.spacing >= LEAST_SPACING:
+            raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
 
     @classmethod
     def of(cls, properties: Any) -> FairOptions:

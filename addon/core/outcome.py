@@ -25,7 +25,7 @@ class Fairing:
 
     vertices: Ints  # (k,) mesh indices, ascending
     positions: Floats  # (k, 3)
-    result: fairing.FairResult  # for the patch, in world space
+    result: fairing.FairResult | fairing.RemeshResult  # for the patch, in world space
     warnings: tuple[str, ...]
     before: Quality
     after: Quality

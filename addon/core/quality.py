@@ -66,6 +66,17 @@ def compare(patch: Patch, points: tuple[Floats, Floats], clear: bool) -> tuple[Q
     return _measured(patch, before, crossing(patch, before) if look else None), result
 
 
+def measure(patch: Patch, points: Floats) -> Quality:
+    """Measure one state of a patch, points (p, 3); crossings of a large one are not looked for."""
+    look = len(patch.triangles) <= LARGE
+    return _measured(patch, points, crossing(patch, points) if look else None)
+
+
+def mean_area(points: Floats, triangles: Ints) -> float:
+    """Return the mean area of some triangles."""
+    return 0.5 * float(np.linalg.norm(area_vectors(points, triangles), axis=1).mean())
+
+
 def _measured(patch: Patch, points: Floats, crossing: Ints | None) -> Quality:
     return Quality(folded(patch, points), np.unique(patch.faces[degenerate(points, patch.triangles)]), crossing)
 

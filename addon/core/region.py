@@ -36,6 +36,7 @@ class MeshArrays:
     textured: bool = False  # the patch has a UV map
     hidden: Mask | None = None  # (f,); None: nothing is
     notes: tuple[str, ...] = ()  # what turned out odd when it was read
+    lines: Mask | None = None  # (e,) edges that a new mesh keeps; None: not asked for
 
     def transformed(self, matrix: Floats) -> MeshArrays:
         """Return the mesh under a 4×4 affine map, wound so that outside stays outside.

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-import fairing
-
 from .arrays import Ints
+from .engine import Result
 from .options import FairOptions
 from .outcome import Fairing
 from .quality import Quality
@@ -48,6 +47,7 @@ class Report:
     verdict: Verdict  # of the object with the worst; its spots are that object's
     written: bool
     join: tuple[float, float]  # degrees: typical, worst
+    deed: str = "faired"  # what was done to so many vertices
 
 
 def make_report(named: list[Named], options: FairOptions, seconds: float, notes: tuple[str, ...] = ()) -> Report:
@@ -81,7 +81,7 @@ def standing(report: Report) -> tuple[int, float]:
     return GRADES.index(report.verdict.grade), report.join[1]
 
 
-def _widest(result: fairing.FairResult) -> float:
+def _widest(result: Result) -> float:
     return float(result.boundary_angle.max(initial=0.0))
 
 
@@ -172,7 +172,7 @@ def _endings(outcomes: list[Fairing]) -> str:
     return f"{told}, on a proxy" if by_proxy else told
 
 
-def _residual_text(result: fairing.FairResult) -> str:
+def _residual_text(result: Result) -> str:
     """Say how far down the residual came: alone its size, which grows with the mesh's resolution, tells little."""
     return f"{result.initial_residual:.0e} → {result.residual:.0e}"
 
@@ -193,4 +193,5 @@ def summary(report: Report) -> str:
     if not report.written:
         return f"{grade}: {report.verdict.reason}. Nothing was changed"
     reason = f". {report.verdict.reason}" if report.verdict.reason else ""
-    return f"{grade}: faired {counted(report.free_vertices, 'vertex', 'vertices')} in {report.seconds:.2f} s{reason}"
+    vertices = counted(report.free_vertices, "vertex", "vertices")
+    return f"{grade}: {report.deed} {vertices} in {report.seconds:.2f} s{reason}"

@@ -13,6 +13,7 @@ from .around import numbered, outside_triangles, wide_outside, wound_alike
 from .arrays import Floats
 from .boundary import prescribed_curvatures, prescribed_normals
 from .engine import Progress
+from .findings import Origin
 from .memory import Memory, digest
 from .options import FairOptions
 from .outline import outline_notes, precision_note
@@ -119,13 +120,18 @@ def _solve_again(
 
 
 def _solved(problem: engine.Problem, result: fairing.FairResult, warnings: tuple[str, ...]) -> Solved:
+    told, failures, hints = told_by(result, problem.origin)
+    return Solved(problem, result, warnings + told, failures, hints)
+
+
+def told_by(result: fairing.FairResult | fairing.RemeshResult, origin: Origin) -> tuple[tuple[str, ...], ...]:
+    """Return what the engine warned of, in sentences: what is told in any case, why there is no answer, hints."""
     told = tuple(warning for warning in result.warnings if not _is_measured(warning))
     apart = (*NO_ANSWER, *HINTS)
-    rest, failed, hints = (
-        sentences(tuple(warning for warning in told if belongs(warning.code)), problem.origin)
+    return tuple(
+        sentences(tuple(warning for warning in told if belongs(warning.code)), origin)
         for belongs in (lambda code: code not in apart, NO_ANSWER.__contains__, HINTS.__contains__)
     )
-    return Solved(problem, result, warnings + rest, failed, hints)
 
 
 def _is_measured(told: fairing.Diagnostic) -> bool:

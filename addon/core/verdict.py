@@ -9,7 +9,7 @@ import numpy as np
 import fairing
 
 from .arrays import Ints
-from .engine import Problem, bad_outline
+from .engine import Problem, Result, bad_outline
 from .options import FairOptions
 from .quality import Join, Quality
 from .words import counted
@@ -35,7 +35,7 @@ class Verdict:
 class NotUsable(fairing.SolverError):
     """The result was not written: it folds, crosses itself, or is none. `result` has it, `elements` the vertices."""
 
-    def __init__(self, verdict: Verdict, result: fairing.FairResult) -> None:
+    def __init__(self, verdict: Verdict, result: Result) -> None:
         super().__init__(verdict.reason)
         self.elements = verdict.spots
         self.result = result
@@ -46,7 +46,7 @@ class Evidence:
     """What a verdict follows from."""
 
     problem: Problem
-    result: fairing.FairResult
+    result: Result
     failures: tuple[str, ...]  # the engine's own words for why there is no answer
     before: Quality
     after: Quality
@@ -80,7 +80,7 @@ def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str,
     was_tried = any(name == "variation" for name, _ in evidence.result.way)
     offered = {
         GROW: has_outside,
-        SMOOTH_OUTLINE: has_outside and options.outline == "GIVEN",
+        SMOOTH_OUTLINE: has_outside and options.outline == "GIVEN" and options.mesh == "KEEP",
         EVEN_CURVATURE: bad and not was_tried and options.equation in ("HARMONIC", "MINIMAL_ENERGY"),
         WRITE: bad and options.accept != "ALL",
     }

@@ -16,6 +16,7 @@ from ..core.options import FairOptions
 from ..core.region import MeshArrays, free_vertices
 from ..core.selection import enclosed_faces
 from ..core.symmetry import with_image
+from .marked_lines import lines
 
 # Read and written as float32, which is what Blender stores; doubles in between.
 
@@ -104,6 +105,12 @@ def writable_key(obj: bpy.types.Object) -> str:
     return "" if key is None or key == obj.data.shape_keys.reference_key else key.name
 
 
+def check_new_faces(obj: bpy.types.Object | None) -> None:
+    """Raise ValueError where an object has something that new faces can't be given."""
+    if obj is not None and any(modifier.type == "MULTIRES" for modifier in obj.modifiers):
+        raise ValueError("A Multiresolution modifier can't be kept: apply or remove it first")
+
+
 def edit_face_count(mesh: bpy.types.Mesh) -> int:
     """Return the number of faces of a mesh in edit mode, at no cost."""
     return len(bmesh.from_edit_mesh(mesh).faces)
@@ -140,11 +147,11 @@ def read_mesh(mesh: bpy.types.Mesh, faces: Ints, options: FairOptions) -> MeshAr
     if faces.size and not 0 <= faces.min() <= faces.max() < len(selected):
         raise IndexError(f"faces: expected polygon indices below {len(selected)}")
     selected[faces] = True
-    group = _group_index(_user_of(mesh), options.pin_group) if options.pin_group else None
+    group = _group_index(user_of(mesh), options.pin_group) if options.pin_group else None
     return replace(_arrays(mesh, selected, group, options), mirror_x=mesh.use_mirror_x)
 
 
-def _user_of(mesh: bpy.types.Mesh) -> bpy.types.Object | None:
+def user_of(mesh: bpy.types.Mesh) -> bpy.types.Object | None:
     """Return an object that shows the mesh: vertex groups have their names there."""
     return next((obj for obj in bpy.data.objects if obj.data == mesh), None)
 
@@ -180,6 +187,8 @@ def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: Fa
         hidden=hidden if hidden.any() else None,
         textured=_is_textured(mesh, in_patch[corner_faces]) if options.inner_fairness == "AUTOMATIC" else False,
     )
+    if options.mesh == "NEW":
+        arrays = replace(arrays, lines=lines(mesh, arrays))
     return _pinned(arrays, mesh, group, options)
 
 

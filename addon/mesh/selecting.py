@@ -56,6 +56,14 @@ def deselect(bm: Any) -> None:
         element.select = False
 
 
+def select_new_faces(bm: Any, faces: list[Any]) -> None:
+    """Select exactly these faces of a bmesh."""
+    deselect(bm)
+    bm.select_history.clear()
+    for face in faces:
+        face.select_set(True)
+
+
 def face_count(mesh: bpy.types.Mesh) -> int:
     """Return the number of faces of a mesh in edit mode, at no cost."""
     return len(bmesh.from_edit_mesh(mesh).faces)

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..core.arrays import Floats, Ints
 from ..core.outcome import Fairing
+from ..core.remeshing import Remeshed
 from ..host.polling import require, require_edit_mode
 from ..mesh import mesh_io, selecting
 from .job import Task, objects_in_mode
@@ -37,14 +38,18 @@ _last = _Last()
 
 def remember(tasks: list[Task], outcomes: list[Fairing]) -> None:
     """Keep both states of a run that was written."""
-    _last.pairs = tuple(
-        _pair(task.object_name, task.mesh.positions, outcome) for task, outcome in zip(tasks, outcomes, strict=True)
-    )
+    _remember([(task.object_name, task.mesh.positions, outcome) for task, outcome in zip(tasks, outcomes, strict=True)])
 
 
 def remember_one(object_name: str, before: Floats, outcome: Fairing) -> None:
     """Keep both states of a run outside edit mode; before: the positions (n, 3) of the whole mesh."""
-    _last.pairs = (_pair(object_name, before, outcome),)
+    _remember([(object_name, before, outcome)])
+
+
+def _remember(runs: list[tuple[str, Floats, Fairing]]) -> None:
+    _last.pairs = tuple(_pair(*run) for run in runs)
+    if any(isinstance(outcome, Remeshed) for _, _, outcome in runs):
+        forget()  # there are no pairs
 
 
 def _pair(object_name: str, before: Floats, outcome: Fairing) -> Pair:

@@ -7,6 +7,7 @@ from ..core.engine import Progress
 from ..core.options import FairOptions
 from ..core.outcome import Fairing, outcome
 from ..core.region import MeshArrays
+from ..core.remeshing import remesh_arrays
 from ..core.solve import Kept, solve
 
 
@@ -21,5 +22,7 @@ def fair_arrays(
 
     Raises what `solve` and `outcome` do. `mesh` is never changed. Any thread will do.
     """
+    if options.mesh == "NEW":
+        return remesh_arrays(mesh, matrix, options, progress)
     solved = solve(mesh, matrix, options, progress, kept)
     return outcome(mesh, matrix, options, solved)

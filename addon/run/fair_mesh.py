@@ -13,19 +13,21 @@ import fairing
 from ..core.engine import Progress
 from ..core.options import FairOptions
 from ..core.outcome import Fairing
+from ..core.remeshing import Remeshed
 from ..core.report import is_written
 from ..core.verdict import NotUsable
-from ..mesh import mesh_io
+from ..mesh import mesh_io, remeshed
 from .fair_arrays import fair_arrays
 
 
 def fair_mesh(
-    mesh: bpy.types.Mesh, faces: Sequence[int], *, matrix: Any = None, **properties: Any
-) -> fairing.FairResult:
+    mesh: bpy.types.Mesh, /, faces: Sequence[int], *, matrix: Any = None, **properties: Any
+) -> fairing.FairResult | fairing.RemeshResult:
     """Make the polygons `faces` of `mesh` the fair surface of their surroundings.
 
     matrix: 4×4, to the space in which the surface is fair; default: the mesh's own.
-    properties: those of `mesh.fair_region`, with the same names and defaults.
+    properties: those of `mesh.fair_region`, with the same names and defaults. With mesh="NEW" the faces are replaced
+    by others, which come last in the mesh.
     Returns the `fairing` result for the patch: its vertices are those of the visible `faces`, in
     ascending order, in the space of `matrix`.
     Raises fairing.MeshError (elements: vertices of `mesh`), ValueError, TypeError for a property
@@ -47,11 +49,20 @@ def fair_faces(
     progress: Progress | None = None,
 ) -> Fairing:
     """Do the work of `fair_mesh`, with all its errors but NotUsable; what is not usable is not written."""
+    if options.mesh == "NEW":
+        mesh_io.check_new_faces(mesh_io.user_of(mesh))
     arrays = mesh_io.read_mesh(mesh, np.asarray(faces, dtype=np.int64), options)
     world = np.eye(4) if matrix is None else np.array(matrix, dtype=np.float64)
     if world.shape != (4, 4):
         raise ValueError(f"matrix: expected 4×4 numbers, got shape {world.shape}")
     outcome = fair_arrays(arrays, world, options, progress)
     if is_written([outcome], options):
-        mesh_io.write_mesh(mesh, outcome.vertices, outcome.positions)
+        _write(mesh, outcome)
     return outcome
+
+
+def _write(mesh: bpy.types.Mesh, outcome: Fairing) -> None:
+    if isinstance(outcome, Remeshed):
+        remeshed.write_mesh(mesh, outcome)
+    else:
+        mesh_io.write_mesh(mesh, outcome.vertices, outcome.positions)

@@ -1,6 +1,8 @@
-"""The operator that fills holes and joins outlines, at once: a hole takes a tenth of a second."""
+"""The operator that fills holes and joins outlines: at once where it takes but a moment, else in the background."""
 
+import time
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import bpy
@@ -9,17 +11,21 @@ import numpy as np
 from ..core.arrays import Floats, Ints
 from ..core.border import NO_BORDER, border_loops
 from ..core.engine import REFUSALS, Progress, sub_range
-from ..core.filling import FillOptions, Piece, fill, worst
+from ..core.fill_report import make_fill_report
+from ..core.filling import FillOptions, Piece, fill
 from ..core.options import FairOptions
 from ..core.region import MeshArrays
-from ..core.verdict import GOOD, UNUSABLE
-from ..core.words import counted
+from ..core.report import summary
 from ..host.context import edited_objects
 from ..host.polling import require, require_edit_mode
 from ..mesh import filled, mesh_io, selecting
+from ..preferences import background_from
 from ..translations import translated
+from . import compare, last_run
+from .background import Watched, at_once
 from .fill_properties import FillProperties
-from .job import Refused, objects_in_mode
+from .job import Refused, is_unchanged, objects_in_mode
+from .report_properties import store
 
 
 @dataclass(frozen=True)
@@ -30,6 +36,12 @@ class Task:
     mesh: MeshArrays
     matrix: Floats  # (4, 4) to world space
     loops: list[Ints]
+    key: str  # the shape key that was read, as mesh_io.writable_key names it
+
+    @property
+    def size(self) -> int:
+        """About how many vertices will be new."""
+        return sum(len(loop) ** 2 for loop in self.loops) // 12
 
 
 def read(context: bpy.types.Context) -> list[Task]:
@@ -40,47 +52,39 @@ def read(context: bpy.types.Context) -> list[Task]:
         if not seeds.any():
             continue
         try:
-            filled.check_kept(obj)
-            mesh_io.writable_key(obj)
+            mesh_io.check_new_faces(obj)
+            key = mesh_io.writable_key(obj)
             mesh = mesh_io.read_own_mesh(obj, FairOptions())
             loops = border_loops(mesh, seeds)
         except ValueError as cause:
             raise Refused(obj.name, cause) from cause
-        tasks.append(Task(obj.name, mesh, np.array(obj.matrix_world, dtype=np.float64), loops))
+        tasks.append(Task(obj.name, mesh, np.array(obj.matrix_world, dtype=np.float64), loops, key))
     return tasks
 
 
 def solve(tasks: list[Task], options: FillOptions, progress: Progress) -> list[list[Piece]]:
-    """Solve task after task, on arrays alone; raises Refused, also where a result is not to be written."""
+    """Solve task after task, on arrays alone; raises Refused and fairing.Cancelled."""
     outcomes = []
     for i, task in enumerate(tasks):
         part = sub_range(progress, i / len(tasks), (i + 1) / len(tasks))
         try:
-            pieces = fill(task.mesh, task.matrix, task.loops, options, part)
+            outcomes.append(fill(task.mesh, task.matrix, task.loops, options, part))
         except REFUSALS as cause:
             raise Refused(task.object_name, cause) from cause
-        verdict = worst(pieces)
-        if verdict.grade == UNUSABLE and options.accept != "ALL":
-            raise Refused(task.object_name, NotWritten(verdict.reason, verdict.spots))
-        outcomes.append(pieces)
     return outcomes
 
 
-class NotWritten(ValueError):
-    """A surface that is not usable; `elements` are the vertices of its outline."""
-
-    def __init__(self, reason: str, elements: Ints) -> None:
-        super().__init__(f"{reason}. Nothing was changed")
-        self.elements = elements
-
-
-class MESH_OT_fair_fill(FillProperties, bpy.types.Operator):
+class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
     """Fill the holes whose outlines are selected, in part or whole, or join them,
     with the fair surface that continues their surroundings"""
 
     bl_idname = "mesh.fair_fill"
     bl_label = "Fair Fill"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
+
+    _tasks: list[Task]
+    _options: FillOptions
+    _begin: float
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -98,53 +102,77 @@ class MESH_OT_fair_fill(FillProperties, bpy.types.Operator):
             self.layout.prop(self, name)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Fill in every object in edit mode, or in none of them where one is refused."""
+        """Fill in every object in edit mode, or in none of them where one is refused; return when done."""
+        return self._begin_with(context, self._solve_at_once)
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        """Fill in the background where that takes long enough to be noticed."""
+        return self._begin_with(context, self._solve_or_start)
+
+    def _begin_with(self, context: bpy.types.Context, go_on: Any) -> set[str]:
+        self._begin = time.perf_counter()
         context.view_layer.update()  # a script may just have changed an object's matrix
         try:
-            options = FillOptions.of(self)
-            tasks = read(context)
-            if not tasks:
+            self._options = FillOptions.of(self)
+            self._tasks = read(context)
+            if not self._tasks:
                 self.report({"ERROR"}, translated(NO_BORDER))
                 return {"CANCELLED"}
-            outcomes = self._solved(context, tasks, options)
+            answer: set[str] = go_on(context)
+            return answer
         except Refused as refusal:
             return self._refuse(context, refusal)
-        self._write(context, tasks, outcomes)
+
+    def _solve_at_once(self, context: bpy.types.Context) -> set[str]:
+        return self._apply(context, at_once(context, partial(solve, self._tasks, self._options)))
+
+    def _solve_or_start(self, context: bpy.types.Context) -> set[str]:
+        expected = sum(task.size for task in self._tasks) / self._options.spacing**2
+        large = expected >= background_from(context)
+        return self._start(context, partial(solve, self._tasks, self._options), large)
+
+    def _is_current(self, context: bpy.types.Context) -> bool:
+        objects = objects_in_mode(context)
+        return context.mode == "EDIT_MESH" and all(
+            task.object_name in objects and is_unchanged(objects[task.object_name], task.mesh, task.key)
+            for task in self._tasks
+        )
+
+    def _apply(self, context: bpy.types.Context, outcomes: list[list[Piece]]) -> set[str]:
+        named = [(task.object_name, pieces) for task, pieces in zip(self._tasks, outcomes, strict=True)]
+        report = make_fill_report(named, self._options, time.perf_counter() - self._begin)
+        last_run.forget()  # there are no faces to fair again, and no two states to compare
+        if not report.written:
+            store(context.window_manager.fairing_report, report)
+            return self._leave(context, report.verdict.spots, summary(report))
+        compare.forget()
+        added = self._write(context, named)
+        notes = tuple(note for each in added for note in each.notes)
+        distortion = max(each.distortion for each in added)
+        report = make_fill_report(named, self._options, time.perf_counter() - self._begin, distortion, notes)
+        store(context.window_manager.fairing_report, report)
+        for warning in report.warnings:
+            self.report({"WARNING"}, warning)
+        self.report({"INFO"}, summary(report))
         return {"FINISHED"}
 
-    def _solved(self, context: bpy.types.Context, tasks: list[Task], options: FillOptions) -> list[list[Piece]]:
-        manager = context.window_manager
-        manager.progress_begin(0.0, 1.0)
-        tell: Progress = lambda fraction, _stage: manager.progress_update(fraction)  # noqa: E731
-        try:
-            return solve(tasks, options, tell)
-        finally:
-            manager.progress_end()
-
-    def _write(self, context: bpy.types.Context, tasks: list[Task], outcomes: list[list[Piece]]) -> None:
+    def _write(self, context: bpy.types.Context, named: list[tuple[str, list[Piece]]]) -> list[filled.Added]:
         objects = objects_in_mode(context)
-        for task, pieces in zip(tasks, outcomes, strict=True):
-            seams = filled.add_faces(objects[task.object_name], pieces)
-            for text in _notes(pieces, seams):
-                self.report({"WARNING"}, f"{task.object_name}: {text}")
-        written = [piece for pieces in outcomes for piece in pieces]
-        faces = counted(sum(len(piece.triangles) for piece in written), "face", "faces")
-        self.report({"INFO"}, f"{counted(len(written), 'surface', 'surfaces')}, {faces}")
+        return [filled.add_to_edit_mesh(objects[name], pieces) for name, pieces in named]
+
+    def _leave(self, context: bpy.types.Context, spots: Ints, reason: str) -> set[str]:
+        """Leave every mesh as it is, and show the outline where the surface is no good."""
+        if len(self._tasks) == 1:
+            self._show(context, self._tasks[0].object_name, spots)
+        self.report({"ERROR"}, reason)
+        return {"CANCELLED"}
 
     def _refuse(self, context: bpy.types.Context, refusal: Refused) -> set[str]:
-        elements: Any = np.asarray(getattr(refusal.cause, "elements", ()), dtype=np.int64)
-        if elements.size:
-            context.tool_settings.mesh_select_mode = (True, False, False)
-            selecting.select_vertices(objects_in_mode(context)[refusal.object_name].data, elements)
+        self._show(context, refusal.object_name, np.asarray(getattr(refusal.cause, "elements", ()), dtype=np.int64))
         self.report({"ERROR"}, str(refusal))
         return {"CANCELLED"}
 
-
-def _notes(pieces: list[Piece], seams: int) -> list[str]:
-    """Return a sentence for each thing that is worth a look."""
-    notes = [note for piece in pieces for note in piece.notes]
-    notes += [piece.verdict.reason for piece in pieces if piece.verdict.grade != GOOD]
-    if seams:
-        text = counted(seams, "vertex of the outline lies", "vertices of the outline lie")
-        notes.append(f"{text} on a seam of UVs or colours: new faces begin with the mean there")
-    return list(dict.fromkeys(notes))
+    def _show(self, context: bpy.types.Context, name: str, vertices: Ints) -> None:
+        if len(vertices):
+            context.tool_settings.mesh_select_mode = (True, False, False)
+            selecting.select_vertices(objects_in_mode(context)[name].data, vertices)

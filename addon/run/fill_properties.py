@@ -6,8 +6,9 @@ No postponed annotations here: Blender reads them as property definitions.
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
-from ..core.filling import LEAST_SPACING, SHAPES
-from .properties import ACCEPT, EQUATIONS
+from ..core.filling import SHAPES
+from ..core.options import LEAST_SPACING
+from .properties import ACCEPT, EQUATIONS, SPACING
 
 
 class FillProperties:
@@ -26,8 +27,7 @@ class FillProperties:
     )
     spacing: FloatProperty(
         name="Spacing",
-        description="Length of the new edges away from the outline, measured by the outline's edges. "
-        "The surface stays the same",
+        description=SPACING,
         default=1.0,
         min=LEAST_SPACING,
         soft_min=0.25,

@@ -16,9 +16,10 @@ from ..core.memory import Memory
 from ..core.options import FairOptions
 from ..core.outcome import Fairing
 from ..core.region import MeshArrays, free_vertices
+from ..core.remeshing import Remeshed
 from ..core.solve import Kept, Solved
 from ..host.context import edited_objects
-from ..mesh import mesh_io
+from ..mesh import mesh_io, remeshed
 from .fair_arrays import fair_arrays
 
 memory: Memory[Solved] = Memory(4)  # enough for the objects of one redo panel; forgotten at unregistering
@@ -61,6 +62,8 @@ def read(context: bpy.types.Context, options: FairOptions) -> list[Task]:
 def read_object(obj: bpy.types.Object, options: FairOptions) -> Task:
     """Read one object in edit mode; raises ValueError where it can't be faired."""
     key = mesh_io.writable_key(obj)
+    if options.mesh == "NEW":
+        mesh_io.check_new_faces(obj)
     mesh = mesh_io.read_edit_mesh(obj, options)
     matrix = np.array(obj.matrix_world, dtype=np.float64)
     return Task(obj.name, mesh, matrix, int(np.count_nonzero(free_vertices(mesh))), key)
@@ -98,20 +101,28 @@ def is_current(context: bpy.types.Context, tasks: list[Task]) -> bool:
     """Tell whether the objects are still in edit mode, with the vertices, faces and shape key that were read."""
     objects = objects_in_mode(context)
     return context.mode == "EDIT_MESH" and all(
-        task.object_name in objects and _is_unchanged(objects[task.object_name], task) for task in tasks
+        task.object_name in objects and is_unchanged(objects[task.object_name], task.mesh, task.key) for task in tasks
     )
 
 
-def _is_unchanged(obj: bpy.types.Object, task: Task) -> bool:
+def is_unchanged(obj: bpy.types.Object, mesh: MeshArrays, key: str) -> bool:
+    """Tell whether an object in edit mode still has the mesh and the shape key that were read."""
     try:
-        same_key = mesh_io.writable_key(obj) == task.key
+        same_key = mesh_io.writable_key(obj) == key
     except ValueError:  # locked meanwhile
         return False
-    return same_key and mesh_io.is_unchanged(obj.data, task.mesh)
+    return same_key and mesh_io.is_unchanged(obj.data, mesh)
 
 
-def write(context: bpy.types.Context, tasks: list[Task], outcomes: list[Fairing]) -> None:
-    """Move the free vertices of every task's object."""
+def write(context: bpy.types.Context, tasks: list[Task], outcomes: list[Fairing]) -> list[remeshed.Written | None]:
+    """Move the free vertices of every task's object, or put its new mesh in; return what is new where it is."""
     objects = objects_in_mode(context)
+    written: list[remeshed.Written | None] = []
     for task, outcome in zip(tasks, outcomes, strict=True):
-        mesh_io.write_edit_mesh(objects[task.object_name].data, outcome.vertices, outcome.positions)
+        obj = objects[task.object_name]
+        if isinstance(outcome, Remeshed):
+            written.append(remeshed.write_edit_mesh(obj, outcome))
+        else:
+            mesh_io.write_edit_mesh(obj.data, outcome.vertices, outcome.positions)
+            written.append(None)
+    return written

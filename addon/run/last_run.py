@@ -12,6 +12,7 @@ from ..core.options import FairOptions
 from ..core.outcome import Fairing
 from ..core.report import Report, standing
 from ..mesh import selecting
+from ..mesh.remeshed import Written
 from .job import Task, objects_in_mode
 
 SIGHT = 25.0  # edges around a spot that are in sight
@@ -55,6 +56,15 @@ def keep_selection(tasks: list[Task]) -> None:
 
 def _region(task: Task, spots: Ints) -> Region:
     return Region(task.object_name, len(task.mesh.in_patch), np.flatnonzero(task.mesh.in_patch), spots)
+
+
+def renumber(written: list[Written | None]) -> None:
+    """Follow the faces and vertices of objects whose patch was meshed anew."""
+    _last.regions = tuple(
+        region if new is None else Region(region.object_name, new.face_count, new.faces, new.spots)
+        for region, new in zip(_last.regions, written, strict=True)
+    )
+    _last.seen = _last.regions
 
 
 def forget() -> None:

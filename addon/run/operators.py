@@ -10,39 +10,22 @@ from typing import Any
 import bpy
 import numpy as np
 
-import fairing
-
-from ..core.engine import Progress
 from ..core.options import FairOptions
 from ..core.outcome import Fairing
 from ..core.report import GRADE_NAMES, Report, make_report, summary
-from ..core.runner import Run
 from ..host.polling import NO_FACE, NO_FREE, SELECT_FACES, require, require_edit_mode
-from ..host.status import hide_progress, redraw_sidebars, show_progress
+from ..host.status import redraw_sidebars
 from ..mesh import selecting
 from ..preferences import background_from
 from ..translations import translated
 from . import compare, job, last_run
+from .background import Watched, at_once
 from .properties import FairProperties
 from .redo_panel import draw_options
 from .report_properties import store
 
-TICK = 0.05  # seconds between two looks at the thread
-MOMENT = 0.3  # seconds that Blender may stand still for an answer
 
-# Looking around does no harm while the engine works; all else would.
-_VIEW_EVENTS = {
-    "MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "MOUSEROTATE",
-    "NUMPAD_1", "NUMPAD_3", "NUMPAD_5", "NUMPAD_7", "NUMPAD_PERIOD", "NDOF_MOTION",
-}  # fmt: skip
-
-
-def _has_events(context: bpy.types.Context) -> bool:
-    """Tell whether there is a window whose events could watch a run."""
-    return not bpy.app.background and context.window is not None
-
-
-class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
+class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
     """Replace the selected faces by the fair surface that continues their surroundings.
     Vertices stay the same vertices; nothing outside the selection moves"""
 
@@ -50,8 +33,6 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
     bl_label = "Fair Region"
     bl_options = {"REGISTER", "UNDO", "PRESET"}  # noqa: RUF012 - the form that Blender asks for
 
-    _run: Run[list[Fairing]] | None = None
-    _timer: Any = None
     _tasks: list[job.Task]
     _options: FairOptions
     _notes: tuple[str, ...] = ()  # on objects that there is nothing to do for
@@ -79,25 +60,6 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
         """Fair in the background where that takes long enough to be noticed: by the size, or as it turns out."""
         return self._begin_with(context, self._solve_or_start)
 
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Watch the thread; Esc leaves the mesh as it is."""
-        assert self._run is not None
-        if event.type == "ESC" and event.value == "PRESS":
-            self.cancel(context)
-            self.report({"INFO"}, "Fairing was cancelled; nothing has changed")
-            return {"CANCELLED"}
-        if event.type == "TIMER":
-            if self._run.finished:
-                return self._collect(context)
-            show_progress(context, self._run.fraction, self._run.stage)
-        return {"PASS_THROUGH"} if event.type in _VIEW_EVENTS else {"RUNNING_MODAL"}
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Give the run up; Blender calls this too, when it closes a window."""
-        if self._run is not None:
-            self._run.cancel()
-        self._stop_watching(context)
-
     def _begin_with(self, context: bpy.types.Context, go_on: Any) -> set[str]:
         self._begin, self._way = time.perf_counter(), last_run.way_to_try()
         context.view_layer.update()  # a script may just have changed an object's matrix
@@ -119,53 +81,15 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
             return self._refuse(context, refusal)
 
     def _solve_or_start(self, context: bpy.types.Context) -> set[str]:
-        if not _has_events(context):
-            return self._solve_at_once(context)
         # The size tells the least time only: a selection without a fair surface may be searched for minutes.
         large = job.size(self._tasks) >= background_from(context)
-        self._run = Run(partial(job.solve, self._tasks, self._options, ahead=large))
-        if not large and self._run.wait(MOMENT):
-            return self._apply(context, self._run.result())
-        self._start_watching(context)
-        return {"RUNNING_MODAL"}
+        return self._start(context, partial(job.solve, self._tasks, self._options, ahead=large), large)
 
     def _solve_at_once(self, context: bpy.types.Context) -> set[str]:
-        manager = context.window_manager
-        manager.progress_begin(0.0, 1.0)
-        tell: Progress = lambda fraction, _stage: manager.progress_update(fraction)  # noqa: E731
-        try:
-            outcomes = job.solve(self._tasks, self._options, tell)
-        finally:
-            manager.progress_end()
-        return self._apply(context, outcomes)
+        return self._apply(context, at_once(context, partial(job.solve, self._tasks, self._options)))
 
-    def _collect(self, context: bpy.types.Context) -> set[str]:
-        assert self._run is not None
-        self._stop_watching(context)
-        try:
-            outcomes = self._run.result()
-        except job.Refused as refusal:
-            return self._refuse(context, refusal)
-        except fairing.Cancelled:
-            return {"CANCELLED"}
-        if not job.is_current(context, self._tasks):
-            self.report({"ERROR"}, "The mesh changed meanwhile; the result was dropped")
-            return {"CANCELLED"}
-        return self._apply(context, outcomes)
-
-    def _start_watching(self, context: bpy.types.Context) -> None:
-        manager = context.window_manager
-        self._timer = manager.event_timer_add(TICK, window=context.window)
-        manager.progress_begin(0.0, 1.0)
-        manager.modal_handler_add(self)
-        show_progress(context, 0.0, "")
-
-    def _stop_watching(self, context: bpy.types.Context) -> None:
-        if self._timer is not None:
-            context.window_manager.event_timer_remove(self._timer)
-            context.window_manager.progress_end()
-            self._timer = None
-        hide_progress(context)
+    def _is_current(self, context: bpy.types.Context) -> bool:
+        return job.is_current(context, self._tasks)
 
     def _apply(self, context: bpy.types.Context, outcomes: list[Fairing]) -> set[str]:
         named = [(task.object_name, outcome) for task, outcome in zip(self._tasks, outcomes, strict=True)]
@@ -176,7 +100,7 @@ class MESH_OT_fair_region(FairProperties, bpy.types.Operator):
         last_run.remember(self._tasks, outcomes, self._options, report)
         if not report.written:
             return self._leave(context, summary(report))
-        job.write(context, self._tasks, outcomes)
+        last_run.renumber(job.write(context, self._tasks, outcomes))
         compare.remember(self._tasks, outcomes)
         for warning in report.warnings:
             self.report({"WARNING"}, warning)

@@ -6,6 +6,8 @@ No postponed annotations here: Blender reads them as property definitions.
 
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 
+from ..core.options import LEAST_SPACING
+
 EQUATIONS = (
     (
         "HARMONIC",
@@ -82,9 +84,19 @@ _OUTLINES = (
         "A noisy outline and two rings of faces around it are smoothed first, by a quarter of an edge at most",
     ),
 )
+SPACING = "Length of the new edges away from the outline, measured by the outline's edges. The surface stays the same"
 ACCEPT = (
     ("USABLE", "Usable Results", "A result that folds, crosses itself or is none leaves the mesh as it was"),
     ("ALL", "All Results", "Whatever comes out is written"),
+)
+_MESHES = (
+    ("KEEP", "Keep", "Vertices stay the same vertices; they move"),
+    (
+        "NEW",
+        "New",
+        "Even triangles take the place of the selected faces. Seams of UVs and colours, borders of materials and "
+        "marked edges stay; UVs, colours, weights and shape keys are carried over",
+    ),
 )
 _PIN_EDGES = (
     ("NONE", "None", "No edge inside the selection is held"),
@@ -242,4 +254,20 @@ class FairProperties:
         items=ACCEPT,
         default="USABLE",
         options={"SKIP_SAVE"},
+    )
+    mesh: EnumProperty(
+        name="Mesh",
+        description="Whether the selected faces stay",
+        items=_MESHES,
+        default="KEEP",
+    )
+    spacing: FloatProperty(
+        name="Spacing",
+        description=SPACING,
+        default=1.0,
+        min=LEAST_SPACING,
+        soft_min=0.25,
+        soft_max=4.0,
+        step=5,
+        precision=2,
     )

@@ -13,7 +13,7 @@ def draw_options(layout: Any, options: Any, obj: bpy.types.Object, manager: Any)
     layout.use_property_split = True
     layout.prop(options, "factor")
     _draw_shape(_group(layout, "Shape"), options)
-    _group(layout, "Vertices").prop(options, "inner_fairness")
+    _draw_vertices(_group(layout, "Vertices"), options)
     _draw_detail(_group(layout, "Skin"), options)
     _draw_outline(_group(layout, "At the Outline"), options, obj)
     # No collapsible layout panel: not every place that shows these options has them.
@@ -40,6 +40,17 @@ def _draw_shape(group: Any, options: Any) -> None:
     row = group.row()
     row.active = options.equation == "CONSTANT"
     row.prop(options, "bulge", slider=True)
+
+
+def _draw_vertices(group: Any, options: Any) -> None:
+    group.prop(options, "mesh")
+    new = options.mesh == "NEW"
+    row = group.row()
+    row.active = new
+    row.prop(options, "spacing")
+    row = group.row()
+    row.active = not new  # new vertices lie evenly
+    row.prop(options, "inner_fairness")
 
 
 def _draw_detail(group: Any, options: Any) -> None:

@@ -160,6 +160,7 @@ ComponentAnswer ComponentSolver::dressed(ComponentAnswer answer, const Component
     const Stopwatch watch;
     Points& points = answer.solution.points;
     points = relaid(answer.problem, points, skin_.base(), progress.here());
+    answer.solution.crossings.reset();
     Points base = answer.unit.from_unit(points);
     base.rightCols(outline.points.cols()) = outline.points;
     answer.dressed = skin_.put_back(data, base);

@@ -1,6 +1,9 @@
 #include "api/fill.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 
 #include "api/component.h"
 #include "base/errors.h"
@@ -86,8 +89,8 @@ struct OldSurface {
         normals = vertex_normals(patch, points, faces, gather(mesh.normals, fixed_vertices(patch)), NormalKind::fitted);
     }
 
-    [[nodiscard]] VectorX lengths(const WantedLengths& wanted) const {
-        return edge_lengths(patch, points, {wanted.spacing / unit.diameter, wanted.least_count});
+    [[nodiscard]] VectorX lengths(const WantedLengths& wanted, const KeptEdges& kept = {}) const {
+        return edge_lengths(patch, points, {wanted.spacing / unit.diameter, wanted.least_count}, kept);
     }
 
     const Patch& patch;
@@ -95,6 +98,24 @@ struct OldSurface {
     Points points;
     Points normals;
 };
+
+using EdgeSet = std::set<std::array<int, 2>>;
+
+EdgeSet sorted_pairs(const VertexPairs& pairs) {
+    EdgeSet result;
+    for (const auto& [a, b] : pairs) result.insert({std::min(a, b), std::max(a, b)});
+    return result;
+}
+
+KeptEdges edges_among(const Patch& patch, const EdgeSet& pairs) {
+    KeptEdges kept;
+    if (pairs.empty()) return kept;
+    for (const auto& [a, b] : patch.edge_ends) {
+        const auto [low, high] = std::minmax(patch.to_input[at(a)], patch.to_input[at(b)]);
+        kept.push_back(pairs.contains({low, high}) ? 1 : 0);
+    }
+    return kept;
+}
 
 std::vector<Patch> patches_of(const CheckedMesh& mesh) {
     std::vector<Patch> patches = make_patches(mesh.cut, mesh.roles);
@@ -132,7 +153,8 @@ NewSurface fill_loops(const OpenLoops& input, bool bridge, const SolverOptions& 
     return result;
 }
 
-NewMesh remesh(const MeshInput& input, const WantedLengths& wanted, int threads, const ProgressCallback& callback) {
+NewMesh remesh(const MeshInput& input, const VertexPairs& kept, const WantedLengths& wanted, int threads,
+               const ProgressCallback& callback) {
     const Threads team(threads);
     const Progress progress(callback);
     const Checkpoints checkpoints(progress);
@@ -140,15 +162,17 @@ NewMesh remesh(const MeshInput& input, const WantedLengths& wanted, int threads,
     const std::vector<Patch> patches = patches_of(mesh);
     Assembly assembly(static_cast<int>(input.vertices.cols()));
     std::vector<char> replaced(static_cast<std::size_t>(input.triangles.cols()), 0);
+    const EdgeSet pairs = sorted_pairs(kept);
     NewMesh result;
     std::vector<Vector3> weights;
     std::vector<Vector3> normals;
     for (const Patch& patch : patches) {
         progress.report(static_cast<double>(&patch - patches.data()) / static_cast<double>(patches.size()), "mesh");
         const OldSurface old(input, mesh, patch);
-        const TargetSurface surface(patch, old.points, old.normals);
-        const VectorX lengths = old.lengths(wanted);
-        EvenMesh even(patch, old.points, surface, lengths);
+        const KeptEdges staying = edges_among(patch, pairs);
+        const TargetSurface surface(patch, old.points, old.normals, staying);
+        const VectorX lengths = old.lengths(wanted, staying);
+        EvenMesh even(patch, old.points, surface, lengths, staying);
         even.make_even();
         const EvenMesh::Result made = even.result();
         assembly.add(made.triangles, old.unit.from_unit(made.points), fixed_vertices(patch));
@@ -157,6 +181,7 @@ NewMesh remesh(const MeshInput& input, const WantedLengths& wanted, int threads,
             weights.push_back(where.weights);
             normals.push_back(surface.normal(where));
         }
+        for (const int v : made.old) result.old.push_back(v == none ? none : patch.to_input[at(v)]);
         for (const int t : patch.input_triangle) replaced[at(t)] = 1;
     }
     for (Eigen::Index t = 0; t < input.triangles.cols(); ++t) {

@@ -1,4 +1,5 @@
 #include "api/fill.h"
+#include "api/interpolate.h"
 #include "bindings/python_progress.h"
 #include "bindings/topics.h"
 #include "bindings/words.h"
@@ -31,11 +32,11 @@ MeshInput to_input(const DoubleArray& vertices, const IntArray& triangles, const
 }
 
 py::dict remesh_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
-                       const std::optional<DoubleArray>& fixed_normals, const std::pair<double, int>& wanted,
-                       int threads, const py::object& callback) {
+                       const std::optional<DoubleArray>& fixed_normals, const VertexPairs& kept,
+                       const std::pair<double, int>& wanted, int threads, const py::object& callback) {
     const MeshInput input = to_input(vertices, triangles, fixed, fixed_normals);
     const NewMesh result = without_gil(callback, [&](const ProgressCallback& progress) {
-        return remesh(input, {wanted.first, wanted.second}, threads, progress);
+        return remesh(input, kept, {wanted.first, wanted.second}, threads, progress);
     });
     py::dict dict;
     dict["vertices"] = from_points(result.vertices);
@@ -43,6 +44,7 @@ py::dict remesh_arrays(const DoubleArray& vertices, const IntArray& triangles, c
     dict["triangles"] = from_triangles(result.triangles);
     dict["triangle"] = from_indices(result.triangle);
     dict["weights"] = from_points(result.weights);
+    dict["old"] = from_indices(result.old);
     return dict;
 }
 
@@ -51,13 +53,31 @@ double expected_count_of(const DoubleArray& vertices, const IntArray& triangles,
     return expected_remesh_count(to_input(vertices, triangles, fixed, fixed_normals), {wanted.first, wanted.second});
 }
 
+py::array interpolated(const DoubleArray& vertices, const IntArray& triangles, const IntArray& fixed,
+                       const DoubleArray& values) {
+    const MeshInput input{to_points(vertices), to_triangles(triangles), to_indices(fixed), std::nullopt};
+    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> given(
+        values.data(), values.shape(0), values.shape(1));
+    const Eigen::MatrixXd columns = given;
+    Eigen::MatrixXd result;
+    {
+        const py::gil_scoped_release released;
+        result = interpolate(input, columns);
+    }
+    return py::array_t<double>({result.rows(), result.cols()},
+                               {sizeof(double), sizeof(double) * static_cast<std::size_t>(result.rows())},
+                               result.data());
+}
+
 }  // namespace
 
 void bind_fill(py::module_& module) {
+    module.def("interpolate", &interpolated, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
+               py::arg("values"));
     module.def("fill_loops", &fill_arrays, py::arg("vertices"), py::arg("loops"), py::arg("normals"), py::arg("bridge"),
                py::arg("equation"), py::arg("progress"));
     module.def("remesh", &remesh_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
-               py::arg("fixed_normals"), py::arg("wanted"), py::arg("threads"), py::arg("progress"));
+               py::arg("fixed_normals"), py::arg("kept"), py::arg("wanted"), py::arg("threads"), py::arg("progress"));
     module.def("expected_count", &expected_count_of, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("fixed_normals"), py::arg("wanted"));
 }

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/progress.h"
+#include "fill/harmonic_values.h"
 #include "geometry/face_geometry.h"
-#include "operators/laplace_operator.h"
 
 namespace fairing {
 
@@ -17,15 +17,19 @@ constexpr double even_growth = 0.5;   // of lengths by distance
 constexpr double steep_growth = 1.0;  // where the outline is so coarse that an even one gives too few vertices
 constexpr double shortest = 1e-12;
 
-// Mean length of the two border edges at each vertex of the border, zero elsewhere.
-VectorX border_lengths(const Patch& patch, const Points& points) {
+// Mean length of the edges that stay at each vertex that has any, zero elsewhere.
+VectorX border_lengths(const Patch& patch, const Points& points, const KeptEdges& kept) {
     VectorX lengths = VectorX::Zero(patch.vertex_count());
+    VectorX counts = VectorX::Zero(patch.vertex_count());
     for (int e = 0; e < patch.edge_count(); ++e) {
-        if (patch.edge_triangles[at(e)][1] != none) continue;
+        if (patch.edge_triangles[at(e)][1] != none && (kept.empty() || kept[at(e)] == 0)) continue;
         const auto [a, b] = patch.edge_ends[at(e)];
-        for (const int v : {a, b}) lengths[v] += 0.5 * (points.col(a) - points.col(b)).norm();
+        for (const int v : {a, b}) {
+            lengths[v] += (points.col(a) - points.col(b)).norm();
+            counts[v] += 1.0;
+        }
     }
-    return lengths;
+    return lengths.cwiseQuotient(counts.cwiseMax(1.0));
 }
 
 // exp of the harmonic continuation of the border's log lengths.
@@ -42,16 +46,9 @@ VectorX continued(const Patch& patch, const Points& points, const VectorX& borde
     for (int v = 0; v < patch.vertex_count(); ++v) {
         if (border[v] <= 0.0) logarithms[v] = mean;  // pins, too
     }
-    FaceGeometry faces;
-    faces.update(points, patch.triangles);
-    Stiffness stiffness;
-    stiffness.update(faces, patch);
-    stiffness.weights = stiffness.weights.cwiseMax(1e-3);  // obtuse angles would overshoot
-    LaplaceOperator laplace(patch, points.leftCols(patch.free_count));
-    if (patch.free_count == 0 || !laplace.update(stiffness, Progress())) return logarithms.array().exp();
-    logarithms.head(patch.free_count).setZero();
-    const Eigen::RowVectorXd row = logarithms.transpose();
-    logarithms.head(patch.free_count) = -laplace.solve(stiffness.apply(patch, row, patch.free_count).transpose());
+    const auto fixed_count = patch.vertex_count() - patch.free_count;
+    const auto inside = harmonic_values(patch, points, logarithms.tail(fixed_count));
+    if (inside) logarithms.head(patch.free_count) = inside->col(0);
     return logarithms.array().exp();
 }
 
@@ -108,10 +105,10 @@ double expected_count(const Patch& patch, const Points& points, const VectorX& l
     return count;
 }
 
-VectorX edge_lengths(const Patch& patch, const Points& points, const WantedLengths& wanted) {
+VectorX edge_lengths(const Patch& patch, const Points& points, const WantedLengths& wanted, const KeptEdges& kept) {
     constexpr int halvings = 12;
     constexpr double smallest_scale = 1e-2;
-    const VectorX border = border_lengths(patch, points);
+    const VectorX border = border_lengths(patch, points, kept);
     const VectorX inside = wanted.spacing > 0.0 ? VectorX(VectorX::Constant(patch.vertex_count(), wanted.spacing))
                                                 : continued(patch, points, border);
     VectorX lengths = graded(patch, points, even_growth, border, inside);

@@ -10,9 +10,12 @@ struct WantedLengths {
     int least_count = 0;   // about so many vertices at least: lengths shrink evenly until they give that many
 };
 
-// A length at each vertex of a patch (`points`: 3 × local vertices). At the outline it is that of the outline's edges;
-// from there it grows or shrinks to the wanted one by at most a half of the distance.
-VectorX edge_lengths(const Patch& patch, const Points& points, const WantedLengths& wanted);
+// One entry for each edge of a patch: whether the new mesh has it, too. Border edges stay anyway; empty: no others.
+using KeptEdges = std::vector<char>;
+
+// A length at each vertex of a patch (`points`: 3 × local vertices). At edges that stay it is that of these; from there
+// it grows or shrinks to the wanted one by at most a half of the distance.
+VectorX edge_lengths(const Patch& patch, const Points& points, const WantedLengths& wanted, const KeptEdges& kept = {});
 
 // How many vertices a mesh of equilateral triangles of these lengths has on the patch, about.
 double expected_count(const Patch& patch, const Points& points, const VectorX& lengths);

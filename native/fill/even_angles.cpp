@@ -34,7 +34,7 @@ double EvenMesh::worst_angle_around(Vertex v, const Vector3& position) const {
 int EvenMesh::improve_flips() {
     int flips = 0;
     for (const Edge e : mesh_.edges()) {
-        if (mesh_.is_boundary(e)) continue;
+        if (stays(e)) continue;
         const Halfedge h = mesh_.halfedge_handle(e, 0);
         const Vector3 a = point(mesh_.from_vertex_handle(h));
         const Vector3 b = point(mesh_.to_vertex_handle(h));

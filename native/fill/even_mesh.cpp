@@ -28,8 +28,14 @@ using ShortestFirst = std::priority_queue<QueuedEdge, std::vector<QueuedEdge>, s
 
 }  // namespace
 
-EvenMesh::EvenMesh(const Patch& patch, const Points& points, const TargetSurface& surface, const VectorX& lengths)
-    : patch_(patch), surface_(surface), lengths_(lengths), mesh_(surface_mesh(patch)), free_count_(patch.free_count) {
+EvenMesh::EvenMesh(const Patch& patch, const Points& points, const TargetSurface& surface, const VectorX& lengths,
+                   KeptEdges kept)
+    : patch_(patch),
+      surface_(surface),
+      lengths_(lengths),
+      mesh_(surface_mesh(patch)),
+      kept_(std::move(kept)),
+      free_count_(patch.free_count) {
     mesh_.request_vertex_status();
     mesh_.request_edge_status();
     mesh_.request_face_status();
@@ -40,7 +46,14 @@ EvenMesh::EvenMesh(const Patch& patch, const Points& points, const TargetSurface
         where_.push_back(surface.at_vertex(v));
         wanted_.push_back(lengths[v]);
     }
+    kept_.resize(mesh_.n_edges(), 0);
+    for (int e = 0; e < patch.edge_count(); ++e) {
+        if (kept_[at(e)] == 0) continue;
+        for (const int v : patch.edge_ends[at(e)]) fixed_[at(v)] = 1;
+    }
 }
+
+bool EvenMesh::fixed_in_patch(Vertex v) const { return v.idx() < patch_.vertex_count() && !patch_.is_free(v.idx()); }
 
 double EvenMesh::relative_length(Edge e) const {
     const Halfedge h = mesh_.halfedge_handle(e, 0);
@@ -50,7 +63,7 @@ double EvenMesh::relative_length(Edge e) const {
 
 bool EvenMesh::is_chord(Edge e) const {
     const Halfedge h = mesh_.halfedge_handle(e, 0);
-    return !mesh_.is_boundary(e) && fixed(mesh_.from_vertex_handle(h)) && fixed(mesh_.to_vertex_handle(h));
+    return !stays(e) && fixed(mesh_.from_vertex_handle(h)) && fixed(mesh_.to_vertex_handle(h));
 }
 
 // A corner that is sharper stays one triangle: halved, its angle would be too small.
@@ -59,7 +72,7 @@ bool EvenMesh::cuts_sharp_corner(Edge e) const {
         const Halfedge h = mesh_.halfedge_handle(e, side);
         const Halfedge next = mesh_.next_halfedge_handle(h);
         const Halfedge last = mesh_.next_halfedge_handle(next);
-        if (!mesh_.is_boundary(mesh_.edge_handle(next)) || !mesh_.is_boundary(mesh_.edge_handle(last))) continue;
+        if (!stays(mesh_.edge_handle(next)) || !stays(mesh_.edge_handle(last))) continue;
         const Vector3 corner = point(apex(h));
         const Vector3 a = point(mesh_.from_vertex_handle(h));
         const Vector3 b = point(mesh_.to_vertex_handle(h));
@@ -76,16 +89,28 @@ void EvenMesh::put(Vertex v, const Vector3& position, int triangle) {
     wanted_[at(v.idx())] = surface_.interpolate(lengths_, where);
 }
 
+// A triangle of the surface on this side of all kept edges. Only an edge that was always there has none but fixed
+// vertices around.
+int EvenMesh::triangle_beside(Edge e) const {
+    const Halfedge h = mesh_.halfedge_handle(e, 0);
+    for (const Vertex v :
+         {mesh_.to_vertex_handle(h), mesh_.from_vertex_handle(h), apex(h), apex(mesh_.halfedge_handle(e, 1))}) {
+        if (!fixed(v)) return where_[at(v.idx())].triangle;
+    }
+    return patch_.edge_triangles[at(e.idx())][0];
+}
+
 EvenMesh::Vertex EvenMesh::split(Edge e) {
-    const Vertex end = mesh_.to_vertex_handle(mesh_.halfedge_handle(e, 0));
+    const int beside = triangle_beside(e);
     const Vector3 middle = mesh_.calc_edge_midpoint(e);
     const Vertex v = mesh_.add_vertex(middle);
     mesh_.split(e, v);
+    kept_.resize(mesh_.n_edges(), 0);
     ++free_count_;
     fixed_.push_back(0);
     where_.emplace_back();
     wanted_.push_back(0.0);
-    put(v, middle, where_[at(end.idx())].triangle);
+    put(v, middle, beside);
     return v;
 }
 
@@ -105,7 +130,7 @@ int EvenMesh::split_chords() {
 int EvenMesh::split_long() {
     std::vector<QueuedEdge> long_edges;
     for (const Edge e : mesh_.edges()) {
-        if (mesh_.is_boundary(e)) continue;
+        if (stays(e)) continue;
         const double length = relative_length(e);
         if (length > split_above && !(is_chord(e) && cuts_sharp_corner(e))) long_edges.emplace_back(-length, e.idx());
     }
@@ -165,7 +190,7 @@ int EvenMesh::collapse_short() {
 }
 
 bool EvenMesh::may_flip(Edge e) const {
-    if (mesh_.is_boundary(e) || !mesh_.is_flip_ok(e)) return false;
+    if (stays(e) || !mesh_.is_flip_ok(e)) return false;
     const Halfedge h = mesh_.halfedge_handle(e, 0);
     const Vertex above = apex(h);
     const Vertex below = apex(mesh_.halfedge_handle(e, 1));
@@ -189,7 +214,7 @@ int EvenMesh::flip_edges() {
         const int before = flips;
         for (const Edge e : mesh_.edges()) {
             checkpoint(e.idx());
-            if (mesh_.is_boundary(e) || diagonal(e).is_delaunay() || !may_flip(e)) continue;
+            if (stays(e) || diagonal(e).is_delaunay() || !may_flip(e)) continue;
             mesh_.flip(e);
             ++flips;
         }
@@ -258,15 +283,16 @@ EvenMesh::Result EvenMesh::result() const {
     Result result;
     Indices number(mesh_.n_vertices(), none);
     for (const Vertex v : mesh_.vertices()) {
-        if (fixed(v)) continue;
+        if (fixed_in_patch(v)) continue;
         number[at(v.idx())] = static_cast<int>(result.where.size());
         result.where.push_back(where_[at(v.idx())]);
+        result.old.push_back(fixed(v) ? v.idx() : none);
     }
     const int free_count = static_cast<int>(result.where.size());
     for (int v = patch_.free_count; v < patch_.vertex_count(); ++v) number[at(v)] = free_count + v - patch_.free_count;
     result.points.resize(3, free_count);
     for (const Vertex v : mesh_.vertices()) {
-        if (!fixed(v)) result.points.col(number[at(v.idx())]) = point(v);
+        if (!fixed_in_patch(v)) result.points.col(number[at(v.idx())]) = point(v);
     }
     std::vector<Eigen::Vector3i> triangles;
     for (const SurfaceMesh::FaceHandle f : mesh_.faces()) {

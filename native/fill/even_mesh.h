@@ -1,18 +1,20 @@
 // A mesh of nearly equilateral triangles on a surface that is known.
 #pragma once
 
+#include "fill/edge_lengths.h"
 #include "geometry/edge_flip.h"
 #include "geometry/target_surface.h"
 #include "mesh/surface_mesh.h"
 
 namespace fairing {
 
-// Begins as the triangles of the surface's own patch, whose fixed vertices and border edges stay. The other vertices
-// come, go and slide on the surface until the edges are as long as wanted. Deterministic.
+// Begins as the triangles of the surface's own patch, whose fixed vertices, border edges and kept edges stay. The other
+// vertices come, go and slide on the surface until the edges are as long as wanted. Deterministic.
 class EvenMesh {
 public:
     // Needs one free vertex. `lengths`: wanted at the vertices of `patch`. Keeps references.
-    EvenMesh(const Patch& patch, const Points& points, const TargetSurface& surface, const VectorX& lengths);
+    EvenMesh(const Patch& patch, const Points& points, const TargetSurface& surface, const VectorX& lengths,
+             KeptEdges kept = {});
     // Splits, collapses, flips and smooths. Asks whether to stop.
     void make_even();
     // Splits edges between fixed vertices, at which a patch would end, but for those at sharp corners. Returns how
@@ -22,6 +24,7 @@ public:
     struct Result {
         std::vector<SurfacePoint> where;
         Points points;  // 3 × k
+        Indices old;    // the free vertex of the patch that each is: one at a kept edge; or `none`
         Triangles triangles;
     };
     [[nodiscard]] Result result() const;
@@ -31,12 +34,15 @@ private:
     using Halfedge = SurfaceMesh::HalfedgeHandle;
     using Edge = SurfaceMesh::EdgeHandle;
     [[nodiscard]] bool fixed(Vertex v) const { return fixed_[at(v.idx())] != 0; }
+    [[nodiscard]] bool fixed_in_patch(Vertex v) const;
+    [[nodiscard]] bool stays(Edge e) const { return mesh_.is_boundary(e) || kept_[at(e.idx())] != 0; }
     [[nodiscard]] Vector3 point(Vertex v) const { return mesh_.point(v); }
     [[nodiscard]] Vertex apex(Halfedge h) const { return mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)); }
     [[nodiscard]] double relative_length(Edge e) const;
     [[nodiscard]] bool is_chord(Edge e) const;
     [[nodiscard]] bool cuts_sharp_corner(Edge e) const;
     void put(Vertex v, const Vector3& position, int triangle);
+    [[nodiscard]] int triangle_beside(Edge e) const;
     Vertex split(Edge e);
     int split_long();
     int collapse_short();
@@ -53,7 +59,8 @@ private:
     const TargetSurface& surface_;
     const VectorX& lengths_;
     SurfaceMesh mesh_;
-    std::vector<char> fixed_;
+    std::vector<char> fixed_;  // in the patch, or at a kept edge
+    KeptEdges kept_;
     std::vector<SurfacePoint> where_;
     std::vector<double> wanted_;
     int free_count_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -45,10 +46,11 @@ Vector3 border_weights(const Vector3& p, const std::array<Vector3, 3>& corners) 
 
 }  // namespace
 
-TargetSurface::TargetSurface(const Patch& patch, const Points& points, const Points& normals)
+TargetSurface::TargetSurface(const Patch& patch, const Points& points, const Points& normals, std::vector<char> walls)
     : patch_(patch),
       points_(points),
       normals_(normals),
+      walls_(std::move(walls)),
       face_normals_(3, patch.triangle_count()),
       triangle_of_vertex_(at(patch.vertex_count()), 0) {
     for (int t = 0; t < patch.triangle_count(); ++t) {
@@ -57,6 +59,13 @@ TargetSurface::TargetSurface(const Patch& patch, const Points& points, const Poi
         face_normals_.col(t) = (points.col(corners[1]) - a).cross(points.col(corners[2]) - a).normalized();
         for (int v : corners) triangle_of_vertex_[at(v)] = t;
     }
+}
+
+// The triangle on the other side, or none.
+int TargetSurface::across(int edge, int triangle) const {
+    if (!walls_.empty() && walls_[at(edge)] != 0) return none;
+    const auto [left, right] = patch_.edge_triangles[at(edge)];
+    return left == triangle ? right : left;
 }
 
 SurfacePoint TargetSurface::project(const Vector3& position, int start) const {
@@ -69,8 +78,7 @@ SurfacePoint TargetSurface::project(const Vector3& position, int start) const {
         const Vector3 weights = plane_weights(position, points[0], points[1], points[2]);
         int outside = 0;
         if (weights.minCoeff(&outside) >= 0.0) return {triangle, weights};
-        const auto [left, right] = patch_.edge_triangles[at(patch_.triangle_edges(outside, triangle))];
-        const int next = left == triangle ? right : left;
+        const int next = across(patch_.triangle_edges(outside, triangle), triangle);
         if (next == none) return {triangle, border_weights(position, points)};
         if (next == previous) break;
         previous = triangle;
@@ -97,10 +105,9 @@ SurfacePoint TargetSurface::nearest_around(const Vector3& position, int start) c
             best = {triangle, weights};
         }
         for (int edge : patch_.triangle_edges.col(triangle)) {
-            for (int next : patch_.edge_triangles[at(edge)]) {
-                if (next == none || found.size() == most_triangles) continue;
-                if (std::find(found.begin(), found.end(), next) == found.end()) found.push_back(next);
-            }
+            const int next = across(edge, triangle);
+            if (next == none || found.size() == most_triangles) continue;
+            if (std::find(found.begin(), found.end(), next) == found.end()) found.push_back(next);
         }
     }
     return best;

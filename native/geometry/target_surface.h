@@ -14,12 +14,13 @@ struct SurfacePoint {
 // Curved PN triangles (Vlachos et al. 2001) over a patch with unit normals at its vertices.
 class TargetSurface {
 public:
-    // The arguments must outlive the surface. Columns: local vertices of the patch.
-    TargetSurface(const Patch& patch, const Points& points, const Points& normals);
+    // The arguments must outlive the surface. Columns: local vertices of the patch. `walls`: edges that no walk
+    // crosses, one entry for each; empty: none but the border.
+    TargetSurface(const Patch& patch, const Points& points, const Points& normals, std::vector<char> walls = {});
 
     // The point of the mesh near `position` that a walk from `start` reaches. It goes across edges towards the foot of
-    // the perpendicular, never over the border. Where folded triangles send it to and fro, it takes the nearest point
-    // of those around. The walk is local: a surface that comes close to itself does not confuse it.
+    // the perpendicular, never over the border or a wall. Where folded triangles send it to and fro, it takes the
+    // nearest point of those around. The walk is local: a surface that comes close to itself does not confuse it.
     [[nodiscard]] SurfacePoint project(const Vector3& position, int start) const;
 
     [[nodiscard]] Vector3 position(const SurfacePoint& where) const;
@@ -28,15 +29,18 @@ public:
     [[nodiscard]] Vector3 face_normal(int triangle) const { return face_normals_.col(triangle); }
     // Linear interpolation of a value per vertex.
     [[nodiscard]] double interpolate(const VectorX& values, const SurfacePoint& where) const;
+    [[nodiscard]] int vertex_count() const { return static_cast<int>(points_.cols()); }
     // A vertex as a point of one of its triangles.
     [[nodiscard]] SurfacePoint at_vertex(int vertex) const;
 
 private:
+    [[nodiscard]] int across(int edge, int triangle) const;
     [[nodiscard]] SurfacePoint nearest_around(const Vector3& position, int start) const;
 
     const Patch& patch_;
     const Points& points_;
     const Points& normals_;
+    std::vector<char> walls_;
     Points face_normals_;
     Indices triangle_of_vertex_;
 };

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
+from types import SimpleNamespace
 from typing import Any
 
 import bmesh
@@ -10,6 +12,7 @@ import bpy
 import meshes
 import numpy as np
 import pytest
+from extension import module
 
 Chosen = Callable[[Any], bool]
 
@@ -276,13 +279,7 @@ def test_a_locked_shape_key_is_refused() -> None:
 
 
 def test_a_surface_through_the_mesh_is_written_on_demand_only() -> None:
-    obj = open_sphere()
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    blade = [bm.verts.new(place) for place in ((0.1, 0.1, 0.3), (0.11, 0.1, 2.0), (0.1, 0.11, 2.0))]
-    bm.faces.new(blade)
-    bm.to_mesh(obj.data)
-    bm.free()
+    obj = pierced()
     old = len(obj.data.polygons)
     select_vertices(obj, lambda co: co.length > 0.9 and co.z < 1.5)
     refused("through others.*Nothing was changed")
@@ -351,6 +348,143 @@ def test_several_holes_at_once_and_an_object_without_a_border() -> None:
     assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 2e-3
     select_vertices(meshes.sphere(16), lambda _: True)
     refused("No border is selected")
+
+
+def test_the_report_tells_of_a_fill() -> None:
+    obj = open_sphere()
+    dress(obj)
+    assert fill_hole(obj) == {"FINISHED"}
+    report = bpy.context.window_manager.fairing_report
+    assert (report.verdict, report.written, report.objects) == ("GOOD", True, obj.name)
+    assert report.free_vertices == np.count_nonzero(inside_new(obj))
+    checks = {check.name: check.value for check in report.checks}
+    assert checks["New faces"].endswith("in 1 surface")
+    assert 0.0 < report.distortion < 0.5
+    assert checks["Texture distortion"] == f"{report.distortion:.1%}"
+
+
+def inside_new(obj: bpy.types.Object) -> Any:
+    """The mask of vertices that only selected faces have."""
+    mask = np.ones(len(obj.data.vertices), dtype=bool)
+    for polygon in obj.data.polygons:
+        if not polygon.select:
+            mask[list(polygon.vertices)] = False
+    return mask
+
+
+def test_all_rims_of_two_tubes_are_too_many_to_bridge() -> None:
+    obj = tubes()
+    select_vertices(obj, lambda _: True)
+    refused("joins all 4 selected outlines.*select only those that belong together", bridge=True)
+
+
+def test_escape_leaves_the_hole_open() -> None:
+    """In the background, with a stand-in for the operator: there is no window here."""
+    original, go_on = module("run.fill").MESH_OT_fair_fill, threading.Event()
+    obj = open_sphere()
+    select_vertices(obj, lambda _: True)
+    count = len(bmesh.from_edit_mesh(obj.data).faces)
+    fill_module, options = module("run.fill"), module("core.filling").FillOptions()
+    tasks = fill_module.read(bpy.context)
+
+    class Stand:
+        modal, cancel, _collect, _apply = original.modal, original.cancel, original._collect, original._apply
+        _stop_watching, _is_current, _write = original._stop_watching, original._is_current, original._write
+        _timer, _begin, _options, _tasks = None, 0.0, options, tasks
+
+        def report(self, _kinds: set[str], _text: str) -> None:
+            pass
+
+    def work(progress: Any) -> Any:
+        assert go_on.wait(10.0)
+        return fill_module.solve(tasks, options, progress)
+
+    for kind, answer, added in (("ESC", {"CANCELLED"}, False), ("TIMER", {"FINISHED"}, True)):
+        operator: Any = Stand()
+        operator._run = module("core.runner").Run(work)
+        event = SimpleNamespace(type="TIMER", value="PRESS")
+        if not go_on.is_set():
+            assert operator.modal(bpy.context, event) == {"RUNNING_MODAL"}
+        else:
+            assert operator._run.wait(10.0)
+        event.type = kind
+        assert operator.modal(bpy.context, event) == answer
+        go_on.set()
+        assert operator._run.wait(10.0)
+        assert (len(bmesh.from_edit_mesh(obj.data).faces) > count) == added
+
+
+def test_a_script_fills_without_edit_mode() -> None:
+    obj = open_sphere(lambda c: abs(c.z) > 0.8)
+    dress(obj)
+    before = len(obj.data.polygons)
+    upper = [v.index for v in obj.data.vertices if v.co.z > 0.5]
+    (result,) = module().fill_mesh(obj.data, upper)
+    assert result.converged
+    assert len(obj.data.polygons) == before + len(result.triangles)
+    assert border_edges(obj) == 40
+    keys = obj.data.shape_keys.key_blocks
+    basis, wide = (np.array([point.co[:] for point in keys[name].data]) for name in ("Basis", "Wide"))
+    np.testing.assert_array_equal(basis, meshes.positions(obj))
+    np.testing.assert_allclose((wide - basis)[:, 2], 0.25, atol=1e-5)
+    assert len(module().fill_mesh(obj.data)) == 1
+    assert border_edges(obj) == 0
+    with pytest.raises(ValueError, match="no border"):
+        module().fill_mesh(obj.data)
+    with pytest.raises(IndexError):
+        module().fill_mesh(obj.data, [10**6])
+
+
+def test_a_script_is_told_which_outlines_can_not_be_joined() -> None:
+    obj = tubes()
+    before = meshes.contents(obj)
+    with pytest.raises(ValueError, match="belong together"):
+        module().fill_mesh(obj.data, bridge=True)
+    assert meshes.contents(obj) == before
+
+
+def pierced() -> bpy.types.Object:
+    """An open sphere with a blade through the place of its lid."""
+    obj = open_sphere()
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    bm.faces.new([bm.verts.new(place) for place in ((0.1, 0.1, 0.3), (0.11, 0.1, 2.0), (0.1, 0.11, 2.0))])
+    bm.to_mesh(obj.data)
+    bm.free()
+    return obj
+
+
+def rim(obj: bpy.types.Object) -> list[int]:
+    return [v.index for v in obj.data.vertices if 0.9 < v.co.length < 1.1 and 0.3 < v.co.z < 0.6]
+
+
+@pytest.mark.parametrize(("arguments", "status", "open_edges"), [
+    ([], 0, 0), (["--vertex-group", "Upper"], 0, 40), (["--spacing", "0.5"], 0, 0), (["--vertex-group", "No"], 2, 80),
+])  # fmt: skip
+def test_command_line(arguments: list[str], status: int, open_edges: int, tmp_path: Any) -> None:
+    obj = open_sphere(lambda c: abs(c.z) > 0.8)
+    group = obj.vertex_groups.new(name="Upper")
+    group.add([v.index for v in obj.data.vertices if v.co.z > 0.5], 1.0, "REPLACE")
+    target = tmp_path / "filled.blend"
+    given = ["--object", obj.name, "--output", str(target), "--fill", *arguments]
+    assert module("run.cli").execute(given) == status
+    assert target.exists() == (status == 0)
+    assert border_edges(obj) == open_edges
+
+
+def test_a_surface_that_is_not_usable_is_told_to_scripts(tmp_path: Any) -> None:
+    obj = pierced()
+    before = meshes.contents(obj)
+    with pytest.raises(module().NotUsable, match="through others"):
+        module().fill_mesh(obj.data, rim(obj))
+    assert meshes.contents(obj) == before
+    target = tmp_path / "filled.blend"
+    obj.vertex_groups.new(name="Rim").add(rim(obj), 1.0, "REPLACE")
+    given = ["--object", obj.name, "--vertex-group", "Rim", "--output", str(target), "--fill"]
+    assert module("run.cli").execute(given) == 1
+    assert not target.exists()
+    assert module("run.cli").execute([*given, "--accept", "ALL"]) == 1
+    assert target.exists()
 
 
 def test_operator_has_the_documented_properties() -> None:

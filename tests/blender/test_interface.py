@@ -34,6 +34,8 @@ DEFAULTS = {
     "open_border": "HELD",
     "outline": "GIVEN",
     "accept": "USABLE",
+    "mesh": "KEEP",
+    "spacing": 1.0,
 }
 CHOICES = {
     "equation": ["HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION"],
@@ -47,6 +49,7 @@ CHOICES = {
     "open_border": ["HELD", "FAIRED"],
     "outline": ["GIVEN", "MENDED"],
     "accept": ["USABLE", "ALL"],
+    "mesh": ["KEEP", "NEW"],
 }
 
 

@@ -24,7 +24,7 @@ def started(obj: bpy.types.Object, faces: Any, go_on: threading.Event) -> Any:
     class Stand:
         modal, cancel = original.modal, original.cancel
         _collect, _apply, _refuse = original._collect, original._apply, original._refuse
-        _stop_watching = original._stop_watching
+        _stop_watching, _is_current = original._stop_watching, original._is_current
         _timer, _begin, _options, _notes, _way = None, 0.0, options, (), ""
 
         def report(self, kinds: set[str], text: str) -> None:
@@ -74,6 +74,7 @@ def test_few_vertices_go_to_the_background_when_they_take_long(
 ) -> None:
     """A selection without a fair surface keeps the engine busy however small it is."""
     job, operators = module("run.job"), module("run.operators")
+    background = module("run.background")
     scripted, faces = meshes.domed_grid()
     meshes.fair(scripted, faces)
     obj, _ = meshes.domed_grid()
@@ -91,7 +92,7 @@ def test_few_vertices_go_to_the_background_when_they_take_long(
         invoke, _begin_with, _solve_or_start = original.invoke, original._begin_with, original._solve_or_start
         modal, cancel, _collect, _apply = original.modal, original.cancel, original._collect, original._apply
         _stop_watching, _refuse, _timer = original._stop_watching, original._refuse, None
-        _way = ""
+        _start, _is_current, _way = original._start, original._is_current, ""
 
         def _start_watching(self, _context: Any) -> None:
             watched.append(self)
@@ -104,8 +105,8 @@ def test_few_vertices_go_to_the_background_when_they_take_long(
     for name in options.option_names():
         setattr(operator, name, getattr(options.FairOptions(), name))
     monkeypatch.setattr(operators.job, "solve", slow)
-    monkeypatch.setattr(operators, "_has_events", lambda _context: True)
-    monkeypatch.setattr(operators, "MOMENT", 10.0 if quick else 0.01)
+    monkeypatch.setattr(background, "has_events", lambda _context: True)
+    monkeypatch.setattr(background, "MOMENT", 10.0 if quick else 0.01)
     meshes.select(obj, faces)
     meshes.edit(obj)
     status = operator.invoke(bpy.context, event("LEFTMOUSE"))

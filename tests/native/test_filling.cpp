@@ -7,6 +7,7 @@
 #include <random>
 
 #include "fill/edge_lengths.h"
+#include "fill/harmonic_values.h"
 #include "fill/joined_loops.h"
 #include "fill/triangulation.h"
 #include "meshes.h"
@@ -178,4 +179,61 @@ TEST_CASE("lengths shrink until they give the vertices wanted") {
     CHECK(expected_count(single.patch(), single.points, few) < 500.0);
     CHECK(expected_count(single.patch(), single.points, many) >= 1000.0);
     CHECK(expected_count(single.patch(), single.points, many) < 1100.0);
+}
+
+namespace {
+
+// A flat square of n × n quads, stretched so that a fan of its triangles has wide angles; the border is fixed.
+struct Stretched {
+    Patch patch;
+    Points points;
+};
+
+Stretched stretched_square(int n) {
+    const auto is_border = [n](int v) { return v / (n + 1) % n == 0 || v % (n + 1) % n == 0; };
+    Indices number(at((n + 1) * (n + 1)));
+    PatchMembers members;
+    Indices order;
+    for (const bool border : {false, true}) {
+        for (int v = 0; v < (n + 1) * (n + 1); ++v) {
+            if (is_border(v) != border) continue;
+            number[at(v)] = static_cast<int>(order.size());
+            order.push_back(v);
+            if (!border) ++members.free_count;
+        }
+    }
+    members.triangles.resize(3, 2 * n * n);
+    Eigen::Index t = 0;
+    for (int row = 0; row < n; ++row) {
+        for (int column = 0; column < n; ++column) {
+            const int a = row * (n + 1) + column;
+            members.triangles.col(t++) << number[at(a)], number[at(a + 1)], number[at(a + n + 2)];
+            members.triangles.col(t++) << number[at(a)], number[at(a + n + 2)], number[at(a + n + 1)];
+        }
+    }
+    members.to_input = first_numbers(static_cast<int>(order.size()));
+    members.input_triangle = first_numbers(2 * n * n);
+    members.pin.assign(order.size(), 0);
+    Points points(3, static_cast<Eigen::Index>(order.size()));
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const double x = order[k] % (n + 1);
+        const double y = order[k] / (n + 1);
+        points.col(static_cast<Eigen::Index>(k)) << x + 0.8 * y, 0.3 * y, 0.0;  // sheared: angles beyond 120°
+    }
+    return {Patch(std::move(members)), points};
+}
+
+}  // namespace
+
+TEST_CASE("harmonic values stay within the range of those given, wide angles or not") {
+    const Stretched square = stretched_square(8);
+    const int fixed_count = square.patch.vertex_count() - square.patch.free_count;
+    Eigen::MatrixXd given(fixed_count, 2);
+    for (int k = 0; k < fixed_count; ++k) given.row(k) << (k == 3 ? 1.0 : 0.0), (k % 7 == 0 ? -1.0 : 2.0);
+    const auto inside = harmonic_values(square.patch, square.points, given);
+    REQUIRE(inside);
+    for (int c = 0; c < 2; ++c) {
+        CHECK(inside->col(c).minCoeff() >= given.col(c).minCoeff() - 1e-12);
+        CHECK(inside->col(c).maxCoeff() <= given.col(c).maxCoeff() + 1e-12);
+    }
 }

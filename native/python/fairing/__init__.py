@@ -5,6 +5,7 @@ from fairing._fair import fair
 from fairing._fill import fill, remesh
 from fairing._growing import GrownOutline, grown_outline
 from fairing._hierarchy import hierarchy
+from fairing._interpolate import interpolate
 from fairing._measure import (
     boundary_loops,
     components,
@@ -53,6 +54,7 @@ __all__ = [
     "flipped_triangles",
     "grown_outline",
     "hierarchy",
+    "interpolate",
     "mean_curvature",
     "mend_outline",
     "remesh",

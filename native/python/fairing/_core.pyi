@@ -114,10 +114,12 @@ def remesh(
     triangles: _Ints,
     fixed: _Ints | None,
     fixed_normals: _Floats | None,
+    kept: _Ints,
     wanted: tuple[float, int],
     threads: int,
     progress: Callable[[float, str], bool | None] | None,
 ) -> dict[str, Any]: ...
+def interpolate(vertices: _Floats, triangles: _Ints, fixed: _Ints, values: _Floats) -> _Floats: ...
 def expected_count(
     vertices: _Floats,
     triangles: _Ints,

@@ -111,6 +111,7 @@ def remesh(
     *,
     fixed: npt.ArrayLike | None = None,
     fixed_normals: npt.ArrayLike | None = None,
+    kept: npt.ArrayLike | None = None,
     spacing: float = 0.0,
     progress: _Progress | None = None,
     **options: Any,
@@ -122,10 +123,14 @@ def remesh(
     ``inner_fairness="conformal"`` by default, takes them there. ``spacing`` is that of :func:`fairing.fill`, the
     other parameters are those of :func:`fairing.fair`. Where the new mesh is coarser than the old one and has less than
     1000 vertices, it is cut from the surface of the old one, and not solved again.
+
+    ``kept``, (e, 2): edges of the old mesh that the new one has, too, between new vertices at the same places of the
+    surface, which ``result.old`` names: seams of a texture.
     """
     points = _arguments.floats("vertices", vertices)
     faces = _arguments.triangles_within(triangles, len(points))
     held, given_normals = _arguments.boundary(fixed, fixed_normals)
+    lines = _kept(kept, faces)
     length = _spacing(spacing)
     outside = options.pop("outside", None)
     _check_options(options, progress)
@@ -137,7 +142,7 @@ def remesh(
         averaged = _core.vertex_normals(points, faces, "averaged")
         held, given_normals = report.fixed, averaged[report.fixed]
     solved = _Patch(report.vertices, faces, held, given_normals)
-    new, origin = solved.remeshed(len(points), length, 0, options, watch.part(0.4, 0.6))
+    new, origin, old_vertex = solved.meshed_anew(len(points), lines, (length, 0), options, watch.part(0.4, 0.6))
     watch.lap("mesh")
     values = _report(report, len(points))
     added = len(new.vertices) - len(points)
@@ -148,7 +153,7 @@ def remesh(
         values.update(polished=False, **_placed(new, len(points)))
         values["mean_curvature"] = _carried(report.mean_curvature, faces, origin)
     values["seconds"] = {**values["seconds"], **watch.seconds}
-    return RemeshResult(**values, origin=origin)
+    return RemeshResult(**values, origin=origin, old=_read_only(old_vertex))
 
 
 @dataclass(frozen=True)
@@ -171,16 +176,28 @@ class _Patch:
         self, old_count: int, spacing: float, least: int, options: dict[str, Any], progress: _Progress | None
     ) -> tuple[_Patch, Origin]:
         """On the first ``old_count`` of these vertices and new ones."""
-        self.expected_count(spacing)
+        new, origin, _ = self.meshed_anew(old_count, _NO_LINES, (spacing, least), options, progress)
+        return new, origin
+
+    def meshed_anew(
+        self,
+        old_count: int,
+        lines: IntArray,
+        wanted: tuple[float, int],
+        options: dict[str, Any],
+        progress: _Progress | None,
+    ) -> tuple[_Patch, Origin, IntArray]:
+        """The same with edges that stay, and with the old vertex that each new one is, or −1."""
+        self.expected_count(wanted[0])
         mesh = _core.remesh(
-            self.vertices, self.triangles, self.fixed, self.normals, (spacing, least),
+            self.vertices, self.triangles, self.fixed, self.normals, lines, wanted,
             _arguments.whole("threads", options.get("threads", 0), 0), progress,
         )  # fmt: skip
         triangles = mesh["triangles"].copy()
         triangles[triangles >= len(self.vertices)] -= len(self.vertices) - old_count
         placed = np.concatenate([self.vertices[:old_count], mesh["vertices"]])
         new = _Patch(placed, _read_only(triangles), self.fixed, self.normals)
-        return new, (mesh["triangle"], mesh["weights"])
+        return new, (mesh["triangle"], mesh["weights"]), mesh["old"]
 
     def faired(self, start: str, outside: Any, options: dict[str, Any], progress: _Progress | None) -> FairResult:
         chosen = {"inner_fairness": "conformal", **options}
@@ -190,6 +207,22 @@ class _Patch:
             self.vertices, self.triangles, fixed=self.fixed, fixed_normals=self.normals, start=start,
             progress=progress, **chosen,
         )  # fmt: skip
+
+
+_NO_LINES = np.empty((0, 2), dtype=np.int32)
+
+
+def _kept(lines: npt.ArrayLike | None, triangles: IntArray) -> IntArray:
+    """(e, 2) as given; ValueError where one is no edge of the triangles."""
+    if lines is None or np.size(lines) == 0:
+        return _NO_LINES
+    pairs = _arguments.integers("kept", lines, 2)
+    sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    known = {tuple(side) for side in np.sort(sides, axis=1).tolist()}
+    for pair in np.sort(pairs, axis=1).tolist():
+        if tuple(pair) not in known:
+            raise ValueError(f"kept: {pair[0]} and {pair[1]} are not joined by an edge of the triangles")
+    return pairs
 
 
 class _Watch:

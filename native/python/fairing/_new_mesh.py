@@ -59,3 +59,5 @@ class RemeshResult(NewMeshResult):
 
     origin: Origin
     """Where each new vertex lies on the old patch: (k,) triangles and (k, 3) barycentric weights at their corners."""
+    old: IntArray
+    """(k,) the old vertex whose place on the surface a new one has, at an edge that was ``kept``; −1 for the others."""

@@ -1,0 +1,73 @@
+"""Filled holes as one verdict and a list of figures, for the panel and for scripts. Plain Python, no bpy."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from .filling import FillOptions, Piece, worst
+from .report import MET, MISSED, Check, Report, angle_text
+from .verdict import GRADES, UNUSABLE, VISIBLE, NotUsable, Verdict
+from .words import counted
+
+Named = Sequence[tuple[str, list[Piece]]]
+
+
+def is_written(named: Named, options: FillOptions) -> bool:
+    """Tell whether the run changes its meshes: all of them, or none."""
+    return options.accept == "ALL" or all(worst(pieces).grade != UNUSABLE for _, pieces in named)
+
+
+def refuse_unusable(name: str, pieces: list[Piece], options: FillOptions) -> None:
+    """Raise NotUsable where the surfaces are not to be written."""
+    if not is_written([(name, pieces)], options):
+        bad = max(pieces, key=lambda piece: GRADES.index(piece.verdict.grade))
+        raise NotUsable(bad.verdict, bad.result)
+
+
+def make_fill_report(
+    named: Named, options: FillOptions, seconds: float, distortion: float = 0.0, notes: tuple[str, ...] = ()
+) -> Report:
+    """Sum up the surfaces of one run, by object name; distortion: of new faces on their UV map, 0 without one."""
+    pieces = [piece for _, of_object in named for piece in of_object]
+    results = [piece.result for piece in pieces]
+    joins = np.concatenate([np.empty(0), *(result.join for result in results)])
+    join = (float(np.median(joins)), float(joins.max())) if len(joins) else (0.0, 0.0)
+    kink = Check(
+        "Kink at the outline",
+        f"{angle_text(join[0])}, at most {angle_text(join[1])}",
+        MET if join[1] <= VISIBLE else MISSED,
+    )
+    return Report(
+        objects=tuple(name for name, _ in named),
+        free_vertices=sum(len(piece.positions) for piece in pieces),
+        converged=all(result.converged for result in results),
+        residual=max((result.residual for result in results), default=0.0),
+        boundary_angle=max((float(result.boundary_angle.max(initial=0.0)) for result in results), default=0.0),
+        distortion=distortion,
+        seconds=seconds,
+        checks=(kink, *_checks(pieces, distortion)),
+        warnings=tuple(dict.fromkeys(note for piece in pieces for note in piece.notes)) + notes,
+        verdict=_named_worst(named),
+        written=is_written(named, options),
+        join=join,
+        deed="filled in",
+    )
+
+
+def _named_worst(named: Named) -> Verdict:
+    name, pieces = max(named, key=lambda pair: GRADES.index(worst(pair[1]).grade))
+    verdict = worst(pieces)
+    if len(named) == 1 or not verdict.reason:
+        return verdict
+    return Verdict(verdict.grade, f"{name}: {verdict.reason}", verdict.spots)
+
+
+def _checks(pieces: list[Piece], distortion: float) -> tuple[Check, ...]:
+    faces = sum(len(piece.triangles) for piece in pieces)
+    surfaces = counted(len(pieces), "surface", "surfaces")
+    return (
+        Check("New faces", f"{faces} in {surfaces}"),
+        *((Check("Texture distortion", f"{distortion:.1%}"),) if distortion else ()),
+    )

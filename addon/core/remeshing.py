@@ -1,0 +1,178 @@
+"""A patch on a new mesh: posed, solved, and what that is worth. Plain numpy, no bpy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+import fairing
+
+from . import quality
+from .arrays import Floats, Ints
+from .engine import Problem, Progress
+from .findings import Origin
+from .lines import inner_lines
+from .new_part import NewPart, new_part
+from .options import FairOptions
+from .outcome import Fairing
+from .region import MeshArrays, Patch, to_local
+from .solve import pose, told_by
+from .verdict import GOOD, Evidence, judge
+from .words import in_mesh_words
+
+
+@dataclass(frozen=True)
+class Remeshed(Fairing):
+    """A patch with a mesh of its own: `vertices` and `positions` are those of lines, which move."""
+
+    part: NewPart
+    new_positions: Floats  # (k, 3) of the new vertices, in the mesh's own coordinates
+
+
+def refuse_options(options: FairOptions) -> None:
+    """Raise ValueError for options that need the old vertices."""
+    for wrong, text in (
+        (options.detail > 0.0, "Keep Detail puts the old vertices' skin back: choose Mesh: Keep"),
+        (options.method != "GLOBAL", "Method: Multigrid keeps its mesh: choose Mesh: Keep"),
+        (options.equation == "MINIMAL", "A soap film has no slopes to continue: choose Mesh: Keep"),
+        (options.outline != "GIVEN", "Outline: Smooth moves vertices that a new mesh is held by: choose Mesh: Keep"),
+    ):
+        if wrong:
+            raise ValueError(text)
+
+
+def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None = None) -> Remeshed:
+    """Fair the patch of `mesh` on a new mesh, in the space that the 4×4 `matrix` leads to.
+
+    Raises MeshRefusal, ValueError, fairing.SolverError and fairing.Cancelled. `mesh` is never changed.
+    """
+    refuse_options(options)
+    options = replace(options, inner_fairness="CONFORMAL")  # new vertices take values from where they were
+    lines = inner_lines(mesh)
+    problem, warnings = pose(mesh, matrix, options)
+    result = _solved(problem, mesh.edges[lines], options, progress)
+    part = new_part(mesh, problem.patch, result, lines)
+    after = _new_problem(problem, part, result)
+    before = _places_before(problem, part)
+    points = before + options.factor * (after.own_points - before)
+    measured = quality.measure(problem.patch, problem.own_points), quality.measure(after.patch, points)
+    own = replace(after, points=np.concatenate([points, after.points[len(points) :]]))
+    join = quality.join(own, own.points)
+    told, failures, hints = told_by(result, _origin(problem, result))
+    verdict = judge(Evidence(after, result, failures, *measured, join), options)
+    local = to_local(points, matrix)
+    stay = len(part.stay)
+    return Remeshed(
+        vertices=part.stay[part.fixed_count :],
+        positions=local[part.fixed_count : stay],
+        result=result,
+        warnings=warnings + told + _mirror_note(mesh) + (() if verdict.grade == GOOD else hints),
+        before=measured[0],
+        after=measured[1],
+        distortion=quality.texture_distortion(before, points, part.triangles),
+        curvature=_largest_curvatures(result),
+        join=join,
+        verdict=verdict,
+        free_count=len(points) - part.fixed_count,
+        part=_wound_back(part) if mesh.transformed(matrix).mirrored else part,
+        new_positions=local[stay:],
+    )
+
+
+def _solved(problem: Problem, lines: Ints, options: FairOptions, progress: Progress | None) -> fairing.RemeshResult:
+    patch = problem.patch
+    number = {vertex: k for k, vertex in enumerate(patch.vertices.tolist())}
+    kept = [[number[a], number[b]] for a, b in lines.tolist()]
+    arguments = options.engine_arguments()
+    for name in ("method", "levels", "detail", "detail_size"):
+        del arguments[name]
+    if problem.curvatures is not None:
+        arguments["fixed_curvatures"] = problem.curvatures
+    with in_mesh_words(problem.origin):
+        return fairing.remesh(
+            problem.own_points, patch.triangles, fixed=patch.fixed, fixed_normals=problem.normals,
+            kept=_edges_of(patch, kept), spacing=_spacing(problem, options), progress=progress, **arguments,
+        )  # fmt: skip
+
+
+def _edges_of(patch: Patch, pairs: list[list[int]]) -> Ints:
+    """Return those of the pairs that are edges of the patch's triangles: fins are left out of these."""
+    sides = np.concatenate([patch.triangles[:, [0, 1]], patch.triangles[:, [1, 2]], patch.triangles[:, [2, 0]]])
+    known = {tuple(side) for side in np.sort(sides, axis=1).tolist()}
+    found = [pair for pair in pairs if tuple(sorted(pair)) in known]
+    return np.array(found, dtype=np.int64).reshape(-1, 2)
+
+
+def _spacing(problem: Problem, options: FairOptions) -> float:
+    """Return the wanted length; 0, which follows the outline's own edges, for a factor of 1."""
+    if options.spacing == 1.0:
+        return 0.0
+    loops = fairing.boundary_loops(problem.patch.triangles)
+    if not loops:
+        return options.spacing * float(np.sqrt(quality.mean_area(problem.own_points, problem.patch.triangles)))
+    edges = [problem.points[np.roll(loop, -1)] - problem.points[loop] for loop in loops]
+    return options.spacing * float(np.linalg.norm(np.concatenate(edges), axis=1).mean())
+
+
+def _places_before(problem: Problem, part: NewPart) -> Floats:
+    """Return (r + k, 3): where the vertices of the new part lie on the old one."""
+    world = np.zeros((int(problem.vertices.max()) + 1, 3))
+    world[problem.vertices] = problem.points
+    return np.concatenate([world[part.stay], part.vertices.mean(world)])
+
+
+def _new_problem(problem: Problem, part: NewPart, result: fairing.RemeshResult) -> Problem:
+    """Return the new part as a patch: its own r + k points, then those of the faces around.
+
+    A new vertex goes by the number of the old one that it is next to.
+    """
+    own = np.concatenate([part.stay, part.vertices.heaviest])
+    outside = problem.vertices[problem.outside]
+    others = np.setdiff1d(outside, part.stay)
+    number = np.full(int(problem.vertices.max()) + 1, -1, dtype=np.int64)
+    number[others] = len(own) + np.arange(len(others))
+    number[part.stay] = np.arange(len(part.stay))
+    place = np.zeros((len(number), 3))
+    place[problem.vertices] = problem.points
+    lines, new = np.flatnonzero(result.old >= 0), np.flatnonzero(result.old < 0)
+    fixed = part.stay[: part.fixed_count]
+    points = np.concatenate([place[fixed], result.vertices[lines], result.vertices[new], place[others]])
+    count = len(problem.patch.vertices)
+    patch = Patch(
+        vertices=own,
+        triangles=part.triangles,
+        faces=count + np.arange(len(part.triangles)) + int(problem.patch.faces.max(initial=-1)) + 1,
+        free=np.arange(part.fixed_count, len(own)),
+        fixed=np.arange(part.fixed_count),
+        outline=np.unique(np.concatenate([np.empty(0, np.int64), *fairing.boundary_loops(part.triangles)])),
+        neighbours=None,
+    )
+    vertices = np.concatenate([own, others])
+    return Problem(patch, points, np.empty((0, 3)), vertices, number[outside])
+
+
+def _origin(problem: Problem, result: fairing.RemeshResult) -> Origin:
+    """Return what the engine's numbers in the warnings stand for: those of the mesh that was solved last."""
+    if not result.polished:
+        return problem.origin
+    patch = problem.patch
+    near = patch.triangles[result.origin[0]][np.arange(len(result.old)), result.origin[1].argmax(axis=1)]
+    vertices = np.concatenate([patch.vertices, patch.vertices[near]])
+    return Origin(vertices, result.triangles.astype(np.int64), np.arange(len(result.triangles)))
+
+
+def _largest_curvatures(result: fairing.RemeshResult) -> tuple[float, float]:
+    largest = float(np.abs(result.mean_curvature).max(initial=0.0))
+    return largest, largest
+
+
+def _mirror_note(mesh: MeshArrays) -> tuple[str, ...]:
+    return ("X mirror is on, but a new mesh is not symmetric",) if mesh.mirror_x else ()
+
+
+def _wound_back(part: NewPart) -> NewPart:
+    """Return the part with its triangles wound as the mesh's own."""
+    order = (3 * np.arange(len(part.triangles))[:, None] + np.array([2, 1, 0])).ravel()
+    corners = replace(part.corners, sources=part.corners.sources[order], weights=part.corners.weights[order])
+    return replace(part, triangles=part.triangles[:, ::-1], corners=corners)

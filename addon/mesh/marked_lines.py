@@ -1,0 +1,49 @@
+"""Edges of a mesh that a new mesh has to keep, as its attributes say."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..core.arrays import Floats, Mask
+from ..core.lines import parting_edges
+from ..core.region import MeshArrays
+
+_WIDTHS = {
+    "FLOAT": ("value", 1, np.float32),
+    "INT": ("value", 1, np.int32),
+    "INT8": ("value", 1, np.int32),
+    "BOOLEAN": ("value", 1, bool),
+    "FLOAT2": ("vector", 2, np.float32),
+    "FLOAT_VECTOR": ("vector", 3, np.float32),
+    "FLOAT_COLOR": ("color", 4, np.float32),
+    "BYTE_COLOR": ("color", 4, np.float32),
+}  # fmt: skip
+_OWN = {".sculpt_face_set"}  # of Blender's own attributes, which begin with a point, the one that counts
+_NOT_MARKS = {"custom_normal", "sharp_face"}  # what new faces have of their own, and shading
+
+
+def lines(mesh: bpy.types.Mesh, arrays: MeshArrays) -> Mask:
+    """Return the (e,) mask of edges with marks, and of those where UVs, colours, materials or face sets part."""
+    found = np.zeros(len(arrays.edges), dtype=bool)
+    for attribute in mesh.attributes:
+        hidden = attribute.name.startswith(".") and attribute.name not in _OWN
+        if hidden or attribute.name in _NOT_MARKS or attribute.data_type not in _WIDTHS:
+            continue
+        if attribute.domain == "EDGE":
+            found |= (_values(attribute, len(arrays.edges)) != 0.0).any(axis=1)
+        elif attribute.domain == "CORNER":
+            found |= parting_edges(arrays, _values(attribute, len(arrays.corner_vertices)))
+        elif attribute.domain == "FACE":
+            values = _values(attribute, len(arrays.in_patch))
+            found |= parting_edges(arrays, values[arrays.corner_faces])
+    return found
+
+
+def _values(attribute: Any, count: int) -> Floats:
+    name, width, dtype = _WIDTHS[attribute.data_type]
+    values = np.empty(count * width, dtype=dtype)
+    attribute.data.foreach_get(name, values)
+    return values.reshape(count, width).astype(np.float64)

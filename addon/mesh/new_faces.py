@@ -1,0 +1,89 @@
+"""New vertices and faces in a bmesh, with what belongs to them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..core.arrays import Floats, Ints
+from .layers import OF_CORNERS, OF_VERTICES, MeanLayers, Shapes, Weights, copied_layers, copy
+from .live_mesh import LAYER
+
+Carrier = Callable[[Floats], Floats]  # from values at the sources (n, w) to values at new elements
+
+
+@dataclass(frozen=True)
+class VertexData:
+    """k new vertices and what they are made of."""
+
+    positions: Floats  # (k, 3) local
+    sources: Sequence[Any]  # vertices
+    carry: Carrier  # to (k, w)
+    examples: Sequence[Any]  # (k,) vertices
+    before: Floats | None = None  # (k, 3) where they were on an old surface, which other shape keys than a Basis keep
+
+
+@dataclass(frozen=True)
+class FaceData:
+    """m new faces over `stay` and then the new vertices."""
+
+    stay: Sequence[Any]  # vertices
+    polygons: list[list[int]]
+    sources: Sequence[Any]  # corners
+    carry: Carrier  # to (u, w)
+    numbers: list[int]  # of the rows of these, for each new corner, face after face
+    corner_examples: Sequence[Any]  # for each new corner
+    examples: Sequence[Any]  # (m,) faces
+    in_live: bool = False  # whether new faces are in the live region where their examples are
+
+
+def make_vertices(bm: Any, shapes: Shapes, data: VertexData) -> list[Any]:
+    """Make them; return them."""
+    layers = MeanLayers(bm.verts.layers, OF_VERTICES)
+    weights = Weights(bm, data.sources)
+    read = (layers.read(data.sources), weights.read(data.sources), shapes.offsets(data.sources))
+    values = data.carry(np.concatenate(read, axis=1))
+    made = []
+    for position, example in zip(data.positions.tolist(), data.examples, strict=True):
+        vertex = bm.verts.new(position, example)
+        vertex.hide = False
+        made.append(vertex)
+    own, groups, offsets = np.split(values, [layers.width, layers.width + weights.width], axis=1)
+    layers.write(made, own)
+    weights.write(made, groups)
+    # As Blender keeps them.
+    starts: Floats = data.positions.astype(np.float32).astype(np.float64)
+    if data.before is not None and not shapes.follow:
+        starts = data.before
+    shapes.write(made, offsets, starts)
+    return made
+
+
+def make_faces(bm: Any, vertices: Sequence[Any], data: FaceData) -> list[Any]:
+    """Make them over data.stay and these new vertices; return them."""
+    layers = MeanLayers(bm.loops.layers, OF_CORNERS)
+    values = data.carry(layers.read(data.sources))
+    live = None if data.in_live else bm.faces.layers.int.get(LAYER)
+    table = [*data.stay, *vertices]
+    made = []
+    for polygon, example in zip(data.polygons, data.examples, strict=True):
+        face = bm.faces.new([table[corner] for corner in polygon], example)
+        face.hide = False
+        if live is not None:
+            face[live] = 0
+        made.append(face)
+    corners = [corner for face in made for corner in face.loops]
+    copied = copied_layers(bm.loops.layers)
+    if copied:
+        copy(copied, data.corner_examples, corners)
+    if layers.width:
+        layers.write(corners, values, data.numbers)
+    return made
+
+
+def elements_of(table: Any, numbers: Ints) -> list[Any]:
+    """Return the elements of a bmesh's sequence, whose lookup table is up to date."""
+    return [table[number] for number in numbers.tolist()]

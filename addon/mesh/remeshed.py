@@ -1,0 +1,109 @@
+"""A patch on a new mesh in Blender: new faces come, the old ones go, and what belonged to these is carried over."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import bmesh
+import bpy
+import numpy as np
+
+from ..core.arrays import Floats, Ints
+from ..core.new_part import NewPart
+from ..core.remeshing import Remeshed
+from .layers import Shapes, in_object_mode
+from .new_faces import FaceData, VertexData, elements_of, make_faces, make_vertices
+from .selecting import select_new_faces
+
+
+@dataclass(frozen=True)
+class Written:
+    """What a mesh has after a run: numbers of its faces and vertices as they are now."""
+
+    face_count: int
+    faces: Ints  # that are new
+    spots: Ints  # vertices of the verdict that are still there
+
+
+def write_edit_mesh(obj: bpy.types.Object, outcome: Remeshed) -> Written:
+    """Replace the patch of an object in edit mode and select what is new."""
+    bm = bmesh.from_edit_mesh(obj.data)
+    written = _replace(bm, Shapes(bm, obj.data.shape_keys, obj.active_shape_key), outcome)
+    bmesh.update_edit_mesh(obj.data)
+    return written
+
+
+def write_mesh(mesh: bpy.types.Mesh, outcome: Remeshed) -> None:
+    """Replace the patch of a mesh in object mode: that of its Basis, which the keys relative to it follow."""
+    with in_object_mode(mesh) as (bm, shapes):
+        bm.verts.ensure_lookup_table()
+        moved = elements_of(bm.verts, outcome.vertices)
+        offsets = shapes.offsets(moved)
+        _replace(bm, shapes, outcome)
+        if shapes.follow:
+            shapes.write(moved, offsets, np.array([vertex.co[:] for vertex in moved]).reshape(-1, 3))
+
+
+def _replace(bm: Any, shapes: Shapes, outcome: Remeshed) -> Written:
+    for table in (bm.verts, bm.faces):
+        table.ensure_lookup_table()
+        table.index_update()
+    part = outcome.part
+    spots = elements_of(bm.verts, np.setdiff1d(outcome.verdict.spots, part.gone_vertices))
+    gone = elements_of(bm.faces, part.gone_faces)
+    lost = elements_of(bm.verts, part.gone_vertices)
+    old_edges = {edge for face in gone for edge in face.edges}
+    stay = elements_of(bm.verts, part.stay)
+    vertices = make_vertices(bm, shapes, _vertex_data(bm, part, outcome.new_positions))
+    for vertex, place in zip(stay[part.fixed_count :], outcome.positions.tolist(), strict=True):
+        vertex.co = place
+    faces = make_faces(bm, vertices, _face_data(bm, part, stay))
+    bmesh.ops.delete(bm, geom=gone, context="FACES_ONLY")
+    bmesh.ops.delete(bm, geom=lost, context="VERTS")
+    bare = [edge for edge in old_edges if edge.is_valid and not edge.link_faces]
+    bmesh.ops.delete(bm, geom=bare, context="EDGES")
+    select_new_faces(bm, faces)
+    bm.normal_update()
+    bm.verts.index_update()
+    bm.faces.index_update()
+    numbers = np.array([face.index for face in faces], dtype=np.int64)
+    return Written(len(bm.faces), numbers, np.array([vertex.index for vertex in spots], dtype=np.int64))
+
+
+def _vertex_data(bm: Any, part: NewPart, positions: Floats) -> VertexData:
+    """Tell what the new vertices are made of: the vertices of the triangles that they lie on."""
+    used, local = np.unique(part.vertices.sources, return_inverse=True)
+    stencil = type(part.vertices)(local.reshape(part.vertices.sources.shape), part.vertices.weights)
+    sources = elements_of(bm.verts, used)
+    before = stencil.mean(np.array([vertex.co[:] for vertex in sources]).reshape(-1, 3))
+    return VertexData(positions, sources, stencil.mean, elements_of(bm.verts, part.vertices.heaviest), before)
+
+
+def _face_data(bm: Any, part: NewPart, stay: list[Any]) -> FaceData:
+    """Tell what the new faces are made of: the corners of the triangles that they lie on."""
+    corners = _corners(bm, part.gone_faces)
+    used, local = np.unique(part.corners.sources, return_inverse=True)
+    stencil = type(part.corners)(local.reshape(part.corners.sources.shape), part.corners.weights)
+    sources = [corners[number] for number in used.tolist()]
+    return FaceData(
+        stay=stay,
+        polygons=part.triangles.tolist(),
+        sources=sources,
+        carry=stencil.mean,
+        numbers=list(range(3 * len(part.triangles))),
+        corner_examples=[corners[number] for number in part.corners.heaviest.tolist()],
+        examples=elements_of(bm.faces, part.faces),
+        in_live=True,
+    )
+
+
+def _corners(bm: Any, faces: Ints) -> dict[int, Any]:
+    """Return the corners of some faces by their numbers in the mesh."""
+    sizes = np.array([len(face.verts) for face in bm.faces], dtype=np.int64)
+    starts = (np.cumsum(sizes) - sizes)[faces].tolist()
+    return {
+        start + k: corner
+        for start, face in zip(starts, elements_of(bm.faces, faces), strict=True)
+        for k, corner in enumerate(face.loops)
+    }

@@ -1,0 +1,112 @@
+"""Operators that may take long: at once for scripts and where it takes but a moment, else watched in the background."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import bpy
+
+import fairing
+
+from ..core.engine import Progress
+from ..core.runner import Run
+from ..host.status import hide_progress, show_progress
+from . import job
+
+TICK = 0.05  # seconds between two looks at the thread
+MOMENT = 0.3  # seconds that Blender may stand still for an answer
+
+# Looking around does no harm while the engine works; all else would.
+_VIEW_EVENTS = {
+    "MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "MOUSEROTATE",
+    "NUMPAD_1", "NUMPAD_3", "NUMPAD_5", "NUMPAD_7", "NUMPAD_PERIOD", "NDOF_MOTION",
+}  # fmt: skip
+
+Work = Callable[[Progress], Any]
+
+
+def has_events(context: bpy.types.Context) -> bool:
+    """Tell whether there is a window whose events could watch a run."""
+    return not bpy.app.background and context.window is not None
+
+
+def at_once(context: bpy.types.Context, work: Work) -> Any:
+    """Return what the work gives, with Blender's own progress at the cursor."""
+    manager = context.window_manager
+    manager.progress_begin(0.0, 1.0)
+    tell: Progress = lambda fraction, _stage: manager.progress_update(fraction)  # noqa: E731
+    try:
+        return work(tell)
+    finally:
+        manager.progress_end()
+
+
+class Watched:
+    """What an operator needs besides `_apply`, `_refuse` and `_is_current` to watch a run."""
+
+    if TYPE_CHECKING:
+        report: Callable[[set[str], str], None]
+        _apply: Callable[[bpy.types.Context, Any], set[str]]
+        _refuse: Callable[[bpy.types.Context, job.Refused], set[str]]
+        _is_current: Callable[[bpy.types.Context], bool]
+
+    _run: Run[Any] | None = None
+    _timer: Any = None
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Watch the thread; Esc leaves the mesh as it is."""
+        assert self._run is not None
+        if event.type == "ESC" and event.value == "PRESS":
+            self.cancel(context)
+            self.report({"INFO"}, "Fairing was cancelled; nothing has changed")
+            return {"CANCELLED"}
+        if event.type == "TIMER":
+            if self._run.finished:
+                return self._collect(context)
+            show_progress(context, self._run.fraction, self._run.stage)
+        return {"PASS_THROUGH"} if event.type in _VIEW_EVENTS else {"RUNNING_MODAL"}
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Give the run up; Blender calls this too, when it closes a window."""
+        if self._run is not None:
+            self._run.cancel()
+        self._stop_watching(context)
+
+    def _start(self, context: bpy.types.Context, work: Work, large: bool) -> set[str]:
+        """Begin; return when done where that takes but a moment, but for large ones at once."""
+        if not has_events(context):
+            return self._apply(context, at_once(context, work))
+        self._run = Run(work)
+        if not large and self._run.wait(MOMENT):
+            return self._apply(context, self._run.result())
+        self._start_watching(context)
+        return {"RUNNING_MODAL"}
+
+    def _collect(self, context: bpy.types.Context) -> set[str]:
+        assert self._run is not None
+        self._stop_watching(context)
+        try:
+            outcomes = self._run.result()
+        except job.Refused as refusal:
+            return self._refuse(context, refusal)
+        except fairing.Cancelled:
+            return {"CANCELLED"}
+        if not self._is_current(context):
+            self.report({"ERROR"}, "The mesh changed meanwhile; the result was dropped")
+            return {"CANCELLED"}
+        return self._apply(context, outcomes)
+
+    def _start_watching(self, context: bpy.types.Context) -> None:
+        manager = context.window_manager
+        self._timer = manager.event_timer_add(TICK, window=context.window)
+        manager.progress_begin(0.0, 1.0)
+        manager.modal_handler_add(self)
+        show_progress(context, 0.0, "")
+
+    def _stop_watching(self, context: bpy.types.Context) -> None:
+        if self._timer is not None:
+            context.window_manager.event_timer_remove(self._timer)
+            context.window_manager.progress_end()
+            self._timer = None
+        hide_progress(context)

@@ -1,0 +1,73 @@
+"""Filling for scripts: a mesh and its borders, without edit mode, operators or a context."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import bpy
+import numpy as np
+
+import fairing
+
+from ..core.border import border_loops
+from ..core.engine import Progress
+from ..core.fill_report import is_written, refuse_unusable
+from ..core.filling import FillOptions, Piece, fill
+from ..core.options import FairOptions
+from ..mesh import filled, mesh_io
+
+
+@dataclass(frozen=True)
+class Filled:
+    """What was done to one mesh."""
+
+    pieces: list[Piece]
+    added: filled.Added | None  # None: nothing was written
+
+
+def fill_mesh(
+    mesh: bpy.types.Mesh, vertices: Sequence[int] | None = None, *, matrix: Any = None, **properties: Any
+) -> list[fairing.FillResult]:
+    """Fill the holes of `mesh`, or join their outlines, with the fair surface that continues their surroundings.
+
+    vertices: one or more of each border that is meant; default: all borders.
+    matrix: 4×4, to the space in which the surface is fair; default: the mesh's own.
+    properties: those of `mesh.fair_fill`, with the same names and defaults.
+    Returns the `fairing` result for each surface, in the space of `matrix`; the new faces come last in the mesh.
+    Raises fairing.MeshError (elements: vertices of `mesh`), ValueError (also where there is no border), TypeError for a
+    property that does not exist, IndexError, fairing.SolverError and MemoryError; NotUsable where a surface folds,
+    passes through the mesh or is none, unless accept="ALL". The mesh is untouched then.
+    """
+    options = FillOptions(**properties)
+    done = fill_borders(mesh, vertices, matrix, options)
+    refuse_unusable(mesh.name, done.pieces, options)
+    return [piece.result for piece in done.pieces]
+
+
+def fill_borders(
+    mesh: bpy.types.Mesh,
+    vertices: Sequence[int] | None,
+    matrix: Any,
+    options: FillOptions,
+    progress: Progress | None = None,
+) -> Filled:
+    """Do the work of `fill_mesh`, with all its errors but NotUsable; what is not usable is not written."""
+    mesh_io.check_new_faces(mesh_io.user_of(mesh))
+    arrays = mesh_io.read_mesh(mesh, np.empty(0, dtype=np.int64), FairOptions())
+    seeds = np.full(len(arrays.positions), vertices is None)
+    if vertices is not None:
+        chosen = np.asarray(vertices, dtype=np.int64)
+        if chosen.size and not 0 <= chosen.min() <= chosen.max() < len(seeds):
+            raise IndexError(f"vertices: expected vertex indices below {len(seeds)}")
+        seeds[chosen] = True
+    loops = border_loops(arrays, seeds)
+    if not loops:
+        raise ValueError("There is no border to fill" if vertices is None else "None of the vertices is on a border")
+    world = np.eye(4) if matrix is None else np.array(matrix, dtype=np.float64)
+    if world.shape != (4, 4):
+        raise ValueError(f"matrix: expected 4×4 numbers, got shape {world.shape}")
+    pieces = fill(arrays, world, loops, options, progress)
+    written = is_written([(mesh.name, pieces)], options)
+    return Filled(pieces, filled.add_to_mesh(mesh, pieces) if written else None)

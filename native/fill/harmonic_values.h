@@ -1,0 +1,16 @@
+// Values on the rim of a patch, continued over it as heat would spread.
+#pragma once
+
+#include <optional>
+
+#include "mesh/patch.h"
+
+namespace fairing {
+
+// Rows: the free vertices; columns as those of `given`, whose rows are the fixed vertices. Discrete harmonic with
+// cotangent weights, none below a thousandth: no value leaves the range of its column, up to rounding. A linear
+// function of `points` (3 × local vertices) stays linear on a flat patch without wide angles. Nothing where the system
+// can't be solved; nothing held, all zero.
+std::optional<Eigen::MatrixXd> harmonic_values(const Patch& patch, const Points& points, const Eigen::MatrixXd& given);
+
+}  // namespace fairing

@@ -1,0 +1,129 @@
+"""A patch on a new mesh: the surface, where values come from, lines that stay. On a sphere, whose answer is itself."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from test_core_answer import EYE, spoilt_sphere
+
+from core.arrays import Floats, Mask
+from core.lines import inner_lines, parting_edges
+from core.options import FairOptions
+from core.region import MeshArrays
+from core.remeshing import Remeshed, remesh_arrays
+from core.verdict import GOOD
+from polygon_mesh import grid, on_sphere
+
+SIZE = 16
+
+
+def remesh(mesh: MeshArrays, matrix: Floats = EYE, **options: object) -> Remeshed:
+    return remesh_arrays(mesh, matrix, FairOptions(mesh="NEW", **options))
+
+
+def all_points(mesh: MeshArrays, done: Remeshed) -> Floats:
+    """Of the new part's r + k vertices."""
+    moved = mesh.positions.copy()
+    moved[done.vertices] = done.positions
+    return np.concatenate([moved[done.part.stay], done.new_positions])
+
+
+def seam(mesh: MeshArrays) -> Mask:
+    """The (e,) mask of the edges on the middle row of vertices."""
+    on_row: Mask = (mesh.edges // (SIZE + 1) == SIZE // 2).all(axis=1)
+    return on_row
+
+
+def sides(mesh: MeshArrays) -> Floats:
+    """(c, 1): -1 at corners of faces before the middle row, 1 behind it."""
+    rows = np.arange(len(mesh.in_patch)) // SIZE
+    return np.where(rows < SIZE // 2, -1.0, 1.0)[mesh.corner_faces][:, None]
+
+
+@pytest.mark.parametrize("spacing", [0.5, 1.0])
+def test_the_sphere_comes_back(spacing: float) -> None:
+    mesh = spoilt_sphere()
+    done = remesh(mesh, spacing=spacing)
+    assert done.verdict.grade == GOOD
+    np.testing.assert_allclose(np.linalg.norm(done.new_positions, axis=1), 1.0, atol=3e-5)
+    assert (len(done.after.folded), len(done.after.needles)) == (0, 0)
+    assert set(done.part.gone_faces) == set(np.flatnonzero(mesh.in_patch))
+
+
+def test_the_whole_patch_is_covered_once() -> None:
+    mesh = spoilt_sphere()
+    done = remesh(mesh)
+    directed = np.concatenate([done.part.triangles[:, [i, (i + 1) % 3]] for i in range(3)])
+    assert len(np.unique(directed, axis=0)) == len(directed)
+    open_sides = {tuple(s) for s in directed.tolist()} - {tuple(s) for s in directed[:, ::-1].tolist()}
+    stay = done.part.stay
+    rim = np.array([[stay[a], stay[b]] for a, b in open_sides])
+    uses = np.bincount(mesh.corner_edges[mesh.in_patch[mesh.corner_faces]], minlength=len(mesh.edges))
+    assert {tuple(e) for e in np.sort(rim, axis=1).tolist()} == {tuple(e) for e in mesh.edges[uses == 1].tolist()}
+
+
+def test_values_come_from_where_the_new_vertices_lie() -> None:
+    mesh = grid(SIZE, 0.6, on_sphere)
+    done = remesh(mesh, spacing=0.7)
+    carried = done.part.vertices.mean(mesh.positions)
+    np.testing.assert_allclose(carried, done.new_positions, atol=0.02)
+    corners = done.part.corners.mean(mesh.positions[mesh.corner_vertices])
+    np.testing.assert_allclose(corners, all_points(mesh, done)[done.part.triangles.ravel()], atol=0.02)
+
+
+def test_corners_take_values_of_their_own_side() -> None:
+    mesh = spoilt_sphere()
+    mesh = replace(mesh, lines=parting_edges(mesh, sides(mesh)))
+    assert mesh.lines is not None
+    assert np.array_equal(mesh.lines, seam(mesh))
+    done = remesh(mesh, spacing=0.7)
+    assert len(done.vertices) == np.count_nonzero(seam(mesh) & inner_lines(mesh)) - 1
+    carried = done.part.corners.mean(sides(mesh)).reshape(-1, 3)
+    np.testing.assert_allclose(np.abs(carried), 1.0, atol=1e-12)
+    carried = np.sign(carried)
+    assert (carried == carried[:, :1]).all()  # one side for each face
+    assert set(carried[:, 0]) == {-1.0, 1.0}
+    rows = done.part.faces // SIZE
+    assert np.array_equal(np.where(rows < SIZE // 2, -1.0, 1.0), carried[:, 0])
+
+
+def test_an_open_seam_keeps_both_sides_apart() -> None:
+    """One that ends inside the patch: walls are known by their direction, not by a region."""
+    mesh = spoilt_sphere()
+    half = seam(mesh) & (mesh.edges % (SIZE + 1) <= SIZE // 2).all(axis=1)
+    values = np.where(mesh.positions[mesh.corner_vertices, :1] < 0.0, sides(mesh), 0.0)
+    done = remesh(replace(mesh, lines=half), spacing=0.7)
+    carried = done.part.corners.mean(values).reshape(-1, 3)
+    kept = np.isin(done.part.triangles, np.arange(done.part.fixed_count, len(done.part.stay)))
+    both = {round(float(value), 9) for value in carried[kept]}
+    assert {-1.0, 1.0} <= both
+    assert (np.ptp(carried, axis=1) < 1.5).all()  # no face has a corner of each side
+
+
+def test_nothing_but_lines_is_refused() -> None:
+    mesh = replace(spoilt_sphere(), lines=np.ones(len(spoilt_sphere().edges), dtype=bool))
+    with pytest.raises(ValueError, match="nothing to mesh anew"):
+        remesh(mesh)
+
+
+def test_a_matrix_that_mirrors_keeps_the_winding_of_the_mesh() -> None:
+    mesh = grid(SIZE, 0.6, on_sphere)
+    flip = np.diag([-1.0, 1.0, 1.0, 1.0])
+    for matrix in (EYE, flip):
+        local = mesh.positions @ matrix[:3, :3]
+        done = remesh(replace(mesh, positions=local), matrix)
+        corners = all_points(replace(mesh, positions=local), done)[done.part.triangles]
+        across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        outwards = (across * corners.mean(axis=1)).sum(axis=1) * np.linalg.det(matrix[:3, :3])
+        assert (outwards > 0.0).all()
+        made = done.part.corners.mean(local[mesh.corner_vertices])
+        np.testing.assert_allclose(made, corners.reshape(-1, 3), atol=0.02)
+
+
+def test_the_factor_blends_with_the_old_surface() -> None:
+    mesh = spoilt_sphere()
+    whole, half = remesh(mesh), remesh(mesh, factor=0.5)
+    old = half.part.vertices.mean(mesh.positions)
+    np.testing.assert_allclose(half.new_positions, 0.5 * (old + whole.new_positions), atol=1e-12)

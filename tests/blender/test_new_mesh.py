@@ -1,0 +1,279 @@
+"""Mesh: New in Blender: other faces for the same surface, what they carry over, and what is left as it was."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bmesh
+import bpy
+import extension
+import meshes
+import numpy as np
+import pytest
+
+from test_fill import border_edges, dress
+
+UPPER = 0.45  # faces of the sphere above are selected
+
+
+def dented() -> tuple[bpy.types.Object, Any]:
+    """A unit sphere of 48 segments, dressed, and the mask of its upper faces."""
+    obj = meshes.sphere(48)
+    dress(obj)
+    heights = np.array([polygon.center.normalized().z for polygon in obj.data.polygons])
+    return obj, heights > UPPER
+
+
+def spoil(obj: bpy.types.Object, chosen: Any) -> None:
+    """Push in the vertices that have chosen faces only, in Basis and key alike."""
+    polygons = zip(obj.data.polygons, chosen, strict=True)
+    outside = {v for polygon, inside in polygons if not inside for v in polygon.vertices}
+    inner = np.array([v for v in range(len(obj.data.vertices)) if v not in outside])
+    points = meshes.positions(obj)
+    before = points.copy()
+    points[inner, 2] -= 0.1 + 0.05 * np.cos(7.0 * points[inner, 0])
+    obj.data.vertices.foreach_set("co", points.astype(np.float32).ravel())
+    for block in obj.data.shape_keys.key_blocks if obj.data.shape_keys else ():
+        places = np.array([point.co[:] for point in block.data]) + points - before
+        block.data.foreach_set("co", places.astype(np.float32).ravel())
+
+
+def fair_new(obj: bpy.types.Object, chosen: Any, **properties: Any) -> set[str]:
+    """Run it from and to object mode."""
+    meshes.select(obj, chosen)
+    meshes.edit(obj)
+    try:
+        status: set[str] = bpy.ops.mesh.fair_region("EXEC_DEFAULT", True, mesh="NEW", **properties)
+        return status
+    finally:
+        meshes.leave()
+
+
+def new_polygons(obj: bpy.types.Object) -> list[Any]:
+    return [polygon for polygon in obj.data.polygons if polygon.select]
+
+
+def inner_vertices(obj: bpy.types.Object) -> Any:
+    """Those of new faces only."""
+    outside = {v for polygon in obj.data.polygons if not polygon.select for v in polygon.vertices}
+    return np.array(sorted({v for polygon in new_polygons(obj) for v in polygon.vertices} - outside))
+
+
+def test_the_sphere_comes_back_with_other_faces() -> None:
+    obj, chosen = dented()
+    spoil(obj, chosen)
+    kept = int(np.count_nonzero(~chosen))
+    assert fair_new(obj, chosen) == {"FINISHED"}
+    assert border_edges(obj) == 0
+    assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 1e-3
+    assert len(obj.data.polygons) - kept == len(new_polygons(obj))
+    assert all(len(polygon.vertices) == 3 for polygon in new_polygons(obj))
+    used = {v for edge in obj.data.edges for v in edge.vertices}
+    assert used == {v for polygon in obj.data.polygons for v in polygon.vertices} == set(range(len(obj.data.vertices)))
+
+
+def test_spacing_gives_more_faces_on_the_same_surface() -> None:
+    counts = []
+    for spacing in (2.0, 1.0, 0.5):
+        obj, chosen = dented()
+        spoil(obj, chosen)
+        assert fair_new(obj, chosen, spacing=spacing) == {"FINISHED"}
+        counts.append(len(new_polygons(obj)))
+        assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 3e-3
+    assert counts[0] < counts[1] < counts[2]
+
+
+def test_values_are_carried_over() -> None:
+    """Everything dressed is linear in the place on the old sphere, or constant; the surface is the old one again."""
+    obj, chosen = dented()
+    assert fair_new(obj, chosen, spacing=0.7) == {"FINISHED"}
+    points, inner = meshes.positions(obj), inner_vertices(obj)
+    assert len(inner) > 100
+    x = points[inner, 0]
+    heat = np.array([item.value for item in obj.data.attributes["heat"].data])[inner]
+    np.testing.assert_allclose(heat, x, atol=0.02)
+    paint = np.array([item.color[:] for item in obj.data.color_attributes["Paint"].data])[inner]
+    np.testing.assert_allclose(paint[:, 0], 0.5 + 0.4 * heat, atol=1e-5)
+    weights = [obj.data.vertices[vertex].groups[0].weight for vertex in inner.tolist()]
+    np.testing.assert_allclose(weights, 0.5 + 0.4 * heat, atol=1e-5)
+    for polygon in new_polygons(obj):
+        assert (polygon.material_index, polygon.use_smooth) == (1, True)
+        for corner in polygon.loop_indices:
+            uv = obj.data.uv_layers["Map"].uv[corner].vector
+            place = points[obj.data.loops[corner].vertex_index]
+            np.testing.assert_allclose(uv, 0.5 + 0.4 * place[:2], atol=0.01)
+    sets, numbers = obj.data.attributes[".sculpt_face_set"].data, obj.data.attributes["number"].data
+    assert {sets[polygon.index].value for polygon in new_polygons(obj)} == {7}
+    assert {numbers[corner].value for polygon in new_polygons(obj) for corner in polygon.loop_indices} == {5}
+    keys = obj.data.shape_keys.key_blocks
+    basis, wide = (np.array([point.co[:] for point in keys[name].data])[inner] for name in ("Basis", "Wide"))
+    np.testing.assert_array_equal(basis, points[inner])
+    np.testing.assert_allclose(wide - basis, np.column_stack([heat, 0 * heat, 0 * heat + 0.25]), atol=1e-5)
+
+
+def contents_by_place(obj: bpy.types.Object, polygons: Any) -> list[Any]:
+    """What polygons and their corners have, to the bit, whatever their numbers are."""
+    mesh = obj.data
+    uv, sets = mesh.uv_layers["Map"].uv, mesh.attributes[".sculpt_face_set"].data
+    wide = mesh.shape_keys.key_blocks["Wide"].data
+    return [
+        (
+            [tuple(mesh.vertices[v].co) for v in polygon.vertices],
+            [tuple(wide[v].co) for v in polygon.vertices],
+            [[(g.group, g.weight) for g in mesh.vertices[v].groups] for v in polygon.vertices],
+            [tuple(uv[corner].vector) for corner in polygon.loop_indices],
+            (polygon.material_index, polygon.use_smooth, sets[polygon.index].value),
+        )
+        for polygon in polygons
+    ]
+
+
+def test_everything_outside_keeps_its_bits() -> None:
+    obj, chosen = dented()
+    spoil(obj, chosen)
+    before = contents_by_place(obj, [p for p, inside in zip(obj.data.polygons, chosen, strict=True) if not inside])
+    assert fair_new(obj, chosen) == {"FINISHED"}
+    assert contents_by_place(obj, [p for p in obj.data.polygons if not p.select]) == before
+
+
+def halved(obj: bpy.types.Object) -> None:
+    """Two islands of UVs, left and right of x = 0, each with the places of the other's mirror image far away."""
+    mesh = obj.data
+    points = meshes.positions(obj)
+    centres = np.array([polygon.center.x for polygon in mesh.polygons for _ in polygon.loop_indices])
+    places = points[[loop.vertex_index for loop in mesh.loops], :2] + np.where(centres > 0.0, 5.0, -5.0)[:, None]
+    layer = mesh.uv_layers["Map"] if "Map" in mesh.uv_layers else mesh.uv_layers.new(name="Map")
+    layer.uv.foreach_set("vector", places.astype(np.float32).ravel())
+
+
+def test_a_seam_inside_stays_and_parts_the_islands() -> None:
+    obj, chosen = dented()
+    halved(obj)
+    spoil(obj, chosen)
+    assert fair_new(obj, chosen, spacing=0.7) == {"FINISHED"}
+    assert border_edges(obj) == 0
+    points = meshes.positions(obj)
+    assert np.abs(np.linalg.norm(points, axis=1) - 1.0).max() < 2e-3
+    uv = obj.data.uv_layers["Map"].uv
+    sides = []
+    for polygon in new_polygons(obj):
+        u = np.array([uv[corner].vector[0] for corner in polygon.loop_indices])
+        x = points[list(polygon.vertices), 0]
+        assert abs(u - x - np.sign(u) * 5.0).max() < 0.1  # no corner is of the other island
+        assert np.ptp(np.sign(u)) == 0
+        sides.append(float(np.sign(u[0])))
+        assert (np.sign(u[0]) * x).min() > -5e-3  # no face runs across
+    assert set(sides) == {-1.0, 1.0}
+
+
+def test_marks_and_borders_of_materials_stay() -> None:
+    obj, chosen = dented()
+    mesh = obj.data
+    for polygon in mesh.polygons:
+        polygon.material_index = int(polygon.center.x > 0.0)
+    for edge in mesh.edges:
+        a, b = (mesh.vertices[v].co for v in edge.vertices)
+        edge.use_edge_sharp = abs(a.y) < 1e-5 and abs(b.y) < 1e-5
+    sharp = sum(edge.use_edge_sharp for edge in mesh.edges)
+    assert fair_new(obj, chosen) == {"FINISHED"}
+    assert sum(edge.use_edge_sharp for edge in mesh.edges) == sharp
+    for polygon in new_polygons(obj):
+        assert polygon.material_index == int(polygon.center.x > 0.0)
+
+
+def test_a_mesh_that_is_all_seams_is_refused() -> None:
+    obj, chosen = dented()
+    corners = np.arange(2 * len(obj.data.loops), dtype=np.float32)
+    obj.data.uv_layers["Map"].uv.foreach_set("vector", corners)
+    meshes.edit(obj)
+    meshes.leave()
+    before = unselected(obj)
+    with pytest.raises(RuntimeError, match="nothing to mesh anew"):
+        fair_new(obj, chosen)
+    assert unselected(obj) == before
+
+
+def unselected(obj: bpy.types.Object) -> dict[str, bytes]:
+    """All that it has but the selection."""
+    return {name: data for name, data in meshes.contents(obj).items() if "select" not in name}
+
+
+@pytest.mark.parametrize(
+    ("properties", "text"),
+    [({"detail": 0.5}, "Keep Detail"), ({"method": "PAPER"}, "Multigrid"), ({"outline": "MENDED"}, "Smooth")],
+)
+def test_options_that_need_the_old_vertices_are_refused(properties: Any, text: str) -> None:
+    obj, chosen = dented()
+    count = len(obj.data.polygons)
+    with pytest.raises(RuntimeError, match=text):
+        fair_new(obj, chosen, **properties)
+    assert len(obj.data.polygons) == count
+
+
+def test_one_step_of_undo_takes_it_back() -> None:
+    obj, chosen = dented()
+    name = obj.name
+    meshes.select(obj, chosen)
+    bpy.ops.ed.undo_push(message="open")
+    meshes.edit(obj)
+    bpy.ops.ed.undo_push(message="selected")
+    before = len(obj.data.polygons)
+    assert bpy.ops.mesh.fair_region("EXEC_DEFAULT", True, mesh="NEW", spacing=0.5) == {"FINISHED"}
+    assert len(bmesh.from_edit_mesh(obj.data).faces) > before
+    bpy.ops.ed.undo()
+    found = bpy.data.objects[name]
+    assert bpy.context.mode == "EDIT_MESH"
+    assert len(bmesh.from_edit_mesh(found.data).faces) == before
+
+
+def test_another_key_than_the_basis_changes_alone() -> None:
+    """New vertices of the Basis lie where the old surface was."""
+    obj, chosen = dented()
+    obj.active_shape_key_index = 1
+    obj.data.shape_keys.key_blocks["Wide"].value = 1.0
+    assert fair_new(obj, chosen) == {"FINISHED"}
+    inner = inner_vertices(obj)
+    basis = np.array([point.co[:] for point in obj.data.shape_keys.key_blocks["Basis"].data])
+    assert np.abs(np.linalg.norm(basis[inner], axis=1) - 1.0).max() < 0.02
+
+
+def test_scale_that_turns_inside_out_counts() -> None:
+    obj, chosen = dented()
+    obj.shape_key_clear()
+    points = meshes.positions(obj)
+    meshes.move(obj, points / (2.0, -1.0, 1.0))
+    obj.data.flip_normals()
+    obj.scale = (2.0, -1.0, 1.0)
+    assert fair_new(obj, chosen) == {"FINISHED"}
+    assert border_edges(obj) == 0
+    assert np.abs(np.linalg.norm(meshes.positions(obj) * (2.0, -1.0, 1.0), axis=1) - 1.0).max() < 1e-3
+
+
+def test_a_script_gets_it_without_edit_mode() -> None:
+    obj, chosen = dented()
+    spoil(obj, chosen)
+    faces = np.flatnonzero(chosen).tolist()
+    result = extension.module().fair_mesh(obj.data, faces, mesh="NEW", spacing=0.7)
+    assert result.converged
+    assert border_edges(obj) == 0
+    assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 1e-3
+    keys = obj.data.shape_keys.key_blocks
+    basis, wide = (np.array([point.co[:] for point in keys[name].data]) for name in ("Basis", "Wide"))
+    np.testing.assert_array_equal(basis, meshes.positions(obj))
+    np.testing.assert_allclose((wide - basis)[:, 2], 0.25, atol=1e-5)
+
+
+def test_the_last_run_knows_the_new_faces() -> None:
+    obj, chosen = dented()
+    spoil(obj, chosen)
+    meshes.select(obj, chosen)
+    meshes.edit(obj)
+    bpy.ops.mesh.fair_region("EXEC_DEFAULT", True, mesh="NEW")
+    report = bpy.context.window_manager.fairing_report
+    assert (report.verdict, report.written) == ("GOOD", True)
+    assert "SMOOTH_OUTLINE" not in report.remedies
+    new = sum(face.select for face in bmesh.from_edit_mesh(obj.data).faces)
+    bpy.ops.mesh.select_all(action="DESELECT")
+    extension.module("run.last_run").select_region(bpy.context)
+    assert sum(face.select for face in bmesh.from_edit_mesh(obj.data).faces) == new
+    meshes.leave()
