@@ -114,6 +114,29 @@ def test_curvature_is_read_off_the_surroundings() -> None:
     assert off[1] < 0.5 * off[0]
 
 
+@pytest.mark.parametrize("size", [60, 72])
+def test_an_outline_in_steps_is_met_in_its_curvature(size: int) -> None:
+    """A barrel whose curvature changes; the outline of an oval runs in steps along the grid."""
+    x, y = (part.ravel() for part in np.meshgrid(*2 * [np.linspace(-1, 1, size + 1)], indexing="ij"))
+    height = np.sqrt(4 - x**2) - 2 - 0.3 * y**2 + 0.15 * y**3
+    vertices = np.column_stack([x, y, height])
+    corner = (np.arange(size)[:, None] * (size + 1) + np.arange(size)).ravel()
+    quads = np.column_stack([corner, corner + size + 1, corner + size + 2, corner + 1])
+    triangles = np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]])
+    middle = np.tile(vertices[quads, :2].mean(axis=1), (2, 1))
+    within = (middle[:, 0] / 0.62) ** 2 + (middle[:, 1] / 0.5) ** 2 < 1
+    outline = np.intersect1d(triangles[within], triangles[~within])
+    fits = fairing.surrounding_normals(vertices, triangles[~within], outline)
+    options = {"fixed": outline, "fixed_normals": fits.normals, "outside": triangles[~within]}
+    off = []
+    for continuity in ("G1", "G2"):
+        result = fairing.fair(vertices, triangles[within], continuity=continuity, **options)
+        assert result.continuity == continuity
+        assert not codes(result)
+        off.append(np.abs(result.vertices[:, 2] - height).max())
+    assert off[1] < 0.75 * off[0]
+
+
 def test_slopes_are_met_as_well() -> None:
     _, tangent, curved = joined("torus", 4000)
     assert curved.boundary_angle.max() < 0.05

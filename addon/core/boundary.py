@@ -37,7 +37,18 @@ def _fit_outside(mesh: MeshArrays, fixed: Ints, outside: Ints) -> tuple[fairing.
         return None, found
     used, triangles = np.unique(outside, return_inverse=True)
     at = np.searchsorted(used, fixed[found])
-    return fairing.surrounding_normals(mesh.positions[used], triangles.reshape(-1, 3).astype(np.int64), at), found
+    faces = triangles.reshape(-1, 3).astype(np.int64)
+    return fairing.surrounding_normals(mesh.positions[used], faces, at, creases=_creases(mesh, used)), found
+
+
+def _creases(mesh: MeshArrays, used: Ints) -> Ints:
+    """Return the (c, 2) creases between vertices `used` (ascending), in their numbers: no fit looks across."""
+    if mesh.creases is None:
+        return np.empty((0, 2), dtype=np.int64)
+    edges = mesh.edges[mesh.creases]
+    edges = edges[np.isin(edges, used).all(axis=1)]
+    numbered: Ints = np.searchsorted(used, edges).astype(np.int64)
+    return numbered
 
 
 def surrounding_normals(mesh: MeshArrays, fixed: Ints, outside: Ints) -> tuple[Floats, Mask]:

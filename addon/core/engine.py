@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -70,8 +71,18 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
             outline=options.outline.lower(),
             outside=problem.outside if reads else None,
             progress=progress,
+            **_held_inside(patch, options),
             **options.engine_arguments(),
         )
+
+
+def _held_inside(patch: Patch, options: FairOptions) -> dict[str, Any]:
+    """Return what holds inside the patch with a slope that the surface finds."""
+    return {
+        "creases": patch.creases,
+        "smooth_curves": patch.smooth_curves,
+        "open_border": "faired" if options.fairs_border else "held",
+    }
 
 
 def check(problem: Problem, options: FairOptions) -> None:
@@ -127,7 +138,11 @@ class RepeatedSolve:
         self._reference = reference
         with in_mesh_words(patch.origin):
             self._solver = fairing.Solver(
-                patch.triangles, fixed=patch.fixed, neighbours=patch.neighbours, **options.engine_arguments()
+                patch.triangles,
+                fixed=patch.fixed,
+                neighbours=patch.neighbours,
+                **_held_inside(patch, options),
+                **options.engine_arguments(),
             )
 
     def change(self, options: FairOptions) -> None:

@@ -12,6 +12,8 @@ BOUNDARY_NORMALS = ("SURROUNDING", "AVERAGE", "CUSTOM")
 CONTINUITIES = ("G1", "G2")
 METHODS = ("GLOBAL", "PAPER")
 PIN_EDGES = ("NONE", "SHARP", "SEAM", "CREASE")
+PIN_SLOPES = ("AUTOMATIC", "CREASE", "SMOOTH", "AVERAGE")
+OPEN_BORDERS = ("HELD", "FAIRED")
 OUTLINES = ("GIVEN", "MENDED")
 ACCEPT = ("USABLE", "ALL")
 MESHES = ("KEEP", "NEW")
@@ -25,6 +27,8 @@ _CHOICES = {
     "continuity": CONTINUITIES,
     "method": METHODS,
     "pin_edges": PIN_EDGES,
+    "pin_slope": PIN_SLOPES,
+    "open_border": OPEN_BORDERS,
     "outline": OUTLINES,
     "accept": ACCEPT,
     "mesh": MESHES,
@@ -50,6 +54,9 @@ class FairOptions:
     max_iterations: int = 200
     pin_group: str = ""  # name of a vertex group, empty for none
     pin_edges: str = "NONE"
+    pin_slope: str = "AUTOMATIC"  # of these edges: CREASE for SHARP, AVERAGE for others
+    pin_radius: float = 0.1  # over which part of the patch's size a pinned vertex lifts the surface
+    open_border: str = "HELD"  # FAIRED: it becomes fair, too
     outline: str = "GIVEN"  # MENDED: a noisy outline is smoothed first, with two rings around it
     accept: str = "USABLE"  # ALL: written whatever it is worth
     mesh: str = "KEEP"  # NEW: other vertices and triangles for the same surface
@@ -60,7 +67,7 @@ class FairOptions:
             value = getattr(self, name)
             if value not in choices:
                 raise ValueError(f"{name}: expected one of {', '.join(choices)}, got {value!r}")
-        for name in ("factor", "detail", "detail_size"):
+        for name in ("factor", "detail", "detail_size", "pin_radius"):
             if not 0.0 <= getattr(self, name) <= 1.0:
                 raise ValueError(f"{name}: expected a number from 0 to 1, got {getattr(self, name)!r}")
         if not self.spacing >= LEAST_SPACING:
@@ -83,6 +90,20 @@ class FairOptions:
         return self.continuity == "G2" and self.equation == "HARMONIC" and self.method == "GLOBAL"
 
     @property
+    def slope_at_pinned_edges(self) -> str:
+        """What AUTOMATIC stands for; the published method knows averages alone."""
+        if self.method != "GLOBAL":
+            return "AVERAGE"
+        if self.pin_slope != "AUTOMATIC":
+            return self.pin_slope
+        return "CREASE" if self.pin_edges == "SHARP" else "AVERAGE"
+
+    @property
+    def fairs_border(self) -> bool:
+        """Whether open borders move."""
+        return self.open_border == "FAIRED" and self.method == "GLOBAL"
+
+    @property
     def reads_surroundings(self) -> bool:
         """Whether the engine looks at the faces outside itself: what a repeated solve does not."""
         return self.outline == "MENDED" or self.detail > 0.0
@@ -100,6 +121,7 @@ class FairOptions:
             "levels": self.levels,
             "tolerance": self.tolerance,
             "max_iterations": self.max_iterations,
+            "pin_radius": self.pin_radius,
             "continuity": "G2" if self.joins_curvature else "G1",
         }
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -27,6 +27,9 @@ class MeshArrays:
     triangle_faces: Ints  # (t,)
     in_patch: Mask  # (f,) selected and visible
     pinned: Mask  # (n,)
+    creases: Mask | None = None  # (e,) pinned edges on whose sides the surface finds slopes of their own
+    smooth_curves: Mask | None = None  # (e,) pinned edges through which it runs with a slope that it finds
+    fair_border: bool = False  # open borders inside the patch move, too
     corner_normals: Floats | None = None  # (c, 3), where they were asked for
     mirrored: bool = False  # the corners go clockwise, seen from outside
     mirror_x: bool = False  # the mesh asks for symmetric results
@@ -54,6 +57,11 @@ class MeshArrays:
         )
 
 
+def nothing() -> Ints:
+    """Return no indices."""
+    return np.empty(0, dtype=np.int64)
+
+
 @dataclass(frozen=True)
 class Patch:
     """The selected faces alone, vertices numbered 0 … p−1 in the order of the mesh."""
@@ -65,6 +73,8 @@ class Patch:
     fixed: Ints  # patch indices, ascending: all that are not free
     outline: Ints  # patch indices of the vertices on edges with one face of the patch
     neighbours: Ints | None  # (e, 2) patch indices; None where all faces are triangles
+    creases: Ints = field(default_factory=nothing)  # patch indices of fixed vertices on creases
+    smooth_curves: Ints = field(default_factory=nothing)  # and on smooth curves
 
     @property
     def origin(self) -> Origin:
@@ -90,11 +100,11 @@ def _edge_uses(mesh: MeshArrays, corners: Mask | slice) -> Ints:
 
 
 def free_vertices(mesh: MeshArrays) -> Mask:
-    """Return the (n,) mask of vertices with only patch faces, on no open border, not pinned."""
-    open_border = _ends(mesh, _edge_uses(mesh, slice(None)) == 1)
+    """Return the (n,) mask of vertices with only patch faces, not pinned, and on no open border that stays."""
     inside = vertices_of(mesh, mesh.in_patch)
     outside = vertices_of(mesh, ~mesh.in_patch)
-    return inside & ~outside & ~open_border & ~mesh.pinned
+    free = inside & ~outside & ~mesh.pinned
+    return free if mesh.fair_border else free & ~_ends(mesh, _edge_uses(mesh, slice(None)) == 1)
 
 
 def fins(mesh: MeshArrays) -> Mask:
@@ -134,15 +144,24 @@ def make_patch(mesh: MeshArrays, even: bool = True) -> Patch:
     uses = _edge_uses(mesh, mesh.in_patch[mesh.corner_faces])
     edges = mesh.edges[uses > 0]
     triangles, faces = _triangles(mesh, edges, free, even)
+    outline = _ends(mesh, uses == 1)
     return Patch(
         vertices=vertices,
         triangles=number[triangles],
         faces=faces,
         free=number[free],
         fixed=number[inside & ~free],
-        outline=number[_ends(mesh, uses == 1)],
+        outline=number[outline],
         neighbours=None if _all_triangles(mesh) else number[edges],
+        creases=number[_curve(mesh, mesh.creases, uses > 0)],
+        # Where such a curve reaches the outline, the slope there is the outline's.
+        smooth_curves=number[_curve(mesh, mesh.smooth_curves, uses > 0) & ~outline],
     )
+
+
+def _curve(mesh: MeshArrays, marked: Mask | None, edges: Mask) -> Mask:
+    """Return the (n,) mask of the ends of those marked edges that are in the (e,) mask."""
+    return _ends(mesh, edges if marked is None else edges & marked) & (marked is not None)
 
 
 def _triangles(mesh: MeshArrays, edges: Ints, free: Mask, even: bool) -> tuple[Ints, Ints]:

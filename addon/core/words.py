@@ -186,6 +186,14 @@ WORDS: dict[str, tuple[Words, ...]] = {
             "{n} vertices of the outline are met in their slope, not in their curvature",
         ),
     ),
+    "PINS_NOT_SPREAD": (
+        Words(
+            "{n} pin acts in a point: pins are nearer to each other than two radii, so make the radius smaller",
+            "{n} pins act in points: some are nearer to each other than two radii, so make the radius smaller",
+            when="close",
+        ),
+        Words("{n} pin acts in a point, not over its radius", "{n} pins act in points, not over their radius"),
+    ),
     "OUTLINE_KEPT": (
         Words(
             "{n} vertex of a noisy outline keeps its place",

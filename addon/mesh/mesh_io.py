@@ -195,7 +195,15 @@ def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: Fa
 def _pinned(arrays: MeshArrays, mesh: bpy.types.Mesh, group: int | None, options: FairOptions) -> MeshArrays:
     """Return the arrays with their pins, and a note on a vertex group that holds none of the vertices inside."""
     pinned = arrays.pinned.copy()
-    pinned[arrays.edges[_marked_edges(mesh, options.pin_edges)]] = True
+    marked = _marked_edges(mesh, options.pin_edges)
+    pinned[arrays.edges[marked]] = True
+    slope = options.slope_at_pinned_edges
+    arrays = replace(
+        arrays,
+        creases=marked if slope == "CREASE" and marked.any() else None,
+        smooth_curves=marked if slope == "SMOOTH" and marked.any() else None,
+        fair_border=options.fairs_border,
+    )
     if group is None:
         return replace(arrays, pinned=pinned)
     touched = np.unique(arrays.corner_vertices[arrays.in_patch[arrays.corner_faces]])

@@ -104,6 +104,16 @@ _PIN_EDGES = (
     ("SEAM", "Seam", "The surface passes through UV seams; closed loops of them divide it"),
     ("CREASE", "Crease", "The surface passes through edges with a crease weight; closed loops of them divide it"),
 )
+_PIN_SLOPES = (
+    ("AUTOMATIC", "Automatic", "Crease for edges marked sharp, averaged for others"),
+    ("CREASE", "Crease", "Each side finds a slope of its own: two flat sides stay flat up to the edge"),
+    ("SMOOTH", "Smooth Through", "The surface runs through the edges with a slope that it finds"),
+    ("AVERAGE", "Averaged", "Both sides take the mean slope of the old faces at the edge"),
+)
+_OPEN_BORDERS = (
+    ("HELD", "Held", "Open borders inside the selection stay where they are"),
+    ("FAIRED", "Faired", "Open borders become fair curves, and the surface ends there as it likes"),
+)
 
 
 class FairProperties:
@@ -208,6 +218,29 @@ class FairProperties:
         description="Marked edges that the surface passes through",
         items=_PIN_EDGES,
         default="NONE",
+    )
+    pin_slope: EnumProperty(
+        name="At Pinned Edges",
+        description="With which slope the surface meets the pinned edges",
+        items=_PIN_SLOPES,
+        default="AUTOMATIC",
+    )
+    pin_radius: FloatProperty(
+        name="Pin Radius",
+        description="Over which part of the patch's size a single pinned vertex lifts or holds the surface; "
+        "0: in a point, which leaves a dent",
+        default=0.1,
+        min=0.0,
+        max=1.0,
+        soft_max=0.3,
+        precision=3,
+        subtype="FACTOR",
+    )
+    open_border: EnumProperty(
+        name="Open Border",
+        description="What becomes of open borders inside the selection",
+        items=_OPEN_BORDERS,
+        default="HELD",
     )
     outline: EnumProperty(
         name="Outline",

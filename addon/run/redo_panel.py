@@ -69,7 +69,14 @@ def _draw_outline(group: Any, options: Any, obj: bpy.types.Object) -> None:
     row.prop(options, "continuity")
     group.prop(options, "outline")
     group.prop_search(options, "pin_group", obj, "vertex_groups")
+    row = group.row()
+    row.active = bool(options.pin_group)
+    row.prop(options, "pin_radius", slider=True)
     group.prop(options, "pin_edges")
+    row = group.row()
+    row.active = options.pin_edges != "NONE"
+    row.prop(options, "pin_slope")
+    group.prop(options, "open_border")
 
 
 def _draw_solver(group: Any, options: Any) -> None:

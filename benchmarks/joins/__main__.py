@@ -2,7 +2,7 @@
 
     python benchmarks/joins [exact | fitted | cost | pictures …]
 
-The picture docs/pictures/joins_joint.png is written.
+The pictures docs/pictures/joins_*.png are written; that of Suzanne's ear needs bpy.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from PIL import Image
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "accuracy"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 
 import exact_joins
 import scenes
@@ -28,7 +29,7 @@ import shapes
 from stripes import Layer, render
 
 GREY, COLOURS = (0.9, 0.9, 0.9), 32
-PICTURE = Path(__file__).resolve().parents[2] / "docs" / "pictures" / "joins_joint.png"
+PICTURES = Path(__file__).resolve().parents[2] / "docs" / "pictures"
 
 
 def _timed(patch: shapes.Patch, **options: Any) -> tuple[fairing.FairResult, float]:
@@ -88,14 +89,20 @@ def fitted() -> None:
 
 def pictures() -> None:
     """G1 and G2 side by side."""
-    scene = scenes.joint()
+    for scene in (scenes.joint(), scenes.panel(), scenes.ear()):
+        _show(scene)
+
+
+def _show(scene: scenes.Scene) -> None:
     views = []
     for continuity in ("G1", "G2"):
         result = scene.solved(continuity)
         print(scene.name, result.continuity, result.iterations, [str(warning) for warning in result.warnings])
         views.append(render([Layer(result.vertices, scene.drawn(), GREY, striped=True)], scene.view))
     both = Image.fromarray((255 * np.hstack(views)).astype(np.uint8))
-    both.resize((2 * scenes.PIXELS, scenes.PIXELS), Image.Resampling.LANCZOS).quantize(COLOURS).save(PICTURE)
+    both.resize((2 * scenes.PIXELS, scenes.PIXELS), Image.Resampling.LANCZOS).quantize(COLOURS).save(
+        PICTURES / f"joins_{scene.name}.png"
+    )
 
 
 TABLES: dict[str, Callable[[], None]] = {"exact": exact, "fitted": fitted, "cost": cost, "pictures": pictures}

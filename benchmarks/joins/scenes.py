@@ -1,4 +1,4 @@
-"""A patch in surroundings that no tangent join continues without an elbow."""
+"""Patches in surroundings that no tangent join continues without an elbow."""
 
 from __future__ import annotations
 
@@ -63,6 +63,37 @@ def joint(around: int = 144) -> Scene:
     within = (row >= len(wide) - 1) & (row < len(wide) + len(between))
     view = facing(np.array([1.0, -1.6, 0.75]), np.array([0.0, 0.0, 1.35]), 1.6, 2 * PIXELS)
     return Scene("joint", vertices, triangles[within], triangles[~within], view)
+
+
+def panel(size: int = 60) -> Scene:
+    """A crowned panel of a car; the patch is an oval whose outline runs in steps along the grid."""
+    x, y = (part.ravel() for part in np.meshgrid(*2 * [np.linspace(-1, 1, size + 1)], indexing="ij"))
+    crown = -0.25 * x**2 - 0.12 * y**2 - 0.3 * x**3 + 0.15 * x * y**2 - 0.2 * x**4
+    triangles = _grid(size + 1, size + 1, False)[:, ::-1]
+    row, column = np.tile(np.mgrid[:size, :size].reshape(2, -1), 2)
+    middle = (np.stack([row, column], 1) + 0.5) * 2 / size - 1
+    within = (middle[:, 0] / 0.62) ** 2 + (middle[:, 1] / 0.5) ** 2 < 1
+    view = facing(np.array([0.3, -1.0, 1.2]), np.array([0.0, 0.0, -0.1]), 0.95, 2 * PIXELS)
+    return Scene("panel", np.stack([x, y, crown], 1), triangles[within], triangles[~within], view)
+
+
+def ear() -> Scene:
+    """Suzanne without an ear, as in the demo (needs bpy)."""
+    import bpy
+
+    import demo_scenes
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    mesh = demo_scenes.suzanne().data
+    chosen = demo_scenes.ear_faces(mesh)
+    quads = [list(polygon.vertices) for polygon in mesh.polygons]
+    fans = [(q[0], q[k], q[k + 1]) for q in quads for k in range(1, len(q) - 1)]
+    within = np.repeat(chosen, [len(q) - 2 for q in quads])
+    vertices = np.array([vertex.co for vertex in mesh.vertices], dtype=np.float64)
+    triangles = np.array(fans)
+    centre = vertices[np.intersect1d(triangles[within], triangles[~within])].mean(axis=0)
+    view = facing(np.array([1.0, -0.55, 0.25]), centre, 0.75, 2 * PIXELS)
+    return Scene("ear", vertices, triangles[within], triangles[~within], view)
 
 
 def _on_cylinder(x: FloatArray, s: FloatArray) -> FloatArray:

@@ -26,12 +26,13 @@ double outline_radius(const Patch& patch, const Points& fixed_points);
 // Columns belong to the input's vertices.
 struct ComponentData {
     const Points& vertices;
-    const Points& normals;      // prescribed ones at fixed vertices
-    const VectorX& curvatures;  // likewise; empty: none
-    const Points& reference;    // M0
-    const Triangles& outside;   // around the patches
-    const VectorX& weights;     // of the blend of both bases; empty: 1
-    bool given_normals;         // by the caller
+    const Points& normals;            // prescribed ones at fixed vertices
+    const VectorX& curvatures;        // likewise; empty: none
+    const Points& reference;          // M0
+    const Triangles& outside;         // around the patches
+    const VectorX& weights;           // of the blend of both bases; empty: 1
+    bool given_normals;               // by the caller
+    const std::vector<char>& faired;  // border vertices that become fair
 };
 
 // Local vertices 0 … n − 1 of a patch, input numbers: free ones, then fixed ones.

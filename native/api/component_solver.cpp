@@ -13,6 +13,9 @@
 #include "method/accept.h"
 #include "method/joined.h"
 #include "method/otherwise.h"
+#include "method/pinned.h"
+#include "outline/fair_border.h"
+#include "problem/free_slopes.h"
 
 namespace fairing {
 
@@ -71,6 +74,19 @@ double load_in_units(const Patch& patch, const Points& fixed_points, double diam
     return load;
 }
 
+// Open borders that become fair do so as curves; the surface then moves them along its normals.
+void hold_border(const std::vector<char>& faired, Problem& problem) {
+    const Patch& patch = problem.patch;
+    std::vector<char> edge;
+    for (int v : fixed_vertices(patch)) edge.push_back(faired[at(v)]);
+    if (std::find(edge.begin(), edge.end(), 1) == edge.end()) return;
+    problem.free_edge = std::move(edge);
+    for (Indices& loop : patch.loops()) {
+        for (int& v : loop) v -= patch.free_count;
+        fair_border(loop, problem.free_edge, problem.fixed_points);
+    }
+}
+
 }  // namespace
 
 CallOptions::CallOptions(FairOptions options, bool keeps)
@@ -109,10 +125,12 @@ ComponentAnswer ComponentSolver::solve_between(const ComponentData& data, const 
     const Normalisation unit = checked_unit(patch_, outline.points);
     const SolverOptions& solver = options_.asked.solver;
     ComponentAnswer answer{unit, {patch_, unit.to_unit(outline.points), outline.normals, {}, solver}, {}, {}, {}};
+    answer.problem.options.equation = equation_for(patch_, solver.equation);
     answer.problem.options.load = load_in_units(patch_, answer.problem.fixed_points, unit.diameter, options_.asked);
-    if (data.curvatures.size() > 0) {
+    if (data.curvatures.size() > 0 && answer.problem.options.equation == Equation::harmonic) {
         answer.problem.fixed_curvatures = unit.diameter * data.curvatures(fixed_vertices(patch_));
     }
+    hold_border(data.faired, answer.problem);
     warn_of_precision(patch_, data.vertices, {unit.diameter, solver.tolerance}, answer.warnings);
     read_reference(gather(data.reference, patch_.to_input), unit);
     answer.warnings.insert(answer.warnings.end(), reference_warnings_.begin(), reference_warnings_.end());
@@ -181,14 +199,15 @@ Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Componen
     const std::optional<NearStart> start = given_start(answer, data);
     Solution solution = solve_tangent(problem, start, joins ? progress.range(0.0, share_of_tangent) : progress);
     if (solution.even_weights) warn_of_even_weights(answer.warnings);
-    return joins ? joined(problem, std::move(solution), progress.range(share_of_tangent, 1.0)) : solution;
+    if (!joins) return with_spread_pins(problem, options().pin_radius, std::move(solution), progress.here());
+    return joined(problem, std::move(solution), progress.range(share_of_tangent, 1.0));
 }
 
 Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optional<NearStart>& start,
                                         const Progress& progress) {
     std::optional<Solution> near_last = keeps() ? solve_near_last(problem, progress) : std::nullopt;
     if (!near_last && start) near_last = solve_near(problem, *start, progress.range(0.0, 0.4));
-    Solution solution = near_last ? std::move(*near_last) : solve_or_else(problem, progress);
+    Solution solution = near_last ? std::move(*near_last) : solve_pinned(problem, options().pin_radius, progress);
     if (!keeps()) return solution;
     instead_.reset();
     if (solution.instead && end_of(solution) == Termination::converged) instead_ = outline_of(problem);

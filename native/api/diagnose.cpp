@@ -13,6 +13,7 @@
 #include "geometry/flips.h"
 #include "geometry/outline_angles.h"
 #include "geometry/self_intersection.h"
+#include "pins/spread_pins.h"
 
 namespace fairing {
 
@@ -38,6 +39,7 @@ void warn_of_sharp_outline(const Patch& patch, const Points& prescribed, Diagnos
     for (int e = 0; e < patch.edge_count(); ++e) {
         if (patch.edge_triangles[at(e)][1] != none) continue;
         const auto [a, b] = patch.edge_ends[at(e)];
+        if (patch.pin[at(a)] || patch.pin[at(b)]) continue;
         const double turn = degrees_between(prescribed.col(a - patch.free_count), prescribed.col(b - patch.free_count));
         widest = std::max(widest, turn);
         if (turn > widest_turn) sharp.insert(sharp.end(), {patch.to_input[at(a)], patch.to_input[at(b)]});
@@ -105,6 +107,15 @@ std::string_view reason_of(Join join) {
         case Join::no_tangent_join: return "the surface that is only tangent was not found either";
         case Join::not_found: return "no acceptable surface has that curvature";
         default: return "the surroundings say too little about it";
+    }
+}
+
+std::string_view reason_of(Pins pins) {
+    switch (pins) {
+        case Pins::too_close: return "some are nearer to each other than two radii; a smaller radius may do";
+        case Pins::no_outline: return "nothing but pins holds the surface";
+        case Pins::no_surface: return "the surface through the points was not found either";
+        default: return "no acceptable surface was found with it";
     }
 }
 
@@ -227,6 +238,19 @@ void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& war
                         vertices,
                         ElementKind::vertex,
                         {{"vertices", size_of(vertices)}}});
+}
+
+void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& warnings) {
+    if (solution.pins == Pins::absent || solution.pins == Pins::spread) return;
+    Indices pins = isolated_pins(patch);
+    for (int& place : pins) place = fixed_vertices(patch)[at(place)];
+    Figures figures{{"pins", size_of(pins)}};
+    if (solution.pins == Pins::too_close) figures["close"] = 1.0;
+    warnings.push_back({Code::pins_not_spread,
+                        counted(pins.size(), "pin acts in a point, not over its radius: ",
+                                "pins act in a point, not over their radius: ") +
+                            std::string(reason_of(solution.pins)),
+                        pins, ElementKind::vertex, figures});
 }
 
 Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation equation) {

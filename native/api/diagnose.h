@@ -34,6 +34,9 @@ Diagnostics failures_of(const Patch& patch, const Solution& solution, Terminatio
 
 // G2_NOT_MET where a curvature was asked for and the surface is only tangent; with these fixed vertices.
 void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& warnings);
+
+// PINS_NOT_SPREAD where a radius was asked for and pins act in a point; with these pins.
+void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& warnings);
 // NO_SOLUTION: the surface of least variation was taken instead. Figures: "free_vertices"; "harmonic", 1, for that
 // equation; for a bulb "variation", how many times as much its curvatures varied.
 Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation equation);

@@ -41,6 +41,7 @@ public:
         write_back(patch, answer);
         const Solution& solution = answer.solution;
         if (solution.instead) add_instead(patch, answer);
+        note_equation(answer.problem.options.equation);
         result_.residual = std::max(result_.residual, solution.residual);
         result_.initial_residual = std::max(result_.initial_residual, solution.initial_residual);
         result_.iterations = std::max(result_.iterations, solution.iterations);
@@ -48,6 +49,7 @@ public:
         result_.joins_curvature =
             result_.joins_curvature && (solution.join == Join::curvature || solution.join == Join::partly_curvature);
         warn_of_join(patch, solution, result_.warnings);
+        warn_of_pins(patch, solution, result_.warnings);
         add_levels(solution.levels.empty() ? Indices{patch.vertex_count()} : solution.levels);
         for (const auto& [stage, seconds] : solution.seconds) result_.seconds[stage] += seconds;
         result_.ways.insert(result_.ways.end(), solution.ways.begin(), solution.ways.end());
@@ -83,6 +85,10 @@ private:
         const auto free = free_vertices(patch);
         result_.vertices(Eigen::all, free) = points.leftCols(patch.free_count);
         if (result_.base.cols() > 0) result_.base(Eigen::all, free) = points.leftCols(patch.free_count);
+        const std::vector<char>& moved = answer.problem.free_edge;
+        for (int k = 0; k < static_cast<int>(moved.size()); ++k) {
+            if (moved[at(k)]) result_.vertices.col(fixed_vertices(patch)[at(k)]) = points.col(patch.free_count + k);
+        }
         if (answer.dressed) write_dressed(patch, *answer.dressed);
         // The paper's method leaves H to be measured.
         const VectorX& H = answer.solution.mean_curvature;
@@ -103,6 +109,12 @@ private:
         Indices& sum = result_.levels;
         if (counts.size() > sum.size()) std::swap(counts, sum);
         for (std::size_t k = 1; k <= counts.size(); ++k) sum[sum.size() - k] += counts[counts.size() - k];
+    }
+
+    // Free slopes have changed it. Of several, least variation is named.
+    void note_equation(Equation solved) {
+        if (solved == options_.solver.equation || result_.equation == Equation::least_variation) return;
+        result_.equation = solved;
     }
 
     void add_instead(const Patch& patch, const ComponentAnswer& answer) {
@@ -182,9 +194,14 @@ FairResult run_call(const MeshInput& input, const std::optional<Points>& referen
     check_memory(largest_free_count(prepared->patches));
     Call call(*prepared, input, options.asked);
     const double topology_seconds = watch.seconds();
-    const ComponentData data{
-        input.vertices, prepared->mesh.normals, prepared->mesh.curvatures,      reference ? *reference : input.vertices,
-        input.outside,  input.weights,          input.fixed_normals.has_value()};
+    const ComponentData data{input.vertices,
+                             prepared->mesh.normals,
+                             prepared->mesh.curvatures,
+                             reference ? *reference : input.vertices,
+                             input.outside,
+                             input.weights,
+                             input.fixed_normals.has_value(),
+                             prepared->mesh.roles.faired};
     double done = begin;
     double total = 0.0;
     for (const Patch& patch : prepared->patches) total += patch.vertex_count();

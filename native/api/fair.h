@@ -31,7 +31,8 @@ struct FairOptions {
     std::optional<std::vector<std::array<int, 2>>> neighbours;
     std::vector<DirectedWeight> custom;  // λ of input vertices, for InnerFairness::custom
     DetailOptions detail;
-    int threads = 0;  // 0: one on each core; the result doesn't depend on it
+    double pin_radius = 0.0;  // in units of D; 0: pins act in a point
+    int threads = 0;          // 0: one on each core; the result doesn't depend on it
 };
 
 struct FairResult {

@@ -15,7 +15,7 @@ struct CallOptions;
 // no great gaps; otherwise the first solve does.
 class FairSolver {
 public:
-    FairSolver(Triangles triangles, std::optional<Indices> fixed, FairOptions options);
+    FairSolver(Triangles triangles, std::optional<Indices> fixed, HeldInside held, FairOptions options);
     FairSolver(const FairSolver&) = delete;
     FairSolver& operator=(const FairSolver&) = delete;
     ~FairSolver();

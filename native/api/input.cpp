@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "api/held_inside.h"
 #include "base/direction.h"
 #include "base/errors.h"
 #include "base/text.h"
@@ -101,7 +102,7 @@ Indices all_fixed(const MeshInput& input, const VertexRoles& roles, Diagnostics&
     for (int v : fixed) given[at(v)] = 1;
     Indices added;
     for (int v = 0; v < static_cast<int>(roles.fixed.size()); ++v) {
-        if (roles.border[at(v)] && !given[at(v)]) added.push_back(v);
+        if (roles.border[at(v)] && !roles.faired[at(v)] && !given[at(v)]) added.push_back(v);
     }
     fixed.insert(fixed.end(), added.begin(), added.end());
     if (input.fixed && !added.empty()) {
@@ -172,7 +173,8 @@ void warn_of_normals(const MeshInput& input, CheckedMesh& mesh) {
     Indices pins;
     for (std::size_t k = 0; k < input.fixed->size(); ++k) {
         const int v = (*input.fixed)[k];
-        if (mesh.roles.pin[at(v)] && input.fixed_normals->col(static_cast<Eigen::Index>(k)).norm() > 0.0)
+        if (mesh.roles.pin[at(v)] && !mesh.roles.free_slope[at(v)] &&
+            input.fixed_normals->col(static_cast<Eigen::Index>(k)).norm() > 0.0)
             pins.push_back(v);
     }
     if (pins.empty()) return;
@@ -239,11 +241,13 @@ MeshTopology check_topology(const MeshInput& input) {
     MeshTopology mesh;
     Diagnostics& warnings = mesh.topology_warnings;
     Indices kept;
-    const std::vector<char> given_fixed = mark_fixed(input);
+    const GivenRoles given{mark_fixed(input), marks_of(input, input.held.creases, "creases"),
+                           marks_of(input, input.held.smooth_curves, "smooth_curves"), input.held.fair_border};
     Triangles triangles = drop_collapsed_triangles(input.triangles, kept, warnings);
-    triangles = drop_unbounded_triangles(input, triangles, given_fixed, kept, warnings);
+    triangles = drop_unbounded_triangles(input, triangles, given.fixed, kept, warnings);
     const EdgeTable edges = make_edges(triangles, static_cast<int>(input.vertices.cols()));
-    mesh.roles = classify_vertices(edges, given_fixed);
+    mesh.roles = classify_vertices(edges, given);
+    check_slopes(given, mesh.roles);
     check_finite(input, mesh.roles);
     mesh.fixed = all_fixed(input, mesh.roles, warnings);
     mesh.cut = cut_mesh(triangles, edges, kept, mesh.roles, warnings);

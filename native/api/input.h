@@ -7,6 +7,13 @@
 
 namespace fairing {
 
+// What holds with a slope that the surface finds; normals there are not looked at.
+struct HeldInside {
+    Indices creases;           // fixed vertices; curves of them are cut, and each side has a slope of its own
+    Indices smooth_curves;     // fixed vertices; curves of them are not cut
+    bool fair_border = false;  // border vertices that are not in `fixed` become a fair curve
+};
+
 struct MeshInput {
     Points vertices;
     Triangles triangles;
@@ -15,6 +22,7 @@ struct MeshInput {
     std::optional<VectorX> fixed_curvatures = {};  // H at `fixed`, NaN where it is not known
     Triangles outside = {};                        // around the patches; they stay
     VectorX weights = {};                          // per vertex, 0 … 1: see FairOptions' detail; empty: 1
+    HeldInside held = {};
 };
 
 // What the connectivity and the choice of fixed vertices say. Border vertices are fixed, given or not.
@@ -34,7 +42,7 @@ struct CheckedMesh : MeshTopology {
 
 // Throws MeshError: INDEX_RANGE, NONFINITE (triangles between fixed vertices may have such corners: they are left out),
 // NONMANIFOLD_EDGE, NONMANIFOLD_VERTEX, NOT_ORIENTABLE, ZERO_NORMAL; std::invalid_argument for a fixed vertex named
-// twice.
+// twice, for creases and smooth curves of vertices that are not fixed, or that are both.
 CheckedMesh check_mesh(const MeshInput& input);
 
 // The two halves of it. The topology stays the same for other positions and normals as long as all are finite.

@@ -6,7 +6,7 @@ namespace fairing {
 
 namespace {
 
-constexpr auto last = Code::g2_not_met;
+constexpr auto last = Code::pins_not_spread;
 
 constexpr std::array<std::string_view, static_cast<std::size_t>(last) + 1> names{
     "NONFINITE",
@@ -32,6 +32,7 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(last) + 1> names
     "NO_SOLUTION",
     "PRECISION",
     "G2_NOT_MET",
+    "PINS_NOT_SPREAD",
 };
 static_assert(!names.back().empty(), "each code has a name");
 

@@ -35,6 +35,7 @@ enum class Code {
     no_solution,
     precision,
     g2_not_met,
+    pins_not_spread,
 };
 
 // The upper-case names that callers see, e.g. "NONMANIFOLD_EDGE", in the order of the enumeration.

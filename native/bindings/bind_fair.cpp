@@ -52,6 +52,10 @@ struct Options {
     double detail;
     double detail_size;
     std::string start;
+    Indices creases;
+    Indices smooth_curves;
+    bool fair_border;
+    double pin_radius;
 };
 
 // Rows (i, j, λ).
@@ -84,6 +88,7 @@ FairOptions to_fair_options(const Options& options, const PaperOptions& paper, c
     result.solver.max_iterations = options.max_iterations;
     result.threads = options.threads;
     result.detail = {options.detail, options.detail_size};
+    result.pin_radius = options.pin_radius;
     result.start = solve_start_words.value(options.start);
     result.solver.nested = paper.levels != 1;
     result.inner_fairness = fairness.weights ? InnerFairness::custom : fairness_words.value(options.inner_fairness);
@@ -107,7 +112,8 @@ py::dict fair_arrays(const DoubleArray& vertices, const IntArray& triangles, con
                           to_optional(fixed_normals, to_points),
                           to_optional(fixed_curvatures, to_vector),
                           outside ? to_triangles(*outside) : Triangles(3, 0),
-                          blend ? to_vector(*blend) : VectorX()};
+                          blend ? to_vector(*blend) : VectorX(),
+                          {options.creases, options.smooth_curves, options.fair_border}};
     const auto m0 = to_optional(reference, to_points);
     const FairOptions fair_options = to_fair_options(options, paper, {neighbours, weights});
     return to_dict(without_gil(
@@ -121,6 +127,7 @@ public:
                  const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
                  const std::pair<Options, PaperOptions>& options)
         : solver_(to_triangles(triangles), to_optional(fixed, to_indices),
+                  {options.first.creases, options.first.smooth_curves, options.first.fair_border},
                   to_fair_options(options.first, options.second, {neighbours, weights})) {}
 
     void change(const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
@@ -207,11 +214,12 @@ void bind_fair(py::module_& module) {
     module.attr("WORDS") = all_words();
     py::class_<Options>(module, "Options")
         .def(py::init<std::string, std::string, double, double, std::string, std::string, std::string, double, int, int,
-                      double, double, std::string>(),
+                      double, double, std::string, Indices, Indices, bool, double>(),
              py::kw_only(), py::arg("equation"), py::arg("otherwise"), py::arg("load"), py::arg("bulge"),
              py::arg("inner_fairness"), py::arg("method"), py::arg("normals"), py::arg("tolerance"),
              py::arg("max_iterations"), py::arg("threads"), py::arg("detail") = 0.0, py::arg("detail_size") = 0.0,
-             py::arg("start") = "outline");
+             py::arg("start") = "outline", py::arg("creases") = Indices{}, py::arg("smooth_curves") = Indices{},
+             py::arg("fair_border") = false, py::arg("pin_radius") = 0.0);
     bind_paper_options(module);
     py::class_<PythonSolver>(module, "Solver")
         .def(py::init<const IntArray&, const std::optional<IntArray>&, const std::optional<IntArray>&,

@@ -1,6 +1,7 @@
 #include "bindings/convert.h"
 #include "bindings/topics.h"
 #include "outline/bad_outline.h"
+#include "outline/creased.h"
 #include "outline/feather.h"
 #include "outline/mended_outline.h"
 #include "outline/visible_join.h"
@@ -26,8 +27,28 @@ py::dict to_dict(const SurroundingNormals& result) {
     return dict;
 }
 
-py::dict surrounding_normal_arrays(const DoubleArray& vertices, const IntArray& triangles, const IntArray& where) {
-    return to_dict(surrounding_normals(to_points(vertices), to_triangles(triangles), to_indices(where)));
+// Of vertices with several copies the first one counts; those without triangles have none and stay what they are.
+py::dict surrounding_normal_arrays(const DoubleArray& vertices, const IntArray& triangles, const IntArray& where,
+                                   const IntArray& creases) {
+    const Points points = to_points(vertices);
+    Indices places = to_indices(where);
+    const Indices flat = to_indices(creases);
+    if (flat.empty()) return to_dict(surrounding_normals(points, to_triangles(triangles), places));
+    std::vector<std::array<int, 2>> edges;
+    for (std::size_t k = 0; k + 1 < flat.size(); k += 2) edges.push_back({flat[k], flat[k + 1]});
+    BrokenSurface broken = broken_along(to_triangles(triangles), static_cast<int>(points.cols()), edges);
+    std::vector<int> copy(static_cast<std::size_t>(points.cols()), none);
+    for (int v = 0; v < static_cast<int>(broken.input_vertex.size()); ++v) {
+        if (int& first = copy[at(broken.input_vertex[at(v)])]; first == none) first = v;
+    }
+    for (int& place : places) {
+        if (copy[at(place)] == none) {
+            copy[at(place)] = static_cast<int>(broken.input_vertex.size());
+            broken.input_vertex.push_back(place);
+        }
+        place = copy[at(place)];
+    }
+    return to_dict(surrounding_normals(points(Eigen::all, broken.input_vertex), broken.triangles, places));
 }
 
 py::array bad_outline_array(const DoubleArray& vertices, const IntArray& triangles, const IntArray& outline) {
@@ -63,7 +84,7 @@ py::array visible_join_array(const DoubleArray& vertices, const IntArray& inside
 
 void bind_outline(py::module_& module) {
     module.def("surrounding_normals", &surrounding_normal_arrays, py::arg("vertices"), py::arg("triangles"),
-               py::arg("at"));
+               py::arg("at"), py::arg("creases"));
     module.def("bad_outline", &bad_outline_array, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
     module.def("mend_outline", &mended_outline_arrays, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
     module.def("feather_weights", &feather_weight_array, py::arg("vertices"), py::arg("inside"), py::arg("outside"),

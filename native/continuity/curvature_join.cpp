@@ -32,8 +32,6 @@ public:
           anderson_(3L * problem.patch.free_count, history_depth),
           coefficients_(VectorX::Zero(modes_.count())) {
         state_.points = start;
-        is_known_ = VectorX::Zero(problem.fixed_points.cols());
-        for (const OutlineCurve& curve : known.curves) is_known_(curve.places).setOnes();
     }
 
     Solution run() {
@@ -81,7 +79,7 @@ private:
     // Along the normals, and within the surface, whose curvature a long way there follows.
     Points step() {
         const VectorX H = state_.curvature.mean.tail(problem_.fixed_points.cols());
-        const JoinOperator::Step step = operator_.solve(residual_, is_known_.cwiseProduct(known_.values - H));
+        const JoinOperator::Step step = operator_.solve(residual_, known_.missing(H));
         coefficients_ += step.coefficients;
         Points d = tangential_->displacement(state_.points, state_.normals);
         for_ranges(patch_.free_count, coarse_grain, [&](int begin, int end) {
@@ -119,7 +117,6 @@ private:
     std::unique_ptr<TangentialStep> tangential_;
     Anderson anderson_;
     VectorX coefficients_;  // of the multipliers
-    VectorX is_known_;      // 1 on the curves, 0 off them
     SurfaceState state_;
     VectorX residual_;
     double least_step_ = std::numeric_limits<double>::infinity();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/outline_angles.h"
+
 namespace fairing {
 
 namespace {
@@ -43,20 +45,42 @@ void bridge(const Indices& loop, VectorX& curvatures) {
 void split(const Indices& loop, const VectorX& curvatures, std::vector<OutlineCurve>& curves) {
     const auto is_known = [&](int place) { return std::isfinite(curvatures[place]); };
     if (std::all_of(loop.begin(), loop.end(), is_known)) {
-        curves.push_back({loop, true});
+        curves.push_back({loop, true, {}});
         return;
     }
     for (auto first = loop.begin(); first != loop.end();) {
         const auto last = std::find_if_not(first, loop.end(), is_known);
-        if (last - first >= static_cast<std::ptrdiff_t>(shortest_arc)) curves.push_back({Indices(first, last), false});
+        if (last - first >= static_cast<std::ptrdiff_t>(shortest_arc))
+            curves.push_back({Indices(first, last), false, {}});
         first = std::find_if(last, loop.end(), is_known);
     }
 }
 
+std::vector<char> corners_of(const Patch& patch, const Points& points) {
+    constexpr double widest = 120.0;  // degrees
+    VectorX filled = VectorX::Zero(patch.vertex_count());
+    for (const auto t : patch.triangles.colwise()) {
+        for (int k = 0; k < 3; ++k) {
+            const Vector3 here = points.col(t[k]);
+            filled[t[k]] += degrees_between(points.col(t[(k + 1) % 3]) - here, points.col(t[(k + 2) % 3]) - here);
+        }
+    }
+    std::vector<char> corner;
+    for (int v = patch.free_count; v < patch.vertex_count(); ++v) corner.push_back(filled[v] < widest);
+    return corner;
+}
+
 }  // namespace
 
-KnownCurvature known_curvature(const Patch& patch, const VectorX& curvatures) {
+VectorX KnownCurvature::missing(const VectorX& curvatures) const {
+    VectorX result = VectorX::Zero(curvatures.size());
+    for (const OutlineCurve& curve : curves) result(curve.places) = values_along(curve, values - curvatures);
+    return result;
+}
+
+KnownCurvature known_curvature(const Patch& patch, const Points& points, const VectorX& curvatures) {
     KnownCurvature known{VectorX::Zero(curvatures.size()), {}, {}};
+    const std::vector<char> corners = corners_of(patch, points);
     VectorX filled = curvatures;
     for (Indices loop : patch.loops()) {
         for (int& v : loop) v -= patch.free_count;
@@ -65,8 +89,9 @@ KnownCurvature known_curvature(const Patch& patch, const VectorX& curvatures) {
         known.unknown.insert(known.unknown.end(), loop.begin(), loop.end());
     }
     std::vector<char> covered(static_cast<std::size_t>(curvatures.size()), 0);
-    for (const OutlineCurve& curve : known.curves) {
+    for (OutlineCurve& curve : known.curves) {
         for (int place : curve.places) {
+            curve.skipped.push_back(corners[at(place)]);
             covered[at(place)] = 1;
             known.values[place] = filled[place];
         }

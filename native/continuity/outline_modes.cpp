@@ -44,7 +44,34 @@ VectorX parameters(const VectorX& lengths, const VectorX& spacing) {
     return t;
 }
 
+// The nearest place in that direction that is not skipped, as its value and how far it is; infinitely far where there
+// is none.
+std::pair<double, double> nearest(const OutlineCurve& curve, const VectorX& given, int place, int direction) {
+    const auto count = static_cast<int>(curve.places.size());
+    for (int away = 1; away < count; ++away) {
+        const int there = place + direction * away;
+        if (!curve.closed && (there < 0 || there >= count)) break;
+        const int k = (there + count) % count;
+        if (!curve.skipped[at(k)]) return {given[k], away};
+    }
+    return {0.0, HUGE_VAL};
+}
+
 }  // namespace
+
+VectorX values_along(const OutlineCurve& curve, const VectorX& values) {
+    const VectorX given = values(curve.places);
+    if (curve.skipped.empty()) return given;
+    VectorX result = given;
+    for (int k = 0; k < static_cast<int>(given.size()); ++k) {
+        if (!curve.skipped[at(k)]) continue;
+        const auto [before, back] = nearest(curve, given, k, -1);
+        const auto [after, on] = nearest(curve, given, k, 1);
+        const double weight = 1.0 / back + 1.0 / on;
+        result[k] = weight > 0.0 ? (before / back + after / on) / weight : 0.0;
+    }
+    return result;
+}
 
 OutlineModes::OutlineModes(const std::vector<OutlineCurve>& curves, const Points& fixed_points, int vertices_per_wave)
     : fixed_count_(fixed_points.cols()) {
@@ -60,7 +87,7 @@ void OutlineModes::add_curve(const OutlineCurve& curve, const Points& fixed_poin
     const double period = t[vertices - 1] + (curve.closed ? lengths[vertices - 1] / spacing[vertices - 1] : 2.0);
     const Eigen::Index pairs = vertices / vertices_per_wave;
     const Eigen::Index waves = curve.closed ? 1 + 2 * pairs : std::max<Eigen::Index>(1, 2 * pairs);
-    Curve made{curve.places, Eigen::MatrixXd(vertices, waves), VectorX(waves), spacing.cwiseAbs2().cwiseInverse()};
+    Curve made{curve, Eigen::MatrixXd(vertices, waves), VectorX(waves), spacing.cwiseAbs2().cwiseInverse()};
     const double slowest = 2.0 * pi / period;
     for (Eigen::Index m = 0; m < waves; ++m) {
         const Eigen::Index halves = curve.closed ? m + m % 2 : m + 1;  // half waves on the curve
@@ -82,7 +109,7 @@ VectorX OutlineModes::combined(const VectorX& coefficients) const {
     VectorX values = VectorX::Zero(fixed_count_);
     Eigen::Index first = 0;
     for (const Curve& curve : curves_) {
-        values(curve.places) += curve.waves * coefficients.segment(first, curve.waves.cols());
+        values(curve.outline.places) += curve.waves * coefficients.segment(first, curve.waves.cols());
         first += curve.waves.cols();
     }
     return values;
@@ -92,7 +119,7 @@ VectorX OutlineModes::projected(const VectorX& values) const {
     VectorX coefficients(count_);
     Eigen::Index first = 0;
     for (const Curve& curve : curves_) {
-        coefficients.segment(first, curve.waves.cols()) = curve.waves.transpose() * values(curve.places);
+        coefficients.segment(first, curve.waves.cols()) = curve.waves.transpose() * values_along(curve.outline, values);
         first += curve.waves.cols();
     }
     return coefficients;
@@ -103,7 +130,7 @@ VectorX OutlineModes::multipliers(const VectorX& coefficients) const {
     Eigen::Index first = 0;
     for (const Curve& curve : curves_) {
         const VectorX weighed = curve.symbol.cwiseProduct(coefficients.segment(first, curve.waves.cols()));
-        values(curve.places) += curve.inverse_square.cwiseProduct(curve.waves * weighed);
+        values(curve.outline.places) += curve.inverse_square.cwiseProduct(curve.waves * weighed);
         first += curve.waves.cols();
     }
     return values;

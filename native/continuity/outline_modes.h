@@ -9,7 +9,11 @@ namespace fairing {
 struct OutlineCurve {
     Indices places;
     bool closed;
+    std::vector<char> skipped = {};  // of the places: what is measured there says nothing; empty: nowhere
 };
+
+// Values (of the fixed vertices) at the places of a curve, interpolated at those that are skipped. Where all are, zero.
+VectorX values_along(const OutlineCurve& curve, const VectorX& values);
 
 // Waves along the outline, no faster than one in six vertices: faster ones change the curvature that is measured at the
 // outline in a way that depends on the mesh. Closed curves have sines and cosines, open ones sines that vanish beyond
@@ -22,7 +26,7 @@ public:
     [[nodiscard]] Eigen::Index count() const { return count_; }
     // U c, zero off the curves. The columns of U are nearly orthonormal.
     [[nodiscard]] VectorX combined(const VectorX& coefficients) const;
-    // Uᵀ of values at the fixed vertices.
+    // Uᵀ of values at the fixed vertices, interpolated where the curves skip them.
     [[nodiscard]] VectorX projected(const VectorX& values) const;
     // Values of Δ_B H at the outline that change H there by about −U c. On a straight outline of the half-plane a wave
     // of frequency k takes 8 k², on a disc of radius a the wave m takes 8 (m + 1)(m + 2)/a².
@@ -30,7 +34,7 @@ public:
 
 private:
     struct Curve {
-        Indices places;
+        OutlineCurve outline;
         Eigen::MatrixXd waves;
         VectorX symbol;          // of each wave, for spacing one
         VectorX inverse_square;  // of the spacing at each vertex

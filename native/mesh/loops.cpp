@@ -55,7 +55,7 @@ std::vector<Indices> boundary_loops(const Triangles& input, int vertex_count) {
     Indices kept;
     const Triangles whole = drop_collapsed_triangles(input, kept, ignored);
     const EdgeTable given = make_edges(whole, vertex_count);
-    const VertexRoles roles = classify_vertices(given, std::vector<char>(at(vertex_count), 0));
+    const VertexRoles roles = classify_vertices(given, {std::vector<char>(at(vertex_count), 0), {}, {}});
     const CutMesh mesh = cut_mesh(whole, given, kept, roles, ignored);
     const Triangles triangles = wound_triangles(mesh);
     const EdgeTable edges = make_edges(triangles, vertex_count);

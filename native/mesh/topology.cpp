@@ -24,6 +24,11 @@ bool is_between_fixed(const EdgeTable& edges, int edge, const VertexRoles& roles
     return roles.fixed[at(a)] && roles.fixed[at(b)];
 }
 
+bool is_smooth(const EdgeTable& edges, int edge, const VertexRoles& roles) {
+    const auto [a, b] = edges.ends[at(edge)];
+    return roles.smooth[at(a)] || roles.smooth[at(b)];
+}
+
 // A two-sided edge between two border vertices with a triangle behind it that has no free vertex.
 bool is_corner_chord(const Triangles& triangles, const EdgeTable& edges, int edge, const VertexRoles& roles) {
     const auto [a, b] = edges.ends[at(edge)];
@@ -255,9 +260,10 @@ Triangles drop_collapsed_triangles(const Triangles& triangles, Indices& kept, Di
     return result;
 }
 
-VertexRoles classify_vertices(const EdgeTable& edges, const std::vector<char>& given_fixed) {
-    const std::size_t count = given_fixed.size();
-    VertexRoles roles{given_fixed, given_fixed, std::vector<char>(count, 0), {}, std::vector<char>(count, 0)};
+VertexRoles classify_vertices(const EdgeTable& edges, const GivenRoles& given) {
+    const std::size_t count = given.fixed.size();
+    const std::vector<char> nowhere(count, 0);
+    VertexRoles roles{given.fixed, given.fixed, nowhere, {}, nowhere, nowhere, nowhere, nowhere};
     for (int e = 0; e < edges.size(); ++e) {
         for (int v : edges.ends[at(e)]) {
             roles.used[at(v)] = 1;
@@ -269,7 +275,13 @@ VertexRoles classify_vertices(const EdgeTable& edges, const std::vector<char>& g
         if (!is_between_fixed(edges, e, roles)) continue;
         for (int v : edges.ends[at(e)]) roles.pin[at(v)] = 0;
     }
-    for (std::size_t v = 0; v < count; ++v) roles.pin[v] = roles.pin[v] && roles.used[v];
+    for (std::size_t v = 0; v < count; ++v) {
+        roles.smooth[v] = !given.smooth.empty() && given.smooth[v] && roles.used[v];
+        roles.faired[v] = given.fair_border && roles.border[v] && !given.fixed[v];
+        roles.free_slope[v] =
+            roles.smooth[v] || roles.faired[v] || (!given.crease.empty() && given.crease[v] && roles.used[v]);
+        roles.pin[v] = roles.free_slope[v] || (roles.pin[v] && roles.used[v]);
+    }
     return roles;
 }
 
@@ -282,7 +294,8 @@ std::vector<char> find_cut_edges(const Triangles& triangles, const EdgeTable& ed
         const bool many = edges.side_count(e) > 2;
         const bool beside_free =
             has_free_corner(triangles, edges.side(e, 0), roles) || has_free_corner(triangles, edges.side(e, 1), roles);
-        cut[at(e)] = many || (beside_free && !is_corner_chord(triangles, edges, e, roles));
+        cut[at(e)] =
+            many || (beside_free && !is_smooth(edges, e, roles) && !is_corner_chord(triangles, edges, e, roles));
     }
     if (!offenders.empty()) {
         throw MeshError({Code::nonmanifold_edge,

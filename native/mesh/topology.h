@@ -8,11 +8,22 @@ namespace fairing {
 
 // What the caller's vertices are.
 struct VertexRoles {
-    std::vector<char> given;   // fixed by the caller
-    std::vector<char> fixed;   // keeps its position: given, or on the mesh border
-    std::vector<char> border;  // on an edge with a single triangle
-    std::vector<char> pin;     // fixed, but none of its neighbours is: position only
-    std::vector<char> used;    // in some triangle
+    std::vector<char> given;       // fixed by the caller
+    std::vector<char> fixed;       // keeps its position: given, or on the mesh border
+    std::vector<char> border;      // on an edge with a single triangle
+    std::vector<char> pin;         // position only: none of its neighbours is fixed, or its slope is free
+    std::vector<char> used;        // in some triangle
+    std::vector<char> free_slope;  // of the pins: by the caller's word
+    std::vector<char> smooth;      // of these: the surface runs through, curves of them are not cut
+    std::vector<char> faired;      // of these: on an open border that becomes fair itself
+};
+
+// The caller's words, per vertex; both kinds of free slopes may be empty.
+struct GivenRoles {
+    std::vector<char> fixed;
+    std::vector<char> crease;  // the slope is free, on each side of a curve
+    std::vector<char> smooth;  // the slope is free, the same on both sides
+    bool fair_border = false;  // border vertices that are not fixed by the caller become fair
 };
 
 // The mesh cut open along curves of fixed vertices. A fixed vertex has one copy for each side of the curves through it.
@@ -28,11 +39,11 @@ struct CutMesh {
 // Removes triangles that name a vertex twice; `kept` are the input indices of the others.
 Triangles drop_collapsed_triangles(const Triangles& triangles, Indices& kept, Diagnostics& warnings);
 
-VertexRoles classify_vertices(const EdgeTable& edges, const std::vector<char>& given_fixed);
+VertexRoles classify_vertices(const EdgeTable& edges, const GivenRoles& given);
 
 // The edges at which the mesh is cut open. Both ends of such an edge are fixed, and there is a free vertex beside it
-// or more than two triangles meet there. Two kinds of edges between fixed vertices are left whole: the chord that
-// only cuts a corner off the mesh border, and a lone edge inside, which has nothing to open.
+// or more than two triangles meet there. Three kinds of edges between fixed vertices are left whole: the chord that
+// only cuts a corner off the mesh border, a lone edge inside, which has nothing to open, and edges of smooth curves.
 // Throws NONMANIFOLD_EDGE where more than two triangles meet at an edge whose ends the caller has not both fixed.
 std::vector<char> find_cut_edges(const Triangles& triangles, const EdgeTable& edges, const VertexRoles& roles);
 

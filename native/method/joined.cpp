@@ -35,13 +35,9 @@ enum class Difference { negligible, smooth, rough };
 Difference difference_of(const Problem& problem, const KnownCurvature& known, const Solution& tangent) {
     constexpr double negligible = 0.01;  // root mean square, of the largest |H| on the outline or of 1/D
     constexpr int vertices_per_wave = 12;
-    VectorX missing = VectorX::Zero(known.values.size());
+    const VectorX missing = known.missing(tangent.mean_curvature.tail(known.values.size()));
     double count = 0.0;
-    for (const OutlineCurve& curve : known.curves) {
-        const VectorX there = tangent.mean_curvature.tail(missing.size())(curve.places);
-        missing(curve.places) = known.values(curve.places) - there;
-        count += static_cast<double>(curve.places.size());
-    }
+    for (const OutlineCurve& curve : known.curves) count += static_cast<double>(curve.places.size());
     const double scale = std::max(1.0, known.values.cwiseAbs().maxCoeff());
     if (missing.norm() <= negligible * scale * std::sqrt(count)) return Difference::negligible;
     const OutlineModes modes(known.curves, problem.fixed_points, vertices_per_wave);
@@ -57,7 +53,7 @@ Solution joined(const Problem& problem, Solution tangent, const Progress& progre
     if (tangent.flaw != Flaw::absent || tangent.even_weights || tangent.instead)
         return with_join(std::move(tangent), Join::no_tangent_join);
     if (!tangent.polished) return with_join(std::move(tangent), Join::other_mesh);
-    const KnownCurvature known = known_curvature(problem.patch, problem.fixed_curvatures);
+    const KnownCurvature known = known_curvature(problem.patch, tangent.points, problem.fixed_curvatures);
     tangent.tangent_only = known.unknown;
     if (known.curves.empty()) return with_join(std::move(tangent), Join::curvature_unknown);
     const Difference difference = difference_of(problem, known, tangent);

@@ -106,7 +106,10 @@ bool lacks_surface(const Solution& solution) {
 }
 
 Solution solve_or_else(const Problem& problem, const Progress& progress) {
-    Solution solution = solve_global(problem, progress);
+    return or_else(problem, solve_global(problem, progress), progress);
+}
+
+Solution or_else(const Problem& problem, Solution solution, const Progress& progress) {
     if (!has_else(problem)) return solution;
     const Progress rest = progress.range(begin, 1.0);
     if (is_answer(solution))

@@ -17,6 +17,9 @@ namespace fairing {
 // Cancelled.
 Solution solve_or_else(const Problem& problem, const Progress& progress);
 
+// The same after a solution of solve_global.
+Solution or_else(const Problem& problem, Solution solution, const Progress& progress);
+
 // Whether the equation was not seen to have a surface: no answer, although iterations were left, the whole load was
 // tried, and not only because the vertices fold on it.
 bool lacks_surface(const Solution& solution);

@@ -39,6 +39,8 @@ struct Problem {
     // Of least_variation: the outline's normals cost Σ w_i |n_i − n̂_i|²; fixed count. ∞: met exactly, 0: the slope is
     // free. Empty: ∞. Pins count as 0.
     VectorX normal_weights = {};
+    // Of the fixed vertices: an edge that is free to rise along its normals, for least variation. Empty: none is.
+    std::vector<char> free_edge = {};
     // H at the fixed vertices, in units of D⁻¹, NaN where it is not known; for Δ_B² H = 0. Empty: a tangent join.
     VectorX fixed_curvatures = {};
 };

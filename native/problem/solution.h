@@ -36,6 +36,9 @@ enum class Join {
     not_found,          // no surface, or none that is accepted
 };
 
+// Whether pins have a radius (method/pinned). The last four: not, although it was asked for.
+enum class Pins { absent, spread, no_surface, no_outline, too_close, not_found };
+
 // A way that was tried (method/ways), and how long it took.
 struct WayTaken {
     std::string name;
@@ -66,6 +69,7 @@ struct Solution {
     double variation_ratio = 0.0;  // of the bulb that it replaces, where it is one
     bool even_weights = false;     // uniform weights were taken instead of the problem's
     Join join = Join::tangent;
+    Pins pins = Pins::absent;
     Indices tangent_only;  // of partly_curvature: fixed vertices, counted from the first one
 };
 

@@ -288,8 +288,8 @@ ProxyMesh::Snapshot ProxyMesh::snapshot() const {
 }
 
 void ProxyMesh::read_back(const Patch& patch, const Points& points) {
-    for (int v = 0; v < patch.free_count; ++v) {
-        mesh_.set_point(mesh_.vertex_handle(unsigned(patch.to_input[at(v)])), points.col(v));
+    for (Eigen::Index v = 0; v < points.cols(); ++v) {
+        mesh_.set_point(mesh_.vertex_handle(unsigned(patch.to_input[at(static_cast<int>(v))])), points.col(v));
     }
 }
 

@@ -10,9 +10,11 @@
 #include "operators/biharmonic_operator.h"
 #include "operators/workspace.h"
 #include "placement/place.h"
+#include "problem/free_slopes.h"
 #include "problem/surface_state.h"
 #include "proxy/proxy_solver.h"
 #include "start/best_fill.h"
+#include "start/membrane.h"
 #include "variation/inflate.h"
 #include "variation/lift.h"
 #include "variation/own_mesh.h"
@@ -50,8 +52,9 @@ Workspace make_workspace(const Problem& problem, const Progress& progress) {
 
 // A bulge that meets the outline's tangent planes, its collapsed tubes opened.
 Points start_of(const Problem& problem, const Progress& progress) {
-    const Problem uniform = on_patch(problem, problem.patch);
-    Workspace work = make_workspace(uniform, progress.here());
+    const Problem given = on_patch(problem, problem.patch);
+    Workspace work = make_workspace(given, progress.here());
+    const Problem uniform = with_slopes_of(given, membrane(given, work));
     const Points fill = best_fill(uniform, work, progress.here());
     return problem.patch.loop_count() > 1 ? inflated(uniform, fill, progress) : fill;
 }
@@ -101,7 +104,9 @@ Termination ending(const NewtonResult& result, const Problem& problem) {
 }
 
 // The user's vertices on the solved surface.
-Solution placed(const Problem& problem, const ProxyMesh& mesh, const SolvedSheet& solved, const Progress& progress) {
+Solution placed(const Problem& given, const ProxyMesh& mesh, const SolvedSheet& solved, const Progress& progress) {
+    Problem problem = given;
+    problem.fixed_points = solved.sheet.points.rightCols(given.fixed_points.cols());  // a free edge has moved
     const Termination end = ending(solved.result, problem);
     const TargetSurface target(solved.mesh.patch, solved.sheet.points, solved.sheet.normals);
     const auto tangential = make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here());

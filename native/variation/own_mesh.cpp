@@ -47,8 +47,8 @@ Indices triangles_nearby(const SolvedSheet& solved, const Patch& later, const Ta
 }  // namespace
 
 Problem on_patch(const Problem& problem, const Patch& patch) {
-    return {patch, problem.fixed_points,  problem.fixed_normals, uniform_weights(patch), problem.options,
-            0,     problem.normal_weights};
+    return {patch, problem.fixed_points,   problem.fixed_normals, uniform_weights(patch), problem.options,
+            0,     problem.normal_weights, problem.free_edge};
 }
 
 Sheet resampled(const SolvedSheet& solved, const ProxyMesh::Snapshot& later) {

@@ -19,8 +19,12 @@ Freedom freedom_of(const Problem& problem, Moving moving) {
     const Patch& patch = problem.patch;
     Freedom freedom{std::vector<char>(at(patch.vertex_count()), 0), std::vector<char>(at(patch.vertex_count()), 1)};
     for (int v = 0; v < patch.free_count; ++v) freedom.rises[at(v)] = moving == Moving::points_and_normals;
-    for (Eigen::Index k = 0; k < problem.fixed_points.cols(); ++k)
+    for (Eigen::Index k = 0; k < problem.fixed_points.cols(); ++k) {
+        freedom.rises[at(patch.free_count) + static_cast<std::size_t>(k)] =
+            moving == Moving::points_and_normals && !problem.free_edge.empty() &&
+            problem.free_edge[static_cast<std::size_t>(k)];
         freedom.turns[at(patch.free_count) + static_cast<std::size_t>(k)] = std::isfinite(normal_weight(problem, k));
+    }
     return freedom;
 }
 

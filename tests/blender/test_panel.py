@@ -199,7 +199,8 @@ def test_redo_panel_shows_every_option() -> None:
 
 ORDER = (
     "factor", "equation", "otherwise", "bulge", "mesh", "spacing", "inner_fairness", "detail", "detail_size",
-    "boundary_normals", "continuity", "outline", "pin_group", "pin_edges", "method", "levels", "tolerance",
+    "boundary_normals", "continuity", "outline", "pin_group", "pin_radius", "pin_edges", "pin_slope", "open_border",
+    "method", "levels", "tolerance",
     "max_iterations", "accept",
 )  # fmt: skip
 

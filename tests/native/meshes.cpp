@@ -61,7 +61,7 @@ Single single_patch(const Mesh& mesh, std::vector<char> given) {
     const auto count = static_cast<int>(mesh.points.cols());
     given.resize(static_cast<std::size_t>(count), 0);
     const EdgeTable edges = make_edges(triangles, count);
-    single.roles = classify_vertices(edges, given);
+    single.roles = classify_vertices(edges, {given, {}, {}});
     single.cut = cut_mesh(triangles, edges, kept, single.roles, warnings);
     single.patches = make_patches(single.cut, single.roles);
     const Patch& patch = single.patch();

@@ -12,7 +12,7 @@ CutMesh cut(const Triangles& triangles, const std::vector<char>& fixed, Diagnost
     Indices kept;
     const Triangles clean = drop_collapsed_triangles(triangles, kept, warnings);
     const EdgeTable edges = make_edges(clean, static_cast<int>(fixed.size()));
-    return cut_mesh(clean, edges, kept, classify_vertices(edges, fixed), warnings);
+    return cut_mesh(clean, edges, kept, classify_vertices(edges, {fixed, {}, {}}), warnings);
 }
 
 Triangles octahedron() {

@@ -44,6 +44,10 @@ def fair(
     start: str = "outline",
     feather: float = 0.0,
     weights: npt.ArrayLike | None = None,
+    creases: npt.ArrayLike | None = None,
+    smooth_curves: npt.ArrayLike | None = None,
+    open_border: str = "held",
+    pin_radius: float = 0.1,
 ) -> FairResult:
     """Replace the free vertices of a mesh by the fairest surface with the given boundary data.
 
@@ -145,6 +149,21 @@ def fair(
         "given": begin at the vertices given, which lie near the surface. Where the iteration does not find it from
         there, within a few steps and without folds, the outline alone decides as always. For the harmonic equations
         and "global"; where conformal weights are those of these same vertices, these move along the normals only.
+    creases : (c,) int
+        Some of the fixed vertices, those at which a crease ends on the outline among them: position only, whatever
+        ``fixed_normals`` says there. Each side of a curve of them finds a slope of its own. A component with such a
+        curve is solved as "least_variation", one that is bounded by a single loop of them as "minimal";
+        ``result.equation`` says so. docs/curves.md.
+    smooth_curves : (s,) int
+        Some of the fixed vertices: position only, and curves of them are not cut. The surface runs through them with
+        one slope, which it finds, as one of "least_variation".
+    open_border : "held" | "faired"
+        "faired": border vertices that are not in ``fixed``, which must be given, don't stay. The border becomes a fair
+        curve on a surface of "least_variation" that ends there with a free slope.
+    pin_radius : float
+        Over which length, as a share of D, a pin lifts or holds the surface: the standard deviation of a Gaussian. 0:
+        in a point, which leaves a dent that sharpens with the mesh. For the harmonic equations and "G1"; where no
+        surface is found with the radius, the pins act in a point, and the warning PINS_NOT_SPREAD says so.
 
     Returns
     -------
@@ -169,6 +188,7 @@ def fair(
     fixed_list, given_normals = _arguments.boundary(fixed, fixed_normals)
     m0 = None if reference is None else _arguments.floats("reference", reference, count)
     edges = _options.neighbour_edges(neighbours, count)
+    _options.faired_needs_fixed(open_border, fixed_list)
     _arguments.choice("method", method, _options.METHODS)
     _options.callback(progress)
     kind, rows = _options.inner_fairness(inner_fairness, count)
@@ -176,7 +196,7 @@ def fair(
     options = _options.engine_options(
         equation=equation, otherwise=otherwise, load=load, bulge=bulge, fairness=kind, method=method, normals=normals,
         tolerance=tolerance, max_iterations=max_iterations, threads=threads, detail=detail, detail_size=detail_size,
-        start=start,
+        start=start, creases=creases, smooth_curves=smooth_curves, open_border=open_border, pin_radius=pin_radius,
     )  # fmt: skip
     joins = _options.continuity(continuity, equation, method)
     around = _mending.Surroundings.of(points, faces, fixed_list, outside)

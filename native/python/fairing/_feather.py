@@ -125,7 +125,8 @@ def _at_odd_edges(triangles: IntArray, count: int) -> Marks:
 def _normals(given: Boundary, own: IntArray, wider: Surroundings, ends: IntArray) -> FloatArray:
     """As given at the patch's ``own``, else fitted where triangles lie beyond, else averaged."""
     normals = _core.vertex_normals(given.vertices, wider.inside, "averaged")[ends]
-    fitted = _core.surrounding_normals(given.vertices, wider.outside, wider.rim)["normals"]
+    nowhere = np.empty((0, 2), dtype=np.int32)
+    fitted = _core.surrounding_normals(given.vertices, wider.outside, wider.rim, nowhere)["normals"]
     _, here, there = np.intersect1d(ends, wider.rim, return_indices=True)
     normals[here] = fitted[there]
     if given.normals is not None and given.fixed is not None:

@@ -19,6 +19,7 @@ INNER_FAIRNESS = _core.WORDS["inner_fairness"]
 OUTLINES = ("given", "mended")
 CONTINUITIES = ("G1", "G2")
 STARTS = ("outline", "given")
+OPEN_BORDERS = ("held", "faired")
 
 
 def engine_options(
@@ -36,11 +37,19 @@ def engine_options(
     detail: Any,
     detail_size: Any,
     start: str = "outline",
+    creases: Any = None,
+    smooth_curves: Any = None,
+    open_border: str = "held",
+    pin_radius: Any = 0.0,
 ) -> _core.Options:
     """Checks the options that both methods have; ``fairness`` is the engine's word for it."""
     _arguments.choice("normals", normals, NORMALS)
     if method == "paper" and equation == "least_variation":
         raise ValueError("equation: 'least_variation' is not accepted by method 'paper'; accepted with 'global'")
+    faired = _arguments.choice("open_border", open_border, OPEN_BORDERS) == "faired"
+    if faired and method == "paper":
+        raise ValueError("open_border: 'faired' is not accepted by method 'paper'; accepted with 'global'")
+    slopes = {"creases": creases, "smooth_curves": smooth_curves}
     return _core.Options(
         equation=_arguments.choice("equation", equation, EQUATIONS),
         otherwise=_arguments.choice("otherwise", otherwise, OTHERWISE),
@@ -55,7 +64,26 @@ def engine_options(
         detail=_arguments.share("detail", detail),
         detail_size=_arguments.share("detail_size", detail_size),
         start=_arguments.choice("start", start, STARTS),
+        fair_border=faired,
+        pin_radius=_arguments.share("pin_radius", pin_radius),
+        **{name: _free_slopes(name, vertices, method) for name, vertices in slopes.items()},
     )
+
+
+def faired_needs_fixed(open_border: str, fixed: IntArray | None) -> None:
+    """Refuse to fair all that holds a patch."""
+    if open_border == "faired" and fixed is None:
+        raise ValueError("open_border: 'faired' needs `fixed`, since all other border vertices move")
+
+
+def _free_slopes(name: str, vertices: Any, method: str) -> list[int]:
+    """The vertices named; only the fast solver leaves slopes free."""
+    if vertices is None:
+        return []
+    named = _arguments.integers(name, vertices, None)
+    if len(named) and method == "paper":
+        raise ValueError(f"{name}: not accepted by method 'paper'; accepted with 'global'")
+    return [int(v) for v in named]
 
 
 def continuity(value: str, equation: str, method: str) -> bool:

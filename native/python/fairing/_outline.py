@@ -74,7 +74,9 @@ def _bounded(
     return points, faces[np.isfinite(points[faces]).all(axis=(1, 2))], where
 
 
-def surrounding_normals(vertices: npt.ArrayLike, triangles: npt.ArrayLike, at: npt.ArrayLike) -> SurroundingNormals:
+def surrounding_normals(
+    vertices: npt.ArrayLike, triangles: npt.ArrayLike, at: npt.ArrayLike, *, creases: npt.ArrayLike | None = None
+) -> SurroundingNormals:
     """Normals at the vertices ``at`` of the surface that ``triangles`` alone form.
 
     Made for the outline of a patch: ``triangles`` are those outside it. A polynomial is fitted to the nearest
@@ -82,8 +84,14 @@ def surrounding_normals(vertices: npt.ArrayLike, triangles: npt.ArrayLike, at: n
     any of these triangles are zero, as along a border of the whole mesh: leave them out of ``fixed`` and
     ``fixed_normals``, where a normal of length zero is refused. Triangles with a corner that is NaN or infinite are
     left out.
+
+    ``creases``: (c, 2) edges along which the surface is broken. A fit looks at its own side alone. Where several sides
+    meet in a vertex of ``at``, one of them is taken: such vertices belong to ``creases`` of :func:`fairing.fair`.
     """
-    return SurroundingNormals(**_core.surrounding_normals(*_bounded(vertices, ("triangles", triangles), ("at", at))))
+    points, faces, where = _bounded(vertices, ("triangles", triangles), ("at", at))
+    named = _arguments.integers("creases", [] if creases is None else creases, 2)
+    edges = _arguments.indices_within("creases", named, points.shape[0])
+    return SurroundingNormals(**_core.surrounding_normals(points, faces, where, edges))
 
 
 def bad_outline(vertices: npt.ArrayLike, outside: npt.ArrayLike, outline: npt.ArrayLike) -> IntArray:

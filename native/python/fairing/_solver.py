@@ -15,8 +15,9 @@ from fairing._types import FairResult, FloatArray, IntArray
 _ANY_COUNT = int(np.iinfo(np.int32).max)
 _SHARED = (
     "equation", "otherwise", "load", "bulge", "normals", "tolerance", "max_iterations", "threads", "detail",
-    "detail_size",
+    "detail_size", "pin_radius",
 )  # fmt: skip
+_CURVES = ("creases", "smooth_curves", "open_border")
 _CHANGEABLE = (*_SHARED, "inner_fairness", "neighbours", "method", "levels", "paper", "continuity")
 
 
@@ -73,6 +74,10 @@ class Solver:
         detail: float = 0.0,
         detail_size: float = 0.0,
         continuity: str = "G1",
+        creases: npt.ArrayLike | None = None,
+        smooth_curves: npt.ArrayLike | None = None,
+        open_border: str = "held",
+        pin_radius: float = 0.1,
     ) -> None:
         """Check and copy everything; nothing is solved yet. Raises what fairing.fair does for these arguments.
 
@@ -83,12 +88,14 @@ class Solver:
         given = dict(locals())
         faces = _arguments.integers("triangles", triangles, 3)
         self._fixed, _ = _arguments.boundary(fixed, None)
+        _options.faired_needs_fixed(open_border, self._fixed)
+        self._curves = {name: given[name] for name in _CURVES}
         self._options = {name: given[name] for name in _CHANGEABLE}
         self._neighbours, self._weights, options = self._checked(self._options)
         self._engine = _core.Solver(faces, self._fixed, self._neighbours, self._weights, options)
 
     def change(self, **options: Any) -> None:
-        """Give some options of the constructor (all but ``triangles`` and ``fixed``) other values.
+        """Give some options of the constructor (all that are not about connectivity) other values.
 
         The next solve starts from the last answer all the same, which is worth it for another load, λ or tolerance,
         and often for another equation. Raises what the constructor does, TypeError for other names; nothing has
@@ -102,8 +109,8 @@ class Solver:
         self._engine.change(neighbours, weights, checked)
         self._options, self._neighbours, self._weights = wanted, neighbours, weights
 
-    @staticmethod
     def _checked(
+        self,
         options: dict[str, Any],
     ) -> tuple[IntArray | None, FloatArray | None, tuple[_core.Options, _core.PaperOptions]]:
         """Edges, λ by rows, and the engine's options; how many vertices there are is known at the first solve."""
@@ -112,7 +119,7 @@ class Solver:
         _options.continuity(options["continuity"], options["equation"], method)
         kind, weights = _options.inner_fairness(options["inner_fairness"], _ANY_COUNT)
         paper = _paper.engine_options(method, options["levels"], options["paper"])
-        shared = {name: options[name] for name in _SHARED}
+        shared = {name: options[name] for name in _SHARED} | self._curves
         return edges, weights, (_options.engine_options(fairness=kind, method=method, **shared), paper)
 
     def solve(

@@ -1,0 +1,151 @@
+"""What holds inside a patch: tables and pictures of docs/curves.md.
+
+python benchmarks/held [creases | fades | pins | windows | pictures …]
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+
+import creased
+import fairing
+import shapes
+import test_held_curves
+import test_spread_pins
+import windows
+from engine import FloatArray
+from stripes import Layer, View, facing, render
+
+PICTURES = Path(__file__).resolve().parents[2] / "docs" / "pictures"
+PIXELS, COLOURS = 300, 48
+GREY = (0.9, 0.9, 0.9)
+
+
+def _averaged(patch: creased.Creased) -> FloatArray:
+    """Normals (k, 3) at the fixed vertices, the mean of both exact sides on the curve."""
+    sums = np.zeros_like(patch.vertices)
+    for triangle in patch.triangles:
+        a, b, c = patch.vertices[triangle]
+        normal = np.cross(b - a, c - a)
+        sums[triangle] += normal / np.linalg.norm(normal)
+    normals = patch.normals.copy()
+    normals[patch.curve] = sums[patch.curve]
+    return normals[patch.fixed]
+
+
+def _fair(patch: creased.Creased, crease: bool) -> fairing.FairResult:
+    return fairing.fair(
+        patch.noisy(0.25), patch.triangles, fixed=patch.fixed, fixed_normals=_averaged(patch),
+        creases=patch.curve if crease else None, threads=1,
+    )  # fmt: skip
+
+
+def creases() -> None:
+    """Largest distances to the exact sides over D."""
+    for name, make in (("box edge", creased.box_edge), ("box corner", creased.box_corner), ("lid", creased.lid)):
+        for n in (5, 8) if name == "lid" else (8, 16):
+            patch = make(n)
+            errors = [patch.error(_fair(patch, crease).vertices) for crease in (False, True)]
+            print(f"| {name}, {len(patch.free)} | {errors[0]:.1e} | {errors[1]:.1e} |", flush=True)
+
+
+def fades() -> None:
+    """Largest |H| near the end of a fold, and on a lifted smooth curve."""
+    for n in (12, 24):
+        patch = creased.fading_fold(n)
+        result = _fair(patch, True)
+        tip = patch.curve[np.argmax(patch.vertices[patch.curve, 1])]
+        near = patch.free[np.linalg.norm(result.vertices - result.vertices[tip], axis=1)[patch.free] < 0.25]
+        print(f"| fold, {len(patch.free)} | {np.abs(result.mean_curvature[near]).max():.2f} |", flush=True)
+    for n in (12, 24, 48):
+        patch, result = test_held_curves.lifted_line(n)
+        inside = np.setdiff1d(np.arange(len(result.vertices)), patch.outline)
+        print(f"| smooth curve, {len(inside)} | {np.abs(result.mean_curvature[inside]).max():.2f} |", flush=True)
+
+
+def pins() -> None:
+    """H at a pin that lifts a disc's middle by 0.1 D."""
+    for n_free in (1000, 4000, 16000):
+        patch = shapes.plane(n_free)
+        pin = test_spread_pins.near(patch, [(0.0, 0.0)])
+        told = []
+        for radius in (0.0, 0.1):
+            result, _ = test_spread_pins.lifted(patch, pin, [0.1], pin_radius=radius, threads=1)
+            told.append(float(result.mean_curvature[pin[0]]) * test_spread_pins.size(patch))
+        print(f"| {n_free} | {told[0]:.2f} | {told[1]:.2f} |", flush=True)
+
+
+def noisy_windows() -> None:
+    """Distances of noisy windows to the surface and to the exact border, before and after."""
+    for kind in ("cylinder", "sphere"):
+        for around in (24, 48, 96):
+            for seed in (0, 1):
+                window = windows.window(kind, around, seed)  # type: ignore[arg-type]
+                start = window.noisy(0.25, seed)
+                result = fairing.fair(
+                    start, window.triangles, fixed=window.outline, fixed_normals=window.normals,
+                    open_border="faired", threads=1,
+                )  # fmt: skip
+                cells = [
+                    f"{window.off_surface(points).max():.1e} | {window.off_border(points):.3f}"
+                    for points in (start, result.vertices)
+                ]
+                print(f"| {kind}, {around}, {seed} | {' | '.join(cells)} | {result.converged} |", flush=True)
+
+
+def _shown(patch: creased.Creased, points: FloatArray, view: View) -> FloatArray:
+    """Each side by itself, so that creases stay sharp."""
+    sides = np.array([np.bincount(patch.side[np.setdiff1d(t, patch.curve)]).argmax() for t in patch.triangles])
+    return render(
+        [Layer(points, patch.triangles[sides == k], GREY, striped=True) for k in range(sides.max() + 1)], view
+    )
+
+
+def _save(name: str, rows: list[list[FloatArray]]) -> None:
+    whole = np.vstack([np.hstack(row) for row in rows])
+    picture = Image.fromarray((255 * whole).astype(np.uint8))
+    size = (PIXELS * len(rows[0]), PIXELS * len(rows))
+    picture.resize(size, Image.Resampling.LANCZOS).quantize(COLOURS).save(PICTURES / name)
+
+
+def pictures() -> None:
+    """Creases against averaged slopes; a pin in a point and with a radius."""
+    rows = []
+    for patch, eye in ((creased.box_edge(12), (1.0, -0.9, 0.8)), (creased.lid(8), (0.6, -1.0, 1.1))):
+        view = facing(np.array(eye), patch.vertices.mean(axis=0), 1.15, 2 * PIXELS)
+        states = [patch.noisy(0.25), _fair(patch, False).vertices, _fair(patch, True).vertices]
+        rows.append([_shown(patch, points, view) for points in states])
+    _save("curves_creases.png", rows)
+    patch = shapes.plane(4000)
+    pin = test_spread_pins.near(patch, [(0.0, 0.0)])
+    row = []
+    for radius in (0.0, 0.1):
+        result, _ = test_spread_pins.lifted(patch, pin, [0.25], pin_radius=radius)
+        view = View(
+            np.array([0.0, 1.0, 0.0]), np.array([-0.95, 0.0, 0.3122]), np.array([-0.3122, 0.0, -0.95]),
+            result.vertices.mean(axis=0), 0.75, 2 * PIXELS,
+        )  # fmt: skip
+        row.append(render([Layer(result.vertices, patch.triangles, GREY, striped=True)], view))
+    _save("curves_pins.png", [row])
+
+
+TABLES: dict[str, Callable[[], None]] = {
+    "creases": creases, "fades": fades, "pins": pins, "windows": noisy_windows, "pictures": pictures,
+}  # fmt: skip
+
+
+def main() -> None:
+    for name in sys.argv[1:] or TABLES:
+        TABLES[name]()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,103 @@
+#include "method/pinned.h"
+
+#include "base/stopwatch.h"
+#include "geometry/surface_fit.h"
+#include "method/accept.h"
+#include "method/ladder.h"
+#include "method/otherwise.h"
+#include "pins/released.h"
+#include "pins/spread_pins.h"
+
+namespace fairing {
+
+namespace {
+
+Solution with_pins(Solution solution, Pins pins) {
+    solution.pins = pins;
+    return solution;
+}
+
+bool is_of_fourth_order(const Problem& problem, const Solution& solution) {
+    const Equation equation = problem.options.equation;
+    return equation != Equation::minimal && equation != Equation::least_variation && !solution.instead;
+}
+
+bool are_close(const Problem& problem, const Indices& pins, double distance) {
+    for (std::size_t k = 0; k < pins.size(); ++k) {
+        for (std::size_t l = 0; l < k; ++l) {
+            if ((problem.fixed_points.col(pins[k]) - problem.fixed_points.col(pins[l])).norm() < distance) return true;
+        }
+    }
+    return false;
+}
+
+// Judged by the rules for all surfaces.
+Solution spread_from(const Problem& problem, double radius, const Points& start, const Progress& progress) {
+    Solution found = spread_pins(problem, radius, start, progress);
+    found.boundary_normals = one_sided_normals(problem.patch, found.points);
+    found.from_surface = true;
+    found.flaw = flaw_of(problem, found);
+    found.pins = Pins::spread;
+    return found;
+}
+
+// From the surface without pins.
+std::optional<Solution> lifted(const Problem& problem, double radius, const Indices& pins, const Progress& progress) {
+    const Released free = released(problem.patch, pins);
+    const Solution without = solve_global(on_released(problem, free), progress.range(0.0, 0.5));
+    if (end_of(without) != Termination::converged) return std::nullopt;
+    Solution found = spread_from(problem, radius, without.points(Eigen::all, free.to), progress.range(0.5, 1.0));
+    if (found.flaw != Flaw::absent) return std::nullopt;
+    found.initial_residual = without.initial_residual;
+    found.seconds = without.seconds;
+    return found;
+}
+
+// Those that may have a radius: not where nothing else holds the patch.
+Indices pins_to_spread(const Problem& problem) {
+    Indices pins = isolated_pins(problem.patch);
+    if (static_cast<Eigen::Index>(pins.size()) == problem.fixed_points.cols()) pins.clear();
+    return pins;
+}
+
+}  // namespace
+
+Solution solve_pinned(const Problem& problem, double radius, const Progress& progress) {
+    Solution first = solve_global(problem, progress);
+    const bool fits = radius > 0.0 && is_of_fourth_order(problem, first);
+    if (!fits || end_of(first) == Termination::converged) return or_else(problem, std::move(first), progress);
+    const Indices pins = pins_to_spread(problem);
+    if (pins.empty()) return or_else(problem, std::move(first), progress);
+    const Stopwatch watch;
+    auto found = lifted(problem, radius, pins, progress.here());
+    first.ways.push_back({"pins", watch.seconds()});
+    if (!found) return or_else(problem, std::move(first), progress);
+    found->ways = first.ways;
+    return std::move(*found);
+}
+
+Solution with_spread_pins(const Problem& problem, double radius, Solution sharp, const Progress& progress) {
+    if (!(radius > 0.0) || !is_of_fourth_order(problem, sharp) || sharp.pins == Pins::spread) return sharp;
+    const Indices all = isolated_pins(problem.patch);
+    if (all.empty()) return sharp;
+    if (end_of(sharp) != Termination::converged) return with_pins(std::move(sharp), Pins::no_surface);
+    const Indices pins = pins_to_spread(problem);
+    if (pins.empty()) return with_pins(std::move(sharp), Pins::no_outline);
+    const Stopwatch watch;
+    Solution found = spread_from(problem, radius, sharp.points, progress);
+    const double seconds = watch.seconds();
+    sharp.seconds["pins"] = seconds;
+    sharp.ways.push_back({"pins", seconds});
+    if (found.flaw != Flaw::absent) {
+        const bool close = are_close(problem, pins, 2.0 * radius);
+        return with_pins(std::move(sharp), close ? Pins::too_close : Pins::not_found);
+    }
+    found.initial_residual = sharp.initial_residual;
+    found.levels = sharp.levels;
+    found.seconds = sharp.seconds;
+    found.ways = sharp.ways;
+    found.even_weights = sharp.even_weights;
+    return found;
+}
+
+}  // namespace fairing

@@ -1,0 +1,163 @@
+#include "outline/fair_border.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/SparseCholesky>
+
+#include "base/progress.h"
+#include "linear/elimination.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr int shortest_run = 6;
+constexpr double caution = 1.4;  // of the degrees of freedom: without, some noise is taken for shape (Kim & Gu 2004)
+
+// Consecutive columns: those that move, and for open runs the two that end them.
+struct Run {
+    Indices columns;
+    bool closed;
+    [[nodiscard]] int size() const { return static_cast<int>(columns.size()); }
+    [[nodiscard]] int first_moving() const { return closed ? 0 : 1; }
+    [[nodiscard]] int moving() const { return size() - (closed ? 0 : 2); }
+};
+
+std::vector<Run> runs_of(const Indices& loop, const std::vector<char>& marked) {
+    const auto is_marked = [&](std::size_t k) { return marked[at(loop[k % loop.size()])] != 0; };
+    std::size_t begin = 0;
+    while (begin < loop.size() && is_marked(begin)) ++begin;
+    if (begin == loop.size()) return {{loop, true}};
+    std::vector<Run> runs;
+    for (std::size_t k = begin; k < begin + loop.size(); ++k) {
+        if (is_marked(k) || !is_marked(k + 1)) continue;
+        Run& run = runs.emplace_back(Run{{}, false});
+        std::size_t v = k;
+        do run.columns.push_back(loop[v++ % loop.size()]);
+        while (is_marked(v));
+        run.columns.push_back(loop[v % loop.size()]);
+    }
+    return runs;
+}
+
+// Third differences of a run.
+SparseMatrix third_differences(const Run& run) {
+    constexpr std::array<double, 4> stencil{-1.0, 3.0, -3.0, 1.0};
+    const int rows = run.closed ? run.size() : run.size() - 3;
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int r = 0; r < rows; ++r) {
+        for (int k = 0; k < 4; ++k) entries.emplace_back(r, (r + k) % run.size(), stencil[at(k)]);
+    }
+    SparseMatrix result(rows, run.size());
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+}
+
+// What a difference makes of a wave of so many vertices.
+double frequency(double wave) { return 2.0 * std::sin(std::numbers::pi / wave); }
+
+// The mean and the first wave around a closed run: an ellipse, which no smoothing is to shrink.
+Points oval_of(const Points& points) {
+    const auto count = static_cast<int>(points.cols());
+    Points result = points.rowwise().mean().replicate(1, count);
+    for (const double phase : {0.0, 0.5 * std::numbers::pi}) {
+        VectorX wave(count);
+        for (int k = 0; k < count; ++k) wave[k] = std::cos(2.0 * std::numbers::pi * k / count - phase);
+        result += (points * wave * (2.0 / count)) * wave.transpose();
+    }
+    return result;
+}
+
+class Smoother {
+public:
+    Smoother(const Run& run, const Points& points)
+        : run_(run), given_(points(Eigen::all, run.columns)), oval_(Points::Zero(3, run.size())) {
+        if (run.closed) oval_ = oval_of(given_);
+        given_ -= oval_;
+        const SparseMatrix differences = third_differences(run);
+        const SparseMatrix full = differences.transpose() * differences;
+        energy_ = full.block(run.first_moving(), run.first_moving(), run.moving(), run.moving());
+        if (run.closed) return;
+        Eigen::MatrixX3d ends = Eigen::MatrixX3d::Zero(run.size(), 3);
+        ends.row(0) = given_.col(0).transpose();
+        ends.row(run.size() - 1) = given_.col(run.size() - 1).transpose();
+        pull_ = -(full * ends).middleRows(1, run.moving());
+    }
+
+    // The moving points with the least generalised cross-validation.
+    [[nodiscard]] Points best() const {
+        constexpr double finest = 4.0;  // edges: the wavelength that is halved
+        constexpr int octaves = 7;
+        constexpr int steps = 3;  // in each
+        Points result = given_.middleCols(run_.first_moving(), run_.moving());
+        double least = std::numeric_limits<double>::infinity();
+        for (int k = 0; k < octaves * steps; ++k) {
+            checkpoint();
+            const double wave = finest * std::exp2(static_cast<double>(k) / steps);
+            if (wave > 2.0 * run_.size()) break;
+            const Trial trial = smoothed(std::pow(frequency(wave), -6));
+            if (trial.score < least) {
+                least = trial.score;
+                result = trial.points;
+            }
+        }
+        return result + oval_.middleCols(run_.first_moving(), run_.moving());
+    }
+
+private:
+    struct Trial {
+        Points points;
+        double score;
+    };
+
+    [[nodiscard]] Trial smoothed(double stiffness) const {
+        const int count = run_.moving();
+        SparseMatrix matrix = stiffness * energy_;
+        for (int k = 0; k < count; ++k) matrix.coeffRef(k, k) += 1.0;
+        const Eigen::SimplicialLDLT<SparseMatrix> factor(matrix);
+        const Eigen::MatrixX3d data = given_.middleCols(run_.first_moving(), count).transpose();
+        Eigen::MatrixX3d rhs = data;
+        if (!run_.closed) rhs += stiffness * pull_;
+        const Eigen::MatrixX3d x = factor.solve(rhs);
+        double fitted = trace_of_inverse(factor, count);
+        if (run_.closed) fitted += 2.0 * (1.0 - 1.0 / (1.0 + stiffness * std::pow(frequency(run_.size()), 6)));
+        const double left = static_cast<double>(count) - caution * fitted;
+        const double score = (x - data).squaredNorm() / (left * left);
+        return {x.transpose(), left > 0.0 ? score : std::numeric_limits<double>::max()};
+    }
+
+    // Some columns at a time.
+    static double trace_of_inverse(const Eigen::SimplicialLDLT<SparseMatrix>& factor, int count) {
+        constexpr int at_once = 64;
+        double trace = 0.0;
+        for (int first = 0; first < count; first += at_once) {
+            const int some = std::min(at_once, count - first);
+            Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(count, some);
+            for (int k = 0; k < some; ++k) unit(first + k, k) = 1.0;
+            const Eigen::MatrixXd x = factor.solve(unit);
+            for (int k = 0; k < some; ++k) trace += x(first + k, k);
+        }
+        return trace;
+    }
+
+    const Run& run_;
+    Points given_;  // without the oval
+    Points oval_;   // zero of open runs
+    SparseMatrix energy_;
+    Eigen::MatrixX3d pull_;  // of the ends
+};
+
+}  // namespace
+
+void fair_border(const Indices& loop, const std::vector<char>& marked, Points& points) {
+    for (const Run& run : runs_of(loop, marked)) {
+        if (run.moving() < shortest_run) continue;
+        const Points smoothed = Smoother(run, points).best();
+        for (int k = 0; k < run.moving(); ++k) points.col(run.columns[at(run.first_moving() + k)]) = smoothed.col(k);
+    }
+}
+
+}  // namespace fairing

@@ -1,0 +1,146 @@
+// Pieces of what holds inside a patch: faired borders, released pins, surroundings broken along creases.
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <doctest/doctest.h>
+
+#include "meshes.h"
+#include "outline/creased.h"
+#include "outline/fair_border.h"
+#include "pins/released.h"
+#include "pins/spread_pins.h"
+#include "problem/free_slopes.h"
+
+using namespace fairing;
+
+namespace {
+
+Points ellipse(int count) {
+    Points points(3, count);
+    for (int k = 0; k < count; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / count;
+        points.col(k) << 2.0 * std::cos(angle), std::sin(angle), 0.5 * std::cos(angle);
+    }
+    return points;
+}
+
+Points noise(int count, double amount) {
+    std::mt19937 random(5);
+    std::normal_distribution<double> normal(0.0, amount);
+    return Points::NullaryExpr(3, count, [&] { return normal(random); });
+}
+
+Indices everything(int count) {
+    Indices result;
+    for (int k = 0; k < count; ++k) result.push_back(k);
+    return result;
+}
+
+Patch with_pins(const test::Single& single, const Indices& pins) {
+    const Patch& given = single.patch();
+    Indices order;
+    std::vector<char> is_pin(at(given.vertex_count()), 0);
+    for (int v : pins) is_pin[at(v)] = 1;
+    for (const char wanted : {0, 1}) {
+        for (int v = 0; v < given.free_count; ++v) {
+            if (is_pin[at(v)] == wanted) order.push_back(v);
+        }
+    }
+    for (int v = given.free_count; v < given.vertex_count(); ++v) order.push_back(v);
+    Indices to(order.size());
+    PatchMembers members;
+    members.free_count = given.free_count - static_cast<int>(pins.size());
+    for (int k = 0; k < static_cast<int>(order.size()); ++k) {
+        to[at(order[at(k)])] = k;
+        members.to_input.push_back(order[at(k)]);
+        members.pin.push_back(is_pin[at(order[at(k)])]);
+    }
+    members.input_triangle = given.input_triangle;
+    members.triangles = given.triangles.unaryExpr([&](int v) { return to[at(v)]; });
+    return Patch(std::move(members));
+}
+
+}  // namespace
+
+TEST_CASE("an ellipse of even spacing is a fair border") {
+    const int count = 40;
+    const Points exact = ellipse(count);
+    Points points = exact;
+    fair_border(everything(count), std::vector<char>(count, 1), points);
+    CHECK((points - exact).cwiseAbs().maxCoeff() < 1e-12);
+}
+
+TEST_CASE("noise leaves a closed border, and most of an open one") {
+    const int count = 96;
+    const Points exact = ellipse(count);
+    Points given = exact + noise(count, 0.03);
+    for (const bool closed : {true, false}) {
+        std::vector<char> marked(count, 1);
+        if (!closed) std::fill_n(marked.begin(), 20, 0);
+        Points points = given;
+        fair_border(everything(count), marked, points);
+        const double before = (given - exact).norm();
+        CHECK((points - exact).norm() < (closed ? 0.35 : 0.65) * before);
+        for (int k = 0; k < count; ++k) {
+            if (!marked[at(k)]) CHECK(points.col(k) == given.col(k));
+        }
+    }
+}
+
+TEST_CASE("a clean border of many waves stays") {
+    const int count = 120;
+    Points exact = ellipse(count);
+    for (int k = 0; k < count; ++k) exact(2, k) += 0.1 * std::sin(10.0 * std::numbers::pi * k / count);
+    Points points = exact;
+    fair_border(everything(count), std::vector<char>(count, 1), points);
+    CHECK((points - exact).cwiseAbs().maxCoeff() < 2e-3);
+}
+
+TEST_CASE("short runs of a border stay") {
+    Points points = noise(30, 1.0);
+    const Points given = points;
+    std::vector<char> marked(30, 0);
+    std::fill_n(marked.begin() + 3, 5, 1);
+    fair_border(everything(30), marked, points);
+    CHECK(points == given);
+}
+
+TEST_CASE("released pins come behind the free vertices, and the way back is known") {
+    const test::Single single = test::single_patch(test::grid(8, 0.0, test::flat));
+    const Patch pinned = with_pins(single, {10, 30});
+    const Indices pins = isolated_pins(pinned);
+    REQUIRE(pins == Indices{0, 1});
+    const Released free = released(pinned, pins);
+    CHECK(free.patch.free_count == pinned.free_count + 2);
+    for (int v = 0; v < pinned.vertex_count(); ++v) {
+        CHECK(free.to[at(free.from[at(v)])] == v);
+        CHECK(free.patch.to_input[at(v)] == pinned.to_input[at(free.from[at(v)])]);
+    }
+    CHECK(isolated_pins(free.patch).empty());
+}
+
+TEST_CASE("pins side by side are a curve, and change the equation") {
+    const test::Single single = test::single_patch(test::grid(8, 0.0, test::flat));
+    const int middle = single.patch().free_count / 2;
+    const int beside = single.patch().ring(middle).vertices.front();
+    const Patch apart = with_pins(single, {middle});
+    const Patch curve = with_pins(single, {middle, beside});
+    CHECK(isolated_pins(curve).empty());
+    CHECK(equation_for(apart, Equation::harmonic) == Equation::harmonic);
+    CHECK(equation_for(curve, Equation::harmonic) == Equation::least_variation);
+    CHECK(equation_for(curve, Equation::minimal) == Equation::minimal);
+}
+
+TEST_CASE("triangles broken along an edge have a copy of its ends for each fan") {
+    Triangles triangles(3, 4);  // a square around vertex 4
+    triangles << 0, 1, 2, 3, 1, 2, 3, 0, 4, 4, 4, 4;
+    const BrokenSurface whole = broken_along(triangles, 5, {});
+    CHECK(whole.input_vertex.size() == 5);
+    const BrokenSurface slit = broken_along(triangles, 5, {{0, 4}});
+    CHECK(slit.input_vertex.size() == 6);  // 0 twice
+    const BrokenSurface halves = broken_along(triangles, 5, {{4, 0}, {2, 4}});
+    CHECK(halves.input_vertex.size() == 8);
+    for (Eigen::Index c = 0; c < triangles.size(); ++c)
+        CHECK(halves.input_vertex[at(halves.triangles(c % 3, c / 3))] == triangles(c % 3, c / 3));
+}

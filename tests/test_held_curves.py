@@ -1,0 +1,172 @@
+"""Curves inside the patch: creases with a slope for each side, smooth ones with one slope."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import creased
+import fairing
+import shapes
+from creased import Creased
+
+
+def fair(patch: Creased, **options: object) -> fairing.FairResult:
+    """From noise of a quarter of an edge, with the exact normals of the sides; on the curve with useless ones."""
+    normals = patch.normals.copy()
+    normals[patch.curve] = np.random.default_rng(1).normal(size=(len(patch.curve), 3))
+    return fairing.fair(
+        patch.noisy(0.25), patch.triangles, fixed=patch.fixed, fixed_normals=normals[patch.fixed], **options
+    )  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("make", [creased.box_edge, creased.box_corner, creased.lid])
+@pytest.mark.parametrize("seed", [1, 2])
+def test_both_sides_of_a_crease_come_back(make: object, seed: int) -> None:
+    """A box edge, a box corner, the rim of a lid: to roundoff; averaged normals bulge, as the next test shows."""
+    patch = make(7, seed)  # type: ignore[operator]
+    result = fair(patch, creases=patch.curve)
+    assert result.converged
+    assert result.equation == "least_variation"
+    assert patch.error(result.vertices) < 1e-9
+    assert not {"SHARP_BOUNDARY", "PIN_NORMAL_IGNORED", "NO_SOLUTION"} & {told.code for told in result.warnings}
+    assert (result.boundary_angle[np.isin(result.fixed, patch.curve)] == 0).all()
+
+
+def test_without_creases_the_edge_bulges() -> None:
+    patch = creased.box_edge(7)
+    average = patch.normals.copy()
+    average[patch.curve] = [np.sqrt(0.5), 0.0, np.sqrt(0.5)]
+    result = fairing.fair(patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=average[patch.fixed])
+    assert patch.error(result.vertices) > 0.03
+
+
+def test_a_fading_crease_has_no_spike() -> None:
+    """H near the end of the fold is bounded, and less than beside it; finer meshes agree."""
+    peaks = []
+    for n in (12, 24):
+        patch = creased.fading_fold(n)
+        result = fairing.fair(
+            patch.noisy(0.25), patch.triangles, fixed=patch.fixed, fixed_normals=patch.normals[patch.fixed],
+            creases=patch.curve,
+        )  # fmt: skip
+        assert result.converged
+        tip = patch.curve[np.argmax(patch.vertices[patch.curve, 1])]
+        away = np.linalg.norm(result.vertices - result.vertices[tip], axis=1)
+        near = patch.free[away[patch.free] < 0.15]
+        peaks.append(np.abs(result.mean_curvature[near]).max())
+        assert np.abs(result.vertices[near, 2]).max() < 0.01
+    assert max(peaks) < 0.5
+    assert peaks[1] < 1.5 * peaks[0]
+
+
+def test_a_smooth_curve_on_the_surface_changes_nothing() -> None:
+    """A meridian of a hemisphere is held: the sphere, with one H across, and no cut."""
+    patch = shapes.cap(600)
+    middle = np.abs(patch.vertices[:, 0]) < 0.08
+    curve = np.intersect1d(np.flatnonzero(middle), patch.free)
+    fixed = np.concatenate([patch.fixed, curve])
+    normals = np.vstack([patch.fixed_normals, np.zeros((len(curve), 3))])
+    start = patch.vertices + 0.02 * np.random.default_rng(3).normal(size=patch.vertices.shape)
+    start[fixed] = patch.vertices[fixed]
+    result = fairing.fair(start, patch.triangles, fixed=fixed, fixed_normals=normals, smooth_curves=curve)
+    assert result.converged
+    assert patch.error(result.vertices) < 1e-9
+    assert np.array_equal(result.vertices[curve], patch.vertices[curve])
+
+
+def lifted_line(n: int) -> tuple[Creased, fairing.FairResult]:
+    """A flat square; a line that ends inside is lifted, and the surface runs through it."""
+    plane = creased.box_edge(n)
+    flat = np.column_stack([plane.vertices[:, 0] - plane.vertices[:, 2], plane.vertices[:, 1]])
+    vertices = np.column_stack([flat, np.zeros(len(flat))])
+    on_line = (np.abs(flat[:, 0]) < 1e-9) & (np.abs(flat[:, 1] - 0.5) < 0.26)
+    vertices[on_line, 2] = 0.1
+    fixed = np.union1d(plane.outline, np.flatnonzero(on_line))
+    normals = np.tile([0.0, 0.0, 1.0], (len(fixed), 1))
+    result = fairing.fair(
+        vertices, plane.triangles, fixed=fixed, fixed_normals=normals, smooth_curves=np.flatnonzero(on_line)
+    )
+    return plane, result
+
+
+def test_an_open_curve_stays_bounded() -> None:
+    """H near the ends is that of the whole ridge, on a mesh twice as fine as well."""
+    peaks = []
+    for n in (12, 24):
+        plane, result = lifted_line(n)
+        assert result.converged
+        assert result.vertices[:, 2].max() < 0.11
+        free = np.setdiff1d(np.arange(len(result.vertices)), plane.outline)
+        peaks.append(np.abs(result.mean_curvature[free]).max())
+    assert peaks[1] < 1.5 * peaks[0]
+
+
+def test_a_loop_of_creases_is_a_soap_film() -> None:
+    """Over a bent rim with nothing else: H = 0, although spheres and saddles vary as little."""
+    disc = creased.lid(6)
+    top = (disc.side[disc.triangles] == 0).all(axis=1) & (disc.vertices[disc.triangles][:, :, 2] == 0).all(axis=1)
+    triangles = disc.triangles[top]
+    vertices = disc.vertices[: triangles.max() + 1].copy()
+    rim = disc.curve
+    angle = np.arctan2(vertices[rim, 1], vertices[rim, 0])
+    vertices[rim, 2] = 0.1 * np.cos(2 * angle)
+    result = fairing.fair(vertices, triangles, fixed=rim, creases=rim)
+    film = fairing.fair(vertices, triangles, fixed=rim, equation="minimal")
+    assert result.converged
+    assert result.equation == "minimal"
+    assert np.abs(result.vertices - film.vertices).max() < 1e-3
+    assert 0.05 < np.ptp(result.vertices[:, 2]) < 0.21
+
+
+def test_slopes_have_to_be_those_of_fixed_vertices() -> None:
+    patch = creased.box_edge(4)
+    given = {"fixed": patch.fixed, "fixed_normals": patch.normals[patch.fixed]}
+    with pytest.raises(ValueError, match=f"creases names vertex {patch.free[0]}, which is not fixed"):
+        fairing.fair(patch.vertices, patch.triangles, **given, creases=patch.free[:1])
+    with pytest.raises(ValueError, match="is named by creases and by smooth_curves"):
+        fairing.fair(patch.vertices, patch.triangles, **given, creases=patch.curve[1:2], smooth_curves=patch.curve[1:2])
+    with pytest.raises(fairing.MeshError, match="smooth_curves names vertex 999999") as told:
+        fairing.fair(patch.vertices, patch.triangles, **given, smooth_curves=[999999])
+    assert told.value.code == "INDEX_RANGE"
+    with pytest.raises(ValueError, match="creases: not accepted by method 'paper'"):
+        fairing.fair(patch.vertices, patch.triangles, **given, creases=patch.curve, method="paper")
+
+
+def test_a_solver_has_the_same_creases() -> None:
+    patch = creased.box_edge(6)
+    solver = fairing.Solver(patch.triangles, fixed=patch.fixed, creases=patch.curve)
+    start = patch.noisy(0.25)
+    once = fairing.fair(
+        start, patch.triangles, fixed=patch.fixed, fixed_normals=patch.normals[patch.fixed], creases=patch.curve
+    )
+    result = solver.solve(start, patch.normals[patch.fixed])
+    assert np.array_equal(result.vertices, once.vertices)
+    moved = solver.solve(1.1 * start, patch.normals[patch.fixed])
+    assert patch.error(moved.vertices) < 1e-9
+
+
+def test_the_interior_given_does_not_matter() -> None:
+    patch = creased.lid(5)
+    first, second = (
+        fairing.fair(
+            patch.noisy(0.3, seed), patch.triangles, fixed=patch.fixed, fixed_normals=patch.normals[patch.fixed],
+            creases=patch.curve,
+        ).vertices
+        for seed in (1, 2)
+    )  # fmt: skip
+    assert np.array_equal(first, second)
+
+
+def test_fits_beside_a_crease_look_at_their_own_side() -> None:
+    """Normals beside a box edge that goes on outside: exact with the crease, rounded without."""
+    box = creased.box_edge(8)
+    rows = np.flatnonzero(box.vertices[:, 1] < 1e-9)
+    beside = rows[(np.abs(box.vertices[rows]).sum(axis=1) > 1e-9) & (np.abs(box.vertices[rows]).sum(axis=1) < 0.3)]
+    edges = np.column_stack([box.curve[:-1], box.curve[1:]])
+    order = np.argsort(box.vertices[box.curve, 1])
+    edges = np.column_stack([box.curve[order][:-1], box.curve[order][1:]])
+    broken = fairing.surrounding_normals(box.vertices, box.triangles, beside, creases=edges).normals
+    whole = fairing.surrounding_normals(box.vertices, box.triangles, beside).normals
+    assert np.abs(broken - box.normals[beside]).max() < 1e-9
+    assert np.abs(whole - box.normals[beside]).max() > 0.05

@@ -1,0 +1,69 @@
+"""Open borders that become fair: noisy windows in cylinders and spheres."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import fairing
+import windows
+from windows import Kind, Window
+
+
+def fair(window: Window, start: np.ndarray, **options: object) -> fairing.FairResult:  # type: ignore[type-arg]
+    return fairing.fair(start, window.triangles, fixed=window.outline, fixed_normals=window.normals, **options)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("kind", ["cylinder", "sphere"])
+@pytest.mark.parametrize("around", [24, 48])
+def test_a_noisy_window_comes_back(kind: Kind, around: int) -> None:
+    """From noise of a quarter edge along each axis: the surface to 1e-6, and half of the border's noise goes."""
+    window = windows.window(kind, around, 3)
+    start = window.noisy(0.25, 4)
+    result = fair(window, start, open_border="faired")
+    assert result.converged
+    assert result.equation == "least_variation"
+    assert window.off_surface(result.vertices).max() < 1e-6
+    assert window.off_border(result.vertices) < 0.55 * window.off_border(start)
+    assert "OPEN_BORDER_IN_SELECTION" not in {told.code for told in result.warnings}
+    assert np.isin(window.border, result.fixed).sum() == 0
+    assert np.array_equal(result.vertices[window.outline], start[window.outline])
+
+
+def test_a_held_border_stays() -> None:
+    window = windows.window("cylinder", 24, 3)
+    start = window.noisy(0.25, 4)
+    result = fair(window, start)
+    assert np.array_equal(result.vertices[window.border], start[window.border])
+    assert "OPEN_BORDER_IN_SELECTION" in {told.code for told in result.warnings}
+
+
+def test_a_border_between_held_ends_meets_them() -> None:
+    """Two thirds of the window are in the selection; the rest of its border is fixed."""
+    window = windows.window("sphere", 48, 5)
+    kept = window.border[:16]
+    fixed = np.concatenate([window.outline, kept])
+    start = window.noisy(0.25, 6)
+    start[kept] = window.vertices[kept]
+    result = fairing.fair(
+        start, window.triangles, fixed=fixed, fixed_normals=window.vertices[fixed], open_border="faired"
+    )
+    assert result.converged
+    assert window.off_surface(result.vertices).max() < 1e-6
+    assert np.array_equal(result.vertices[kept], start[kept])
+    assert window.off_border(result.vertices) < 0.55 * window.off_border(start)
+
+
+def test_a_fair_border_keeps_its_place() -> None:
+    window = windows.window("sphere", 48, 7)
+    result = fair(window, window.vertices, open_border="faired")
+    edge = np.linalg.norm(window.vertices[window.border[1]] - window.vertices[window.border[0]])
+    assert np.linalg.norm(result.vertices - window.vertices, axis=1)[window.border].max() < 0.1 * edge
+
+
+def test_something_has_to_hold() -> None:
+    window = windows.window("sphere", 24)
+    with pytest.raises(ValueError, match="open_border: 'faired' needs `fixed`"):
+        fairing.fair(window.vertices, window.triangles, open_border="faired")
+    with pytest.raises(ValueError, match="open_border: 'faired' is not accepted by method 'paper'"):
+        fair(window, window.vertices, open_border="faired", method="paper")

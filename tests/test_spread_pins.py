@@ -1,0 +1,173 @@
+"""Pins that lift the surface over a radius: exactly at their place, with an H that no mesh changes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.special import j0
+
+import fairing
+import shapes
+from curves import FloatArray
+from meshing import IntArray
+from shapes import Patch
+
+
+def size(patch: Patch) -> float:
+    """D."""
+    held = patch.vertices[patch.fixed]
+    return 2.0 * float(np.linalg.norm(held - held.mean(axis=0), axis=1).max())
+
+
+def near(patch: Patch, places: list[tuple[float, float]]) -> IntArray:
+    """Free vertices next to places (y, z) of the plane, counted from its middle, in units of D."""
+    middle = patch.vertices[patch.fixed].mean(axis=0)
+    wanted = middle + size(patch) * np.array([(0.0, y, z) for y, z in places])
+    away = np.linalg.norm(patch.vertices[patch.free][:, None] - wanted, axis=2)
+    return patch.free[away.argmin(axis=0)]
+
+
+def lifted(
+    patch: Patch, pins: IntArray, lifts: list[float], **options: object
+) -> tuple[fairing.FairResult, FloatArray]:
+    """The surface, and the (p, 3) places of the pins: lifted by shares of D along the plane's normal."""
+    start = patch.vertices.copy()
+    start[pins] += size(patch) * np.array(lifts)[:, None] * patch.fixed_normals[0]
+    fixed = np.concatenate([patch.fixed, pins])
+    normals = np.vstack([patch.fixed_normals, np.zeros((len(pins), 3))])
+    result = fairing.fair(start, patch.triangles, fixed=fixed, fixed_normals=normals, **options)  # type: ignore[arg-type]
+    assert np.array_equal(result.vertices[pins], start[pins])
+    return result, start[pins]
+
+
+@pytest.mark.parametrize("radius", [0.05, 0.1])
+def test_the_curvature_at_a_pin_does_not_depend_on_the_mesh(radius: float) -> None:
+    """1,000 and 4,000 vertices agree to 3 %; in a point H grows by the logarithm of the edge."""
+    spread, sharp = [], []
+    for n_free in (1000, 4000):
+        patch = shapes.plane(n_free)
+        pin = near(patch, [(0.0, 0.0)])
+        result, _ = lifted(patch, pin, [0.1], pin_radius=radius)
+        assert result.converged
+        assert not result.warnings
+        spread.append(float(result.mean_curvature[pin[0]]) * size(patch))
+        result, _ = lifted(patch, pin, [0.1], pin_radius=0)
+        sharp.append(float(result.mean_curvature[pin[0]]) * size(patch))
+    assert spread[0] == pytest.approx(spread[1], rel=0.03)
+    assert abs(sharp[1]) > 1.1 * abs(sharp[0]) > 1.5 * abs(spread[0])
+
+
+def test_the_profile_is_the_closed_form_of_a_clamped_disc() -> None:
+    """A small lift of a disc's middle: Δ²u = λ g with u = u′ = 0 at the rim, integrated in one dimension."""
+    disc = shapes.plane(2500)
+    held = disc.vertices[disc.fixed]
+    middle = held.mean(axis=0)
+    stretch = np.abs(held - middle).max(axis=0)
+    vertices = np.column_stack([np.zeros(len(disc.vertices)), *((disc.vertices - middle)[:, 1:] / stretch[1:]).T])
+    rim = vertices[disc.fixed] / np.linalg.norm(vertices[disc.fixed], axis=1)[:, None]
+    vertices[disc.fixed] = rim
+    pin = disc.free[np.argmin(np.linalg.norm(vertices[disc.free], axis=1))]
+    vertices[pin] = 0.002 * disc.fixed_normals[0]
+    fixed = np.append(disc.fixed, pin)
+    normals = np.vstack([disc.fixed_normals, np.zeros(3)])
+    result = fairing.fair(vertices, disc.triangles, fixed=fixed, fixed_normals=normals, pin_radius=0.1)
+    assert result.converged
+    radius = np.linalg.norm(result.vertices[:, 1:], axis=1)
+    height = result.vertices @ disc.fixed_normals[0] / 0.002
+    r, profile = clamped_profile(0.1 * 2.0)
+    assert np.abs(height - np.interp(radius, r, profile)).max() < 0.01
+    r, narrow = clamped_profile(0.04 * 2.0)
+    assert np.abs(height - np.interp(radius, r, narrow)).max() > 0.03
+
+
+def clamped_profile(rho: float) -> tuple[FloatArray, FloatArray]:
+    """r and u(r) / u(0) of the disc of radius 1, by cumulative sums. g: heat after eight implicit steps."""
+    r = np.linspace(1e-6, 1.0, 20001)
+    step = r[1] - r[0]
+    wave = np.linspace(0.0, 60.0 / rho, 4001)
+    coarse = np.linspace(0.0, 1.0, 401)
+    heat = (j0(wave * coarse[:, None]) * wave * (1.0 + (rho * wave) ** 2 / 16.0) ** -8).sum(axis=1)
+    flux = np.cumsum(np.interp(r, coarse, heat) * r) * step / r  # of Δu
+    laplacian = np.cumsum(flux) * step
+    slope = np.cumsum(laplacian * r) * step / r
+    slope -= slope[-1] * r  # a paraboloid, whose Laplacian is constant, clamps the rim
+    height = np.cumsum(slope) * step
+    height -= height[-1]
+    return r, height / height[0]
+
+
+def test_several_pins_and_pins_nearer_than_two_radii() -> None:
+    patch = shapes.plane(1000)
+    result, places = lifted(patch, near(patch, [(-0.2, 0.0), (0.2, 0.05), (0.0, -0.2)]), [0.05, -0.05, 0.05])
+    assert result.converged
+    assert not result.warnings
+    for gap in (0.06, 0.12):
+        pins = near(patch, [(-gap / 2, 0.0), (gap / 2, 0.0)])
+        result, places = lifted(patch, pins, [0.05, -0.05])
+        assert np.linalg.norm(places[1] - places[0]) < 0.2 * size(patch)
+        assert result.converged
+        assert not result.warnings
+        assert np.sign(result.mean_curvature[pins]).tolist() == [-1.0, 1.0]
+
+
+def test_the_pin_acts_on_its_own_side_of_a_slit() -> None:
+    """A flat square with a slit whose edges are held: beyond it, two edges away from the pin, nothing rises."""
+    n = 40
+    s, t = (x.ravel() for x in np.meshgrid(np.linspace(0, 1, n + 1), np.linspace(0, 1, n + 1), indexing="ij"))
+    vertices = np.column_stack([s, t, 0 * s])
+    number = np.arange(len(s)).reshape(n + 1, n + 1)
+    a, b, c, d = (k.ravel() for k in (number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]))
+    triangles = np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
+    border = (s < 1e-9) | (s > 1 - 1e-9) | (t < 1e-9) | (t > 1 - 1e-9)
+    slit = (np.abs(s - 0.5) < 1e-9) & (t > 0.2 - 1e-9)
+    held = np.flatnonzero(border | slit)
+    pin = number[n // 2 + 4, n // 2]
+    vertices[pin, 2] = 0.02
+    fixed = np.append(held, pin)
+    result = fairing.fair(vertices, triangles, fixed=fixed, fixed_normals=np.tile([0.0, 0.0, 1.0], (len(fixed), 1)))
+    assert result.converged
+    assert "PINS_NOT_SPREAD" not in {told.code for told in result.warnings}
+    beyond = (s < 0.5 - 1e-9) & (t > 0.4)
+    assert np.abs(result.vertices[beyond, 2]).max() < 0.01 * 0.02
+
+
+def test_the_surface_of_least_variation_needs_no_radius() -> None:
+    """Its pins leave H bounded as they are; on the exact surface they change nothing."""
+    patch = shapes.cap(300)
+    pins = patch.free[[5, len(patch.free) // 2]]
+    result = fairing.fair(
+        patch.vertices, patch.triangles, fixed=np.concatenate([patch.fixed, pins]),
+        fixed_normals=np.vstack([patch.fixed_normals, np.zeros((len(pins), 3))]), equation="least_variation",
+    )  # fmt: skip
+    assert "PINS_NOT_SPREAD" not in {told.code for told in result.warnings}
+    assert patch.error(result.vertices) < 1e-9
+
+
+def test_pins_that_are_too_much_say_so() -> None:
+    """Lifts to either side that no surface with the radius makes: in points, with the reason."""
+    patch = shapes.plane(600)
+    pins = near(patch, [(-0.04, 0.0), (0.04, 0.0)])
+    result, _ = lifted(patch, pins, [0.25, -0.25], otherwise="stop")
+    told = next(told for told in result.warnings if told.code == "PINS_NOT_SPREAD")
+    assert set(told.elements) == set(pins)
+
+
+def test_a_solver_spreads_pins_while_they_move() -> None:
+    patch = shapes.plane(500)
+    pin = near(patch, [(0.0, 0.0)])
+    fixed = np.concatenate([patch.fixed, pin])
+    normals = np.vstack([patch.fixed_normals, np.zeros((1, 3))])
+    solver = fairing.Solver(patch.triangles, fixed=fixed)
+    for lift in (0.05, 0.06):
+        start = patch.vertices.copy()
+        start[pin] += lift * size(patch) * patch.fixed_normals[0]
+        result = solver.solve(start, normals)
+        once, _ = lifted(patch, pin, [lift])
+        assert np.abs(result.vertices - once.vertices).max() < 1e-5 * size(patch)
+    assert result.way[0][0] == "warm"
+
+
+def test_the_radius_is_a_share() -> None:
+    patch = shapes.plane(100)
+    with pytest.raises(ValueError, match="pin_radius"):
+        fairing.fair(patch.vertices, patch.triangles, pin_radius=-0.1)
