@@ -293,14 +293,18 @@ def test_a_slow_answer_is_carried_along_until_the_end_of_the_drag(live: Any, mon
 def test_a_region_that_has_lost_its_surface_mends_when_the_drag_comes_back(
     live: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A hemisphere's rim is turned inside out and back: no step is slow, and nothing broken is ever shown."""
-    monkeypatch.setattr(module("follow.live"), "PATIENCE", 0.15)
+    """A hemisphere's rim is turned inside out and back: no step is slow, and nothing broken is ever shown.
+
+    Where it is farthest out, answers come too late: whether they do by themselves is the machine's matter.
+    """
+    home = module("follow.live")
     obj, _ = table_mountain()
     points = now()
     beside = np.flatnonzero(np.hypot(points[:, 0], points[:, 1]) > 0.9)
     slowest, lost = 0.0, 0
     way = [(0.0, 0.0, -0.4 * side) for side in np.sign(points[beside, 0])]
-    for direction in [1.0] * 6 + [-1.0] * 6:
+    for k, direction in enumerate([1.0] * 6 + [-1.0] * 6):
+        monkeypatch.setattr(home, "PATIENCE", -1.0 if 4 <= k < 8 else 0.15)
         mesh = obj.data
         bm = bmesh.from_edit_mesh(mesh)
         bm.verts.ensure_lookup_table()
@@ -314,10 +318,10 @@ def test_a_region_that_has_lost_its_surface_mends_when_the_drag_comes_back(
         lost += bool(len(live.lost_points()))
         assert np.isfinite(now()).all()
     live.changed_at -= 10.0
-    module("follow.live")._follow_later()
+    home._follow_later()
     np.testing.assert_allclose(now(), points, atol=1e-4)
     assert len(live.lost_points()) == 0
-    assert lost > 0  # the drag did go too far
+    assert lost >= 4
     assert slowest < 0.6  # of the processor's time, two cores; 0.3 by the clock where nothing else runs
 
 
