@@ -7,7 +7,7 @@ import bpy
 
 from . import translations
 from .core import runner
-from .follow import live, undone, watch
+from .follow import copies, live, undone, watch
 from .follow.live_operators import (
     FairLive,
     MESH_OT_fair_live_far_side,
@@ -38,6 +38,8 @@ _register_classes, _unregister_classes = bpy.utils.register_classes_factory(
         FairLive,
         MESH_OT_fair_region,
         MESH_OT_fair_masked,
+        copies.OBJECT_OT_fair_copy,
+        copies.OBJECT_OT_fair_copies_update,
         MESH_OT_fair_fill,
         MESH_OT_fair_live_region,
         MESH_OT_fair_live_select,
@@ -76,6 +78,7 @@ def register() -> None:
     watch.register()
     overlay.register()
     live.register()
+    copies.register()
     marks.register()
     undone.register()
     translations.register()
@@ -90,6 +93,7 @@ def unregister() -> None:
     translations.unregister()
     undone.unregister()
     marks.unregister()
+    copies.unregister()
     live.unregister()
     overlay.unregister()
     watch.unregister()

@@ -42,6 +42,19 @@ def test_a_crowded_mesh_lies_on_the_sphere(around: int, layers: int) -> None:
     np.testing.assert_allclose(result.mean_curvature, -1.0, atol=2e-2)
 
 
+def test_a_large_crowded_mesh_is_placed_level_by_level() -> None:
+    """Its coarse level fails, the proxy begins there. On the mesh itself H is noise (measured 5e2) near the tip."""
+    around = 40
+    vertices, triangles, rim = finger(around, 100)
+    result = fairing.fair(vertices, triangles, fixed=np.arange(around), fixed_normals=rim)
+    assert result.converged
+    assert [way for way, _ in result.way] == ["nested", "proxy"]
+    assert len(result.levels) > 1
+    assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max() / 2 < 2e-5
+    assert not len(fairing.flipped_triangles(result.vertices, triangles))
+    np.testing.assert_allclose(result.mean_curvature, -1.0, atol=5e-3)
+
+
 @pytest.mark.parametrize("inner_fairness", ["uniform", "conformal"])
 def test_a_long_pipe_stays_straight(inner_fairness: str) -> None:
     """Beyond 2π radii other surfaces meet the same G1 data; the one whose H varies least is taken."""

@@ -31,7 +31,7 @@ from ..mesh import live_mesh, mesh_io
 from .session import Session, check_key, fits, matrix_of, read, session_of
 
 PATIENCE = 0.15  # seconds for an answer in the middle of changes: with reading and writing a step stays below 0.3
-LEISURE = 5.0  # seconds for an answer at their end
+LEISURE = 2.0  # seconds for each of the three ways to an answer at their end
 MOST_SKIPPED = 15  # changes in a row that are carried along without asking for an answer
 PAUSE = 0.3  # seconds without a change that count as their end
 STAND_IN = "No fair surface leads here: Even Curvature stands in for it"

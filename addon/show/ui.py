@@ -5,6 +5,7 @@ from typing import Any
 import bpy
 
 from ..core.report import GRADE_NAMES
+from ..follow.copies import OBJECT_OT_fair_copies_update, OBJECT_OT_fair_copy
 from ..follow.inspection import Inspection
 from ..follow.live import live
 from ..follow.live_operators import (
@@ -175,6 +176,10 @@ def _draw_masked(column: Any, context: bpy.types.Context) -> None:
         sources = {"VERTEX_GROUP": "Fair Vertex Group", "LIVE": "Fair Live Region"}
     for source, text in sources.items():
         column.operator(MESH_OT_fair_masked.bl_idname, text=text, icon="MOD_SMOOTH").source = source
+    if context.mode == "OBJECT":
+        column.operator(OBJECT_OT_fair_copy.bl_idname, icon="DUPLICATE")
+        if OBJECT_OT_fair_copies_update.poll(context):
+            column.operator(OBJECT_OT_fair_copies_update.bl_idname, icon="FILE_REFRESH")
 
 
 def _pair(layout: Any, name: str, value: str, icon: str = "NONE") -> None:

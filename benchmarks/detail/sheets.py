@@ -15,7 +15,11 @@ from stripes import Layer, facing, render
 TILE = 330  # pixels
 COLOURS = 64
 GREY, TINT = (0.86, 0.86, 0.86), (0.93, 0.82, 0.7)
-WAYS: tuple[tuple[str, dict[str, float]], ...] = (("fair", {}), ("fair, with detail", {"detail": 1.0}))
+WAYS: tuple[tuple[str, dict[str, float]], ...] = (
+    ("fair", {}),
+    ("fair, with detail", {"detail": 1.0}),
+    ("with detail and feather", {"detail": 1.0, "feather": 0.15}),
+)
 
 
 def write(folder: Path) -> None:
@@ -26,7 +30,7 @@ def write(folder: Path) -> None:
 
 
 def sheet(case: Case) -> Image.Image:
-    """Two rows of three tiles, labelled."""
+    """Two rows of tiles, labelled."""
     shown = [("before", case.vertices)] + [(name, case.fair(**options).vertices) for name, options in WAYS]
     picture = Image.new("RGB", (len(shown) * TILE, 2 * TILE + 16), "white")
     draw = ImageDraw.Draw(picture)

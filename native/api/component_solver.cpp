@@ -138,10 +138,11 @@ void ComponentSolver::read_reference(const Points& reference, const Normalisatio
 ComponentAnswer ComponentSolver::dressed(ComponentAnswer answer, const ComponentData& data, const BaseOutline& outline,
                                          const Progress& progress) {
     answer.warnings.insert(answer.warnings.end(), skin_.warnings().begin(), skin_.warnings().end());
-    if (!skin_.found()) return answer;
+    if (!skin_.found() && data.weights.size() == 0) return answer;
     const Stopwatch watch;
     Points& points = answer.solution.points;
-    points = relaid(answer.problem, points, skin_.base(), progress.here());
+    if (skin_.found()) points = relaid(answer.problem, points, skin_.base(), progress.here());
+    answer.solution.crossings.reset();
     Points base = answer.unit.from_unit(points);
     base.rightCols(outline.points.cols()) = outline.points;
     answer.dressed = skin_.put_back(data, base);

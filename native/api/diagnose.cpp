@@ -51,8 +51,8 @@ void warn_of_sharp_outline(const Patch& patch, const Points& prescribed, Diagnos
                         {{"degrees", widest}, {"edges", size_of(sharp) / 2}}});
 }
 
-void warn_of_crossings(const Patch& patch, const Points& points, Diagnostics& warnings) {
-    Indices crossing = crossing_triangles(patch.triangles, points);
+void warn_of_crossings(const Patch& patch, const Solution& solution, Diagnostics& warnings) {
+    Indices crossing = solution.crossings ? *solution.crossings : crossing_triangles(patch.triangles, solution.points);
     if (crossing.empty()) return;
     crossing = input_numbers(patch, std::move(crossing));
     warnings.push_back({Code::self_intersection,
@@ -245,9 +245,9 @@ Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation eq
             Indices(free_vertices(patch).begin(), free_vertices(patch).end()), ElementKind::vertex, figures};
 }
 
-void diagnose(const Patch& patch, const Points& points, const Points& prescribed, Diagnostics& warnings) {
-    warn_of_flips(patch, points, warnings);
-    warn_of_crossings(patch, points, warnings);
+void diagnose(const Patch& patch, const Solution& solution, const Points& prescribed, Diagnostics& warnings) {
+    warn_of_flips(patch, solution.points, warnings);
+    warn_of_crossings(patch, solution, warnings);
     warn_of_sharp_outline(patch, prescribed, warnings);
 }
 

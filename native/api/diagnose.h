@@ -42,6 +42,6 @@ Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation eq
 Indices input_numbers(const Patch& patch, Indices triangles);
 
 // About a solved patch: flipped and crossing triangles, and an outline that turns more than 20° from vertex to vertex.
-void diagnose(const Patch& patch, const Points& points, const Points& prescribed, Diagnostics& warnings);
+void diagnose(const Patch& patch, const Solution& solution, const Points& prescribed, Diagnostics& warnings);
 
 }  // namespace fairing

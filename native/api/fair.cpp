@@ -59,7 +59,7 @@ public:
         if (const Termination end = end_of(solution); end != Termination::converged) {
             add_failure(end, failures_of(patch, solution, end, angles));
         }
-        diagnose(patch, solution.points, prescribed, result_.warnings);
+        diagnose(patch, solution, prescribed, result_.warnings);
     }
 
     FairResult finish() {

@@ -95,9 +95,10 @@ Dressed KeptSkin::put_back(const ComponentData& data, const Points& new_base) co
     VectorX weights = VectorX::Ones(new_base.cols());
     if (data.weights.size() > 0) {
         weights = data.weights(patch_.to_input);
-        const Points old_base = unit_.from_unit(skin_->base());
+        const Points old_base = skin_ ? unit_.from_unit(skin_->base()) : gather(data.vertices, patch_.to_input);
         result.base.leftCols(free) = (old_base + (new_base - old_base) * weights.asDiagonal()).leftCols(free);
     }
+    if (!skin_) return result;
     Points all = Points::Zero(3, new_base.cols());
     all.leftCols(free) = unit_.diameter * skin_->detail_on(result.base, at_outline / unit_.diameter);
     all.rightCols(at_outline.cols()) = at_outline;

@@ -1,6 +1,7 @@
 #include "bindings/convert.h"
 #include "bindings/topics.h"
 #include "outline/bad_outline.h"
+#include "outline/feather.h"
 #include "outline/mended_outline.h"
 #include "outline/visible_join.h"
 
@@ -36,6 +37,11 @@ py::array bad_outline_array(const DoubleArray& vertices, const IntArray& triangl
     return from_indices(bad);
 }
 
+py::array feather_weight_array(const DoubleArray& vertices, const IntArray& inside, const IntArray& outside,
+                               double width) {
+    return from_vector(feather_weights(to_points(vertices), to_triangles(inside), to_triangles(outside), width));
+}
+
 py::dict mended_outline_arrays(const DoubleArray& vertices, const IntArray& triangles, const IntArray& outline) {
     const MendedOutline result = mend_outline(to_points(vertices), to_triangles(triangles), to_indices(outline));
     py::dict dict = to_dict(result.normals);
@@ -60,6 +66,8 @@ void bind_outline(py::module_& module) {
                py::arg("at"));
     module.def("bad_outline", &bad_outline_array, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
     module.def("mend_outline", &mended_outline_arrays, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
+    module.def("feather_weights", &feather_weight_array, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
+               py::arg("width"));
     module.def("visible_join", &visible_join_array, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
                py::arg("outline"), py::arg("before"));
 }

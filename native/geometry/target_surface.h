@@ -29,6 +29,7 @@ public:
     [[nodiscard]] Vector3 face_normal(int triangle) const { return face_normals_.col(triangle); }
     // Linear interpolation of a value per vertex.
     [[nodiscard]] double interpolate(const VectorX& values, const SurfacePoint& where) const;
+    [[nodiscard]] int vertex_count() const { return static_cast<int>(points_.cols()); }
     // A vertex as a point of one of its triangles.
     [[nodiscard]] SurfacePoint at_vertex(int vertex) const;
 

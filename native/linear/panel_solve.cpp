@@ -1,6 +1,7 @@
 #include "linear/panel_solve.h"
 
 #include <algorithm>
+#include <array>
 
 namespace fairing {
 
@@ -9,13 +10,14 @@ namespace {
 constexpr int block = 4;  // columns of a panel at once
 
 // b ← b − Σ_k L_k x_k over rows begin … end − 1 of `width` columns that begin at `column`, `rows` long each.
-void subtract_columns(const double* column, std::ptrdiff_t rows, int width, const double* x, int begin, int end,
+template <typename Stored>
+void subtract_columns(const Stored* column, std::ptrdiff_t rows, int width, const double* x, int begin, int end,
                       double* b) {
     if (width == block) {
-        const double* const c0 = column;
-        const double* const c1 = c0 + rows;
-        const double* const c2 = c1 + rows;
-        const double* const c3 = c2 + rows;
+        const Stored* const c0 = column;
+        const Stored* const c1 = c0 + rows;
+        const Stored* const c2 = c1 + rows;
+        const Stored* const c3 = c2 + rows;
         const double x0 = x[0];  // copies: x is a part of b
         const double x1 = x[1];
         const double x2 = x[2];
@@ -24,10 +26,21 @@ void subtract_columns(const double* column, std::ptrdiff_t rows, int width, cons
         return;
     }
     for (int k = 0; k < width; ++k) {
-        const double* const c = column + k * rows;
+        const Stored* const c = column + k * rows;
         const double xk = x[k];
         for (int i = begin; i < end; ++i) b[i] -= c[i] * xk;
     }
+}
+
+// Four sums side by side.
+double dot(const float* a, const double* b, int begin, int end) {
+    std::array<double, 4> sums{};
+    int i = begin;
+    for (; i + 4 <= end; i += 4) {
+        for (int k = 0; k < 4; ++k) sums[std::size_t(k)] += a[i + k] * b[i + k];
+    }
+    for (; i < end; ++i) sums[0] += a[i] * b[i];
+    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
 double dot(const double* a, const double* b, int begin, int end) {
@@ -37,14 +50,15 @@ double dot(const double* a, const double* b, int begin, int end) {
 
 }  // namespace
 
-void eliminate_vector(const ConstPanel& panel, double* b) {
+template <typename Stored>
+void eliminate_vector(const PanelOf<Stored>& panel, double* b) {
     const int rows = static_cast<int>(panel.rows());
     const int columns = static_cast<int>(panel.cols());
     for (int j = 0; j < columns; j += block) {
         const int width = std::min(block, columns - j);
-        const double* const first = panel.data() + std::ptrdiff_t(j) * rows;
+        const Stored* const first = panel.data() + std::ptrdiff_t(j) * rows;
         for (int k = j; k < j + width; ++k) {
-            const double* const column = panel.data() + std::ptrdiff_t(k) * rows;
+            const Stored* const column = panel.data() + std::ptrdiff_t(k) * rows;
             b[k] /= column[k];
             for (int i = k + 1; i < j + width; ++i) b[i] -= column[i] * b[k];
         }
@@ -52,12 +66,18 @@ void eliminate_vector(const ConstPanel& panel, double* b) {
     }
 }
 
-void substitute_vector(const ConstPanel& panel, double* b) {
+template <typename Stored>
+void substitute_vector(const PanelOf<Stored>& panel, double* b) {
     const int rows = static_cast<int>(panel.rows());
     for (int j = static_cast<int>(panel.cols()); j-- > 0;) {
-        const double* const column = panel.data() + std::ptrdiff_t(j) * rows;
+        const Stored* const column = panel.data() + std::ptrdiff_t(j) * rows;
         b[j] = (b[j] - dot(column, b, j + 1, rows)) / column[j];
     }
 }
+
+template void eliminate_vector<double>(const PanelOf<double>&, double*);
+template void eliminate_vector<float>(const PanelOf<float>&, double*);
+template void substitute_vector<double>(const PanelOf<double>&, double*);
+template void substitute_vector<float>(const PanelOf<float>&, double*);
 
 }  // namespace fairing

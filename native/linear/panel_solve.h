@@ -5,13 +5,23 @@
 
 namespace fairing {
 
-// Rows × columns, the front's own rows on top: [L₁₁; L₂₁], column-major.
-using ConstPanel = Eigen::Map<const Eigen::MatrixXd>;
+// Rows × columns, the front's own rows on top: [L₁₁; L₂₁], column-major. `Stored`: double, or float for a factor that
+// only has to be near; the sums are in double precision all the same.
+template <typename Stored>
+using PanelOf = Eigen::Map<const Eigen::Matrix<Stored, Eigen::Dynamic, Eigen::Dynamic>>;
+using ConstPanel = PanelOf<double>;
 
 // b = (b₁, b₂) ← (L₁₁⁻¹ b₁, b₂ − L₂₁ L₁₁⁻¹ b₁).
-void eliminate_vector(const ConstPanel& panel, double* b);
+template <typename Stored>
+void eliminate_vector(const PanelOf<Stored>& panel, double* b);
 
 // b₁ ← L₁₁⁻ᵀ (b₁ − L₂₁ᵀ b₂).
-void substitute_vector(const ConstPanel& panel, double* b);
+template <typename Stored>
+void substitute_vector(const PanelOf<Stored>& panel, double* b);
+
+extern template void eliminate_vector<double>(const PanelOf<double>&, double*);
+extern template void eliminate_vector<float>(const PanelOf<float>&, double*);
+extern template void substitute_vector<double>(const PanelOf<double>&, double*);
+extern template void substitute_vector<float>(const PanelOf<float>&, double*);
 
 }  // namespace fairing

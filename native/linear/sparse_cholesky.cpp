@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <thread>
+#include <type_traits>
 
 #include "base/parallel.h"
 #include "linear/dense_front.h"
@@ -40,14 +41,12 @@ private:
 
 }  // namespace
 
-SparseCholesky::Panel SparseCholesky::panel(int s) {
+template <typename Stored>
+auto SparseCholesky::panel(Stored* panels, int s) const {
+    using Matrix = Eigen::Matrix<std::remove_const_t<Stored>, Eigen::Dynamic, Eigen::Dynamic>;
+    using Panel = Eigen::Map<std::conditional_t<std::is_const_v<Stored>, const Matrix, Matrix>>;
     const Supernodes& nodes = tree_.nodes();
-    return {panels_.data() + panel_begin_[at(s)], nodes.row_count(s), nodes.column_count(s)};
-}
-
-ConstPanel SparseCholesky::panel(int s) const {
-    const Supernodes& nodes = tree_.nodes();
-    return {panels_.data() + panel_begin_[at(s)], nodes.row_count(s), nodes.column_count(s)};
+    return Panel(panels + panel_begin_[at(s)], nodes.row_count(s), nodes.column_count(s));
 }
 
 void SparseCholesky::set_up(const SparseMatrix& lower) {
@@ -61,7 +60,8 @@ void SparseCholesky::set_up(const SparseMatrix& lower) {
     for (int s = 0; s < nodes.size(); ++s) {
         panel_begin_.push_back(panel_begin_.back() + at(nodes.row_count(s)) * at(nodes.column_count(s)));
     }
-    panels_.resize(static_cast<Eigen::Index>(panel_begin_.back()));
+    const auto size = static_cast<Eigen::Index>(panel_begin_.back());
+    kept_ == Kept::doubles ? panels_.resize(size) : singles_.resize(size);
     updates_.resize(at(nodes.size()));
     find_slots(lower);
     analysed_ = true;
@@ -88,22 +88,24 @@ void SparseCholesky::find_slots(const SparseMatrix& lower) {
 }
 
 void SparseCholesky::scatter(const SparseMatrix& lower) {
-    for_ranges(tree_.nodes().size(), fine_grain, [&](int first, int last) {
-        for (int s = first; s < last; ++s) panel(s).setZero();
-    });
-    double* panels = panels_.data();
-    const double* values = lower.valuePtr();
-    for_ranges(static_cast<int>(lower.nonZeros()), 8 * coarse_grain, [&](int first, int last) {
-        for (int k = first; k < last; ++k) panels[entry_slot_[at(k)]] = values[k];
-    });
+    const auto into = [&](auto* panels) {
+        for_ranges(tree_.nodes().size(), fine_grain, [&](int first, int last) {
+            for (int s = first; s < last; ++s) panel(panels, s).setZero();
+        });
+        const double* values = lower.valuePtr();
+        for_ranges(static_cast<int>(lower.nonZeros()), 8 * coarse_grain, [&](int first, int last) {
+            for (int k = first; k < last; ++k)
+                panels[entry_slot_[at(k)]] = static_cast<std::remove_pointer_t<decltype(panels)>>(values[k]);
+        });
+    };
+    kept_ == Kept::doubles ? into(panels_.data()) : into(singles_.data());
 }
 
 // Adds what a child passes on to the panel of its parent and to what the parent passes on itself (lower triangles).
-void SparseCholesky::add_child(int child, int parent, Eigen::MatrixXd& parent_update) {
+void SparseCholesky::add_child(int child, int parent, Front& front, Eigen::MatrixXd& parent_update) {
     Eigen::MatrixXd& update = updates_[at(child)];
     const auto target = tree_.below_in_parent(child);
     const int columns = tree_.nodes().column_count(parent);
-    auto front = panel(parent);
     for (Eigen::Index b = 0; b < update.cols(); ++b) {
         const int column = target[std::size_t(b)];
         if (column < columns) {
@@ -119,11 +121,20 @@ void SparseCholesky::add_child(int child, int parent, Eigen::MatrixXd& parent_up
 
 // False where a pivot is not positive.
 bool SparseCholesky::eliminate(int s, const WorkDone& work_done) {
+    if (kept_ == Kept::doubles) return eliminate(s, panel(panels_.data(), s), work_done);
+    auto kept = panel(singles_.data(), s);
+    Eigen::MatrixXd front = kept.cast<double>();
+    const bool positive = eliminate(s, Front(front.data(), front.rows(), front.cols()), work_done);
+    kept = front.cast<float>();
+    return positive;
+}
+
+bool SparseCholesky::eliminate(int s, Front front, const WorkDone& work_done) {
     Eigen::MatrixXd& update = updates_[at(s)];
     const auto below = static_cast<Eigen::Index>(tree_.below(s).size());
     update.setZero(below, below);
-    for (int child : tree_.children(s)) add_child(child, s, update);
-    return eliminate_front(panel(s), update, work_done);
+    for (int child : tree_.children(s)) add_child(child, s, front, update);
+    return eliminate_front(front, update, work_done);
 }
 
 bool SparseCholesky::factorise(const SparseMatrix& lower, const char* what, const Progress& progress) {
@@ -149,22 +160,34 @@ FrontReach SparseCholesky::reach(const Indices& rows) const {
     return {tree_, positions};
 }
 
-VectorX SparseCholesky::solve_vector(const VectorX& rhs, const FrontReach& from, const FrontReach& to) const {
-    const auto up = [this](int s, Eigen::Map<VectorX>& b) { eliminate_vector(panel(s), b.data()); };
-    const auto down = [this](int s, Eigen::Map<VectorX>& b) { substitute_vector(panel(s), b.data()); };
+template <typename Stored>
+VectorX SparseCholesky::solve_with(const Stored* panels, const VectorX& rhs, const FrontReach& from,
+                                   const FrontReach& to) const {
+    const auto up = [&](int s, Eigen::Map<VectorX>& b) { eliminate_vector<Stored>(panel(panels, s), b.data()); };
+    const auto down = [&](int s, Eigen::Map<VectorX>& b) { substitute_vector<Stored>(panel(panels, s), b.data()); };
     return solve_by_fronts(tree_, order_, rhs, FrontSweeps{up, down}, from, to);
 }
 
+VectorX SparseCholesky::solve_vector(const VectorX& rhs, const FrontReach& from, const FrontReach& to) const {
+    if (kept_ == Kept::doubles) return solve_with(panels_.data(), rhs, from, to);
+    return solve_with(singles_.data(), rhs, from, to);
+}
+
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& rhs) const {
-    if (rhs.cols() == 1) return solve_vector(rhs.col(0));
-    const auto up = [this](int s, Panel& b) {
-        const auto front = panel(s);
+    if (rhs.cols() == 1 || kept_ == Kept::singles) {
+        Eigen::MatrixXd x(rhs.rows(), rhs.cols());
+        for (Eigen::Index k = 0; k < rhs.cols(); ++k) x.col(k) = solve_vector(rhs.col(k));
+        return x;
+    }
+    using Rows = Eigen::Map<Eigen::MatrixXd>;
+    const auto up = [this](int s, Rows& b) {
+        const auto front = panel(panels_.data(), s);
         auto own = b.topRows(front.cols());
         front.topRows(front.cols()).triangularView<Eigen::Lower>().solveInPlace(own);
         b.bottomRows(b.rows() - own.rows()).noalias() -= front.bottomRows(b.rows() - own.rows()) * own;
     };
-    const auto down = [this](int s, Panel& b) {
-        const auto front = panel(s);
+    const auto down = [this](int s, Rows& b) {
+        const auto front = panel(panels_.data(), s);
         auto own = b.topRows(front.cols());
         const auto below = b.bottomRows(b.rows() - own.rows());
         own.noalias() -= front.bottomRows(below.rows()).transpose() * below;

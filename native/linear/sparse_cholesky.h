@@ -10,11 +10,15 @@
 
 namespace fairing {
 
+// What a factor is kept in. It is found in double precision; `singles` take half of the memory, and solves with them
+// are right to some 1e-7 times the matrix's condition: enough for a step of an iteration.
+enum class Kept { doubles, singles };
+
 class SparseCholesky {
 public:
     SparseCholesky() = default;
     // Places of the unknowns (3 × n), by which a large matrix is ordered.
-    explicit SparseCholesky(Points layout) : layout_(std::move(layout)) {}
+    explicit SparseCholesky(Points layout, Kept kept = Kept::doubles) : layout_(std::move(layout)), kept_(kept) {}
 
     // Factorises a symmetric matrix given by its lower triangle (diagonal included). The ordering is found at the first
     // call and kept: the pattern must stay the same. False where the matrix is not positive definite; the factor is
@@ -33,22 +37,27 @@ public:
     [[nodiscard]] const FrontTree& tree() const { return tree_; }
 
 private:
-    using Panel = Eigen::Map<Eigen::MatrixXd>;
-
     void set_up(const SparseMatrix& lower);
     void find_slots(const SparseMatrix& lower);
     void scatter(const SparseMatrix& lower);
-    void add_child(int child, int parent, Eigen::MatrixXd& parent_update);
+    void add_child(int child, int parent, Front& front, Eigen::MatrixXd& parent_update);
     bool eliminate(int supernode, const WorkDone& work_done);
-    [[nodiscard]] Panel panel(int supernode);
-    [[nodiscard]] ConstPanel panel(int supernode) const;
+    bool eliminate(int supernode, Front front, const WorkDone& work_done);
+    template <typename Stored>
+    [[nodiscard]] VectorX solve_with(const Stored* panels, const VectorX& rhs, const FrontReach& from,
+                                     const FrontReach& to) const;
+    // A supernode's part of panels_ or singles_.
+    template <typename Stored>
+    [[nodiscard]] auto panel(Stored* panels, int supernode) const;
 
     Points layout_;     // empty: not known
     Indices order_;     // position in the factor → row of the matrix
     Indices position_;  // its inverse
     FrontTree tree_;
     std::vector<std::size_t> panel_begin_;  // dense row_count × column_count blocks
-    VectorX panels_;
+    Kept kept_ = Kept::doubles;
+    VectorX panels_;  // one of these two is empty
+    Eigen::VectorXf singles_;
     std::vector<std::size_t> entry_slot_;   // entry of the matrix → place in panels_
     std::vector<Eigen::MatrixXd> updates_;  // Schur complement that a supernode passes on, freed when taken
     bool analysed_ = false;

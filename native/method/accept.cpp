@@ -57,7 +57,8 @@ Flaw flaw_of(const Problem& problem, Solution& solution) {
         return Flaw::folded;
     }
     if (!solution.crosses) {
-        solution.bad_triangles = crossing_triangles(problem.patch.triangles, solution.points);
+        if (!solution.crossings) solution.crossings = crossing_triangles(problem.patch.triangles, solution.points);
+        solution.bad_triangles = *solution.crossings;
         if (!solution.bad_triangles.empty()) return Flaw::crossing;
     }
     if (!solution.polished || solution.from_surface) return Flaw::absent;

@@ -35,6 +35,7 @@ std::optional<Solution> solve_evenly(const Problem& problem, const Progress& pro
     Placed placed = place_own(problem, *work.tangential, target, state.points, progress.here());
     solution->mean_curvature = carried_over(placed.placement, target, solution->mean_curvature, problem);
     solution->points = placed.placement.points;
+    solution->crossings.reset();
     solution->polished = false;
     refuse_folds(problem, placed, *solution);
     if (solution->termination == Termination::folded) return solution;

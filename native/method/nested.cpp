@@ -7,11 +7,8 @@
 #include "geometry/flips.h"
 #include "geometry/surface_fit.h"
 #include "iteration/accelerated_iteration.h"
+#include "method/levels.h"
 #include "method/one_level.h"
-#include "method/sizes.h"
-#include "multigrid/coarsening.h"
-#include "multigrid/tangential_multigrid.h"
-#include "operators/workspace.h"
 #include "problem/surface_state.h"
 #include "tangential/slide.h"
 
@@ -19,9 +16,6 @@ namespace fairing {
 
 namespace {
 
-constexpr int coarsest_size = 600;  // free vertices
-// Up to so many free vertices the tangential step is factorised; beyond, multigrid is faster.
-constexpr int largest_factorised = 7000;
 constexpr double between_tolerance = 1e-4;  // units of D, of levels that are only starts
 // A level that starts at the coarser one's surface needs 3 to 8 iterations. Those between are good enough as starts
 // even where single poor triangles of a coarse level keep them from converging.
@@ -34,25 +28,6 @@ constexpr int most_slides = 8;
 constexpr double begin = 0.06;  // the hierarchy
 constexpr double share_of_start = 0.3;
 
-InnerWeights symmetric_weights(const Lambda& weights) {
-    if (const auto* rows = std::get_if<RowWeights>(&weights)) return symmetrised(*rows);
-    return std::get<InnerWeights>(weights);
-}
-
-// Columns of the vertices of a coarse level, in its order.
-Points pick(const Points& points, const Indices& columns, int first) {
-    Points result(3, static_cast<Eigen::Index>(columns.size()) - first);
-    for (Eigen::Index k = 0; k < result.cols(); ++k) result.col(k) = points.col(columns[at(first) + std::size_t(k)]);
-    return result;
-}
-
-// A value for all vertices of which only the fixed ones are known.
-Points with_fixed(const Patch& patch, const Points& fixed) {
-    Points points = Points::Zero(3, patch.vertex_count());
-    points.rightCols(fixed.cols()) = fixed;
-    return points;
-}
-
 // Of a level's start: the iteration irons single ones out.
 std::size_t tolerated_folds(const Problem& problem) {
     constexpr std::size_t share = 100;
@@ -62,92 +37,46 @@ std::size_t tolerated_folds(const Problem& problem) {
 // The fraction of all that is done after level k: each level takes about a quarter of the next finer one.
 double done_after(std::size_t k) { return begin + (1.0 - begin) * std::pow(0.25, static_cast<double>(k)); }
 
-struct Level {
-    Problem problem;
-    InnerWeights weights;
-    Workspace work;
-    const LaplaceCycle* tangential_cycle = nullptr;  // in `work`
-};
-
 class NestedSolve {
 public:
     NestedSolve(const Problem& problem, const Progress& progress)
-        : problem_(problem),
-          progress_(progress),
-          fixed_points_(with_fixed(problem.patch, problem.fixed_points)),
-          fixed_normals_(with_fixed(problem.patch, problem.fixed_normals)) {}
+        : problem_(problem), progress_(progress), levels_(problem, Outlines::thinned) {
+        for (std::size_t k = 0; k <= levels_.coarsest(); ++k) {
+            SolverOptions& options = levels_.problem(k).options;
+            options.max_iterations = std::min(k == 0 ? most_iterations : most_between, problem.options.max_iterations);
+            options.patience = patience;
+            if (k > 0) options.tolerance = std::max(between_tolerance, problem.options.tolerance);
+        }
+    }
 
     std::optional<Solution> run() {
-        Stopwatch watch;
-        InnerWeights weights = symmetric_weights(problem_.weights);
-        coarse_ = coarsen(problem_.patch, weights, {fixed_points_, fixed_normals_}, coarsest_size);
-        if (coarse_.empty()) return std::nullopt;
-        make_levels(std::move(weights));
-        std::map<std::string, double> seconds{{"hierarchy", watch.lap()}};
+        const std::size_t coarsest = levels_.coarsest();
+        if (coarsest == 0) return std::nullopt;
+        std::map<std::string, double> seconds{{"hierarchy", watch_.lap()}};
         progress_.report(begin, "hierarchy");
-        const std::size_t coarsest = coarse_.size();
         Solution solution = solve_on_own_mesh(coarsest_problem(), progress_.range(begin, done_after(coarsest)));
-        seconds["coarsest"] = watch.lap();
+        seconds["coarsest"] = watch_.lap();
         const double initial_residual = solution.initial_residual;
         solution = is_start(solution) ? refined(std::move(solution)) : given_up(coarsest, solution.points);
         solution.initial_residual = initial_residual;
-        for (std::size_t k = levels_.size(); k-- > 0;)
-            solution.levels.push_back(levels_[k].problem.patch.vertex_count());
-        seconds["iteration"] = watch.lap();
+        solution.levels = levels_.sizes();
+        seconds["iteration"] = watch_.lap();
         solution.seconds = std::move(seconds);
         return solution;
     }
 
 private:
-    // Fine to coarse; levels_[0] is the caller's.
-    void make_levels(InnerWeights weights) {
-        levels_.reserve(coarse_.size() + 1);
-        levels_.push_back({problem_, std::move(weights), {}});
-        for (CoarseLevel& coarse : coarse_) {
-            const Patch& patch = coarse.patch;
-            Problem problem{patch, pick(fixed_points_, patch.to_input, patch.free_count),
-                            pick(fixed_normals_, patch.to_input, patch.free_count), coarse.weights, problem_.options};
-            problem.options.tolerance = std::max(between_tolerance, problem_.options.tolerance);
-            levels_.push_back({std::move(problem), std::move(coarse.weights), {}});
-        }
-        for (Level& level : levels_) {
-            const int most = &level == &levels_.front() ? most_iterations : most_between;
-            level.problem.options.max_iterations = std::min(most, problem_.options.max_iterations);
-            level.problem.options.patience = patience;
-        }
-    }
-
     [[nodiscard]] Problem coarsest_problem() const {
-        Problem problem = levels_.back().problem;
+        Problem problem = levels_.problem(levels_.coarsest());
         problem.options.max_iterations = problem_.options.max_iterations;
         problem.options.patience = problem_.options.patience;
         return problem;
     }
 
-    [[nodiscard]] bool is_factorised(std::size_t k) const {
-        return k == coarse_.size() || levels_[k].problem.patch.free_count <= largest_factorised;
-    }
-
-    void set_up_tangential(std::size_t k, RingMatrix laplacian) {
-        Level& level = levels_[k];
-        const Problem& problem = level.problem;
-        const auto adopt = [&](auto step) {
-            level.tangential_cycle = step.get();
-            level.work.tangential = std::move(step);
-        };
-        if (is_factorised(k)) {
-            adopt(std::make_unique<FactorisedLaplacian>(problem.patch, level.weights, problem.fixed_points,
-                                                        progress_.here()));
-        } else {
-            adopt(std::make_unique<MultigridStep>(problem.patch, std::move(laplacian), problem.fixed_points,
-                                                  coarse_[k].transfer, *levels_[k + 1].tangential_cycle));
-        }
-    }
-
     // All levels from the coarsest one's solution.
     Solution refined(Solution solution) {
-        set_up_tangential(coarse_.size(), laplacian_of(coarse_.size()));
-        for (std::size_t k = coarse_.size(); k-- > 0;) {
+        levels_.set_up_tangential(levels_.coarsest(), progress_);
+        for (std::size_t k = levels_.coarsest(); k-- > 0;) {
             const Points coarser = solution.points;
             solution = refine(k, coarser, progress_.range(done_after(k + 1), done_after(k)));
             if (!is_good(k, solution)) return given_up(k + 1, coarser);
@@ -169,16 +98,17 @@ private:
     // converging.
     [[nodiscard]] static bool is_good(std::size_t k, const Solution& solution) {
         constexpr double shrinks = 1.0 / 3.0;
+        constexpr double small_step = 1e-3;  // units of D
         if (solution.termination == Termination::converged) return true;
         return k > 0 && solution.termination == Termination::iteration_limit &&
-               solution.last_step <= shrinks * solution.first_step;
+               solution.last_step <= std::min(small_step, shrinks * solution.first_step);
     }
 
     // The surface of level k on the finest one.
     [[nodiscard]] Solution given_up(std::size_t k, const Points& points) const {
         Solution solution;
         solution.points = points;
-        while (k-- > 0) solution.points = interpolated(k, solution.points, laplacian_of(k)).points;
+        while (k-- > 0) solution.points = interpolated(k, solution.points, levels_.laplacian(k)).points;
         const SurfaceState state = measured_surface(problem_, solution.points);
         solution.mean_curvature = state.curvature.mean;
         solution.residual = largest_residual(problem_, state, outer_residual(problem_, state));
@@ -188,30 +118,26 @@ private:
 
     // The solution of level k from that of the coarser one; stalled where its start is folded.
     Solution refine(std::size_t k, const Points& coarse, const Progress& progress) {
-        Level& level = levels_[k];
-        const Problem& problem = level.problem;
-        RingMatrix laplacian = laplacian_of(k);
+        const Problem& problem = levels_.problem(k);
+        Workspace& work = levels_.work(k);
+        RingMatrix laplacian = levels_.laplacian(k);
         auto [points, normals] = interpolated(k, coarse, laplacian);
         progress.report(share_of_start / 3, "refinement");
-        set_up_tangential(k, std::move(laplacian));
-        slide(problem, *level.work.tangential, normals, most_slides, points);
+        levels_.set_up_tangential(k, std::move(laplacian), progress_);
+        slide(problem, *work.tangential, normals, most_slides, points);
         progress.report(share_of_start, "refinement");
-        level.work.normal = make_normal_operator(problem, points.leftCols(problem.patch.free_count));
+        work.normal = make_normal_operator(problem, points.leftCols(problem.patch.free_count));
         // λ that aren't symmetric need a factorisation of their own; so far their symmetric part was good enough.
         if (k == 0 && std::holds_alternative<RowWeights>(problem.weights)) {
-            level.work.tangential =
+            work.tangential =
                 make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here());
-            slide(problem, *level.work.tangential, max_normals(problem.patch, points, problem.fixed_normals),
-                  most_slides, points);
+            slide(problem, *work.tangential, max_normals(problem.patch, points, problem.fixed_normals), most_slides,
+                  points);
         }
         if (flipped_by_solution(problem.patch, points).size() > tolerated_folds(problem)) return {};
-        Solution solution = iterate(problem, level.work, points, progress.range(share_of_start, 1.0));
-        level.work.normal.reset();  // the tangential step serves the finer levels
+        Solution solution = iterate(problem, work, points, progress.range(share_of_start, 1.0));
+        work.normal.reset();  // the tangential step serves the finer levels
         return solution;
-    }
-
-    [[nodiscard]] RingMatrix laplacian_of(std::size_t k) const {
-        return {levels_[k].problem.patch.vertex_count(), levels_[k].weights};
     }
 
     struct Surface {
@@ -220,21 +146,19 @@ private:
     };
 
     [[nodiscard]] Surface interpolated(std::size_t k, const Points& coarse, const RingMatrix& laplacian) const {
-        const Problem& fine = levels_[k].problem;
-        const SurfaceState state = measured_surface(levels_[k + 1].problem, coarse);
+        const Problem& fine = levels_.problem(k);
+        const SurfaceState state = measured_surface(levels_.problem(k + 1), coarse);
         Points points = with_fixed(fine.patch, fine.fixed_points);
         Points normals = with_fixed(fine.patch, fine.fixed_normals);
-        coarse_[k].transfer.prolong_surface(coarse, state.normals, fine.patch.free_count, points, normals);
+        levels_.transfer(k).prolong_surface(coarse, state.normals, fine.patch.free_count, points, normals);
         even_out(laplacian, fine.patch.free_count, evening_sweeps, points, normals);
         return {std::move(points), std::move(normals)};
     }
 
     const Problem& problem_;
     const Progress& progress_;
-    Points fixed_points_;  // of the finest level, all vertices; 0 at free ones
-    Points fixed_normals_;
-    std::vector<CoarseLevel> coarse_;  // coarse_[k] lies below levels_[k]
-    std::vector<Level> levels_;
+    Stopwatch watch_;
+    Levels levels_;
 };
 
 }  // namespace

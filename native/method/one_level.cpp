@@ -3,7 +3,9 @@
 #include <array>
 
 #include "method/direct.h"
+#include "method/on_coarse_proxy.h"
 #include "method/on_proxy.h"
+#include "method/sizes.h"
 
 namespace fairing {
 
@@ -28,7 +30,11 @@ Way directly() {
 Way on_proxy() {
     return {"proxy", [](const Problem&, const Situation&) { return true; },
             [](const Problem& problem, const Situation& situation, const Progress& progress) {
-                return std::optional(solve_on_proxy(problem, guess_from(situation), progress));
+                const auto guess = guess_from(situation);
+                if (is_large(problem)) {
+                    if (auto solution = solve_on_coarse_proxy(problem, guess, progress)) return solution;
+                }
+                return std::optional(solve_on_proxy(problem, guess, progress));
             },
             0.5, 0.9};
 }

@@ -17,6 +17,7 @@ struct Removals {
 };
 
 // Where the fixed vertices are: thinned loops have to follow the outline. 3 × local vertices, free columns unused.
+// Loops whose normals are 0 stay whole.
 struct FixedPlaces {
     const Points& points;
     const Points& normals;

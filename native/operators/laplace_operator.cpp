@@ -6,8 +6,8 @@
 
 namespace fairing {
 
-LaplaceOperator::LaplaceOperator(const Patch& patch, Points layout)
-    : patch_(patch), factor_(std::move(layout)), matrix_(patch.free_count, patch.free_count) {
+LaplaceOperator::LaplaceOperator(const Patch& patch, Points layout, Kept kept)
+    : patch_(patch), factor_(std::move(layout), kept), matrix_(patch.free_count, patch.free_count) {
     struct Entry {
         int row;
         int edge;

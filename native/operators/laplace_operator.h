@@ -11,7 +11,7 @@ namespace fairing {
 class LaplaceOperator : public NormalOperator {
 public:
     // `layout`: about where the free vertices are (3 × free count), to order the factorisation by; or nothing.
-    explicit LaplaceOperator(const Patch& patch, Points layout = {});
+    explicit LaplaceOperator(const Patch& patch, Points layout = {}, Kept kept = Kept::doubles);
     [[nodiscard]] bool update(const Stiffness& stiffness, const Progress& progress) override;
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const override { return factor_.solve(rhs); }
     // Valid until the next update.

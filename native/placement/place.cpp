@@ -23,9 +23,13 @@ public:
     bool from(const Placement& start) {
         Placement placement = start;
         settle(problem_, tangential_, target_, placement, progress_.here());
+        return from_settled(std::move(placement)) || keep_untangled(start);
+    }
+
+    bool from_settled(Placement placement) {
         const std::size_t folded = folds_of_placement(problem_, target_, placement).size();
         folded_by_springs_ = std::min(folded_by_springs_, folded);
-        return keep_untangled(std::move(placement)) || keep_untangled(start);
+        return keep_untangled(std::move(placement));
     }
 
     [[nodiscard]] Placed best() && {
@@ -96,6 +100,13 @@ Placed place_own(const Problem& problem, const TangentialStep& tangential, const
                  const Points& points, const Progress& progress) {
     Placing placing(problem, tangential, target, progress);
     placing.from(at_vertices(problem, target, points));
+    return std::move(placing).best();
+}
+
+Placed place_settled(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
+                     Placement settled, const Progress& progress) {
+    Placing placing(problem, tangential, target, progress);
+    placing.from_settled(std::move(settled));
     return std::move(placing).best();
 }
 

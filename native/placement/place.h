@@ -40,6 +40,10 @@ Placed place_roughly(const Problem& problem, const TangentialStep& tangential, c
 Placed place_own(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
                  const Points& points, const Progress& progress);
 
+// The same from vertices that springs have spread already.
+Placed place_settled(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
+                     Placement settled, const Progress& progress);
+
 // Ends a placed solution as `folded` where the placement is, or where the weights' own minimum has so many folds that
 // it says nothing about these vertices.
 void refuse_folds(const Problem& problem, const Placed& placed, Solution& solution);

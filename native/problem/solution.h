@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,10 +56,11 @@ struct Solution {
     std::map<std::string, double> seconds;
     std::vector<WayTaken> ways;
     Flaw flaw = Flaw::absent;
-    Indices bad_triangles;      // of the patch: folded or crossing ones, for those flaws
-    bool from_surface = false;  // its iteration began on the solved surface of a proxy
-    bool crosses = false;       // the surface passes through itself, whatever the mesh
-    double first_step = 0.0;    // largest moves of the first and the last iteration, units of D
+    Indices bad_triangles;             // of the patch: folded or crossing ones, for those flaws
+    std::optional<Indices> crossings;  // triangles of the patch that pass through others, where they were looked for
+    bool from_surface = false;         // its iteration began on the solved surface of a proxy
+    bool crosses = false;              // the surface passes through itself, whatever the mesh
+    double first_step = 0.0;           // largest moves of the first and the last iteration, units of D
     double last_step = 0.0;
     bool instead = false;          // of least variation, in place of the problem's equation
     double variation_ratio = 0.0;  // of the bulb that it replaces, where it is one

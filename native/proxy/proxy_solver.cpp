@@ -27,25 +27,25 @@ constexpr double turn = 0.7;  // radians along an edge of the coarse proxy: nine
 
 // Small patches with one outline nearly always have a solution, and all patience pays. Elsewhere long iterations end
 // without one: of 143 that converged on 120 random patches none took more than 56 steps, or more than 19 in vain.
-bool pays_patience(const Problem& problem) {
+bool pays_patience(const Problem& problem, int shown) {
     constexpr int largest = 1500;  // free vertices
-    return problem.patch.loop_count() == 1 && problem.patch.free_count <= largest;
+    return problem.patch.loop_count() == 1 && shown <= largest;
 }
 
 // A problem on the proxy's own connectivity: uniform weights, the same boundary data.
-Problem proxy_problem(const Problem& problem, const Patch& patch) {
+Problem proxy_problem(const Problem& problem, int shown, const Patch& patch) {
     constexpr int most_iterations = 100;
     constexpr int patience = 30;
     Problem result{patch, problem.fixed_points, problem.fixed_normals, uniform_weights(patch), problem.options};
-    if (pays_patience(problem)) return result;
+    if (pays_patience(problem, shown)) return result;
     result.options.max_iterations = std::min(most_iterations, problem.options.max_iterations);
     result.options.patience = std::min(patience, problem.options.patience);
     return result;
 }
 
 // Only a start is wanted from the coarse proxy: the harmonic surface, whatever the equation.
-Problem coarse_problem(const Problem& problem, const Patch& patch) {
-    Problem result = proxy_problem(problem, patch);
+Problem coarse_problem(const Problem& problem, int shown, const Patch& patch) {
+    Problem result = proxy_problem(problem, shown, patch);
     result.options.equation = Equation::harmonic;
     result.options.tolerance = coarse_tolerance;
     return result;
@@ -58,11 +58,11 @@ Workspace make_workspace(const Problem& problem, const Progress& progress) {
 
 class ProxySolve {
 public:
-    ProxySolve(const Problem& problem, const Progress& progress)
+    ProxySolve(const Problem& problem, int shown, const Progress& progress)
         : problem_(problem),
+          shown_(shown),
           progress_(progress),
-          free_limit_(
-              std::clamp(free_limit_per_vertex * problem.patch.free_count, least_free_limit, largest_free_limit)) {}
+          free_limit_(std::clamp(free_limit_per_vertex * shown, least_free_limit, largest_free_limit)) {}
 
     SolvedProxy from_surface(const Points& surface) {
         return solve_fine(ProxyMesh(problem_.patch, surface), {finest_growth, longest_fine, free_limit_}, true);
@@ -113,7 +113,7 @@ private:
         constexpr int rounds = 3;  // of filling and meshing anew: the first mesh belongs to another surface
         for (int k = 0; k < rounds; ++k) {
             const auto snapshot = mesh.snapshot();
-            const Problem problem = coarse_problem(problem_, snapshot.patch);
+            const Problem problem = coarse_problem(problem_, shown_, snapshot.patch);
             const auto points = normal_fill(problem, progress_.here());
             if (!points) return std::nullopt;
             mesh.read_back(snapshot.patch, *points);
@@ -136,7 +136,7 @@ private:
         Solution solution = solve_equation(problem, work, start, progress);
         if (solution.termination == Termination::converged || problem.options.equation == Equation::constant)
             return solution;
-        if (!pays_patience(problem_)) return solution;
+        if (!pays_patience(problem_, shown_)) return solution;
         Solution damped = iterate_damped(problem, work, start, progress);
         return damped.termination == Termination::converged ? damped : solution;
     }
@@ -144,7 +144,7 @@ private:
     template <typename MakeStart>
     Coarse iterate_coarse(ProxyMesh mesh, const MakeStart& make_start) {
         const auto snapshot = mesh.snapshot();
-        const Problem problem = coarse_problem(problem_, snapshot.patch);
+        const Problem problem = coarse_problem(problem_, shown_, snapshot.patch);
         Workspace work = make_workspace(problem, progress_);
         const Points start = make_start(problem, work, snapshot.points);
         const Solution solution = solve_patiently(problem, work, start, progress_.here());
@@ -160,7 +160,7 @@ private:
         for (int k = 0; k < most_steps; ++k) {
             progress_.report(0.4 * k / most_steps, "descent");
             const auto snapshot = mesh.snapshot();
-            const Problem problem = coarse_problem(problem_, snapshot.patch);
+            const Problem problem = coarse_problem(problem_, shown_, snapshot.patch);
             Workspace work = make_workspace(problem, progress_);
             const DescentStep step = descent_step(problem, work, snapshot.points, progress_.here());
             mesh.read_back(snapshot.patch, step.points);
@@ -173,7 +173,7 @@ private:
     SolvedProxy solve_fine(ProxyMesh mesh, const Sizing& sizing, bool from_converged) {
         mesh.adapt(sizing);
         auto snapshot = mesh.snapshot();
-        const Problem problem = proxy_problem(problem_, snapshot.patch);
+        const Problem problem = proxy_problem(problem_, shown_, snapshot.patch);
         Workspace work = make_workspace(problem, progress_);
         Points start = snapshot.points;
         Solution solution;
@@ -192,6 +192,7 @@ private:
     }
 
     const Problem& problem_;
+    const int shown_;
     const Progress& progress_;
     int free_limit_;
 };
@@ -210,9 +211,9 @@ double mean_outline_edge(const Problem& problem) {
     return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
-SolvedProxy solve_proxy(const Problem& problem, const std::optional<Points>& guess, const Points& membrane,
+SolvedProxy solve_proxy(const Problem& problem, const std::optional<Points>& guess, const Points& membrane, int shown,
                         const Progress& progress) {
-    ProxySolve solve(problem, progress);
+    ProxySolve solve(problem, shown, progress);
     if (guess) {
         SolvedProxy proxy = solve.from_surface(*guess);
         if (proxy.converged()) return proxy;
@@ -221,7 +222,7 @@ SolvedProxy solve_proxy(const Problem& problem, const std::optional<Points>& gue
 }
 
 Points proxy_membrane(const Problem& problem, const Progress& progress) {
-    const Problem uniform = proxy_problem(problem, problem.patch);
+    const Problem uniform = proxy_problem(problem, problem.patch.free_count, problem.patch);
     const Workspace work = make_workspace(uniform, progress);
     return membrane(uniform, work);
 }

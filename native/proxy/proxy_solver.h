@@ -23,7 +23,9 @@ struct SolvedProxy {
 // Where that fails it begins again from `membrane`. The steps: a coarse proxy, Willmore descent with flips and
 // smoothing in between, the accurate iteration there and on a refined proxy. After a proxy that fails comes the next
 // finer one. When all fail, the least bent of their surfaces comes back and says that it did not converge.
-SolvedProxy solve_proxy(const Problem& problem, const std::optional<Points>& guess, const Points& membrane,
+// `shown`: free vertices of the user's mesh, which the problem may be a coarse level of; a proxy of many more would
+// resolve what that mesh can't show.
+SolvedProxy solve_proxy(const Problem& problem, const std::optional<Points>& guess, const Points& membrane, int shown,
                         const Progress& progress);
 
 // Mean length of the outlines' edges; 0 without any.

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "base/parallel.h"
-#include "geometry/target_surface.h"
 #include "linear/anderson.h"
 #include "problem/surface_state.h"
 
@@ -17,52 +16,61 @@ constexpr double longest_move = 0.1;  // units of D
 constexpr double stuck = 0.8;         // from one step to the next: vertices that the outline holds back
 constexpr double near_enough = 5e-4;  // units of D; the iteration does the rest
 
-// Vertices on a surface that stays as it is. Near extraordinary vertices they have to move over several edges: by the
-// curvature of their one-rings, which is noisy there, they would leave it.
-class SlidingVertices {
-public:
-    SlidingVertices(const TargetSurface& target, int count) : target_(target), where_(at(count)) {
-        for (int v = 0; v < count; ++v) where_[at(v)] = target.at_vertex(v);
-    }
-
-    void walk_to(Points& points, Points& normals) {
-        for_ranges(static_cast<int>(where_.size()), fine_grain, [&](int begin, int end) {
-            for (int v = begin; v < end; ++v) {
-                SurfacePoint& where = where_[at(v)];
-                where = target_.project(points.col(v), where.triangle);
-                points.col(v) = target_.position(where);
-                normals.col(v) = target_.normal(where);
-            }
-        });
-    }
-
-private:
-    const TargetSurface& target_;
-    std::vector<SurfacePoint> where_;
+struct Sliding {
+    const TargetSurface& target;
+    std::vector<SurfacePoint>& where;  // free vertices
+    Points& points;                    // 3 × local vertices
+    Points normals;                    // at the free vertices
 };
 
-}  // namespace
+// The vertices stay on the surface by a walk over its triangles. Near extraordinary vertices they have to move over
+// several edges: by the curvature of their one-rings, which is noisy there, they would leave it.
+void walk(Sliding& vertices) {
+    for_ranges(static_cast<int>(vertices.where.size()), fine_grain, [&](int begin, int end) {
+        for (int v = begin; v < end; ++v) {
+            SurfacePoint& where = vertices.where[at(v)];
+            where = vertices.target.project(vertices.points.col(v), where.triangle);
+            vertices.points.col(v) = vertices.target.position(where);
+            vertices.normals.col(v) = vertices.target.normal(where);
+        }
+    });
+}
 
-void slide(const Problem& problem, const TangentialStep& tangential, const Points& normals, int most_steps,
-           Points& points) {
-    const Patch& patch = problem.patch;
-    const Points surface = points;
-    const TargetSurface target(patch, surface, normals);
-    SlidingVertices vertices(target, patch.free_count);
-    Points present = normals;
-    Anderson anderson(3L * patch.free_count, history_depth);
+void slide(Sliding& vertices, const TangentialStep& tangential, int most_steps) {
+    Points& points = vertices.points;
+    Anderson anderson(3L * static_cast<Eigen::Index>(vertices.where.size()), history_depth);
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < most_steps; ++step) {
-        const Points d = tangential.displacement(points, present);
+        const Points d = tangential.displacement(points, vertices.normals);
         const double largest = largest_length(d);
         if (largest > stuck * last) return;
         last = largest;
         Eigen::Map<VectorX> x(points.data(), d.size());
         const VectorX move = anderson.step(x, Eigen::Map<const VectorX>(d.data(), d.size()));
         x += std::min(1.0, longest_move / largest_length(Eigen::Map<const Points>(move.data(), 3, d.cols()))) * move;
-        vertices.walk_to(points, present);
+        walk(vertices);
         if (largest < near_enough) return;
     }
+}
+
+}  // namespace
+
+void slide(const Problem& problem, const TangentialStep& tangential, const Points& normals, int most_steps,
+           Points& points) {
+    const Points surface = points;
+    const TargetSurface target(problem.patch, surface, normals);
+    std::vector<SurfacePoint> where(at(problem.patch.free_count));
+    for (std::size_t v = 0; v < where.size(); ++v) where[v] = target.at_vertex(static_cast<int>(v));
+    Sliding vertices{target, where, points, normals};
+    slide(vertices, tangential, most_steps);
+}
+
+void slide_on(const TargetSurface& target, const TangentialStep& tangential, int most_steps,
+              std::vector<SurfacePoint>& where, Points& points) {
+    Points normals(3, static_cast<Eigen::Index>(where.size()));
+    for (std::size_t v = 0; v < where.size(); ++v) normals.col(static_cast<Eigen::Index>(v)) = target.normal(where[v]);
+    Sliding vertices{target, where, points, std::move(normals)};
+    slide(vertices, tangential, most_steps);
 }
 
 }  // namespace fairing

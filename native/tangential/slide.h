@@ -1,6 +1,7 @@
 // Moving vertices within a surface that is known from its own mesh alone.
 #pragma once
 
+#include "geometry/target_surface.h"
 #include "problem/problem.h"
 #include "tangential/tangential_step.h"
 
@@ -10,5 +11,9 @@ namespace fairing {
 // surface as it was given. `points`: 3 × local vertices; `normals`: unit, of the surface there (0 at pins).
 void slide(const Problem& problem, const TangentialStep& tangential, const Points& normals, int most_steps,
            Points& points);
+
+// The same on another surface. `where`: places of the free vertices on it; `points`: 3 × local vertices.
+void slide_on(const TargetSurface& target, const TangentialStep& tangential, int most_steps,
+              std::vector<SurfacePoint>& where, Points& points);
 
 }  // namespace fairing

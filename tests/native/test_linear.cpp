@@ -87,6 +87,26 @@ TEST_CASE("the factor solves random systems, connected or not, and keeps its ord
     }
 }
 
+TEST_CASE("a factor in single precision is right to single precision, and refuses what the other one does") {
+    for (const int blocks : {1, 3}) {
+        const SparseMatrix lower = random_matrix(600, blocks, 5);
+        SparseCholesky exact;
+        SparseCholesky near(Points(3, 0), Kept::singles);
+        REQUIRE(exact.factorise(lower, "test", {}));
+        REQUIRE(near.factorise(lower, "test", {}));
+        const Eigen::MatrixXd rhs = Eigen::MatrixXd::Random(600, 2);
+        const Eigen::MatrixXd x = exact.solve(rhs);
+        const double off = (near.solve(rhs) - x).norm() / x.norm();
+        CHECK(off < 1e-5);
+        CHECK(off > 1e-10);  // it is kept in singles
+        CHECK((near.solve_vector(rhs.col(0)) - x.col(0)).norm() < 1e-5 * x.col(0).norm());
+    }
+    SparseMatrix indefinite = random_matrix(600, 1, 5);
+    indefinite.coeffRef(7, 7) = -1.0;
+    SparseCholesky refusing(Points(3, 0), Kept::singles);
+    CHECK_FALSE(refusing.factorise(indefinite, "test", {}));
+}
+
 TEST_CASE("an indefinite matrix is refused") {
     SparseMatrix lower = random_matrix(50, 1, 7);
     lower.coeffRef(20, 20) = -1.0;

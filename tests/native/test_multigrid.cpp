@@ -41,6 +41,16 @@ Points of_level(const CoarseLevel& level, const Points& finest) {
 
 }  // namespace
 
+TEST_CASE("outlines without normals stay whole on all levels") {
+    const Ball ball(60);
+    const Points unknown = Points::Zero(3, ball.patch().vertex_count());
+    const auto levels = coarsen(ball.patch(), ball.weights, {ball.single.points, unknown}, 40);
+    REQUIRE(!levels.empty());
+    const int fixed = ball.patch().vertex_count() - ball.patch().free_count;
+    for (const CoarseLevel& level : levels) CHECK(level.patch.vertex_count() - level.patch.free_count == fixed);
+    CHECK(ball.levels.back().patch.vertex_count() - ball.levels.back().patch.free_count < fixed);
+}
+
 TEST_CASE("levels shrink evenly and keep the topology, the outline and which vertices are fixed") {
     const Ball ball(60);
     REQUIRE(ball.levels.size() >= 3);

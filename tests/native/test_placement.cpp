@@ -8,6 +8,8 @@
 #include "placement/folds.h"
 #include "placement/relax.h"
 #include "placement/untangle.h"
+#include "problem/surface_state.h"
+#include "tangential/slide.h"
 
 using namespace fairing;
 
@@ -63,6 +65,18 @@ Lambda one_sided_pull(const Square& square) {
 }
 
 }  // namespace
+
+TEST_CASE("vertices slide on a surface to where their springs balance") {
+    const Square square;
+    Placement placement = square.twirled(0.3);
+    const auto springs = make_tangential_step(square.patch(), square.problem.weights, square.problem.fixed_points, {});
+    slide_on(square.target, *springs, 20, placement.where, placement.points);
+    const Points off = placement.points.leftCols(square.patch().free_count) - springs->harmonic_positions();
+    CHECK(largest_length(off) < 1e-3);
+    CHECK(placement.points.row(2).cwiseAbs().maxCoeff() < 1e-12);
+    for (int v = 0; v < square.patch().free_count; ++v)
+        CHECK((square.target.position(placement.where[at(v)]) - placement.points.col(v)).norm() < 1e-12);
+}
 
 TEST_CASE("a sheet that lies on the other one is folded, although no triangle differs from its neighbours") {
     const Square square;

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _joining, _mending, _options, _paper
+from fairing import _arguments, _core, _feather, _joining, _mending, _options, _paper
 from fairing._paper import PaperOptions
-from fairing._types import FairResult
+from fairing._types import FairResult, FloatArray, IntArray
 
 Progress = Callable[[float, str], "bool | None"]
 
@@ -42,6 +42,8 @@ def fair(
     continuity: str = "G1",
     fixed_curvatures: npt.ArrayLike | None = None,
     start: str = "outline",
+    feather: float = 0.0,
+    weights: npt.ArrayLike | None = None,
 ) -> FairResult:
     """Replace the free vertices of a mesh by the fairest surface with the given boundary data.
 
@@ -130,6 +132,15 @@ def fair(
     detail_size : float
         Shape that repeats within less than this counts as detail: a wavelength as a share of D. 0: twelve mean edges,
         .4 D at most.
+    feather : float
+        Width of a band outside the patch that takes part, as a share of D: the change fades out in it. The surface is
+        computed for the outer edge of the band. From the old outline outwards the base goes a smaller part of the way
+        from the old patch's to the fair one, with no slope at either end, down to nothing at that edge; the detail
+        that ``detail`` leaves out fades in alike. Needs the triangles ``outside``. The result names the vertices of
+        the band as ``moved``; all others keep their bits. docs/detail.md.
+    weights : (n,) float
+        In place of ``feather``: the part of the way that each vertex goes, 0 … 1, those inside too. The band is where
+        vertices of ``outside`` have a weight.
     start : "outline" | "given"
         "given": begin at the vertices given, which lie near the surface. Where the iteration does not find it from
         there, within a few steps and without folds, the outline alone decides as always. For the harmonic equations
@@ -160,7 +171,7 @@ def fair(
     edges = _options.neighbour_edges(neighbours, count)
     _arguments.choice("method", method, _options.METHODS)
     _options.callback(progress)
-    kind, weights = _options.inner_fairness(inner_fairness, count)
+    kind, rows = _options.inner_fairness(inner_fairness, count)
     of_paper = _paper.engine_options(method, levels, paper)
     options = _options.engine_options(
         equation=equation, otherwise=otherwise, load=load, bulge=bulge, fairness=kind, method=method, normals=normals,
@@ -175,22 +186,38 @@ def fair(
     if joins:
         as_given = _joining.with_curvatures(as_given, around, fixed_curvatures)
 
-    def call(boundary: _mending.Boundary) -> dict[str, Any]:
+    def solve(
+        boundary: _mending.Boundary, inside: IntArray, outside: IntArray, blend: FloatArray | None
+    ) -> dict[str, Any]:
         return _core.fair(
             boundary.vertices,
-            faces,
+            inside,
             boundary.fixed,
             boundary.normals,
             boundary.curvatures,
             m0,
             edges,
-            weights,
-            around.outside,
+            rows,
+            outside,
+            blend,
             options,
             of_paper,
             progress,
         )
 
+    def call(boundary: _mending.Boundary) -> dict[str, Any]:
+        return solve(boundary, faces, around.outside, None)
+
     mended = _arguments.choice("outline", outline, _options.OUTLINES) == "mended"
+    parts = _feather.vertex_weights(weights, count)
+    refused = {"reference": m0 is not None, "outline": mended, "continuity": joins}
+    width = _feather.width(feather, parts, refused)
+    if width > 0.0 or parts is not None:
+
+        def with_band(boundary: _mending.Boundary, wider: _mending.Surroundings, blend: FloatArray) -> dict[str, Any]:
+            return solve(boundary, wider.inside, wider.outside, blend)
+
+        how = width if parts is None else parts
+        return FairResult(**_feather.solve_feathered(with_band, as_given, faces, around, how))
     answer = _mending.solve_mended(call, as_given, faces, around) if mended else call(as_given)
     return FairResult(**_mending.with_join(answer, around))

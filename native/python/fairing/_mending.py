@@ -45,17 +45,18 @@ class Surroundings:
         if given is not None:
             named = _arguments.integers("outside", given, 3)
             outside = _arguments.indices_within("outside", named, vertices.shape[0])
-            return cls._between(vertices, triangles, outside)
+            return cls.between(vertices, triangles, outside)
         held = np.zeros(vertices.shape[0], dtype=bool)
         held[_within(fixed, vertices.shape[0])] = True
         idle = held[triangles].all(axis=1)
-        around = cls._between(vertices, triangles[~idle], triangles[idle])
+        around = cls.between(vertices, triangles[~idle], triangles[idle])
         if 2 * len(around.rim) < held[np.unique(around.inside)].sum():
-            return cls._between(vertices, triangles, triangles[:0])
+            return cls.between(vertices, triangles, triangles[:0])
         return around
 
     @classmethod
-    def _between(cls, vertices: FloatArray, inside: IntArray, outside: IntArray) -> Surroundings:
+    def between(cls, vertices: FloatArray, inside: IntArray, outside: IntArray) -> Surroundings:
+        """Without triangles outside that have a corner which is not finite."""
         finite = outside[np.isfinite(vertices[outside]).all(axis=(1, 2))]
         return cls(inside, finite, np.intersect1d(inside, finite).astype(np.int32))
 

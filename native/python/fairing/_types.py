@@ -123,4 +123,4 @@ class FairResult:
     Several components follow each other."""
     warnings: tuple[Diagnostic, ...]
     moved: IntArray = field(default_factory=lambda: np.empty(0, np.int32))
-    """Fixed and outside vertices that ``outline="mended"`` has moved, ascending."""
+    """Fixed and outside vertices that ``outline="mended"``, ``feather`` or ``weights`` have moved, ascending."""

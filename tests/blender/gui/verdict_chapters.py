@@ -94,6 +94,7 @@ def not_usable() -> Story:
     assert (report().verdict, report().written) == ("UNUSABLE", False), report().reason
     assert scenes.positions().tobytes() == before.tobytes()
     tell(f"not usable: {report().reason}")
+    yield 3.0  # panels glide to their places
     screenshot("not_usable")
     yield from leave_popup()
     run_with("fair_again", way="WRITE")

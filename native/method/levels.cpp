@@ -1,0 +1,74 @@
+#include "method/levels.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr int coarsest_size = 600;  // free vertices
+// Up to so many free vertices the tangential step is factorised; beyond, multigrid is faster.
+constexpr int largest_factorised = 7000;
+
+InnerWeights symmetric_weights(const Lambda& weights) {
+    if (const auto* rows = std::get_if<RowWeights>(&weights)) return symmetrised(*rows);
+    return std::get<InnerWeights>(weights);
+}
+
+// Columns of the vertices of a coarse level, in its order.
+Points pick(const Points& points, const Indices& columns, int first) {
+    Points result(3, static_cast<Eigen::Index>(columns.size()) - first);
+    for (Eigen::Index k = 0; k < result.cols(); ++k) result.col(k) = points.col(columns[at(first) + std::size_t(k)]);
+    return result;
+}
+
+}  // namespace
+
+Points with_fixed(const Patch& patch, const Points& fixed) {
+    Points points = Points::Zero(3, patch.vertex_count());
+    points.rightCols(fixed.cols()) = fixed;
+    return points;
+}
+
+Levels::Levels(const Problem& problem, Outlines outlines) {
+    const Points points = with_fixed(problem.patch, problem.fixed_points);
+    const Points normals = with_fixed(problem.patch, problem.fixed_normals);
+    const Points unknown = Points::Zero(3, points.cols());  // keeps an outline as it is
+    InnerWeights weights = symmetric_weights(problem.weights);
+    coarse_ =
+        coarsen(problem.patch, weights, {points, outlines == Outlines::thinned ? normals : unknown}, coarsest_size);
+    levels_.reserve(coarse_.size() + 1);
+    levels_.push_back({problem, std::move(weights), {}});
+    for (CoarseLevel& coarse : coarse_) {
+        const Patch& patch = coarse.patch;
+        Problem level{patch, pick(points, patch.to_input, patch.free_count),
+                      pick(normals, patch.to_input, patch.free_count), coarse.weights, problem.options};
+        levels_.push_back({std::move(level), std::move(coarse.weights), {}});
+    }
+}
+
+RingMatrix Levels::laplacian(std::size_t k) const {
+    return {levels_[k].problem.patch.vertex_count(), levels_[k].weights};
+}
+
+std::vector<int> Levels::sizes() const {
+    std::vector<int> result;
+    for (std::size_t k = levels_.size(); k-- > 0;) result.push_back(levels_[k].problem.patch.vertex_count());
+    return result;
+}
+
+void Levels::set_up_tangential(std::size_t k, RingMatrix laplacian, const Progress& progress) {
+    Level& level = levels_[k];
+    const Problem& problem = level.problem;
+    const auto adopt = [&](auto step) {
+        level.tangential_cycle = step.get();
+        level.work.tangential = std::move(step);
+    };
+    if (k == coarsest() || problem.patch.free_count <= largest_factorised) {
+        adopt(
+            std::make_unique<FactorisedLaplacian>(problem.patch, level.weights, problem.fixed_points, progress.here()));
+    } else {
+        adopt(std::make_unique<MultigridStep>(problem.patch, std::move(laplacian), problem.fixed_points,
+                                              coarse_[k].transfer, *levels_[k + 1].tangential_cycle));
+    }
+}
+
+}  // namespace fairing

@@ -1,0 +1,50 @@
+// The user's own connectivity, ever coarser, with what is solved on each level.
+#pragma once
+
+#include "base/progress.h"
+#include "multigrid/coarsening.h"
+#include "multigrid/tangential_multigrid.h"
+#include "operators/workspace.h"
+#include "problem/problem.h"
+
+namespace fairing {
+
+// Whether coarse levels keep all of the outline's vertices, or halve it where it is straight.
+enum class Outlines { thinned, kept };
+
+// Level 0 is the problem's patch, `coarsest()` the coarsest one. Refers to the problem.
+class Levels {
+public:
+    Levels(const Problem& problem, Outlines outlines);
+
+    [[nodiscard]] std::size_t coarsest() const { return coarse_.size(); }
+    [[nodiscard]] Problem& problem(std::size_t k) { return levels_[k].problem; }
+    [[nodiscard]] const Problem& problem(std::size_t k) const { return levels_[k].problem; }
+    [[nodiscard]] Workspace& work(std::size_t k) { return levels_[k].work; }
+    // From level k + 1 to level k.
+    [[nodiscard]] const Transfer& transfer(std::size_t k) const { return coarse_[k].transfer; }
+    [[nodiscard]] RingMatrix laplacian(std::size_t k) const;
+    // Vertices of each level, coarse to fine.
+    [[nodiscard]] std::vector<int> sizes() const;
+
+    // Makes the tangential step of a level; that of the next coarser one comes first. λ that aren't symmetric count by
+    // their symmetric part.
+    void set_up_tangential(std::size_t k, RingMatrix laplacian, const Progress& progress);
+    void set_up_tangential(std::size_t k, const Progress& progress) { set_up_tangential(k, laplacian(k), progress); }
+
+private:
+    struct Level {
+        Problem problem;
+        InnerWeights weights;
+        Workspace work;
+        const LaplaceCycle* tangential_cycle = nullptr;  // in `work`
+    };
+
+    std::vector<CoarseLevel> coarse_;  // coarse_[k] lies below levels_[k]
+    std::vector<Level> levels_;
+};
+
+// A value for all vertices of which only the fixed ones are known; 0 at free ones.
+Points with_fixed(const Patch& patch, const Points& fixed);
+
+}  // namespace fairing

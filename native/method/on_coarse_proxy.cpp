@@ -1,0 +1,169 @@
+#include "method/on_coarse_proxy.h"
+
+#include <algorithm>
+
+#include "base/stopwatch.h"
+#include "method/accept.h"
+#include "method/levels.h"
+#include "method/placed_solution.h"
+#include "method/polish.h"
+#include "placement/first_placement.h"
+#include "placement/folds.h"
+#include "placement/untangle.h"
+#include "problem/surface_state.h"
+#include "tangential/slide.h"
+
+namespace fairing {
+
+namespace {
+
+// Steps of the springs on a level, which begins where the coarser one ends; the coarsest begins anywhere.
+constexpr int most_slides = 8;
+constexpr int most_coarsest_slides = 60;
+
+class CoarseProxySolve {
+public:
+    CoarseProxySolve(const Problem& problem, const Progress& progress)
+        : problem_(problem), progress_(progress), levels_(problem, Outlines::kept) {}
+
+    std::optional<Solution> run(const std::optional<OwnSurface>& guess) {
+        const std::size_t coarsest = levels_.coarsest();
+        if (coarsest == 0) return std::nullopt;
+        const Problem& coarse = levels_.problem(coarsest);
+        std::map<std::string, double> seconds;
+        const Points membrane = proxy_membrane(coarse, progress_);
+        const SurfaceState start = measured_surface(coarse, membrane);
+        std::optional<Points> own;
+        if (guess) own = on_coarsest(guess->points);
+        seconds["fill"] = watch_.lap();
+        const SolvedProxy proxy = solve_proxy(coarse, guess && starts_from(problem_, *guess) ? own : std::nullopt,
+                                              membrane, problem_.patch.free_count, progress_.range(0.0, 0.5));
+        seconds["proxy"] = watch_.lap();
+        const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
+        const Placed best = placed(proxy, target, own);
+        Solution solution = placed_solution(problem_, proxy, target, best);
+        seconds["placement"] = watch_.lap();
+        if (solution.termination == Termination::converged && best.folded_by_springs <= problem_.tolerated_folds)
+            solution = polished(std::move(solution), mean_edge(proxy.mesh.patch, proxy.mesh.points));
+        seconds["polish"] = watch_.lap();
+        solution.initial_residual = largest_residual(coarse, start, outer_residual(coarse, start));
+        solution.levels = levels_.sizes();
+        solution.seconds = std::move(seconds);
+        return solution;
+    }
+
+private:
+    // Columns of a surface of the problem's patch.
+    [[nodiscard]] Points on_coarsest(const Points& points) const {
+        const Patch& patch = levels_.problem(levels_.coarsest()).patch;
+        Points result(3, patch.vertex_count());
+        for (int v = 0; v < patch.vertex_count(); ++v) result.col(v) = points.col(patch.to_input[at(v)]);
+        return result;
+    }
+
+    // By springs where nothing folds then, otherwise from where the coarsest vertices lie without them.
+    Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own) {
+        const std::size_t coarsest = levels_.coarsest();
+        const Problem& coarse = levels_.problem(coarsest);
+        for (std::size_t k = coarsest + 1; k-- > 0;) levels_.set_up_tangential(k, progress_);
+        std::vector<Placement> starts;
+        if (own) starts.push_back(by_surface(coarse, *own, proxy.mesh.patch, target));
+        starts.push_back(by_history(coarse, proxy.history, proxy.mesh, target));
+        const Placement& start = least_folded(starts, target);
+        Placed best = spread(start, target);
+        if (best.folded.empty() || !proxy.converged()) return best;
+        Placed other = unfolded(start, target);
+        other.folded_by_springs = best.folded_by_springs;
+        return other.folded.size() < best.folded.size() ? std::move(other) : std::move(best);
+    }
+
+    // A start on the wrong sheet leaves many folds.
+    [[nodiscard]] const Placement& least_folded(const std::vector<Placement>& starts, const TargetSurface& target) {
+        const Problem& coarse = levels_.problem(levels_.coarsest());
+        const auto folds = [&](const Placement& start) {
+            Placement settled = start;
+            slide(levels_.coarsest(), target, settled);
+            return folds_of_placement(coarse, target, settled).size();
+        };
+        if (starts.size() == 1) return starts.front();
+        return folds(starts[0]) <= folds(starts[1]) ? starts[0] : starts[1];
+    }
+
+    Placed spread(Placement placement, const TargetSurface& target) {
+        slide(levels_.coarsest(), target, placement);
+        for (std::size_t k = levels_.coarsest(); k-- > 0;) {
+            placement = on_finer_level(k, placement, target);
+            slide(k, target, placement);
+        }
+        return place_settled(problem_, *levels_.work(0).tangential, target, std::move(placement), progress_.here());
+    }
+
+    Placed unfolded(Placement placement, const TargetSurface& target) {
+        for (std::size_t k = levels_.coarsest(); k-- > 0;) {
+            untangle(levels_.problem(k + 1), target, placement);
+            placement = on_finer_level(k, placement, target);
+        }
+        return place_settled(problem_, *levels_.work(0).tangential, target, std::move(placement), progress_.here());
+    }
+
+    void slide(std::size_t k, const TargetSurface& target, Placement& placement) {
+        const int most = k == levels_.coarsest() ? most_coarsest_slides : most_slides;
+        slide_on(target, *levels_.work(k).tangential, most, placement.where, placement.points);
+    }
+
+    // From level k + 1: removed vertices begin at the mean of their neighbours.
+    [[nodiscard]] Placement on_finer_level(std::size_t k, const Placement& coarse, const TargetSurface& target) const {
+        const Problem& fine = levels_.problem(k);
+        const Transfer& transfer = levels_.transfer(k);
+        const Removals& removals = transfer.removals;
+        Points points = with_fixed(fine.patch, fine.fixed_points);
+        std::vector<SurfacePoint> where(at(fine.patch.vertex_count()));
+        const int first_fixed = target.vertex_count() - static_cast<int>(fine.fixed_points.cols());
+        for (int v = fine.patch.free_count; v < fine.patch.vertex_count(); ++v)
+            where[at(v)] = target.at_vertex(first_fixed + v - fine.patch.free_count);
+        for (int c = 0; c < transfer.coarse_free_count; ++c) {
+            where[at(transfer.coarse_in_fine[at(c)])] = coarse.where[at(c)];
+            points.col(transfer.coarse_in_fine[at(c)]) = coarse.points.col(c);
+        }
+        for (int r = removals.size(); r-- > 0;) {
+            Vector3 mean = Vector3::Zero();
+            int nearest = removals.neighbours[at(removals.begin[at(r)])];
+            for (int j = removals.begin[at(r)]; j < removals.begin[at(r) + 1]; ++j)
+                mean += removals.weights[at(j)] * points.col(removals.neighbours[at(j)]);
+            for (int j = removals.begin[at(r)]; j < removals.begin[at(r) + 1]; ++j) {
+                const int other = removals.neighbours[at(j)];
+                if ((points.col(other) - mean).squaredNorm() < (points.col(nearest) - mean).squaredNorm())
+                    nearest = other;
+            }
+            const int v = removals.vertex[at(r)];
+            where[at(v)] = target.project(mean, where[at(nearest)].triangle);
+            points.col(v) = target.position(where[at(v)]);
+        }
+        where.resize(at(fine.patch.free_count));
+        return {std::move(where), std::move(points)};
+    }
+
+    Solution polished(Solution placed, double proxy_edge) {
+        Workspace& work = levels_.work(0);
+        work.normal = make_normal_operator(problem_, placed.points.leftCols(problem_.patch.free_count));
+        if (std::holds_alternative<RowWeights>(problem_.weights)) {
+            work.tangential =
+                make_tangential_step(problem_.patch, problem_.weights, problem_.fixed_points, progress_.here());
+        }
+        return polish(problem_, work, std::move(placed), proxy_edge, progress_.range(0.6, 1.0));
+    }
+
+    const Problem& problem_;
+    const Progress& progress_;
+    Stopwatch watch_;
+    Levels levels_;
+};
+
+}  // namespace
+
+std::optional<Solution> solve_on_coarse_proxy(const Problem& problem, const std::optional<OwnSurface>& guess,
+                                              const Progress& progress) {
+    return CoarseProxySolve(problem, progress).run(guess);
+}
+
+}  // namespace fairing

@@ -1,0 +1,15 @@
+// The robust way for large patches: the proxy from a coarse level, the user's vertices placed level by level.
+#pragma once
+
+#include "method/on_proxy.h"
+
+namespace fairing {
+
+// As solve_on_proxy. The proxy begins with the vertices of a coarse level, so that nothing of the user's size is
+// solved before its surface is known. Folds count on the finest level alone: coarse levels may have no placement
+// without any. Where springs alone fold triangles, the equation's solution by them would be folded, too, and no polish
+// is tried. Nothing where the patch has no levels.
+std::optional<Solution> solve_on_coarse_proxy(const Problem& problem, const std::optional<OwnSurface>& guess,
+                                              const Progress& progress);
+
+}  // namespace fairing

@@ -1,0 +1,118 @@
+#include "outline/feather.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <queue>
+#include <tuple>
+#include <vector>
+
+#include "base/progress.h"
+#include "geometry/neighbourhood.h"
+
+namespace fairing {
+
+namespace {
+
+using Edge = std::array<int, 2>;
+
+Edge sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+std::vector<Edge> sorted_edges(const Triangles& triangles) {
+    std::vector<Edge> edges;
+    for (const auto t : triangles.colwise()) {
+        for (int k = 0; k < 3; ++k) edges.push_back(sorted(t[k], t[(k + 1) % 3]));
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
+
+std::vector<Edge> shared_edges(const Triangles& inside, const Triangles& outside) {
+    const std::vector<Edge> first = sorted_edges(inside);
+    const std::vector<Edge> second = sorted_edges(outside);
+    std::vector<Edge> shared;
+    std::set_intersection(first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(shared));
+    return shared;
+}
+
+double distance_to(const Vector3& point, const Vector3& a, const Vector3& b) {
+    const Vector3 along = b - a;
+    const double length = along.squaredNorm();
+    const double share = length > 0.0 ? std::clamp((point - a).dot(along) / length, 0.0, 1.0) : 0.0;
+    return (point - a - share * along).norm();
+}
+
+// A walk from the outline outwards, the nearest first: from vertex to vertex goes the nearest edge, with those next to
+// it.
+class Walk {
+public:
+    Walk(const Points& points, const Triangles& outside, std::vector<Edge> edges)
+        : points_(points),
+          around_(outside, static_cast<int>(points.cols())),
+          edges_(std::move(edges)),
+          distance_(VectorX::Constant(points.cols(), std::numeric_limits<double>::infinity())) {
+        for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {
+            for (int v : edges_[at(e)]) edges_at_[v].push_back(e);
+        }
+    }
+
+    VectorX distances(double farthest) && {
+        for (const auto& [v, edges] : edges_at_) reach(v, edges.front());
+        while (!next_.empty()) {
+            const auto [distance, v, edge] = next_.top();
+            next_.pop();
+            if (distance > distance_[v]) continue;
+            if (distance > farthest) break;
+            checkpoint();
+            for (int k = around_.begin[at(v)]; k < around_.begin[at(v) + 1]; ++k)
+                spread(around_.neighbours[at(k)], edge);
+        }
+        return std::move(distance_);
+    }
+
+private:
+    struct Reached {
+        double distance;
+        int vertex;
+        int edge;
+        bool operator<(const Reached& other) const {
+            return std::tie(other.distance, other.vertex, other.edge) < std::tie(distance, vertex, edge);
+        }
+    };
+
+    void spread(int vertex, int edge) {
+        for (int end : edges_[at(edge)]) {
+            for (int near : edges_at_[end]) reach(vertex, near);
+        }
+    }
+
+    void reach(int vertex, int edge) {
+        const auto [a, b] = edges_[at(edge)];
+        const double distance = distance_to(points_.col(vertex), points_.col(a), points_.col(b));
+        if (!(distance < distance_[vertex])) return;
+        distance_[vertex] = distance;
+        next_.push({distance, vertex, edge});
+    }
+
+    const Points& points_;
+    VertexAdjacency around_;
+    std::vector<Edge> edges_;
+    std::map<int, Indices> edges_at_;
+    VectorX distance_;
+    std::priority_queue<Reached> next_;
+};
+
+}  // namespace
+
+VectorX feather_weights(const Points& points, const Triangles& inside, const Triangles& outside, double width) {
+    const VectorX distance = Walk(points, outside, shared_edges(inside, outside)).distances(width);
+    const VectorX share = (distance / width).cwiseMin(1.0);
+    VectorX weights = 1.0 - share.array().square() * (3.0 - 2.0 * share.array());
+    for (int v : inside.reshaped()) weights[v] = 1.0;
+    return weights;
+}
+
+}  // namespace fairing

@@ -1,0 +1,146 @@
+"""`feather` and `weights`: the change fades out in a band outside the patch."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import fairing
+from curves import FloatArray
+from rough_sphere import IntArray, RoughSphere, rough_sphere
+
+WIDTH = 0.2  # of D
+
+
+@pytest.fixture(scope="module")
+def sphere() -> RoughSphere:
+    return rough_sphere(5000, seed=31)
+
+
+@pytest.fixture(scope="module")
+def clean() -> RoughSphere:
+    return rough_sphere(3000, noise=0.0)
+
+
+@pytest.fixture(scope="module")
+def feathered(sphere: RoughSphere) -> fairing.FairResult:
+    return sphere.fair(feather=WIDTH, detail=1.0)
+
+
+def away(sphere: RoughSphere) -> FloatArray:
+    """Chords (n,) to the nearest vertex of the outline, as shares of D."""
+    gaps = sphere.exact[:, None] - sphere.exact[sphere.outline][None]
+    return np.asarray(np.linalg.norm(gaps, axis=2).min(axis=1) / sphere.diameter)
+
+
+def band_of(sphere: RoughSphere, result: fairing.FairResult, share: float) -> IntArray:
+    """Vertices of the band within this part of its width."""
+    return result.moved[away(sphere)[result.moved] < share * WIDTH]
+
+
+def test_bits_outside_the_band_stay(sphere: RoughSphere, feathered: fairing.FairResult) -> None:
+    changed = np.flatnonzero((feathered.vertices != sphere.vertices).any(axis=1))
+    assert np.array_equal(changed, np.union1d(sphere.free, feathered.moved))
+    assert np.isin(sphere.outline, feathered.moved).all()
+    assert away(sphere)[feathered.moved].max() < WIDTH + 0.02
+    beyond = np.setdiff1d(sphere.outside, feathered.moved)
+    assert away(sphere)[beyond].min() > 0.9 * WIDTH
+
+
+def test_the_noise_keeps_its_height_across_the_band(sphere: RoughSphere, feathered: fairing.FairResult) -> None:
+    """Base included: inside, in the band and beyond it is one sphere with one noise."""
+    for where in (sphere.free, feathered.moved, band_of(sphere, feathered, 0.5)):
+        kept, wanted = (sphere.heights(points, where) for points in (feathered.vertices, sphere.skin))
+        assert kept.std() == pytest.approx(wanted.std(), rel=0.15)
+        assert np.corrcoef(kept, wanted)[0, 1] > 0.9
+    assert np.abs(sphere.heights(feathered.base, sphere.free)).max() < 4e-3 * sphere.diameter
+
+
+def test_the_foot_of_a_swelling_beyond_the_outline_goes_too() -> None:
+    """A swelling wider than the selection: without feather a step stays at the outline, with it a slope."""
+    wide = rough_sphere(5000, noise=0.1, swelling=0.0)
+    rise = np.clip((wide.exact[:, 2:] - 0.15) / 0.6, 0, 1)
+    swollen = wide.skin + 0.2 * rise**2 * (3 - 2 * rise) * wide.exact
+    case = RoughSphere(wide.exact, wide.skin, swollen, wide.inside, wide.outside, wide.outline)
+    plain, soft = (case.fair(detail=1.0, **chosen) for chosen in ({}, {"feather": 0.3}))
+    assert case.heights(soft.vertices, case.free).mean() < 0.7 * case.heights(plain.vertices, case.free).mean()
+
+
+def test_the_change_fades_without_slope_at_either_end(clean: RoughSphere) -> None:
+    """Of waves all over the sphere what remains in the band is 1 − w, w = 1 − s² (3 − 2 s) of the distance."""
+    waves = 0.01 * np.sin(30 * clean.exact[:, :1]) * clean.exact
+    case = RoughSphere(clean.exact, clean.exact, clean.exact + waves, clean.inside, clean.outside, clean.outline)
+    result = case.fair(feather=WIDTH, detail_size=0.9)
+    share = np.clip(away(case)[result.moved] / WIDTH, 0, 1)
+    kept, before = (case.heights(points, result.moved) for points in (result.vertices, case.vertices))
+    for begin in (0.0, 0.2, 0.4, 0.6, 0.8):
+        here = (share >= begin) & (share < begin + 0.2)
+        wanted = (share**2 * (3 - 2 * share))[here].mean()
+        assert np.polyfit(before[here], kept[here], 1)[0] == pytest.approx(wanted, abs=0.05)
+
+
+def test_detail_is_linear_with_a_feather(sphere: RoughSphere, feathered: fairing.FairResult) -> None:
+    """What a slider may answer from."""
+    none, half = (sphere.fair(feather=WIDTH, detail=share) for share in (0.0, 0.5))
+    assert none.vertices == pytest.approx(feathered.base, abs=1e-12)
+    assert half.vertices == pytest.approx(0.5 * (feathered.base + feathered.vertices), abs=1e-12)
+    assert np.array_equal(none.moved, feathered.moved)
+
+
+def test_weights_instead(sphere: RoughSphere, feathered: fairing.FairResult) -> None:
+    """Half of a weight goes half of the way from one base to the other, inside too."""
+    whole = np.zeros(len(sphere.vertices))
+    whole[np.union1d(sphere.free, feathered.moved)] = 1
+    full, part = (sphere.fair(weights=share * whole, detail=1.0) for share in (1.0, 0.5))
+    assert np.array_equal(full.moved, feathered.moved)
+    kept = np.setdiff1d(np.arange(len(whole)), np.union1d(sphere.free, full.moved))
+    assert np.array_equal(part.vertices[kept], sphere.vertices[kept])
+    middle = sphere.free[sphere.exact[sphere.free, 2] > 0.8]
+    heights = [sphere.heights(points, middle).mean() for points in (sphere.vertices, full.vertices, part.vertices)]
+    assert heights[2] == pytest.approx((heights[0] + heights[1]) / 2, abs=0.01)
+
+
+def test_a_patch_without_area_is_blended_without_its_detail(clean: RoughSphere) -> None:
+    old = clean.vertices.copy()
+    old[clean.free] = 0
+    case = RoughSphere(clean.exact, clean.exact, old, clean.inside, clean.outside, clean.outline)
+    result = case.fair(feather=WIDTH, detail=1.0)
+    assert "REFERENCE_UNUSABLE" in {told.code for told in result.warnings}
+    assert np.abs(case.heights(result.vertices, case.free)).max() < 3e-3
+
+
+def test_the_mesh_border_stays(sphere: RoughSphere) -> None:
+    """A feather wider than what there is ends at the border."""
+    near = sphere.outside[(sphere.exact[sphere.outside, 2] > 0).all(axis=1)]
+    result = sphere.fair(feather=3.0, outside=near)
+    border = np.unique(np.concatenate(fairing.boundary_loops(np.concatenate([sphere.inside, near]))))
+    assert np.array_equal(result.vertices[border], sphere.vertices[border])
+    assert not np.isin(border, result.moved).any()
+
+
+def test_warnings_name_the_callers_triangles() -> None:
+    sphere = rough_sphere(2000, noise=0.9, seed=3)
+    result = sphere.fair(feather=WIDTH, detail=1.0)
+    named = [told.elements for told in result.warnings if told.kind == "triangle"]
+    assert sum(map(len, named))
+    assert np.concatenate(named).max() < len(sphere.inside)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"feather": -0.1}, "feather: 0 or a positive number"),
+        ({"feather": float("nan")}, "feather: a finite number"),
+        ({"weights": [0.5]}, "weights: 5000 numbers"),
+        ({"weights": np.full(5000, 1.5)}, "weights: 5000 numbers"),
+        ({"weights": np.ones(5000), "feather": 0.1}, "feather: is not accepted beside"),
+        ({"feather": 0.1, "outline": "mended"}, "outline: this value is not accepted with"),
+        ({"feather": 0.1, "reference": np.zeros((5000, 3))}, "reference: this value is not accepted with"),
+        ({"feather": 0.1, "outside": None}, "feather: a band needs the triangles outside"),
+    ],
+)
+def test_what_is_refused(sphere: RoughSphere, options: dict[str, Any], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        sphere.fair(**options)
