@@ -1,8 +1,11 @@
+#include <algorithm>
+
 #include "api/fill.h"
 #include "api/interpolate.h"
 #include "bindings/python_progress.h"
 #include "bindings/topics.h"
 #include "bindings/words.h"
+#include "fill/quads.h"
 
 namespace fairing::bindings {
 
@@ -69,11 +72,22 @@ py::array interpolated(const DoubleArray& vertices, const IntArray& triangles, c
                                result.data());
 }
 
+py::tuple quads_of(const DoubleArray& vertices, const IntArray& triangles, const VertexPairs& kept) {
+    const PairedQuads result = paired_quads(to_points(vertices), to_triangles(triangles), kept);
+    py::array_t<int> quads({result.quads.cols(), Eigen::Index{4}});
+    std::copy_n(result.quads.data(), result.quads.size(), quads.mutable_data());
+    py::array_t<int> pairs({static_cast<py::ssize_t>(result.pairs.size()), py::ssize_t{2}});
+    for (std::size_t k = 0; k < result.pairs.size(); ++k)
+        std::copy_n(result.pairs[k].data(), 2, pairs.mutable_data() + 2 * k);
+    return py::make_tuple(quads, pairs, from_indices(result.rest));
+}
+
 }  // namespace
 
 void bind_fill(py::module_& module) {
     module.def("interpolate", &interpolated, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("values"));
+    module.def("paired_quads", &quads_of, py::arg("vertices"), py::arg("triangles"), py::arg("kept"));
     module.def("fill_loops", &fill_arrays, py::arg("vertices"), py::arg("loops"), py::arg("normals"), py::arg("bridge"),
                py::arg("equation"), py::arg("progress"));
     module.def("remesh", &remesh_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),

@@ -26,6 +26,7 @@ from fairing._outline import (
     visible_join,
 )
 from fairing._paper import PaperOptions
+from fairing._quads import PairedQuads, paired_quads
 from fairing._solver import Solver
 from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, SolverError
 
@@ -38,6 +39,7 @@ __all__ = [
     "GrownOutline",
     "MendedOutline",
     "MeshError",
+    "PairedQuads",
     "PaperOptions",
     "RemeshResult",
     "Solver",
@@ -57,6 +59,7 @@ __all__ = [
     "interpolate",
     "mean_curvature",
     "mend_outline",
+    "paired_quads",
     "remesh",
     "self_intersections",
     "surrounding_normals",

@@ -127,6 +127,22 @@ def triangles_within(value: npt.ArrayLike, count: int) -> IntArray:
     return indices_within("triangles", integers("triangles", value, 3), count)
 
 
+NO_EDGES = np.empty((0, 2), dtype=np.int32)
+
+
+def edges_of(name: str, value: npt.ArrayLike | None, triangles: IntArray) -> IntArray:
+    """(e, 2) as given, none for None; ValueError where one is no edge of the triangles."""
+    if value is None or np.size(value) == 0:
+        return NO_EDGES
+    pairs = integers(name, value, 2)
+    sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    known = {tuple(side) for side in np.sort(sides, axis=1).tolist()}
+    for pair in np.sort(pairs, axis=1).tolist():
+        if tuple(pair) not in known:
+            raise ValueError(f"{name}: {pair[0]} and {pair[1]} are not joined by an edge of the triangles")
+    return pairs
+
+
 def choice(name: str, value: Any, accepted: Sequence[str]) -> str:
     """One of the accepted words, or a ValueError that lists them."""
     if not isinstance(value, str) or value not in accepted:

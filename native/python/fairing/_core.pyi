@@ -111,6 +111,7 @@ def fill_loops(
     equation: str,
     progress: Callable[[float, str], bool | None] | None,
 ) -> dict[str, Any]: ...
+def paired_quads(vertices: _Floats, triangles: _Ints, kept: _Ints) -> tuple[_Ints, _Ints, _Ints]: ...
 def remesh(
     vertices: _Floats,
     triangles: _Ints,

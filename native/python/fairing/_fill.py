@@ -130,7 +130,7 @@ def remesh(
     points = _arguments.floats("vertices", vertices)
     faces = _arguments.triangles_within(triangles, len(points))
     held, given_normals = _arguments.boundary(fixed, fixed_normals)
-    lines = _kept(kept, faces)
+    lines = _arguments.edges_of("kept", kept, faces)
     length = _spacing(spacing)
     outside = options.pop("outside", None)
     _check_options(options, progress)
@@ -176,7 +176,7 @@ class _Patch:
         self, old_count: int, spacing: float, least: int, options: dict[str, Any], progress: _Progress | None
     ) -> tuple[_Patch, Origin]:
         """On the first ``old_count`` of these vertices and new ones."""
-        new, origin, _ = self.meshed_anew(old_count, _NO_LINES, (spacing, least), options, progress)
+        new, origin, _ = self.meshed_anew(old_count, _arguments.NO_EDGES, (spacing, least), options, progress)
         return new, origin
 
     def meshed_anew(
@@ -207,22 +207,6 @@ class _Patch:
             self.vertices, self.triangles, fixed=self.fixed, fixed_normals=self.normals, start=start,
             progress=progress, **chosen,
         )  # fmt: skip
-
-
-_NO_LINES = np.empty((0, 2), dtype=np.int32)
-
-
-def _kept(lines: npt.ArrayLike | None, triangles: IntArray) -> IntArray:
-    """(e, 2) as given; ValueError where one is no edge of the triangles."""
-    if lines is None or np.size(lines) == 0:
-        return _NO_LINES
-    pairs = _arguments.integers("kept", lines, 2)
-    sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    known = {tuple(side) for side in np.sort(sides, axis=1).tolist()}
-    for pair in np.sort(pairs, axis=1).tolist():
-        if tuple(pair) not in known:
-            raise ValueError(f"kept: {pair[0]} and {pair[1]} are not joined by an edge of the triangles")
-    return pairs
 
 
 class _Watch:
