@@ -144,3 +144,17 @@ def test_warnings_name_the_callers_triangles() -> None:
 def test_what_is_refused(sphere: RoughSphere, options: dict[str, Any], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         sphere.fair(**options)
+
+
+def test_the_weights_of_a_width_are_to_be_had(clean: RoughSphere) -> None:
+    """They stand for the width bit by bit; a patch of its own with nothing around it moves all the way."""
+    outline = {"fixed": clean.outline}
+    weights = fairing.feather_weights(clean.vertices, clean.inside, clean.outside, WIDTH, **outline)
+    assert np.array_equal(clean.fair(weights=weights).vertices, clean.fair(feather=WIDTH).vertices)
+    lone = np.concatenate([clean.vertices, [[9, 0, 0], [9, 1, 0], [9, 0, 1]]])
+    count = len(clean.vertices)
+    inside = np.concatenate([clean.inside, [[count, count + 1, count + 2]]])
+    more = fairing.feather_weights(lone, inside, clean.outside, WIDTH, **outline)
+    assert np.array_equal(more, [*weights, 1.0, 1.0, 1.0])
+    with pytest.raises(ValueError, match="feather: a number above 0 is needed"):
+        fairing.feather_weights(clean.vertices, clean.inside, clean.outside, 0.0)

@@ -22,12 +22,16 @@ def outside_triangles(mesh: MeshArrays, patch: Patch) -> Ints:
     return nearby(outside, start)
 
 
-def wide_outside(mesh: MeshArrays, patch: Patch) -> Ints:
-    """Return those within a patch's size of it, which say what its surroundings are without their detail."""
+def wide_outside(mesh: MeshArrays, patch: Patch, feather: float = 0.0) -> Ints:
+    """Return those within a patch's size of it, which say what its surroundings are without their detail.
+
+    feather: width of a band around the patch, a share of its size; that much is added.
+    """
     outside = _usable(mesh)
     rim = mesh.positions[patch.vertices[patch.fixed]]
     low, high = rim.min(axis=0), rim.max(axis=0)
-    around = (high - low).max()
+    # No island is larger than twice the diagonal, as the engine measures its size.
+    around = (high - low).max() + feather * 2.0 * np.linalg.norm(high - low)
     near = ((mesh.positions >= low - around) & (mesh.positions <= high + around)).all(axis=1)
     found: Ints = outside[near[outside].all(axis=1)]
     return found

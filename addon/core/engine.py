@@ -36,6 +36,7 @@ class Problem:
     vertices: Ints  # (q,) mesh indices: the patch's p, then those of the faces around it
     outside: Ints  # (o, 3) triangles around the patch, in numbers of `vertices`
     curvatures: Floats | None = None  # (k,) H outside, NaN where it is not known; None: not to be continued
+    weights: Floats | None = None  # (q,) how much of the way each vertex goes; None: all of it inside, none outside
 
     @classmethod
     def of(cls, patch: Patch, points: Floats, normals: Floats, curvatures: Floats | None = None) -> Problem:
@@ -67,9 +68,10 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
             fixed=patch.fixed,
             fixed_normals=problem.normals,
             fixed_curvatures=problem.curvatures if options.joins_curvature else None,
-            neighbours=patch.neighbours,
+            neighbours=patch.neighbours if problem.weights is None else None,  # the band has none
             outline=options.outline.lower(),
             outside=problem.outside if reads else None,
+            weights=problem.weights,
             progress=progress,
             **_held_inside(patch, options),
             **options.engine_arguments(),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -46,6 +47,7 @@ class FairOptions:
     inner_fairness: str = "AUTOMATIC"  # CONFORMAL for a patch with a texture, UNIFORM for others
     detail: float = 0.0  # how much of the old patch's detail is put back, 0 … 1
     detail_size: float = 0.0  # what is shorter counts as detail: a part of the patch's size; 0: twelve edges
+    feather: float = 0.0  # width of the band outside in which the change fades out: a part of the patch's size
     boundary_normals: str = "SURROUNDING"
     continuity: str = "G1"  # G2: the curvature of the faces outside is continued, too
     method: str = "GLOBAL"
@@ -70,6 +72,8 @@ class FairOptions:
         for name in ("factor", "detail", "detail_size", "pin_radius"):
             if not 0.0 <= getattr(self, name) <= 1.0:
                 raise ValueError(f"{name}: expected a number from 0 to 1, got {getattr(self, name)!r}")
+        if not 0.0 <= self.feather < float("inf"):
+            raise ValueError(f"feather: expected 0 or a positive number, got {self.feather!r}")
         if not self.spacing >= LEAST_SPACING:
             raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
 
@@ -77,6 +81,17 @@ class FairOptions:
     def of(cls, properties: Any) -> FairOptions:
         """Read every option from an object with attributes of the same names."""
         return cls(**{name: getattr(properties, name) for name in option_names()})
+
+    @classmethod
+    def parsed(cls, text: str) -> FairOptions:
+        """Read what `json.dumps(asdict(options))` wrote; names that another version had are left out.
+
+        Raises TypeError and ValueError for a text that is something else, ValueError for a value it does not know.
+        """
+        stored = json.loads(text)
+        if not isinstance(stored, dict):
+            raise TypeError(f"options: expected names with values, got {text!r}")
+        return cls(**{name: stored[name] for name in option_names() if name in stored})
 
     def resolved(self, textured: bool) -> FairOptions:
         """Return the options with what AUTOMATIC stands for; textured: the patch has a UV map."""
@@ -106,7 +121,12 @@ class FairOptions:
     @property
     def reads_surroundings(self) -> bool:
         """Whether the engine looks at the faces outside itself: what a repeated solve does not."""
-        return self.outline == "MENDED" or self.detail > 0.0
+        return self.outline == "MENDED" or self.takes_base
+
+    @property
+    def takes_base(self) -> bool:
+        """Whether the old shape is split into base and detail, which belong to its triangles."""
+        return self.detail > 0.0 or self.feather > 0.0
 
     def engine_arguments(self) -> dict[str, Any]:
         """Return the keyword arguments of `fairing.fair` that need no mesh; the options must be resolved."""

@@ -10,12 +10,12 @@ import fairing
 
 from . import quality
 from .arrays import Floats, Ints
-from .engine import islands
+from .engine import Problem, islands
 from .options import FairOptions
 from .quality import Join, Quality
 from .region import MeshArrays, Patch, to_local
 from .solve import Solved
-from .symmetry import mirror_map, symmetrised
+from .symmetry import mirror_map, symmetrised, with_band
 from .verdict import GOOD, Evidence, Verdict, judge
 
 
@@ -33,7 +33,7 @@ class Fairing:
     curvature: tuple[float, float]  # largest |H| inside and on the outline, in 1/length
     join: Join
     verdict: Verdict
-    free_count: int  # of `vertices`: the others belong to a mended outline
+    free_count: int  # of `vertices`: the others belong to a mended outline or a band
 
 
 def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solved) -> Fairing:
@@ -48,7 +48,7 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     after = before.copy()
     after[moving] = positions @ matrix[:3, :3].T + matrix[:3, 3]
     own = len(patch.vertices)
-    as_solved = options.factor == 1.0 and options.detail == 0.0
+    as_solved = options.factor == 1.0 and not options.takes_base
     clear = as_solved and not mesh.mirror_x and _is_clear(patch, result)
     quality_before, quality_after = quality.compare(patch, (before[:own], after[:own]), clear)
     join = quality.join(problem, after)
@@ -85,10 +85,9 @@ def _positions(
 ) -> tuple[Floats, tuple[str, ...]]:
     """Return where the vertices `moving` of the problem go (k, 3), in the mesh's own coordinates, and warnings."""
     problem = solved.problem
-    own = len(problem.patch.vertices)
     local = to_local(solved.result.vertices, matrix)
-    fair, warnings = _mirrored(mesh, problem.patch, local[:own])
-    fair = np.concatenate([fair, local[own:]])[moving]
+    fair, warnings = _mirrored(mesh, problem, local, moving)
+    fair = fair[moving]
     if factor == 1.0:
         return fair, warnings
     original = mesh.positions[problem.vertices[moving]]
@@ -102,14 +101,18 @@ def _is_clear(patch: Patch, result: fairing.FairResult) -> bool:
     return not found and islands(patch) <= 1
 
 
-def _mirrored(mesh: MeshArrays, patch: Patch, fair: Floats) -> tuple[Floats, tuple[str, ...]]:
-    """Make the local positions (p, 3) symmetric where the mesh asks for that."""
+def _mirrored(mesh: MeshArrays, problem: Problem, fair: Floats, moving: Ints) -> tuple[Floats, tuple[str, ...]]:
+    """Make the local positions (q, 3) symmetric where the mesh asks for that; only those `moving` count."""
     if not mesh.mirror_x:
         return fair, ()
-    image = mirror_map(mesh, patch)
+    image = mirror_map(mesh, problem.patch)
+    if image is not None and problem.weights is not None:
+        image = with_band(image, mesh.positions[problem.vertices], moving)
     if image is None:
         return fair, ("X mirror is on, but the selection is not symmetric: it was faired as it is",)
-    return symmetrised(fair, image), ()
+    whole = fair.copy()
+    whole[: len(image)] = symmetrised(fair[: len(image)], image)
+    return whole, ()
 
 
 def _largest_curvatures(patch: Patch, result: fairing.FairResult) -> tuple[float, float]:

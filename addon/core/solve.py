@@ -13,6 +13,7 @@ from .around import numbered, outside_triangles, wide_outside, wound_alike
 from .arrays import Floats
 from .boundary import prescribed_curvatures, prescribed_normals
 from .engine import Progress
+from .feather import band_weights, refuse_options
 from .findings import Origin
 from .memory import Memory, digest
 from .options import FairOptions
@@ -86,18 +87,22 @@ def _with_detail(solved: Solved, share: float) -> Solved:
 def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine.Problem, tuple[str, ...]]:
     """Return the patch with its boundary data in world space, and warnings."""
     options = options.resolved(mesh.textured)
+    refuse_options(options)
     # What is not finite outside the patch is none of our business, and the engine looks inside.
     with np.errstate(invalid="ignore", over="ignore"):
         world = mesh.transformed(matrix)
         # Conformal weights and detail belong to the present shape, and so do its triangles.
-        patch = make_patch(world, even=options.inner_fairness != "CONFORMAL" and options.detail == 0.0)
-        outside = wide_outside(world, patch) if options.detail > 0.0 else outside_triangles(world, patch)
+        patch = make_patch(world, even=options.inner_fairness != "CONFORMAL" and not options.takes_base)
+        wide = options.takes_base
+        outside = wide_outside(world, patch, options.feather) if wide else outside_triangles(world, patch)
         normals, warnings = prescribed_normals(world, patch, options.boundary_normals, outside)
         curvatures = prescribed_curvatures(world, patch, outside) if options.joins_curvature else None
         vertices, around = numbered(patch, wound_alike(world, outside))
+        weights = band_weights(world, patch, vertices, around, options.feather) if options.feather > 0.0 else None
         precision = precision_note(mesh)
         notes = outline_notes(world) + ((precision,) if precision else ()) + mesh.notes
-    return engine.Problem(patch, world.positions[vertices], normals, vertices, around, curvatures), warnings + notes
+    problem = engine.Problem(patch, world.positions[vertices], normals, vertices, around, curvatures, weights)
+    return problem, warnings + notes
 
 
 def _solve_again(

@@ -46,6 +46,24 @@ def mirror_map(mesh: MeshArrays, patch: Patch) -> Ints | None:
     return image
 
 
+def with_band(image: Ints, points: Floats, moving: Ints) -> Ints | None:
+    """Return (q,): the patch's images (p,) followed by those of the vertices around it, of which some move too.
+
+    points: (q, 3) before, in the mesh's own coordinates; they decide outside the patch. None where what moves isn't
+    symmetric. A vertex outside that stays is its own image.
+    """
+    whole = np.concatenate([image, np.arange(len(image), len(points))])
+    band = moving[moving >= len(image)]
+    images = _images((points[band], band), (points[band], band))
+    if images is None:
+        return None
+    whole[band] = [images[vertex] for vertex in band.tolist()]
+    symmetric = (
+        np.array_equal(np.sort(whole[moving]), np.sort(moving)) and (whole[whole] == np.arange(len(whole))).all()
+    )
+    return whole if symmetric else None
+
+
 def with_image(mesh: MeshArrays) -> MeshArrays:
     """Return a mesh that asks for symmetry with the mirror image of its patch in the patch, where there is one.
 

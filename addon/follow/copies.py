@@ -43,11 +43,11 @@ def rebuild(copy: bpy.types.Object, source: bpy.types.Object, depsgraph: bpy.typ
     """Show what the original shows, the region fair; return why it is not, where it isn't."""
     refill(copy.data, source, depsgraph)
     copy.matrix_world = source.matrix_world
-    options = FairOptions(**json.loads(copy[OPTIONS]))
     try:
+        options = FairOptions.parsed(copy[OPTIONS])
         faces = painted.group_faces(copy, copy[GROUP]) if copy[GROUP] else painted.live_faces(copy.data)
         outcome = fair_faces(copy.data, faces.tolist(), np.array(source.matrix_world, dtype=np.float64), options)
-    except REFUSALS as cause:
+    except (TypeError, *REFUSALS) as cause:  # TypeError: options that can't be read
         return str(cause)
     return outcome.verdict.reason if outcome.verdict.grade == UNUSABLE else ""
 

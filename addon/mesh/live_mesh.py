@@ -63,8 +63,8 @@ def select_region(mesh: bpy.types.Mesh) -> None:
 def region_options(mesh: bpy.types.Mesh) -> FairOptions:
     """Return the options of the region; the defaults where they can't be read."""
     try:
-        return FairOptions(**json.loads(mesh[OPTIONS]))
-    except (KeyError, TypeError, ValueError):  # none, or of another version
+        return FairOptions.parsed(mesh[OPTIONS])
+    except (KeyError, TypeError, ValueError):  # none, or values of another version
         return FairOptions()
 
 

@@ -207,9 +207,9 @@ def _pinned(arrays: MeshArrays, mesh: bpy.types.Mesh, group: int | None, options
     if group is None:
         return replace(arrays, pinned=pinned)
     touched = np.unique(arrays.corner_vertices[arrays.in_patch[arrays.corner_faces]])
-    members = _members(mesh, touched, group)
-    pinned[members] = True
-    if not len(touched) or free_vertices(arrays)[members].any():
+    pins = _members(mesh, np.arange(len(pinned)) if options.feather > 0.0 else touched, group)
+    pinned[pins] = True
+    if not len(touched) or free_vertices(arrays)[pins].any():
         return replace(arrays, pinned=pinned)
     note = (
         f"The pin group {options.pin_group!r} has no vertex inside the selection with a weight above 0: it pins nothing"

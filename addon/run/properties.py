@@ -174,6 +174,16 @@ class FairProperties:
         precision=3,
         subtype="FACTOR",
     )
+    feather: FloatProperty(
+        name="Feather",
+        description="Width of a band around the selection in which the change fades out, as a part of the selection's "
+        "size. The faces there move too. 0: nothing outside moves",
+        default=0.0,
+        min=0.0,
+        soft_max=0.5,
+        step=1,
+        precision=3,
+    )
     boundary_normals: EnumProperty(
         name="Tangent To",
         description="The slope with which the surface leaves its outline",

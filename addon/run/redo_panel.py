@@ -58,6 +58,9 @@ def _draw_detail(group: Any, options: Any) -> None:
     row = group.row()
     row.active = options.detail > 0.0
     row.prop(options, "detail_size", slider=True)
+    row = group.row()
+    row.active = options.mesh == "KEEP"
+    row.prop(options, "feather", slider=True)
 
 
 def _draw_outline(group: Any, options: Any, obj: bpy.types.Object) -> None:

@@ -123,3 +123,15 @@ def test_what_has_no_usable_surface_is_refused() -> None:
     copy[module("follow.copies").OPTIONS] = options
     bpy.ops.object.fair_copies_update()
     np.testing.assert_allclose(meshes.positions(copy), meshes.positions(obj), atol=1e-6)  # shows the original
+
+
+def test_options_of_another_version_do_not_stop_the_frame() -> None:
+    obj = growing_sphere()
+    copy = copy_of(obj)
+    name = module("follow.copies").OPTIONS
+    copy[name] = '{"load": 1.0, ' + copy[name][1:]
+    bpy.context.scene.frame_set(11)
+    np.testing.assert_allclose(radii(copy), 2.0, atol=4e-4)
+    copy[name] = "[]"
+    bpy.context.scene.frame_set(1)
+    np.testing.assert_allclose(meshes.positions(copy), meshes.positions(obj), atol=1e-6)  # shows the original

@@ -21,6 +21,7 @@ DEFAULTS = {
     "inner_fairness": "AUTOMATIC",
     "detail": 0.0,
     "detail_size": 0.0,
+    "feather": 0.0,
     "boundary_normals": "SURROUNDING",
     "continuity": "G1",
     "method": "GLOBAL",

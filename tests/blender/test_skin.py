@@ -1,4 +1,4 @@
-"""Keep Detail as users meet it: on a rough sphere with a dent in it."""
+"""Keep Detail and Feather as users meet them: on a rough sphere with a dent in it."""
 
 from __future__ import annotations
 
@@ -127,4 +127,75 @@ def test_shares_are_from_0_to_1(name: str) -> None:
     before = meshes.contents(obj)
     with pytest.raises(ValueError, match=f"{name}: expected a number from 0 to 1"):
         fair_mesh(obj.data, np.flatnonzero(faces), **{name: 1.5})
+    assert meshes.contents(obj) == before
+
+
+def test_feather_moves_the_band_and_no_bit_beyond_it() -> None:
+    """The foot of a swelling that reaches beyond the selection goes too."""
+    obj = meshes.sphere(32)
+    points = meshes.positions(obj)
+    faces = meshes.faces_where(obj, lambda centre: centre.z > 0.6)
+    free = meshes.free_vertices(obj, faces)
+    meshes.move(obj, points * (1 + 0.2 * np.clip(points[:, 2:], 0, 1) ** 2))
+    before = meshes.positions(obj)
+    changed = fair(obj, faces, feather=0.15)
+    band = changed & ~free
+    assert changed[free].all()
+    assert band.any()
+    gaps = np.linalg.norm(before[band][:, None] - before[free][None], axis=2).min(axis=1)
+    moves = np.linalg.norm(meshes.positions(obj) - before, axis=1)[band]
+    assert moves[gaps > np.median(gaps)].max() < 0.5 * moves.max()
+    assert meshes.report().free_vertices == np.count_nonzero(free)
+
+
+def test_undo_takes_the_band_back() -> None:
+    obj = meshes.grid(12)
+    points = meshes.positions(obj)
+    points[:, 2] = 0.3 * np.exp(-4.0 * (points[:, :2] ** 2).sum(axis=1))
+    meshes.move(obj, points)
+    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.4)
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    bpy.ops.ed.undo_push(message="start")
+    before = meshes.contents_in_edit_mode(obj.name)
+    assert meshes.run(feather=0.4) == {"FINISHED"}
+    after = meshes.contents_in_edit_mode(obj.name)
+    assert np.count_nonzero(meshes.moved(before, after)) > np.count_nonzero(meshes.free_vertices(obj, faces))
+    bpy.ops.ed.undo()
+    assert meshes.contents_in_edit_mode("Grid") == before
+    meshes.leave()
+
+
+def test_pins_of_a_group_and_hidden_faces_hold_in_the_band() -> None:
+    """A script gives the operator's places; the group's vertices count wherever they are."""
+    from bl_ext.user_default.intrinsic_fairing import fair_mesh
+
+    obj, faces, _ = dented(32)
+    before = meshes.positions(obj)
+    fair_mesh(obj.data, np.flatnonzero(faces), feather=0.2)
+    band = np.flatnonzero((meshes.positions(obj) != before).any(axis=1) & ~meshes.free_vertices(obj, faces))
+    other, _, _ = dented(32)
+    pin = int(band[0])
+    other.vertex_groups.new(name="Pins").add([pin], 1.0, "REPLACE")
+    at_end = [p for p in other.data.polygons if int(band[-1]) in p.vertices and not faces[p.index]]
+    hidden = at_end[0]
+    hidden.hide = True
+    fair_mesh(other.data, np.flatnonzero(faces), feather=0.2, pin_group="Pins")
+    changed = np.flatnonzero((meshes.positions(other) != before).any(axis=1) & ~meshes.free_vertices(other, faces))
+    assert np.array_equal(changed, np.setdiff1d(band, [pin, *hidden.vertices]))
+
+
+@pytest.mark.parametrize(
+    ("options", "text"),
+    [
+        ({"outline": "MENDED"}, "Outline: Smooth"),
+        ({"continuity": "G2"}, "Join: Curvature"),
+        ({"mesh": "NEW"}, "choose Mesh: Keep"),
+    ],
+)
+def test_what_feather_does_not_go_with_is_refused_in_words(options: dict[str, str], text: str) -> None:
+    obj, faces, _ = dented(32)
+    before = meshes.in_edit_mode_once(obj, faces)
+    with pytest.raises(RuntimeError, match=text):
+        meshes.fair(obj, faces, feather=0.1, **options)
     assert meshes.contents(obj) == before

@@ -2,6 +2,7 @@
 
 from fairing._core import __version__
 from fairing._fair import fair
+from fairing._feather import feather_weights
 from fairing._fill import fill, remesh
 from fairing._growing import GrownOutline, grown_outline
 from fairing._hierarchy import hierarchy
@@ -52,6 +53,7 @@ __all__ = [
     "conformal_distortion",
     "cotan_laplacian",
     "fair",
+    "feather_weights",
     "fill",
     "flipped_triangles",
     "grown_outline",

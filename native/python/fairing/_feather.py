@@ -75,11 +75,34 @@ def solve_feathered(
     return answer
 
 
+def feather_weights(
+    vertices: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    outside: npt.ArrayLike,
+    feather: float,
+    *,
+    fixed: npt.ArrayLike | None = None,
+) -> FloatArray:
+    """Return the ``weights`` (n,) that ``feather`` stands for in :func:`fairing.fair`, to be changed by hand.
+
+    1 inside, 1 − s² (3 − 2 s) in the band, s the distance from the outline over the width, 0 beyond. The arguments
+    are those of :func:`fairing.fair`; ``feather`` is above 0.
+    """
+    points = _arguments.floats("vertices", vertices)
+    faces = _arguments.triangles_within(triangles, len(points))
+    held, _ = _arguments.boundary(fixed, None)
+    share = width(feather, None, {})
+    if share == 0.0:
+        raise ValueError("feather: a number above 0 is needed: 0 is no band")
+    around = Surroundings.of(points, faces, held, outside)
+    return _faded(Boundary(points, held, None), around, share)
+
+
 def _faded(given: Boundary, around: Surroundings, share: float) -> FloatArray:
     """Weights of bands, each as wide as its component asks for."""
     points = given.vertices
     component = _core.components(around.inside, given.fixed, len(points))
-    weights = np.zeros(len(points))
+    weights = _marked(around.inside, len(points)).astype(np.float64)
     for number in range(component.max(initial=-1) + 1):
         inside = around.inside[component == number]
         rim = points[np.intersect1d(inside, around.rim)]
