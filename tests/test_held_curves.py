@@ -90,6 +90,23 @@ def lifted_line(n: int) -> tuple[Creased, fairing.FairResult]:
     return plane, result
 
 
+def turn_across(n: int) -> float:
+    """The angle in radians by which the surface turns across the middle of the lifted line."""
+    _, result = lifted_line(n)
+    faces = result.vertices[creased.box_edge(n).triangles]
+    normals = np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0])
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    centres = faces.mean(axis=1)
+    beside = (np.abs(centres[:, 1] - 0.5) < 0.15) & (np.abs(centres[:, 0]) < 1.0 / n)
+    left, right = (normals[beside & (np.sign(centres[:, 0]) == side)].mean(axis=0) for side in (-1.0, 1.0))
+    return float(np.arccos(np.clip(left @ right / np.linalg.norm(left) / np.linalg.norm(right), -1.0, 1.0)))
+
+
+def test_a_smooth_curve_is_no_kink() -> None:
+    """Across the line the surface turns by its curvature times the edges: half as much on a mesh twice as fine."""
+    assert turn_across(24) < 0.65 * turn_across(12)
+
+
 def test_an_open_curve_stays_bounded() -> None:
     """H near the ends is that of the whole ridge, on a mesh twice as fine as well."""
     peaks = []
