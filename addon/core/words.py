@@ -174,6 +174,10 @@ WORDS: dict[str, tuple[Words, ...]] = {
         Words(
             "The surface asked for would be a bulb between these outlines: even curvature was used", when="variation"
         ),
+        Words(
+            "No surface meets these jagged outlines: it follows them smoothly, and they lie up to {distance:.2g} beside it",
+            when="distance",
+        ),
         Words("No harmonic surface fits these outlines: even curvature was used", when="harmonic"),
         Words("No surface of that shape fits these outlines: even curvature was used"),
     ),
@@ -203,7 +207,7 @@ WORDS: dict[str, tuple[Words, ...]] = {
 }
 
 # Of several islands: the figures of which the largest stands for all. Others are added.
-_LARGEST = ("degrees", "load_share", "spacing", "edge", "largest_coordinate")
+_LARGEST = ("degrees", "load_share", "spacing", "edge", "distance", "largest_coordinate")
 
 
 class MeshRefusal(fairing.MeshError):

@@ -253,13 +253,18 @@ void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& war
                         pins, ElementKind::vertex, figures});
 }
 
-Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation equation) {
+Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation equation, double diameter) {
     const std::string free = counted(at(patch.free_count), "free vertex", "free vertices");
     const bool harmonic = equation == Equation::harmonic;
     const std::string name = harmonic ? "harmonic surface" : "surface of that equation";
     Figures figures{{"free_vertices", patch.free_count}};
     if (harmonic) figures["harmonic"] = 1.0;
     std::string text = "no " + name + " fits the outlines of a component of " + free;
+    if (solution.eased > 0.0) {
+        figures["distance"] = solution.eased * diameter;
+        return {Code::no_solution, text + " as they are; they stay beside a surface that follows them smoothly",
+                Indices(free_vertices(patch).begin(), free_vertices(patch).end()), ElementKind::vertex, figures};
+    }
     if (solution.variation_ratio > 0.0) {
         figures["variation"] = solution.variation_ratio;
         text = "the " + name + " of a component of " + free + " is a bulb, whose curvatures vary " +

@@ -39,7 +39,7 @@ void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& war
 void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& warnings);
 // NO_SOLUTION: the surface of least variation was taken instead. Figures: "free_vertices"; "harmonic", 1, for that
 // equation; for a bulb "variation", how many times as much its curvatures varied.
-Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation equation);
+Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation equation, double diameter);
 
 // Triangles of a patch by the numbers that the caller knows.
 Indices input_numbers(const Patch& patch, Indices triangles);

@@ -40,7 +40,9 @@ public:
         add_warnings(answer.warnings);
         write_back(patch, answer);
         const Solution& solution = answer.solution;
-        if (solution.instead) add_instead(patch, answer);
+        if (solution.instead) result_.equation = Equation::least_variation;
+        if (solution.instead || (solution.eased > 0.0 && end_of(solution) == Termination::converged))
+            tell_of_no_solution(patch, answer);
         note_equation(answer.problem.options.equation);
         result_.residual = std::max(result_.residual, solution.residual);
         result_.initial_residual = std::max(result_.initial_residual, solution.initial_residual);
@@ -117,9 +119,9 @@ private:
         result_.equation = solved;
     }
 
-    void add_instead(const Patch& patch, const ComponentAnswer& answer) {
-        result_.equation = Equation::least_variation;
-        result_.warnings.push_back(no_solution(patch, answer.solution, answer.problem.options.equation));
+    void tell_of_no_solution(const Patch& patch, const ComponentAnswer& answer) {
+        const Equation equation = answer.problem.options.equation;
+        result_.warnings.push_back(no_solution(patch, answer.solution, equation, answer.unit.diameter));
     }
 
     void add_failure(Termination end, const Diagnostics& failures) {

@@ -31,6 +31,17 @@ bool is_behind(const Problem& problem, const Solution& solution) {
     return 2 * (angles.array() > behind).count() > (angles.array() > 0.0).count();
 }
 
+// Those of triangles without fixed corners among each other: an eased outline lies beside the surface.
+Indices crossings_inside(const Patch& patch, const Points& points) {
+    Indices inside;
+    for (int t = 0; t < patch.triangle_count(); ++t) {
+        if (patch.triangles.col(t).maxCoeff() < patch.free_count) inside.push_back(t);
+    }
+    Indices crossing = crossing_triangles(patch.triangles(Eigen::all, inside), points);
+    for (int& t : crossing) t = inside[at(t)];
+    return crossing;
+}
+
 }  // namespace
 
 bool has_poor_triangles(const Patch& patch, const Points& points) {
@@ -58,7 +69,8 @@ Flaw flaw_of(const Problem& problem, Solution& solution) {
     }
     if (!solution.crosses) {
         if (!solution.crossings) solution.crossings = crossing_triangles(problem.patch.triangles, solution.points);
-        solution.bad_triangles = *solution.crossings;
+        const bool eased = solution.eased > 0.0;
+        solution.bad_triangles = eased ? crossings_inside(problem.patch, solution.points) : *solution.crossings;
         if (!solution.bad_triangles.empty()) return Flaw::crossing;
     }
     if (!solution.polished || solution.from_surface) return Flaw::absent;

@@ -5,6 +5,7 @@
 
 #include "method/accept.h"
 #include "method/direct.h"
+#include "method/eased.h"
 #include "method/even.h"
 #include "method/nested.h"
 #include "method/one_level.h"
@@ -31,6 +32,17 @@ bool takes_direct(const Problem& problem, const Situation& situation) {
 
 bool takes_patience(const Problem& problem, const Situation& situation) {
     return is_fourth_order(problem) && problem.patch.free_count > largest_direct && !situation.tried("nested");
+}
+
+// Where the noise of the outline may be what stands in the way; vertices that fold because of their weights need
+// others.
+bool takes_eased(const Problem& problem, const Situation& situation) {
+    if (!is_fourth_order(problem) || !is_large(problem)) return false;
+    const bool hindered = std::all_of(situation.found.begin(), situation.found.end(), [&](const Solution& s) {
+        if (s.flaw == Flaw::folded || s.flaw == Flaw::crossing) return is_uniform(problem.weights);
+        return s.termination == Termination::stalled && s.reached_load == 0.0;
+    });
+    return hindered && is_jagged(problem);
 }
 
 bool takes_even(const Problem& problem, const Situation& situation) {
@@ -61,7 +73,7 @@ bool is_folded(const Situation& situation) {
 Solution solve_global(const Problem& problem, const Progress& progress) {
     const Way direct = directly();
     const Way proxy = on_proxy();
-    const std::array<Way, 9> ways{{
+    const std::array<Way, 10> ways{{
         {"minimal", [](const Problem& p, const Situation&) { return is_minimal(p); },
          [](const Problem& p, const Situation&, const Progress& part) { return Found(solve_directly(p, part)); }, 0.0,
          1.0},
@@ -75,6 +87,8 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
         {direct.name, takes_direct, direct.solve, direct.begin, direct.end},
         {proxy.name, [](const Problem& p, const Situation&) { return is_fourth_order(p); }, proxy.solve, proxy.begin,
          proxy.end},
+        {"eased", takes_eased,
+         [](const Problem& p, const Situation&, const Progress& part) { return solve_eased(p, part); }, 0.9, 1.0},
         {"patient", takes_patience,
          [](const Problem& p, const Situation&, const Progress& part) { return Found(solve_directly(p, part)); }, 0.8,
          0.9},

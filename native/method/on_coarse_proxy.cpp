@@ -21,12 +21,14 @@ namespace {
 constexpr int most_slides = 8;
 constexpr int most_coarsest_slides = 60;
 
+enum class Polish { wanted, unwanted };
+
 class CoarseProxySolve {
 public:
     CoarseProxySolve(const Problem& problem, const Progress& progress)
         : problem_(problem), progress_(progress), levels_(problem, Outlines::kept) {}
 
-    std::optional<Solution> run(const std::optional<OwnSurface>& guess) {
+    std::optional<Solution> run(const std::optional<OwnSurface>& guess, Polish polish) {
         const std::size_t coarsest = levels_.coarsest();
         if (coarsest == 0) return std::nullopt;
         const Problem& coarse = levels_.problem(coarsest);
@@ -43,7 +45,8 @@ public:
         const Placed best = placed(proxy, target, own);
         Solution solution = placed_solution(problem_, proxy, target, best);
         seconds["placement"] = watch_.lap();
-        if (solution.termination == Termination::converged && best.folded_by_springs <= problem_.tolerated_folds)
+        if (polish == Polish::wanted && solution.termination == Termination::converged &&
+            best.folded_by_springs <= problem_.tolerated_folds)
             solution = polished(std::move(solution), mean_edge(proxy.mesh.patch, proxy.mesh.points));
         seconds["polish"] = watch_.lap();
         solution.initial_residual = largest_residual(coarse, start, outer_residual(coarse, start));
@@ -66,31 +69,38 @@ private:
         const std::size_t coarsest = levels_.coarsest();
         const Problem& coarse = levels_.problem(coarsest);
         for (std::size_t k = coarsest + 1; k-- > 0;) levels_.set_up_tangential(k, progress_);
-        std::vector<Placement> starts;
-        if (own) starts.push_back(by_surface(coarse, *own, proxy.mesh.patch, target));
-        starts.push_back(by_history(coarse, proxy.history, proxy.mesh, target));
-        const Placement& start = least_folded(starts, target);
-        Placed best = spread(start, target);
+        std::vector<Start> starts;
+        if (own) starts.push_back(start_from(by_surface(coarse, *own, proxy.mesh.patch, target), target));
+        starts.push_back(start_from(by_history(coarse, proxy.history, proxy.mesh, target), target));
+        Start& start = least_folded(starts, target);
+        Placed best = spread(std::move(start.settled), target);
         if (best.folded.empty() || !proxy.converged()) return best;
-        Placed other = unfolded(start, target);
+        Placed other = unfolded(std::move(start.raw), target);
         other.folded_by_springs = best.folded_by_springs;
         return other.folded.size() < best.folded.size() ? std::move(other) : std::move(best);
     }
 
+    // The coarsest level's vertices.
+    struct Start {
+        Placement raw;
+        Placement settled;  // by springs
+    };
+
+    Start start_from(Placement raw, const TargetSurface& target) {
+        Placement settled = raw;
+        slide(levels_.coarsest(), target, settled);
+        return {std::move(raw), std::move(settled)};
+    }
+
     // A start on the wrong sheet leaves many folds.
-    [[nodiscard]] const Placement& least_folded(const std::vector<Placement>& starts, const TargetSurface& target) {
+    Start& least_folded(std::vector<Start>& starts, const TargetSurface& target) {
         const Problem& coarse = levels_.problem(levels_.coarsest());
-        const auto folds = [&](const Placement& start) {
-            Placement settled = start;
-            slide(levels_.coarsest(), target, settled);
-            return folds_of_placement(coarse, target, settled).size();
-        };
+        const auto folds = [&](const Start& start) { return folds_of_placement(coarse, target, start.settled).size(); };
         if (starts.size() == 1) return starts.front();
         return folds(starts[0]) <= folds(starts[1]) ? starts[0] : starts[1];
     }
 
     Placed spread(Placement placement, const TargetSurface& target) {
-        slide(levels_.coarsest(), target, placement);
         for (std::size_t k = levels_.coarsest(); k-- > 0;) {
             placement = on_finer_level(k, placement, target);
             slide(k, target, placement);
@@ -163,7 +173,11 @@ private:
 
 std::optional<Solution> solve_on_coarse_proxy(const Problem& problem, const std::optional<OwnSurface>& guess,
                                               const Progress& progress) {
-    return CoarseProxySolve(problem, progress).run(guess);
+    return CoarseProxySolve(problem, progress).run(guess, Polish::wanted);
+}
+
+std::optional<Solution> place_on_coarse_proxy(const Problem& problem, const Progress& progress) {
+    return CoarseProxySolve(problem, progress).run(std::nullopt, Polish::unwanted);
 }
 
 }  // namespace fairing

@@ -4,7 +4,9 @@
 #include <numbers>
 #include <random>
 
+#include "meshes.h"
 #include "outline/bad_outline.h"
+#include "outline/eased_outline.h"
 #include "outline/mended_outline.h"
 #include "outline/normal_filter.h"
 #include "outline/visible_join.h"
@@ -232,4 +234,77 @@ TEST_CASE("mended: no triangle turns over, vertices that would turn one are held
         held += mended.held.size();
     }
     CHECK(held > 0);
+}
+
+namespace {
+
+// The outline of a square grid bent into a disc, its vertices evenly round a circle.
+struct Ring {
+    test::Single single;
+    Indices loop;  // fixed vertices from the first one on
+
+    explicit Ring(int n) : single(test::single_patch(test::grid(n, 0.0, test::flat))), loop(patch().loops().front()) {
+        for (int& v : loop) v -= patch().free_count;
+    }
+    [[nodiscard]] const Patch& patch() const { return single.patch(); }
+
+    // Radius r and height z by the angle, normals that lean outwards by 0.5.
+    template <typename Radius, typename Height>
+    [[nodiscard]] OutlineData data(const Radius& r, const Height& z) const {
+        const auto count = static_cast<Eigen::Index>(loop.size());
+        OutlineData result{Points::Zero(3, count), Points::Zero(3, count)};
+        for (Eigen::Index k = 0; k < count; ++k) {
+            const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(count);
+            const Vector3 out(std::cos(angle), std::sin(angle), 0.0);
+            result.points.col(loop[at(k)]) = r(angle) * out + z(angle) * Vector3::UnitZ();
+            result.normals.col(loop[at(k)]) = (0.5 * out + Vector3::UnitZ()).normalized();
+        }
+        return result;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("eased: curvature does not vary along a circle of a sphere or a cone; a zigzag varies the more the finer") {
+    const auto zigzag = [](const Ring& ring) {
+        const double count = static_cast<double>(ring.loop.size());
+        const double edge = 2.0 * std::numbers::pi / count;
+        return ring.data([](double) { return 1.0; }, [&](double a) { return 0.1 * edge * std::cos(0.5 * count * a); });
+    };
+    const Ring coarse(8);
+    const Ring fine(16);
+    const OutlineData circle = coarse.data([](double) { return 1.0; }, [](double) { return 0.0; });
+    CHECK(outline_variation(coarse.patch(), circle) < 1e-20);
+    // ⟨n_i + n_j, e⟩ is 0.2 edges times 2 n_z, both ways, over the fourth power of nearly an edge; n of them.
+    const double ratio =
+        outline_variation(fine.patch(), zigzag(fine)) / outline_variation(coarse.patch(), zigzag(coarse));
+    CHECK(ratio == doctest::Approx(8.0).epsilon(0.02));
+    OutlineData scaled = zigzag(coarse);
+    scaled.points *= 2.0;
+    CHECK(outline_variation(coarse.patch(), scaled) ==
+          doctest::Approx(outline_variation(coarse.patch(), zigzag(coarse)) / 4.0));
+}
+
+TEST_CASE("eased: waves of sixteen vertices are halved, a circle keeps its radius, normals stand on the outline") {
+    const Ring ring(32);  // 128 vertices
+    const double height = 0.01;
+    const OutlineData wavy =
+        ring.data([](double) { return 1.0; }, [&](double angle) { return height * std::cos(8.0 * angle); });
+    const OutlineData eased = eased_outline(ring.patch(), wavy, 16.0);
+    CHECK(eased.points.row(2).maxCoeff() == doctest::Approx(0.5 * height).epsilon(1e-9));
+    CHECK(eased.points.topRows(2).colwise().norm().minCoeff() > 1.0 - 3e-4);  // (16/128)⁴
+    for (std::size_t k = 0; k < ring.loop.size(); ++k) {
+        const auto place = [&](std::size_t j) { return eased.points.col(ring.loop[j % ring.loop.size()]); };
+        const Vector3 along = place(k + 1) - place(k + ring.loop.size() - 1);
+        const Vector3 normal = eased.normals.col(ring.loop[k]);
+        CHECK(std::abs(normal.dot(along)) < 1e-12);
+        CHECK(normal.norm() == doctest::Approx(1.0));
+    }
+}
+
+TEST_CASE("eased: an outline of few vertices stays") {
+    const Ring ring(4);  // 16 vertices
+    const OutlineData wavy =
+        ring.data([](double) { return 1.0; }, [](double angle) { return 0.1 * std::cos(5.0 * angle); });
+    CHECK(eased_outline(ring.patch(), wavy, 16.0).points == wavy.points);
 }

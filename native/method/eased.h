@@ -1,0 +1,20 @@
+// A surface over an eased outline, where none meets the outline as it is.
+#pragma once
+
+#include <optional>
+
+#include "base/progress.h"
+#include "problem/problem.h"
+#include "problem/solution.h"
+
+namespace fairing {
+
+// Whether curvature varies so much along the outline that noise or folds of the surroundings must be the cause.
+bool is_jagged(const Problem& problem);
+
+// The surface of the outline without its short waves, solved on a mesh of the engine's own, the vertices placed on it.
+// The outline itself stays; the rows of vertices next to it follow where it lies beside that surface. `Solution::eased`
+// tells how far that is. Nothing where that surface is not found either.
+std::optional<Solution> solve_eased(const Problem& problem, const Progress& progress);
+
+}  // namespace fairing

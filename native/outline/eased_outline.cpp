@@ -1,0 +1,77 @@
+#include "outline/eased_outline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/SparseCholesky>
+
+#include "linear/elimination.h"
+
+namespace fairing {
+
+namespace {
+
+// 1 + μ δ²ᵀ δ² of a closed run, δ² x_i = x_{i−1} − 2 x_i + x_{i+1}. A wave of w vertices shrinks by
+// 1 + 16 μ sin⁴(π/w).
+SparseMatrix low_pass(int count, double wave) {
+    const double stiffness = 1.0 / (16.0 * std::pow(std::sin(std::numbers::pi / wave), 4));
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int k = 0; k < count; ++k) {
+        entries.emplace_back(k, k, -2.0);
+        entries.emplace_back(k, (k + 1) % count, 1.0);
+        entries.emplace_back(k, (k + count - 1) % count, 1.0);
+    }
+    SparseMatrix differences(count, count);
+    differences.setFromTriplets(entries.begin(), entries.end());
+    SparseMatrix result = stiffness * SparseMatrix(differences.transpose() * differences);
+    for (int k = 0; k < count; ++k) result.coeffRef(k, k) += 1.0;
+    return result;
+}
+
+// Unit vectors at right angles to the chords of a closed run's neighbours; `otherwise` where nothing is left.
+Points across(const Points& curve, const Points& normals, const Points& otherwise) {
+    constexpr double least = 1e-3;
+    const Eigen::Index count = curve.cols();
+    Points result = otherwise;
+    for (Eigen::Index k = 0; k < count; ++k) {
+        const Vector3 along = (curve.col((k + 1) % count) - curve.col((k + count - 1) % count)).stableNormalized();
+        const Vector3 n = normals.col(k) - normals.col(k).dot(along) * along;
+        if (n.norm() > least) result.col(k) = n.normalized();
+    }
+    return result;
+}
+
+}  // namespace
+
+double outline_variation(const Patch& patch, const OutlineData& outline) {
+    constexpr double least = 1e-24;  // of a squared edge, squared
+    double sum = 0.0;
+    for (const Indices& loop : patch.loops()) {
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            const int a = loop[k] - patch.free_count;
+            const int b = loop[(k + 1) % loop.size()] - patch.free_count;
+            const Vector3 edge = outline.points.col(b) - outline.points.col(a);
+            const double turn = (outline.normals.col(a) + outline.normals.col(b)).dot(edge);
+            sum += 36.0 * turn * turn / std::max(edge.squaredNorm() * edge.squaredNorm(), least);
+        }
+    }
+    return sum;
+}
+
+OutlineData eased_outline(const Patch& patch, const OutlineData& outline, double wave) {
+    OutlineData result = outline;
+    for (Indices loop : patch.loops()) {
+        if (static_cast<double>(loop.size()) <= wave) continue;
+        for (int& v : loop) v -= patch.free_count;
+        const Eigen::SimplicialLDLT<SparseMatrix> factor(low_pass(static_cast<int>(loop.size()), wave));
+        const Points given = outline.normals(Eigen::all, loop);
+        const Points points = factor.solve(outline.points(Eigen::all, loop).transpose()).transpose();
+        const Points normals = factor.solve(given.transpose()).transpose();
+        result.points(Eigen::all, loop) = points;
+        result.normals(Eigen::all, loop) = across(points, normals, given);
+    }
+    return result;
+}
+
+}  // namespace fairing

@@ -1,0 +1,69 @@
+"""Large patches whose outline is too jagged to be met: the surface follows the smoothed outline."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import fairing
+import measures
+import shapes
+from solving import codes
+
+ROWS = 3  # of free vertices that follow the outline
+
+
+def rough_cap(edges: float, radians: float, seed: int) -> shapes.Patch:
+    """A half sphere whose outline is moved by so many edges at random and whose normals turn."""
+    cap = shapes.cap(2500)
+    rng = np.random.default_rng(seed)
+    vertices, count = cap.vertices.copy(), len(cap.fixed)
+    edge = 2 * np.pi / count
+    vertices[cap.fixed] += edges * edge * rng.normal(size=(count, 3)) / np.sqrt(3)
+    normals = cap.fixed_normals + radians * rng.normal(size=(count, 3)) / np.sqrt(3)
+    return replace(cap, vertices=vertices, fixed_normals=normals / np.linalg.norm(normals, axis=1)[:, None])
+
+
+def faired(cap: shapes.Patch) -> fairing.FairResult:
+    return fairing.fair(cap.vertices, cap.triangles, fixed=cap.fixed, fixed_normals=cap.fixed_normals, threads=1)
+
+
+def rows_from_outline(cap: shapes.Patch) -> np.ndarray:
+    """Edges to the next fixed vertex, at most ROWS + 1."""
+    return np.asarray(sum(measures.beyond_rings(cap.triangles, cap.fixed, k).astype(int) for k in range(ROWS + 1)))
+
+
+@pytest.mark.parametrize("seed", [0, 2])
+def test_noise_that_no_surface_meets_is_passed_by(seed: int) -> None:
+    cap = rough_cap(0.8, 1.0, seed)
+    result = faired(cap)
+    assert result.converged
+    assert not result.polished
+    assert [name for name, _ in result.way] == ["nested", "proxy", "eased"]
+    assert (result.vertices[cap.fixed] == cap.vertices[cap.fixed]).all()
+    (warning,) = (told for told in result.warnings if told.code == "NO_SOLUTION")
+    assert result.equation == "harmonic"
+    edge = 2 * np.pi / len(cap.fixed)
+    assert 0.5 * edge < warning.figures["distance"] < 3 * edge
+    inside = result.vertices[rows_from_outline(cap) > ROWS]
+    assert np.abs(np.linalg.norm(inside, axis=1) - 1).max() < 0.15
+    flipped = fairing.flipped_triangles(result.vertices, cap.triangles, fixed=cap.fixed)
+    assert (rows_from_outline(cap)[cap.triangles[flipped]].min(axis=1) == 0).all()
+
+
+def test_its_rows_lead_from_the_outline_to_the_surface() -> None:
+    """Vertices next to the outline move towards it, with the noise halved from row to row."""
+    cap = rough_cap(0.8, 1.0, 0)
+    result = faired(cap)
+    row = rows_from_outline(cap)
+    beside = np.abs(np.linalg.norm(result.vertices, axis=1) - 1)
+    assert beside[row == 1].std() > 1.3 * beside[row == 3].std()
+
+
+def test_an_outline_that_can_be_met_is() -> None:
+    result = faired(rough_cap(0.25, 0.3, 0))
+    assert result.converged
+    assert "eased" not in dict(result.way)
+    assert "NO_SOLUTION" not in codes(result)
