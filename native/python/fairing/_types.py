@@ -120,8 +120,8 @@ class FairResult:
 
     "warm" starts from the last answer, "nested" goes from coarse to fine, "direct" stays on the mesh given, "proxy"
     takes a mesh of the engine's own, "even" and "uniform" take uniform weights first or only. "minimal", "variation",
-    "loft" and "paper" belong to the surfaces and the method of that name, "patient" is a direct solve with all iterations.
-    Several components follow each other."""
+    "loft" and "paper" belong to the surfaces and the method of that name, "patient" is a direct solve with all
+    iterations. Several components follow each other."""
     warnings: tuple[Diagnostic, ...]
     moved: IntArray = field(default_factory=lambda: np.empty(0, np.int32))
     """Fixed and outside vertices that ``outline="mended"``, ``feather`` or ``weights`` have moved, ascending."""
