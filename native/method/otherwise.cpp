@@ -83,6 +83,12 @@ bool is_better(const Problem& problem, const Solution& even, const Solution& fir
     return !(variation_energy(problem, first.points) <= variation_energy(problem, even.points));
 }
 
+// Whether a descent that did not end is nearer to what is wanted than a loft: an elbow of 150° off by a tenth.
+bool is_evener(const Problem& problem, const Solution& even, const Solution& loft) {
+    if (!crossing_triangles(problem.patch.triangles, even.points).empty()) return false;
+    return variation_energy(problem, even.points) < variation_energy(problem, loft.points);
+}
+
 Solution instead_of_bulb(const Problem& problem, Solution solution, const Progress& progress) {
     const double energy = variation_energy(problem, solution.points);
     if (!(energy > least_energy)) return solution;
@@ -106,7 +112,8 @@ Solution instead_of_failure(const Problem& problem, Solution solution, const Pro
     auto even = least_variation(problem, solution, joins ? most_to_join : HUGE_VAL, progress);
     if (even && is_answer(*even)) return std::move(*even);
     if (even) solution.ways = even->ways;
-    if (auto loft = lofted(problem, solution, progress)) return std::move(*loft);
+    if (auto loft = lofted(problem, solution, progress); loft && !(even && is_evener(problem, *even, *loft)))
+        return std::move(*loft);
     return even && is_better(problem, *even, solution) ? std::move(*even) : std::move(solution);
 }
 

@@ -13,7 +13,7 @@ namespace fairing {
 
 namespace {
 
-constexpr double least_stream = 0.02;  // of the typical |∇u|²: below, no direction is known
+constexpr double least_stream = 0.05;  // of the typical |∇u|²: below, ∇u is less and less of a direction
 constexpr double trusted_turn = 30.0;  // degrees between the normals at the ends of an outline edge
 constexpr double lost_turn = 60.0;
 constexpr double tiny = 1e-30;
@@ -73,7 +73,7 @@ Stiffness along_stream(const Patch& patch, const Stiffness& even, const Points& 
     Stiffness result = even;
     result.weights.setZero();
     for (int t = 0; t < patch.triangle_count(); ++t) {
-        const double directed = (1.0 - across) * squares[t] / (squares[t] + least_stream * typical + tiny);
+        const double directed = (1.0 - across) * std::min(1.0, squares[t] / (least_stream * typical + tiny));
         const Vector2 along = slopes.col(t).head<2>() / std::sqrt(squares[t] + tiny);
         const Eigen::Matrix2d tensor =
             directed * along * along.transpose() + (1.0 - directed) * Eigen::Matrix2d::Identity();
