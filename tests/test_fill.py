@@ -34,10 +34,23 @@ def test_a_hemisphere_comes_back(edges: int, bound: float) -> None:
     assert abs(result.mean_curvature + 1).max() < 60 * bound
 
 
-@pytest.mark.parametrize("half_angle", [20, 60, 75, 110, 130])
+@pytest.mark.parametrize("half_angle", [20, 60, 75, 110, 130, 150, 165])
 def test_caps_of_other_heights(half_angle: float) -> None:
     result = fairing.fill(*holes.bowl(48, half_angle))
     assert result.converged
+    assert abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 1e-4
+
+
+@pytest.mark.parametrize("stretch", [(1.0, 1.0, 1.6), (1.0, 1.0, 0.6), (0.7, 1.0, 1.3)])
+def test_what_bulges_out_far_is_found_although_it_is_no_ball(stretch: tuple[float, float, float]) -> None:
+    vertices, triangles = holes.bowl(48, 150)
+    result = fairing.fill(vertices * stretch, triangles)
+    assert (result.converged, result.equation, result.warnings) == (True, "harmonic", ())
+
+
+def test_a_ball_seen_from_inside_comes_back() -> None:
+    vertices, triangles = holes.bowl(48, 150)
+    result = fairing.fill(vertices, triangles[:, ::-1])
     assert abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 1e-4
 
 
