@@ -71,6 +71,7 @@ def _part(mesh: MeshArrays, faces: Mask, vertices: Mask) -> MeshArrays:
         hidden=None if mesh.hidden is None else mesh.hidden[faces],
         pinned=mesh.pinned[vertices],
         corner_normals=None if normals is None else normals[corners],
+        parts=None,
     )
 
 

@@ -44,6 +44,10 @@ def refuse_options(options: FairOptions) -> None:
     for wrong, text in (
         (options.detail > 0.0, "Keep Detail puts the old vertices' skin back: choose Mesh: Keep"),
         (options.feather > 0.0, "Feather moves faces around a mesh that stays: choose Mesh: Keep, or Feather 0"),
+        (
+            options.goes_by_weight,
+            "New vertices have no weights to go by: choose Mesh: Keep, or leave Factor Group empty",
+        ),
         (options.method != "GLOBAL", "Method: Multigrid keeps its mesh: choose Mesh: Keep"),
         (options.equation == "MINIMAL", "A soap film has no slopes to continue: choose Mesh: Keep"),
         (options.outline != "GIVEN", "Outline: Smooth moves vertices that a new mesh is held by: choose Mesh: Keep"),

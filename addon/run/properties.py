@@ -111,6 +111,10 @@ _PIN_SLOPES = (
     ("SMOOTH", "Smooth Through", "The surface runs through the edges with a slope that it finds"),
     ("AVERAGE", "Averaged", "Both sides take the mean slope of the old faces at the edge"),
 )
+_FACTOR_MASKS = (
+    ("IGNORED", "Ignored", "The mask of sculpt mode says nothing"),
+    ("USED", "Used", "What is masked goes all the way, what is half masked half of it, what is not masked stays"),
+)
 _OPEN_BORDERS = (
     ("HELD", "Held", "Open borders inside the selection stay where they are"),
     ("FAIRED", "Faired", "Open borders become fair curves, and the surface ends there as it likes"),
@@ -213,6 +217,18 @@ class FairProperties(SurfaceProperties):
         soft_max=0.5,
         step=1,
         precision=3,
+    )
+    factor_group: StringProperty(
+        name="Factor Group",
+        description="The weights of this vertex group say how much of the way each vertex goes, outside the selection "
+        "too, as far as weights lead on from it. Paint them to fade the change out",
+    )
+    factor_mask: EnumProperty(
+        name="Sculpt Mask",
+        description="Whether the mask of sculpt mode says how much of the way each vertex goes, outside the selection "
+        "too",
+        items=_FACTOR_MASKS,
+        default="IGNORED",
     )
     boundary_normals: EnumProperty(
         name="Tangent To",

@@ -22,6 +22,8 @@ DEFAULTS = {
     "detail": 0.0,
     "detail_size": 0.0,
     "feather": 0.0,
+    "factor_group": "",
+    "factor_mask": "IGNORED",
     "boundary_normals": "SURROUNDING",
     "continuity": "G1",
     "method": "GLOBAL",
@@ -52,6 +54,7 @@ CHOICES = {
     "outline": ["GIVEN", "MENDED"],
     "accept": ["USABLE", "ALL"],
     "mesh": ["KEEP", "NEW"],
+    "factor_mask": ["IGNORED", "USED"],
 }
 
 
