@@ -9,7 +9,6 @@ import numpy as np
 from .filling import FillOptions, Piece, worst
 from .report import MET, MISSED, Check, Report, angle_text
 from .verdict import GRADES, UNUSABLE, VISIBLE, NotUsable, Verdict
-from .words import counted
 
 Named = Sequence[tuple[str, list[Piece]]]
 
@@ -66,8 +65,8 @@ def _named_worst(named: Named) -> Verdict:
 
 def _checks(pieces: list[Piece], distortion: float) -> tuple[Check, ...]:
     faces = sum(len(piece.triangles) for piece in pieces)
-    surfaces = counted(len(pieces), "surface", "surfaces")
     return (
-        Check("New faces", f"{faces} in {surfaces}"),
+        Check("New faces", str(faces)),
+        *((Check("Surfaces", str(len(pieces))),) if len(pieces) > 1 else ()),
         *((Check("Texture distortion", f"{distortion:.1%}"),) if distortion else ()),
     )

@@ -38,9 +38,28 @@ def lifted_pin() -> int:
     """The plain with its pinned middle lifted."""
     scenes.hill()
     bpy.ops.object.mode_set(mode="OBJECT")
-    move(lambda points: points + [0.0, 0.0, 0.5] * (np.linalg.norm(points, axis=1, keepdims=True) < 1e-6))
+    move(lambda points: points + [0.0, 0.0, 0.3] * (np.linalg.norm(points, axis=1, keepdims=True) < 1e-6))
     chosen = np.linalg.norm(centres()[:, :2], axis=1) < 0.8
     return scenes.start(chosen)
+
+
+def lifted_curve(size: int = 60) -> int:
+    """A plain with a wavy line of edges, marked as a seam and lifted, inside the selection."""
+    scenes.clear()
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=size, y_subdivisions=size, size=3.0)
+    mesh = bpy.context.object.data
+    chosen = (np.abs(object_positions()[:, 0]) < 0.01) & (np.abs(object_positions()[:, 1]) < 0.52)
+    ends = np.array([edge.vertices[:] for edge in mesh.edges])
+    mesh.edges.foreach_set("use_seam", chosen[ends].all(axis=1))
+
+    def lifted(points: np.ndarray) -> np.ndarray:
+        y = points[chosen, 1]
+        points[chosen, 2] = 0.3
+        points[chosen, 0] += 0.2 * np.sin(6.0 * y)
+        return points
+
+    move(lifted)
+    return scenes.start(np.abs(centres()[:, :2]).max(axis=1) < 0.9)
 
 
 def cuff(around: int = 64) -> int:
@@ -51,7 +70,7 @@ def cuff(around: int = 64) -> int:
     random = np.random.default_rng(3)
     points = np.array([(0.8 * np.cos(a), 0.8 * np.sin(a), z) for z in heights for a in turns])
     upper = points[:, 2] > 0.02
-    points[upper] += random.normal(0.0, 0.03, (np.count_nonzero(upper), 3))
+    points[upper] += random.normal(0.0, 0.01, (np.count_nonzero(upper), 3))
     faces = [
         (k * around + j, k * around + (j + 1) % around, (k + 1) * around + (j + 1) % around, (k + 1) * around + j)
         for k in range(len(heights) - 1)

@@ -14,7 +14,14 @@ import bpy
 import numpy as np
 import scenes
 from driver import Story, click, in_view, middle, play, press, screenshot, tell, type_text, view
-from held_chapters import copies_fairly, fairs_an_open_border, feathers, holds_sharp_edges, lifts_a_pin
+from held_chapters import (
+    copies_fairly,
+    fairs_an_open_border,
+    feathers,
+    holds_sharp_edges,
+    lifts_a_pin,
+    runs_through_a_curve,
+)
 from live_chapters import live_finds_no_surface, live_follows_a_drag, live_follows_a_pin, live_moves_the_far_side
 from new_mesh_chapters import fills_finer, gets_a_new_mesh
 from panel import (
@@ -325,6 +332,7 @@ CHAPTERS = (
     fills_finer,
     gets_a_new_mesh,
     holds_sharp_edges,
+    runs_through_a_curve,
     lifts_a_pin,
     fairs_an_open_border,
     feathers,
