@@ -6,7 +6,7 @@ import numpy as np
 
 from .arrays import Ints, Mask
 from .outline import outline_edges, two_sided_edges
-from .region import MeshArrays, Patch
+from .region import MeshArrays, Patch, vertices_of
 
 RINGS = 4  # of outside faces handed to the engine's fit, which uses the nearest of them
 
@@ -25,16 +25,37 @@ def outside_triangles(mesh: MeshArrays, patch: Patch) -> Ints:
 def wide_outside(mesh: MeshArrays, patch: Patch, feather: float = 0.0) -> Ints:
     """Return those within a patch's size of it, which say what its surroundings are without their detail.
 
-    feather: width of a band around the patch, a share of its size; that much is added.
+    feather: width of a band around the patch, a share of its size; that much is added. What may go a part of the way
+    counts as part of the patch.
     """
     outside = _usable(mesh)
-    rim = mesh.positions[patch.vertices[patch.fixed]]
+    ends = np.union1d(patch.vertices[patch.fixed], np.flatnonzero(joined_by_weight(mesh, patch)))
+    rim = mesh.positions[ends]
     low, high = rim.min(axis=0), rim.max(axis=0)
     # No island is larger than twice the diagonal, as the engine measures its size.
     around = (high - low).max() + feather * 2.0 * np.linalg.norm(high - low)
     near = ((mesh.positions >= low - around) & (mesh.positions <= high + around)).all(axis=1)
     found: Ints = outside[near[outside].all(axis=1)]
     return found
+
+
+def joined_by_weight(mesh: MeshArrays, patch: Patch) -> Mask:
+    """Return the (n,) mask of the vertices to which edges lead from the patch over vertices that may go some way."""
+    reached = np.zeros(len(mesh.positions), dtype=bool)
+    if mesh.parts is None:
+        return reached
+    may_go = (mesh.parts > 0.0) & ~staying(mesh)
+    reached[patch.vertices] = may_go[patch.vertices]
+    edges = mesh.edges[may_go[mesh.edges].all(axis=1)]
+    count = -1
+    while count != (count := np.count_nonzero(reached)):
+        reached[edges[reached[edges].any(axis=1)]] = True
+    return reached
+
+
+def staying(mesh: MeshArrays) -> Mask:
+    """Return the (n,) mask of what no band moves: pinned vertices and those of hidden faces."""
+    return mesh.pinned if mesh.hidden is None else mesh.pinned | vertices_of(mesh, mesh.hidden)
 
 
 def _usable(mesh: MeshArrays) -> Ints:

@@ -6,38 +6,47 @@ import numpy as np
 
 import fairing
 
+from .around import joined_by_weight, staying
 from .arrays import Floats, Ints
 from .options import FairOptions
-from .region import MeshArrays, Patch, vertices_of
+from .region import MeshArrays, Patch
 
 
 def refuse_options(options: FairOptions) -> None:
     """Raise ValueError for options that a band can't have."""
+    without = "Feather 0" if options.feather > 0.0 else "no Factor Group and no Mask"
     for wrong, text in (
-        (options.outline != "GIVEN", "Outline: Smooth moves vertices of the band: choose As Selected, or Feather 0"),
-        (
-            options.joins_curvature,
-            "Join: Curvature holds the outline, which Feather moves: choose Tangent, or Feather 0",
-        ),
+        (options.outline != "GIVEN", "Outline: Smooth moves vertices of the band: choose As Selected"),
+        (options.joins_curvature, "Join: Curvature holds the outline, which the band moves: choose Tangent"),
     ):
-        if wrong and options.feather > 0.0:
-            raise ValueError(text)
+        if wrong and options.moves_band:
+            raise ValueError(f"{text}, or {without}")
 
 
 def band_weights(mesh: MeshArrays, patch: Patch, vertices: Ints, outside: Ints, feather: float) -> Floats | None:
     """Return (q,) from 0 to 1 for the mesh's `vertices` (q,), the patch's first: 1 inside, less and less in the band.
 
-    outside: (o, 3) triangles around the patch, in numbers of `vertices`; feather: a share of the patch's size.
-    None where nothing lies around the patch. Pinned vertices and those of hidden faces have 0: these stay. The engine
-    holds open borders itself.
+    outside: (o, 3) triangles around the patch, in numbers of `vertices`; feather: a share of the patch's size, 0 where
+    `mesh.parts` alone says how wide the band is. Where there are both, they are multiplied.
+    None where all of the patch goes all the way and nothing around it. Pinned vertices and those of hidden faces have
+    0: these stay. The engine holds open borders itself. Raises ValueError where nothing would move.
     """
+    parts = np.ones(len(vertices)) if mesh.parts is None else mesh.parts[vertices]
+    weights = _faded(mesh, patch, vertices, outside, feather) * parts
+    weights[staying(mesh)[vertices]] = 0.0
+    weights[patch.free] = parts[patch.free]
+    if not weights.any():
+        raise ValueError("Factor Group and Mask leave every vertex of the selection where it is: give some a weight")
+    beyond = np.ones(len(vertices), dtype=bool)
+    beyond[patch.free] = False
+    return None if (weights[patch.free] == 1.0).all() and not weights[beyond].any() else weights
+
+
+def _faded(mesh: MeshArrays, patch: Patch, vertices: Ints, outside: Ints, feather: float) -> Floats:
+    """Return (q,) what the band does without `mesh.parts`: it fades out, or ends where nothing has a part any more."""
+    if feather == 0.0:
+        return np.asarray(joined_by_weight(mesh, patch)[vertices], dtype=np.float64)
     if not np.isin(patch.triangles, outside).any():
-        return None
+        return np.zeros(len(vertices))
     points = mesh.positions[vertices]
-    weights = np.array(fairing.feather_weights(points, patch.triangles, outside, feather, fixed=patch.fixed))
-    stays = mesh.pinned.copy()
-    if mesh.hidden is not None:
-        stays |= vertices_of(mesh, mesh.hidden)
-    weights[stays[vertices]] = 0.0
-    weights[patch.free] = 1.0
-    return weights
+    return np.array(fairing.feather_weights(points, patch.triangles, outside, feather, fixed=patch.fixed))

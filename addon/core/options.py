@@ -18,6 +18,7 @@ OPEN_BORDERS = ("HELD", "FAIRED")
 OUTLINES = ("GIVEN", "MENDED")
 ACCEPT = ("USABLE", "ALL")
 MESHES = ("KEEP", "NEW")
+FACTOR_MASKS = ("IGNORED", "USED")
 LEAST_SPACING = 0.05  # of the outline's edges
 
 _CHOICES = {
@@ -33,6 +34,7 @@ _CHOICES = {
     "outline": OUTLINES,
     "accept": ACCEPT,
     "mesh": MESHES,
+    "factor_mask": FACTOR_MASKS,
 }
 
 
@@ -48,6 +50,8 @@ class FairOptions:
     detail: float = 0.0  # how much of the old patch's detail is put back, 0 … 1
     detail_size: float = 0.0  # what is shorter counts as detail: a part of the patch's size; 0: twelve edges
     feather: float = 0.0  # width of the band outside in which the change fades out: a part of the patch's size
+    factor_group: str = ""  # name of a vertex group whose weights scale the way of each vertex, outside too
+    factor_mask: str = "IGNORED"  # USED: the sculpt mask scales it
     boundary_normals: str = "SURROUNDING"
     continuity: str = "G1"  # G2: the curvature of the faces outside is continued, too
     method: str = "GLOBAL"
@@ -63,6 +67,7 @@ class FairOptions:
     accept: str = "USABLE"  # ALL: written whatever it is worth
     mesh: str = "KEEP"  # NEW: other vertices and triangles for the same surface
     spacing: float = 1.0  # of a new mesh, as a factor of the outline's edges
+    quads: bool = False  # a new mesh has quads, as far as pairs of triangles make some
 
     def __post_init__(self) -> None:
         for name, choices in _CHOICES.items():
@@ -126,7 +131,17 @@ class FairOptions:
     @property
     def takes_base(self) -> bool:
         """Whether the old shape is split into base and detail, which belong to its triangles."""
-        return self.detail > 0.0 or self.feather > 0.0
+        return self.detail > 0.0 or self.moves_band
+
+    @property
+    def goes_by_weight(self) -> bool:
+        """Whether each vertex has a part of the way of its own."""
+        return bool(self.factor_group) or self.factor_mask == "USED"
+
+    @property
+    def moves_band(self) -> bool:
+        """Whether vertices outside the selection take part."""
+        return self.feather > 0.0 or self.goes_by_weight
 
     def engine_arguments(self) -> dict[str, Any]:
         """Return the keyword arguments of `fairing.fair` that need no mesh; the options must be resolved."""

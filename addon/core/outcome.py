@@ -33,7 +33,7 @@ class Fairing:
     curvature: tuple[float, float]  # largest |H| inside and on the outline, in 1/length
     join: Join
     verdict: Verdict
-    free_count: int  # of `vertices`: the others belong to a mended outline or a band
+    free_count: int  # of the patch; `vertices` beyond it belong to a mended outline or a band
 
 
 def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solved) -> Fairing:
@@ -44,6 +44,8 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     problem, result = solved.problem, solved.result
     patch, before = problem.patch, problem.points
     moving = np.union1d(patch.free, result.moved).astype(np.int64)
+    if problem.weights is not None:
+        moving = moving[problem.weights[moving] > 0.0]  # the others keep their bits
     positions, warnings = _positions(mesh, matrix, options.factor, solved, moving)
     after = before.copy()
     after[moving] = positions @ matrix[:3, :3].T + matrix[:3, 3]

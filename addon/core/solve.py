@@ -98,7 +98,7 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
         normals, warnings = prescribed_normals(world, patch, options.boundary_normals, outside)
         curvatures = prescribed_curvatures(world, patch, outside) if options.joins_curvature else None
         vertices, around = numbered(patch, wound_alike(world, outside))
-        weights = band_weights(world, patch, vertices, around, options.feather) if options.feather > 0.0 else None
+        weights = band_weights(world, patch, vertices, around, options.feather) if options.moves_band else None
         precision = precision_note(mesh)
         notes = outline_notes(world) + ((precision,) if precision else ()) + mesh.notes
     problem = engine.Problem(patch, world.positions[vertices], normals, vertices, around, curvatures, weights)

@@ -1,12 +1,26 @@
-"""Numbers of the vertices as an attribute of the mesh."""
+"""Numbers of vertices and faces as attributes of the mesh."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import bmesh
 import bpy
 import numpy as np
 
 from ..core.arrays import Floats
+
+SCULPT_MASK, FACE_SET = ".sculpt_mask", ".sculpt_face_set"  # Blender's own names of what sculpt mode paints
+
+
+def values(mesh: bpy.types.Mesh, name: str, dtype: Any) -> Any:
+    """Return the values of an attribute of a mesh in object mode; None where there is none."""
+    attribute = mesh.attributes.get(name)
+    if attribute is None:
+        return None
+    found = np.empty(len(attribute.data), dtype=dtype)
+    attribute.data.foreach_get("value", found)
+    return found
 
 
 def write_attribute(mesh: bpy.types.Mesh, name: str, values: Floats) -> None:

@@ -18,6 +18,7 @@ from ..core.selection import enclosed_faces
 from ..core.symmetry import with_image
 from .columns import column, indices, stored
 from .marked_lines import lines
+from .weights import group_index, members, parts_of_the_way
 
 FEW = 8  # times as many vertices as were moved: normals of the whole mesh take longer than theirs, one by one
 
@@ -47,13 +48,13 @@ def read_edit_mesh(obj: bpy.types.Object, options: FairOptions, region: str = ""
     Raises ValueError where `options` name a vertex group that the object does not have.
     """
     with _snapshot(obj.data) as mesh:
-        group = _group_index(obj, options.pin_group)
+        group = group_index(obj, options.pin_group, "pin_group")
         if region:
             selected = column(mesh.attributes[region].data, "value", 1, np.int32).astype(bool)
             arrays = _arrays(mesh, selected, group, options)
         else:
             arrays = _selected(mesh, group, options)
-        arrays = replace(arrays, mirror_x=obj.data.use_mirror_x)
+        arrays = replace(arrays, mirror_x=obj.data.use_mirror_x, parts=parts_of_the_way(mesh, obj, options))
         return arrays if region else with_image(arrays)
 
 
@@ -138,21 +139,14 @@ def read_mesh(mesh: bpy.types.Mesh, faces: Ints, options: FairOptions) -> MeshAr
     if faces.size and not 0 <= faces.min() <= faces.max() < len(selected):
         raise IndexError(f"faces: expected polygon indices below {len(selected)}")
     selected[faces] = True
-    group = _group_index(user_of(mesh), options.pin_group) if options.pin_group else None
-    return replace(_arrays(mesh, selected, group, options), mirror_x=mesh.use_mirror_x)
+    user = user_of(mesh)
+    arrays = _arrays(mesh, selected, group_index(user, options.pin_group, "pin_group"), options)
+    return replace(arrays, mirror_x=mesh.use_mirror_x, parts=parts_of_the_way(mesh, user, options))
 
 
 def user_of(mesh: bpy.types.Mesh) -> bpy.types.Object | None:
     """Return an object that shows the mesh: vertex groups have their names there."""
     return next((obj for obj in bpy.data.objects if obj.data == mesh), None)
-
-
-def _group_index(obj: bpy.types.Object | None, name: str) -> int | None:
-    if not name:
-        return None
-    if obj is None or name not in obj.vertex_groups:
-        raise ValueError(f"pin_group: there is no vertex group named {name!r}")
-    return int(obj.vertex_groups[name].index)
 
 
 def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: FairOptions) -> MeshArrays:
@@ -198,7 +192,7 @@ def _pinned(arrays: MeshArrays, mesh: bpy.types.Mesh, group: int | None, options
     if group is None:
         return replace(arrays, pinned=pinned)
     touched = np.unique(arrays.corner_vertices[arrays.in_patch[arrays.corner_faces]])
-    pins = _members(mesh, np.arange(len(pinned)) if options.feather > 0.0 else touched, group)
+    pins = members(mesh, np.arange(len(pinned)) if options.moves_band else touched, group)
     pinned[pins] = True
     if not len(touched) or free_vertices(arrays)[pins].any():
         return replace(arrays, pinned=pinned)
@@ -233,15 +227,6 @@ def _marked_edges(mesh: bpy.types.Mesh, kind: str) -> Mask:
         return np.zeros(len(mesh.edges), dtype=bool)
     positive: Mask = column(crease.data, "value", 1, np.float32) > 0.0
     return positive
-
-
-def _members(mesh: bpy.types.Mesh, vertices: Ints, group: int) -> list[int]:
-    """Return those of the vertices that are in the vertex group with a weight above zero."""
-    return [
-        vertex
-        for vertex in vertices.tolist()
-        if any(e.group == group and e.weight > 0.0 for e in mesh.vertices[vertex].groups)
-    ]
 
 
 def write_edit_mesh(mesh: bpy.types.Mesh, vertices: Ints, positions: Floats) -> None:

@@ -2,26 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import bpy
 import numpy as np
 
 from ..core.arrays import Floats, Ints, Mask
+from .attributes import FACE_SET, SCULPT_MASK, values
 from .live_mesh import LAYER
 
-MASK, FACE_SET = ".sculpt_mask", ".sculpt_face_set"  # Blender's own names of what sculpt mode paints
 HALF = 0.5  # of the mask, from which on a vertex is masked
-
-
-def _values(mesh: bpy.types.Mesh, name: str, dtype: Any) -> Any:
-    """Return the values of an attribute; None where there is none."""
-    attribute = mesh.attributes.get(name)
-    if attribute is None:
-        return None
-    values = np.empty(len(attribute.data), dtype=dtype)
-    attribute.data.foreach_get("value", values)
-    return values
 
 
 def positions(mesh: bpy.types.Mesh) -> Floats:
@@ -44,25 +32,25 @@ def _faces_of(mesh: bpy.types.Mesh, vertices: Mask) -> Ints:
 
 def masked_faces(mesh: bpy.types.Mesh) -> Ints:
     """Return the faces that are masked by half or more at all corners."""
-    mask = _values(mesh, MASK, np.float32)
+    mask = values(mesh, SCULPT_MASK, np.float32)
     return np.empty(0, dtype=np.int64) if mask is None else _faces_of(mesh, mask >= HALF)
 
 
 def face_set(mesh: bpy.types.Mesh, number: int) -> Ints:
     """Return the faces of a face set."""
-    sets = _values(mesh, FACE_SET, np.int32)
+    sets = values(mesh, FACE_SET, np.int32)
     return np.empty(0, dtype=np.int64) if sets is None else np.flatnonzero(sets == number)
 
 
 def face_set_at(mesh: bpy.types.Mesh, face: int) -> int:
     """Return the number of the face set that a face is in; 0 without face sets."""
-    sets = _values(mesh, FACE_SET, np.int32)
+    sets = values(mesh, FACE_SET, np.int32)
     return 0 if sets is None else int(sets[face])
 
 
 def only_visible_face_set(mesh: bpy.types.Mesh) -> int:
     """Return the number of the face set that all visible faces are in; 0 where they are in several."""
-    sets = _values(mesh, FACE_SET, np.int32)
+    sets = values(mesh, FACE_SET, np.int32)
     if sets is None:
         return 0
     hidden = np.empty(len(mesh.polygons), dtype=bool)
@@ -82,5 +70,5 @@ def group_faces(obj: bpy.types.Object, name: str) -> Ints:
 
 def live_faces(mesh: bpy.types.Mesh) -> Ints:
     """Return the faces of the live region."""
-    region = _values(mesh, LAYER, np.int32)
+    region = values(mesh, LAYER, np.int32)
     return np.empty(0, dtype=np.int64) if region is None else np.flatnonzero(region)

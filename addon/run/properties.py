@@ -4,7 +4,9 @@
 No postponed annotations here: Blender reads them as property definitions.
 """
 
-from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
+from typing import Any
+
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from ..core.options import LEAST_SPACING
 
@@ -84,8 +86,7 @@ _OUTLINES = (
         "A noisy outline and two rings of faces around it are smoothed first, by a quarter of an edge at most",
     ),
 )
-SPACING = "Length of the new edges away from the outline, measured by the outline's edges. The surface stays the same"
-ACCEPT = (
+_ACCEPT = (
     ("USABLE", "Usable Results", "A result that folds, crosses itself or is none leaves the mesh as it was"),
     ("ALL", "All Results", "Whatever comes out is written"),
 )
@@ -110,13 +111,51 @@ _PIN_SLOPES = (
     ("SMOOTH", "Smooth Through", "The surface runs through the edges with a slope that it finds"),
     ("AVERAGE", "Averaged", "Both sides take the mean slope of the old faces at the edge"),
 )
+_FACTOR_MASKS = (
+    ("IGNORED", "Ignored", "The mask of sculpt mode says nothing"),
+    ("USED", "Used", "What is masked goes all the way, what is half masked half of it, what is not masked stays"),
+)
 _OPEN_BORDERS = (
     ("HELD", "Held", "Open borders inside the selection stay where they are"),
     ("FAIRED", "Faired", "Open borders become fair curves, and the surface ends there as it likes"),
 )
 
 
-class FairProperties:
+class SurfaceProperties:
+    """What both `mesh.fair_region` and `mesh.fair_fill` have, whose Shape lists EQUATIONS, too."""
+
+    spacing: FloatProperty(
+        name="Spacing",
+        description="Length of the new edges away from the outline, measured by the outline's edges. "
+        "The surface stays the same",
+        default=1.0,
+        min=LEAST_SPACING,
+        soft_min=0.25,
+        soft_max=4.0,
+        step=5,
+        precision=2,
+    )
+    quads: BoolProperty(
+        name="Quads",
+        description="New faces are quads, as far as pairs of triangles make some. None runs across a border of "
+        "materials or face sets",
+        default=False,
+    )
+    accept: EnumProperty(
+        name="Write",
+        description="Which results are written",
+        items=_ACCEPT,
+        default="USABLE",
+        options={"SKIP_SAVE"},
+    )
+
+
+def equation_property(items: tuple[tuple[str, str, str], ...]) -> Any:
+    """Return the property of the shape; items: those of EQUATIONS that are to be had."""
+    return EnumProperty(name="Shape", description="Which surface spans the outline", items=items, default="HARMONIC")
+
+
+class FairProperties(SurfaceProperties):
     """The properties of `mesh.fair_region`; names and defaults are those of options.FairOptions."""
 
     factor: FloatProperty(
@@ -127,12 +166,7 @@ class FairProperties:
         max=1.0,
         subtype="FACTOR",
     )
-    equation: EnumProperty(
-        name="Shape",
-        description="Which surface spans the outline",
-        items=EQUATIONS,
-        default="HARMONIC",
-    )
+    equation: equation_property(EQUATIONS)
     otherwise: EnumProperty(
         name="Otherwise",
         description="What to do where no surface of that shape fits the outlines",
@@ -183,6 +217,18 @@ class FairProperties:
         soft_max=0.5,
         step=1,
         precision=3,
+    )
+    factor_group: StringProperty(
+        name="Factor Group",
+        description="The weights of this vertex group say how much of the way each vertex goes, outside the selection "
+        "too, as far as weights lead on from it. Paint them to fade the change out",
+    )
+    factor_mask: EnumProperty(
+        name="Sculpt Mask",
+        description="Whether the mask of sculpt mode says how much of the way each vertex goes, outside the selection "
+        "too",
+        items=_FACTOR_MASKS,
+        default="IGNORED",
     )
     boundary_normals: EnumProperty(
         name="Tangent To",
@@ -258,26 +304,9 @@ class FairProperties:
         items=_OUTLINES,
         default="GIVEN",
     )
-    accept: EnumProperty(
-        name="Write",
-        description="Which results are written",
-        items=ACCEPT,
-        default="USABLE",
-        options={"SKIP_SAVE"},
-    )
     mesh: EnumProperty(
         name="Mesh",
         description="Whether the selected faces stay",
         items=_MESHES,
         default="KEEP",
-    )
-    spacing: FloatProperty(
-        name="Spacing",
-        description=SPACING,
-        default=1.0,
-        min=LEAST_SPACING,
-        soft_min=0.25,
-        soft_max=4.0,
-        step=5,
-        precision=2,
     )

@@ -14,7 +14,7 @@ def draw_options(layout: Any, options: Any, obj: bpy.types.Object, manager: Any)
     layout.prop(options, "factor")
     _draw_shape(_group(layout, "Shape"), options)
     _draw_vertices(_group(layout, "Vertices"), options)
-    _draw_detail(_group(layout, "Skin"), options)
+    _draw_detail(_group(layout, "Skin"), options, obj)
     _draw_outline(_group(layout, "At the Outline"), options, obj)
     # No collapsible layout panel: not every place that shows these options has them.
     opened = bool(getattr(manager, OPEN))
@@ -50,11 +50,14 @@ def _draw_vertices(group: Any, options: Any) -> None:
     row.active = new
     row.prop(options, "spacing")
     row = group.row()
+    row.active = new
+    row.prop(options, "quads")
+    row = group.row()
     row.active = not new  # new vertices lie evenly
     row.prop(options, "inner_fairness")
 
 
-def _draw_detail(group: Any, options: Any) -> None:
+def _draw_detail(group: Any, options: Any, obj: bpy.types.Object) -> None:
     group.prop(options, "detail", slider=True)
     row = group.row()
     row.active = options.detail > 0.0
@@ -62,6 +65,10 @@ def _draw_detail(group: Any, options: Any) -> None:
     row = group.row()
     row.active = options.mesh == "KEEP"
     row.prop(options, "feather", slider=True)
+    column = group.column(align=True)
+    column.active = options.mesh == "KEEP"
+    column.prop_search(options, "factor_group", obj, "vertex_groups")
+    column.prop(options, "factor_mask")
 
 
 def _draw_outline(group: Any, options: Any, obj: bpy.types.Object) -> None:

@@ -9,7 +9,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from core.arrays import Ints
+import fairing
+from core.arrays import Floats, Ints
 from core.options import FairOptions
 from core.outcome import Fairing, outcome
 from core.region import MeshArrays
@@ -110,6 +111,94 @@ def test_what_has_nothing_around_it_is_fair_without_a_band() -> None:
     assert np.array_equal(plain.vertices, soft.vertices)
 
 
+BY_GROUP = {"factor_group": "Soft"}  # `MeshArrays.parts` are its weights
+
+
+def weighed(parts: Floats) -> Fairing:
+    return fair(replace(swollen(), parts=parts), **BY_GROUP)
+
+
+def soft(reach: float) -> Floats:
+    """Weights that fall off around the middle, to 0 at this distance from it."""
+    away = np.linalg.norm(swollen().positions[:, :2], axis=1)
+    return np.asarray(np.clip(1.5 - 1.5 * away / reach, 0.0, 1.0))
+
+
+def test_weights_are_the_engines() -> None:
+    """Patch and band go as `fair(weights=…)` says; vertices without a weight keep their bits, inside too."""
+    mesh, parts = swollen(), soft(0.6)
+    done = weighed(parts)
+    problem = pose(replace(mesh, parts=parts), EYE, FairOptions(**BY_GROUP))[0]
+    patch = problem.patch
+    own = fairing.fair(
+        problem.points, patch.triangles, fixed=patch.fixed, fixed_normals=problem.normals, outside=problem.outside,
+        weights=parts[problem.vertices],
+    )  # fmt: skip
+    number = np.searchsorted(problem.vertices, done.vertices, sorter=np.argsort(problem.vertices))
+    assert np.array_equal(done.positions, own.vertices[np.argsort(problem.vertices)[number]])
+    assert np.array_equal(done.vertices, np.flatnonzero(parts > 0.0))
+    narrow = weighed(soft(0.3))
+    assert np.array_equal(narrow.vertices, np.flatnonzero(soft(0.3) > 0.0))
+    assert len(narrow.vertices) < len(fair(mesh).vertices)
+
+
+def test_a_weight_of_a_half_goes_half_the_way() -> None:
+    mesh = swollen()
+    half = np.where(soft(0.6) > 0.0, 0.5, 0.0)
+    part, whole = weighed(half), weighed(2.0 * half)
+    middle = 0.5 * (mesh.positions[whole.vertices] + whole.positions)
+    assert np.array_equal(part.vertices, whole.vertices)
+    # Both bases are blended, and what is left of the old skin, which lies still finer, is put back whole.
+    assert np.abs(part.positions - middle).max() < 0.05 * np.abs(whole.positions - mesh.positions[whole.vertices]).max()
+
+
+def test_all_the_way_inside_and_nothing_outside_is_as_without_weights() -> None:
+    mesh = swollen()
+    inside = np.zeros(len(mesh.positions))
+    inside[fair(mesh).vertices] = 1.0
+    assert pose(replace(mesh, parts=inside), EYE, FairOptions(**BY_GROUP))[0].weights is None
+    inside[fair(mesh).vertices[0]] = 0.99
+    assert pose(replace(mesh, parts=inside), EYE, FairOptions(**BY_GROUP))[0].weights is not None
+
+
+def test_weights_elsewhere_are_left_alone() -> None:
+    """Only what weights join to the selection takes part: not the other end of the group."""
+    apart = soft(0.5)
+    corner = np.linalg.norm(swollen().positions - swollen().positions[2 * (SIZE + 1) + 2], axis=1) < 0.06
+    assert corner.any()
+    assert not apart[corner].any()
+    with_corner = weighed(np.where(corner, 1.0, apart))
+    assert np.array_equal(with_corner.vertices, weighed(apart).vertices)
+    assert not np.isin(np.flatnonzero(corner), with_corner.vertices).any()
+
+
+def test_feather_and_weights_are_multiplied() -> None:
+    """So features in the band are painted out."""
+    mesh = swollen()
+    left = (mesh.positions[:, 0] < 0.0).astype(np.float64)
+    both = fair(replace(mesh, parts=left), feather=WIDTH, **BY_GROUP)
+    whole = fair(mesh, feather=WIDTH)
+    assert np.array_equal(both.vertices, whole.vertices[left[whole.vertices] > 0.0])
+
+
+def test_weights_that_move_nothing_are_refused() -> None:
+    with pytest.raises(ValueError, match="Factor Group and Mask leave every vertex"):
+        weighed(np.zeros(len(swollen().positions)))
+
+
+def test_weights_need_no_surroundings() -> None:
+    """All faces are selected: their border is the outline."""
+    mesh = replace(swollen(), in_patch=np.ones(SIZE * SIZE, dtype=bool))
+    whole = fair(mesh, inner_fairness="CONFORMAL")
+    half = np.full(len(mesh.positions), 0.5)
+    done = fair(replace(mesh, parts=half), inner_fairness="CONFORMAL", **BY_GROUP)
+    assert np.array_equal(done.vertices, whole.vertices)
+    moves = np.linalg.norm(done.positions - mesh.positions[done.vertices], axis=1).max()
+    assert moves == pytest.approx(
+        0.5 * np.linalg.norm(whole.positions - mesh.positions[whole.vertices], axis=1).max(), rel=0.1
+    )
+
+
 @pytest.mark.parametrize(
     ("options", "text"),
     [
@@ -120,6 +209,8 @@ def test_what_has_nothing_around_it_is_fair_without_a_band() -> None:
 def test_options_that_a_band_can_not_have_are_refused(options: dict[str, object], text: str) -> None:
     with pytest.raises(ValueError, match=f"^{text}.*Feather 0$"):
         fair(swollen(), feather=WIDTH, **options)
+    with pytest.raises(ValueError, match=f"^{text}.*no Factor Group and no Mask$"):
+        fair(replace(swollen(), parts=soft(0.6)), **BY_GROUP, **options)
 
 
 @pytest.mark.parametrize("value", [-0.1, float("nan"), float("inf")])

@@ -22,6 +22,8 @@ DEFAULTS = {
     "detail": 0.0,
     "detail_size": 0.0,
     "feather": 0.0,
+    "factor_group": "",
+    "factor_mask": "IGNORED",
     "boundary_normals": "SURROUNDING",
     "continuity": "G1",
     "method": "GLOBAL",
@@ -37,6 +39,7 @@ DEFAULTS = {
     "accept": "USABLE",
     "mesh": "KEEP",
     "spacing": 1.0,
+    "quads": False,
 }
 CHOICES = {
     "equation": ["HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION"],
@@ -51,6 +54,7 @@ CHOICES = {
     "outline": ["GIVEN", "MENDED"],
     "accept": ["USABLE", "ALL"],
     "mesh": ["KEEP", "NEW"],
+    "factor_mask": ["IGNORED", "USED"],
 }
 
 
@@ -60,7 +64,7 @@ def properties() -> Any:
 
 def test_operator_has_the_documented_properties() -> None:
     found = {p.identifier: p for p in properties() if p.identifier != "rna_type"}
-    assert list(found) == list(DEFAULTS)
+    assert found.keys() == DEFAULTS.keys()
     for name, default in DEFAULTS.items():
         assert found[name].default == pytest.approx(default)
         assert found[name].description

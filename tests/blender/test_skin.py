@@ -199,3 +199,86 @@ def test_what_feather_does_not_go_with_is_refused_in_words(options: dict[str, st
     with pytest.raises(RuntimeError, match=text):
         meshes.fair(obj, faces, feather=0.1, **options)
     assert meshes.contents(obj) == before
+
+
+def soft(obj: bpy.types.Object, begin: float, end: float) -> meshes.Floats:
+    """Weights by height: 0 below `begin`, 1 above `end`."""
+    return np.clip((meshes.positions(obj)[:, 2] - begin) / (end - begin), 0.0, 1.0).astype(np.float64)
+
+
+def paint_group(obj: bpy.types.Object, weights: meshes.Floats) -> None:
+    group = obj.vertex_groups.new(name="Soft")
+    for vertex, weight in enumerate(weights.tolist()):
+        if weight > 0.0:
+            group.add([vertex], weight, "REPLACE")
+
+
+def paint_mask(obj: bpy.types.Object, weights: meshes.Floats) -> None:
+    obj.data.attributes.new(".sculpt_mask", "FLOAT", "POINT").data.foreach_set("value", weights.astype(np.float32))
+
+
+def by_weights(way: str, **options: Any) -> tuple[meshes.Floats, meshes.Mask]:
+    """Run the operator with the same weights by a group, a mask, or half by each; places and what moved."""
+    obj, faces, _ = dented(32)
+    weights = soft(obj, 0.1, 0.5)
+    if way != "mask":
+        paint_group(obj, weights if way == "group" else np.sqrt(weights))
+    if way != "group":
+        paint_mask(obj, weights if way == "mask" else np.sqrt(weights))
+    chosen = {"factor_group": "" if way == "mask" else "Soft", "factor_mask": "IGNORED" if way == "group" else "USED"}
+    changed = fair(obj, faces, **chosen, **options)
+    return meshes.positions(obj), changed
+
+
+def test_a_group_or_the_mask_says_how_far_each_vertex_goes() -> None:
+    """Outside too, and no bit where there is no weight. Group and mask are multiplied."""
+    start, faces, _ = dented(32)
+    weights = soft(start, 0.1, 0.5)
+    places, changed = by_weights("group")
+    assert np.array_equal(changed, weights > 0.0)
+    assert (changed & ~meshes.free_vertices(start, faces)).any()
+    for other in ("mask", "both"):
+        again, moved = by_weights(other)
+        assert np.array_equal(moved, changed)
+        assert np.abs(again - places).max() < 1e-6
+    half, _ = by_weights("group", factor=0.5)
+    assert half == pytest.approx(0.5 * (meshes.positions(start) + places), abs=1e-6)
+
+
+def test_scripts_name_the_group_too() -> None:
+    from bl_ext.user_default.intrinsic_fairing import fair_mesh
+
+    obj, faces, _ = dented(32)
+    paint_group(obj, soft(obj, 0.1, 0.5))
+    fair_mesh(obj.data, np.flatnonzero(faces), factor_group="Soft")
+    assert meshes.positions(obj) == pytest.approx(by_weights("group")[0], abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("options", "text"),
+    [
+        ({"factor_group": "Missing"}, "factor_group: there is no vertex group named 'Missing'"),
+        ({"factor_mask": "USED"}, "factor_mask: nothing is masked"),
+        ({"factor_group": "None"}, "leave every vertex of the selection where it is"),
+        ({"factor_group": "Soft", "outline": "MENDED"}, "Outline: Smooth"),
+        ({"factor_group": "Soft", "mesh": "NEW"}, "choose Mesh: Keep"),
+    ],
+)
+def test_weights_that_can_not_be_are_refused_in_words(options: dict[str, str], text: str) -> None:
+    obj, faces, _ = dented(32)
+    paint_group(obj, soft(obj, 0.1, 0.5))
+    obj.vertex_groups.new(name="None")
+    before = meshes.in_edit_mode_once(obj, faces)
+    with pytest.raises(RuntimeError, match=text):
+        meshes.fair(obj, faces, **options)
+    assert meshes.contents(obj) == before
+
+
+def test_the_soft_edge_of_a_mask_fades_out_what_is_masked() -> None:
+    """Fair Masked takes the faces from the same mask."""
+    obj, _, _ = dented(32)
+    weights = soft(obj, 0.1, 0.5)
+    paint_mask(obj, weights)
+    before = meshes.positions(obj)
+    assert bpy.ops.mesh.fair_masked(source="MASK", factor_mask="USED") == {"FINISHED"}
+    assert np.array_equal((meshes.positions(obj) != before).any(axis=1), weights > 0.0)

@@ -58,7 +58,7 @@ def solve_feathered(
 
     how: the width of the band as a share of D, or the weights (n,) themselves.
     """
-    if not len(around.rim):
+    if isinstance(how, float) and not len(around.rim):
         raise ValueError(
             "feather: a band needs the triangles outside: pass them as `outside`, or among the triangles with all "
             "their vertices in `fixed`"
