@@ -10,6 +10,7 @@ import numpy as np
 from .filling import FillOptions, Piece, worst
 from .report import MET, MISSED, Check, Report, angle_text
 from .verdict import GRADES, UNUSABLE, VISIBLE, NotUsable, Verdict
+from .words import counted
 
 Named = Sequence[tuple[str, list[Piece]]]
 
