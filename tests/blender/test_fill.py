@@ -517,7 +517,7 @@ def test_quads_carry_what_triangles_do() -> None:
             u = obj.data.uv_layers["Map"].uv[corner].vector[0]
             assert u == pytest.approx(0.5 + 0.4 * heat[obj.data.loops[corner].vertex_index], abs=1e-5)
     report = bpy.context.window_manager.fairing_report
-    assert {c.name: c.value for c in report.checks}["New faces"] == f"{len(counts)} in 1 surface"
+    assert {c.name: c.value for c in report.checks}["New faces"] == str(len(counts))
     triangles = open_sphere()
     dress(triangles)
     distortion = report.distortion
