@@ -106,7 +106,8 @@ def bad_outline(problem: Problem) -> Ints:
     """Return the mesh vertices of the outline whose surroundings say little about the surface; creases are meant."""
     rim = np.intersect1d(problem.patch.outline, problem.outside)
     found = fairing.bad_outline(problem.points, problem.outside, rim)
-    return problem.vertices[np.setdiff1d(found, problem.patch.creases)]
+    bad: Ints = problem.vertices[np.setdiff1d(found, problem.patch.creases)]
+    return bad
 
 
 @dataclass(frozen=True)
