@@ -231,6 +231,8 @@ def fair(
         return solve(boundary, faces, around.outside, None)
 
     mended = _arguments.choice("outline", outline, _options.OUTLINES) == "mended"
+    if mended:
+        _mending.refuse_creases(creases, around)
     parts = _feather.vertex_weights(weights, count)
     refused = {"reference": m0 is not None, "outline": mended, "continuity": joins}
     width = _feather.width(feather, parts, refused)
