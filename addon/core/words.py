@@ -178,6 +178,12 @@ WORDS: dict[str, tuple[Words, ...]] = {
             "No surface meets these jagged outlines: it follows them smoothly, and they lie up to {distance:.2g} beside it",
             when="distance",
         ),
+        Words(
+            "No fair surface fits these outlines: they were joined by a loft, with a kink at {n} outline vertex",
+            "No fair surface fits these outlines: they were joined by a loft, with a kink at {n} outline vertices",
+            when="kinks",
+        ),
+        Words("No fair surface fits these outlines: they were joined by a loft", when="loft"),
         Words("No harmonic surface fits these outlines: even curvature was used", when="harmonic"),
         Words("No surface of that shape fits these outlines: even curvature was used"),
     ),

@@ -40,9 +40,8 @@ public:
         add_warnings(answer.warnings);
         write_back(patch, answer);
         const Solution& solution = answer.solution;
-        if (solution.instead) result_.equation = Equation::least_variation;
-        if (solution.instead || (solution.eased > 0.0 && end_of(solution) == Termination::converged))
-            tell_of_no_solution(patch, answer);
+        if (solution.instead != Instead::nothing) add_instead(answer);
+        if (solution.eased > 0.0 && end_of(solution) == Termination::converged) tell_of_no_solution(answer);
         note_equation(answer.problem.options.equation);
         result_.residual = std::max(result_.residual, solution.residual);
         result_.initial_residual = std::max(result_.initial_residual, solution.initial_residual);
@@ -119,9 +118,14 @@ private:
         result_.equation = solved;
     }
 
-    void tell_of_no_solution(const Patch& patch, const ComponentAnswer& answer) {
-        const Equation equation = answer.problem.options.equation;
-        result_.warnings.push_back(no_solution(patch, answer.solution, equation, answer.unit.diameter));
+    void add_instead(const ComponentAnswer& answer) {
+        result_.equation = Equation::least_variation;
+        result_.lofted = result_.lofted || answer.solution.instead == Instead::loft;
+        tell_of_no_solution(answer);
+    }
+
+    void tell_of_no_solution(const ComponentAnswer& answer) {
+        result_.warnings.push_back(no_solution(answer.problem, answer.solution, answer.unit.diameter));
     }
 
     void add_failure(Termination end, const Diagnostics& failures) {
