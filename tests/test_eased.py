@@ -22,8 +22,9 @@ def rough_cap(edges: float, radians: float, seed: int) -> shapes.Patch:
     vertices, count = cap.vertices.copy(), len(cap.fixed)
     edge = 2 * np.pi / count
     vertices[cap.fixed] += edges * edge * rng.normal(size=(count, 3)) / np.sqrt(3)
-    normals = cap.fixed_normals + radians * rng.normal(size=(count, 3)) / np.sqrt(3)
-    return replace(cap, vertices=vertices, fixed_normals=normals / np.linalg.norm(normals, axis=1)[:, None])
+    normals = cap.normals.copy()
+    normals[cap.fixed] += radians * rng.normal(size=(count, 3)) / np.sqrt(3)
+    return replace(cap, vertices=vertices, normals=normals / np.linalg.norm(normals, axis=1)[:, None])
 
 
 def faired(cap: shapes.Patch) -> fairing.FairResult:
@@ -46,20 +47,25 @@ def test_noise_that_no_surface_meets_is_passed_by(seed: int) -> None:
     (warning,) = (told for told in result.warnings if told.code == "NO_SOLUTION")
     assert result.equation == "harmonic"
     edge = 2 * np.pi / len(cap.fixed)
-    assert 0.5 * edge < warning.figures["distance"] < 3 * edge
+    assert 0.25 * edge < warning.figures["distance"] < 1.5 * edge  # in diameters
     inside = result.vertices[rows_from_outline(cap) > ROWS]
-    assert np.abs(np.linalg.norm(inside, axis=1) - 1).max() < 0.15
+    assert np.abs(np.linalg.norm(inside, axis=1) - 1).max() < 0.2  # normals are off by a radian
     flipped = fairing.flipped_triangles(result.vertices, cap.triangles, fixed=cap.fixed)
     assert (rows_from_outline(cap)[cap.triangles[flipped]].min(axis=1) == 0).all()
 
 
-def test_its_rows_lead_from_the_outline_to_the_surface() -> None:
-    """Vertices next to the outline move towards it, with the noise halved from row to row."""
+def test_the_next_row_follows_half_as_far() -> None:
+    """How much the next row's radii rise with those of the outline's vertices that they touch."""
     cap = rough_cap(0.8, 1.0, 0)
-    result = faired(cap)
+    beside = np.linalg.norm(faired(cap).vertices, axis=1) - 1
     row = rows_from_outline(cap)
-    beside = np.abs(np.linalg.norm(result.vertices, axis=1) - 1)
-    assert beside[row == 1].std() > 1.3 * beside[row == 3].std()
+    ends = measures.edges(cap.triangles)
+    pairs = np.concatenate([ends, ends[:, ::-1]])
+    pairs = pairs[(row[pairs[:, 0]] == 1) & (row[pairs[:, 1]] == 0)]
+    counts = np.bincount(pairs[:, 0], minlength=len(row))
+    touched = np.bincount(pairs[:, 0], weights=beside[pairs[:, 1]], minlength=len(row)) / np.maximum(counts, 1)
+    slope = np.polyfit(touched[row == 1], beside[row == 1], 1)[0]
+    assert 0.4 < slope < 0.7
 
 
 def test_an_outline_that_can_be_met_is() -> None:

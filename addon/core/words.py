@@ -175,7 +175,7 @@ WORDS: dict[str, tuple[Words, ...]] = {
             "The surface asked for would be a bulb between these outlines: even curvature was used", when="variation"
         ),
         Words(
-            "No surface meets these jagged outlines: it follows them smoothly, and they lie up to {distance:.2g} beside it",
+            "No surface meets these jagged outlines: it follows them smoothly, up to {distance:.1%} of its size off",
             when="distance",
         ),
         Words(

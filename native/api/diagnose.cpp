@@ -13,6 +13,7 @@
 #include "geometry/flips.h"
 #include "geometry/outline_angles.h"
 #include "geometry/self_intersection.h"
+#include "method/eased.h"
 #include "pins/spread_pins.h"
 
 namespace fairing {
@@ -269,7 +270,7 @@ Indices kinks_of(const Problem& problem, const Solution& solution) {
 
 }  // namespace
 
-Diagnostic no_solution(const Problem& problem, const Solution& solution, double diameter) {
+Diagnostic no_solution(const Problem& problem, const Solution& solution) {
     const Patch& patch = problem.patch;
     const std::string free = counted(at(patch.free_count), "free vertex", "free vertices");
     const bool harmonic = problem.options.equation == Equation::harmonic;
@@ -277,9 +278,9 @@ Diagnostic no_solution(const Problem& problem, const Solution& solution, double 
     Figures figures{{"free_vertices", patch.free_count}};
     if (harmonic) figures["harmonic"] = 1.0;
     std::string text = "no " + name + " fits the outlines of a component of " + free;
-    if (solution.eased > 0.0) {
-        figures["distance"] = solution.eased * diameter;
-        return {Code::no_solution, text + " as they are; they stay beside a surface that follows them smoothly",
+    if (is_eased(solution)) {
+        figures["distance"] = eased_by(problem);
+        return {Code::no_solution, text + " as they are: it follows them smoothly, and they stay beside it",
                 Indices(free_vertices(patch).begin(), free_vertices(patch).end()), ElementKind::vertex, figures};
     }
     if (solution.variation_ratio > 0.0) {

@@ -40,8 +40,8 @@ void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& war
 // NO_SOLUTION: another surface was taken instead, with the free vertices. Figures: "free_vertices"; "harmonic", 1, for
 // that equation; for a bulb "variation", how many times as much its curvatures varied; for a loft "loft", 1, and where
 // it leaves the prescribed tangent planes by more than 20° "kinks", these outline vertices, which are the elements
-// then; for an eased outline "distance", how far it lies beside the surface, in the unit of `diameter` (D).
-Diagnostic no_solution(const Problem& problem, const Solution& solution, double diameter);
+// then; for an eased outline (method/eased) "distance", how far it lies beside the surface, in units of D.
+Diagnostic no_solution(const Problem& problem, const Solution& solution);
 
 // Triangles of a patch by the numbers that the caller knows.
 Indices input_numbers(const Patch& patch, Indices triangles);

@@ -12,6 +12,7 @@
 #include "base/stopwatch.h"
 #include "geometry/outline_angles.h"
 #include "method/accept.h"
+#include "method/eased.h"
 #include "outline/visible_join.h"
 
 namespace fairing {
@@ -41,7 +42,7 @@ public:
         write_back(patch, answer);
         const Solution& solution = answer.solution;
         if (solution.instead != Instead::nothing) add_instead(answer);
-        if (solution.eased > 0.0 && end_of(solution) == Termination::converged) tell_of_no_solution(answer);
+        if (is_eased(solution) && end_of(solution) == Termination::converged) tell_of_no_solution(answer);
         note_equation(answer.problem.options.equation);
         result_.residual = std::max(result_.residual, solution.residual);
         result_.initial_residual = std::max(result_.initial_residual, solution.initial_residual);
@@ -125,7 +126,7 @@ private:
     }
 
     void tell_of_no_solution(const ComponentAnswer& answer) {
-        result_.warnings.push_back(no_solution(answer.problem, answer.solution, answer.unit.diameter));
+        result_.warnings.push_back(no_solution(answer.problem, answer.solution));
     }
 
     void add_failure(Termination end, const Diagnostics& failures) {

@@ -6,6 +6,7 @@
 #include "geometry/flips.h"
 #include "geometry/outline_angles.h"
 #include "geometry/self_intersection.h"
+#include "method/eased.h"
 #include "problem/surface_state.h"
 
 namespace fairing {
@@ -69,7 +70,7 @@ Flaw flaw_of(const Problem& problem, Solution& solution) {
     }
     if (!solution.crosses) {
         if (!solution.crossings) solution.crossings = crossing_triangles(problem.patch.triangles, solution.points);
-        const bool eased = solution.eased > 0.0;
+        const bool eased = is_eased(solution);
         solution.bad_triangles = eased ? crossings_inside(problem.patch, solution.points) : *solution.crossings;
         if (!solution.bad_triangles.empty()) return Flaw::crossing;
     }

@@ -16,6 +16,8 @@ constexpr double wave = 16.0;  // vertices; 8 left regions of an ear and a cheek
 
 OutlineData outline_of(const Problem& problem) { return {problem.fixed_points, problem.fixed_normals}; }
 
+OutlineData eased_outline_of(const Problem& problem) { return eased_outline(problem.patch, outline_of(problem), wave); }
+
 // Of the neighbours one row nearer to the outline.
 Vector3 mean_move(const Patch& patch, const Points& moves, const Indices& row, int vertex) {
     Vector3 sum = Vector3::Zero();
@@ -87,7 +89,7 @@ bool is_jagged(const Problem& problem) {
 }
 
 std::optional<Solution> solve_eased(const Problem& problem, const Progress& progress) {
-    const OutlineData outline = eased_outline(problem.patch, outline_of(problem), wave);
+    const OutlineData outline = eased_outline_of(problem);
     Problem eased = problem;
     eased.fixed_points = outline.points;
     eased.fixed_normals = outline.normals;
@@ -95,10 +97,14 @@ std::optional<Solution> solve_eased(const Problem& problem, const Progress& prog
     if (!solution || solution->termination == Termination::stalled ||
         solution->termination == Termination::iteration_limit)
         return std::nullopt;
-    const Points offsets = problem.fixed_points - outline.points;
-    follow_outline(problem.patch, offsets, solution->points);
-    solution->eased = largest_length(offsets);
+    follow_outline(problem.patch, problem.fixed_points - outline.points, solution->points);
     return solution;
+}
+
+bool is_eased(const Solution& solution) { return !solution.ways.empty() && solution.ways.back().name == eased_way; }
+
+double eased_by(const Problem& problem) {
+    return largest_length(problem.fixed_points - eased_outline_of(problem).points);
 }
 
 }  // namespace fairing

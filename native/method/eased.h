@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "base/progress.h"
 #include "problem/problem.h"
@@ -9,12 +10,20 @@
 
 namespace fairing {
 
+inline constexpr std::string_view eased_way = "eased";
+
 // Whether curvature varies so much along the outline that noise or folds of the surroundings must be the cause.
 bool is_jagged(const Problem& problem);
 
 // The surface of the outline without its short waves, solved on a mesh of the engine's own, the vertices placed on it.
-// The outline itself stays; the rows of vertices next to it follow where it lies beside that surface. `Solution::eased`
-// tells how far that is. Nothing where that surface is not found either.
+// The outline itself stays; the rows of vertices next to it follow where it lies beside that surface. Nothing where
+// that surface is not found either.
 std::optional<Solution> solve_eased(const Problem& problem, const Progress& progress);
+
+// Whether a solution came that way.
+bool is_eased(const Solution& solution);
+
+// How far the outline lies beside the eased one at most, units of D.
+double eased_by(const Problem& problem);
 
 }  // namespace fairing

@@ -70,7 +70,6 @@ struct Solution {
     double last_step = 0.0;
     Instead instead = Instead::nothing;
     double variation_ratio = 0.0;  // of the bulb that it replaces, where it is one
-    double eased = 0.0;            // how far the outline lies beside the surface, units of D (method/eased)
     bool even_weights = false;     // uniform weights were taken instead of the problem's
     Join join = Join::tangent;
     Pins pins = Pins::absent;
