@@ -108,9 +108,11 @@ def suppress_cancel() -> Iterator[None]:
 
 
 def bad_outline(problem: Problem) -> Ints:
-    """Return the mesh vertices of the outline whose surroundings say little about the surface."""
+    """Return the mesh vertices of the outline whose surroundings say little about the surface; creases are meant."""
     rim = np.intersect1d(problem.patch.outline, problem.outside)
-    return problem.vertices[fairing.bad_outline(problem.points, problem.outside, rim)]
+    found = fairing.bad_outline(problem.points, problem.outside, rim)
+    bad: Ints = problem.vertices[np.setdiff1d(found, problem.patch.creases)]
+    return bad
 
 
 @dataclass(frozen=True)
