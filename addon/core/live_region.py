@@ -71,6 +71,7 @@ def _part(mesh: MeshArrays, faces: Mask, vertices: Mask) -> MeshArrays:
         hidden=None if mesh.hidden is None else mesh.hidden[faces],
         pinned=mesh.pinned[vertices],
         corner_normals=None if normals is None else normals[corners],
+        sample=None,
         parts=None,
     )
 
@@ -82,8 +83,7 @@ class LiveRegion:
         """Prepare for the patch of `mesh`; raises ValueError where it can't be faired."""
         options = options.resolved(mesh.textured)
         world = mesh.transformed(matrix)
-        # Conformal weights belong to the shape that the region has now, and so do its triangles.
-        patch = make_patch(world, even=options.inner_fairness != "CONFORMAL")
+        patch = make_patch(world, even=not options.keeps_triangles)
         self._around = surroundings(mesh, patch)
         self._options = options
         self._image = mirror_map(mesh, patch) if mesh.mirror_x else None

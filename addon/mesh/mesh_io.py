@@ -17,7 +17,7 @@ from ..core.region import MeshArrays, free_vertices
 from ..core.selection import enclosed_faces
 from ..core.symmetry import with_image
 from .marked_lines import lines
-from .weights import group_index, members, parts_of_the_way
+from .weights import group_index, members, weighed
 
 # Read and written as float32, which is what Blender stores; doubles in between.
 
@@ -63,7 +63,7 @@ def read_edit_mesh(obj: bpy.types.Object, options: FairOptions, region: str = ""
             arrays = _arrays(mesh, selected, group, options)
         else:
             arrays = _selected(mesh, group, options)
-        arrays = replace(arrays, mirror_x=obj.data.use_mirror_x, parts=parts_of_the_way(mesh, obj, options))
+        arrays = replace(weighed(arrays, mesh, obj, options), mirror_x=obj.data.use_mirror_x)
         return arrays if region else with_image(arrays)
 
 
@@ -150,7 +150,7 @@ def read_mesh(mesh: bpy.types.Mesh, faces: Ints, options: FairOptions) -> MeshAr
     selected[faces] = True
     user = user_of(mesh)
     arrays = _arrays(mesh, selected, group_index(user, options.pin_group, "pin_group"), options)
-    return replace(arrays, mirror_x=mesh.use_mirror_x, parts=parts_of_the_way(mesh, user, options))
+    return replace(weighed(arrays, mesh, user, options), mirror_x=mesh.use_mirror_x)
 
 
 def user_of(mesh: bpy.types.Mesh) -> bpy.types.Object | None:
