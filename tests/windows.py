@@ -29,10 +29,20 @@ class Window:
     def moving(self) -> IntArray:
         return np.setdiff1d(np.arange(len(self.vertices)), self.outline)
 
-    def noisy(self, amount: float, seed: int = 0) -> FloatArray:
-        """All that moves, thrown by a share of the mean edge along each axis (root mean square)."""
+    @property
+    def edge(self) -> float:
+        """Mean length of all edges; those of the border are about half as long."""
         ends = self.vertices[measures.edges(self.triangles)]
-        edge = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).mean()
+        return float(np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).mean())
+
+    @property
+    def border_edge(self) -> float:
+        loop = self.vertices[self.border]
+        return float(np.linalg.norm(np.roll(loop, -1, axis=0) - loop, axis=1).mean())
+
+    def noisy(self, amount: float, seed: int = 0, *, edge: float | None = None) -> FloatArray:
+        """All that moves, thrown by a share of an edge (the mean one) along each axis, root mean square."""
+        edge = self.edge if edge is None else edge
         result = self.vertices.copy()
         result[self.moving] += amount * edge * np.random.default_rng(seed).normal(size=(len(self.moving), 3))
         return result
@@ -47,6 +57,28 @@ class Window:
         loop = self.vertices[self.border]
         fine = np.concatenate([loop + s * (np.roll(loop, -1, axis=0) - loop) for s in np.linspace(0, 1, 9)[:-1]])
         return float(np.linalg.norm(vertices[self.border][:, None] - fine, axis=2).min(axis=1).max())
+
+    def least_squares(self, noisy: FloatArray) -> float:
+        """off_border of the best of the least-squares fits by 1 to 6 waves along each axis, put onto the exact surface.
+
+        Whoever picks the number of waves here knows the exact border. No choice from the noisy one alone can be relied
+        on to do better.
+        """
+        angle = 2 * np.pi * np.arange(len(self.border)) / len(self.border)
+        errors = []
+        for most in range(1, 7):
+            waves = np.column_stack([np.cos(k * angle) for k in range(most + 1)])
+            waves = np.hstack([waves, np.column_stack([np.sin(k * angle) for k in range(1, most + 1)])])
+            fit = waves @ np.linalg.lstsq(waves, noisy[self.border], rcond=None)[0]
+            points = self.vertices.copy()
+            points[self.border] = self.onto_surface(fit)
+            errors.append(self.off_border(points))
+        return min(errors)
+
+    def onto_surface(self, points: FloatArray) -> FloatArray:
+        """The nearest points of the exact surface."""
+        axes = points * ([1.0, 1.0, 0.0] if self.kind == "cylinder" else 1.0)
+        return np.asarray(points + axes * (1.0 / np.linalg.norm(axes, axis=1, keepdims=True) - 1.0))
 
 
 def window(kind: Kind, around: int, seed: int = 0, *, inner: float = 0.4, outer: float = 0.9) -> Window:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,6 +13,23 @@ from .verdict import GRADES, UNUSABLE, VISIBLE, NotUsable, Verdict
 from .words import counted
 
 Named = Sequence[tuple[str, list[Piece]]]
+
+
+@dataclass(frozen=True)
+class Added:
+    """What there is to tell about the new faces of one object."""
+
+    faces: int
+    seams: int  # outline vertices where UVs or other values of the two border faces differ: their mean counts
+    distortion: float  # area-weighted mean of the conformal distortion − 1 on the active UV map; 0 without one
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """A sentence for what is worth a look."""
+        if not self.seams:
+            return ()
+        text = counted(self.seams, "vertex of the outline lies", "vertices of the outline lie")
+        return (f"{text} on a seam of UVs or colours: new faces begin with the mean there",)
 
 
 def is_written(named: Named, options: FillOptions) -> bool:
@@ -26,14 +44,13 @@ def refuse_unusable(name: str, pieces: list[Piece], options: FillOptions) -> Non
         raise NotUsable(bad.verdict, bad.result)
 
 
-def make_fill_report(
-    named: Named, options: FillOptions, seconds: float, distortion: float = 0.0, notes: tuple[str, ...] = ()
-) -> Report:
-    """Sum up the surfaces of one run, by object name; distortion: of new faces on their UV map, 0 without one."""
+def make_fill_report(named: Named, options: FillOptions, seconds: float, added: Sequence[Added] = ()) -> Report:
+    """Sum up the surfaces of one run, by object name; added: what was written, if anything was."""
     pieces = [piece for _, of_object in named for piece in of_object]
     results = [piece.result for piece in pieces]
     joins = np.concatenate([np.empty(0), *(result.join for result in results)])
     join = (float(np.median(joins)), float(joins.max())) if len(joins) else (0.0, 0.0)
+    distortion = max((each.distortion for each in added), default=0.0)
     kink = Check(
         "Kink at the outline",
         f"{angle_text(join[0])}, at most {angle_text(join[1])}",
@@ -47,8 +64,9 @@ def make_fill_report(
         boundary_angle=max((float(result.boundary_angle.max(initial=0.0)) for result in results), default=0.0),
         distortion=distortion,
         seconds=seconds,
-        checks=(kink, *_checks(pieces, distortion)),
-        warnings=tuple(dict.fromkeys(note for piece in pieces for note in piece.notes)) + notes,
+        checks=(kink, *_checks(pieces, added, distortion)),
+        warnings=tuple(dict.fromkeys(note for piece in pieces for note in piece.notes))
+        + tuple(note for each in added for note in each.notes),
         verdict=_named_worst(named),
         written=is_written(named, options),
         join=join,
@@ -64,8 +82,8 @@ def _named_worst(named: Named) -> Verdict:
     return Verdict(verdict.grade, f"{name}: {verdict.reason}", verdict.spots)
 
 
-def _checks(pieces: list[Piece], distortion: float) -> tuple[Check, ...]:
-    faces = sum(len(piece.triangles) for piece in pieces)
+def _checks(pieces: list[Piece], added: Sequence[Added], distortion: float) -> tuple[Check, ...]:
+    faces = sum(each.faces for each in added) if added else sum(len(piece.triangles) for piece in pieces)
     surfaces = counted(len(pieces), "surface", "surfaces")
     return (
         Check("New faces", f"{faces} in {surfaces}"),

@@ -15,6 +15,7 @@ from .around import nearby
 from .arrays import Floats, Ints
 from .border import BorderRefusal
 from .engine import Progress, sub_range
+from .faces import Faces, faces_of, paired_faces
 from .findings import Origin
 from .harmonic import harmonic, nearest
 from .options import ACCEPT, LEAST_SPACING
@@ -33,6 +34,7 @@ class FillOptions:
     equation: str = "HARMONIC"
     bridge: bool = False  # all loops of an object are joined
     spacing: float = 1.0  # of new edges, as a factor of the outline's
+    quads: bool = False  # triangles are written in pairs, as far as they can be
     accept: str = "USABLE"  # ALL: written whatever it is worth
 
     def __post_init__(self) -> None:
@@ -59,7 +61,14 @@ class Piece:
     triangles: Ints  # (m, 3) in numbers of `points`, wound like the mesh
     verdict: Verdict
     result: fairing.FillResult
+    quads: bool = False  # whether triangles are written in pairs
     notes: tuple[str, ...] = field(default=())
+
+    def faces(self, kinds: Ints) -> Faces:
+        """Return what is written; kinds: (m,) of the triangles, only those of one kind are paired."""
+        if not self.quads:
+            return faces_of(self.triangles)
+        return paired_faces(self.points, self.triangles, np.empty((0, 2), dtype=np.int64), kinds)
 
     @property
     def outline(self) -> Ints:
@@ -134,6 +143,7 @@ def _piece(
         triangles=triangles[:, ::-1] if world.mirrored else triangles,
         verdict=_advised(judge(world, outline, (points, triangles), result), options, len(loops)),
         result=result,
+        quads=options.quads,
         notes=_notes(options, result),
     )
 

@@ -10,6 +10,7 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints, Mask
+from .faces import inner_edges
 from .region import MeshArrays, Patch
 
 Edge = tuple[int, int]
@@ -41,6 +42,7 @@ class NewPart:
     stay: Ints  # (r,)
     fixed_count: int  # of `stay`: those that don't move; the others are on lines
     triangles: Ints  # (m, 3)
+    lines: Ints  # (l, 2) edges that stay, or that part two triangles that would make an old quad again
     vertices: Stencil  # of vertices: at the k new ones
     corners: Stencil  # of corners: at the 3 m new ones, triangle after triangle
     faces: Ints  # (m,) each takes its material from
@@ -72,6 +74,7 @@ def new_part(mesh: MeshArrays, patch: Patch, result: fairing.RemeshResult, lines
         stay=patch.vertices[stay],
         fixed_count=len(fixed),
         triangles=numbered,
+        lines=np.concatenate([_wall_edges(numbered, stay, walls), _diagonals_of_old_quads(patch, numbered, stay)]),
         vertices=Stencil(patch.vertices[patch.triangles[origin[0]]], origin[1]),
         corners=Stencil(corner_of[places[0]], places[1]),
         faces=_face_sources(patch, numbered, len(stay), places[0]),
@@ -103,6 +106,27 @@ def _faces_that_stay(patch: Patch, triangles: Ints, gone: Ints) -> dict[tuple[in
     new = {tuple(corners) for corners in np.sort(triangles, axis=1).tolist()}
     old = zip(np.sort(patch.triangles[alone], axis=1).tolist(), patch.faces[alone].tolist(), strict=True)
     return {tuple(corners): face for corners, face in old if tuple(corners) in new}
+
+
+def _wall_edges(triangles: Ints, stay: Ints, walls: dict[Edge, int]) -> Ints:
+    """Return the (l, 2) sides of new triangles that are walls."""
+    between = [(a, b) for (a, b), _ in _sides(triangles) if a < len(stay) and b < len(stay)]
+    known = [(a, b) for a, b in between if (int(stay[a]), int(stay[b])) in walls]
+    return np.array(known, dtype=np.int64).reshape(-1, 2)
+
+
+def _diagonals_of_old_quads(patch: Patch, triangles: Ints, stay: Ints) -> Ints:
+    """Return the (d, 2) edges between new triangles that have the corners of one old quad: a mesh has it only once."""
+    order = np.argsort(patch.faces, kind="stable")
+    _, starts, counts = np.unique(patch.faces[order], return_index=True, return_counts=True)
+    pairs = starts[counts == 2]
+    old = np.concatenate([patch.triangles[order[pairs]], patch.triangles[order[pairs + 1]]], axis=1)
+    quads = {frozenset(corners) for corners in old.tolist()}
+    edges, sides = inner_edges(triangles)
+    corners = triangles[sides].reshape(-1, 6)
+    inside = np.flatnonzero((corners < len(stay)).all(axis=1))
+    again = [row for row in inside.tolist() if frozenset(stay[corners[row]].tolist()) in quads]
+    return edges[again]
 
 
 def _sides(triangles: Ints) -> Iterator[tuple[Edge, int]]:

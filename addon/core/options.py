@@ -69,6 +69,7 @@ class FairOptions:
     accept: str = "USABLE"  # ALL: written whatever it is worth
     mesh: str = "KEEP"  # NEW: other vertices and triangles for the same surface
     spacing: float = 1.0  # of a new mesh, as a factor of the outline's edges
+    quads: bool = False  # a new mesh has quads, as far as pairs of triangles make some
 
     def __post_init__(self) -> None:
         for name, choices in _CHOICES.items():

@@ -11,6 +11,7 @@ import fairing
 from . import quality
 from .arrays import Floats, Ints
 from .engine import Problem, Progress
+from .faces import Faces, faces_of, paired_faces
 from .findings import Origin
 from .lines import inner_lines
 from .new_part import NewPart, new_part
@@ -28,6 +29,14 @@ class Remeshed(Fairing):
 
     part: NewPart
     new_positions: Floats  # (k, 3) of the new vertices, in the mesh's own coordinates
+    points: Floats  # (r + k, 3) of all vertices of the part, in world space
+    quads: bool  # whether triangles are written in pairs
+
+    def faces(self, kinds: Ints) -> Faces:
+        """Return what is written; kinds: (m,) of the triangles, only those of one kind are paired."""
+        if not self.quads:
+            return faces_of(self.part.triangles)
+        return paired_faces(self.points, self.part.triangles, self.part.lines, kinds)
 
 
 def refuse_options(options: FairOptions) -> None:
@@ -58,8 +67,9 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
     problem, warnings = pose(mesh, matrix, options)
     result = _solved(problem, mesh.edges[lines], options, progress)
     part = new_part(mesh, problem.patch, result, lines)
-    after = _new_problem(problem, part, result)
-    before = _places_before(problem, part)
+    place = _places(problem)
+    after = _new_problem(problem, part, result, place)
+    before = np.concatenate([place[part.stay], part.vertices.mean(place)])
     points = before + options.factor * (after.own_points - before)
     measured = quality.measure(problem.patch, problem.own_points), quality.measure(after.patch, points)
     own = replace(after, points=np.concatenate([points, after.points[len(points) :]]))
@@ -82,6 +92,8 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
         free_count=len(points) - part.fixed_count,
         part=_wound_back(part) if mesh.transformed(matrix).mirrored else part,
         new_positions=local[stay:],
+        points=points,
+        quads=options.quads,
     )
 
 
@@ -120,26 +132,25 @@ def _spacing(problem: Problem, options: FairOptions) -> float:
     return options.spacing * float(np.linalg.norm(np.concatenate(edges), axis=1).mean())
 
 
-def _places_before(problem: Problem, part: NewPart) -> Floats:
-    """Return (r + k, 3): where the vertices of the new part lie on the old one."""
-    world = np.zeros((int(problem.vertices.max()) + 1, 3))
-    world[problem.vertices] = problem.points
-    return np.concatenate([world[part.stay], part.vertices.mean(world)])
+def _places(problem: Problem) -> Floats:
+    """Return the problem's points by their numbers in the mesh; 0 for all others."""
+    place = np.zeros((int(problem.vertices.max()) + 1, 3))
+    place[problem.vertices] = problem.points
+    return place
 
 
-def _new_problem(problem: Problem, part: NewPart, result: fairing.RemeshResult) -> Problem:
+def _new_problem(problem: Problem, part: NewPart, result: fairing.RemeshResult, place: Floats) -> Problem:
     """Return the new part as a patch: its own r + k points, then those of the faces around.
 
-    A new vertex goes by the number of the old one that it is next to.
+    place: of the old points, by their numbers in the mesh. A new vertex goes by the number of the old one that it is
+    next to.
     """
     own = np.concatenate([part.stay, part.vertices.heaviest])
     outside = problem.vertices[problem.outside]
     others = np.setdiff1d(outside, part.stay)
-    number = np.full(int(problem.vertices.max()) + 1, -1, dtype=np.int64)
+    number = np.full(len(place), -1, dtype=np.int64)
     number[others] = len(own) + np.arange(len(others))
     number[part.stay] = np.arange(len(part.stay))
-    place = np.zeros((len(number), 3))
-    place[problem.vertices] = problem.points
     lines, new = np.flatnonzero(result.old >= 0), np.flatnonzero(result.old < 0)
     fixed = part.stay[: part.fixed_count]
     points = np.concatenate([place[fixed], result.vertices[lines], result.vertices[new], place[others]])

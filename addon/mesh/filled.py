@@ -5,7 +5,6 @@ What has a mean is carried over from the outline; all else is copied from the ne
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import bmesh
@@ -13,11 +12,11 @@ import bpy
 import numpy as np
 
 from ..core.arrays import Floats, Mask
+from ..core.fill_report import Added
 from ..core.filling import Piece
 from ..core.quality import texture_distortion
-from ..core.words import counted
 from .layers import OF_CORNERS, MeanLayers, Shapes, in_object_mode
-from .new_faces import FaceData, VertexData, make_faces, make_vertices
+from .new_faces import FaceData, VertexData, kinds, make_faces, make_vertices
 from .selecting import select_new_faces
 
 
@@ -35,22 +34,6 @@ def border_seeds(mesh: bpy.types.Mesh) -> Mask:
         if edge.select and edge.is_boundary:
             seeds[[vertex.index for vertex in edge.verts]] = True
     return seeds
-
-
-@dataclass(frozen=True)
-class Added:
-    """What there is to tell about new faces."""
-
-    seams: int  # outline vertices where UVs or other values of the two border faces differ: their mean counts
-    distortion: float  # area-weighted mean of the conformal distortion − 1 on the active UV map; 0 without one
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """A sentence for what is worth a look."""
-        if not self.seams:
-            return ()
-        text = counted(self.seams, "vertex of the outline lies", "vertices of the outline lie")
-        return (f"{text} on a seam of UVs or colours: new faces begin with the mean there",)
 
 
 def add_to_edit_mesh(obj: bpy.types.Object, pieces: list[Piece]) -> Added:
@@ -75,7 +58,7 @@ def _add(bm: Any, shapes: Shapes, pieces: list[Piece]) -> Added:
     select_new_faces(bm, faces)
     bm.normal_update()
     areas = [rim.distortion for rim in rims]
-    return Added(sum(rim.seams for rim in rims), max(areas, default=0.0))
+    return Added(len(faces), sum(rim.seams for rim in rims), max(areas, default=0.0))
 
 
 class _Rim:
@@ -99,24 +82,27 @@ class _Rim:
         near, of_face = piece.examples()
         examples = [self._vertices[number] for number in near.tolist()]
         vertices = make_vertices(bm, shapes, VertexData(piece.positions, self._vertices, piece.carried, examples))
-        faces = [self._faces[number] for number in of_face.tolist()]
-        corners = [self._after[number] for number in of_face.tolist() for _ in range(3)]
-        triangles = piece.triangles
+        faces = piece.faces(kinds(bm, self._faces, self._after)[of_face])
         data = FaceData(
-            self._vertices, triangles.tolist(), self._after + self._before, self._corner_values,
-            triangles.ravel().tolist(), corners, faces,
-        )  # fmt: skip
-        faces = make_faces(bm, vertices, data)
-        self.distortion = self._distortion(bm, faces)
-        return faces
+            stay=self._vertices,
+            polygons=faces.polygons,
+            sources=self._after + self._before,
+            carry=self._corner_values,
+            numbers=piece.triangles.ravel()[faces.corners].tolist(),
+            corner_examples=[self._after[number] for number in of_face[faces.corners // 3].tolist()],
+            examples=[self._faces[number] for number in of_face[faces.triangles].tolist()],
+        )
+        made = make_faces(bm, vertices, data)
+        self.distortion = self._distortion(bm, made, data.numbers)
+        return made
 
-    def _distortion(self, bm: Any, faces: list[Any]) -> float:
+    def _distortion(self, bm: Any, faces: list[Any], numbers: list[int]) -> float:
         layer = bm.loops.layers.uv.active
         if layer is None:
             return 0.0
         places = np.array([corner[layer].uv[:] for face in faces for corner in face.loops]).reshape(-1, 2)
         flat = np.zeros((len(self._piece.points), 3))
-        flat[self._piece.triangles.ravel(), :2] = places
+        flat[numbers, :2] = places
         return texture_distortion(self._piece.points, flat, self._piece.triangles)
 
     def _corner_values(self, values: Floats) -> Floats:

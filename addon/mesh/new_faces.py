@@ -84,6 +84,18 @@ def make_faces(bm: Any, vertices: Sequence[Any], data: FaceData) -> list[Any]:
     return made
 
 
+def kinds(bm: Any, faces: Sequence[Any], corners: Sequence[Any] = ()) -> Ints:
+    """Return (n,): equal numbers for faces that are equal in all that has no mean, and so are corners beside them."""
+    layers = [layer for layer in copied_layers(bm.faces.layers) if layer.name != LAYER]
+    keys = [(face.material_index, face.smooth, *(face[layer] for layer in layers)) for face in faces]
+    of_corners = copied_layers(bm.loops.layers)
+    if of_corners and corners:
+        beside = [tuple(corner[layer] for layer in of_corners) for corner in corners]
+        keys = [key + more for key, more in zip(keys, beside, strict=True)]
+    numbers: dict[Any, int] = {}
+    return np.array([numbers.setdefault(key, len(numbers)) for key in keys], dtype=np.int64)
+
+
 def elements_of(table: Any, numbers: Ints) -> list[Any]:
     """Return the elements of a bmesh's sequence, whose lookup table is up to date."""
     return [table[number] for number in numbers.tolist()]

@@ -13,7 +13,7 @@ from ..core.arrays import Floats, Ints
 from ..core.new_part import NewPart
 from ..core.remeshing import Remeshed
 from .layers import Shapes, in_object_mode
-from .new_faces import FaceData, VertexData, elements_of, make_faces, make_vertices
+from .new_faces import FaceData, VertexData, elements_of, kinds, make_faces, make_vertices
 from .selecting import select_new_faces
 
 
@@ -58,7 +58,7 @@ def _replace(bm: Any, shapes: Shapes, outcome: Remeshed) -> Written:
     vertices = make_vertices(bm, shapes, _vertex_data(bm, part, outcome.new_positions))
     for vertex, place in zip(stay[part.fixed_count :], outcome.positions.tolist(), strict=True):
         vertex.co = place
-    faces = make_faces(bm, vertices, _face_data(bm, part, stay))
+    faces = make_faces(bm, vertices, _face_data(bm, outcome, stay))
     bmesh.ops.delete(bm, geom=gone, context="FACES_ONLY")
     bmesh.ops.delete(bm, geom=lost, context="VERTS")
     bare = [edge for edge in old_edges if edge.is_valid and not edge.link_faces]
@@ -80,20 +80,22 @@ def _vertex_data(bm: Any, part: NewPart, positions: Floats) -> VertexData:
     return VertexData(positions, sources, stencil.mean, elements_of(bm.verts, part.vertices.heaviest), before)
 
 
-def _face_data(bm: Any, part: NewPart, stay: list[Any]) -> FaceData:
+def _face_data(bm: Any, outcome: Remeshed, stay: list[Any]) -> FaceData:
     """Tell what the new faces are made of: the corners of the triangles that they lie on."""
+    part = outcome.part
     corners = _corners(bm, part.gone_faces)
     used, local = np.unique(part.corners.sources, return_inverse=True)
     stencil = type(part.corners)(local.reshape(part.corners.sources.shape), part.corners.weights)
-    sources = [corners[number] for number in used.tolist()]
+    old, of_old = np.unique(part.faces, return_inverse=True)
+    faces = outcome.faces(kinds(bm, elements_of(bm.faces, old))[of_old])
     return FaceData(
         stay=stay,
-        polygons=part.triangles.tolist(),
-        sources=sources,
+        polygons=faces.polygons,
+        sources=[corners[number] for number in used.tolist()],
         carry=stencil.mean,
-        numbers=list(range(3 * len(part.triangles))),
-        corner_examples=[corners[number] for number in part.corners.heaviest.tolist()],
-        examples=elements_of(bm.faces, part.faces),
+        numbers=faces.corners.tolist(),
+        corner_examples=[corners[number] for number in part.corners.heaviest[faces.corners].tolist()],
+        examples=elements_of(bm.faces, part.faces[faces.triangles]),
         in_live=True,
     )
 

@@ -44,7 +44,10 @@ def _parser() -> argparse.ArgumentParser:
     for name in option_names():
         value = getattr(defaults, name)
         flag = "--" + name.replace("_", "-")
-        parser.add_argument(flag, dest=name, type=type(value), default=value)
+        if isinstance(value, bool):
+            parser.add_argument(flag, dest=name, action="store_true")
+        else:
+            parser.add_argument(flag, dest=name, type=type(value), default=value)
     return parser
 
 
@@ -143,8 +146,8 @@ def _filled(chosen: Any) -> Report:
     vertices = None if group is None else np.flatnonzero(_members(obj, group)).tolist()
     begin = time.perf_counter()
     done = fill_borders(obj.data, vertices, _matrix(obj), options, _Progress())
-    told = (0.0, ()) if done.added is None else (done.added.distortion, done.added.notes)
-    return make_fill_report([(obj.name, done.pieces)], options, time.perf_counter() - begin, *told)
+    added = [] if done.added is None else [done.added]
+    return make_fill_report([(obj.name, done.pieces)], options, time.perf_counter() - begin, added)
 
 
 def _matrix(obj: bpy.types.Object) -> Floats:

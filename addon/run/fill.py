@@ -11,7 +11,7 @@ import numpy as np
 from ..core.arrays import Floats, Ints
 from ..core.border import NO_BORDER, border_loops
 from ..core.engine import REFUSALS, Progress, sub_range
-from ..core.fill_report import make_fill_report
+from ..core.fill_report import Added, make_fill_report
 from ..core.filling import FillOptions, Piece, fill
 from ..core.options import FairOptions
 from ..core.region import MeshArrays
@@ -98,7 +98,7 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay the options out."""
         self.layout.use_property_split = True
-        for name in ("equation", "bridge", "spacing", "accept"):
+        for name in ("equation", "bridge", "spacing", "quads", "accept"):
             self.layout.prop(self, name)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -147,16 +147,14 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
             return self._leave(context, report.verdict.spots, summary(report))
         compare.forget()
         added = self._write(context, named)
-        notes = tuple(note for each in added for note in each.notes)
-        distortion = max(each.distortion for each in added)
-        report = make_fill_report(named, self._options, time.perf_counter() - self._begin, distortion, notes)
+        report = make_fill_report(named, self._options, time.perf_counter() - self._begin, added)
         store(context.window_manager.fairing_report, report)
         for warning in report.warnings:
             self.report({"WARNING"}, warning)
         self.report({"INFO"}, summary(report))
         return {"FINISHED"}
 
-    def _write(self, context: bpy.types.Context, named: list[tuple[str, list[Piece]]]) -> list[filled.Added]:
+    def _write(self, context: bpy.types.Context, named: list[tuple[str, list[Piece]]]) -> list[Added]:
         objects = objects_in_mode(context)
         return [filled.add_to_edit_mesh(objects[name], pieces) for name, pieces in named]
 

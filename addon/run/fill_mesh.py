@@ -13,7 +13,7 @@ import fairing
 
 from ..core.border import border_loops
 from ..core.engine import Progress
-from ..core.fill_report import is_written, refuse_unusable
+from ..core.fill_report import Added, is_written, refuse_unusable
 from ..core.filling import FillOptions, Piece, fill
 from ..core.options import FairOptions
 from ..mesh import filled, mesh_io
@@ -24,7 +24,7 @@ class Filled:
     """What was done to one mesh."""
 
     pieces: list[Piece]
-    added: filled.Added | None  # None: nothing was written
+    added: Added | None  # None: nothing was written
 
 
 def fill_mesh(

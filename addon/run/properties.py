@@ -4,7 +4,9 @@
 No postponed annotations here: Blender reads them as property definitions.
 """
 
-from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
+from typing import Any
+
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from ..core.options import LEAST_SPACING
 from .skin_properties import SkinProperties
@@ -85,8 +87,7 @@ _OUTLINES = (
         "A noisy outline and two rings of faces around it are smoothed first, by a quarter of an edge at most",
     ),
 )
-SPACING = "Length of the new edges away from the outline, measured by the outline's edges. The surface stays the same"
-ACCEPT = (
+_ACCEPT = (
     ("USABLE", "Usable Results", "A result that folds, crosses itself or is none leaves the mesh as it was"),
     ("ALL", "All Results", "Whatever comes out is written"),
 )
@@ -117,7 +118,41 @@ _OPEN_BORDERS = (
 )
 
 
-class FairProperties(SkinProperties):
+class SurfaceProperties:
+    """What both `mesh.fair_region` and `mesh.fair_fill` have, whose Shape lists EQUATIONS, too."""
+
+    spacing: FloatProperty(
+        name="Spacing",
+        description="Length of the new edges away from the outline, measured by the outline's edges. "
+        "The surface stays the same",
+        default=1.0,
+        min=LEAST_SPACING,
+        soft_min=0.25,
+        soft_max=4.0,
+        step=5,
+        precision=2,
+    )
+    quads: BoolProperty(
+        name="Quads",
+        description="New faces are quads, as far as pairs of triangles make some. None runs across a border of "
+        "materials or face sets",
+        default=False,
+    )
+    accept: EnumProperty(
+        name="Write",
+        description="Which results are written",
+        items=_ACCEPT,
+        default="USABLE",
+        options={"SKIP_SAVE"},
+    )
+
+
+def equation_property(items: tuple[tuple[str, str, str], ...]) -> Any:
+    """Return the property of the shape; items: those of EQUATIONS that are to be had."""
+    return EnumProperty(name="Shape", description="Which surface spans the outline", items=items, default="HARMONIC")
+
+
+class FairProperties(SurfaceProperties, SkinProperties):
     """The properties of `mesh.fair_region`; names and defaults are those of options.FairOptions."""
 
     factor: FloatProperty(
@@ -128,12 +163,7 @@ class FairProperties(SkinProperties):
         max=1.0,
         subtype="FACTOR",
     )
-    equation: EnumProperty(
-        name="Shape",
-        description="Which surface spans the outline",
-        items=EQUATIONS,
-        default="HARMONIC",
-    )
+    equation: equation_property(EQUATIONS)
     otherwise: EnumProperty(
         name="Otherwise",
         description="What to do where no surface of that shape fits the outlines",
@@ -230,26 +260,9 @@ class FairProperties(SkinProperties):
         items=_OUTLINES,
         default="GIVEN",
     )
-    accept: EnumProperty(
-        name="Write",
-        description="Which results are written",
-        items=ACCEPT,
-        default="USABLE",
-        options={"SKIP_SAVE"},
-    )
     mesh: EnumProperty(
         name="Mesh",
         description="Whether the selected faces stay",
         items=_MESHES,
         default="KEEP",
-    )
-    spacing: FloatProperty(
-        name="Spacing",
-        description=SPACING,
-        default=1.0,
-        min=LEAST_SPACING,
-        soft_min=0.25,
-        soft_max=4.0,
-        step=5,
-        precision=2,
     )

@@ -49,6 +49,9 @@ def _draw_vertices(group: Any, options: Any) -> None:
     row.active = new
     row.prop(options, "spacing")
     row = group.row()
+    row.active = new
+    row.prop(options, "quads")
+    row = group.row()
     row.active = not new  # new vertices lie evenly
     row.prop(options, "inner_fairness")
 

@@ -14,13 +14,17 @@ STRIPES = 9.0  # light bands over half a turn of the normal
 
 @dataclass(frozen=True)
 class Layer:
-    """Triangles (m, 3) of vertices (n, 3) in one colour (0 … 1), striped or plain, its edges drawn or not."""
+    """Triangles (m, 3) of vertices (n, 3) in one colour (0 … 1), striped or plain, its edges drawn or not.
+
+    halves: so many of the first triangles are halves of quads, whose side opposite the first corner is not drawn.
+    """
 
     vertices: FloatArray
     triangles: IntArray
     colour: tuple[float, float, float]
     striped: bool = False
     wire: bool = False
+    halves: int = 0
 
 
 @dataclass(frozen=True)
@@ -68,17 +72,26 @@ def _draw(layer: Layer, view: View, image: FloatArray, depth: FloatArray) -> Non
     y = 0.5 * view.size - scale * moved @ view.up
     z = moved @ view.eye
     normals = vertex_normals(layer.vertices, layer.triangles)
-    for triangle in layer.triangles:
-        _fill(layer, view, (x[triangle], y[triangle], z[triangle]), normals[triangle], (image, depth))
+    for number, triangle in enumerate(layer.triangles):
+        corners = _Corners(x[triangle], y[triangle], z[triangle], normals[triangle], number < layer.halves)
+        _fill(layer, view, corners, (image, depth))
 
 
-def _fill(
-    layer: Layer, view: View, at: tuple[FloatArray, FloatArray, FloatArray], normals: FloatArray,
-    buffers: tuple[FloatArray, FloatArray],
-) -> None:  # fmt: skip
+@dataclass(frozen=True)
+class _Corners:
+    """Of one triangle: pixels, depth and normals, each (3, …)."""
+
+    x: FloatArray
+    y: FloatArray
+    z: FloatArray
+    normals: FloatArray
+    half: bool  # of a quad
+
+
+def _fill(layer: Layer, view: View, at: _Corners, buffers: tuple[FloatArray, FloatArray]) -> None:
     """One triangle: barycentric coordinates of the pixels of its bounding box."""
     image, depth = buffers
-    x, y, z = at
+    x, y, z = at.x, at.y, at.z
     low = np.maximum(np.floor([x.min(), y.min()]).astype(int), 0)
     high = np.minimum(np.ceil([x.max(), y.max()]).astype(int) + 1, view.size)
     twice = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
@@ -92,11 +105,12 @@ def _fill(
     height = share @ z
     seen = (share >= -1e-9).all(axis=-1) & (height > window)
     window[seen] = height[seen]
-    colours = _shaded(layer, share[seen] @ normals, view)
+    colours = _shaded(layer, share[seen] @ at.normals, view)
     if layer.wire:
         sides = np.hypot(x - np.roll(x, 1), y - np.roll(y, 1))
         heights = abs(twice) / np.roll(sides, 1).clip(1e-9)
-        colours[(share[seen] * heights).min(axis=-1) < 0.5] *= 0.6
+        heights[0] = np.inf if at.half else heights[0]
+        colours[(share[seen].clip(1e-12) * heights).min(axis=-1) < 0.5] *= 0.6
     image[low[1] : high[1], low[0] : high[0]][seen] = colours
 
 

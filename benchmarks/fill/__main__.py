@@ -2,8 +2,9 @@
 
     python benchmarks/fill [hemisphere | spacing | caps | size | bridges | real | peers | pictures …]
 
-Prints the tables of docs/fill.md; `pictures` writes docs/pictures/fill_holes.png and fill_bridges.png. Processor time,
-one thread. `real` and `pictures` need shared/data beside the checkout, `peers` takes what is installed of pymeshfix.
+Prints the tables of docs/fill.md; `pictures` writes docs/pictures/fill_holes.png, fill_bridges.png and
+fill_meshes.png. Processor time, one thread. `real` and `pictures` need shared/data beside the checkout, `peers` takes
+what is installed of pymeshfix.
 """
 
 from __future__ import annotations

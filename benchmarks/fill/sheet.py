@@ -55,12 +55,20 @@ def real_holes() -> Iterator[Shown]:
         if patch.name not in HOLES:
             continue
         loops = [patch.vertices_in_mesh[loop] for loop in fairing.boundary_loops(patch.triangles)]
-        rim = patch.vertices[patch.fixed]
-        reach = 1.2 * float(np.linalg.norm(rim - rim.mean(axis=0), axis=1).max())
-        mean = patch.normals.mean(axis=0) + 1e-3
-        across = np.cross(mean, [0.3, 0.5, 0.8])
-        eye = mean / np.linalg.norm(mean) + 0.8 * across / np.linalg.norm(across)
-        yield Shown(patch.name, patch.whole, patch.outside, loops, eye, reach)
+        yield Shown(patch.name, patch.whole, patch.outside, loops, eye_of(patch), reach_of(patch))
+
+
+def eye_of(patch: Any) -> FloatArray:
+    """Aslant over the outline."""
+    mean = patch.normals.mean(axis=0) + 1e-3
+    across = np.cross(mean, [0.3, 0.5, 0.8])
+    return np.asarray(mean / np.linalg.norm(mean) + 0.8 * across / np.linalg.norm(across))
+
+
+def reach_of(patch: Any) -> float:
+    """Half-width of a window that shows the outline."""
+    rim = patch.vertices[patch.fixed]
+    return 1.2 * float(np.linalg.norm(rim - rim.mean(axis=0), axis=1).max())
 
 
 def gaps() -> Iterator[Shown]:
@@ -68,7 +76,7 @@ def gaps() -> Iterator[Shown]:
         yield Shown(name, vertices, triangles, loops, np.array([0.5, -1.0, 0.7]), 1.9)
 
 
-def save(shown: list[Shown], path: Path) -> None:
+def save(shown: list[Any], path: Path) -> None:
     """Two in each row, three tiles each."""
     lines = (len(shown) + 1) // 2
     figure, axes = plt.subplots(lines, 6, figsize=(6 * 1.6, lines * 1.75), squeeze=False, dpi=130)
@@ -87,7 +95,11 @@ def save(shown: list[Shown], path: Path) -> None:
 
 
 def write_all(folder: Path) -> Iterator[str]:
-    """Both pictures; the names of the files."""
-    for name, shown in (("fill_holes.png", list(real_holes())), ("fill_bridges.png", list(gaps()))):
+    """All pictures; the names of the files."""
+    import quad_sheet
+
+    sheets = ("fill_holes.png", real_holes), ("fill_bridges.png", gaps), ("fill_meshes.png", quad_sheet.new_meshes)
+    for name, kind in sheets:
+        shown = list(kind())
         save(shown, folder / name)
         yield f"{folder / name}: {(folder / name).stat().st_size // 1000} kB"

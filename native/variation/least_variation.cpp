@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "base/stopwatch.h"
 #include "geometry/self_intersection.h"
@@ -152,19 +153,21 @@ std::optional<Attempt> attempted(const Problem& problem, const Points& start, co
 }  // namespace
 
 Solution solve_least_variation(const Problem& problem, const Progress& progress) {
-    return *solve_less_varying(problem, HUGE_VAL, progress);
+    return *solve_less_varying(problem, {}, progress);
 }
 
-std::optional<Solution> solve_less_varying(const Problem& problem, double most, const Progress& progress) {
+std::optional<Solution> solve_less_varying(const Problem& problem, const VariationLimits& limits,
+                                           const Progress& progress) {
     const Checkpoints checkpoints(progress);
     Stopwatch watch;
     const Points start = start_of(problem, progress.range(0.0, 0.1));
     const double start_seconds = watch.lap();
     std::optional<Attempt> best;
     double begin = 0.1;
-    for (const Beginning& beginning : beginnings) {
+    const auto count = std::min(beginnings.size(), static_cast<std::size_t>(limits.most_beginnings));
+    for (const Beginning& beginning : std::span(beginnings).first(count)) {
         const double end = begin + 0.2;
-        auto attempt = attempted(problem, start, beginning, most, progress.range(begin, end));
+        auto attempt = attempted(problem, start, beginning, limits.most_product, progress.range(begin, end));
         if (!attempt) return std::nullopt;
         if (!best || attempt->is_better_than(*best)) best = std::move(attempt);
         if (best->fine.result.converged) break;

@@ -44,6 +44,19 @@ Indices triangles_nearby(const SolvedSheet& solved, const Patch& later, const Ta
     return triangle;
 }
 
+// A free edge rises along normals that are known only in the end, and has drifted within the surface by then: it begins
+// each mesh at the point of its tangent plane above or below the curve that was given.
+void undo_drift(const Problem& problem, Sheet& sheet) {
+    if (problem.free_edge.empty()) return;
+    for (Eigen::Index k = 0; k < problem.fixed_points.cols(); ++k) {
+        if (!problem.free_edge[static_cast<std::size_t>(k)]) continue;
+        auto point = sheet.points.col(problem.patch.free_count + k);
+        const Vector3 given = problem.fixed_points.col(k);
+        const Vector3 normal = sheet.normals.col(problem.patch.free_count + k);
+        point = given + normal.dot(point - given) * normal;
+    }
+}
+
 }  // namespace
 
 Problem on_patch(const Problem& problem, const Patch& patch) {
@@ -72,6 +85,7 @@ SolvedSheet solve_on(ProxyMesh& mesh, const Problem& problem, const std::optiona
     const Problem here = on_patch(problem, snapshot.patch);
     Sheet sheet = last ? resampled(*last, snapshot)
                        : Sheet{snapshot.points, fitted_normals(here, snapshot.points, measure, progress.here())};
+    undo_drift(here, sheet);
     const VariationEnergy energy(here, Moving::points_and_normals, measure);
     const NewtonResult result = minimise(energy, sheet, limits, progress);
     mesh.read_back(snapshot.patch, sheet.points);

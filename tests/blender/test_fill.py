@@ -490,6 +490,80 @@ def test_a_surface_that_is_not_usable_is_told_to_scripts(tmp_path: Any) -> None:
 def test_operator_has_the_documented_properties() -> None:
     found = [p for p in bpy.ops.mesh.fair_fill.get_rna_type().properties if p.identifier != "rna_type"]
     assert {p.identifier: p.default for p in found} == {
-        "equation": "HARMONIC", "bridge": False, "spacing": 1.0, "accept": "USABLE",
+        "equation": "HARMONIC", "bridge": False, "spacing": 1.0, "quads": False, "accept": "USABLE",
     }  # fmt: skip
     assert all(p.description for p in found)
+
+
+def corner_counts(obj: bpy.types.Object) -> list[int]:
+    """Of the selected polygons."""
+    return [len(polygon.vertices) for polygon in obj.data.polygons if polygon.select]
+
+
+def test_quads_carry_what_triangles_do() -> None:
+    obj = open_sphere()
+    dress(obj)
+    assert fill_hole(obj, quads=True) == {"FINISHED"}
+    counts = corner_counts(obj)
+    assert counts.count(4) > 0.9 * len(counts)
+    assert border_edges(obj) == 0
+    heat = np.array([item.value for item in obj.data.attributes["heat"].data])
+    sets, numbers = obj.data.attributes[".sculpt_face_set"].data, obj.data.attributes["number"].data
+    for polygon in obj.data.polygons:
+        assert (polygon.material_index, polygon.use_smooth, sets[polygon.index].value) == (1, True, 7)
+        assert {numbers[corner].value for corner in polygon.loop_indices} == {5}
+        for corner in polygon.loop_indices:
+            u = obj.data.uv_layers["Map"].uv[corner].vector[0]
+            assert u == pytest.approx(0.5 + 0.4 * heat[obj.data.loops[corner].vertex_index], abs=1e-5)
+    report = bpy.context.window_manager.fairing_report
+    assert {c.name: c.value for c in report.checks}["New faces"] == f"{len(counts)} in 1 surface"
+    triangles = open_sphere()
+    dress(triangles)
+    distortion = report.distortion
+    assert fill_hole(triangles) == {"FINISHED"}
+    assert distortion == pytest.approx(bpy.context.window_manager.fairing_report.distortion, rel=1e-6)
+
+
+@pytest.mark.parametrize("mark", ["material", "smooth", "face_set"])
+def test_no_quad_lies_on_both_sides_of_a_border(mark: str) -> None:
+    """With triangles each takes after the nearest face of the outline; with quads no more of them change sides."""
+    areas = []
+    for quads in (False, True):
+        obj = open_sphere()
+        mesh = obj.data
+        sides = [int(polygon.center.x + 0.3 * polygon.center.y > 0.0) for polygon in mesh.polygons]
+        if mark == "material":
+            mesh.materials.append(bpy.data.materials.new("One"))
+            mesh.materials.append(bpy.data.materials.new("Two"))
+            mesh.polygons.foreach_set("material_index", sides)
+        elif mark == "smooth":
+            mesh.polygons.foreach_set("use_smooth", [side == 1 for side in sides])
+        else:
+            mesh.attributes.new(".sculpt_face_set", "INT", "FACE").data.foreach_set("value", sides)
+        assert fill_hole(obj, quads=quads) == {"FINISHED"}
+        new = [polygon for polygon in obj.data.polygons if polygon.select]
+        if mark == "face_set":
+            values = [obj.data.attributes[".sculpt_face_set"].data[polygon.index].value for polygon in new]
+        else:
+            values = [polygon.material_index if mark == "material" else int(polygon.use_smooth) for polygon in new]
+        borders: dict[Any, set[int]] = {}
+        for polygon, value in zip(new, values, strict=True):
+            for edge in polygon.edge_keys:
+                borders.setdefault(edge, set()).add(value)
+        places = meshes.positions(obj)
+        line = {edge for edge, both in borders.items() if len(both) == 2}
+        areas.append(sorted(tuple(places[list(edge)].mean(axis=0).round(4)) for edge in line))
+    assert areas[0]
+    assert areas[0] == areas[1]
+
+
+def test_a_script_and_the_command_line_make_quads(tmp_path: Any) -> None:
+    obj = open_sphere(lambda c: abs(c.z) > 0.8)
+    old = len(obj.data.polygons)
+    module().fill_mesh(obj.data, [v.index for v in obj.data.vertices if v.co.z > 0.5], quads=True)
+    assert 4 in {len(polygon.vertices) for polygon in list(obj.data.polygons)[old:]}
+    old = len(obj.data.polygons)
+    given = ["--object", obj.name, "--output", str(tmp_path / "filled.blend"), "--fill", "--quads"]
+    assert module("run.cli").execute(given) == 0
+    counts = [len(polygon.vertices) for polygon in list(obj.data.polygons)[old:]]
+    assert counts.count(4) > 0.8 * len(counts)

@@ -41,6 +41,7 @@ DEFAULTS = {
     "accept": "USABLE",
     "mesh": "KEEP",
     "spacing": 1.0,
+    "quads": False,
 }
 CHOICES = {
     "equation": ["HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION"],
@@ -65,7 +66,7 @@ def properties() -> Any:
 
 def test_operator_has_the_documented_properties() -> None:
     found = {p.identifier: p for p in properties() if p.identifier != "rna_type"}
-    assert list(found) == list(DEFAULTS)
+    assert found.keys() == DEFAULTS.keys()
     for name, default in DEFAULTS.items():
         assert found[name].default == pytest.approx(default)
         assert found[name].description

@@ -277,3 +277,38 @@ def test_the_last_run_knows_the_new_faces() -> None:
     extension.module("run.last_run").select_region(bpy.context)
     assert sum(face.select for face in bmesh.from_edit_mesh(obj.data).faces) == new
     meshes.leave()
+
+
+def test_quads_have_all_that_triangles_have() -> None:
+    obj, chosen = dented()
+    halved(obj)
+    spoil(obj, chosen)
+    assert fair_new(obj, chosen, spacing=0.7, quads=True) == {"FINISHED"}
+    counts = [len(polygon.vertices) for polygon in new_polygons(obj)]
+    assert counts.count(4) > 0.9 * len(counts)
+    assert border_edges(obj) == 0
+    points = meshes.positions(obj)
+    assert np.abs(np.linalg.norm(points, axis=1) - 1.0).max() < 2e-3
+    uv, sets = obj.data.uv_layers["Map"].uv, obj.data.attributes[".sculpt_face_set"].data
+    for polygon in new_polygons(obj):
+        assert (polygon.material_index, polygon.use_smooth, sets[polygon.index].value) == (1, True, 7)
+        u = np.array([uv[corner].vector[0] for corner in polygon.loop_indices])
+        x = points[list(polygon.vertices), 0]
+        assert abs(u - x - np.sign(u) * 5.0).max() < 0.1  # each corner is of the one island of its quad
+        assert np.ptp(np.sign(u)) == 0
+
+
+def test_no_quad_lies_on_both_sides_of_a_mark() -> None:
+    obj, chosen = dented()
+    mesh = obj.data
+    for polygon in mesh.polygons:
+        polygon.use_smooth = polygon.center.x > 0.0
+    for edge in mesh.edges:
+        a, b = (mesh.vertices[v].co for v in edge.vertices)
+        edge.use_edge_sharp = abs(a.y) < 1e-5 and abs(b.y) < 1e-5
+    sharp = sum(edge.use_edge_sharp for edge in mesh.edges)
+    assert fair_new(obj, chosen, quads=True) == {"FINISHED"}
+    assert sum(edge.use_edge_sharp for edge in mesh.edges) == sharp
+    for polygon in new_polygons(obj):
+        y = [obj.data.vertices[v].co.y for v in polygon.vertices]
+        assert min(y) > -1e-2 or max(y) < 1e-2
