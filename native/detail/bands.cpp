@@ -38,6 +38,7 @@ SparseMatrix screened_laplacian(const Points& points, const Triangles& triangles
     faces.update(points, triangles);
     const VectorX mass = masses(faces, triangles, points.cols());
     std::vector<Entry> entries;
+    entries.reserve(static_cast<std::size_t>(mass.size() + 12 * triangles.cols()));
     for (int v = 0; v < static_cast<int>(mass.size()); ++v) entries.emplace_back(v, v, mass[v]);
     for (int f = 0; f < static_cast<int>(triangles.cols()); ++f) {
         for (int k = 0; k < 3; ++k) {
