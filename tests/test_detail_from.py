@@ -91,14 +91,20 @@ def test_nothing_outside_moves(sphere: RoughSphere, grown: fairing.FairResult) -
     assert np.array_equal(grown.vertices[kept], sphere.vertices[kept])
 
 
-def test_the_skin_meets_the_outline(sphere: RoughSphere, grown: fairing.FairResult) -> None:
-    """Steps across the edges of the outline are those that the skin has anywhere, and no more at all."""
-    heights = sphere.heights(grown.vertices, np.arange(COUNT))
+def test_the_skin_meets_the_outline() -> None:
+    """Waves of seven edges: across the outline the surface is no steeper than within, where noise would hide it."""
+    sphere = bare(11)
+    waves = (
+        0.01 * np.sin(25 * sphere.exact[:, 0] + 1) * np.sin(25 * sphere.exact[:, 1]) * np.sin(25 * sphere.exact[:, 2])
+    )
+    waves[sphere.free] = 0
+    result = dressed(replace(sphere, vertices=sphere.exact * (1 + waves)[:, None]))
+    heights = sphere.heights(result.vertices, np.arange(COUNT))
     ends = np.unique(np.sort(np.concatenate([sphere.inside[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1), axis=0)
     steps = np.abs(heights[ends[:, 0]] - heights[ends[:, 1]])
     at_rim = np.isin(ends, sphere.outline).sum(axis=1) == 1
     inner = ~np.isin(ends, sphere.outline).any(axis=1)
-    assert np.sqrt((steps[at_rim] ** 2).mean()) == pytest.approx(np.sqrt((steps[inner] ** 2).mean()), rel=0.2)
+    assert np.sqrt((steps[at_rim] ** 2).mean()) < 1.3 * np.sqrt((steps[inner] ** 2).mean())
 
 
 def test_the_same_bits_each_time(sphere: RoughSphere, grown: fairing.FairResult) -> None:
