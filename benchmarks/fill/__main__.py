@@ -4,12 +4,11 @@
 
 Prints the tables of docs/fill.md; `pictures` writes docs/pictures/fill_holes.png, fill_bridges.png and
 fill_meshes.png. Processor time, one thread. `real` and `pictures` need shared/data beside the checkout, `peers` takes
-what is installed of pymeshfix.
+what is installed of pymeshfix, PyMeshLab and MeshLib.
 """
 
 from __future__ import annotations
 
-import importlib
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -22,6 +21,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import bridges
+import hole_fillers
 
 import fairing
 import holes
@@ -73,7 +73,7 @@ def spacing() -> Iterator[str]:
 def caps() -> Iterator[str]:
     """Holes of other openings in a sphere, rims of 48 edges."""
     yield "| half-angle | new vertices | converged | largest error | s |"
-    for half_angle in (30, 60, 75, 90, 110, 130, 140, 150):
+    for half_angle in (30, 60, 75, 90, 110, 130, 140, 150, 160, 170):
         result, seconds = timed(*holes.bowl(48, half_angle))
         error = abs(np.linalg.norm(result.vertices, axis=1) - 1).max()
         yield f"| {half_angle}° | {len(result.vertices)} | {result.converged} | {error:.1e} | {seconds:.2f} |"
@@ -125,22 +125,19 @@ def row(name: str, vertices: FloatArray, triangles: IntArray, loops: list[Any], 
 
 
 def peers() -> Iterator[str]:
-    """The apex that another hole filler gives, at several sizes of the rim."""
-    try:
-        meshfix = importlib.import_module("pymeshfix")
-    except ImportError:
-        return
-    yield "| rim | height of the apex, pymeshfix | ours |"
+    """The height of a hemisphere's apex that other hole fillers give."""
+    others = hole_fillers.installed()
+    yield "| rim | " + " | ".join([*others, "ours"]) + " |"
     for edges in (12, 24, 48, 96):
         vertices, triangles = holes.bowl(edges)
-        tin = meshfix.PyTMesh()
-        tin.load_array(vertices, triangles.astype(np.int32))
-        tin.fill_small_boundaries(refine=True)
-        filled, _ = tin.return_arrays()
-        near_axis = np.hypot(filled[:, 0], filled[:, 1]) + 10 * (filled[:, 2] < -0.5)
-        theirs = np.linalg.norm(filled[near_axis.argmin()])
+        heights = []
+        for fill in others.values():
+            filled = fill(vertices, triangles, 2 * np.sin(np.pi / edges))
+            near_axis = np.hypot(filled[:, 0], filled[:, 1]) + 10 * (filled[:, 2] < -0.5)
+            heights.append(f"{filled[near_axis.argmin(), 2]:.3f}")
         ours = fairing.fill(vertices, triangles).vertices
-        yield f"| {edges} | {theirs:.4f} | {np.linalg.norm(ours[ours[:, 2].argmax()]):.5f} |"
+        heights.append(f"{np.linalg.norm(ours[ours[:, 2].argmax()]):.6f}")
+        yield f"| {edges} | {' | '.join(heights)} |"
 
 
 def pictures() -> Iterator[str]:

@@ -199,7 +199,8 @@ Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Componen
     const std::optional<NearStart> start = given_start(answer, data);
     Solution solution = solve_tangent(problem, start, joins ? progress.range(0.0, share_of_tangent) : progress);
     if (solution.even_weights) warn_of_even_weights(answer.warnings);
-    if (!joins) return with_spread_pins(problem, options().pin_radius, std::move(solution), progress.here());
+    solution = with_spread_pins(problem, options().pin_radius, std::move(solution), progress.here());
+    if (!joins) return solution;
     return joined(problem, std::move(solution), progress.range(share_of_tangent, 1.0));
 }
 

@@ -114,6 +114,7 @@ std::string_view reason_of(Pins pins) {
     switch (pins) {
         case Pins::too_close: return "some are nearer to each other than two radii; a smaller radius may do";
         case Pins::no_outline: return "nothing but pins holds the surface";
+        case Pins::curvature_met: return "the surface that continues the curvature of its surroundings takes no radius";
         case Pins::no_surface: return "the surface through the points was not found either";
         default: return "no acceptable surface was found with it";
     }

@@ -174,6 +174,7 @@ NewMesh remesh(const MeshInput& input, const VertexPairs& kept, const WantedLeng
         const VectorX lengths = old.lengths(wanted, staying);
         EvenMesh even(patch, old.points, surface, lengths, staying);
         even.make_even();
+        even.mend_angles();
         const EvenMesh::Result made = even.result();
         assembly.add(made.triangles, old.unit.from_unit(made.points), fixed_vertices(patch));
         for (const SurfacePoint& where : made.where) {

@@ -7,6 +7,8 @@
 
 namespace fairing {
 
+constexpr double sharp_corner = 75.0;  // degrees between edges that stay: below, it is one triangle
+
 inline double angle_at(const Vector3& corner, const Vector3& a, const Vector3& b) {
     return degrees_between(a - corner, b - corner);
 }

@@ -31,21 +31,24 @@ double EvenMesh::worst_angle_around(Vertex v, const Vector3& position) const {
     return worst;
 }
 
+bool EvenMesh::improve_flip(Edge e) {
+    const Halfedge h = mesh_.halfedge_handle(e, 0);
+    const Vector3 a = point(mesh_.from_vertex_handle(h));
+    const Vector3 b = point(mesh_.to_vertex_handle(h));
+    const Vector3 c = point(apex(h));
+    const Vector3 d = point(apex(mesh_.halfedge_handle(e, 1)));
+    const double before = std::min(least_angle(a, b, c), least_angle(b, a, d));
+    if (before >= wanted_angle) return false;
+    const double after = std::min(least_angle(c, d, b), least_angle(d, c, a));
+    if (after <= before + gain || !may_flip(e)) return false;
+    mesh_.flip(e);
+    return true;
+}
+
 int EvenMesh::improve_flips() {
     int flips = 0;
     for (const Edge e : mesh_.edges()) {
-        if (stays(e)) continue;
-        const Halfedge h = mesh_.halfedge_handle(e, 0);
-        const Vector3 a = point(mesh_.from_vertex_handle(h));
-        const Vector3 b = point(mesh_.to_vertex_handle(h));
-        const Vector3 c = point(apex(h));
-        const Vector3 d = point(apex(mesh_.halfedge_handle(e, 1)));
-        const double before = std::min(least_angle(a, b, c), least_angle(b, a, d));
-        if (before >= wanted_angle) continue;
-        const double after = std::min(least_angle(c, d, b), least_angle(d, c, a));
-        if (after <= before + gain || !may_flip(e)) continue;
-        mesh_.flip(e);
-        ++flips;
+        if (!stays(e) && improve_flip(e)) ++flips;
     }
     return flips;
 }

@@ -19,7 +19,6 @@ constexpr double split_above = 4.0 / 3.0;  // of the wanted length
 constexpr double collapse_below = 0.75;
 constexpr double longest_after = 1.4;  // edges that a collapse makes
 constexpr int highest_valence = 8;     // flips and collapses make none higher
-constexpr double sharp_corner = 75.0;  // degrees
 
 Vector3 cross_product(const Vector3& a, const Vector3& b, const Vector3& c) { return (b - a).cross(c - a); }
 

@@ -1,6 +1,9 @@
 // A mesh of nearly equilateral triangles on a surface that is known.
 #pragma once
 
+#include <array>
+#include <functional>
+
 #include "fill/edge_lengths.h"
 #include "geometry/edge_flip.h"
 #include "geometry/target_surface.h"
@@ -17,6 +20,8 @@ public:
              KeptEdges kept = {});
     // Splits, collapses, flips and smooths. Asks whether to stop.
     void make_even();
+    // Splits edges and takes vertices out where angles below 26° stay otherwise, worst first. Asks whether to stop.
+    void mend_angles();
     // Splits edges between fixed vertices, at which a patch would end, but for those at sharp corners. Returns how
     // many.
     int split_chords();
@@ -33,6 +38,7 @@ private:
     using Vertex = SurfaceMesh::VertexHandle;
     using Halfedge = SurfaceMesh::HalfedgeHandle;
     using Edge = SurfaceMesh::EdgeHandle;
+    using Face = SurfaceMesh::FaceHandle;
     [[nodiscard]] bool fixed(Vertex v) const { return fixed_[at(v.idx())] != 0; }
     [[nodiscard]] bool fixed_in_patch(Vertex v) const;
     [[nodiscard]] bool stays(Edge e) const { return mesh_.is_boundary(e) || kept_[at(e.idx())] != 0; }
@@ -51,10 +57,19 @@ private:
     [[nodiscard]] Diagonal diagonal(Edge e) const;
     int flip_edges();
     void smooth(int sweeps);
+    bool improve_flip(Edge e);
     int improve_flips();
     int improve_places(const std::vector<int>& vertices);
     [[nodiscard]] double worst_angle_around(Vertex v, const Vector3& position) const;
     void improve();
+    [[nodiscard]] std::array<Halfedge, 3> sides(Face f) const;
+    [[nodiscard]] double free_angle(Face f) const;
+    [[nodiscard]] Indices region(Face f) const;
+    [[nodiscard]] double penalty(const Indices& vertices) const;
+    [[nodiscard]] bool halves_sharp_corner(Edge e) const;
+    void settle(const Indices& vertices);
+    [[nodiscard]] std::vector<std::function<int(EvenMesh&)>> remedies(Face f);
+    bool mend(Face f);
     const Patch& patch_;
     const TargetSurface& surface_;
     const VectorX& lengths_;

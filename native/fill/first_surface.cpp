@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "fill/ball_start.h"
 #include "fill/edge_lengths.h"
 #include "fill/even_mesh.h"
 #include "method/near_start.h"
@@ -93,28 +94,55 @@ bool is_even(const FirstSurface& surface) {
 }
 
 // A mesh of some 400 vertices on the surface found, or more where the outline is fine.
+Meshed even_mesh(const OpenOutline& outline, const Patch& patch, const Points& points, const SolverOptions& options) {
+    const SurfaceState state = measured_surface(problem_on(outline, patch, options), points);
+    const TargetSurface surface(patch, points, state.normals);
+    const VectorX lengths = even_lengths(patch, points);
+    EvenMesh mesh(patch, points, surface, lengths);
+    mesh.make_even();
+    return meshed(mesh, outline.points);
+}
+
+std::optional<FirstSurface> near(const OpenOutline& outline, Meshed& even, const SolverOptions& options,
+                                 const Progress& progress) {
+    std::optional<Solution> solution =
+        solve_near(problem_on(outline, even.patch, options), {even.points, true}, progress);
+    if (!solution) return std::nullopt;
+    return FirstSurface{std::move(even.patch), std::move(*solution)};
+}
+
 FirstSurface on_even_mesh(const OpenOutline& outline, const FirstSurface& last, const SolverOptions& options,
                           const Progress& progress) {
-    const Points& points = last.solution.points;
-    const SurfaceState state = measured_surface(problem_on(outline, last.patch, options), points);
-    const TargetSurface surface(last.patch, points, state.normals);
-    const VectorX lengths = even_lengths(last.patch, points);
-    EvenMesh mesh(last.patch, points, surface, lengths);
-    mesh.make_even();
-    Meshed even = meshed(mesh, outline.points);
+    Meshed even = even_mesh(outline, last.patch, last.solution.points, options);
+    std::optional<FirstSurface> found = near(outline, even, options, progress.range(0.0, 0.3));
+    if (found) return std::move(*found);
     const Problem problem = problem_on(outline, even.patch, options);
-    std::optional<Solution> solution = solve_near(problem, {std::move(even.points), true}, progress.range(0.0, 0.3));
-    if (!solution) solution = solve_or_else(problem, progress.range(0.3, 1.0));
-    return {std::move(even.patch), std::move(*solution)};
+    Solution solution = solve_or_else(problem, progress.range(0.3, 1.0));
+    return {std::move(even.patch), std::move(solution)};
+}
+
+// Where the surface bulges out so far that it is found from a ball only.
+std::optional<FirstSurface> from_ball(const OpenOutline& outline, const Meshed& flat, const SolverOptions& options,
+                                      const Progress& progress) {
+    const std::optional<Points> ball = ball_start(flat.patch, flat.points, outline.normals);
+    if (!ball) return std::nullopt;
+    Meshed even = even_mesh(outline, flat.patch, *ball, options);
+    return near(outline, even, options, progress);
+}
+
+FirstSurface from_flat(const OpenOutline& outline, Meshed& flat, const SolverOptions& options,
+                       const Progress& progress) {
+    Solution solution = solve_or_else(problem_on(outline, flat.patch, options), progress);
+    return {std::move(flat.patch), std::move(solution)};
 }
 
 }  // namespace
 
 FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
     constexpr int most_rounds = 4;
-    Meshed first = first_mesh(outline);
-    Solution solution = solve_or_else(problem_on(outline, first.patch, options), progress.range(0.0, 0.4));
-    FirstSurface result{std::move(first.patch), std::move(solution)};
+    Meshed flat = first_mesh(outline);
+    std::optional<FirstSurface> begun = from_ball(outline, flat, options, progress.range(0.0, 0.1));
+    FirstSurface result = begun ? std::move(*begun) : from_flat(outline, flat, options, progress.range(0.1, 0.4));
     for (int round = 0; round < most_rounds; ++round) {
         const bool converged = result.solution.termination == Termination::converged;
         if (converged && result.solution.flaw == Flaw::absent && is_even(result)) break;

@@ -75,6 +75,7 @@ Solution joined(const Problem& problem, Solution tangent, const Progress& progre
     found.ways = tangent.ways;
     found.tangent_only = known.unknown;
     found.join = kind_of(known);
+    if (tangent.pins != Pins::absent) found.pins = Pins::curvature_met;
     return found;
 }
 

@@ -36,8 +36,8 @@ enum class Join {
     not_found,          // no surface, or none that is accepted
 };
 
-// Whether pins have a radius (method/pinned). The last four: not, although it was asked for.
-enum class Pins { absent, spread, no_surface, no_outline, too_close, not_found };
+// Whether pins have a radius (method/pinned). The last five: not, although it was asked for.
+enum class Pins { absent, spread, no_surface, no_outline, too_close, not_found, curvature_met };
 
 // A way that was tried (method/ways), and how long it took.
 struct WayTaken {

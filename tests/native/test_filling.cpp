@@ -6,7 +6,9 @@
 #include <numeric>
 #include <random>
 
+#include "fill/ball_start.h"
 #include "fill/edge_lengths.h"
+#include "fill/first_surface.h"
 #include "fill/harmonic_values.h"
 #include "fill/joined_loops.h"
 #include "fill/triangulation.h"
@@ -235,5 +237,74 @@ TEST_CASE("harmonic values stay within the range of those given, wide angles or 
     for (int c = 0; c < 2; ++c) {
         CHECK(inside->col(c).minCoeff() >= given.col(c).minCoeff() - 1e-12);
         CHECK(inside->col(c).maxCoeff() <= given.col(c).maxCoeff() + 1e-12);
+    }
+}
+
+namespace {
+
+// A flat disc with its rim on a unit ball around the origin, at this angle from the direction of `side` · z.
+test::Single disc_on_ball(double half_angle, double side) {
+    return test::single_patch(test::grid(
+        12, 0.0,
+        [&](double u, double v) {
+            const double x = 2.0 * u - 1.0;
+            const double y = 2.0 * v - 1.0;
+            const double turn = std::atan2(y, x);
+            const double radius = std::max(std::abs(x), std::abs(y)) * std::sin(half_angle);
+            return Vector3(radius * std::cos(turn), radius * std::sin(turn), side * std::cos(half_angle));
+        },
+        false));
+}
+
+}  // namespace
+
+TEST_CASE("a start that bulges out beyond its outline lies on the ball of the outline's normals") {
+    constexpr double degree = std::numbers::pi / 180.0;
+    for (const double side : {1.0, -1.0}) {
+        for (const double angle : {120.0, 150.0, 170.0}) {
+            const test::Single disc = disc_on_ball(angle * degree, side);
+            const Patch& patch = disc.patch();
+            const Points normals = side * disc.points.rightCols(patch.vertex_count() - patch.free_count);
+            const Vector3 away(3.0, -2.0, 1.0);
+            const Points places = (5.0 * disc.points).colwise() + away;
+            const auto start = ball_start(patch, places, normals);
+            REQUIRE(start.has_value());
+            const Points local = (start->colwise() - away) / 5.0;
+            CHECK((local.colwise().norm().array() - 1.0).abs().maxCoeff() < 1e-12);
+            CHECK((local.rightCols(normals.cols()) - disc.points.rightCols(normals.cols())).norm() < 1e-12);
+            CHECK((side * local.row(2)).maxCoeff() > 0.9);  // its far side, seen from the outline
+            FaceGeometry faces;
+            faces.update(local, patch.triangles);
+            CHECK(faces.areas.sum() > 0.9 * 2.0 * std::numbers::pi * (1.0 - std::cos(angle * degree)));
+        }
+    }
+}
+
+TEST_CASE("no ball is taken where a flat start does, or where the normals name none") {
+    constexpr double degree = std::numbers::pi / 180.0;
+    for (const double angle : {40.0, 90.0, 110.0}) {
+        const test::Single disc = disc_on_ball(angle * degree, 1.0);
+        const int fixed_count = disc.patch().vertex_count() - disc.patch().free_count;
+        CHECK_FALSE(ball_start(disc.patch(), disc.points, disc.points.rightCols(fixed_count)).has_value());
+    }
+    const test::Single wide = disc_on_ball(150.0 * degree, 1.0);
+    const int fixed_count = wide.patch().vertex_count() - wide.patch().free_count;
+    Points upright = Points::Zero(3, fixed_count);
+    upright.row(2).setOnes();
+    CHECK_FALSE(ball_start(wide.patch(), wide.points, upright).has_value());
+}
+
+TEST_CASE("the surface over a rim that asks for nearly a whole ball is found from there at once") {
+    constexpr int n = 36;
+    constexpr double degree = std::numbers::pi / 180.0;
+    for (const double half_angle : {100.0 * degree, 150.0 * degree}) {
+        const double radius = 0.5 / std::sin(half_angle);
+        const Points rim = radius * (ring(n, 1.0 / std::tan(half_angle)) * std::sin(half_angle));
+        const FirstSurface found =
+            first_surface({rim, rim / radius, joined_loops(rim, {first_numbers(n)})}, SolverOptions(), Progress());
+        CHECK(found.solution.termination == Termination::converged);
+        CHECK((found.solution.points.colwise().norm().array() / radius - 1.0).abs().maxCoeff() < 1e-3);
+        const bool at_once = found.solution.ways.size() == 1 && found.solution.ways.front().name == "near";
+        CHECK(at_once == (half_angle > 115.0 * degree));
     }
 }
