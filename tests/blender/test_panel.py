@@ -199,8 +199,9 @@ def test_redo_panel_shows_every_option() -> None:
 
 ORDER = (
     "factor", "equation", "otherwise", "bulge", "mesh", "spacing", "quads", "inner_fairness", "detail", "detail_size",
-    "feather", "factor_group", "factor_mask", "boundary_normals", "continuity", "outline", "pin_group", "pin_radius",
-    "pin_edges", "pin_slope", "open_border", "method", "levels", "tolerance", "max_iterations", "accept",
+    "detail_from", "detail_face_set", "feather", "factor_group", "factor_mask", "boundary_normals", "continuity",
+    "outline", "pin_group", "pin_radius", "pin_edges", "pin_slope", "open_border", "method", "levels", "tolerance",
+    "max_iterations", "accept",
 )  # fmt: skip
 
 
