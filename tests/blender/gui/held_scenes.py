@@ -72,7 +72,7 @@ def porthole() -> int:
 
     def crumpled(points: np.ndarray) -> np.ndarray:
         near = points[:, 2] > 0.62
-        points[near] += random.normal(0.0, 0.012, (np.count_nonzero(near), 3))
+        points[near] += random.normal(0.0, 0.006, (np.count_nonzero(near), 3))
         return points
 
     chosen = centres()[:, 2] > 0.55
