@@ -60,6 +60,11 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
     Raises MeshRefusal (its `elements` are mesh vertices), ValueError, fairing.SolverError and fairing.Cancelled.
     """
     patch = problem.patch
+    if options.outline == "MENDED" and np.isin(patch.creases, patch.outline).any():
+        raise ValueError(
+            "Outline: Smooth would round off the creases that run out of the selection: choose As Selected, "
+            "or At Pinned Edges: Averaged"
+        )
     reads = options.reads_surroundings
     with in_mesh_words(problem.origin):
         return fairing.fair(
