@@ -210,8 +210,9 @@ Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optio
     if (!near_last && start) near_last = solve_near(problem, *start, progress.range(0.0, 0.4));
     Solution solution = near_last ? std::move(*near_last) : solve_pinned(problem, options().pin_radius, progress);
     if (!keeps()) return solution;
-    instead_.reset();
-    if (solution.instead && end_of(solution) == Termination::converged) instead_ = outline_of(problem);
+    replaced_.reset();
+    if (solution.instead != Instead::nothing && end_of(solution) == Termination::converged)
+        replaced_ = Replaced{outline_of(problem), solution.instead};
     // Other weights than those asked for were used: the next solve has to try again.
     if (solution.even_weights) {
         warm_.forget();
@@ -223,8 +224,8 @@ Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optio
 
 // The kind of surface stays what it was while an outline is dragged.
 std::optional<Solution> ComponentSolver::solve_near_last(const Problem& problem, const Progress& progress) {
-    if (!instead_ || !small_rotation(*instead_, outline_of(problem))) return warm_.solve(problem, progress);
-    return solve_else(problem, progress);
+    if (!replaced_ || !small_rotation(replaced_->outline, outline_of(problem))) return warm_.solve(problem, progress);
+    return solve_else(problem, replaced_->kind, progress);
 }
 
 // Needles across a curvature count as turned over in the reference already.

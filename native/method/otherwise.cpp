@@ -9,6 +9,7 @@
 #include "geometry/self_intersection.h"
 #include "method/accept.h"
 #include "method/ladder.h"
+#include "method/lofted.h"
 #include "method/sizes.h"
 #include "variation/least_variation.h"
 
@@ -20,6 +21,9 @@ constexpr double bulb = 2.0;  // ratio of variations
 // Changes of curvature by less than one over the patch's size can't be seen, and ratios of such energies are noise:
 // spheres and cylinders have none at all.
 constexpr double least_energy = 1.0;
+// Between jagged outlines V · A reaches 10³ to 10⁵, and no descent was seen to end there. It is 95 for an elbow of
+// 150°.
+constexpr double most_to_join = 1000.0;
 constexpr double least_square = 1e-12;  // of an edge, D²
 constexpr double begin = 0.9;           // share of the progress; most solves end before
 
@@ -99,7 +103,7 @@ std::optional<Solution> least_variation(const Problem& problem, const Solution& 
     even->ways = first.ways;
     even->ways.push_back({"variation", watch.seconds()});
     even->flaw = flaw_of(problem, *even);
-    even->instead = true;
+    even->instead = Instead::least_variation;
     return even;
 }
 
@@ -115,6 +119,12 @@ bool is_better(const Problem& problem, const Solution& even, const Solution& fir
     return !(variation_energy(problem, first.points) <= variation_energy(problem, even.points));
 }
 
+// Whether a descent that did not end is nearer to what is wanted than a loft: an elbow of 150° off by a tenth.
+bool is_evener(const Problem& problem, const Solution& even, const Solution& loft) {
+    if (!crossing_triangles(problem.patch.triangles, even.points).empty()) return false;
+    return variation_energy(problem, even.points) < variation_energy(problem, loft.points);
+}
+
 Solution instead_of_bulb(const Problem& problem, Solution solution, const Progress& progress) {
     const double energy = variation_energy(problem, solution.points);
     if (!(energy > least_energy)) return solution;
@@ -126,11 +136,21 @@ Solution instead_of_bulb(const Problem& problem, Solution solution, const Progre
     return std::move(*even);
 }
 
+// Whether as many iterations as are usual were in vain, or the vertices fold: a loft costs little.
+bool is_tried_enough(const Problem& problem, const Solution& solution) {
+    constexpr int usual_iterations = 200;
+    if (is_answer(solution) || solution.reached_load > 0.0) return false;
+    return solution.termination != Termination::iteration_limit || problem.options.max_iterations >= usual_iterations;
+}
+
 Solution instead_of_failure(const Problem& problem, Solution solution, const Progress& progress) {
-    auto even = least_variation(problem, solution, HUGE_VAL, progress);
-    if (even && (is_answer(*even) || is_better(problem, *even, solution))) return std::move(*even);
+    const bool joins = problem.patch.loop_count() > 1;
+    auto even = least_variation(problem, solution, joins ? most_to_join : HUGE_VAL, progress);
+    if (even && is_answer(*even)) return std::move(*even);
     if (even) solution.ways = even->ways;
-    return solution;
+    if (auto loft = lofted(problem, solution, progress); loft && !(even && is_evener(problem, *even, *loft)))
+        return std::move(*loft);
+    return even && is_better(problem, *even, solution) ? std::move(*even) : std::move(solution);
 }
 
 }  // namespace
@@ -150,10 +170,14 @@ Solution or_else(const Problem& problem, Solution solution, const Progress& prog
     const Progress rest = progress.range(begin, 1.0);
     if (is_answer(solution))
         return has_room_for_bulb(problem, solution) ? instead_of_bulb(problem, std::move(solution), rest) : solution;
-    return lacks_surface(solution) ? instead_of_failure(problem, std::move(solution), rest) : solution;
+    if (lacks_surface(solution)) return instead_of_failure(problem, std::move(solution), rest);
+    if (auto loft = is_tried_enough(problem, solution) ? lofted(problem, solution, rest) : std::nullopt)
+        return std::move(*loft);
+    return solution;
 }
 
-std::optional<Solution> solve_else(const Problem& problem, const Progress& progress) {
+std::optional<Solution> solve_else(const Problem& problem, Instead kind, const Progress& progress) {
+    if (kind == Instead::loft) return lofted(problem, {}, progress);
     auto even = least_variation(problem, {}, HUGE_VAL, progress);
     if (!even || !is_answer(*even)) return std::nullopt;
     return even;

@@ -20,7 +20,8 @@ Solution with_pins(Solution solution, Pins pins) {
 
 bool is_of_fourth_order(const Problem& problem, const Solution& solution) {
     const Equation equation = problem.options.equation;
-    return equation != Equation::minimal && equation != Equation::least_variation && !solution.instead;
+    return equation != Equation::minimal && equation != Equation::least_variation &&
+           solution.instead == Instead::nothing;
 }
 
 bool are_close(const Problem& problem, const Indices& pins, double distance) {

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
+from itertools import count
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -17,6 +18,7 @@ import meshes
 import numpy as np
 import pytest
 from extension import module
+from test_held import box, bumpy, off_box
 
 
 @pytest.fixture
@@ -290,6 +292,26 @@ def test_a_slow_answer_is_carried_along_until_the_end_of_the_drag(live: Any, mon
     assert_fair(faces)
 
 
+def test_other_work_on_the_machine_is_no_reason_to_give_up_at_the_end(
+    live: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Any look at the clock finds 100 seconds gone, none of them the processor's for Blender."""
+    home = module("follow.live")
+    table_mountain()
+    monkeypatch.setattr(home, "PATIENCE", -1.0)
+    clocks = {
+        "perf_counter": count(0.0, 100.0).__next__,
+        "process_time": time.process_time,
+        "monotonic": time.monotonic,
+    }
+    monkeypatch.setattr(home, "time", SimpleNamespace(**clocks))
+    drag(flank(now()), (0.0, 0.0, 0.05))
+    assert len(live.lost_points()) > 0
+    live.changed_at -= home.PAUSE
+    assert home._follow_later() is None
+    assert (len(live.lost_points()), live.message) == (0, "")
+
+
 def test_a_region_that_has_lost_its_surface_mends_when_the_drag_comes_back(
     live: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -529,3 +551,25 @@ def test_another_surface_stands_in_only_where_none_is_found_afresh(
     assert tried == ["answer", "afresh", "stand_in"][:asked]
     assert (live.message == "") == (message == "")
     assert message in live.message
+
+
+def test_live_follows_a_box_corner_with_creases(live: Any) -> None:
+    """Its sides are flat, its sharp edges stay; and so where it has been moved."""
+    obj, _ = box(24)
+    faces = meshes.faces_where(obj, lambda c: max(abs(x) for x in c) < 0.3)
+    on_edge = np.isclose(meshes.positions(obj), 0.0).sum(axis=1) >= 2
+    bumpy(obj, meshes.free_vertices(obj, faces) & ~on_edge)
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    last = bpy.context.window_manager.operator_properties_last("mesh.fair_region")
+    last.pin_edges = "SHARP"
+    try:
+        assert bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True) == {"FINISHED"}
+        assert off_box(now(obj.name)) < 1e-5
+        before = live.updates
+        drag(np.arange(len(now(obj.name))), (0.0, 0.0, 0.25), obj.name)
+        assert live.updates > before
+        assert off_box(now(obj.name) - [0.0, 0.0, 0.25]) < 1e-5
+    finally:
+        last.property_unset("pin_edges")
+    assert live.message == ""
