@@ -207,6 +207,7 @@ Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optio
                                         const Progress& progress) {
     std::optional<Solution> near_last = keeps() ? solve_near_last(problem, progress) : std::nullopt;
     if (!near_last && start) near_last = solve_near(problem, *start, progress.range(0.0, 0.4));
+    if (!near_last && options().start == Start::instead) near_last = solve_else(problem, progress);
     Solution solution = near_last ? std::move(*near_last) : solve_pinned(problem, options().pin_radius, progress);
     if (!keeps()) return solution;
     instead_.reset();

@@ -25,6 +25,7 @@ py::dict fill_arrays(const DoubleArray& vertices, const std::vector<IntArray>& l
     dict["vertices"] = from_points(result.vertices);
     dict["triangles"] = from_triangles(result.triangles);
     dict["converged"] = result.converged;
+    dict["instead"] = result.instead;
     return dict;
 }
 
