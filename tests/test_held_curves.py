@@ -187,3 +187,29 @@ def test_fits_beside_a_crease_look_at_their_own_side() -> None:
     whole = fairing.surrounding_normals(box.vertices, box.triangles, beside).normals
     assert np.abs(broken - box.normals[beside]).max() < 1e-9
     assert np.abs(whole - box.normals[beside]).max() > 0.05
+
+
+def within(patch: Creased, near: np.ndarray) -> dict[str, np.ndarray]:  # type: ignore[type-arg]
+    """The triangles chosen as a patch, its surroundings, and what holds it."""
+    inside, outside = patch.triangles[near], patch.triangles[~near]
+    used = np.unique(inside)
+    fixed = np.union1d(np.intersect1d(used, patch.fixed), np.intersect1d(used, outside))
+    return {
+        "triangles": inside, "fixed": fixed, "fixed_normals": patch.normals[fixed], "outside": outside,
+        "creases": np.intersect1d(patch.curve, used),
+    }  # fmt: skip
+
+
+def test_a_mended_outline_does_not_follow_creases_outside() -> None:
+    """Refused where a crease runs into the outline, beyond which triangles stand; the rim of a lid is whole inside."""
+    box = creased.box_edge(8)
+    middle = within(box, np.abs(box.vertices[box.triangles].mean(axis=1)[:, 1] - 0.5) < 0.3)
+    with pytest.raises(ValueError, match="outline: 'mended' can't follow creases outside, and 3 of `creases` lie on"):
+        fairing.fair(box.noisy(0.1), outline="mended", **middle)
+    lid = creased.lid(6)
+    upper = within(lid, lid.vertices[lid.triangles].mean(axis=1)[:, 2] > -0.45)
+    given, mended = (fairing.fair(lid.noisy(0.04), outline=how, **upper) for how in ("given", "mended"))
+    assert given.converged
+    assert mended.converged
+    assert len(mended.moved) > 0
+    assert lid.error(mended.vertices) < 0.9 * lid.error(given.vertices)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -65,6 +67,25 @@ def test_what_has_a_sound_harmonic_surface_keeps_its_bits(length: float, lean: f
     assert [name for name, _ in result.way] == [name for name, _ in plain.way]
 
 
+def rough_pipe(around: int, noise: float) -> tubes.Tube:
+    """Ends that lean by 5°, their points moved by `noise` edges and their normals by half as many radians."""
+    tube = tubes.pipe(5.0, 5.0, seed=3, around=around)
+    rng = np.random.default_rng(5)
+    vertices, count = tube.vertices.copy(), len(tube.fixed)
+    vertices[tube.fixed] += noise * 2 * np.pi / around * rng.normal(size=(count, 3)) / np.sqrt(3)
+    normals = tube.normals + 0.5 * noise * rng.normal(size=(count, 3))
+    return replace(tube, vertices=vertices, normals=normals / np.linalg.norm(normals, axis=1)[:, None])
+
+
+def test_a_large_patch_with_a_jagged_outline_is_not_tried_for_long() -> None:
+    """Curvature varies most at such an outline, wherever the surface goes: 23 s went into trying, all in vain."""
+    jagged = rough_pipe(44, 0.1).faired(equation="harmonic")
+    assert "variation" not in dict(jagged.way)
+    smooth = rough_pipe(44, 0.0).faired(equation="harmonic")
+    assert smooth.converged
+    assert smooth.equation == "least_variation"
+
+
 def test_running_out_of_iterations_is_no_lack_of_a_surface() -> None:
     patch = shapes.catenoid(300)
     result = fairing.fair(
@@ -112,6 +133,76 @@ def test_a_solver_tries_again_after_a_large_move() -> None:
     result = solver.solve(vertices, short.normals)
     assert result.equation == "harmonic"
     assert np.abs(radii(result) - 1).max() < 1e-3
+
+
+@pytest.mark.parametrize(("bend", "seed", "converges"), [(2.0, 2, True), (3.0, 1, True), (3.0, 2, False)])
+def test_an_elbow_of_150_degrees_is_no_loft(bend: float, seed: int, converges: bool) -> None:
+    """Its V · A is about 100, that of jagged outlines thousands. A loft would be one radius off the torus."""
+    result = tubes.elbow(bend, 150.0, seed=seed).faired(equation="harmonic")
+    assert result.equation == "least_variation"
+    assert tubes.off_torus(result.vertices, bend) < 0.15
+    assert result.converged == converges
+
+
+def wing(length: float = 3.0, thickness: float = 0.08, lean: float = 0.0) -> tubes.Tube:
+    """An elliptical section whose normals turn by more than 60° along an edge at its ends."""
+    tube = tubes.pipe(length, lean, seed=3)
+    flat = np.array([1.0, thickness, 1.0])
+    normals = tube.normals / flat
+    return tubes.Tube(
+        tube.vertices * flat, tube.triangles, tube.fixed, normals / np.linalg.norm(normals, axis=1, keepdims=True)
+    )
+
+
+def test_a_wing_is_a_loft_that_keeps_its_section() -> None:
+    made = wing()
+    result = made.faired(equation="harmonic")
+    assert result.converged
+    assert result.termination == "converged"
+    assert result.equation == "loft"
+    assert [name for name, _ in result.way][-1] == "loft"
+    middle = result.vertices[np.abs(made.vertices[:, 2] - 1.5) < 0.4]
+    chord, thickness = np.abs(middle[:, :2]).max(axis=0)
+    assert 0.85 < chord < 1.05
+    assert 0.07 < thickness < 0.09
+    (warning,) = [warning for warning in result.warnings if warning.code == "NO_SOLUTION"]
+    assert warning.figures["loft"] == 1
+    named = set(warning.elements.tolist())
+    assert named == set(result.fixed[result.boundary_angle > 20].tolist())
+    assert warning.figures["kinks"] == len(named)
+    # Slopes are let go at the ends of the section only.
+    assert np.abs(made.vertices[sorted(named), 0]).min() > 0.8
+    # The interior given is not looked at.
+    assert (made.faired(equation="harmonic", seed=1).vertices == result.vertices).all()
+
+
+def test_stop_makes_no_loft() -> None:
+    result = wing().faired(equation="harmonic", otherwise="stop")
+    assert not result.converged
+    assert result.equation == "harmonic"
+
+
+def test_a_loft_can_not_be_asked_for() -> None:
+    with pytest.raises(ValueError, match=r"equation.*loft"):
+        wing().faired(equation="loft")
+
+
+def test_a_wing_whose_solve_was_cut_short_is_no_loft() -> None:
+    result = wing().faired(equation="harmonic", max_iterations=1)
+    assert result.termination == "iteration_limit"
+    assert result.equation == "harmonic"
+
+
+def test_a_solver_stays_with_a_loft() -> None:
+    """And goes on from one outline to the next as evenly as the outline does."""
+    made = wing()
+    solver = fairing.Solver(made.triangles, fixed=made.fixed, threads=1)
+    first = solver.solve(made.vertices, made.normals)
+    moved = made.vertices + np.array([0.02, 0.0, 0.0]) * (made.vertices[:, 2:] > 2.9)
+    second = solver.solve(moved, made.normals)
+    assert [first.equation, second.equation] == ["loft", "loft"]
+    assert [name for name, _ in second.way] == ["loft"]
+    assert np.abs(second.vertices - first.vertices).max() < 0.021
 
 
 def test_otherwise_is_checked() -> None:

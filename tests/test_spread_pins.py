@@ -143,11 +143,71 @@ def test_the_surface_of_least_variation_needs_no_radius() -> None:
     assert patch.error(result.vertices) < 1e-9
 
 
+def pulled_sideways(n_free: int, pull: float, **options: object) -> tuple[fairing.FairResult, Patch, int]:
+    """A hemisphere whose apex is pinned a share of D to one side of where it was, and that vertex."""
+    patch = shapes.cap(n_free)
+    held = patch.vertices[patch.fixed]
+    middle = held.mean(axis=0)
+    across, _, up = np.linalg.svd(held - middle)[2]
+    apex = patch.free[np.argmax(np.abs((patch.vertices[patch.free] - middle) @ up))]
+    start = patch.vertices.copy()
+    start[apex] += pull * size(patch) * across
+    result = fairing.fair(
+        start, patch.triangles, fixed=np.append(patch.fixed, apex),
+        fixed_normals=np.vstack([patch.fixed_normals, np.zeros(3)]), **options,
+    )  # fmt: skip
+    assert np.array_equal(result.vertices[apex], start[apex])
+    return result, patch, int(apex)
+
+
+@pytest.mark.parametrize("pull", [0.15, 0.3])
+def test_a_pin_pulled_sideways_has_a_radius_too(pull: float) -> None:
+    """Its neighbours would fold: it is led there on another mesh. Two meshes agree, and nothing is folded."""
+    peaks = []
+    for n_free in (500, 1000):
+        result, patch, apex = pulled_sideways(n_free, pull)
+        assert result.converged
+        assert not {told.code for told in result.warnings}
+        assert len(fairing.flipped_triangles(result.vertices, patch.triangles)) == 0
+        peaks.append(float(result.mean_curvature[apex]) * size(patch))
+    assert peaks[0] == pytest.approx(peaks[1], rel=0.03)
+    sharp, patch, apex = pulled_sideways(1000, pull, pin_radius=0)
+    assert abs(float(sharp.mean_curvature[apex])) * size(patch) > 1.1 * abs(peaks[1])
+
+
+def test_pins_far_from_their_surface_are_led_there() -> None:
+    """Four pins, by turns 0.3 D above and below a flat disc: one iteration does not find the way, steps do."""
+    patch = shapes.plane(1000)
+    pins = near(patch, [(-0.2, -0.1), (0.2, -0.1), (0.2, 0.1), (-0.2, 0.1)])
+    result, _ = lifted(patch, pins, [0.3, -0.3, 0.3, -0.3], otherwise="stop")
+    assert result.converged
+    assert not result.warnings
+    assert np.abs(result.mean_curvature).max() * size(patch) < 12.0
+
+
+def test_pins_keep_to_points_where_the_curvature_is_joined() -> None:
+    """With the reason; where the tangent join has the curvature already, the pin has its radius."""
+    codes, pins = [], []
+    for patch in (shapes.torus(600), shapes.cap(600)):
+        pin = patch.free[[len(patch.free) // 2]]
+        pins.append(int(pin[0]))
+        fixed = np.concatenate([patch.fixed, pin])
+        result = fairing.fair(
+            patch.vertices, patch.triangles, fixed=fixed, continuity="G2", fixed_curvatures=patch.mean_curvature[fixed],
+            fixed_normals=np.vstack([patch.fixed_normals, np.zeros((1, 3))]),
+        )  # fmt: skip
+        assert result.converged
+        assert result.continuity == "G2"
+        codes.append([(told.code, list(told.elements)) for told in result.warnings])
+    assert codes[0] == [("PINS_NOT_SPREAD", [pins[0]])]
+    assert codes[1] == []
+
+
 def test_pins_that_are_too_much_say_so() -> None:
     """Lifts to either side that no surface with the radius makes: in points, with the reason."""
     patch = shapes.plane(600)
     pins = near(patch, [(-0.04, 0.0), (0.04, 0.0)])
-    result, _ = lifted(patch, pins, [0.25, -0.25], otherwise="stop")
+    result, _ = lifted(patch, pins, [1.0, -1.0], otherwise="stop")
     told = next(told for told in result.warnings if told.code == "PINS_NOT_SPREAD")
     assert set(told.elements) == set(pins)
 

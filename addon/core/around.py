@@ -62,6 +62,8 @@ def _usable(mesh: MeshArrays) -> Ints:
     """Return the triangles outside the selection whose corners are finite."""
     finite = np.isfinite(mesh.positions).all(axis=1)
     outside = mesh.triangles[~mesh.in_patch[mesh.triangle_faces]]
+    if finite.all():
+        return outside
     usable: Ints = outside[finite[outside].all(axis=1)]
     return usable
 

@@ -7,18 +7,22 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints, Mask
-from .outline import turned_over
+from .outline import face_normals, turned_over
 from .region import MeshArrays, Patch
-from .vectors import area_vectors, sum_at, unit
+from .vectors import sum_at, unit
 from .words import counted
 
 
-def average_normals(mesh: MeshArrays) -> Floats:
-    """Return (n, 3): the normalised mean of the unit normals of the faces at each vertex."""
-    sums = sum_at(mesh.triangle_faces, area_vectors(mesh.positions, mesh.triangles), len(mesh.in_patch))
-    normals = unit(sums)
+def average_normals(mesh: MeshArrays, at: Ints) -> Floats:
+    """Return (k, 3): the normalised mean of the unit normals of the faces at each of the vertices (k,)."""
+    asked = np.zeros(len(mesh.positions), dtype=bool)
+    asked[at] = True
+    corners = np.flatnonzero(asked[mesh.corner_vertices])
+    faces = np.unique(mesh.corner_faces[corners])
+    normals = face_normals(mesh, faces)
     normals[~np.isfinite(normals).all(axis=1)] = 0.0
-    return unit(sum_at(mesh.corner_vertices, normals[mesh.corner_faces], len(mesh.positions)))
+    at_corners = normals[np.searchsorted(faces, mesh.corner_faces[corners])]
+    return unit(sum_at(mesh.corner_vertices[corners], at_corners, len(mesh.positions))[at])
 
 
 def custom_normals(mesh: MeshArrays) -> Floats:
@@ -58,7 +62,7 @@ def surrounding_normals(mesh: MeshArrays, fixed: Ints, outside: Ints) -> tuple[F
     the average of all their faces. Where the faces outside are wound against the patch, their
     normals are turned round.
     """
-    normals = average_normals(mesh)[fixed]
+    normals = average_normals(mesh, fixed)
     fits, found = _fit_outside(mesh, fixed, outside)
     if fits is None:
         return normals, found
@@ -79,7 +83,7 @@ def prescribed_normals(mesh: MeshArrays, patch: Patch, source: str, outside: Int
     if source == "CUSTOM":
         return custom_normals(mesh)[fixed], ()
     if source == "AVERAGE":
-        return average_normals(mesh)[fixed], ()
+        return average_normals(mesh, fixed), ()
     normals, found = surrounding_normals(mesh, fixed, outside)
     alone = int(np.count_nonzero(~found & ~mesh.pinned[fixed]))
     if alone == 0:

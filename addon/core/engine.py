@@ -60,6 +60,11 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
     Raises MeshRefusal (its `elements` are mesh vertices), ValueError, fairing.SolverError and fairing.Cancelled.
     """
     patch = problem.patch
+    if options.outline == "MENDED" and np.isin(patch.creases, patch.outline).any():
+        raise ValueError(
+            "Outline: Smooth would round off the creases that run out of the selection: choose As Selected, "
+            "or At Pinned Edges: Averaged"
+        )
     reads = options.reads_surroundings
     with in_mesh_words(problem.origin):
         return fairing.fair(
@@ -103,9 +108,11 @@ def suppress_cancel() -> Iterator[None]:
 
 
 def bad_outline(problem: Problem) -> Ints:
-    """Return the mesh vertices of the outline whose surroundings say little about the surface."""
+    """Return the mesh vertices of the outline whose surroundings say little about the surface; creases are meant."""
     rim = np.intersect1d(problem.patch.outline, problem.outside)
-    return problem.vertices[fairing.bad_outline(problem.points, problem.outside, rim)]
+    found = fairing.bad_outline(problem.points, problem.outside, rim)
+    bad: Ints = problem.vertices[np.setdiff1d(found, problem.patch.creases)]
+    return bad
 
 
 @dataclass(frozen=True)

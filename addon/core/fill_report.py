@@ -84,8 +84,8 @@ def _named_worst(named: Named) -> Verdict:
 
 def _checks(pieces: list[Piece], added: Sequence[Added], distortion: float) -> tuple[Check, ...]:
     faces = sum(each.faces for each in added) if added else sum(len(piece.triangles) for piece in pieces)
-    surfaces = counted(len(pieces), "surface", "surfaces")
     return (
-        Check("New faces", f"{faces} in {surfaces}"),
+        Check("New faces", str(faces)),
+        *((Check("Surfaces", str(len(pieces))),) if len(pieces) > 1 else ()),
         *((Check("Texture distortion", f"{distortion:.1%}"),) if distortion else ()),
     )

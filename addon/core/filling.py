@@ -169,6 +169,8 @@ def _spacing(world: MeshArrays, loops: list[Ints], options: FillOptions) -> floa
 def _notes(options: FillOptions, result: fairing.FillResult) -> tuple[str, ...]:
     if result.equation == "least_variation" and options.equation != "LEAST_VARIATION":
         return ("No surface of that shape fits these outlines: even curvature was used",)
+    if result.equation == "loft":
+        return ("No fair surface fits these outlines: they were joined by a loft",)
     return ()
 
 

@@ -70,6 +70,8 @@ def _part(mesh: MeshArrays, faces: Mask, vertices: Mask) -> MeshArrays:
         in_patch=mesh.in_patch[faces],
         hidden=None if mesh.hidden is None else mesh.hidden[faces],
         pinned=mesh.pinned[vertices],
+        creases=None if mesh.creases is None else mesh.creases[used_edges],
+        smooth_curves=None if mesh.smooth_curves is None else mesh.smooth_curves[used_edges],
         corner_normals=None if normals is None else normals[corners],
         parts=None,
     )

@@ -174,6 +174,12 @@ WORDS: dict[str, tuple[Words, ...]] = {
         Words(
             "The surface asked for would be a bulb between these outlines: even curvature was used", when="variation"
         ),
+        Words(
+            "No fair surface fits these outlines: they were joined by a loft, with a kink at {n} outline vertex",
+            "No fair surface fits these outlines: they were joined by a loft, with a kink at {n} outline vertices",
+            when="kinks",
+        ),
+        Words("No fair surface fits these outlines: they were joined by a loft", when="loft"),
         Words("No harmonic surface fits these outlines: even curvature was used", when="harmonic"),
         Words("No surface of that shape fits these outlines: even curvature was used"),
     ),

@@ -16,22 +16,13 @@ from ..core.options import FairOptions
 from ..core.region import MeshArrays, free_vertices
 from ..core.selection import enclosed_faces
 from ..core.symmetry import with_image
+from .columns import column, indices, stored
 from .marked_lines import lines
 from .weights import group_index, members, parts_of_the_way
 
+FEW = 8  # times as many vertices as were moved: normals of the whole mesh take longer than theirs, one by one
+
 # Read and written as float32, which is what Blender stores; doubles in between.
-
-
-def _column(items: Any, name: str, width: int, dtype: Any) -> Any:
-    """Read one property of a Blender collection: (k,) for width 1, else (k, width)."""
-    values = np.empty(len(items) * width, dtype=dtype)
-    items.foreach_get(name, values)
-    return values if width == 1 else values.reshape(-1, width)
-
-
-def _indices(items: Any, name: str, width: int = 1) -> Ints:
-    values: Ints = _column(items, name, width, np.int32).astype(np.int64)
-    return values
 
 
 @contextmanager
@@ -59,7 +50,7 @@ def read_edit_mesh(obj: bpy.types.Object, options: FairOptions, region: str = ""
     with _snapshot(obj.data) as mesh:
         group = group_index(obj, options.pin_group, "pin_group")
         if region:
-            selected = _column(mesh.attributes[region].data, "value", 1, np.int32).astype(bool)
+            selected = column(mesh.attributes[region].data, "value", 1, np.int32).astype(bool)
             arrays = _arrays(mesh, selected, group, options)
         else:
             arrays = _selected(mesh, group, options)
@@ -69,10 +60,10 @@ def read_edit_mesh(obj: bpy.types.Object, options: FairOptions, region: str = ""
 
 def _selected(mesh: bpy.types.Mesh, group: int | None, options: FairOptions) -> MeshArrays:
     """Read a mesh with its selected faces, or with those that its selected edges enclose where no vertex is free."""
-    arrays = _arrays(mesh, _column(mesh.polygons, "select", 1, bool), group, options)
+    arrays = _arrays(mesh, stored(mesh, ".select_poly", (mesh.polygons, "select")), group, options)
     if free_vertices(arrays).any():
         return arrays
-    enclosed = enclosed_faces(arrays, _column(mesh.edges, "select", 1, bool))
+    enclosed = enclosed_faces(arrays, column(mesh.edges, "select", 1, bool))
     return _arrays(mesh, enclosed, group, options) if enclosed.any() else arrays
 
 
@@ -80,7 +71,7 @@ def read_own_mesh(obj: bpy.types.Object, options: FairOptions) -> MeshArrays:
     """Read the mesh of an object in whichever mode, without modifiers."""
     if obj.data.is_editmode:
         return read_edit_mesh(obj, options)
-    return _arrays(obj.data, _column(obj.data.polygons, "select", 1, bool), None, options)
+    return _arrays(obj.data, column(obj.data.polygons, "select", 1, bool), None, options)
 
 
 def read_shown_mesh(obj: bpy.types.Object, options: FairOptions) -> MeshArrays:
@@ -120,7 +111,7 @@ def edit_face_count(mesh: bpy.types.Mesh) -> int:
 def edit_positions(mesh: bpy.types.Mesh) -> Floats:
     """Return the (n, 3) positions of a mesh in edit mode."""
     with _snapshot(mesh) as now:
-        positions: Floats = _column(now.vertices, "co", 3, np.float32).astype(np.float64)
+        positions: Floats = column(now.vertices, "co", 3, np.float32).astype(np.float64)
         return positions
 
 
@@ -129,8 +120,8 @@ def is_unchanged(mesh: bpy.types.Mesh, arrays: MeshArrays) -> bool:
     with _snapshot(mesh) as now:
         if len(now.vertices) != len(arrays.positions) or len(now.loops) != len(arrays.corner_vertices):
             return False
-        positions = _column(now.vertices, "co", 3, np.float32)
-        corners = _indices(now.loops, "vertex_index")
+        positions = column(now.vertices, "co", 3, np.float32)
+        corners = stored(now, ".corner_vert", (now.loops, "vertex_index"))
         same = np.array_equal(positions, arrays.positions, equal_nan=True)
         return bool(same and np.array_equal(corners, arrays.corner_vertices))
 
@@ -160,21 +151,21 @@ def user_of(mesh: bpy.types.Mesh) -> bpy.types.Object | None:
 
 def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: FairOptions) -> MeshArrays:
     mesh.calc_loop_triangles()
-    sizes = _indices(mesh.polygons, "loop_total")
-    corner_vertices = _indices(mesh.loops, "vertex_index")
+    sizes = indices(mesh.polygons, "loop_total")
+    corner_vertices = stored(mesh, ".corner_vert", (mesh.loops, "vertex_index"))
     corner_faces = np.repeat(np.arange(len(sizes)), sizes)
-    hidden = _column(mesh.polygons, "hide", 1, bool)
+    hidden = stored(mesh, ".hide_poly", (mesh.polygons, "hide"))
     in_patch = selected & ~hidden
-    edges = _indices(mesh.edges, "vertices", 2)
+    edges = stored(mesh, ".edge_verts", (mesh.edges, "vertices"), 2)
     custom = options.boundary_normals == "CUSTOM"
     arrays = MeshArrays(
-        positions=_column(mesh.vertices, "co", 3, np.float32).astype(np.float64),
+        positions=column(mesh.vertices, "co", 3, np.float32).astype(np.float64),
         edges=edges,
         corner_vertices=corner_vertices,
-        corner_edges=_indices(mesh.loops, "edge_index"),
+        corner_edges=stored(mesh, ".corner_edge", (mesh.loops, "edge_index")),
         corner_faces=corner_faces,
-        triangles=_indices(mesh.loop_triangles, "vertices", 3),
-        triangle_faces=_indices(mesh.loop_triangle_polygons, "value"),
+        triangles=indices(mesh.loop_triangles, "vertices", 3),
+        triangle_faces=indices(mesh.loop_triangle_polygons, "value"),
         in_patch=in_patch,
         pinned=np.zeros(len(mesh.vertices), dtype=bool),
         corner_normals=_corner_normals(mesh) if custom else None,
@@ -216,12 +207,12 @@ def _is_textured(mesh: bpy.types.Mesh, corners: Mask) -> bool:
     layer = mesh.uv_layers.active
     if layer is None or not corners.any():
         return False
-    places = _column(layer.uv, "vector", 2, np.float32)[corners]
+    places = column(layer.uv, "vector", 2, np.float32)[corners]
     return bool((np.ptp(places, axis=0) > 0.0).all())
 
 
 def _corner_normals(mesh: bpy.types.Mesh) -> Floats:
-    normals: Floats = _column(mesh.corner_normals, "vector", 3, np.float32).astype(np.float64)
+    normals: Floats = column(mesh.corner_normals, "vector", 3, np.float32).astype(np.float64)
     return normals
 
 
@@ -229,12 +220,12 @@ def _marked_edges(mesh: bpy.types.Mesh, kind: str) -> Mask:
     """Return the (e,) mask of the edges that one of options.PIN_EDGES names."""
     if kind in ("SHARP", "SEAM"):
         name = "use_edge_sharp" if kind == "SHARP" else "use_seam"
-        marked: Mask = _column(mesh.edges, name, 1, bool)
+        marked: Mask = column(mesh.edges, name, 1, bool)
         return marked
     crease = mesh.attributes.get("crease_edge") if kind == "CREASE" else None
     if crease is None:
         return np.zeros(len(mesh.edges), dtype=bool)
-    positive: Mask = _column(crease.data, "value", 1, np.float32) > 0.0
+    positive: Mask = column(crease.data, "value", 1, np.float32) > 0.0
     return positive
 
 
@@ -245,8 +236,20 @@ def write_edit_mesh(mesh: bpy.types.Mesh, vertices: Ints, positions: Floats) -> 
     table = bm.verts
     for vertex, position in zip(vertices.tolist(), positions.tolist(), strict=True):
         table[vertex].co = position
-    bm.normal_update()
+    if FEW * len(vertices) < len(table):
+        _update_normals_at([table[vertex] for vertex in vertices.tolist()])
+    else:
+        bm.normal_update()
     bmesh.update_edit_mesh(mesh, destructive=False)
+
+
+def _update_normals_at(moved: list[Any]) -> None:
+    """Update the normals of some vertices, of their faces, and of these faces' vertices."""
+    faces = {face for vertex in moved for face in vertex.link_faces}
+    for face in faces:
+        face.normal_update()
+    for vertex in {vertex for face in faces for vertex in face.verts}:
+        vertex.normal_update()
 
 
 def write_mesh(mesh: bpy.types.Mesh, vertices: Ints, positions: Floats) -> None:
@@ -255,7 +258,7 @@ def write_mesh(mesh: bpy.types.Mesh, vertices: Ints, positions: Floats) -> None:
     With shape keys the Basis moves, and the keys relative to it follow, as they do
     when Blender's own tools edit the Basis.
     """
-    before = _column(mesh.vertices, "co", 3, np.float32)
+    before = column(mesh.vertices, "co", 3, np.float32)
     after = before.copy()
     after[vertices] = positions
     mesh.vertices.foreach_set("co", after.ravel())
@@ -270,7 +273,7 @@ def _move_keys(keys: bpy.types.Key, vertices: Ints, offsets: Any, basis: Any) ->
         return
     for block in keys.key_blocks:
         if _follows(block, keys.reference_key):
-            moved = _column(block.data, "co", 3, np.float32)
+            moved = column(block.data, "co", 3, np.float32)
             moved[vertices] += offsets
             block.data.foreach_set("co", moved.ravel())
 

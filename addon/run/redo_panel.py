@@ -20,6 +20,7 @@ def draw_options(layout: Any, options: Any, obj: bpy.types.Object, manager: Any)
     opened = bool(getattr(manager, OPEN))
     row = layout.row()
     row.use_property_split = False
+    row.alignment = "LEFT"
     row.prop(manager, OPEN, icon="DOWNARROW_HLT" if opened else "RIGHTARROW", emboss=False)
     if opened:
         _draw_solver(layout.column(align=True), options)

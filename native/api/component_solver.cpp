@@ -199,7 +199,8 @@ Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Componen
     const std::optional<NearStart> start = given_start(answer, data);
     Solution solution = solve_tangent(problem, start, joins ? progress.range(0.0, share_of_tangent) : progress);
     if (solution.even_weights) warn_of_even_weights(answer.warnings);
-    if (!joins) return with_spread_pins(problem, options().pin_radius, std::move(solution), progress.here());
+    solution = with_spread_pins(problem, options().pin_radius, std::move(solution), progress.here());
+    if (!joins) return solution;
     return joined(problem, std::move(solution), progress.range(share_of_tangent, 1.0));
 }
 
@@ -210,8 +211,9 @@ Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optio
     if (!near_last && options().start == Start::instead) near_last = solve_else(problem, progress);
     Solution solution = near_last ? std::move(*near_last) : solve_pinned(problem, options().pin_radius, progress);
     if (!keeps()) return solution;
-    instead_.reset();
-    if (solution.instead && end_of(solution) == Termination::converged) instead_ = outline_of(problem);
+    replaced_.reset();
+    if (solution.instead != Instead::nothing && end_of(solution) == Termination::converged)
+        replaced_ = Replaced{outline_of(problem), solution.instead};
     // Other weights than those asked for were used: the next solve has to try again.
     if (solution.even_weights) {
         warm_.forget();
@@ -223,8 +225,8 @@ Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optio
 
 // The kind of surface stays what it was while an outline is dragged.
 std::optional<Solution> ComponentSolver::solve_near_last(const Problem& problem, const Progress& progress) {
-    if (!instead_ || !small_rotation(*instead_, outline_of(problem))) return warm_.solve(problem, progress);
-    return solve_else(problem, progress);
+    if (!replaced_ || !small_rotation(replaced_->outline, outline_of(problem))) return warm_.solve(problem, progress);
+    return solve_else(problem, replaced_->kind, progress);
 }
 
 // Needles across a curvature count as turned over in the reference already.

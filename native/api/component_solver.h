@@ -38,11 +38,15 @@ public:
     // λ is read off the reference again, and the equation tried again.
     void options_changed() {
         given_reference_.resize(3, 0);
-        instead_.reset();
+        replaced_.reset();
         skin_.forget();
     }
 
 private:
+    struct Replaced {
+        Outline outline;
+        Instead kind;
+    };
     // Whether a solve starts from its last answer.
     [[nodiscard]] bool keeps() const;
     void read_reference(const Points& reference, const Normalisation& unit);
@@ -71,7 +75,7 @@ private:
     Diagnostics reference_warnings_;
     Lambda lambda_;
     WarmStart warm_;
-    std::optional<Outline> instead_;  // of the last answer, where it is of least variation instead
+    std::optional<Replaced> replaced_;  // of the last answer, where another surface was taken instead
 };
 
 }  // namespace fairing

@@ -114,6 +114,7 @@ std::string_view reason_of(Pins pins) {
     switch (pins) {
         case Pins::too_close: return "some are nearer to each other than two radii; a smaller radius may do";
         case Pins::no_outline: return "nothing but pins holds the surface";
+        case Pins::curvature_met: return "the surface that continues the curvature of its surroundings takes no radius";
         case Pins::no_surface: return "the surface through the points was not found either";
         default: return "no acceptable surface was found with it";
     }
@@ -253,9 +254,25 @@ void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& war
                         pins, ElementKind::vertex, figures});
 }
 
-Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation equation) {
+namespace {
+
+// Outline vertices that a surface meets at more than 20° from the tangent plane prescribed.
+Indices kinks_of(const Problem& problem, const Solution& solution) {
+    constexpr double visible = 20.0;
+    const VectorX angles = boundary_angles(problem.patch, solution.boundary_normals, problem.fixed_normals);
+    Indices kinks;
+    for (int k = 0; k < angles.size(); ++k) {
+        if (angles[k] > visible) kinks.push_back(fixed_vertices(problem.patch)[at(k)]);
+    }
+    return kinks;
+}
+
+}  // namespace
+
+Diagnostic no_solution(const Problem& problem, const Solution& solution) {
+    const Patch& patch = problem.patch;
     const std::string free = counted(at(patch.free_count), "free vertex", "free vertices");
-    const bool harmonic = equation == Equation::harmonic;
+    const bool harmonic = problem.options.equation == Equation::harmonic;
     const std::string name = harmonic ? "harmonic surface" : "surface of that equation";
     Figures figures{{"free_vertices", patch.free_count}};
     if (harmonic) figures["harmonic"] = 1.0;
@@ -265,8 +282,18 @@ Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation eq
         text = "the " + name + " of a component of " + free + " is a bulb, whose curvatures vary " +
                std::to_string(std::lround(solution.variation_ratio)) + " times as much as they need";
     }
-    return {Code::no_solution, text + "; the surface of least variation was taken",
-            Indices(free_vertices(patch).begin(), free_vertices(patch).end()), ElementKind::vertex, figures};
+    const auto all = free_vertices(patch);
+    Indices vertices(all.begin(), all.end());
+    text += solution.instead == Instead::loft ? "; a loft was taken" : "; the surface of least variation was taken";
+    if (solution.instead == Instead::loft) {
+        figures["loft"] = 1.0;
+        if (Indices kinks = kinks_of(problem, solution); !kinks.empty()) {
+            figures["kinks"] = size_of(kinks);
+            text += ", with a kink at " + counted(kinks.size(), "outline vertex", "outline vertices");
+            vertices = std::move(kinks);
+        }
+    }
+    return {Code::no_solution, text, std::move(vertices), ElementKind::vertex, figures};
 }
 
 void diagnose(const Patch& patch, const Solution& solution, const Points& prescribed, Diagnostics& warnings) {

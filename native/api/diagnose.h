@@ -37,9 +37,11 @@ void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& war
 
 // PINS_NOT_SPREAD where a radius was asked for and pins act in a point; with these pins.
 void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& warnings);
-// NO_SOLUTION: the surface of least variation was taken instead. Figures: "free_vertices"; "harmonic", 1, for that
-// equation; for a bulb "variation", how many times as much its curvatures varied.
-Diagnostic no_solution(const Patch& patch, const Solution& solution, Equation equation);
+// NO_SOLUTION: another surface was taken instead, with the free vertices. Figures: "free_vertices"; "harmonic", 1, for
+// that equation; for a bulb "variation", how many times as much its curvatures varied; for a loft "loft", 1, and where
+// it leaves the prescribed tangent planes by more than 20° "kinks", these outline vertices, which are the elements
+// then.
+Diagnostic no_solution(const Problem& problem, const Solution& solution);
 
 // Triangles of a patch by the numbers that the caller knows.
 Indices input_numbers(const Patch& patch, Indices triangles);

@@ -40,7 +40,7 @@ public:
         add_warnings(answer.warnings);
         write_back(patch, answer);
         const Solution& solution = answer.solution;
-        if (solution.instead) add_instead(patch, answer);
+        if (solution.instead != Instead::nothing) add_instead(answer);
         note_equation(answer.problem.options.equation);
         result_.residual = std::max(result_.residual, solution.residual);
         result_.initial_residual = std::max(result_.initial_residual, solution.initial_residual);
@@ -117,9 +117,10 @@ private:
         result_.equation = solved;
     }
 
-    void add_instead(const Patch& patch, const ComponentAnswer& answer) {
+    void add_instead(const ComponentAnswer& answer) {
         result_.equation = Equation::least_variation;
-        result_.warnings.push_back(no_solution(patch, answer.solution, answer.problem.options.equation));
+        result_.lofted = result_.lofted || answer.solution.instead == Instead::loft;
+        result_.warnings.push_back(no_solution(answer.problem, answer.solution));
     }
 
     void add_failure(Termination end, const Diagnostics& failures) {

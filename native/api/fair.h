@@ -38,6 +38,7 @@ struct FairOptions {
 
 struct FairResult {
     Equation equation = Equation::harmonic;  // that holds: least_variation where any component took it instead
+    bool lofted = false;                     // a component took a loft instead, which no equation has
     Points vertices;
     Points base;  // without detail: the fair surface, which all figures below are about; no columns: `vertices`
     Indices fixed;

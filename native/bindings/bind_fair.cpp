@@ -17,7 +17,7 @@ py::dict to_dict(const FairResult& result) {
     py::list ways;
     for (const WayTaken& way : result.ways) ways.append(py::make_tuple(way.name, way.seconds));
     py::dict dict;
-    dict["equation"] = equation_words.word(result.equation);
+    dict["equation"] = result.lofted ? std::string("loft") : equation_words.word(result.equation);
     dict["vertices"] = from_points(result.vertices);
     dict["base"] = result.base.cols() > 0 ? from_points(result.base) : dict["vertices"];
     dict["fixed"] = from_indices(result.fixed);

@@ -50,7 +50,7 @@ Join kind_of(const KnownCurvature& known) { return known.unknown.empty() ? Join:
 }  // namespace
 
 Solution joined(const Problem& problem, Solution tangent, const Progress& progress) {
-    if (tangent.flaw != Flaw::absent || tangent.even_weights || tangent.instead)
+    if (tangent.flaw != Flaw::absent || tangent.even_weights || tangent.instead != Instead::nothing)
         return with_join(std::move(tangent), Join::no_tangent_join);
     if (!tangent.polished) return with_join(std::move(tangent), Join::other_mesh);
     const KnownCurvature known = known_curvature(problem.patch, tangent.points, problem.fixed_curvatures);
@@ -75,6 +75,7 @@ Solution joined(const Problem& problem, Solution tangent, const Progress& progre
     found.ways = tangent.ways;
     found.tangent_only = known.unknown;
     found.join = kind_of(known);
+    if (tangent.pins != Pins::absent) found.pins = Pins::curvature_met;
     return found;
 }
 

@@ -1,4 +1,4 @@
-// The surface of least variation in place of one that the equation does not have.
+// The surfaces in place of one that the equation does not have.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,9 @@ namespace fairing {
 
 // Solves as solve_global does (method/ladder). Between G1 outlines the surface of least variation is taken instead
 // where no way was accepted, and where two outlines are joined by a bulb: a surface whose curvatures vary more than
-// twice as much (variation_energy) as they need. Not so with Otherwise::stop, where the iterations allowed ran out, and
-// where part of a load was solved. Where that surface is not accepted either, the better of both comes back with its
+// twice as much (variation_energy) as they need. Where that is not accepted either, several outlines are joined by a
+// loft (method/lofted). Not so with Otherwise::stop, where the iterations allowed ran out, and
+// where part of a load was solved. Where nothing is accepted, the better of the first two comes back with its
 // flaw: fewer crossings first, then less variation. `Solution::instead` tells which it is. Throws SolverError,
 // Cancelled.
 Solution solve_or_else(const Problem& problem, const Progress& progress);
@@ -24,7 +25,7 @@ Solution or_else(const Problem& problem, Solution solution, const Progress& prog
 // tried, and not only because the vertices fold on it.
 bool lacks_surface(const Solution& solution);
 
-// The surface of least variation at once, for a problem near one where it was taken. Nothing where it is not accepted.
-std::optional<Solution> solve_else(const Problem& problem, const Progress& progress);
+// What was taken instead for a problem nearby, at once. Nothing where it is not accepted.
+std::optional<Solution> solve_else(const Problem& problem, Instead kind, const Progress& progress);
 
 }  // namespace fairing

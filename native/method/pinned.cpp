@@ -4,6 +4,7 @@
 #include "geometry/surface_fit.h"
 #include "method/accept.h"
 #include "method/ladder.h"
+#include "method/led_pins.h"
 #include "method/otherwise.h"
 #include "pins/released.h"
 #include "pins/spread_pins.h"
@@ -19,7 +20,8 @@ Solution with_pins(Solution solution, Pins pins) {
 
 bool is_of_fourth_order(const Problem& problem, const Solution& solution) {
     const Equation equation = problem.options.equation;
-    return equation != Equation::minimal && equation != Equation::least_variation && !solution.instead;
+    return equation != Equation::minimal && equation != Equation::least_variation &&
+           solution.instead == Instead::nothing;
 }
 
 bool are_close(const Problem& problem, const Indices& pins, double distance) {
@@ -31,23 +33,34 @@ bool are_close(const Problem& problem, const Indices& pins, double distance) {
     return false;
 }
 
-// Judged by the rules for all surfaces.
-Solution spread_from(const Problem& problem, double radius, const Points& start, const Progress& progress) {
-    Solution found = spread_pins(problem, radius, start, progress);
-    found.boundary_normals = one_sided_normals(problem.patch, found.points);
+// By the rules for all surfaces.
+Solution judged(const Problem& problem, Solution found) {
     found.from_surface = true;
     found.flaw = flaw_of(problem, found);
     found.pins = Pins::spread;
     return found;
 }
 
-// From the surface without pins.
-std::optional<Solution> lifted(const Problem& problem, double radius, const Indices& pins, const Progress& progress) {
-    const Released free = released(problem.patch, pins);
+Solution spread_from(const Problem& problem, double radius, const Points& start, const Progress& progress) {
+    Solution found = spread_pins(problem, radius, start, progress);
+    found.boundary_normals = one_sided_normals(problem.patch, found.points);
+    return judged(problem, std::move(found));
+}
+
+// From the surface without pins, on the patch's own mesh or else step by step. `guess`: of vertices with their pins.
+std::optional<Solution> lifted(const Problem& problem, double radius, std::optional<Points> guess,
+                               const Progress& progress) {
+    const Released free = released(problem.patch, isolated_pins(problem.patch));
     const Solution without = solve_global(on_released(problem, free), progress.range(0.0, 0.5));
     if (end_of(without) != Termination::converged) return std::nullopt;
-    Solution found = spread_from(problem, radius, without.points(Eigen::all, free.to), progress.range(0.5, 1.0));
-    if (found.flaw != Flaw::absent) return std::nullopt;
+    const Points start = without.points(Eigen::all, free.to);
+    Solution found = spread_from(problem, radius, start, progress.range(0.5, 0.6));
+    if (found.flaw != Flaw::absent) {
+        auto led = lead_pins(problem, radius, {start, std::move(guess)}, progress.range(0.6, 1.0));
+        if (!led) return std::nullopt;
+        found = judged(problem, std::move(*led));
+        if (found.flaw != Flaw::absent) return std::nullopt;
+    }
     found.initial_residual = without.initial_residual;
     found.seconds = without.seconds;
     return found;
@@ -69,7 +82,7 @@ Solution solve_pinned(const Problem& problem, double radius, const Progress& pro
     const Indices pins = pins_to_spread(problem);
     if (pins.empty()) return or_else(problem, std::move(first), progress);
     const Stopwatch watch;
-    auto found = lifted(problem, radius, pins, progress.here());
+    auto found = lifted(problem, radius, std::nullopt, progress.here());
     first.ways.push_back({"pins", watch.seconds()});
     if (!found) return or_else(problem, std::move(first), progress);
     found->ways = first.ways;
@@ -85,6 +98,9 @@ Solution with_spread_pins(const Problem& problem, double radius, Solution sharp,
     if (pins.empty()) return with_pins(std::move(sharp), Pins::no_outline);
     const Stopwatch watch;
     Solution found = spread_from(problem, radius, sharp.points, progress);
+    if (found.flaw != Flaw::absent) {
+        if (auto other = lifted(problem, radius, sharp.points, progress)) found = std::move(*other);
+    }
     const double seconds = watch.seconds();
     sharp.seconds["pins"] = seconds;
     sharp.ways.push_back({"pins", seconds});

@@ -12,8 +12,8 @@ namespace fairing {
 Solution solve_pinned(const Problem& problem, double radius, const Progress& progress);
 
 // `sharp`: the answer in which pins act in a point. It comes back where there are none, and, with the reason in
-// `pins`, where no surface with a `radius` is found or accepted. Least variation and soap films stay as
-// they are.
+// `pins`, where no surface with a `radius` is found or accepted, from it or from the surface without pins. Least
+// variation and soap films stay as they are.
 Solution with_spread_pins(const Problem& problem, double radius, Solution sharp, const Progress& progress);
 
 }  // namespace fairing

@@ -36,8 +36,11 @@ enum class Join {
     not_found,          // no surface, or none that is accepted
 };
 
-// Whether pins have a radius (method/pinned). The last four: not, although it was asked for.
-enum class Pins { absent, spread, no_surface, no_outline, too_close, not_found };
+// Whether pins have a radius (method/pinned). The last five: not, although it was asked for.
+enum class Pins { absent, spread, no_surface, no_outline, too_close, not_found, curvature_met };
+
+// What holds in place of the problem's equation, where that has no surface (method/otherwise).
+enum class Instead { nothing, least_variation, loft };
 
 // A way that was tried (method/ways), and how long it took.
 struct WayTaken {
@@ -65,7 +68,7 @@ struct Solution {
     bool crosses = false;              // the surface passes through itself, whatever the mesh
     double first_step = 0.0;           // largest moves of the first and the last iteration, units of D
     double last_step = 0.0;
-    bool instead = false;          // of least variation, in place of the problem's equation
+    Instead instead = Instead::nothing;
     double variation_ratio = 0.0;  // of the bulb that it replaces, where it is one
     bool even_weights = false;     // uniform weights were taken instead of the problem's
     Join join = Join::tangent;

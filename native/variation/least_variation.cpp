@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "base/stopwatch.h"
 #include "geometry/self_intersection.h"
@@ -144,7 +145,7 @@ std::optional<Attempt> attempted(const Problem& problem, const Points& start, co
                                  const Progress& progress) {
     ProxyMesh mesh(problem.patch, start);
     const SolvedSheet coarse = solve_coarse(mesh, problem, beginning, progress.range(0.0, 0.5));
-    if (coarse.result.merit > most) return std::nullopt;
+    if (!(coarse.result.merit <= most)) return std::nullopt;  // NaN, too
     SolvedSheet fine = solve_fine(mesh, problem, coarse, progress.range(0.5, 1.0));
     return Attempt{std::move(mesh), std::move(fine), coarse.result.gradient, coarse.mesh.patch.vertex_count()};
 }
@@ -152,19 +153,21 @@ std::optional<Attempt> attempted(const Problem& problem, const Points& start, co
 }  // namespace
 
 Solution solve_least_variation(const Problem& problem, const Progress& progress) {
-    return *solve_less_varying(problem, HUGE_VAL, progress);
+    return *solve_less_varying(problem, {}, progress);
 }
 
-std::optional<Solution> solve_less_varying(const Problem& problem, double most, const Progress& progress) {
+std::optional<Solution> solve_less_varying(const Problem& problem, const VariationLimits& limits,
+                                           const Progress& progress) {
     const Checkpoints checkpoints(progress);
     Stopwatch watch;
     const Points start = start_of(problem, progress.range(0.0, 0.1));
     const double start_seconds = watch.lap();
     std::optional<Attempt> best;
     double begin = 0.1;
-    for (const Beginning& beginning : beginnings) {
+    const auto count = std::min(beginnings.size(), static_cast<std::size_t>(limits.most_beginnings));
+    for (const Beginning& beginning : std::span(beginnings).first(count)) {
         const double end = begin + 0.2;
-        auto attempt = attempted(problem, start, beginning, most, progress.range(begin, end));
+        auto attempt = attempted(problem, start, beginning, limits.most_product, progress.range(begin, end));
         if (!attempt) return std::nullopt;
         if (!best || attempt->is_better_than(*best)) best = std::move(attempt);
         if (best->fine.result.converged) break;

@@ -1,6 +1,7 @@
 // The surface whose normal curvatures vary least.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "base/progress.h"
@@ -16,8 +17,14 @@ namespace fairing {
 // are of this problem; `polished` is false. Deterministic. Throws Cancelled, SolverError.
 Solution solve_least_variation(const Problem& problem, const Progress& progress);
 
-// The same where its product may be at most `most`: nothing where a coarse mesh shows that it isn't.
-std::optional<Solution> solve_less_varying(const Problem& problem, double most, const Progress& progress);
+struct VariationLimits {
+    double most_product = HUGE_VAL;  // nothing comes back where a coarse mesh shows more
+    int most_beginnings = 4;         // other meshes and dampings that are tried where the first ends nowhere
+};
+
+// The same within limits.
+std::optional<Solution> solve_less_varying(const Problem& problem, const VariationLimits& limits,
+                                           const Progress& progress);
 
 // The product for any surface of the problem's patch (3 × local vertices), its normals being those that suit it best.
 double variation_energy(const Problem& problem, const Points& points);

@@ -9,9 +9,9 @@ import pytest
 
 import fairing
 from core.around import RINGS, outside_triangles
-from core.arrays import Floats
+from core.arrays import Floats, Ints, Mask
 from core.boundary import prescribed_normals
-from core.live_region import LiveRegion, surroundings
+from core.live_region import LiveRegion, Surroundings, surroundings
 from core.options import FairOptions
 from core.region import MeshArrays, make_patch
 from polygon_mesh import grid, on_sphere
@@ -40,6 +40,29 @@ def test_normals_from_the_part_are_those_from_the_whole(source: str) -> None:
     part, _ = prescribed_normals(around.mesh, around.patch, source, outside_triangles(around.mesh, around.patch))
     whole, _ = prescribed_normals(mesh, patch, source, outside_triangles(mesh, patch))
     np.testing.assert_allclose(part, whole, atol=1e-13)
+
+
+def test_creases_are_followed_with_the_edges_of_the_part() -> None:
+    """A roof with its ridge marked: normals beside it belong to one side each, in the part as in the whole."""
+    mesh = grid(SIZE, 0.35, lambda points: points + [0.0, 0.0, 1.0] * (1.0 - 0.4 * np.abs(points[:, :1])))
+    ridge = np.isclose(mesh.positions[:, 0], 0.0)
+    marked = ridge[mesh.edges].all(axis=1)
+    mesh = replace(mesh, creases=marked, pinned=ridge)
+    patch = make_patch(mesh)
+    around = surroundings(mesh, patch)
+    assert around.mesh.creases is not None
+    np.testing.assert_array_equal(
+        around.vertices[around.mesh.edges[around.mesh.creases]], _inside(mesh, around, marked)
+    )
+    part, _ = prescribed_normals(around.mesh, around.patch, "SURROUNDING", outside_triangles(around.mesh, around.patch))
+    whole, _ = prescribed_normals(mesh, patch, "SURROUNDING", outside_triangles(mesh, patch))
+    np.testing.assert_allclose(part, whole, atol=1e-13)
+
+
+def _inside(mesh: MeshArrays, around: Surroundings, marked: Mask) -> Ints:
+    """The marked edges (k, 2) between vertices of the part."""
+    edges = mesh.edges[marked]
+    return edges[np.isin(edges, around.vertices).all(axis=1)]
 
 
 def answer_after(move: Floats, **options: object) -> tuple[LiveRegion, Floats, MeshArrays]:

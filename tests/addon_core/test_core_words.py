@@ -58,6 +58,12 @@ def test_triangles_are_counted_by_their_faces_and_edges_by_the_meshs_vertices() 
     assert told(diagnostic("NO_SOLUTION", [0, 1, 2], free_vertices=3.0, harmonic=1.0)) == (
         "No harmonic surface fits these outlines: even curvature was used",
     )
+    assert told(diagnostic("NO_SOLUTION", [0, 2], free_vertices=3.0, harmonic=1.0, loft=1.0, kinks=2.0)) == (
+        "No fair surface fits these outlines: they were joined by a loft, with a kink at 2 outline vertices",
+    )
+    assert told(diagnostic("NO_SOLUTION", [0, 1, 2], free_vertices=3.0, harmonic=1.0, loft=1.0)) == (
+        "No fair surface fits these outlines: they were joined by a loft",
+    )
     edge = refusal(found(diagnostic("NONMANIFOLD_EDGE", [4, 1, 0, 2], edges=2.0), ORIGIN))
     assert "the edge 50–20" in str(edge)
     assert edge.elements.tolist() == [10, 20, 30, 50]

@@ -17,6 +17,7 @@ import meshes
 import numpy as np
 import pytest
 from extension import module
+from test_held import box, bumpy, off_box
 
 
 @pytest.fixture
@@ -529,3 +530,25 @@ def test_another_surface_stands_in_only_where_none_is_found_afresh(
     assert tried == ["answer", "afresh", "stand_in"][:asked]
     assert (live.message == "") == (message == "")
     assert message in live.message
+
+
+def test_live_follows_a_box_corner_with_creases(live: Any) -> None:
+    """Its sides are flat, its sharp edges stay; and so where it has been moved."""
+    obj, _ = box(24)
+    faces = meshes.faces_where(obj, lambda c: max(abs(x) for x in c) < 0.3)
+    on_edge = np.isclose(meshes.positions(obj), 0.0).sum(axis=1) >= 2
+    bumpy(obj, meshes.free_vertices(obj, faces) & ~on_edge)
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    last = bpy.context.window_manager.operator_properties_last("mesh.fair_region")
+    last.pin_edges = "SHARP"
+    try:
+        assert bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True) == {"FINISHED"}
+        assert off_box(now(obj.name)) < 1e-5
+        before = live.updates
+        drag(np.arange(len(now(obj.name))), (0.0, 0.0, 0.25), obj.name)
+        assert live.updates > before
+        assert off_box(now(obj.name) - [0.0, 0.0, 0.25]) < 1e-5
+    finally:
+        last.property_unset("pin_edges")
+    assert live.message == ""

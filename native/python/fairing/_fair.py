@@ -79,9 +79,11 @@ def fair(
     otherwise : "least_variation" | "stop"
         What is taken where ``equation`` has no surface that is accepted (method "global", all but "minimal"). By
         default it is that of least variation, also in place of a bulb between two outlines: a surface whose curvatures
-        vary more than twice as much as they need. ``result.equation`` names the equation that holds, and the warning
-        NO_SOLUTION says so. "stop": the best surface found, not ``converged``; bulbs stay. A solve that ran out of
-        ``max_iterations``, or has part of its load, is never replaced.
+        vary more than twice as much as they need. Several outlines that have
+        none of it either are joined by a loft, which may leave the tangent planes given: docs/least_variation.md.
+        ``result.equation`` names what holds, and the warning NO_SOLUTION says so. "stop": the best surface found, not
+        ``converged``; bulbs stay. A solve that ran out of fewer than 200 ``max_iterations``, or has part of its load,
+        is never replaced.
     load : float
         Of "constant", in length⁻³; positive bulges along the normals.
     bulge : float
@@ -231,6 +233,8 @@ def fair(
         return solve(boundary, faces, around.outside, None)
 
     mended = _arguments.choice("outline", outline, _options.OUTLINES) == "mended"
+    if mended:
+        _mending.refuse_creases(creases, around)
     parts = _feather.vertex_weights(weights, count)
     refused = {"reference": m0 is not None, "outline": mended, "continuity": joins}
     width = _feather.width(feather, parts, refused)

@@ -68,6 +68,16 @@ def _within(fixed: IntArray | None, count: int) -> IntArray:
     return fixed[(fixed >= 0) & (fixed < count)]
 
 
+def refuse_creases(creases: Any, around: Surroundings) -> None:
+    """Fits would look across a crease that runs on outside, and round it off: only the ends inside are known."""
+    ends = np.intersect1d([] if creases is None else creases, around.rim)
+    if len(ends):
+        raise ValueError(
+            f"outline: 'mended' can't follow creases outside, and {len(ends)} of `creases` lie on the outline, "
+            f"vertex {int(ends[0])} among them: pass outline 'given', or leave `creases` out"
+        )
+
+
 def solve_mended(
     call: Callable[[Boundary], Answer], given: Boundary, triangles: IntArray, around: Surroundings
 ) -> Answer:

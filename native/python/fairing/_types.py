@@ -72,8 +72,9 @@ class FairResult:
     """
 
     equation: str
-    """The equation that holds: the one asked for, or "least_variation" where any component has it instead (see
-    ``otherwise`` of :func:`fairing.fair`; the warning NO_SOLUTION names the component). ``converged`` refers to it."""
+    """The equation that holds: the one asked for, or "least_variation" where any component has it instead, or "loft"
+    where any is a loft (see ``otherwise`` of :func:`fairing.fair`; the warning NO_SOLUTION names the component).
+    ``converged`` refers to it. A loft is one linear solve: ``residual`` says nothing about it."""
     vertices: FloatArray
     """(n, 3) positions; vertices that are neither free nor in ``moved`` keep their bits."""
     base: FloatArray
@@ -118,9 +119,9 @@ class FairResult:
     """Name and seconds of each way that was tried, in order. The last one led to the result, unless none was accepted.
 
     "warm" starts from the last answer, "nested" goes from coarse to fine, "direct" stays on the mesh given, "proxy"
-    takes a mesh of the engine's own, "even" and "uniform" take uniform weights first or only. "minimal", "variation"
-    and "paper" belong to the equations and the method of that name, "patient" is a direct solve with all iterations.
-    Several components follow each other."""
+    takes a mesh of the engine's own, "even" and "uniform" take uniform weights first or only. "minimal", "variation",
+    "loft" and "paper" belong to the surfaces and the method of that name, "patient" is a direct solve with all
+    iterations. Several components follow each other."""
     warnings: tuple[Diagnostic, ...]
     moved: IntArray = field(default_factory=lambda: np.empty(0, np.int32))
     """Fixed and outside vertices that ``outline="mended"``, ``feather`` or ``weights`` have moved, ascending."""

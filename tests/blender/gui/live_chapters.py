@@ -20,12 +20,12 @@ HEADER = (1250, 754)  # of the panel Live below it, where there is no report
 SWITCH = (1081, 754)
 BUTTON = (1154, 723)
 AGAIN = 1e-5  # what answers from different starts may differ by: a few times the tolerance, 1e-6 of the diameter
+_opened: list[str] = []  # panels
 FAIR = 2e-5  # what an answer may differ by from the operator's: its tolerance
 
 
 def live_follows_a_drag() -> Story:
     """The neck of a bottle is dragged aside: its shoulder follows."""
-    yield from _open_panel()
     yield from _make_live("live", scenes.bottle)
     scenes.select_vertices(scenes.positions()[:, 2] > 0.59)
     yield from _follow("live", (130, 20))
@@ -35,7 +35,8 @@ def live_follows_a_pin() -> Story:
     """A plain, held in its middle: the pin is dragged upwards and a hill rises."""
     yield from _make_live("live_pin", scenes.hill, pin_group="Pin")
     scenes.select_vertices(np.linalg.norm(scenes.positions(), axis=1) < 1e-6)
-    yield from _follow("live_pin", (0, 90), "Z")
+    # By 0.3: Live and the operator agree up to 0.19 D, but not at 0.24 D, where both find a surface of their own.
+    yield from _follow("live_pin", (0, 58), "Z")
 
 
 def live_moves_the_far_side() -> Story:
@@ -59,8 +60,8 @@ def live_finds_no_surface() -> Story:
     start = scenes.positions()
     with _answers() as spent:
         yield from drag(STEPS, (0, -330), "Z")
-    wall = np.array([seconds for seconds, _ in spent])
-    tell(f"lost: {len(spent)} steps, the longest {wall.max():.2f} s, marked {len(_live().lost_points())} points")
+    tell(f"lost: {len(spent)} steps, marked {len(_live().lost_points())} points")
+    _tell_longest(spent)
     screenshot("live_lost_during")
     press("LEFTMOUSE", *_target((0, -330)))
     yield 6.0
@@ -69,6 +70,7 @@ def live_finds_no_surface() -> Story:
     assert np.isfinite(scenes.positions()).all()
     press("Z", *middle(), ctrl=True)
     yield 1.5
+    yield from wait_until(settled, 20.0)
     np.testing.assert_allclose(scenes.positions(), start, atol=AGAIN)
     assert _live().message == "", _live().message
     screenshot("live_lost_undone")
@@ -94,7 +96,10 @@ def _is_on() -> bool:
 
 
 def _open_panel() -> Story:
-    """Fold the panel Selection, open the panel Live."""
+    """Fold the panel Selection and open the panel Live, in the first chapter that is played."""
+    if _opened:
+        return
+    _opened.append("Live")
     scenes.bottle()  # other modes have no panel Selection
     report().free_vertices = 0  # no panel Last Run in between
     open_tab()
@@ -107,6 +112,7 @@ def _open_panel() -> Story:
 
 def _make_live(name: str, scene: Callable[[], int], pin_group: str = "") -> Story:
     """Make the scene and press the panel's button: Live is on."""
+    yield from _open_panel()
     tell(f"{scene.__name__}: {scene()} faces selected of {len(bpy.context.object.data.polygons)}")
     set_options(pin_group=pin_group)
     report().free_vertices = 0
@@ -158,9 +164,15 @@ def _timed_drag(free: Any, by: tuple[int, int], axis: str, without: float) -> St
         f"{without:.1f} pictures a second here; the region moved by up to {along:.2f}"
     )
     tell(f"Live itself, median of {len(spent)}: {wall:.0f} ms, of the processor {processor:.0f} ms")
+    _tell_longest(spent)
     assert count > STEPS // 2, "the region did not follow during the drag"
     assert along > 0.1
     assert _live().message == ""
+
+
+def _tell_longest(spent: list[tuple[float, float]]) -> None:
+    wall, processor = (1e3 * float(value) for value in np.max(spent, axis=0))
+    tell(f"the longest step: {wall:.0f} ms, of the processor {processor:.0f} ms")
 
 
 @contextmanager

@@ -14,7 +14,16 @@ import bpy
 import numpy as np
 import scenes
 from driver import Story, click, in_view, middle, play, press, screenshot, tell, type_text, view
+from held_chapters import (
+    copies_fairly,
+    fairs_an_open_border,
+    feathers,
+    holds_sharp_edges,
+    lifts_a_pin,
+    runs_through_a_curve,
+)
 from live_chapters import live_finds_no_surface, live_follows_a_drag, live_follows_a_pin, live_moves_the_far_side
+from new_mesh_chapters import fills_finer, gets_a_new_mesh
 from panel import (
     extension,
     module,
@@ -320,6 +329,14 @@ CHAPTERS = (
     keeps_detail,
     joins_curvature,
     fills_a_hole,
+    fills_finer,
+    gets_a_new_mesh,
+    holds_sharp_edges,
+    runs_through_a_curve,
+    lifts_a_pin,
+    fairs_an_open_border,
+    feathers,
+    copies_fairly,
     masked_in_sculpt_mode,
     face_set_by_a_click,
     live_follows_a_drag,
@@ -332,6 +349,8 @@ CHAPTERS = (
 def story() -> Story:
     """Play every chapter, or those that FAIRING_CHAPTERS names."""
     chosen = os.environ.get("FAIRING_CHAPTERS", "").split()
+    unknown = set(chosen) - {chapter.__name__ for chapter in CHAPTERS}
+    assert not unknown, f"there is no chapter {', '.join(sorted(unknown))}"
     extension()
     yield 1.0
     press("ESC", *middle())  # the splash screen of a first start

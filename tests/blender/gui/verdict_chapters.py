@@ -41,7 +41,8 @@ def _look() -> Story:
     yield 0.7
 
 
-def _framed(make: Any) -> Story:
+def framed(make: Any) -> Story:
+    """Make a scene and look at what is selected."""
     tell(f"{make.__name__}: {make()} faces selected of {len(bpy.context.object.data.polygons)}")
     with in_view():
         bpy.ops.view3d.view_selected()
@@ -52,7 +53,7 @@ def _framed(make: Any) -> Story:
 def marks_before_a_run() -> Story:
     """A spoilt rim: its vertices are marked, and the buttons below mend it."""
     set_options()
-    yield from _framed(spoilt_scenes.spoilt_rim)
+    yield from framed(spoilt_scenes.spoilt_rim)
     yield from _look()
     (found,) = module("follow.watch").watch.found
     assert len(found.bad) > 3, found
@@ -69,7 +70,7 @@ def marks_before_a_run() -> Story:
 
 def worth_a_look() -> Story:
     """A vertex of the outline stands out: written, and the button shows where."""
-    yield from _framed(spoilt_scenes.thorn)
+    yield from framed(spoilt_scenes.thorn)
     yield from run_and_wait()
     assert (report().verdict, report().written) == ("LOOK", True), report().reason
     tell(f"look here: {report().reason}")
@@ -88,7 +89,7 @@ def worth_a_look() -> Story:
 
 def not_usable() -> Story:
     """Half a sphere with a bulge that it hasn't got: nothing changes, the reason and the buttons are there."""
-    yield from _framed(spoilt_scenes.dome)
+    yield from framed(spoilt_scenes.dome)
     before = scenes.positions()
     yield from run_and_wait(equation="CONSTANT", bulge=0.3)
     assert (report().verdict, report().written) == ("UNUSABLE", False), report().reason
@@ -115,7 +116,7 @@ def not_usable() -> Story:
 def again_in_other_ways() -> Story:
     """Each of the other buttons runs once more."""
     for way in ("GROW", "SMOOTH_OUTLINE", "EVEN_CURVATURE"):
-        yield from _framed(spoilt_scenes.thorn)
+        yield from framed(spoilt_scenes.thorn)
         yield from run_and_wait()
         before, first = scenes.positions(), report().join_worst
         run_with("fair_again", way=way)
@@ -130,7 +131,7 @@ def again_in_other_ways() -> Story:
 
 def keeps_detail() -> Story:
     """A swelling goes, its grain stays."""
-    yield from _framed(spoilt_scenes.grainy)
+    yield from framed(spoilt_scenes.grainy)
     yield from run_and_wait()
     screenshot("detail_without")
     smooth = scenes.positions()
@@ -148,7 +149,7 @@ def joins_curvature() -> Story:
     settings.scope = "OBJECT"
     settings.show = True
     for name, value in (("tangent", "G1"), ("curvature", "G2")):
-        yield from _framed(spoilt_scenes.egg)
+        yield from framed(spoilt_scenes.egg)
         yield from run_and_wait(continuity=value)
         tell(f"join {value}: {report().verdict}, {report().warnings or 'no warnings'}")
         screenshot(f"join_{name}")

@@ -1,0 +1,16 @@
+// A loft between outlines that no curvature equation joins.
+#pragma once
+
+#include <optional>
+
+#include "base/progress.h"
+#include "problem/problem.h"
+#include "problem/solution.h"
+
+namespace fairing {
+
+// The loft (start/loft) with as much of its bulge as makes neither folds nor crossings nor a balloon; its slopes are
+// let go as far as that takes. `first`: what was tried before. Nothing for one outline, or where no share is accepted.
+std::optional<Solution> lofted(const Problem& problem, const Solution& first, const Progress& progress);
+
+}  // namespace fairing

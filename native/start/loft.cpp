@@ -1,0 +1,149 @@
+#include "start/loft.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/face_geometry.h"
+#include "operators/biharmonic_operator.h"
+#include "operators/laplace_operator.h"
+#include "problem/willmore.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr double least_stream = 0.05;  // of the typical |∇u|²: below, ∇u is less and less of a direction
+constexpr double trusted_turn = 30.0;  // degrees between the normals at the ends of an outline edge
+constexpr double lost_turn = 60.0;
+constexpr double tiny = 1e-30;
+
+using Vector2 = Eigen::Vector2d;
+using Hats = Eigen::Matrix<double, 2, 3>;
+
+// Gradients of the three hat functions of an equilateral triangle of side 1.
+Hats hat_gradients() {
+    const double h = 1.0 / std::numbers::sqrt3;
+    Hats gradients;
+    gradients << -1.0, 1.0, 0.0, -h, -h, 2.0 * h;
+    return gradients;
+}
+
+double length_of(const Problem& problem, const Indices& loop) {
+    const auto place = [&](std::size_t k) { return problem.fixed_points.col(loop[k] - problem.patch.free_count); };
+    double sum = 0.0;
+    for (std::size_t k = 0; k < loop.size(); ++k) sum += (place((k + 1) % loop.size()) - place(k)).norm();
+    return sum;
+}
+
+// A field on all vertices whose free values are harmonic.
+Points filled(const Patch& patch, const Stiffness& stiffness, const LaplaceOperator& laplace, Points field) {
+    field.leftCols(patch.free_count).setZero();
+    const Points pull = stiffness.apply(patch, field, patch.free_count);
+    field.leftCols(patch.free_count) = -laplace.solve(pull.transpose()).transpose();
+    return field;
+}
+
+// 0 on the longest outline, 1 on the others.
+Points levels(const Problem& problem, const std::vector<Indices>& loops) {
+    const auto shorter = [&](const Indices& a, const Indices& b) {
+        return length_of(problem, a) < length_of(problem, b);
+    };
+    const auto longest = std::max_element(loops.begin(), loops.end(), shorter);
+    Points field = Points::Zero(3, problem.patch.vertex_count());
+    for (auto loop = loops.begin(); loop != loops.end(); ++loop) {
+        for (int v : *loop) field(0, v) = loop == longest ? 0.0 : 1.0;
+    }
+    return field;
+}
+
+// The equilateral stiffness, weak across the stream of u. A wave of m periods around dies out within 1 / (m √ε) of the
+// way; ε is such that a round section (m = 1) reaches the other end.
+Stiffness along_stream(const Patch& patch, const Stiffness& even, const Points& levels, double roundness) {
+    const Hats hats = hat_gradients();
+    const Eigen::RowVectorXd u = levels.row(0);
+    Points slopes = Points::Zero(3, patch.triangle_count());
+    for (int t = 0; t < patch.triangle_count(); ++t)
+        slopes.col(t).head<2>() = hats * u(patch.triangles.col(t)).transpose();
+    const VectorX squares = slopes.colwise().squaredNorm().transpose();
+    const double total = squares.sum();
+    const double typical = squares.squaredNorm() / (total + tiny);
+    const double capacity = 0.25 * std::numbers::sqrt3 * total;  // 2 π r / l of a tube
+    const double across = std::min(1.0, std::pow(roundness * capacity / (2.0 * std::numbers::pi), 2));
+    Stiffness result = even;
+    result.weights.setZero();
+    for (int t = 0; t < patch.triangle_count(); ++t) {
+        const double directed = (1.0 - across) * std::min(1.0, squares[t] / (least_stream * typical + tiny));
+        const Vector2 along = slopes.col(t).head<2>() / std::sqrt(squares[t] + tiny);
+        const Eigen::Matrix2d tensor =
+            directed * along * along.transpose() + (1.0 - directed) * Eigen::Matrix2d::Identity();
+        for (int k = 0; k < 3; ++k) {
+            const double product = hats.col((k + 1) % 3).dot(tensor * hats.col((k + 2) % 3));
+            result.weights[patch.triangle_edges(k, t)] -= 0.5 * std::numbers::sqrt3 * product;
+        }
+    }
+    return result;
+}
+
+// How far the slope at each fixed vertex is believed, 0 … 1.
+VectorX trust_in_slopes(const Problem& problem, const std::vector<Indices>& loops) {
+    VectorX trust = VectorX::Ones(problem.fixed_normals.cols());
+    for (const Indices& loop : loops) {
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            const int a = loop[k] - problem.patch.free_count;
+            const int b = loop[(k + 1) % loop.size()] - problem.patch.free_count;
+            const double cosine = problem.fixed_normals.col(a).dot(problem.fixed_normals.col(b));
+            const double turn = std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi;
+            const double here = std::clamp((lost_turn - turn) / (lost_turn - trusted_turn), 0.0, 1.0);
+            trust[a] = std::min(trust[a], here);
+            trust[b] = std::min(trust[b], here);
+        }
+    }
+    return trust;
+}
+
+// The lines' own derivatives at the outline, turned into the given tangent planes where these are believed.
+Points turned_into_planes(const Problem& problem, const Points& derivatives, const VectorX& trust) {
+    const Points given = conormals(problem.patch, problem.fixed_points, problem.fixed_normals);
+    Points result = derivatives;
+    for (Eigen::Index k = 0; k < result.cols(); ++k) {
+        const Vector3 own = derivatives.col(k);
+        const Vector3 direction =
+            trust[k] * given.col(k).stableNormalized() + (1.0 - trust[k]) * own.stableNormalized();
+        if (trust[k] > 0.0) result.col(k) = own.norm() * direction.stableNormalized();
+    }
+    return result;
+}
+
+bool is_held_elsewhere(const Patch& patch, const std::vector<Indices>& loops) {
+    std::size_t on_loops = 0;
+    for (const Indices& loop : loops) on_loops += loop.size();
+    const bool pinned = std::any_of(patch.pin.begin(), patch.pin.end(), [](char pin) { return pin != 0; });
+    return pinned || on_loops != at(patch.vertex_count() - patch.free_count);
+}
+
+}  // namespace
+
+std::optional<Fill> loft(const Problem& problem, double roundness, const Progress& progress) {
+    const Patch& patch = problem.patch;
+    const std::vector<Indices> loops = patch.loops();
+    if (loops.size() < 2 || is_held_elsewhere(patch, loops)) return std::nullopt;
+    LaplaceOperator laplace(patch);
+    const Stiffness even = uniform_stiffness(patch);
+    if (!laplace.update(even, progress)) return std::nullopt;
+    const Stiffness stiffness =
+        along_stream(patch, even, filled(patch, even, laplace, levels(problem, loops)), roundness);
+    BiharmonicOperator clamped(patch);
+    if (!laplace.update(stiffness, progress) || !clamped.update(stiffness, progress)) return std::nullopt;
+    Points lines = Points::Zero(3, patch.vertex_count());
+    lines.rightCols(problem.fixed_points.cols()) = problem.fixed_points;
+    lines = filled(patch, stiffness, laplace, std::move(lines));
+    const Points derivatives =
+        0.5 * stiffness.apply(patch, lines, patch.vertex_count()).rightCols(problem.fixed_points.cols());
+    const Points turned = turned_into_planes(problem, derivatives, trust_in_slopes(problem, loops));
+    const Points nowhere = Points::Zero(3, turned.cols());
+    return Fill{lines.leftCols(patch.free_count),
+                clamped_displacement(patch, stiffness, nowhere, turned - derivatives, clamped)};
+}
+
+}  // namespace fairing
