@@ -185,7 +185,9 @@ def elbow(radius: float) -> tuple[FloatArray, IntArray]:
 def test_an_elbow_keeps_its_width(otherwise: str) -> None:
     """The harmonic one has a waist of two thirds. That is seen on the first surface: the fine mesh is solved once."""
     vertices, triangles = elbow(0.4)
-    loops = [loop for loop in fairing.boundary_loops(triangles) if (np.abs(vertices[loop, :2]).min(axis=1) < 1e-9).all()]
+    loops = [
+        loop for loop in fairing.boundary_loops(triangles) if (np.abs(vertices[loop, :2]).min(axis=1) < 1e-9).all()
+    ]
     result = fairing.fill(vertices, triangles, loops, bridge=True, otherwise=otherwise)
     away = np.hypot(np.hypot(result.vertices[:, 0], result.vertices[:, 1]) - 1, result.vertices[:, 2])
     assert result.converged

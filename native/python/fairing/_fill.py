@@ -91,7 +91,7 @@ def fill(
     fine, _ = patch.remeshed(len(points), length, LEAST_COUNT, options, watch.part(0.2, 0.4))
     watch.lap("mesh")
     coarser = count < 0.9 * LEAST_COUNT * (1 if bridge else len(outline.loops))
-    report = fine.faired(_start(first["instead"], options), around, options, watch.part(0.4, 0.9 if coarser else 1.0))
+    report = fine.faired(_start(first["start"], options), around, options, watch.part(0.4, 0.9 if coarser else 1.0))
     values = _report(report, len(points))
     if coarser:
         solved = _Patch(report.vertices, fine.triangles, outline.vertices, normals)
@@ -248,10 +248,10 @@ def _spacing(value: Any) -> float:
     return float(value)
 
 
-def _start(instead: bool, options: dict[str, Any]) -> str:
-    """Where the solve on the fine mesh begins; ``instead``: the harmonic first surface was one of least variation."""
+def _start(first: str, options: dict[str, Any]) -> str:
+    """Where the solve on the fine mesh begins; ``first``: what suits the first surface, which is a harmonic one."""
     same = options.get("equation", "harmonic") == "harmonic" and options.get("otherwise") != "stop"
-    return "instead" if instead and same else "given"
+    return first if same else "given"
 
 
 def _first_equation(options: dict[str, Any]) -> str:
