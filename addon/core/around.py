@@ -85,10 +85,18 @@ def wound_alike(mesh: MeshArrays, outside: Ints) -> Ints:
     return outside[:, ::-1] if 2 * np.count_nonzero(alike) > len(alike) else outside
 
 
-def numbered(patch: Patch, outside: Ints) -> tuple[Ints, Ints]:
-    """Return (q,) mesh vertices, the patch's first, then those of `outside` alone; and `outside` in their numbers."""
-    others = np.setdiff1d(outside, patch.vertices)
+def sample_triangles(mesh: MeshArrays) -> Ints:
+    """Return the (s, 3) triangles whose skin is copied, in the mesh's numbers."""
+    if mesh.sample is None:
+        return np.empty((0, 3), dtype=np.int64)
+    chosen: Ints = mesh.triangles[mesh.sample[mesh.triangle_faces]]
+    return chosen
+
+
+def numbered(patch: Patch, *triangles: Ints) -> tuple[Ints, ...]:
+    """Return (q,) mesh vertices, the patch's first, then those of the triangles alone; and these in their numbers."""
+    others = np.setdiff1d(np.concatenate(triangles), patch.vertices)
     vertices = np.concatenate([patch.vertices, others])
     number = np.zeros(int(vertices.max(initial=-1)) + 1, dtype=np.int64)
     number[vertices] = np.arange(len(vertices))
-    return vertices, number[outside]
+    return vertices, *(number[part] for part in triangles)

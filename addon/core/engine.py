@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -37,6 +37,7 @@ class Problem:
     outside: Ints  # (o, 3) triangles around the patch, in numbers of `vertices`
     curvatures: Floats | None = None  # (k,) H outside, NaN where it is not known; None: not to be continued
     weights: Floats | None = None  # (q,) how much of the way each vertex goes; None: all of it inside, none outside
+    sample: Ints = field(default_factory=lambda: np.empty((0, 3), dtype=np.int64))  # (s, 3) whose skin is copied
 
     @classmethod
     def of(cls, patch: Patch, points: Floats, normals: Floats, curvatures: Floats | None = None) -> Problem:
@@ -77,6 +78,7 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
             outline=options.outline.lower(),
             outside=problem.outside if reads else None,
             weights=problem.weights,
+            detail_from=problem.sample if options.copies_detail else None,
             progress=progress,
             **_held_inside(patch, options),
             **options.engine_arguments(),

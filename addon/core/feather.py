@@ -17,6 +17,7 @@ def refuse_options(options: FairOptions) -> None:
     without = "Feather 0" if options.feather > 0.0 else "no Factor Group and no Mask"
     for wrong, text in (
         (options.outline != "GIVEN", "Outline: Smooth moves vertices of the band: choose As Selected"),
+        (options.copies_detail, "Detail From copies a skin that the band does not blend: leave it empty"),
         (options.joins_curvature, "Join: Curvature holds the outline, which the band moves: choose Tangent"),
     ):
         if wrong and options.moves_band:

@@ -73,6 +73,7 @@ def _part(mesh: MeshArrays, faces: Mask, vertices: Mask) -> MeshArrays:
         creases=None if mesh.creases is None else mesh.creases[used_edges],
         smooth_curves=None if mesh.smooth_curves is None else mesh.smooth_curves[used_edges],
         corner_normals=None if normals is None else normals[corners],
+        sample=None,
         parts=None,
     )
 
@@ -84,8 +85,7 @@ class LiveRegion:
         """Prepare for the patch of `mesh`; raises ValueError where it can't be faired."""
         options = options.resolved(mesh.textured)
         world = mesh.transformed(matrix)
-        # Conformal weights belong to the shape that the region has now, and so do its triangles.
-        patch = make_patch(world, even=options.inner_fairness != "CONFORMAL")
+        patch = make_patch(world, even=not options.keeps_triangles)
         self._around = surroundings(mesh, patch)
         self._options = options
         self._image = mirror_map(mesh, patch) if mesh.mirror_x else None

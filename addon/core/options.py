@@ -49,6 +49,8 @@ class FairOptions:
     inner_fairness: str = "AUTOMATIC"  # CONFORMAL for a patch with a texture, UNIFORM for others
     detail: float = 0.0  # how much of the old patch's detail is put back, 0 … 1
     detail_size: float = 0.0  # what is shorter counts as detail: a part of the patch's size; 0: twelve edges
+    detail_from: str = ""  # name of a vertex group: the skin of the faces inside it is copied instead
+    detail_face_set: int = 0  # number of a face set: likewise
     feather: float = 0.0  # width of the band outside in which the change fades out: a part of the patch's size
     factor_group: str = ""  # name of a vertex group whose weights scale the way of each vertex, outside too
     factor_mask: str = "IGNORED"  # USED: the sculpt mask scales it
@@ -79,6 +81,8 @@ class FairOptions:
                 raise ValueError(f"{name}: expected a number from 0 to 1, got {getattr(self, name)!r}")
         if not 0.0 <= self.feather < float("inf"):
             raise ValueError(f"feather: expected 0 or a positive number, got {self.feather!r}")
+        if self.detail_face_set < 0:
+            raise ValueError(f"detail_face_set: expected 0 or a number of a face set, got {self.detail_face_set!r}")
         if not self.spacing >= LEAST_SPACING:
             raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
 
@@ -134,9 +138,19 @@ class FairOptions:
         return self.detail > 0.0 or self.moves_band
 
     @property
+    def keeps_triangles(self) -> bool:
+        """Whether quads stay cut as the old shape has them, to which conformal weights and detail belong."""
+        return self.inner_fairness == "CONFORMAL" or self.takes_base
+
+    @property
     def goes_by_weight(self) -> bool:
         """Whether each vertex has a part of the way of its own."""
         return bool(self.factor_group) or self.factor_mask == "USED"
+
+    @property
+    def copies_detail(self) -> bool:
+        """Whether the skin is that of other faces."""
+        return self.detail > 0.0 and (bool(self.detail_from) or self.detail_face_set > 0)
 
     @property
     def moves_band(self) -> bool:

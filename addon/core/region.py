@@ -37,6 +37,7 @@ class MeshArrays:
     hidden: Mask | None = None  # (f,); None: nothing is
     notes: tuple[str, ...] = ()  # what turned out odd when it was read
     lines: Mask | None = None  # (e,) edges that a new mesh keeps; None: not asked for
+    sample: Mask | None = None  # (f,) visible faces whose skin is copied; None: not asked for
     parts: Floats | None = None  # (n,) how much of the way each vertex may go, 0 … 1; None: all of it, inside alone
 
     def transformed(self, matrix: Floats) -> MeshArrays:

@@ -9,7 +9,7 @@ import numpy as np
 import fairing
 
 from . import engine
-from .around import numbered, outside_triangles, wide_outside, wound_alike
+from .around import numbered, outside_triangles, sample_triangles, wide_outside, wound_alike
 from .arrays import Floats
 from .boundary import prescribed_curvatures, prescribed_normals
 from .engine import Progress
@@ -91,17 +91,17 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
     # What is not finite outside the patch is none of our business, and the engine looks inside.
     with np.errstate(invalid="ignore", over="ignore"):
         world = mesh.transformed(matrix)
-        # Conformal weights and detail belong to the present shape, and so do its triangles.
-        patch = make_patch(world, even=options.inner_fairness != "CONFORMAL" and not options.takes_base)
+        patch = make_patch(world, even=not options.keeps_triangles)
         wide = options.takes_base
         outside = wide_outside(world, patch, options.feather) if wide else outside_triangles(world, patch)
         normals, warnings = prescribed_normals(world, patch, options.boundary_normals, outside)
         curvatures = prescribed_curvatures(world, patch, outside) if options.joins_curvature else None
-        vertices, around = numbered(patch, wound_alike(world, outside))
+        parts = wound_alike(world, outside), wound_alike(world, sample_triangles(world))
+        vertices, around, sample = numbered(patch, *parts)
         weights = band_weights(world, patch, vertices, around, options.feather) if options.moves_band else None
         precision = precision_note(mesh)
         notes = outline_notes(world) + ((precision,) if precision else ()) + mesh.notes
-    problem = engine.Problem(patch, world.positions[vertices], normals, vertices, around, curvatures, weights)
+    problem = engine.Problem(patch, world.positions[vertices], normals, vertices, around, curvatures, weights, sample)
     return problem, warnings + notes
 
 

@@ -31,7 +31,7 @@ from ..mesh import live_mesh, mesh_io
 from .session import Session, check_key, fits, matrix_of, read, session_of
 
 PATIENCE = 0.15  # seconds for an answer in the middle of changes: with reading and writing a step stays below 0.3
-LEISURE = 2.0  # seconds for each of the three ways to an answer at their end
+LEISURE = 3.0  # seconds of the processor for each of the three ways to an answer at their end: other work is no reason
 MOST_SKIPPED = 15  # changes in a row that are carried along without asking for an answer
 PAUSE = 0.3  # seconds without a change that count as their end
 STAND_IN = "No fair surface leads here: Even Curvature stands in for it"
@@ -90,7 +90,7 @@ class Live:
         if session.waited < session.skip:
             session.waited += 1
             return None
-        answer = _asked(session, session.region.answer, PATIENCE)
+        answer = _asked(session, session.region.answer, PATIENCE, time.perf_counter)
         failed = answer is None
         session.skip = min(2 * session.skip + 1, MOST_SKIPPED) if failed else 0
         session.waited = 0
@@ -102,11 +102,11 @@ class Live:
         """Answer at the end of changes: the surface itself, or the one that stands in for it."""
         self.message = ""
         for ask in (session.region.answer, session.region.afresh):
-            answer = _asked(session, ask, LEISURE)
+            answer = _asked(session, ask, LEISURE, time.process_time)
             if answer is not None:
                 return answer
         self.message = STAND_IN
-        return _asked(session, session.region.stand_in, LEISURE)
+        return _asked(session, session.region.stand_in, LEISURE, time.process_time)
 
     def is_lost(self, obj: bpy.types.Object) -> bool:
         """Tell whether the region still waits for an answer."""
@@ -156,11 +156,13 @@ class Live:
 live = Live()
 
 
-def _asked(session: Session, ask: Callable[..., Floats | None], patience: float) -> Floats | None:
-    """Ask for an answer, for so many seconds; None where there is none, or not in time."""
-    begin = time.perf_counter()
+def _asked(
+    session: Session, ask: Callable[..., Floats | None], patience: float, clock: Callable[[], float]
+) -> Floats | None:
+    """Ask for an answer, for so many seconds by the clock; None where there is none, or not in time."""
+    begin, end = time.perf_counter(), clock() + patience
     try:
-        return ask(session.positions, session.matrix, lambda *_: time.perf_counter() < begin + patience)
+        return ask(session.positions, session.matrix, lambda *_: clock() < end)
     except (fairing.Cancelled, fairing.SolverError):
         return None
     finally:

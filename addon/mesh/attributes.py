@@ -8,7 +8,7 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats
+from ..core.arrays import Floats, Ints, Mask
 
 SCULPT_MASK, FACE_SET = ".sculpt_mask", ".sculpt_face_set"  # Blender's own names of what sculpt mode paints
 
@@ -21,6 +21,17 @@ def values(mesh: bpy.types.Mesh, name: str, dtype: Any) -> Any:
     found = np.empty(len(attribute.data), dtype=dtype)
     attribute.data.foreach_get("value", found)
     return found
+
+
+def faces_within(mesh: bpy.types.Mesh, vertices: Mask) -> Ints:
+    """Return the faces of a mesh in object mode with all vertices in the (n,) mask."""
+    starts = np.empty(len(mesh.polygons), dtype=np.int32)
+    corners = np.empty(len(mesh.loops), dtype=np.int32)
+    mesh.polygons.foreach_get("loop_start", starts)
+    mesh.loops.foreach_get("vertex_index", corners)
+    if not len(starts):
+        return np.empty(0, dtype=np.int64)
+    return np.flatnonzero(np.logical_and.reduceat(vertices[corners], starts))
 
 
 def write_attribute(mesh: bpy.types.Mesh, name: str, values: Floats) -> None:

@@ -18,7 +18,7 @@ from ..core.selection import enclosed_faces
 from ..core.symmetry import with_image
 from .columns import column, indices, stored
 from .marked_lines import lines
-from .weights import group_index, members, parts_of_the_way
+from .weights import group_index, members, weighed
 
 FEW = 8  # times as many vertices as were moved: normals of the whole mesh take longer than theirs, one by one
 
@@ -54,7 +54,7 @@ def read_edit_mesh(obj: bpy.types.Object, options: FairOptions, region: str = ""
             arrays = _arrays(mesh, selected, group, options)
         else:
             arrays = _selected(mesh, group, options)
-        arrays = replace(arrays, mirror_x=obj.data.use_mirror_x, parts=parts_of_the_way(mesh, obj, options))
+        arrays = replace(weighed(arrays, mesh, obj, options), mirror_x=obj.data.use_mirror_x)
         return arrays if region else with_image(arrays)
 
 
@@ -141,7 +141,7 @@ def read_mesh(mesh: bpy.types.Mesh, faces: Ints, options: FairOptions) -> MeshAr
     selected[faces] = True
     user = user_of(mesh)
     arrays = _arrays(mesh, selected, group_index(user, options.pin_group, "pin_group"), options)
-    return replace(arrays, mirror_x=mesh.use_mirror_x, parts=parts_of_the_way(mesh, user, options))
+    return replace(weighed(arrays, mesh, user, options), mirror_x=mesh.use_mirror_x)
 
 
 def user_of(mesh: bpy.types.Mesh) -> bpy.types.Object | None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Ints, Mask
-from .attributes import FACE_SET, SCULPT_MASK, values
+from ..core.arrays import Floats, Ints
+from .attributes import FACE_SET, SCULPT_MASK, faces_within, values
 from .live_mesh import LAYER
 
 HALF = 0.5  # of the mask, from which on a vertex is masked
@@ -19,21 +19,10 @@ def positions(mesh: bpy.types.Mesh) -> Floats:
     return flat.reshape(-1, 3).astype(np.float64)
 
 
-def _faces_of(mesh: bpy.types.Mesh, vertices: Mask) -> Ints:
-    """Return the faces with all vertices in the (n,) mask."""
-    starts = np.empty(len(mesh.polygons), dtype=np.int32)
-    corners = np.empty(len(mesh.loops), dtype=np.int32)
-    mesh.polygons.foreach_get("loop_start", starts)
-    mesh.loops.foreach_get("vertex_index", corners)
-    if not len(starts):
-        return np.empty(0, dtype=np.int64)
-    return np.flatnonzero(np.logical_and.reduceat(vertices[corners], starts))
-
-
 def masked_faces(mesh: bpy.types.Mesh) -> Ints:
     """Return the faces that are masked by half or more at all corners."""
     mask = values(mesh, SCULPT_MASK, np.float32)
-    return np.empty(0, dtype=np.int64) if mask is None else _faces_of(mesh, mask >= HALF)
+    return np.empty(0, dtype=np.int64) if mask is None else faces_within(mesh, mask >= HALF)
 
 
 def face_set(mesh: bpy.types.Mesh, number: int) -> Ints:
@@ -65,7 +54,7 @@ def group_faces(obj: bpy.types.Object, name: str) -> Ints:
         raise ValueError(f"There is no vertex group named {name!r}")
     index = obj.vertex_groups[name].index
     member = [any(e.group == index and e.weight > 0.0 for e in v.groups) for v in obj.data.vertices]
-    return _faces_of(obj.data, np.array(member, dtype=bool))
+    return faces_within(obj.data, np.array(member, dtype=bool))
 
 
 def live_faces(mesh: bpy.types.Mesh) -> Ints:

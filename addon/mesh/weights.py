@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Ints
+from ..core.arrays import Floats, Ints, Mask
 from ..core.options import FairOptions
-from .attributes import SCULPT_MASK, values
+from ..core.region import MeshArrays
+from .attributes import FACE_SET, SCULPT_MASK, faces_within, values
 
 
 def group_index(obj: bpy.types.Object | None, name: str, option: str) -> int | None:
@@ -31,6 +34,11 @@ def members(mesh: bpy.types.Mesh, vertices: Ints, group: int) -> list[int]:
     ]
 
 
+def weighed(arrays: MeshArrays, mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions) -> MeshArrays:
+    """Return the arrays with how far each vertex goes, and the faces whose skin is copied; raises what these raise."""
+    return replace(arrays, parts=parts_of_the_way(mesh, obj, options), sample=sample_faces(mesh, obj, options))
+
+
 def parts_of_the_way(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions) -> Floats | None:
     """Return (n,) how much of the way each vertex goes, by vertex group and mask; None where neither is asked for.
 
@@ -48,6 +56,28 @@ def parts_of_the_way(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options
             raise ValueError("factor_mask: nothing is masked. Paint a mask in sculpt mode, or choose Ignored")
         parts *= np.clip(mask, 0.0, 1.0)
     return parts
+
+
+def sample_faces(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions) -> Mask | None:
+    """Return the (f,) mask of the visible faces whose skin is copied; None where none is to be.
+
+    obj: shows the mesh, or what it is a copy of. Raises ValueError where it has no such group, or no such faces.
+    """
+    if not options.copies_detail:
+        return None
+    group = group_index(obj, options.detail_from, "detail_from")
+    chosen = np.zeros(len(mesh.polygons), dtype=bool)
+    if group is not None:
+        chosen[faces_within(mesh, _group_weights(mesh, group) > 0.0)] = True
+    sets = values(mesh, FACE_SET, np.int32)
+    if options.detail_face_set and sets is not None:
+        chosen |= sets == options.detail_face_set
+    hidden = np.empty(len(mesh.polygons), dtype=bool)
+    mesh.polygons.foreach_get("hide", hidden)
+    chosen &= ~hidden
+    if not chosen.any():
+        raise ValueError("Detail From has no visible face: put all vertices of some faces into the group")
+    return chosen
 
 
 def _group_weights(mesh: bpy.types.Mesh, group: int) -> Floats:

@@ -9,6 +9,7 @@ from typing import Any
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from ..core.options import LEAST_SPACING
+from .skin_properties import SkinProperties
 
 EQUATIONS = (
     (
@@ -111,10 +112,6 @@ _PIN_SLOPES = (
     ("SMOOTH", "Smooth Through", "The surface runs through the edges with a slope that it finds"),
     ("AVERAGE", "Averaged", "Both sides take the mean slope of the old faces at the edge"),
 )
-_FACTOR_MASKS = (
-    ("IGNORED", "Ignored", "The mask of sculpt mode says nothing"),
-    ("USED", "Used", "What is masked goes all the way, what is half masked half of it, what is not masked stays"),
-)
 _OPEN_BORDERS = (
     ("HELD", "Held", "Open borders inside the selection stay where they are"),
     ("FAIRED", "Faired", "Open borders become fair curves, and the surface ends there as it likes"),
@@ -155,7 +152,7 @@ def equation_property(items: tuple[tuple[str, str, str], ...]) -> Any:
     return EnumProperty(name="Shape", description="Which surface spans the outline", items=items, default="HARMONIC")
 
 
-class FairProperties(SurfaceProperties):
+class FairProperties(SurfaceProperties, SkinProperties):
     """The properties of `mesh.fair_region`; names and defaults are those of options.FairOptions."""
 
     factor: FloatProperty(
@@ -188,47 +185,6 @@ class FairProperties(SurfaceProperties):
         description="How vertices spread over the surface. The surface itself stays the same",
         items=_INNER_FAIRNESS,
         default="AUTOMATIC",
-    )
-    detail: FloatProperty(
-        name="Keep Detail",
-        description="How much of the old skin is put back on the new shape: grain, pores and scales stay, and what is "
-        "larger than Size goes. 0: the surface is smooth",
-        default=0.0,
-        min=0.0,
-        max=1.0,
-        subtype="FACTOR",
-    )
-    detail_size: FloatProperty(
-        name="Size",
-        description="What repeats within less than this counts as detail: a part of the selection's size; "
-        "0: twelve edges",
-        default=0.0,
-        min=0.0,
-        max=1.0,
-        precision=3,
-        subtype="FACTOR",
-    )
-    feather: FloatProperty(
-        name="Feather",
-        description="Width of a band around the selection in which the change fades out, as a part of the selection's "
-        "size. The faces there move too. 0: nothing outside moves",
-        default=0.0,
-        min=0.0,
-        soft_max=0.5,
-        step=1,
-        precision=3,
-    )
-    factor_group: StringProperty(
-        name="Factor Group",
-        description="The weights of this vertex group say how much of the way each vertex goes, outside the selection "
-        "too, as far as weights lead on from it. Paint them to fade the change out",
-    )
-    factor_mask: EnumProperty(
-        name="Sculpt Mask",
-        description="Whether the mask of sculpt mode says how much of the way each vertex goes, outside the selection "
-        "too",
-        items=_FACTOR_MASKS,
-        default="IGNORED",
     )
     boundary_normals: EnumProperty(
         name="Tangent To",

@@ -62,6 +62,10 @@ def _draw_detail(group: Any, options: Any, obj: bpy.types.Object) -> None:
     row = group.row()
     row.active = options.detail > 0.0
     row.prop(options, "detail_size", slider=True)
+    column = group.column(align=True)
+    column.active = options.detail > 0.0
+    column.prop_search(options, "detail_from", obj, "vertex_groups")
+    column.prop(options, "detail_face_set")
     row = group.row()
     row.active = options.mesh == "KEEP"
     row.prop(options, "feather", slider=True)

@@ -95,9 +95,10 @@ class VIEW3D_PT_fairing_report(_Panel, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """There must have been one, and it must stand."""
+        """There must have been one, it must stand, and so must one of its objects."""
         report = context.window_manager.fairing_report
-        return bool(report.free_vertices and not report.undone)
+        names = (report.objects, *report.objects.split(", "))
+        return bool(report.free_vertices and not report.undone and any(name in bpy.data.objects for name in names))
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the verdict, what may help, and the figures; what the panel Selection says isn't said again."""

@@ -202,7 +202,8 @@ FairResult run_call(const MeshInput& input, const std::optional<Points>& referen
                              input.outside,
                              input.weights,
                              input.fixed_normals.has_value(),
-                             prepared->mesh.roles.faired};
+                             prepared->mesh.roles.faired,
+                             input.sample};
     double done = begin;
     double total = 0.0;
     for (const Patch& patch : prepared->patches) total += patch.vertex_count();

@@ -23,6 +23,7 @@ struct MeshInput {
     Triangles outside = {};                        // around the patches; they stay
     VectorX weights = {};                          // per vertex, 0 … 1: see FairOptions' detail; empty: 1
     HeldInside held = {};
+    Triangles sample = {};  // whose detail is put on the surface; empty: the patch's own is
 };
 
 // What the connectivity and the choice of fixed vertices say. Border vertices are fixed, given or not.

@@ -1,11 +1,14 @@
 #include "api/kept_skin.h"
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "api/diagnose.h"
 #include "base/stopwatch.h"
 #include "detail/low_pass.h"
 #include "geometry/surface_fit.h"
+#include "mesh/pieces.h"
 
 namespace fairing {
 
@@ -40,12 +43,35 @@ bool are_chosen(const Points& normals, const Indices& rim, const Points& positio
     return agree < 0;
 }
 
+// The largest piece of the sample with an inside.
+Patch sample_patch(const ComponentData& data) {
+    const CheckedMesh mesh = check_mesh({data.vertices, data.sample, {}, {}});
+    std::vector<Patch> patches = make_patches(mesh.cut, mesh.roles);
+    std::erase_if(patches, [](const Patch& patch) { return patch.free_count == patch.vertex_count(); });
+    const auto largest = std::max_element(patches.begin(), patches.end(),
+                                          [](const Patch& a, const Patch& b) { return a.free_count < b.free_count; });
+    if (largest == patches.end()) {
+        throw std::invalid_argument("detail_from: the sample has no vertex inside its border, or no border");
+    }
+    return std::move(*largest);
+}
+
 }  // namespace
 
 void KeptSkin::read(const ComponentData& data, double size, const Progress& progress) {
+    const Stopwatch watch;
+    if (data.sample.cols() > 0) {
+        progress.here().report(0.0, "detail");
+        read_sample(data, size, progress);
+    } else {
+        read_own(data, size, progress);
+    }
+    seconds_ += watch.seconds();
+}
+
+void KeptSkin::read_own(const ComponentData& data, double size, const Progress& progress) {
     const Points reference = gather(data.reference, patch_.to_input);
     if (skin_ && reference == read_off_) return;
-    const Stopwatch watch;
     progress.here().report(0.0, "detail");
     warnings_.clear();
     skin_.reset();
@@ -58,7 +84,20 @@ void KeptSkin::read(const ComponentData& data, double size, const Progress& prog
     }
     if (!skin_) warn_of_missing_detail(warnings_);
     read_off_ = reference;
-    seconds_ = watch.seconds();
+}
+
+// In units of the patch's D throughout: both have one scale.
+void KeptSkin::read_sample(const ComponentData& data, double size, const Progress& progress) {
+    unit_ = normalise(gather(data.vertices, fixed_vertices(patch_)));
+    const Patch sample = sample_patch(data);
+    const Points points = unit_.to_unit(gather(data.vertices, sample.to_input));
+    const Points edge = points.rightCols(points.cols() - sample.free_count);
+    const double own = normalise(edge).diameter;
+    wavelength_ = size > 0.0 ? size : own * detail_wavelength(sample, points / own);
+    std::optional<SkinSample> read;
+    if (!has_collapsed_fan(sample, points)) read = sample_of(sample, points, wavelength_, progress.here());
+    if (read) borrowed_ = BorrowedSkin::of(std::move(*read), wavelength_, progress.here());
+    if (!borrowed_) warn_of_missing_detail(warnings_);
 }
 
 BaseOutline KeptSkin::low_pass_outline(const ComponentData& data, const Points& positions) const {
@@ -86,12 +125,18 @@ BaseOutline KeptSkin::low_pass_outline(const ComponentData& data, const Points& 
 
 BaseOutline KeptSkin::outline(const ComponentData& data) const { return low_pass_outline(data, data.vertices); }
 
-Dressed KeptSkin::put_back(const ComponentData& data, const Points& new_base) const {
+Dressed KeptSkin::put_back(const ComponentData& data, const Points& new_base, const Progress& progress) const {
     const int free = patch_.free_count;
     const auto fixed = fixed_vertices(patch_);
     const Points at_outline =
         gather(data.vertices, fixed) - new_base.rightCols(static_cast<Eigen::Index>(fixed.size()));
     Dressed result{new_base, Points::Zero(3, new_base.cols()), {}};
+    if (borrowed_) {
+        const auto detail =
+            borrowed_->detail_on(patch_, unit_.to_unit(new_base), at_outline / unit_.diameter, progress.here());
+        if (detail) result.detail.leftCols(free) = unit_.diameter * *detail;
+        return result;
+    }
     VectorX weights = VectorX::Ones(new_base.cols());
     if (data.weights.size() > 0) {
         weights = data.weights(patch_.to_input);

@@ -6,6 +6,7 @@
 
 #include "api/component.h"
 #include "base/progress.h"
+#include "detail/borrowed_skin.h"
 #include "detail/skin.h"
 
 namespace fairing {
@@ -29,11 +30,15 @@ class KeptSkin {
 public:
     explicit KeptSkin(const Patch& patch) : patch_(patch) {}
 
-    // Reads the skin off data.reference, unless it was read off the same one. `size`: of FairOptions. Throws Cancelled.
+    // Reads the skin off data.sample where that has triangles, else off data.reference, unless it was read off the same
+    // one. `size`: of FairOptions. Throws Cancelled, what check_mesh throws, std::invalid_argument for a sample without
+    // an inside.
     void read(const ComponentData& data, double size, const Progress& progress);
     void forget() { skin_.reset(); }
     // False where no detail can be read off: warnings() say so.
-    [[nodiscard]] bool found() const { return skin_ != nullptr; }
+    [[nodiscard]] bool found() const { return skin_ || borrowed_; }
+    // Whether the new surface takes over the places of the vertices, too: base() has them.
+    [[nodiscard]] bool keeps_places() const { return skin_ != nullptr; }
     [[nodiscard]] const Diagnostics& warnings() const { return warnings_; }
     // Low-pass where triangles lie outside. Normals that the caller gave stay where they are others than triangles
     // outside show.
@@ -41,15 +46,18 @@ public:
     [[nodiscard]] const Points& base() const { return skin_->base(); }
     // The detail on a new base (3 × local vertices, in the caller's units). data.weights blend both bases, and keep the
     // detail that `base` loses where they are below 1.
-    [[nodiscard]] Dressed put_back(const ComponentData& data, const Points& new_base) const;
+    [[nodiscard]] Dressed put_back(const ComponentData& data, const Points& new_base, const Progress& progress) const;
     // Spent on reading since the last time that this was asked.
     [[nodiscard]] double take_seconds() { return std::exchange(seconds_, 0.0); }
 
 private:
+    void read_own(const ComponentData& data, double size, const Progress& progress);
+    void read_sample(const ComponentData& data, double size, const Progress& progress);
     [[nodiscard]] BaseOutline low_pass_outline(const ComponentData& data, const Points& positions) const;
 
     const Patch& patch_;
-    std::unique_ptr<Skin> skin_;
+    std::unique_ptr<Skin> skin_;  // one of both
+    std::unique_ptr<BorrowedSkin> borrowed_;
     Points read_off_;          // 3 × local vertices, the caller's
     Normalisation unit_{};     // of that
     double wavelength_ = 0.0;  // share of D

@@ -8,6 +8,7 @@
 
 #include "base/direction.h"
 #include "base/progress.h"
+#include "geometry/face_geometry.h"
 #include "geometry/neighbourhood.h"
 #include "geometry/surface_fit.h"
 
@@ -24,38 +25,18 @@ constexpr double contradiction = 4.0;  // standard errors
 constexpr double cos_of_widest_turn = 0.5;
 constexpr double least_error = 1e-10;  // of a slope: exact fits have rounding for one
 
-Points vertex_normals(const Points& points, const Triangles& triangles) {
-    Points sums = Points::Zero(3, points.cols());
-    for (const auto t : triangles.colwise()) {
-        const Vector3 a = points.col(t[0]);
-        const Vector3 cross = (points.col(t[1]) - a).cross(Vector3(points.col(t[2]) - a));
-        for (int v : t) sums.col(v) += cross;
-    }
-    return sums;
-}
-
 // The vertices that a walk within a ball reaches, nearest first.
 class Ball {
 public:
     Ball(const Points& points, const Triangles& triangles)
         : points_(points),
-          normals_(vertex_normals(points, triangles)),
+          normals_(summed_normals(points, triangles)),
           around_(triangles, static_cast<int>(points.cols())),
-          seen_(static_cast<std::size_t>(points.cols()), none) {}
+          walk_(around_, points_) {}
 
     void gather(int centre, double radius) {
-        Indices reached(1, centre);
-        seen_[at(centre)] = centre;
-        for (std::size_t k = 0; k < reached.size(); ++k) {
-            for (int j = around_.begin[at(reached[k])]; j < around_.begin[at(reached[k]) + 1]; ++j) {
-                const int v = around_.neighbours[at(j)];
-                if (seen_[at(v)] == centre || !(distance(centre, v) <= radius)) continue;
-                seen_[at(v)] = centre;
-                reached.push_back(v);
-            }
-        }
         std::vector<std::pair<double, int>> order;
-        for (int v : reached) order.emplace_back(distance(centre, v), v);
+        for (int v : walk_.gather(centre, radius)) order.emplace_back(distance(centre, v), v);
         std::sort(order.begin(), order.end());
         near_.clear();
         distances_.clear();
@@ -84,7 +65,7 @@ private:
     const Points& points_;
     Points normals_;
     VertexAdjacency around_;
-    Indices seen_;
+    BallWalk walk_;
     std::vector<Vector3> near_;
     std::vector<double> distances_;
     std::vector<Vector3> sums_;

@@ -75,4 +75,14 @@ double Stiffness::diagonal(const Patch& patch, int vertex) const {
     return sum;
 }
 
+Points summed_normals(const Points& points, const Triangles& triangles) {
+    Points sums = Points::Zero(3, points.cols());
+    for (const auto t : triangles.colwise()) {
+        const Vector3 a = points.col(t[0]);
+        const Vector3 cross = (points.col(t[1]) - a).cross(Vector3(points.col(t[2]) - a));
+        for (int v : t) sums.col(v) += cross;
+    }
+    return sums;
+}
+
 }  // namespace fairing

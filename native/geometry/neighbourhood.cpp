@@ -24,6 +24,24 @@ VertexAdjacency::VertexAdjacency(const Triangles& triangles, int vertex_count) :
     }
 }
 
+BallWalk::BallWalk(const VertexAdjacency& adjacency, const Points& points)
+    : adjacency_(adjacency), points_(points), seen_(static_cast<std::size_t>(points.cols()), none) {}
+
+const Indices& BallWalk::gather(int centre, double radius) {
+    ++stamp_;
+    reached_.assign(1, centre);
+    seen_[at(centre)] = stamp_;
+    for (std::size_t k = 0; k < reached_.size(); ++k) {
+        for (int j = adjacency_.begin[at(reached_[k])]; j < adjacency_.begin[at(reached_[k]) + 1]; ++j) {
+            const int v = adjacency_.neighbours[at(j)];
+            if (seen_[at(v)] == stamp_ || !((points_.col(v) - points_.col(centre)).norm() <= radius)) continue;
+            seen_[at(v)] = stamp_;
+            reached_.push_back(v);
+        }
+    }
+    return reached_;
+}
+
 Neighbourhood::Neighbourhood(const VertexAdjacency& adjacency, const Points& points, Reach reach)
     : adjacency_(adjacency), points_(points), reach_(reach), mark_(static_cast<std::size_t>(points.cols()), none) {}
 

@@ -15,6 +15,21 @@ struct VertexAdjacency {
     VertexAdjacency(const Triangles& triangles, int vertex_count);
 };
 
+// A walk from a vertex along edges that stays within a ball: not what lies near across a gap. Keeps references.
+class BallWalk {
+public:
+    BallWalk(const VertexAdjacency& adjacency, const Points& points);
+    // The vertices that it reaches, the centre first. Valid until the next call.
+    const Indices& gather(int centre, double radius);
+
+private:
+    const VertexAdjacency& adjacency_;
+    const Points& points_;
+    Indices seen_;
+    Indices reached_;
+    int stamp_ = none;
+};
+
 // Rings are gathered up to `rings`, and on (to five) until there are more points than `points`.
 struct Reach {
     int rings;

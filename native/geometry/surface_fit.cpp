@@ -6,6 +6,7 @@
 
 #include "base/direction.h"
 #include "base/progress.h"
+#include "geometry/face_geometry.h"
 
 namespace fairing {
 
@@ -41,12 +42,7 @@ std::vector<Candidate> candidates(const Neighbourhood& around, Centre at_centres
 }
 
 Points averaged_at(const Points& points, const Triangles& triangles) {
-    Points sums = Points::Zero(3, points.cols());
-    for (const auto t : triangles.colwise()) {
-        const Vector3 a = points.col(t[0]);
-        const Vector3 cross = (points.col(t[1]) - a).cross(Vector3(points.col(t[2]) - a));
-        for (int v : t) sums.col(v) += cross;
-    }
+    Points sums = summed_normals(points, triangles);
     for (auto column : sums.colwise()) column = direction(column);
     return sums;
 }

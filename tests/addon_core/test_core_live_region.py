@@ -140,3 +140,24 @@ def test_no_convergence_is_no_answer_and_a_stop_is_heard() -> None:
     with pytest.raises(fairing.Cancelled):
         patient.answer(mesh.positions[patient.vertices], EYE, lambda *_: False)
     assert patient.answer(mesh.positions[patient.vertices], EYE) is not None
+
+
+def test_the_skin_that_the_region_had_stays_on_it() -> None:
+    """Keep Detail: it turns and grows with the outline. The region's own later places say nothing."""
+    mesh = sphere()
+    free = LiveRegion(mesh, EYE, FairOptions()).free
+    heights = 0.01 * np.random.default_rng(5).normal(size=(len(free), 1))
+    rough = mesh.positions.copy()
+    rough[free] *= 1.0 + heights
+    region = LiveRegion(replace(mesh, positions=rough), EYE, FairOptions(detail=1.0))
+    turn, _ = np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))
+    turn *= np.sign(np.linalg.det(turn))
+    first = region.answer(rough[region.vertices], EYE)
+    moved = mesh.positions @ turn.T  # the free vertices without their skin
+    second = region.answer(moved[region.vertices], EYE)
+    assert first is not None
+    assert second is not None
+    np.testing.assert_allclose(second, first @ turn.T, atol=1e-5)
+    kept = np.linalg.norm(first, axis=1) - 1.0
+    assert np.corrcoef(kept, heights[:, 0])[0, 1] > 0.9
+    assert kept.std() == pytest.approx(heights.std(), rel=0.25)

@@ -21,6 +21,8 @@ DEFAULTS = {
     "inner_fairness": "AUTOMATIC",
     "detail": 0.0,
     "detail_size": 0.0,
+    "detail_from": "",
+    "detail_face_set": 0,
     "feather": 0.0,
     "factor_group": "",
     "factor_mask": "IGNORED",

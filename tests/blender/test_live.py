@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
+from itertools import count
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -289,6 +290,26 @@ def test_a_slow_answer_is_carried_along_until_the_end_of_the_drag(live: Any, mon
     assert live.message == ""
     monkeypatch.setattr(home, "PATIENCE", 60.0)
     assert_fair(faces)
+
+
+def test_other_work_on_the_machine_is_no_reason_to_give_up_at_the_end(
+    live: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Any look at the clock finds 100 seconds gone, none of them the processor's for Blender."""
+    home = module("follow.live")
+    table_mountain()
+    monkeypatch.setattr(home, "PATIENCE", -1.0)
+    clocks = {
+        "perf_counter": count(0.0, 100.0).__next__,
+        "process_time": time.process_time,
+        "monotonic": time.monotonic,
+    }
+    monkeypatch.setattr(home, "time", SimpleNamespace(**clocks))
+    drag(flank(now()), (0.0, 0.0, 0.05))
+    assert len(live.lost_points()) > 0
+    live.changed_at -= home.PAUSE
+    assert home._follow_later() is None
+    assert (len(live.lost_points()), live.message) == (0, "")
 
 
 def test_a_region_that_has_lost_its_surface_mends_when_the_drag_comes_back(

@@ -199,8 +199,9 @@ def test_redo_panel_shows_every_option() -> None:
 
 ORDER = (
     "factor", "equation", "otherwise", "bulge", "mesh", "spacing", "quads", "inner_fairness", "detail", "detail_size",
-    "feather", "factor_group", "factor_mask", "boundary_normals", "continuity", "outline", "pin_group", "pin_radius",
-    "pin_edges", "pin_slope", "open_border", "method", "levels", "tolerance", "max_iterations", "accept",
+    "detail_from", "detail_face_set", "feather", "factor_group", "factor_mask", "boundary_normals", "continuity",
+    "outline", "pin_group", "pin_radius", "pin_edges", "pin_slope", "open_border", "method", "levels", "tolerance",
+    "max_iterations", "accept",
 )  # fmt: skip
 
 
@@ -284,3 +285,13 @@ def test_enabled_and_disabled_twenty_times() -> None:
         assert sum(without["handlers"].values()) == sum(enabled["handlers"].values()) - 7
         addon_utils.enable(ID)
     assert footprint() == enabled
+
+
+def test_the_last_run_goes_with_its_object() -> None:
+    obj, faces = meshes.domed_grid()
+    obj.name = "Hill, with a comma"
+    panel = module("show.ui").VIEW3D_PT_fairing_report
+    assert meshes.fair(obj, faces) == {"FINISHED"}
+    assert panel.poll(bpy.context)
+    bpy.data.objects.remove(obj)
+    assert not panel.poll(bpy.context)

@@ -282,3 +282,59 @@ def test_the_soft_edge_of_a_mask_fades_out_what_is_masked() -> None:
     before = meshes.positions(obj)
     assert bpy.ops.mesh.fair_masked(source="MASK", factor_mask="USED") == {"FINISHED"}
     assert np.array_equal((meshes.positions(obj) != before).any(axis=1), weights > 0.0)
+
+
+def with_a_hole() -> tuple[bpy.types.Object, meshes.Mask]:
+    """A rough sphere with a smooth patch; the group "Skin" and the face set 7 are its lower half."""
+    obj = meshes.sphere(48)
+    points = meshes.positions(obj)
+    noise = NOISE * np.random.default_rng(7).normal(size=len(points)) * (points[:, 2] < LIMIT)
+    faces = meshes.faces_where(obj, lambda centre: centre.z > LIMIT)
+    low = points[:, 2] < 0.2
+    meshes.move(obj, points * (1 + noise)[:, None])
+    obj.vertex_groups.new(name="Skin").add(np.flatnonzero(low).tolist(), 1.0, "REPLACE")
+    within = [all(low[v] for v in polygon.vertices) for polygon in obj.data.polygons]
+    sets = obj.data.attributes.new(".sculpt_face_set", "INT", "FACE")
+    sets.data.foreach_set("value", np.where(within, 7, 1).astype(np.int32))
+    return obj, faces
+
+
+def test_a_filled_hole_takes_the_skin_of_a_group_or_a_face_set() -> None:
+    """Its noise, and no bit of the rest; both name the same faces here."""
+    by_group, faces = with_a_hole()
+    by_set, _ = with_a_hole()
+    free = meshes.free_vertices(by_group, faces)
+    assert np.array_equal(fair(by_group, faces, detail=1.0, detail_from="Skin"), free)
+    assert np.array_equal(fair(by_set, faces, detail=1.0, detail_face_set=7), free)
+    assert np.array_equal(meshes.positions(by_group), meshes.positions(by_set))
+    deep = meshes.positions(by_group)[:, 2] < -0.2
+    assert heights(by_group)[free].std() == pytest.approx(heights(by_group)[deep].std(), rel=0.25)
+
+
+def test_a_script_copies_skin_too(nothing_solves: Any) -> None:
+    from bl_ext.user_default.intrinsic_fairing import fair_mesh
+
+    obj, faces = with_a_hole()
+    scripted, _ = with_a_hole()
+    fair(obj, faces, detail=1.0, detail_from="Skin")
+    fair_mesh(scripted.data, np.flatnonzero(faces), detail=1.0, detail_from="Skin")
+    assert np.abs(meshes.positions(obj) - meshes.positions(scripted)).max() < 1e-6
+    nothing_solves()  # the slider still answers from memory
+    half, _ = with_a_hole()
+    fair(half, faces, detail=0.5, detail_from="Skin")
+
+
+@pytest.mark.parametrize(
+    ("options", "text"),
+    [
+        ({"detail_from": "Missing"}, "detail_from: there is no vertex group named 'Missing'"),
+        ({"detail_face_set": 3}, "Detail From has no visible face"),
+        ({"detail_from": "Skin", "feather": 0.1}, "Detail From copies a skin"),
+    ],
+)
+def test_samples_that_can_not_be_are_refused_in_words(options: dict[str, Any], text: str) -> None:
+    obj, faces = with_a_hole()
+    before = meshes.in_edit_mode_once(obj, faces)
+    with pytest.raises(RuntimeError, match=text):
+        meshes.fair(obj, faces, detail=1.0, **options)
+    assert meshes.contents(obj) == before

@@ -77,6 +77,7 @@ def fair(
     weights: _Floats | None,
     outside: _Ints | None,
     blend: _Floats | None,
+    sample: _Ints | None,
     options: Options,
     paper: PaperOptions,
     progress: Callable[[float, str], bool | None] | None,

@@ -48,6 +48,7 @@ def fair(
     smooth_curves: npt.ArrayLike | None = None,
     open_border: str = "held",
     pin_radius: float = 0.1,
+    detail_from: npt.ArrayLike | None = None,
 ) -> FairResult:
     """Replace the free vertices of a mesh by the fairest surface with the given boundary data.
 
@@ -138,6 +139,11 @@ def fair(
     detail_size : float
         Shape that repeats within less than this counts as detail: a wavelength as a share of D. 0: twelve mean edges,
         .4 D at most.
+    detail_from : (s, 3) int
+        Triangles of ``vertices``, a sample: their detail is put on the surface in place of the old patch's, for one
+        that has none, like a filled hole. Heights are copied from it piece by piece, and meet the outline's own detail.
+        ``detail_size`` 0 is then twelve mean edges of the sample. Needs ``detail`` above 0; not with ``feather`` or
+        ``weights``. Vertices lie as ``inner_fairness`` says.
     feather : float
         Width of a band outside the patch that takes part, as a share of D: the change fades out in it. The surface is
         computed for the outer edge of the band. From the old outline outwards the base goes a smaller part of the way
@@ -203,6 +209,7 @@ def fair(
         start=start, creases=creases, smooth_curves=smooth_curves, open_border=open_border, pin_radius=pin_radius,
     )  # fmt: skip
     joins = _options.continuity(continuity, equation, method)
+    sample = _options.sample(detail_from, count, detail)
     around = _mending.Surroundings.of(points, faces, fixed_list, outside)
     as_given = _mending.Boundary(points, fixed_list, given_normals)
     if not joins and fixed_curvatures is not None:
@@ -224,6 +231,7 @@ def fair(
             rows,
             outside,
             blend,
+            sample,
             options,
             of_paper,
             progress,
@@ -236,7 +244,7 @@ def fair(
     if mended:
         _mending.refuse_creases(creases, around)
     parts = _feather.vertex_weights(weights, count)
-    refused = {"reference": m0 is not None, "outline": mended, "continuity": joins}
+    refused = {"reference": m0 is not None, "outline": mended, "continuity": joins, "detail_from": sample is not None}
     width = _feather.width(feather, parts, refused)
     if width > 0.0 or parts is not None:
 

@@ -36,8 +36,8 @@ def lifts_a_pin() -> Story:
 
 
 def fairs_an_open_border() -> Story:
-    """A sleeve with a crumpled cuff: its border held, and faired."""
-    yield from _in_ways("border", held_scenes.cuff, "open_border", ("HELD", "FAIRED"))
+    """A ball with a crumpled opening: its border held, and faired."""
+    yield from _in_ways("border", held_scenes.porthole, "open_border", ("HELD", "FAIRED"))
 
 
 def feathers() -> Story:

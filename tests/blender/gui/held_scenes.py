@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import bmesh
 import bpy
 import numpy as np
 import scenes
@@ -62,22 +63,31 @@ def lifted_curve(size: int = 60) -> int:
     return scenes.start(np.abs(centres()[:, :2]).max(axis=1) < 0.9)
 
 
-def cuff(around: int = 64) -> int:
-    """A sleeve whose upper half is crumpled up to its open border; this half is selected."""
+def porthole() -> int:
+    """A ball with a round opening, crumpled around it; the faces there are selected, up to the open border."""
     scenes.clear()
-    heights = np.linspace(-1.2, 1.0, 34)
-    turns = 2.0 * np.pi * np.arange(around) / around
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=64, ring_count=48, rotation=(0.9, 0.0, 0.3))
+    _cut(np.flatnonzero(centres()[:, 2] > 0.83))
     random = np.random.default_rng(3)
-    points = np.array([(0.8 * np.cos(a), 0.8 * np.sin(a), z) for z in heights for a in turns])
-    upper = points[:, 2] > 0.02
-    points[upper] += random.normal(0.0, 0.01, (np.count_nonzero(upper), 3))
-    faces = [
-        (k * around + j, k * around + (j + 1) % around, (k + 1) * around + (j + 1) % around, (k + 1) * around + j)
-        for k in range(len(heights) - 1)
-        for j in range(around)
-    ]
-    scenes.add("Cuff", points, faces)
-    return scenes.start(centres()[:, 2] > 0.05)
+
+    def crumpled(points: np.ndarray) -> np.ndarray:
+        near = points[:, 2] > 0.62
+        points[near] += random.normal(0.0, 0.006, (np.count_nonzero(near), 3))
+        return points
+
+    chosen = centres()[:, 2] > 0.55
+    move(crumpled)
+    return scenes.start(chosen)
+
+
+def _cut(faces: np.ndarray) -> None:
+    mesh = bpy.context.object.data
+    bm = bmesh.new()
+    bm.from_mesh(mesh)
+    bm.faces.ensure_lookup_table()
+    bmesh.ops.delete(bm, geom=[bm.faces[face] for face in faces.tolist()], context="FACES")
+    bm.to_mesh(mesh)
+    bm.free()
 
 
 def bending_bottle() -> None:

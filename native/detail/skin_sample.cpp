@@ -1,0 +1,66 @@
+#include "detail/skin_sample.h"
+
+#include <limits>
+#include <numeric>
+
+#include "base/direction.h"
+#include "detail/low_pass.h"
+#include "detail/skin.h"
+#include "geometry/face_geometry.h"
+#include "geometry/neighbourhood.h"
+
+namespace fairing {
+
+namespace {
+
+// Along edges, with a correction: from each vertex of the edge straight to those that it is handed on to.
+VectorX distances_from_edge(const Points& points, const Triangles& triangles, const Indices& edge) {
+    const VertexAdjacency around(triangles, static_cast<int>(points.cols()));
+    VectorX distance = VectorX::Constant(points.cols(), std::numeric_limits<double>::infinity());
+    Indices source(at(static_cast<int>(points.cols())), none);
+    Indices queue = edge;
+    for (int v : edge) {
+        distance[v] = 0.0;
+        source[at(v)] = v;
+    }
+    for (std::size_t k = 0; k < queue.size(); ++k) {
+        const int v = queue[k];
+        for (int j = around.begin[at(v)]; j < around.begin[at(v) + 1]; ++j) {
+            const int other = around.neighbours[at(j)];
+            const double straight = (points.col(other) - points.col(source[at(v)])).norm();
+            if (!(straight < distance[other])) continue;
+            distance[other] = straight;
+            source[at(other)] = source[at(v)];
+            queue.push_back(other);
+        }
+    }
+    return distance;
+}
+
+double mean_edge(const Patch& patch, const Points& points) {
+    double sum = 0.0;
+    for (const auto& [a, b] : patch.edge_ends) sum += (points.col(a) - points.col(b)).norm();
+    return sum / patch.edge_count();
+}
+
+}  // namespace
+
+std::optional<SkinSample> sample_of(const Patch& patch, const Points& points, double wavelength,
+                                    const Progress& progress) {
+    Indices edge(at(patch.vertex_count() - patch.free_count));
+    std::iota(edge.begin(), edge.end(), patch.free_count);
+    const Points outline = low_pass(points, patch.triangles, edge, wavelength).points;
+    const auto skin = Skin::read(patch, {points, outline}, wavelength, progress);
+    if (!skin) return std::nullopt;
+    SkinSample sample;
+    sample.base = skin->base();
+    sample.triangles = patch.triangles;
+    sample.normals = summed_normals(sample.base, patch.triangles);
+    for (auto normal : sample.normals.colwise()) normal = direction(normal);
+    sample.heights = (points - sample.base).cwiseProduct(sample.normals).colwise().sum().transpose();
+    sample.depth = distances_from_edge(sample.base, patch.triangles, edge);
+    sample.edge = mean_edge(patch, sample.base);
+    return sample;
+}
+
+}  // namespace fairing
