@@ -38,9 +38,10 @@ bool has_else(const Problem& problem) {
 bool is_answer(const Solution& solution) { return end_of(solution) == Termination::converged; }
 
 // Whether it may be a bulb at all, which only the tubes between two outlines were seen to be. Where these are long for
-// the area between them, what they ask for reaches everywhere: rings and pipes shorter than four radii are none.
+// the area between them, what they ask for reaches everywhere: rings and pipes shorter than two and a half radii are
+// none.
 bool has_room_for_bulb(const Problem& problem, const Solution& solution) {
-    constexpr double least_area = 0.3;  // of the sum of the outlines' squared lengths
+    constexpr double least_area = 0.2;  // of the sum of the outlines' squared lengths
     const Patch& patch = problem.patch;
     const std::vector<Indices> loops = patch.loops();
     if (loops.size() != 2) return false;
