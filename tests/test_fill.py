@@ -172,6 +172,33 @@ def test_three_outlines_become_a_blend() -> None:
     assert {*np.sign(top[:, 2])} == {-1.0, 1.0}
 
 
+def elbow(radius: float) -> tuple[FloatArray, IntArray]:
+    """Two open tubes at right angles, a quarter of a torus of radius 1 around the origin apart; outward normals."""
+    part, faces = holes.sheet(
+        lambda u, v: (1 + radius * np.cos(2 * np.pi * u), -v, radius * np.sin(2 * np.pi * u)), (32, 8),
+        lambda u, v: np.zeros(len(u), dtype=bool), closed=True,
+    )  # fmt: skip
+    return np.concatenate([part, part[:, [1, 0, 2]]]), np.concatenate([faces, faces[:, ::-1] + len(part)])
+
+
+@pytest.mark.parametrize("otherwise", ["least_variation", "stop"])
+def test_an_elbow_keeps_its_width(otherwise: str) -> None:
+    """The harmonic one has a waist of two thirds. That is seen on the first surface: the fine mesh is solved once."""
+    vertices, triangles = elbow(0.4)
+    loops = [
+        loop for loop in fairing.boundary_loops(triangles) if (np.abs(vertices[loop, :2]).min(axis=1) < 1e-9).all()
+    ]
+    result = fairing.fill(vertices, triangles, loops, bridge=True, otherwise=otherwise)
+    away = np.hypot(np.hypot(result.vertices[:, 0], result.vertices[:, 1]) - 1, result.vertices[:, 2])
+    assert result.converged
+    if otherwise == "stop":
+        assert (result.equation, away.min() < 0.3) == ("harmonic", True)
+        return
+    assert (result.equation, [way for way, _ in result.way]) == ("least_variation", ["variation"])
+    assert [warning.code for warning in result.warnings] == ["NO_SOLUTION"]
+    assert np.abs(away - 0.4).max() < 0.02
+
+
 @pytest.mark.parametrize("edges", [6, 24, 48, 96])
 @pytest.mark.parametrize("factor", [0.25, 0.5, 1.0, 2.0])
 def test_triangles_are_nearly_equilateral(edges: int, factor: float) -> None:

@@ -106,3 +106,14 @@ def test_cancel_stops_it_at_any_time() -> None:
 def test_the_published_method_does_not_have_it() -> None:
     with pytest.raises(ValueError, match="least_variation"):
         tubes.pipe(3.0).faired(method="paper")
+
+
+def test_an_outline_that_makes_no_sense_is_told_not_refused() -> None:
+    """Normals that point to and fro on a flat tube of seven columns: the energy of coarse meshes is NaN there."""
+    tube = tubes.pipe(2.0, seed=3, around=7)
+    flat = np.array([1.0, 0.05, 1.0])
+    normals = tube.normals / flat * np.where(np.arange(len(tube.fixed)) % 2 == 0, 1, -1)[:, None]
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    result = tubes.Tube(tube.vertices * flat, tube.triangles, tube.fixed, normals).faired()
+    assert not result.converged
+    assert np.isfinite(result.vertices).all()

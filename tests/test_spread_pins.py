@@ -185,6 +185,14 @@ def test_pins_far_from_their_surface_are_led_there() -> None:
     assert np.abs(result.mean_curvature).max() * size(patch) < 12.0
 
 
+def test_a_descent_that_leads_nowhere_is_not_followed() -> None:
+    """Pins at 0.2 D, which steps do not reach here: a coarse mesh tells that least variation ends nowhere either."""
+    patch = shapes.plane(1000)
+    pins = near(patch, [(-0.2, -0.1), (0.2, -0.1), (0.2, 0.1), (-0.2, 0.1)])
+    result, _ = lifted(patch, pins, [0.2, -0.2, 0.2, -0.2])
+    assert result.converged or "variation" not in [name for name, _ in result.way]
+
+
 def test_pins_keep_to_points_where_the_curvature_is_joined() -> None:
     """With the reason; where the tangent join has the curvature already, the pin has its radius."""
     codes, pins = [], []

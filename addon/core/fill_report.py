@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from .filling import FillOptions, Piece, worst
+from .quality import VISIBLE
 from .report import MET, MISSED, Check, Report, angle_text
-from .verdict import GRADES, UNUSABLE, VISIBLE, NotUsable, Verdict
+from .verdict import GRADES, UNUSABLE, NotUsable, Verdict
 from .words import counted
 
 Named = Sequence[tuple[str, list[Piece]]]

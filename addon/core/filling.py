@@ -19,8 +19,9 @@ from .faces import Faces, faces_of, paired_faces
 from .findings import Origin
 from .harmonic import harmonic, nearest
 from .options import ACCEPT, LEAST_SPACING
+from .quality import VISIBLE
 from .region import MeshArrays, to_local
-from .verdict import GOOD, LOOK, UNUSABLE, VISIBLE, Verdict
+from .verdict import GOOD, LOOK, UNUSABLE, Verdict
 from .words import counted, in_mesh_words
 
 _TOO_MANY = "Bridge joins all {} selected outlines in one surface: select only those that belong together"

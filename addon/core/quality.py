@@ -14,9 +14,11 @@ import fairing
 from .arrays import Floats, Ints, Mask
 from .engine import Problem
 from .region import Patch
-from .vectors import area_vectors
+from .vectors import area_vectors, unit
 
 LARGE = 50_000  # triangles
+VISIBLE = 12.0  # degrees of Join from which the eye finds a kink among faces that bend little (fairing.visible_join)
+COARSE = 30.0  # and from which it finds one whatever the faces around bend
 FLATTEST = 1e-3  # height over longest side, below which a triangle is a needle
 
 
@@ -35,6 +37,7 @@ class Join:
 
     vertices: Ints  # (k,) of the mesh
     degrees: Floats  # (k,) by how much the bend there exceeds what is usual around; see fairing.visible_join
+    limit: float = VISIBLE  # degrees from which it is seen
 
     @property
     def typical(self) -> float:
@@ -46,10 +49,11 @@ class Join:
         """The largest, degrees; 0 without any vertices."""
         return float(self.degrees.max(initial=0.0))
 
-    def seen(self, limit: float) -> Ints:
-        """Return the mesh vertices where it is more visible than that, the worst first."""
+    @property
+    def seen(self) -> Ints:
+        """The mesh vertices where it is more visible than the limit, the worst first."""
         order = np.argsort(-self.degrees, kind="stable")
-        found: Ints = self.vertices[order[self.degrees[order] > limit]]
+        found: Ints = self.vertices[order[self.degrees[order] > self.limit]]
         return found
 
 
@@ -109,7 +113,33 @@ def join(problem: Problem, points: Floats) -> Join:
     patch = problem.patch
     rim = np.intersect1d(patch.outline, problem.outside)
     degrees = fairing.visible_join(points, patch.triangles, problem.outside, rim)
-    return Join(patch.vertices[rim], degrees)
+    return Join(patch.vertices[rim], degrees, visible_from(points, problem.outside))
+
+
+def visible_from(points: Floats, triangles: Ints) -> float:
+    """Return the degrees from which a kink stands out among triangles that bend as these do.
+
+    Half of the range in which nine tenths of their edges bend: coarse cages bend at every edge.
+    """
+    bends = _bends(points, triangles)
+    low, high = np.percentile(bends, [5.0, 95.0]) if len(bends) else (0.0, 0.0)
+    return float(np.clip(0.5 * (high - low), VISIBLE, COARSE))
+
+
+def _bends(points: Floats, triangles: Ints) -> Floats:
+    """Return the degrees by which the surface bends at each edge between two triangles with an area, convex above 0."""
+    normals = unit(area_vectors(points, triangles))
+    sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    order = np.lexsort(sides.T)
+    pairs = np.flatnonzero((sides[order[1:]] == sides[order[:-1]]).all(axis=1))
+    first, second = order[pairs], order[pairs + 1]
+    left, right = normals[first % len(triangles)], normals[second % len(triangles)]
+    opposite = points[triangles.T[[2, 0, 1]].ravel()[second]]
+    above = ((opposite - points[sides[first, 0]]) * left).sum(axis=1) > 0.0
+    angles = np.degrees(np.arccos(np.clip((left * right).sum(axis=1), -1.0, 1.0)))
+    known = (left != 0.0).any(axis=1) & (right != 0.0).any(axis=1)
+    bends: Floats = np.where(above, -angles, angles)[known]
+    return bends
 
 
 def texture_distortion(before: Floats, after: Floats, triangles: Ints) -> float:

@@ -11,8 +11,8 @@ from .arrays import Ints
 from .engine import Result
 from .options import FairOptions
 from .outcome import Fairing
-from .quality import Quality
-from .verdict import GOOD, GRADES, LOOK, UNUSABLE, VISIBLE, Verdict, judges_join
+from .quality import VISIBLE, Quality
+from .verdict import GOOD, GRADES, LOOK, UNUSABLE, Verdict, judges_join
 from .words import counted
 
 MET, MISSED, TOLD = "MET", "MISSED", "TOLD"
@@ -117,7 +117,9 @@ def _bulge_note(named: list[Named], options: FairOptions) -> tuple[str, ...]:
 
 def _checks(outcomes: list[Fairing], options: FairOptions) -> tuple[Check, ...]:
     _, worst = _worst_join(outcomes)
-    kink = Check("Kink at the outline", f"≤ {angle_text(worst)}", _state(worst <= VISIBLE))
+    kink = Check(
+        "Kink at the outline", f"≤ {angle_text(worst)}", _state(not any(len(outcome.join.seen) for outcome in outcomes))
+    )
     return (
         *((kink,) if judges_join(options) and any(len(o.join.vertices) for o in outcomes) else ()),
         _count_check("Folded faces", outcomes, lambda quality: quality.folded),

@@ -16,7 +16,6 @@ from .words import counted
 
 GOOD, LOOK, UNUSABLE = "GOOD", "LOOK", "UNUSABLE"
 GRADES = (GOOD, LOOK, UNUSABLE)
-VISIBLE = 12.0  # degrees of Join from which the eye finds a kink (fairing.visible_join)
 
 # What may help, each a way to run once more.
 GROW, SMOOTH_OUTLINE, EVEN_CURVATURE, WRITE = "GROW", "SMOOTH_OUTLINE", "EVEN_CURVATURE", "WRITE"
@@ -150,7 +149,7 @@ def _crossing(evidence: Evidence, options: FairOptions) -> Found:
 
 def _visible(evidence: Evidence, options: FairOptions) -> Found:
     problem, join = evidence.problem, evidence.join
-    seen = join.seen(VISIBLE)
+    seen = join.seen
     if len(seen) and judges_join(options):
         text = counted(len(seen), "vertex", "vertices")
         return f"A kink shows at {text} of the outline, of {join.worst:.0f}° at worst", seen

@@ -34,6 +34,7 @@ class Outcome:
     way: tuple[str, ...] = ()
     cpu: float = np.nan
     refused: str = ""
+    equation: str = ""
 
     @property
     def state(self) -> str:
@@ -56,6 +57,7 @@ def _measured(vertices: FloatArray, triangles: NDArray[np.int64], options: dict[
         np.array(result.vertices), np.array(result.mean_curvature), np.array(result.boundary_angle),
         result.converged, result.polished, result.termination, result.iterations, result.residual,
         tuple(warning.code for warning in result.warnings), tuple(name for name, _ in result.way), cpu,
+        equation=result.equation,
     )  # fmt: skip
 
 

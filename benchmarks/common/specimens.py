@@ -26,8 +26,8 @@ class Record:
 
     turn: largest turn of the prescribed normals per outline edge; unfitted: share of normals that are averages;
     converged, polished: how many starts; folded, crossing: of the converged ones, those with triangles that are
-    turned over or pass through others; way: of the first start; slowest: CPU seconds of one start; claimed: the
-    spread of those that say that they converged.
+    turned over or pass through others; way, equation: of the first start; slowest: CPU seconds of one start; claimed:
+    the spread of those that say that they converged.
     """
 
     name: str
@@ -52,6 +52,7 @@ class Record:
     residual: float
     codes: str
     cpu: float
+    equation: str
 
     @property
     def good(self) -> bool:
@@ -112,7 +113,7 @@ def measured(engine: Engine, patch: RealPatch, weights: str) -> Specimen:
         np.nan if refusals else float(first.boundary_angle.max()),
         np.nan if refusals else float(np.median(first.boundary_angle)), first.residual,
         " ".join(sorted({code for outcome in outcomes for code in outcome.codes})),
-        sum(outcome.cpu for outcome in outcomes),
+        sum(outcome.cpu for outcome in outcomes), first.equation,
     )  # fmt: skip
     return Specimen(record, patch, patch.vertices if refusals else first.vertices)
 

@@ -14,6 +14,7 @@ from engine import FloatArray
 from meshing import IntArray
 
 SWELLING = 0.12  # of D
+FOREHEAD = (0.2, -0.42, 0.9)  # of Suzanne
 SWOLLEN_FROM = 0.15  # of the way from the outline to the middle
 
 
@@ -94,17 +95,60 @@ def scans() -> Iterator[Case]:
 
 
 def swollen(patch: real_meshes.RealPatch) -> Case:
+    """The patch of a scan, pushed out."""
+    return pushed_out(patch.name, patch.whole, patch.vertices_in_mesh[patch.triangles], patch.outside)
+
+
+def pushed_out(name: str, whole: FloatArray, inside: IntArray, outside: IntArray) -> Case:
     """The patch pushed out along its mean normal, by a smooth step of the distance from the outline."""
-    whole, inside = patch.whole, patch.vertices_in_mesh[patch.triangles]
-    outline = patch.vertices_in_mesh[patch.fixed]
-    away = np.array([np.linalg.norm(whole[outline] - point, axis=1).min() for point in patch.vertices])
-    step = np.clip((away / away.max() - SWOLLEN_FROM) / (1 - SWOLLEN_FROM), 0, 1)
+    outline, own = np.intersect1d(inside, outside), np.unique(inside)
     rim = whole[outline]
+    away = np.array([np.linalg.norm(rim - point, axis=1).min() for point in whole[own]])
+    step = np.clip((away / away.max() - SWOLLEN_FROM) / (1 - SWOLLEN_FROM), 0, 1)
     size = 2 * np.linalg.norm(rim - rim.mean(axis=0), axis=1).max()
     up = mean_normal(whole, inside)
     vertices = whole.copy()
-    vertices[patch.vertices_in_mesh] += (SWELLING * size * step**2 * (3 - 2 * step))[:, None] * up
-    return _case(patch.name, vertices, whole, (inside, patch.outside), up)
+    vertices[own] += (SWELLING * size * step**2 * (3 - 2 * step))[:, None] * up
+    return _case(name, vertices, whole, (inside, outside), up)
+
+
+def orange_skin(points: FloatArray, triangles: IntArray, wavelength: float) -> FloatArray:
+    """The surface with bumps of this size all over, a twentieth of it high, along its normals."""
+    rng = np.random.default_rng(4)
+    waves = rng.normal(size=(60, 3))
+    waves *= 2 * np.pi / wavelength / np.linalg.norm(waves, axis=1)[:, None]
+    heights = np.sin(points @ waves.T + rng.uniform(0, 2 * np.pi, 60)).mean(axis=1) * np.sqrt(120)
+    normals = fairing.vertex_normals(points, triangles)
+    return np.asarray(points + 0.05 * wavelength * heights[:, None] * normals)
+
+
+def orange_skins() -> Iterator[Case]:
+    """The hammer's head, and Suzanne's forehead (needs bpy), with orange skin and a swelling."""
+    whole = real_meshes.mesh("hammer")
+    patch = real_meshes.make_patch("orange", "hammer", 9000, 0.05 * float(np.ptp(whole.vertices, axis=0).max()))
+    if patch is not None:
+        inside = patch.vertices_in_mesh[patch.triangles]
+        rough = orange_skin(patch.whole, np.concatenate([inside, patch.outside]), 0.008 * float(np.ptp(patch.whole)))
+        yield pushed_out("orange", rough, inside, patch.outside)
+    yield suzanne()
+
+
+def suzanne() -> Case:
+    """Her forehead, off its middle."""
+    import bpy
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.mesh.primitive_monkey_add()
+    monkey = bpy.context.object
+    modifier = monkey.modifiers.new("Subdivision", "SUBSURF")
+    modifier.levels = 4
+    bpy.ops.object.modifier_apply(modifier=modifier.name)
+    points = np.array([vertex.co for vertex in monkey.data.vertices], dtype=np.float64)
+    quads = np.array([tuple(polygon.vertices) for polygon in monkey.data.polygons])
+    triangles = np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]])
+    rough = orange_skin(points, triangles, 0.09)
+    away = np.linalg.norm(points - FOREHEAD, axis=1)[triangles].max(axis=1)
+    return pushed_out("suzanne", rough, triangles[away < 0.26], triangles[(away >= 0.26) & (away < 0.7)])
 
 
 def mean_normal(points: FloatArray, triangles: IntArray) -> FloatArray:

@@ -25,7 +25,7 @@ WAYS: tuple[tuple[str, dict[str, float]], ...] = (
 def write(folder: Path) -> None:
     """One picture for each case."""
     folder.mkdir(parents=True, exist_ok=True)
-    for case in (cases.sphere(6000, 0.25, 3, along_normal=True), *cases.scans()):
+    for case in (cases.sphere(6000, 0.25, 3, along_normal=True), *cases.scans(), *cases.orange_skins()):
         sheet(case).save(folder / f"detail_{case.name.split('-')[0]}.png", optimize=True)
 
 
@@ -46,5 +46,7 @@ def tile(case: Case, points: FloatArray, reach: float, *, close: bool) -> Image.
     rim = case.vertices[case.outline]
     centre = rim[np.argmax(rim @ np.array([1.0, -0.3, 0.2]))] if close else rim.mean(axis=0)
     view = facing(case.facing, centre, reach, TILE)
-    image = render([Layer(points, case.outside, GREY), Layer(points, case.inside, TINT)], view)
+    near = np.linalg.norm(points - centre, axis=1) < 1.6 * reach  # the rest is outside the tile
+    shown = [part[near[part].any(axis=1)] for part in (case.outside, case.inside)]
+    image = render([Layer(points, shown[0], GREY), Layer(points, shown[1], TINT)], view)
     return Image.fromarray((255 * image.clip(0, 1)).astype(np.uint8))

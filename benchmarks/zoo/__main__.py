@@ -2,6 +2,7 @@
 
     python benchmarks/zoo                          # 27 listed patches, 500 random ones; writes zoo.csv, zoo_worst.png
     python benchmarks/zoo --patches 60 --weights conformal
+    python benchmarks/zoo --seed 1 --outlines 2   # several outlines only; zoo_lofts.png shows those joined by a loft
 
 Each patch is solved from its interior as given, flattened and noisy. *Same*: all converged, within 0.5 % of the patch's
 radius. *Told*: not the same, but no two that say that they converged differ. *Silent*: two such differ. *Folded*,
@@ -27,8 +28,9 @@ from specimens import LIMIT, Record, sweep, worst
 ROOT = Path(__file__).resolve().parents[2]
 GOAL = 0.99  # of a set's patches
 HEADER = (
-    "| patches | number | same | told | silent | refused | share | folded | crossing | CPU s | slowest |\n| --- "
-    + "| --: " * 10 + "|"
+    "| patches | number | same | told | silent | refused | share | folded | crossing | lofts | CPU s | slowest |\n"
+    + "| --- "
+    + "| --: " * 11 + "|"
 )  # fmt: skip
 SMALL = 1500  # free vertices
 
@@ -39,6 +41,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--patches", type=int, default=500, help="number of random patches")
     parser.add_argument("--weights", default="uniform", help="inner fairness, comma-separated")
     parser.add_argument("--seed", type=int, default=0, help="of the random patches; accuracy's are the first of seed 0")
+    parser.add_argument("--outlines", type=int, default=1, help="only patches with at least as many outlines")
     parser.add_argument("--limit", type=float, default=LIMIT, help="seconds of wall-clock time for one call")
     parser.add_argument("--out", type=Path, default=ROOT / "build" / "zoo", help="folder for the CSV and the picture")
     return parser.parse_args()
@@ -52,7 +55,9 @@ def line(title: str, records: list[Record]) -> str:
     cells = [
         title, len(records), same, len(records) - same - silent - refused, silent, refused,
         f"{same / max(len(records), 1):.1%}", sum(record.folded for record in records),
-        sum(record.crossing for record in records), f"{sum(record.cpu for record in records):.0f}",
+        sum(record.crossing for record in records),
+        sum(record.good and record.equation == "loft" for record in records),
+        f"{sum(record.cpu for record in records):.0f}",
         f"{max((record.slowest for record in records if record.free <= SMALL), default=0.0):.1f}",
     ]  # fmt: skip
     return f"| {' | '.join(map(str, cells))} |"
@@ -82,11 +87,14 @@ def main() -> int:
     listed = list(listed_patches())
     engine = Engine(options.limit)
     chosen = [*listed, *random_patches(options.patches, options.seed)]
+    chosen = [patch for patch in chosen if patch.loops >= options.outlines]
     specimens = sweep(engine, chosen, options.weights.split(","), options.out / "zoo.csv")
     engine.close()
     records = [specimen.record for specimen in specimens]
     print("\n".join([HEADER, *table(records, {patch.name for patch in listed})]))
     contact_sheet.save(worst(specimens, 10), options.out / "zoo_worst.png")
+    lofts = [specimen for specimen in specimens if specimen.record.equation == "loft"]
+    contact_sheet.save(lofts[:10], options.out / "zoo_lofts.png")
     return int(sum(r.good for r in records) < GOAL * len(records) or not all(r.honest for r in records))
 
 

@@ -208,6 +208,9 @@ Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optio
                                         const Progress& progress) {
     std::optional<Solution> near_last = keeps() ? solve_near_last(problem, progress) : std::nullopt;
     if (!near_last && start) near_last = solve_near(problem, *start, progress.range(0.0, 0.4));
+    if (!near_last && options().start == Start::least_variation)
+        near_last = solve_else(problem, Instead::least_variation, progress);
+    if (!near_last && options().start == Start::loft) near_last = solve_else(problem, Instead::loft, progress);
     Solution solution = near_last ? std::move(*near_last) : solve_pinned(problem, options().pin_radius, progress);
     if (!keeps()) return solution;
     replaced_.reset();

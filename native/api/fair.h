@@ -10,8 +10,9 @@ namespace fairing {
 
 enum class Method { global, paper };
 
-// Where a solve begins: the outline alone, or the vertices given, where they lead to a surface.
-enum class Start { outline, given };
+// Where a solve begins: the outline alone; the vertices given, where they lead to a surface; or, where the equation was
+// seen to have none, what was taken in its place.
+enum class Start { outline, given, least_variation, loft };
 
 // What of the reference is put back on the fair surface (detail/skin.h). With it vertices sit conformally to the base
 // of the reference, whatever `inner_fairness` says.

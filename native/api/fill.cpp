@@ -147,6 +147,8 @@ NewSurface fill_loops(const OpenLoops& input, bool bridge, const SolverOptions& 
         const int free_count = first.patch.free_count;
         assembly.add(first.patch.triangles, unit.from_unit(first.solution.points.leftCols(free_count)), data.to_input);
         result.converged = result.converged && first.solution.termination == Termination::converged;
+        const Instead kind = first.solution.instead;
+        result.instead = s == 0 || result.instead == kind ? kind : Instead::nothing;
     }
     result.vertices = assembly.points();
     result.triangles = assembly.triangles();

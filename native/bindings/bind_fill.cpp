@@ -11,6 +11,12 @@ namespace fairing::bindings {
 
 namespace {
 
+// Where a solve on a finer mesh of the same surface begins.
+Start start_after(Instead taken) {
+    if (taken == Instead::least_variation) return Start::least_variation;
+    return taken == Instead::loft ? Start::loft : Start::given;
+}
+
 py::dict fill_arrays(const DoubleArray& vertices, const std::vector<IntArray>& loops,
                      const std::vector<DoubleArray>& normals, bool bridge, const std::string& equation,
                      const py::object& callback) {
@@ -25,6 +31,7 @@ py::dict fill_arrays(const DoubleArray& vertices, const std::vector<IntArray>& l
     dict["vertices"] = from_points(result.vertices);
     dict["triangles"] = from_triangles(result.triangles);
     dict["converged"] = result.converged;
+    dict["start"] = solve_start_words.word(start_after(result.instead));
     return dict;
 }
 

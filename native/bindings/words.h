@@ -31,7 +31,11 @@ struct Words {
 };
 
 inline constexpr Words<Method, 2> method_words{"method", {{{"global", Method::global}, {"paper", Method::paper}}}};
-inline constexpr Words<Start, 2> solve_start_words{"start", {{{"outline", Start::outline}, {"given", Start::given}}}};
+inline constexpr Words<Start, 4> solve_start_words{"start",
+                                                   {{{"outline", Start::outline},
+                                                     {"given", Start::given},
+                                                     {"least_variation", Start::least_variation},
+                                                     {"loft", Start::loft}}}};
 inline constexpr Words<NormalKind, 2> normal_words{
     "normals", {{{"fitted", NormalKind::fitted}, {"averaged", NormalKind::averaged}}}};
 inline constexpr Words<Equation, 5> equation_words{"equation",

@@ -146,6 +146,7 @@ FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& opti
     for (int round = 0; round < most_rounds; ++round) {
         const bool converged = result.solution.termination == Termination::converged;
         if (converged && result.solution.flaw == Flaw::absent && is_even(result)) break;
+        if (converged && result.solution.instead != Instead::nothing) break;  // solved on a mesh of its own
         const double begin = 0.4 + 0.15 * round;
         FirstSurface next = on_even_mesh(outline, result, options, progress.range(begin, begin + 0.15));
         if (converged && next.solution.termination != Termination::converged) break;

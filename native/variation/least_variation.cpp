@@ -145,7 +145,7 @@ std::optional<Attempt> attempted(const Problem& problem, const Points& start, co
                                  const Progress& progress) {
     ProxyMesh mesh(problem.patch, start);
     const SolvedSheet coarse = solve_coarse(mesh, problem, beginning, progress.range(0.0, 0.5));
-    if (!(coarse.result.merit <= most)) return std::nullopt;  // NaN, too
+    if (std::isfinite(most) && !(coarse.result.merit <= most)) return std::nullopt;  // NaN, too
     SolvedSheet fine = solve_fine(mesh, problem, coarse, progress.range(0.5, 1.0));
     return Attempt{std::move(mesh), std::move(fine), coarse.result.gradient, coarse.mesh.patch.vertex_count()};
 }

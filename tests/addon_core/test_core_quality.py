@@ -128,6 +128,26 @@ def test_the_join_is_judged_by_what_is_usual_around() -> None:
 
 def test_figures_of_a_join() -> None:
     join = quality.Join(np.array([4, 7, 9]), np.array([13.0, 1.0, 20.0]))
-    assert (join.typical, join.worst, join.seen(12.0).tolist()) == (13.0, 20.0, [9, 4])
+    assert (join.typical, join.worst, join.seen.tolist()) == (13.0, 20.0, [9, 4])
     none = quality.Join(np.empty(0, dtype=np.int64), np.empty(0))
     assert (none.typical, none.worst) == (0.0, 0.0)
+
+
+def prism(sides: int, rows: int = 4) -> tuple[Floats, Ints]:
+    """The mantle of an upright prism, its faces as squares cut along a diagonal."""
+    turns = 2.0 * np.pi * np.arange(sides) / sides
+    ring = np.stack([np.cos(turns), np.sin(turns), np.zeros(sides)], axis=1)
+    points = np.concatenate([ring + np.array([0.0, 0.0, k]) for k in range(rows + 1)])
+    here = np.arange(sides * rows)
+    right = here // sides * sides + (here + 1) % sides
+    halves = [np.stack([here, right, right + sides], axis=1), np.stack([here, right + sides, here + sides], axis=1)]
+    return points, np.concatenate(halves)
+
+
+@pytest.mark.parametrize(("sides", "limit"), [(64, quality.VISIBLE), (8, 22.5), (7, 180.0 / 7), (4, quality.COARSE)])
+def test_on_coarse_meshes_a_kink_is_seen_later(sides: int, limit: float) -> None:
+    """A prism bends by a full turn over its number of sides, at a third of its edges: half of that, between bounds."""
+    points, triangles = prism(sides)
+    assert quality.visible_from(points, triangles) == pytest.approx(limit)
+    assert quality.visible_from(points, triangles[:, ::-1]) == pytest.approx(limit)
+    assert quality.visible_from(points, triangles[:0]) == quality.VISIBLE

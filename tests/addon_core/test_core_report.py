@@ -11,10 +11,10 @@ import pytest
 from core.arrays import Ints
 from core.options import FairOptions
 from core.outcome import Fairing, outcome
-from core.quality import Join, Quality
+from core.quality import VISIBLE, Join, Quality
 from core.report import MET, MISSED, TOLD, Report, angle_text, make_report, summary
 from core.solve import solve
-from core.verdict import GOOD, LOOK, UNUSABLE, VISIBLE, Verdict
+from core.verdict import GOOD, LOOK, UNUSABLE, Verdict
 from polygon_mesh import grid, on_sphere
 
 

@@ -111,6 +111,7 @@ def test_a_kink_deserves_a_look_at_its_vertices(fine: Evidence) -> None:
 
 def test_what_the_eye_does_not_see_is_good(fine: Evidence) -> None:
     assert judged(replace(fine, join=Join(ints(7), np.array([9.8])))).grade == GOOD
+    assert judged(replace(fine, join=Join(ints(7), np.array([20.0]), limit=21.0))).grade == GOOD  # a coarse cage
 
 
 def test_new_needles_deserve_a_look(fine: Evidence) -> None:

@@ -91,7 +91,7 @@ def fill(
     fine, _ = patch.remeshed(len(points), length, LEAST_COUNT, options, watch.part(0.2, 0.4))
     watch.lap("mesh")
     coarser = count < 0.9 * LEAST_COUNT * (1 if bridge else len(outline.loops))
-    report = fine.faired("given", around, options, watch.part(0.4, 0.9 if coarser else 1.0))
+    report = fine.faired(_start(first["start"], options), around, options, watch.part(0.4, 0.9 if coarser else 1.0))
     values = _report(report, len(points))
     if coarser:
         solved = _Patch(report.vertices, fine.triangles, outline.vertices, normals)
@@ -246,6 +246,12 @@ def _spacing(value: Any) -> float:
     if _arguments.finite("spacing", value) < 0:
         raise ValueError(f"spacing: a length, or 0 for that of the outline's edges, is needed, not {value!r}")
     return float(value)
+
+
+def _start(first: str, options: dict[str, Any]) -> str:
+    """Where the solve on the fine mesh begins; ``first``: what suits the first surface, which is a harmonic one."""
+    same = options.get("equation", "harmonic") == "harmonic" and options.get("otherwise") != "stop"
+    return first if same else "given"
 
 
 def _first_equation(options: dict[str, Any]) -> str:
