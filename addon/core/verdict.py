@@ -57,11 +57,24 @@ def judge(evidence: Evidence, options: FairOptions) -> Verdict:
     for found in (_no_answer, _folded, _crossing):
         reason, spots = found(evidence, options)
         if reason:
-            return Verdict(UNUSABLE, reason, np.unique(spots), _remedies(evidence, options, bad=True))
+            bad = not _calms(evidence)
+            return Verdict(UNUSABLE if bad else LOOK, reason, np.unique(spots), _remedies(evidence, options, bad))
     reason, spots = _visible(evidence, options)
     if reason:
         return Verdict(LOOK, reason, _once(spots), _remedies(evidence, options, bad=False))
     return Verdict(GOOD)
+
+
+def _calms(evidence: Evidence) -> bool:
+    """Tell whether a smooth surface lies beside a jagged outline, with fewer folds and crossings than there were.
+
+    Those that are left hang on the outline, which has to stay.
+    """
+    eased = any(told.code == "NO_SOLUTION" and "distance" in told.figures for told in evidence.result.warnings)
+    before, after = evidence.before, evidence.after
+    if not (evidence.result.converged and eased and len(after.folded) < len(before.folded)):
+        return False
+    return before.crossing is None or after.crossing is None or len(after.crossing) < len(before.crossing)
 
 
 def _once(spots: Ints) -> Ints:

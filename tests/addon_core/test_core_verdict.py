@@ -67,6 +67,22 @@ def test_folds_are_not_usable_and_their_corners_are_the_spots(fine: Evidence) ->
     assert verdict.spots.tolist() == CORNERS
 
 
+def test_folds_that_hang_on_a_jagged_outline_deserve_a_look(fine: Evidence) -> None:
+    """The engine says how far the outline lies beside the surface; a mesh that had more folds is better off."""
+    told = fairing.Diagnostic("NO_SOLUTION", "", np.empty(0, np.int32), "vertex", {"distance": 0.02})
+    eased = replace(fine, result=replace(fine.result, warnings=(told,)))
+    rough = replace(CLEAN, folded=ints(FACE, OTHER), crossing=ints(FACE, OTHER))
+    calm = replace(CLEAN, folded=ints(FACE), crossing=ints(OTHER))
+    verdict = judged(replace(eased, before=rough, after=calm))
+    assert (verdict.grade, verdict.reason) == (LOOK, "1 face of the result is folded over")
+    assert WRITE not in verdict.remedies
+    assert judged(replace(fine, before=rough, after=calm)).grade == UNUSABLE  # another surface
+    assert judged(replace(eased, before=calm, after=calm)).grade == UNUSABLE  # no better than before
+    assert judged(replace(eased, before=rough, after=replace(calm, crossing=rough.crossing))).grade == UNUSABLE
+    unknown = replace(rough, crossing=None)
+    assert judged(replace(eased, before=unknown, after=calm)).grade == LOOK
+
+
 def test_half_way_old_folds_may_be_left(fine: Evidence) -> None:
     same = replace(fine, before=replace(CLEAN, folded=ints(FACE)), after=replace(CLEAN, folded=ints(FACE)))
     assert judged(same, factor=0.5).grade == GOOD
