@@ -7,10 +7,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.spatial import ConvexHull
 
 import fairing
 import holes
+from fairing import _loops
 from holes import FloatArray, IntArray
+from tetrathing import subdivided
 
 EMPTY = np.empty((0, 3), dtype=int)
 
@@ -421,3 +424,41 @@ def test_the_same_bits_for_any_number_of_threads() -> None:
     one, two = (fairing.fill(*holes.bowl(48), spacing=0.4 * edge, threads=threads) for threads in (1, 2))
     assert np.array_equal(one.vertices, two.vertices)
     assert np.array_equal(one.triangles, two.triangles)
+
+
+def icosphere(times: int) -> tuple[FloatArray, IntArray]:
+    """An icosahedron, its triangles cut in four a few times."""
+    gold = (1.0 + np.sqrt(5.0)) / 2.0
+    corners = [(0.0, s, t * gold) for s in (-1, 1) for t in (-1, 1)]
+    points = np.array([np.roll(corner, k) for k in range(3) for corner in corners])
+    triangles = ConvexHull(points).simplices.astype(np.int64)
+    inward = np.einsum("ij,ij->i", np.cross(*(points[triangles[:, k]] - points[triangles[:, 0]] for k in (1, 2))),
+                       points[triangles[:, 0]]) < 0.0  # fmt: skip
+    triangles[inward] = triangles[inward][:, ::-1]
+    for _ in range(times):
+        triangles, ends = subdivided(triangles, len(points))
+        points = np.vstack([points, points[ends].sum(axis=1)])
+    return points / np.linalg.norm(points, axis=1)[:, None], triangles
+
+
+@pytest.mark.parametrize("height", [0.3, 0.31])
+def test_teeth_around_a_hole_get_no_second_wall(height: float) -> None:
+    """Single triangles stick out into it: the surface runs around their tips, to the sphere, not back over them."""
+    points, triangles = icosphere(3)
+    around = triangles[points[triangles].mean(axis=1) @ points[0] <= height]  # the way to a corner
+    assert (np.bincount(around.ravel(), minlength=len(points)) == 1).sum() >= 5  # tips
+    result = fairing.fill(points, around)
+    assert result.converged
+    old = {tuple(corners) for corners in np.sort(around, axis=1).tolist()}
+    assert not [corners for corners in np.sort(result.triangles, axis=1).tolist() if tuple(corners) in old]
+    assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1.0).max() < 1e-3
+
+
+def test_a_second_wall_is_refused() -> None:
+    """Where it comes all the same: a mesh has no face twice."""
+    triangles = np.array([[0, 1, 2], [2, 1, 3]], dtype=np.int32)
+    _loops.check_doubles(np.array([[0, 1, 4], [1, 3, 4]], dtype=np.int32), triangles)
+    with pytest.raises(fairing.MeshError, match="double back onto 1 triangle that sticks out") as caught:
+        _loops.check_doubles(np.array([[4, 1, 0], [1, 2, 3]], dtype=np.int32), triangles)
+    assert caught.value.code == "NONMANIFOLD_EDGE"
+    assert caught.value.elements.tolist() == [1, 2, 3]

@@ -213,7 +213,7 @@ def _joining(options: FillOptions, outline: Ints, loops: int) -> Iterator[None]:
     try:
         yield
     except fairing.MeshError as error:
-        if not options.bridge or error.code != "NONMANIFOLD_EDGE":
+        if not options.bridge or error.code != "NONMANIFOLD_EDGE" or "doubles" in error.diagnostic.figures:
             raise
         raise BorderRefusal(f"No surface joins these outlines. {_TOO_MANY.format(loops)}", outline) from error
 

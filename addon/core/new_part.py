@@ -93,14 +93,22 @@ def _replaced(patch: Patch, result: fairing.RemeshResult) -> tuple[Ints, Ints]:
     rows = np.concatenate([np.arange(added), again])
     triangles = result.triangles[rows].astype(np.int64)
     gone = np.union1d(gone, partly)
-    whole = _faces_that_stay(patch, triangles, gone)
-    sorted_new = [tuple(corners) for corners in np.sort(triangles, axis=1).tolist()]
+    named = _in_old_numbers(patch, result)[triangles]
+    whole = _faces_that_stay(patch, named, gone)
+    sorted_new = [tuple(corners) for corners in np.sort(named, axis=1).tolist()]
     keep = np.array([corners not in whole for corners in sorted_new], dtype=bool)
     return triangles[keep], np.setdiff1d(gone, list(whole.values()))
 
 
+def _in_old_numbers(patch: Patch, result: fairing.RemeshResult) -> Ints:
+    """Return the patch's own number of each vertex of the result: those on lines have two. Negative for new ones."""
+    again = np.where(result.old >= 0, result.old, -1 - np.arange(len(result.old)))
+    numbers: Ints = np.concatenate([np.arange(len(patch.vertices)), again]).astype(np.int64)
+    return numbers
+
+
 def _faces_that_stay(patch: Patch, triangles: Ints, gone: Ints) -> dict[tuple[int, ...], int]:
-    """Return the triangular faces that are in the new mesh, too: in corners between edges of the outline."""
+    """Return the triangular faces that are in the new mesh, too: in corners between edges of outline or lines."""
     faces, counts = np.unique(patch.faces, return_counts=True)
     alone = np.isin(patch.faces, np.intersect1d(faces[counts == 1], gone))
     new = {tuple(corners) for corners in np.sort(triangles, axis=1).tolist()}

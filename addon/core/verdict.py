@@ -166,10 +166,21 @@ def _visible(evidence: Evidence, options: FairOptions) -> Found:
     if len(seen) and judges_join(options):
         text = counted(len(seen), "vertex", "vertices")
         return f"A kink shows at {text} of the outline, of {join.worst:.0f}° at worst", seen
+    kinks = _kinks_of_loft(evidence)
+    if len(kinks) and judges_join(options):
+        text = counted(len(kinks), "vertex", "vertices")
+        return f"The loft does not continue the slope of its surroundings at {text} of the outline", kinks
     needles = np.setdiff1d(evidence.after.needles, evidence.before.needles)
     if len(needles):
         return counted(len(needles), "face is a needle", "faces are needles"), _corners(problem, needles)
     return _NOTHING
+
+
+def _kinks_of_loft(evidence: Evidence) -> Ints:
+    """Return the mesh vertices where a loft leaves the tangent planes; dihedral angles show it on fine meshes only."""
+    told = [w.elements for w in evidence.result.warnings if w.code == "NO_SOLUTION" and "kinks" in w.figures]
+    found: Ints = evidence.problem.vertices[np.concatenate([np.empty(0, np.int32), *told])]
+    return found
 
 
 def judges_join(options: FairOptions) -> bool:

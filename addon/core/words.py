@@ -29,6 +29,8 @@ class Words:
     when: str = ""  # the figure that only this case has; the last case of a code has none
 
 
+_DOUBLED = "The new surface doubles back onto faces that stick out into the outline: delete these first, or select them"
+
 WORDS: dict[str, tuple[Words, ...]] = {
     "NONFINITE": (
         Words("The normal at vertex {first} is NaN or infinite", when="normals"),
@@ -44,6 +46,7 @@ WORDS: dict[str, tuple[Words, ...]] = {
     "INDEX_RANGE": (Words("A face has a corner that does not exist: the mesh is damaged"),),
     "NONMANIFOLD_EDGE": (
         Words("Two faces lie on the same vertices at the edge {ends}: delete one of them", when="doubled_triangles"),
+        Words(_DOUBLED, when="doubles"),
         Words("More than two faces meet at the edge {ends}: delete the extra ones, or pin both ends"),
     ),
     "NONMANIFOLD_VERTEX": (
@@ -226,6 +229,11 @@ class MeshRefusal(fairing.MeshError):
 def counted(count: int, one: str, many: str) -> str:
     """Return the number with the phrase that goes with it."""
     return f"{count} {one if count == 1 else many}"
+
+
+def doubled(vertices: Sequence[int]) -> MeshRefusal:
+    """Return the exception that tells of a new face with the corners of one that stays."""
+    return MeshRefusal(fairing.Diagnostic("NONMANIFOLD_EDGE", _DOUBLED, np.asarray(vertices, np.int32), "vertex"))
 
 
 def refusal(finding: Finding) -> MeshRefusal:

@@ -16,7 +16,7 @@ from ..core.fill_report import Added
 from ..core.filling import Piece
 from ..core.quality import texture_distortion
 from .layers import OF_CORNERS, MeanLayers, Shapes, in_object_mode
-from .new_faces import FaceData, VertexData, kinds, make_faces, make_vertices
+from .new_faces import FaceData, VertexData, kinds, make_faces, make_vertices, refuse_doubles
 from .selecting import select_new_faces
 
 
@@ -54,6 +54,8 @@ def _add(bm: Any, shapes: Shapes, pieces: list[Piece]) -> Added:
     bm.verts.ensure_lookup_table()
     # All are read before the first is written: tables of vertices don't last.
     rims = [_Rim(bm, piece) for piece in pieces]
+    for rim in rims:
+        refuse_doubles(bm, rim.data(bm))
     faces = [face for rim in rims for face in rim.fill(bm, shapes)]
     select_new_faces(bm, faces)
     bm.normal_update()
@@ -79,11 +81,20 @@ class _Rim:
     def fill(self, bm: Any, shapes: Shapes) -> list[Any]:
         """Make vertices, then faces; return the faces."""
         piece = self._piece
-        near, of_face = piece.examples()
+        near, _ = piece.examples()
         examples = [self._vertices[number] for number in near.tolist()]
+        data = self.data(bm)
         vertices = make_vertices(bm, shapes, VertexData(piece.positions, self._vertices, piece.carried, examples))
+        made = make_faces(bm, vertices, data)
+        self.distortion = self._distortion(bm, made, data.numbers)
+        return made
+
+    def data(self, bm: Any) -> FaceData:
+        """Tell what the new faces are made of."""
+        piece = self._piece
+        _, of_face = piece.examples()
         faces = piece.faces(kinds(bm, self._faces, self._after)[of_face])
-        data = FaceData(
+        return FaceData(
             stay=self._vertices,
             polygons=faces.polygons,
             sources=self._after + self._before,
@@ -92,9 +103,6 @@ class _Rim:
             corner_examples=[self._after[number] for number in of_face[faces.corners // 3].tolist()],
             examples=[self._faces[number] for number in of_face[faces.triangles].tolist()],
         )
-        made = make_faces(bm, vertices, data)
-        self.distortion = self._distortion(bm, made, data.numbers)
-        return made
 
     def _distortion(self, bm: Any, faces: list[Any], numbers: list[int]) -> float:
         layer = bm.loops.layers.uv.active

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..core.arrays import Floats, Ints
+from ..core.words import doubled
 from .layers import OF_CORNERS, OF_VERTICES, MeanLayers, Shapes, Weights, copied_layers, copy
 from .live_mesh import LAYER
 
@@ -82,6 +83,16 @@ def make_faces(bm: Any, vertices: Sequence[Any], data: FaceData) -> list[Any]:
     if layers.width:
         layers.write(corners, values, data.numbers)
     return made
+
+
+def refuse_doubles(bm: Any, data: FaceData) -> None:
+    """Raise MeshRefusal where a new face is one of the mesh already, which has none twice: before anything is made."""
+    for polygon in data.polygons:
+        if max(polygon) >= len(data.stay):
+            continue
+        face = bm.faces.get([data.stay[corner] for corner in polygon])
+        if face is not None:
+            raise doubled([vertex.index for vertex in face.verts])
 
 
 def kinds(bm: Any, faces: Sequence[Any], corners: Sequence[Any] = ()) -> Ints:

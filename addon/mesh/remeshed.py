@@ -13,7 +13,7 @@ from ..core.arrays import Floats, Ints
 from ..core.new_part import NewPart
 from ..core.remeshing import Remeshed
 from .layers import Shapes, in_object_mode
-from .new_faces import FaceData, VertexData, elements_of, kinds, make_faces, make_vertices
+from .new_faces import FaceData, VertexData, elements_of, kinds, make_faces, make_vertices, refuse_doubles
 from .selecting import select_new_faces
 
 
@@ -55,10 +55,12 @@ def _replace(bm: Any, shapes: Shapes, outcome: Remeshed) -> Written:
     lost = elements_of(bm.verts, part.gone_vertices)
     old_edges = {edge for face in gone for edge in face.edges}
     stay = elements_of(bm.verts, part.stay)
+    new = _face_data(bm, outcome, stay)
+    refuse_doubles(bm, new)
     vertices = make_vertices(bm, shapes, _vertex_data(bm, part, outcome.new_positions))
     for vertex, place in zip(stay[part.fixed_count :], outcome.positions.tolist(), strict=True):
         vertex.co = place
-    faces = make_faces(bm, vertices, _face_data(bm, outcome, stay))
+    faces = make_faces(bm, vertices, new)
     bmesh.ops.delete(bm, geom=gone, context="FACES_ONLY")
     bmesh.ops.delete(bm, geom=lost, context="VERTS")
     bare = [edge for edge in old_edges if edge.is_valid and not edge.link_faces]
@@ -83,8 +85,8 @@ def _vertex_data(bm: Any, part: NewPart, positions: Floats) -> VertexData:
 def _face_data(bm: Any, outcome: Remeshed, stay: list[Any]) -> FaceData:
     """Tell what the new faces are made of: the corners of the triangles that they lie on."""
     part = outcome.part
-    corners = _corners(bm, part.gone_faces)
     used, local = np.unique(part.corners.sources, return_inverse=True)
+    corners = _corners(bm, used)
     stencil = type(part.corners)(local.reshape(part.corners.sources.shape), part.corners.weights)
     old, of_old = np.unique(part.faces, return_inverse=True)
     faces = outcome.faces(kinds(bm, elements_of(bm.faces, old))[of_old])
@@ -100,12 +102,10 @@ def _face_data(bm: Any, outcome: Remeshed, stay: list[Any]) -> FaceData:
     )
 
 
-def _corners(bm: Any, faces: Ints) -> dict[int, Any]:
-    """Return the corners of some faces by their numbers in the mesh."""
-    sizes = np.array([len(face.verts) for face in bm.faces], dtype=np.int64)
-    starts = (np.cumsum(sizes) - sizes)[faces].tolist()
-    return {
-        start + k: corner
-        for start, face in zip(starts, elements_of(bm.faces, faces), strict=True)
-        for k, corner in enumerate(face.loops)
-    }
+def _corners(bm: Any, numbers: Ints) -> dict[int, Any]:
+    """Return these corners by their numbers in the mesh; some are of faces that stay."""
+    ends = np.cumsum([len(face.verts) for face in bm.faces])
+    faces = np.searchsorted(ends, numbers, side="right")
+    places = (numbers - np.concatenate([[0], ends])[faces]).tolist()
+    of = elements_of(bm.faces, faces)
+    return {number: face.loops[k] for number, face, k in zip(numbers.tolist(), of, places, strict=True)}

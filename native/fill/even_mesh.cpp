@@ -64,7 +64,7 @@ bool EvenMesh::is_chord(Edge e) const {
 }
 
 // A corner that is sharper stays one triangle: halved, its angle would be too small.
-bool EvenMesh::cuts_sharp_corner(Edge e) const {
+bool EvenMesh::cuts_sharp_corner(Edge e, const Points& normals) const {
     for (const unsigned side : {0U, 1U}) {
         const Halfedge h = mesh_.halfedge_handle(e, side);
         const Halfedge next = mesh_.next_halfedge_handle(h);
@@ -73,7 +73,9 @@ bool EvenMesh::cuts_sharp_corner(Edge e) const {
         const Vector3 corner = point(apex(h));
         const Vector3 a = point(mesh_.from_vertex_handle(h));
         const Vector3 b = point(mesh_.to_vertex_handle(h));
-        if (angle_at(corner, a, b) < sharp_corner) return true;
+        const bool turned =
+            normals.cols() > 0 && (b - a).cross(corner - a).dot(normals.col(apex(h).idx() - patch_.free_count)) < 0.0;
+        if (!turned && angle_at(corner, a, b) < sharp_corner) return true;
     }
     return false;
 }
@@ -111,12 +113,12 @@ EvenMesh::Vertex EvenMesh::split(Edge e) {
     return v;
 }
 
-int EvenMesh::split_chords() {
+int EvenMesh::split_chords(const Points& normals) {
     int splits = 0;
     const auto count = mesh_.n_edges();
     for (unsigned k = 0; k < count; ++k) {
         const Edge e(static_cast<int>(k));
-        if (mesh_.status(e).deleted() || !is_chord(e) || cuts_sharp_corner(e)) continue;
+        if (mesh_.status(e).deleted() || !is_chord(e) || cuts_sharp_corner(e, normals)) continue;
         split(e);
         ++splits;
     }

@@ -23,8 +23,9 @@ public:
     // Splits edges and takes vertices out where angles below 26° stay otherwise, worst first. Asks whether to stop.
     void mend_angles();
     // Splits edges between fixed vertices, at which a patch would end, but for those at sharp corners. Returns how
-    // many.
-    int split_chords();
+    // many. With normals of the fixed vertices (3 × their count) corners whose triangle is turned against them are
+    // none: it lies on a face outside that sticks out into the outline.
+    int split_chords(const Points& normals = {});
     // Vertices 0 … k − 1 are free, at these places; then come the patch's fixed vertices in their order.
     struct Result {
         std::vector<SurfacePoint> where;
@@ -46,7 +47,7 @@ private:
     [[nodiscard]] Vertex apex(Halfedge h) const { return mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)); }
     [[nodiscard]] double relative_length(Edge e) const;
     [[nodiscard]] bool is_chord(Edge e) const;
-    [[nodiscard]] bool cuts_sharp_corner(Edge e) const;
+    [[nodiscard]] bool cuts_sharp_corner(Edge e, const Points& normals = {}) const;
     void put(Vertex v, const Vector3& position, int triangle);
     [[nodiscard]] int triangle_beside(Edge e) const;
     Vertex split(Edge e);

@@ -66,7 +66,7 @@ Meshed first_mesh(const OpenOutline& outline) {
     const TargetSurface surface(snapshot.patch, snapshot.points, flat);
     const VectorX lengths = VectorX::Ones(snapshot.points.cols());
     EvenMesh chordless(snapshot.patch, snapshot.points, surface, lengths);
-    chordless.split_chords();
+    chordless.split_chords(outline.normals);
     return meshed(chordless, outline.points);
 }
 

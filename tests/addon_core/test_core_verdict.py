@@ -83,6 +83,16 @@ def test_folds_that_hang_on_a_jagged_outline_deserve_a_look(fine: Evidence) -> N
     assert judged(replace(eased, before=unknown, after=calm)).grade == LOOK
 
 
+def test_a_loft_that_lets_slopes_go_deserves_a_look(fine: Evidence) -> None:
+    told = fairing.Diagnostic("NO_SOLUTION", "", np.array([2, 4], np.int32), "vertex", {"loft": 1.0, "kinks": 2.0})
+    verdict = judged(replace(fine, result=replace(fine.result, warnings=(told,))))
+    assert verdict.grade == LOOK
+    assert "2 vertices of the outline" in verdict.reason
+    assert verdict.spots.tolist() == fine.problem.vertices[[2, 4]].tolist()
+    smooth = replace(told, elements=np.empty(0, np.int32), figures={"loft": 1.0})
+    assert judged(replace(fine, result=replace(fine.result, warnings=(smooth,)))).grade == GOOD
+
+
 def test_half_way_old_folds_may_be_left(fine: Evidence) -> None:
     same = replace(fine, before=replace(CLEAN, folded=ints(FACE)), after=replace(CLEAN, folded=ints(FACE)))
     assert judged(same, factor=0.5).grade == GOOD

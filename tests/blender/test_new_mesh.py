@@ -312,3 +312,20 @@ def test_no_quad_lies_on_both_sides_of_a_mark() -> None:
     for polygon in new_polygons(obj):
         y = [obj.data.vertices[v].co.y for v in polygon.vertices]
         assert min(y) > -1e-2 or max(y) < 1e-2
+
+
+@pytest.mark.parametrize(("uvs", "wave"), [(True, 0.0), (False, 0.1)])
+def test_corners_of_the_selection_and_seams_leave_no_loose_ends(uvs: bool, wave: float) -> None:
+    """Faces without a vertex inside stay; a new triangle that was there already, along a seam, does not come twice."""
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3, calc_uvs=uvs)
+    obj = bpy.context.object
+    border = 0.3 if wave == 0.0 else 0.05
+    chosen = np.array(
+        [polygon.center.z > border + wave * np.sin(7.0 * polygon.center.x) for polygon in obj.data.polygons]
+    )
+    assert fair_new(obj, chosen) == {"FINISHED"}
+    used = {vertex for polygon in obj.data.polygons for vertex in polygon.vertices}
+    assert used == set(range(len(obj.data.vertices)))
+    triples = [tuple(sorted(polygon.vertices)) for polygon in obj.data.polygons]
+    assert len(set(triples)) == len(triples)
+    assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 2e-3

@@ -66,7 +66,8 @@ def fill(
     Raises
     ------
     MeshError
-        NOT_A_LOOP, NO_BOUNDARY, NONMANIFOLD_VERTEX (loops that touch), NONMANIFOLD_EDGE, ZERO_NORMAL,
+        NOT_A_LOOP, NO_BOUNDARY, NONMANIFOLD_VERTEX (loops that touch), NONMANIFOLD_EDGE (also where the surface would
+        double back onto a triangle that sticks out into a loop), ZERO_NORMAL,
         NORMALS_OPPOSE_WINDING, NONFINITE or INDEX_RANGE; ``elements`` are the vertices.
     ValueError, Cancelled, SolverError, MemoryError
         As for :func:`fairing.fair`.
@@ -90,6 +91,7 @@ def fill(
     count = patch.expected_count(length)
     fine, _ = patch.remeshed(len(points), length, LEAST_COUNT, options, watch.part(0.2, 0.4))
     watch.lap("mesh")
+    _loops.check_doubles(fine.triangles, around)
     coarser = count < 0.9 * LEAST_COUNT * (1 if bridge else len(outline.loops))
     report = fine.faired(_start(first["start"], options), around, options, watch.part(0.4, 0.9 if coarser else 1.0))
     values = _report(report, len(points))

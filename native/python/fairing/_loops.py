@@ -167,3 +167,15 @@ def _listed(indices: IntArray) -> str:
 
 def _refuse(code: str, text: str, elements: IntArray) -> None:
     raise MeshError(Diagnostic(code, text, np.asarray(elements, np.int32), "vertex", {"vertices": len(elements)}))
+
+
+def check_doubles(new: IntArray, triangles: IntArray) -> None:
+    """Raise MeshError where a new triangle has the corners of one that is there: a double wall."""
+    old = {tuple(corners) for corners in np.sort(triangles, axis=1).tolist()}
+    again = [corners for corners in np.sort(new, axis=1).tolist() if tuple(corners) in old]
+    made = np.array(again, dtype=np.int32).reshape(-1, 3)
+    if len(made):
+        text = "loops: the surface would double back onto {} that stick{} out into a loop: remove {} first"
+        words = ("1 triangle", "s", "it") if len(made) == 1 else (f"{len(made)} triangles", "", "them")
+        figures = {"doubles": float(len(made))}
+        raise MeshError(Diagnostic("NONMANIFOLD_EDGE", text.format(*words), np.unique(made), "vertex", figures))
