@@ -31,6 +31,14 @@ def in_view() -> Any:
     return bpy.context.temp_override(window=window, area=area, region=region)
 
 
+_first = view()[1].spaces.active.region_3d.view_rotation.copy()
+
+
+def look_as_first() -> None:
+    """Turn the view as it was when Blender opened: drags along an axis depend on it."""
+    view()[1].spaces.active.region_3d.view_rotation = _first
+
+
 def move_mouse(x: int, y: int) -> None:
     """Put the pointer there, in pixels of the window from its lower left corner."""
     view()[0].event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
