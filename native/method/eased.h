@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <string_view>
 
 #include "base/progress.h"
 #include "problem/problem.h"
@@ -10,7 +9,7 @@
 
 namespace fairing {
 
-inline constexpr std::string_view eased_way = "eased";
+inline constexpr const char* eased_way = "eased";
 
 // Whether curvature varies so much along the outline that noise or folds of the surroundings must be the cause.
 bool is_jagged(const Problem& problem);

@@ -87,7 +87,7 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
         {direct.name, takes_direct, direct.solve, direct.begin, direct.end},
         {proxy.name, [](const Problem& p, const Situation&) { return is_fourth_order(p); }, proxy.solve, proxy.begin,
          proxy.end},
-        {eased_way.data(), takes_eased,
+        {eased_way, takes_eased,
          [](const Problem& p, const Situation&, const Progress& part) { return solve_eased(p, part); }, 0.9, 1.0},
         {"patient", takes_patience,
          [](const Problem& p, const Situation&, const Progress& part) { return Found(solve_directly(p, part)); }, 0.8,
