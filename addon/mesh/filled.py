@@ -54,9 +54,10 @@ def _add(bm: Any, shapes: Shapes, pieces: list[Piece]) -> Added:
     bm.verts.ensure_lookup_table()
     # All are read before the first is written: tables of vertices don't last.
     rims = [_Rim(bm, piece) for piece in pieces]
-    for rim in rims:
-        refuse_doubles(bm, rim.data(bm))
-    faces = [face for rim in rims for face in rim.fill(bm, shapes)]
+    new = [rim.data(bm) for rim in rims]
+    for data in new:
+        refuse_doubles(bm, data)
+    faces = [face for rim, data in zip(rims, new, strict=True) for face in rim.fill(bm, shapes, data)]
     select_new_faces(bm, faces)
     bm.normal_update()
     areas = [rim.distortion for rim in rims]
@@ -78,12 +79,11 @@ class _Rim:
         self.seams = int(np.count_nonzero((np.abs(after - other) > 1e-6).any(axis=1)))
         self.distortion = 0.0
 
-    def fill(self, bm: Any, shapes: Shapes) -> list[Any]:
+    def fill(self, bm: Any, shapes: Shapes, data: FaceData) -> list[Any]:
         """Make vertices, then faces; return the faces."""
         piece = self._piece
         near, _ = piece.examples()
         examples = [self._vertices[number] for number in near.tolist()]
-        data = self.data(bm)
         vertices = make_vertices(bm, shapes, VertexData(piece.positions, self._vertices, piece.carried, examples))
         made = make_faces(bm, vertices, data)
         self.distortion = self._distortion(bm, made, data.numbers)
