@@ -24,6 +24,13 @@ def refuse_options(options: FairOptions) -> None:
             raise ValueError(f"{text}, or {without}")
 
 
+def idle_notes(options: FairOptions) -> tuple[str, ...]:
+    """Say which options nothing was done with."""
+    if options.detail > 0.0 or not (options.detail_from or options.detail_face_set):
+        return ()
+    return ("Detail From was not used, since Keep Detail is 0: set it to 1 to copy the skin",)
+
+
 def band_weights(mesh: MeshArrays, patch: Patch, vertices: Ints, outside: Ints, feather: float) -> Floats | None:
     """Return (q,) from 0 to 1 for the mesh's `vertices` (q,), the patch's first: 1 inside, less and less in the band.
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core, _feather, _joining, _mending, _options, _paper
@@ -143,7 +144,7 @@ def fair(
         Triangles of ``vertices``, a sample: their detail is put on the surface in place of the old patch's, for one
         that has none, like a filled hole. Heights are copied from it piece by piece, and meet the outline's own detail.
         ``detail_size`` 0 is then twelve mean edges of the sample. Needs ``detail`` above 0; not with ``feather`` or
-        ``weights``. Vertices lie as ``inner_fairness`` says.
+        ``weights``. Triangles of the patch itself don't count. Vertices lie as ``inner_fairness`` says.
     feather : float
         Width of a band outside the patch that takes part, as a share of D: the change fades out in it. The join is
         made round: the base loses what repeats within less than two widths, D/2 at most, all of it at the old outline,
@@ -213,6 +214,8 @@ def fair(
     joins = _options.continuity(continuity, equation, method)
     sample = _options.sample(detail_from, count, detail)
     around = _mending.Surroundings.of(points, faces, fixed_list, outside)
+    held = around.rim if fixed_list is None else np.union1d(around.rim, fixed_list)
+    sample = _options.sample_around(sample, np.setdiff1d(around.inside, held))
     as_given = _mending.Boundary(points, fixed_list, given_normals)
     if not joins and fixed_curvatures is not None:
         raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
