@@ -13,7 +13,7 @@ from .around import numbered, outside_triangles, sample_triangles, wide_outside,
 from .arrays import Floats
 from .boundary import prescribed_curvatures, prescribed_normals
 from .engine import Progress
-from .feather import band_weights, idle_notes, refuse_options
+from .feather import band_weights, refuse_options
 from .findings import Origin
 from .memory import Memory, digest
 from .options import FairOptions
@@ -100,7 +100,7 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
         vertices, around, sample = numbered(patch, *parts)
         weights = band_weights(world, patch, vertices, around, options.feather) if options.moves_band else None
         precision = precision_note(mesh)
-        notes = outline_notes(world) + ((precision,) if precision else ()) + idle_notes(options) + mesh.notes
+        notes = outline_notes(world) + ((precision,) if precision else ()) + mesh.notes
     problem = engine.Problem(patch, world.positions[vertices], normals, vertices, around, curvatures, weights, sample)
     return problem, warnings + notes
 

@@ -70,19 +70,21 @@ def sample_faces(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: Fa
     if group is not None:
         chosen[faces_within(mesh, _group_weights(mesh, group) > 0.0)] = True
     sets = values(mesh, FACE_SET, np.int32)
-    if options.detail_face_set:
-        of_set = np.zeros(len(chosen), dtype=bool) if sets is None else sets == options.detail_face_set
-        if not of_set.any():
-            raise ValueError(f"Detail Face Set: no face has the number {options.detail_face_set}; 0 is none")
-        chosen |= of_set
+    if options.detail_face_set and sets is not None:
+        chosen |= sets == options.detail_face_set
     hidden = np.empty(len(mesh.polygons), dtype=bool)
     mesh.polygons.foreach_get("hide", hidden)
     chosen &= ~hidden
     if not chosen.any():
-        if options.detail_face_set:
-            raise ValueError("Detail Face Set: all faces with this number are hidden: show them, or choose another")
-        raise ValueError("Detail From has no visible face: put all vertices of some faces into the group")
+        raise ValueError(_no_sample(options))
     return chosen
+
+
+def _no_sample(options: FairOptions) -> str:
+    """Say what is missing where no face has a skin to copy."""
+    if options.detail_from:
+        return "Detail From has no visible face: put all vertices of some faces into the group"
+    return f"Detail Face Set: no visible face is in the face set {options.detail_face_set}: choose another number"
 
 
 def _group_weights(mesh: bpy.types.Mesh, group: int) -> Floats:

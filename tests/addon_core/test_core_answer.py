@@ -198,11 +198,3 @@ def test_a_mended_outline_moves_with_what_is_around_it_and_nothing_else() -> Non
     # What is moved comes nearer to the sphere that it was before the noise.
     off = [np.abs(np.linalg.norm(p, axis=1) - 1.0) for p in (mended.positions, mesh.positions[mended.vertices])]
     assert np.median(off[0][np.isin(mended.vertices, more)]) < 0.7 * np.median(off[1][np.isin(mended.vertices, more)])
-
-
-@pytest.mark.parametrize("options", [{"detail_from": "Skin"}, {"detail_face_set": 3}])
-def test_a_sample_that_is_not_looked_at_is_told(options: dict[str, object]) -> None:
-    mesh = spoilt_sphere()
-    told = "Detail From was not used, since Keep Detail is 0"
-    assert any(told in text for text in fair(mesh, **options).warnings)
-    assert not any(told in text for text in fair(mesh).warnings)

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from fairing import _arguments, _core, _mending
 from fairing._mending import Answer, Boundary, Surroundings
-from fairing._types import FloatArray, IntArray
+from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
 
 Marks = npt.NDArray[np.bool_]
 Call = Callable[[Boundary], Answer]
@@ -185,7 +185,7 @@ def _band(given: Boundary, around: Surroundings, weights: FloatArray) -> Band:
 
 
 def _parts(points: FloatArray, around: Surroundings, band: Band) -> list[Part]:
-    """The patches that have a band, with what lies around it. Raises ValueError where nothing would stay."""
+    """The patches that have a band, with what lies around it. Raises MeshError where nothing would stay."""
     if not band.freed.any():
         return []
     near = _around_band(around, band)
@@ -226,7 +226,8 @@ def _part(points: FloatArray, triangles: tuple[IntArray, IntArray], fixed: Marks
     if not len(stays):
         stays = own[~(band.faired | band.freed)[own]]
     if not len(stays):
-        raise ValueError("feather: the band covers all that lies around the patch, so nothing stays: make it narrower")
+        text = "feather: the band covers all that lies around the patch, so nothing stays: make it narrower"
+        raise MeshError(Diagnostic("NO_BOUNDARY", text, np.unique(inside).astype(np.int32), "vertex", {}))
     sides = np.sort(np.concatenate([inside[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
     edges, uses = np.unique(sides, axis=0, return_counts=True)
     in_band = _marked(outside, len(points))
