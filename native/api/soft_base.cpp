@@ -31,7 +31,8 @@ public:
     [[nodiscard]] Points without(const Points& points, double wavelength) const {
         const Points outline = points.rightCols(points.cols() - patch_.free_count);
         std::optional<Points> smooth = old_base(patch_, stiffness_, {points, outline}, wavelength, progress_);
-        return smooth && smooth->allFinite() ? std::move(*smooth) : points;
+        if (!smooth || !smooth->allFinite()) return points;
+        return std::move(*smooth);
     }
 
 private:

@@ -139,7 +139,7 @@ def sample_around(sample: IntArray | None, free: IntArray) -> IntArray | None:
     """What of the sample has no corner among the ``free`` vertices of the patch, whose skin is to be replaced."""
     if sample is None:
         return None
-    around = sample[~np.isin(sample, free).any(axis=1)]
+    around: IntArray = sample[~np.isin(sample, free).any(axis=1)]
     if not len(around):
         raise ValueError("detail_from: all of the sample lies in the patch itself; name triangles outside it")
     return around
