@@ -17,8 +17,7 @@ HARD = 70.0  # degrees by which a row bends in the median
 STEADY = 15.0  # degrees: largest standard deviation within a row
 STRAIGHT = 0.85  # cosine between an edge and the next one
 ROW = 4  # edges of a row, one of which at least doesn't move
-ROUNDED = 15.0  # degrees by which an edge has become flatter
-FEWEST = 2  # such edges of a row
+ROUNDED = 15.0  # degrees by which one of its edges at least has become flatter
 
 
 def rounded_edges(before: Floats, after: Floats, triangles: Ints, moved: Ints) -> Ints:
@@ -34,7 +33,7 @@ def rounded_edges(before: Floats, after: Floats, triangles: Ints, moved: Ints) -
         sharp = np.flatnonzero(sign * old.degrees > SHARP)
         for row in _rows(before, old.edges[sharp]):
             edges = sharp[row]
-            if _is_hard(old, edges, moves) and np.count_nonzero(flatter[edges]) >= FEWEST:
+            if _is_hard(old, edges, moves) and flatter[edges].any():
                 found.append(old.edges[edges[flatter[edges]]].ravel())
     vertices: Ints = np.intersect1d(np.concatenate(found), moved)
     return vertices

@@ -38,7 +38,6 @@ def test_a_ridge_that_was_lowered_at_its_end_is_found(turned: bool) -> None:
 
 
 def test_what_keeps_its_edge_is_none() -> None:
-    points, triangles = roof(90.0)
     for degrees, rows, by in ((90.0, 3, 0.01), (60.0, 3, 0.4), (90.0, 1, 0.05)):
         points, triangles = roof(degrees)
         after, moved = flattened(points, rows, by)
