@@ -184,9 +184,10 @@ Solution ComponentSolver::solve_by_paper(const Problem& problem, const Progress&
 
 // Conformal weights of the vertices given leave them where they are within the surface.
 std::optional<NearStart> ComponentSolver::given_start(const ComponentAnswer& answer, const ComponentData& data) const {
+    const Start kind = options().start;
     const Equation equation = options().solver.equation;
-    if (options().start != Start::given || equation == Equation::minimal || equation == Equation::least_variation)
-        return std::nullopt;
+    const bool of_fourth_order = equation != Equation::minimal && equation != Equation::least_variation;
+    if (kind != Start::least_variation && !(kind == Start::given && of_fourth_order)) return std::nullopt;
     const Points start = answer.unit.to_unit(gather(data.vertices, patch_.to_input));
     return NearStart{start, options().inner_fairness == InnerFairness::conformal && reference_ == start};
 }
@@ -207,9 +208,10 @@ Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Componen
 Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optional<NearStart>& start,
                                         const Progress& progress) {
     std::optional<Solution> near_last = keeps() ? solve_near_last(problem, progress) : std::nullopt;
-    if (!near_last && start) near_last = solve_near(problem, *start, progress.range(0.0, 0.4));
-    if (!near_last && options().start == Start::least_variation)
-        near_last = solve_else(problem, Instead::least_variation, progress);
+    if (!near_last && start && options().start == Start::given)
+        near_last = solve_near(problem, *start, progress.range(0.0, 0.4));
+    if (!near_last && start && options().start == Start::least_variation)
+        near_last = solve_else(problem, Instead::least_variation, progress, &start->points);
     if (!near_last && options().start == Start::loft) near_last = solve_else(problem, Instead::loft, progress);
     Solution solution = near_last ? std::move(*near_last) : solve_pinned(problem, options().pin_radius, progress);
     if (!keeps()) return solution;

@@ -159,7 +159,7 @@ def fair(
         there, within a few steps and without folds, the outline alone decides as always. For the harmonic equations
         and "global"; where conformal weights are those of these same vertices, these move along the normals only.
         "least_variation", "loft": begin with what is taken in place of the equation's surface, where another solve has
-        shown that it has none; where that is not accepted the outline alone decides.
+        shown that it has none, the former at the vertices given; where that is not accepted the outline alone decides.
     creases : (c,) int
         Some of the fixed vertices, those at which a crease ends on the outline among them: position only, whatever
         ``fixed_normals`` says there. Each side of a curve of them finds a slope of its own. A component with such a
