@@ -16,6 +16,8 @@ namespace {
 // Below, minimum degree leaves as little fill.
 constexpr Eigen::Index least_dissected = 5000;
 
+using ThreeColumns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+
 // Counts the operations of several threads; the one that made it reports, about every ten million.
 class SharedProgress {
 public:
@@ -160,40 +162,34 @@ FrontReach SparseCholesky::reach(const Indices& rows) const {
     return {tree_, positions};
 }
 
-template <typename Stored>
-VectorX SparseCholesky::solve_with(const Stored* panels, const VectorX& rhs, const FrontReach& from,
-                                   const FrontReach& to) const {
-    const auto up = [&](int s, Eigen::Map<VectorX>& b) { eliminate_vector<Stored>(panel(panels, s), b.data()); };
-    const auto down = [&](int s, Eigen::Map<VectorX>& b) { substitute_vector<Stored>(panel(panels, s), b.data()); };
+template <typename Field, typename Stored>
+Field SparseCholesky::solve_with(const Stored* panels, const Field& rhs, const FrontReach& from,
+                                 const FrontReach& to) const {
+    using Rows = Eigen::Map<Field>;
+    const auto up = [&](int s, Rows& b) {
+        for (Eigen::Index k = 0; k < b.cols(); ++k) eliminate_vector<Stored>(panel(panels, s), b.col(k).data());
+    };
+    const auto down = [&](int s, Rows& b) {
+        for (Eigen::Index k = 0; k < b.cols(); ++k) substitute_vector<Stored>(panel(panels, s), b.col(k).data());
+    };
     return solve_by_fronts(tree_, order_, rhs, FrontSweeps{up, down}, from, to);
 }
 
-VectorX SparseCholesky::solve_vector(const VectorX& rhs, const FrontReach& from, const FrontReach& to) const {
+template <typename Field>
+Field SparseCholesky::solve_field(const Field& rhs, const FrontReach& from, const FrontReach& to) const {
     if (kept_ == Kept::doubles) return solve_with(panels_.data(), rhs, from, to);
     return solve_with(singles_.data(), rhs, from, to);
 }
 
+VectorX SparseCholesky::solve_vector(const VectorX& rhs, const FrontReach& from, const FrontReach& to) const {
+    return solve_field(rhs, from, to);
+}
+
+// Columns of a number that the compiler knows take a third less.
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& rhs) const {
-    if (rhs.cols() == 1 || kept_ == Kept::singles) {
-        Eigen::MatrixXd x(rhs.rows(), rhs.cols());
-        for (Eigen::Index k = 0; k < rhs.cols(); ++k) x.col(k) = solve_vector(rhs.col(k));
-        return x;
-    }
-    using Rows = Eigen::Map<Eigen::MatrixXd>;
-    const auto up = [this](int s, Rows& b) {
-        const auto front = panel(panels_.data(), s);
-        auto own = b.topRows(front.cols());
-        front.topRows(front.cols()).triangularView<Eigen::Lower>().solveInPlace(own);
-        b.bottomRows(b.rows() - own.rows()).noalias() -= front.bottomRows(b.rows() - own.rows()) * own;
-    };
-    const auto down = [this](int s, Rows& b) {
-        const auto front = panel(panels_.data(), s);
-        auto own = b.topRows(front.cols());
-        const auto below = b.bottomRows(b.rows() - own.rows());
-        own.noalias() -= front.bottomRows(below.rows()).transpose() * below;
-        front.topRows(front.cols()).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
-    };
-    return solve_by_fronts(tree_, order_, rhs, FrontSweeps{up, down});
+    if (rhs.cols() == 1) return solve_field(VectorX(rhs), FrontReach(), FrontReach());
+    if (rhs.cols() == 3) return solve_field(ThreeColumns(rhs), FrontReach(), FrontReach());
+    return solve_field(rhs, FrontReach(), FrontReach());
 }
 
 }  // namespace fairing

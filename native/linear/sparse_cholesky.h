@@ -43,9 +43,11 @@ private:
     void add_child(int child, int parent, Front& front, Eigen::MatrixXd& parent_update);
     bool eliminate(int supernode, const WorkDone& work_done);
     bool eliminate(int supernode, Front front, const WorkDone& work_done);
-    template <typename Stored>
-    [[nodiscard]] VectorX solve_with(const Stored* panels, const VectorX& rhs, const FrontReach& from,
-                                     const FrontReach& to) const;
+    template <typename Field, typename Stored>
+    [[nodiscard]] Field solve_with(const Stored* panels, const Field& rhs, const FrontReach& from,
+                                   const FrontReach& to) const;
+    template <typename Field>
+    [[nodiscard]] Field solve_field(const Field& rhs, const FrontReach& from, const FrontReach& to) const;
     // A supernode's part of panels_ or singles_.
     template <typename Stored>
     [[nodiscard]] auto panel(Stored* panels, int supernode) const;
