@@ -16,8 +16,6 @@ namespace {
 // Below, minimum degree leaves as little fill.
 constexpr Eigen::Index least_dissected = 5000;
 
-using ThreeColumns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
-
 // Counts the operations of several threads; the one that made it reports, about every ten million.
 class SharedProgress {
 public:
@@ -162,34 +160,37 @@ FrontReach SparseCholesky::reach(const Indices& rows) const {
     return {tree_, positions};
 }
 
-template <typename Field, typename Stored>
-Field SparseCholesky::solve_with(const Stored* panels, const Field& rhs, const FrontReach& from,
-                                 const FrontReach& to) const {
-    using Rows = Eigen::Map<Field>;
-    const auto up = [&](int s, Rows& b) {
-        for (Eigen::Index k = 0; k < b.cols(); ++k) eliminate_vector<Stored>(panel(panels, s), b.col(k).data());
-    };
-    const auto down = [&](int s, Rows& b) {
-        for (Eigen::Index k = 0; k < b.cols(); ++k) substitute_vector<Stored>(panel(panels, s), b.col(k).data());
-    };
-    return solve_by_fronts(tree_, order_, rhs, FrontSweeps{up, down}, from, to);
-}
-
-template <typename Field>
-Field SparseCholesky::solve_field(const Field& rhs, const FrontReach& from, const FrontReach& to) const {
-    if (kept_ == Kept::doubles) return solve_with(panels_.data(), rhs, from, to);
-    return solve_with(singles_.data(), rhs, from, to);
+template <typename Visit>
+auto SparseCholesky::with_panels(const Visit& visit) const {
+    return kept_ == Kept::doubles ? visit(panels_.data()) : visit(singles_.data());
 }
 
 VectorX SparseCholesky::solve_vector(const VectorX& rhs, const FrontReach& from, const FrontReach& to) const {
-    return solve_field(rhs, from, to);
+    using Rows = Eigen::Map<VectorX>;
+    return with_panels([&](const auto* panels) {
+        const auto up = [&](int s, Rows& b) { eliminate_vector(panel(panels, s), b.data()); };
+        const auto down = [&](int s, Rows& b) { substitute_vector(panel(panels, s), b.data()); };
+        return solve_by_fronts(tree_, order_, rhs, FrontSweeps{up, down}, from, to);
+    });
 }
 
-// Columns of a number that the compiler knows take a third less.
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& rhs) const {
-    if (rhs.cols() == 1) return solve_field(VectorX(rhs), FrontReach(), FrontReach());
-    if (rhs.cols() == 3) return solve_field(ThreeColumns(rhs), FrontReach(), FrontReach());
-    return solve_field(rhs, FrontReach(), FrontReach());
+    Eigen::MatrixXd x(rhs.rows(), rhs.cols());
+    for (Eigen::Index k = 0; k < rhs.cols(); ++k) x.col(k) = solve_vector(rhs.col(k));
+    return x;
+}
+
+Points SparseCholesky::solve_points(const Points& rhs) const {
+    using Field = Eigen::Matrix<double, Eigen::Dynamic, lanes, Eigen::RowMajor>;
+    using Rows = Eigen::Map<Field>;
+    Field padded = Field::Zero(rhs.cols(), lanes);
+    padded.leftCols<3>() = rhs.transpose();
+    const Field x = with_panels([&](const auto* panels) {
+        const auto up = [&](int s, Rows& b) { eliminate_lanes(panel(panels, s), b.data()); };
+        const auto down = [&](int s, Rows& b) { substitute_lanes(panel(panels, s), b.data()); };
+        return solve_by_fronts(tree_, order_, padded, FrontSweeps{up, down});
+    });
+    return x.leftCols<3>().transpose();
 }
 
 }  // namespace fairing
