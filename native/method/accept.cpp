@@ -17,11 +17,13 @@ namespace {
 // are none of the surface's: 1e-3 D off a sphere after 100 iterations, 2e-3 D off a cylinder after 29.
 constexpr int most_iterations = 20;
 
+// More than a line has that is as broad as the iteration is accurate.
 bool has_area(const Problem& problem, const Points& points) {
-    constexpr double least_area = 1e-9;  // D²
+    constexpr double usual_tolerance = 1e-6;  // looser ones are no reason to refuse narrow patches
+    const double least_area = 2.0 * std::min(problem.options.tolerance, usual_tolerance);  // D²
     FaceGeometry faces;
     faces.update(points, problem.patch.triangles);
-    return faces.areas.sum() > least_area;
+    return faces.areas.sum() > std::max(least_area, 1e-9);
 }
 
 // Met from the other side at most of the outline's vertices: a bulge that has turned inside out.
@@ -58,9 +60,9 @@ bool has_poor_triangles(const Patch& patch, const Points& points) {
 
 Flaw flaw_of(const Problem& problem, Solution& solution) {
     const bool folded_on_proxy = solution.termination == Termination::folded;
-    if (folded_on_proxy) return Flaw::folded;
-    if (solution.termination != Termination::converged) return Flaw::not_converged;
+    if (solution.termination != Termination::converged && !folded_on_proxy) return Flaw::not_converged;
     if (!has_area(problem, solution.points)) return Flaw::collapsed;
+    if (folded_on_proxy) return Flaw::folded;
     if (is_behind(problem, solution)) return Flaw::behind;
     // Placed vertices were compared with the surface that they lie on.
     Indices flipped = solution.polished ? flipped_by_solution(problem.patch, solution.points) : Indices{};
@@ -80,12 +82,12 @@ Flaw flaw_of(const Problem& problem, Solution& solution) {
 }
 
 Termination end_of(const Solution& solution) {
+    if (solution.flaw == Flaw::collapsed) return Termination::stalled;  // folded or not
     if (solution.termination != Termination::converged) return solution.termination;
     switch (solution.flaw) {
         case Flaw::folded:
         case Flaw::crossing: return Termination::folded;
-        case Flaw::behind:
-        case Flaw::collapsed: return Termination::stalled;
+        case Flaw::behind: return Termination::stalled;
         default: return Termination::converged;
     }
 }

@@ -94,9 +94,7 @@ std::optional<Solution> solve_eased(const Problem& problem, const Progress& prog
     eased.fixed_points = outline.points;
     eased.fixed_normals = outline.normals;
     auto solution = place_on_coarse_proxy(eased, progress);
-    if (!solution || solution->termination == Termination::stalled ||
-        solution->termination == Termination::iteration_limit)
-        return std::nullopt;
+    if (!solution) return std::nullopt;
     follow_outline(problem.patch, problem.fixed_points - outline.points, solution->points);
     return solution;
 }
