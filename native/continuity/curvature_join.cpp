@@ -1,11 +1,10 @@
 #include "continuity/curvature_join.h"
 
 #include <cmath>
-#include <limits>
 
-#include "base/parallel.h"
 #include "continuity/join_operator.h"
 #include "linear/anderson.h"
+#include "linear/shrinking_steps.h"
 #include "problem/surface_state.h"
 #include "tangential/tangential_step.h"
 
@@ -49,8 +48,8 @@ public:
                 solution_.termination = Termination::converged;
                 break;
             }
-            if (!goes_on(largest, k)) return failed();
-            accelerate(d);
+            if (!std::isfinite(largest) || steps_.in_vain(largest) > patience) return failed();
+            anderson_.move(state_.points, d, largest_step);
         }
         solution_.points = state_.points;
         solution_.mean_curvature = state_.curvature.mean;
@@ -76,36 +75,11 @@ private:
         return std::isfinite(solution_.residual);
     }
 
-    // Along the normals, and within the surface, whose curvature a long way there follows.
     Points step() {
         const VectorX H = state_.curvature.mean.tail(problem_.fixed_points.cols());
         const JoinOperator::Step step = operator_.solve(residual_, known_.missing(H));
         coefficients_ += step.coefficients;
-        Points d = tangential_->displacement(state_.points, state_.normals);
-        for_ranges(patch_.free_count, coarse_grain, [&](int begin, int end) {
-            for (int i = begin; i < end; ++i) {
-                const Vector3 n = state_.normals.col(i);
-                d.col(i) += (step.heights[i] + state_.curvature.fit(i).rise(n, d.col(i))) * n;
-            }
-        });
-        return d;
-    }
-
-    bool goes_on(double largest, int k) {
-        if (!std::isfinite(largest)) return false;
-        if (largest < least_step_) {
-            least_step_ = largest;
-            least_step_at_ = k;
-        }
-        return k - least_step_at_ <= patience;
-    }
-
-    void accelerate(const Points& d) {
-        Eigen::Map<VectorX> x(state_.points.data(), 3L * patch_.free_count);
-        VectorX step = anderson_.step(x, Eigen::Map<const VectorX>(d.data(), d.size()));
-        const double largest = largest_length(Eigen::Map<const Points>(step.data(), 3, patch_.free_count));
-        if (largest > largest_step) step *= largest_step / largest;
-        x += step;
+        return state_.moves(tangential_->displacement(state_.points, state_.normals), step.heights);
     }
 
     const Problem& problem_;
@@ -119,8 +93,7 @@ private:
     VectorX coefficients_;  // of the multipliers
     SurfaceState state_;
     VectorX residual_;
-    double least_step_ = std::numeric_limits<double>::infinity();
-    int least_step_at_ = 0;
+    ShrinkingSteps steps_;
     Solution solution_;
 };
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/parallel.h"
 #include "linear/anderson.h"
+#include "linear/shrinking_steps.h"
 #include "problem/surface_state.h"
 #include "problem/willmore.h"
 
@@ -65,11 +65,11 @@ public:
                 keep();
                 break;
             }
-            if (hopeless(largest, k)) {
+            if (hopeless(largest)) {
                 solution_.termination = Termination::stalled;
                 break;
             }
-            accelerate(d);
+            anderson_.move(state_.points, damping_ * d, largest_step);
         }
         return std::move(solution_);
     }
@@ -123,36 +123,16 @@ private:
         return !wanted || work_.normal->update(state_.stiffness, progress_.range(0.0, k == 0 ? share_of_factor : 0.0));
     }
 
-    // Along the normals, and within the surface: a long way there follows its curvature.
     Points plain_step() {
         const VectorX u = work_.normal->solve(outer_);
-        Points d = work_.tangential->displacement(state_.points, state_.normals);
-        for_ranges(patch_.free_count, coarse_grain, [&](int begin, int end) {
-            for (int i = begin; i < end; ++i) {
-                const Vector3 n = state_.normals.col(i);
-                d.col(i) += (u[i] + state_.curvature.fit(i).rise(n, d.col(i))) * n;
-            }
-        });
-        return d;
+        return state_.moves(work_.tangential->displacement(state_.points, state_.normals), u);
     }
 
-    bool hopeless(double largest, int k) {
+    bool hopeless(double largest) {
         last_step_ = largest;
-        if (largest < 0.9 * least_step_ || k == 0) {
-            least_step_ = std::min(least_step_, largest);
-            least_step_at_ = k;
-        }
-        const int in_vain = k - least_step_at_;
+        const int in_vain = steps_.in_vain(largest);
         const bool grown = in_vain > growth_patience && residual_ > hopeless_growth * best_residual_;
         return !std::isfinite(largest) || grown || in_vain > problem_.options.patience;
-    }
-
-    void accelerate(const Points& d) {
-        Eigen::Map<VectorX> x(state_.points.data(), 3L * patch_.free_count);
-        VectorX step = anderson_.step(x, damping_ * Eigen::Map<const VectorX>(d.data(), d.size()));
-        const double largest = largest_length(Eigen::Map<const Points>(step.data(), 3, patch_.free_count));
-        if (largest > largest_step) step *= largest_step / largest;
-        x += step;
     }
 
     const Problem& problem_;
@@ -170,8 +150,7 @@ private:
     double last_step_ = 0.0;
     double step_at_refresh_ = 0.0;
     int refreshed_at_ = 0;
-    double least_step_ = std::numeric_limits<double>::infinity();
-    int least_step_at_ = 0;
+    ShrinkingSteps steps_{0.9};
     Solution solution_;
 };
 

@@ -1,6 +1,7 @@
 #include "linear/anderson.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/QR>
 
@@ -58,6 +59,14 @@ Eigen::VectorXd Anderson::step(const Eigen::VectorXd& x, const Eigen::VectorXd& 
         step.segment(begin, size) -= (dx_.block(begin, 0, size, used) + df_.block(begin, 0, size, used)) * gamma;
     });
     return step;
+}
+
+void Anderson::move(Eigen::Matrix3Xd& points, const Eigen::Matrix3Xd& plain, double longest) {
+    Eigen::Map<Eigen::VectorXd> x(points.data(), plain.size());
+    Eigen::VectorXd far = step(x, plain.reshaped());
+    const double largest = std::sqrt(far.reshaped(3, plain.cols()).colwise().squaredNorm().maxCoeff());
+    if (largest > longest) far *= longest / largest;
+    x += far;
 }
 
 }  // namespace fairing

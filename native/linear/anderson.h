@@ -12,6 +12,9 @@ public:
 
     // The accelerated step from x, given the plain step f(x).
     Eigen::VectorXd step(const Eigen::VectorXd& x, const Eigen::VectorXd& f);
+    // Moves points (3 × n or more) by that step, given the plain one (3 × n): the whole step shorter where a point
+    // would go further than `longest`.
+    void move(Eigen::Matrix3Xd& points, const Eigen::Matrix3Xd& plain, double longest);
     void reset() { count_ = 0; }
 
 private:

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 
 #include <Eigen/LU>
 
-#include "base/parallel.h"
 #include "linear/anderson.h"
+#include "linear/shrinking_steps.h"
 #include "operators/normal_operator.h"
 #include "pins/bells.h"
 #include "pins/released.h"
@@ -64,8 +63,8 @@ public:
                 solution_.termination = Termination::converged;
                 break;
             }
-            if (!goes_on(largest, k)) return failed();
-            accelerate(*d);
+            if (!std::isfinite(largest) || steps_.in_vain(largest) > patience) return failed();
+            anderson_.move(state_.points, *d, largest_step);
         }
         return finished();
     }
@@ -132,31 +131,8 @@ private:
         const Points points = state_.points(Eigen::all, released_.to);
         const Points normals = state_.normals(Eigen::all, released_.to);
         Points d(3, problem_.patch.free_count);
-        d << tangential_->displacement(points, normals), to_go();
-        for_ranges(given_.patch.free_count, coarse_grain, [&](int begin, int end) {
-            for (int i = begin; i < end; ++i) {
-                const Vector3 n = state_.normals.col(i);
-                d.col(i) += ((*rises)[i] + state_.curvature.fit(i).rise(n, d.col(i))) * n;
-            }
-        });
+        d << state_.moves(tangential_->displacement(points, normals), *rises), to_go();
         return d;
-    }
-
-    bool goes_on(double largest, int k) {
-        if (!std::isfinite(largest)) return false;
-        if (largest < least_step_) {
-            least_step_ = largest;
-            least_step_at_ = k;
-        }
-        return k - least_step_at_ <= patience;
-    }
-
-    void accelerate(const Points& d) {
-        Eigen::Map<VectorX> x(state_.points.data(), d.size());
-        VectorX step = anderson_.step(x, Eigen::Map<const VectorX>(d.data(), d.size()));
-        const double largest = largest_length(Eigen::Map<const Points>(step.data(), 3, d.cols()));
-        if (largest > largest_step) step *= largest_step / largest;
-        x += step;
     }
 
     const Problem& given_;
@@ -175,8 +151,7 @@ private:
     int bells_of_ = 0;    // surfaces they were measured on
     SurfaceState state_;  // of the released patch
     double contraction_ = 0.0;
-    double least_step_ = std::numeric_limits<double>::infinity();
-    int least_step_at_ = 0;
+    ShrinkingSteps steps_;
     Solution solution_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/parallel.h"
 #include "geometry/surface_fit.h"
 #include "problem/willmore.h"
 
@@ -48,6 +49,16 @@ double curvature_variation(const Problem& problem, const Points& points) {
         sum += std::max(state.stiffness.weights[e], 0.0) * difference.squaredNorm();
     }
     return sum;
+}
+
+Points SurfaceState::moves(Points within, const VectorX& heights) const {
+    for_ranges(static_cast<int>(within.cols()), coarse_grain, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i) {
+            const Vector3 n = normals.col(i);
+            within.col(i) += (heights[i] + curvature.fit(i).rise(n, within.col(i))) * n;
+        }
+    });
+    return within;
 }
 
 double largest_length(const Points& field) { return std::sqrt(field.colwise().squaredNorm().maxCoeff()); }

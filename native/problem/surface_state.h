@@ -17,6 +17,9 @@ struct SurfaceState {
     void measure_faces(const Patch& patch);
     // Fitted (or averaged) normals and the curvature (paper §6) on top of them.
     void measure_curvature(const Problem& problem);
+    // Moves of the first vertices (3 × n): within the surface by `within`, whose curvature a long way there follows,
+    // and by `heights` (n) along the normals.
+    [[nodiscard]] Points moves(Points within, const VectorX& heights) const;
 };
 
 // A surface with all of the above measured.

@@ -1,6 +1,5 @@
 #include "tangential/slide.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "base/parallel.h"
@@ -45,9 +44,7 @@ void slide(Sliding& vertices, const TangentialStep& tangential, int most_steps) 
         const double largest = largest_length(d);
         if (largest > stuck * last) return;
         last = largest;
-        Eigen::Map<VectorX> x(points.data(), d.size());
-        const VectorX move = anderson.step(x, Eigen::Map<const VectorX>(d.data(), d.size()));
-        x += std::min(1.0, longest_move / largest_length(Eigen::Map<const Points>(move.data(), 3, d.cols()))) * move;
+        anderson.move(points, d, longest_move);
         walk(vertices);
         if (largest < near_enough) return;
     }

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <random>
@@ -9,6 +10,7 @@
 #include "base/parallel.h"
 #include "linear/anderson.h"
 #include "linear/gmres.h"
+#include "linear/shrinking_steps.h"
 #include "linear/sparse_cholesky.h"
 #include "linear/sparse_lu.h"
 
@@ -186,6 +188,28 @@ TEST_CASE("Anderson acceleration ends a linear iteration within its dimension") 
     Anderson anderson(5, 6);
     for (int k = 0; k < 7; ++k) x += anderson.step(x, b - diagonal.cwiseProduct(x));
     CHECK((diagonal.cwiseProduct(x) - b).norm() < 1e-8);
+}
+
+TEST_CASE("an accelerated move is the step, shortened as a whole where a point would go too far") {
+    Points plain(3, 2);
+    plain << 0.3, 0.0, 0.4, 0.1, 0.0, 0.0;  // of lengths 0.5 and 0.1
+    for (const double longest : {0.05, 1.0}) {
+        Points points = Points::Constant(3, 3, 7.0);
+        Anderson anderson(6, 4);
+        anderson.move(points, plain, longest);
+        CHECK((points.leftCols(2).array() - 7.0 - plain.array() * std::min(1.0, longest / 0.5)).abs().maxCoeff() <
+              1e-15);
+        CHECK(points.col(2) == Vector3::Constant(7.0));
+    }
+}
+
+TEST_CASE("steps shrink in vain while none is shorter than the share of the shortest") {
+    ShrinkingSteps steps(0.9);
+    CHECK(steps.in_vain(1.0) == 0);
+    CHECK(steps.in_vain(0.95) == 1);
+    CHECK(steps.in_vain(0.91) == 2);
+    CHECK(steps.in_vain(0.89) == 0);
+    CHECK(steps.in_vain(0.85) == 1);
 }
 
 TEST_CASE("GMRES solves systems that are not symmetric, at the latest after as many steps as unknowns") {
