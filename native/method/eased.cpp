@@ -41,11 +41,10 @@ std::optional<Solution> solve_eased(const Problem& problem, const Progress& prog
 }
 
 bool is_eased(const Solution& solution) {
-    return !solution.ways.empty() && (solution.ways.back().name == eased_way || solution.ways.back().name == eased_loft_way);
+    return !solution.ways.empty() &&
+           (solution.ways.back().name == eased_way || solution.ways.back().name == eased_loft_way);
 }
 
-double eased_by(const Problem& problem) {
-    return largest_length(problem.fixed_points - eased(problem).fixed_points);
-}
+double eased_by(const Problem& problem) { return largest_length(problem.fixed_points - eased(problem).fixed_points); }
 
 }  // namespace fairing

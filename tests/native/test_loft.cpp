@@ -240,11 +240,11 @@ TEST_CASE("a loft meets little of its outline from behind") {
         const Vector3 point = pipe.problem.fixed_points.col(k);
         if (point[0] < 0.5) continue;
         const double side = point[2] < 1.0 ? 1.0 : -1.0;
-        pipe.problem.fixed_normals.col(k) << std::cos(lean) * point[0], std::cos(lean) * point[1], side * std::sin(lean);
+        pipe.problem.fixed_normals.col(k) << std::cos(lean) * point[0], std::cos(lean) * point[1],
+            side * std::sin(lean);
     }
     const auto solution = lofted(pipe.problem, {}, Progress());
     REQUIRE(solution);
-    const VectorX angles =
-        boundary_angles(pipe.single.patch(), solution->boundary_normals, pipe.problem.fixed_normals);
+    const VectorX angles = boundary_angles(pipe.single.patch(), solution->boundary_normals, pipe.problem.fixed_normals);
     CHECK(20 * (angles.array() > 90.0).count() <= angles.size());
 }

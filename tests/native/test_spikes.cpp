@@ -36,9 +36,7 @@ TEST_CASE("edges, spheres and planes are no spikes, a hair longer than the radiu
     CHECK_FALSE(has_spike_of(roof, 0.2));
     CHECK_FALSE(has_spike_of(test::flat, 0.2));
     CHECK_FALSE(has_spike_of(test::sphere, 0.5));
-    const auto hair = [](double u, double v) {
-        return Vector3(u, v, std::hypot(u - 0.5, v - 0.5) < 0.02 ? 0.4 : 0.0);
-    };
+    const auto hair = [](double u, double v) { return Vector3(u, v, std::hypot(u - 0.5, v - 0.5) < 0.02 ? 0.4 : 0.0); };
     CHECK(has_spike_of(hair, 0.3));
     CHECK_FALSE(has_spike_of(hair, 0.6));  // the turn at its foot is opposite
 }
