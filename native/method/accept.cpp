@@ -1,6 +1,7 @@
 #include "method/accept.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "geometry/face_geometry.h"
 #include "geometry/flips.h"
@@ -34,14 +35,19 @@ bool is_behind(const Problem& problem, const Solution& solution) {
     return 2 * (angles.array() > behind).count() > (angles.array() > 0.0).count();
 }
 
-// Those of triangles without fixed corners among each other: an eased outline lies beside the surface.
+// Of some triangles those without fixed corners: an eased outline lies beside the surface.
+Indices inside(const Patch& patch, Indices triangles) {
+    std::erase_if(triangles, [&](int t) { return patch.triangles.col(t).maxCoeff() >= patch.free_count; });
+    return triangles;
+}
+
+// Of the triangles inside among each other.
 Indices crossings_inside(const Patch& patch, const Points& points) {
-    Indices inside;
-    for (int t = 0; t < patch.triangle_count(); ++t) {
-        if (patch.triangles.col(t).maxCoeff() < patch.free_count) inside.push_back(t);
-    }
-    Indices crossing = crossing_triangles(patch.triangles(Eigen::all, inside), points);
-    for (int& t : crossing) t = inside[at(t)];
+    Indices all(at(patch.triangle_count()));
+    std::iota(all.begin(), all.end(), 0);
+    const Indices kept = inside(patch, std::move(all));
+    Indices crossing = crossing_triangles(patch.triangles(Eigen::all, kept), points);
+    for (int& t : crossing) t = kept[at(t)];
     return crossing;
 }
 
@@ -66,13 +72,14 @@ Flaw flaw_of(const Problem& problem, Solution& solution) {
     if (is_behind(problem, solution)) return Flaw::behind;
     // Placed vertices were compared with the surface that they lie on.
     Indices flipped = solution.polished ? flipped_by_solution(problem.patch, solution.points) : Indices{};
+    const bool eased = is_eased(solution);
+    if (eased) flipped = inside(problem.patch, std::move(flipped));
     if (flipped.size() > problem.tolerated_folds) {
         solution.bad_triangles = std::move(flipped);
         return Flaw::folded;
     }
     if (!solution.crosses) {
         if (!solution.crossings) solution.crossings = crossing_triangles(problem.patch.triangles, solution.points);
-        const bool eased = is_eased(solution);
         solution.bad_triangles = eased ? crossings_inside(problem.patch, solution.points) : *solution.crossings;
         if (!solution.bad_triangles.empty()) return Flaw::crossing;
     }
