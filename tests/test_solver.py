@@ -310,12 +310,19 @@ def test_wrong_arguments_of_the_solver_are_named() -> None:
         solver_of(PATCH, neighbours=outside).solve(PATCH.vertices, PATCH.fixed_normals)
 
 
+def in_a_drag(patch: Patch) -> fairing.Solver:
+    """A solver with an answer, and with what a move after it has taught."""
+    solver = solver_of(patch)
+    for vertices in (patch.vertices, dragged(patch, patch.vertices, 4, 0.005)):
+        solver.solve(vertices, patch.fixed_normals)
+    return solver
+
+
 def test_cancelling_at_any_call_leaves_the_last_answer() -> None:
     """Then the next solve needs as few stages and gives the same bits as without the cancelled one."""
     moved = dragged(PATCH, PATCH.vertices, 4, 0.01)
     expected, calls = None, 0
-    counted = solver_of(PATCH)
-    counted.solve(PATCH.vertices, PATCH.fixed_normals)
+    counted = in_a_drag(PATCH)
 
     def count(fraction: float, stage: str) -> None:
         nonlocal calls
@@ -323,8 +330,7 @@ def test_cancelling_at_any_call_leaves_the_last_answer() -> None:
 
     expected = counted.solve(moved, PATCH.fixed_normals, progress=count)
     for last in range(1, calls):
-        solver = solver_of(PATCH)
-        solver.solve(PATCH.vertices, PATCH.fixed_normals)
+        solver = in_a_drag(PATCH)
         left = last
 
         def stop(fraction: float, stage: str) -> bool:
