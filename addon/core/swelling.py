@@ -73,8 +73,9 @@ def _turns(points: Floats, triangles: Ints) -> Floats:
 def _sides(triangles: Ints) -> tuple[Ints, Ints]:
     """Return the edges (e, 2) and how many of the triangles each has."""
     sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
-    edges, uses = np.unique(sides, axis=0, return_counts=True)
-    return edges, uses
+    count = int(triangles.max()) + 1
+    numbers, uses = np.unique(sides[:, 0].astype(np.int64) * count + sides[:, 1], return_counts=True)
+    return np.stack(np.divmod(numbers, count), axis=1), uses
 
 
 def _inner(triangles: Ints) -> Ints:
