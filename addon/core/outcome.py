@@ -16,6 +16,7 @@ from .quality import Join, Quality
 from .region import MeshArrays, Patch, to_local
 from .rounded import rounded_edges
 from .solve import Solved
+from .swelling import swellings, waviness
 from .symmetry import mirror_map, symmetrised, with_band
 from .verdict import GOOD, Evidence, Verdict, judge
 
@@ -55,8 +56,8 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     clear = as_solved and not mesh.mirror_x and _is_clear(patch, result)
     quality_before, quality_after = quality.compare(patch, (before[:own], after[:own]), clear)
     join = quality.join(problem, after)
-    rounded = _rounded(problem, after, moving, options)
-    verdict = judge(Evidence(problem, result, solved.failures, quality_before, quality_after, join, rounded), options)
+    odd = _rounded(problem, after, moving, options), swellings(patch, after[:own], waviness(patch, before[:own]))
+    verdict = judge(Evidence(problem, result, solved.failures, quality_before, quality_after, join, *odd), options)
     order = np.argsort(problem.vertices[moving])
     return Fairing(
         vertices=problem.vertices[moving][order],

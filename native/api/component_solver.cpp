@@ -102,7 +102,7 @@ bool ComponentSolver::keeps() const {
 }
 
 ComponentAnswer ComponentSolver::solve(const ComponentData& data, const Progress& progress) {
-    const bool wants_skin = options_.asked.detail.share > 0.0 || data.weights.size() > 0;
+    const bool wants_skin = options_.asked.detail.share > 0.0;
     if (!wants_skin) return solve_between(data, outline_as_given(data), progress);
     skin_.read(data, options_.asked.detail.size, progress);
     const BaseOutline outline = skin_.found() ? skin_.outline(data) : outline_as_given(data);
@@ -156,7 +156,7 @@ void ComponentSolver::read_reference(const Points& reference, const Normalisatio
 ComponentAnswer ComponentSolver::dressed(ComponentAnswer answer, const ComponentData& data, const BaseOutline& outline,
                                          const Progress& progress) {
     answer.warnings.insert(answer.warnings.end(), skin_.warnings().begin(), skin_.warnings().end());
-    if (!skin_.found() && data.weights.size() == 0) return answer;
+    if (!skin_.found()) return answer;
     const Stopwatch watch;
     Points& points = answer.solution.points;
     if (skin_.keeps_places()) points = relaid(answer.problem, points, skin_.base(), progress.here());

@@ -60,6 +60,7 @@ Patch sample_patch(const ComponentData& data) {
 
 void KeptSkin::read(const ComponentData& data, double size, const Progress& progress) {
     const Stopwatch watch;
+    just_read_.reset();
     if (data.sample.cols() > 0) {
         progress.here().report(0.0, "detail");
         read_sample(data, size, progress);
@@ -79,8 +80,8 @@ void KeptSkin::read_own(const ComponentData& data, double size, const Progress& 
     const Points old = unit_.to_unit(reference);
     if (old.allFinite() && !has_collapsed_fan(patch_, old)) {
         wavelength_ = size > 0.0 ? size : detail_wavelength(patch_, old);
-        const Points outline = unit_.to_unit(low_pass_outline(data, data.reference).points);
-        skin_ = Skin::read(patch_, {old, outline}, wavelength_, progress.here());
+        just_read_ = low_pass_outline(data, data.reference);
+        skin_ = Skin::read(patch_, {old, unit_.to_unit(just_read_->points)}, wavelength_, progress.here());
     }
     if (!skin_) warn_of_missing_detail(warnings_);
     read_off_ = reference;
@@ -123,7 +124,10 @@ BaseOutline KeptSkin::low_pass_outline(const ComponentData& data, const Points& 
     return result;
 }
 
-BaseOutline KeptSkin::outline(const ComponentData& data) const { return low_pass_outline(data, data.vertices); }
+BaseOutline KeptSkin::outline(const ComponentData& data) {
+    const std::optional<BaseOutline> read = std::exchange(just_read_, std::nullopt);
+    return read && data.reference == data.vertices ? *read : low_pass_outline(data, data.vertices);
+}
 
 Dressed KeptSkin::put_back(const ComponentData& data, const Points& new_base, const Progress& progress) const {
     const int free = patch_.free_count;
@@ -137,19 +141,10 @@ Dressed KeptSkin::put_back(const ComponentData& data, const Points& new_base, co
         if (detail) result.detail.leftCols(free) = unit_.diameter * *detail;
         return result;
     }
-    VectorX weights = VectorX::Ones(new_base.cols());
-    if (data.weights.size() > 0) {
-        weights = data.weights(patch_.to_input);
-        const Points old_base = skin_ ? unit_.from_unit(skin_->base()) : gather(data.vertices, patch_.to_input);
-        result.base.leftCols(free) = (old_base + (new_base - old_base) * weights.asDiagonal()).leftCols(free);
-    }
-    if (!skin_) return result;
-    Points all = Points::Zero(3, new_base.cols());
-    all.leftCols(free) = unit_.diameter * skin_->detail_on(result.base, at_outline / unit_.diameter);
-    all.rightCols(at_outline.cols()) = at_outline;
-    result.turned_over = skin_->turned_over(result.base, result.base + all);
-    result.detail.leftCols(free) = (all * weights.asDiagonal()).leftCols(free);
-    result.base.leftCols(free) += all.leftCols(free) - result.detail.leftCols(free);
+    result.detail.leftCols(free) = unit_.diameter * skin_->detail_on(new_base, at_outline / unit_.diameter);
+    Points shown = new_base + result.detail;
+    shown.rightCols(at_outline.cols()) += at_outline;
+    result.turned_over = skin_->turned_over(new_base, shown);
     return result;
 }
 
