@@ -158,3 +158,19 @@ def test_the_weights_of_a_width_are_to_be_had(clean: RoughSphere) -> None:
     assert np.array_equal(more, [*weights, 1.0, 1.0, 1.0])
     with pytest.raises(ValueError, match="feather: a number above 0 is needed"):
         fairing.feather_weights(clean.vertices, clean.inside, clean.outside, 0.0)
+
+
+def test_spikes_in_the_band_do_not_hold_it_like_pins(clean: RoughSphere) -> None:
+    """A vertex pushed out further than the band is wide lies beyond it; nobody pinned it."""
+    around = np.setdiff1d(clean.outside, clean.inside)
+    spike = around[np.abs(away(clean)[around] - 0.5 * WIDTH).argmin()]
+    vertices = clean.vertices.copy()
+    vertices[spike] *= 1.0 + 1.5 * WIDTH * clean.diameter
+    weights = fairing.feather_weights(vertices, clean.inside, clean.outside, WIDTH, fixed=clean.outline)
+    ring = clean.outside[(clean.outside == spike).any(axis=1)]
+    assert weights[spike] == weights[np.setdiff1d(ring, spike)].min() > 0.0
+    result = fairing.fair(
+        vertices, clean.inside, fixed=clean.outline, fixed_normals=clean.normals(), outside=clean.outside, feather=WIDTH
+    )
+    assert spike in result.moved
+    assert "PINS_NOT_SPREAD" not in {told.code for told in result.warnings}

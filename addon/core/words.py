@@ -199,6 +199,12 @@ WORDS: dict[str, tuple[Words, ...]] = {
             "{n} vertices of the outline are met in their slope, not in their curvature",
         ),
     ),
+    "SHARP_PINS": (
+        Words(
+            "The surface comes to a point at {n} pinned vertex: move it nearer, or pin more around it",
+            "The surface comes to a point at {n} pinned vertices: move them nearer, or pin more around them",
+        ),
+    ),
     "PINS_NOT_SPREAD": (
         Words(
             "{n} pin acts in a point: pins are nearer to each other than two radii, so make the radius smaller",
