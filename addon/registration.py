@@ -17,7 +17,7 @@ from .follow.live_operators import (
 )
 from .host import handlers
 from .preferences import FairPreferences
-from .run import cli, compare, job, last_run
+from .run import cli, compare, job, last_run, redo_panel
 from .run.again import MESH_OT_fair_again, MESH_OT_fair_reselect, MESH_OT_fair_spots
 from .run.curvature import MESH_OT_fair_curvature
 from .run.fill import MESH_OT_fair_fill
@@ -67,9 +67,7 @@ def register() -> None:
     bpy.types.WindowManager.fairing_progress = bpy.props.PointerProperty(type=FairProgress)
     bpy.types.WindowManager.fairing_overlay = bpy.props.PointerProperty(type=FairOverlay)
     bpy.types.WindowManager.fairing_live = bpy.props.PointerProperty(type=FairLive)
-    bpy.types.WindowManager.fairing_more = bpy.props.BoolProperty(
-        name="More", description="Show how exactly the surface is found, and which results are written"
-    )
+    redo_panel.register()
     bpy.types.VIEW3D_MT_edit_mesh_faces.append(ui.draw_face_menu)
     bpy.types.VIEW3D_MT_edit_mesh_context_menu.append(ui.draw_context_menu)
     bpy.types.VIEW3D_MT_mask.append(ui.draw_mask_menu)
@@ -107,7 +105,7 @@ def unregister() -> None:
     bpy.types.VIEW3D_MT_mask.remove(ui.draw_mask_menu)
     bpy.types.VIEW3D_MT_edit_mesh_context_menu.remove(ui.draw_context_menu)
     bpy.types.VIEW3D_MT_edit_mesh_faces.remove(ui.draw_face_menu)
-    del bpy.types.WindowManager.fairing_more
+    redo_panel.unregister()
     del bpy.types.WindowManager.fairing_live
     del bpy.types.WindowManager.fairing_overlay
     del bpy.types.WindowManager.fairing_progress

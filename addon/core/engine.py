@@ -12,6 +12,7 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints
+from .feather import naming_the_band
 from .findings import Origin
 from .options import FairOptions
 from .region import Patch
@@ -67,7 +68,7 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
             "or At Pinned Edges: Averaged"
         )
     reads = options.reads_surroundings
-    with in_mesh_words(problem.origin):
+    with naming_the_band(options), in_mesh_words(problem.origin):
         return fairing.fair(
             problem.points if reads else problem.own_points,
             patch.triangles,

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import numpy as np
 
 import fairing
@@ -22,6 +25,21 @@ def refuse_options(options: FairOptions) -> None:
     ):
         if wrong and options.moves_band:
             raise ValueError(f"{text}, or {without}")
+
+
+@contextmanager
+def naming_the_band(options: FairOptions) -> Iterator[None]:
+    """Say why nothing holds the surface where a band reaches all around to the far side; raises ValueError then."""
+    try:
+        yield
+    except fairing.MeshError as error:
+        if error.diagnostic.code != "NO_BOUNDARY" or not options.moves_band:
+            raise
+        what = "Feather" if options.feather > 0.0 else "Factor Group or Sculpt Mask"
+        raise ValueError(
+            f"{what} reaches all around to the far side, so that nothing is left to hold the surface: choose less, "
+            "or pin vertices"
+        ) from error
 
 
 def band_weights(mesh: MeshArrays, patch: Patch, vertices: Ints, outside: Ints, feather: float) -> Floats | None:

@@ -14,6 +14,7 @@ import fairing
 from .around import nearby
 from .arrays import Floats, Ints
 from .border import BorderRefusal
+from .checked import refuse_other_kinds, refuse_unknown
 from .engine import Progress, sub_range
 from .faces import Faces, faces_of, paired_faces
 from .findings import Origin
@@ -30,7 +31,10 @@ SHAPES = ("HARMONIC", "MINIMAL_ENERGY", "LEAST_VARIATION")
 
 @dataclass(frozen=True)
 class FillOptions:
-    """The properties of `mesh.fair_fill`; raises ValueError for a value it does not know."""
+    """The properties of `mesh.fair_fill`.
+
+    Raises ValueError for a value it does not know, TypeError for one of another kind.
+    """
 
     equation: str = "HARMONIC"
     bridge: bool = False  # all loops of an object are joined
@@ -43,8 +47,15 @@ class FillOptions:
             raise ValueError(f"equation: expected one of {', '.join(SHAPES)}, got {self.equation!r}")
         if self.accept not in ACCEPT:
             raise ValueError(f"accept: expected one of {', '.join(ACCEPT)}, got {self.accept!r}")
+        refuse_other_kinds(self)
         if not self.spacing >= LEAST_SPACING:
             raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
+
+    @classmethod
+    def named(cls, properties: dict[str, Any]) -> FillOptions:
+        """Read options from a caller's keyword arguments; raises TypeError for one that does not exist."""
+        refuse_unknown((each.name for each in fields(cls)), properties)
+        return cls(**properties)
 
     @classmethod
     def of(cls, properties: Any) -> FillOptions:

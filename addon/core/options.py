@@ -6,6 +6,8 @@ import json
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
+from .checked import refuse_other_kinds, refuse_unknown
+
 EQUATIONS = ("HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION")
 OTHERWISE = ("LEAST_VARIATION", "STOP")
 INNER_FAIRNESS = ("AUTOMATIC", "UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING")
@@ -40,7 +42,10 @@ _CHOICES = {
 
 @dataclass(frozen=True)
 class FairOptions:
-    """The properties of `mesh.fair_region`; raises ValueError for a value it does not know."""
+    """The properties of `mesh.fair_region`.
+
+    Raises ValueError for a value it does not know, TypeError for one of another kind.
+    """
 
     factor: float = 1.0  # 0 keeps the original, 1 is fair
     equation: str = "HARMONIC"
@@ -76,6 +81,7 @@ class FairOptions:
             value = getattr(self, name)
             if value not in choices:
                 raise ValueError(f"{name}: expected one of {', '.join(choices)}, got {value!r}")
+        refuse_other_kinds(self)
         for name in ("factor", "detail", "detail_size", "pin_radius"):
             if not 0.0 <= getattr(self, name) <= 1.0:
                 raise ValueError(f"{name}: expected a number from 0 to 1, got {getattr(self, name)!r}")
@@ -85,6 +91,12 @@ class FairOptions:
             raise ValueError(f"detail_face_set: expected 0 or a number of a face set, got {self.detail_face_set!r}")
         if not self.spacing >= LEAST_SPACING:
             raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
+
+    @classmethod
+    def named(cls, properties: dict[str, Any]) -> FairOptions:
+        """Read options from a caller's keyword arguments; raises TypeError for one that does not exist."""
+        refuse_unknown(option_names(), properties)
+        return cls(**properties)
 
     @classmethod
     def of(cls, properties: Any) -> FairOptions:
@@ -156,6 +168,21 @@ class FairOptions:
     def moves_band(self) -> bool:
         """Whether vertices outside the selection take part."""
         return self.feather > 0.0 or self.goes_by_weight
+
+    @property
+    def idle(self) -> tuple[str, ...]:
+        """The names of options that are set, but that nothing looks at beside the others."""
+        only = {
+            "bulge": self.equation == "CONSTANT",
+            "spacing": self.mesh == "NEW",
+            "quads": self.mesh == "NEW",
+            "detail_size": self.detail > 0.0,
+            "detail_from": self.detail > 0.0,
+            "detail_face_set": self.detail > 0.0,
+            "pin_slope": self.pin_edges != "NONE",
+        }
+        default = FairOptions()
+        return tuple(name for name, read in only.items() if not read and getattr(self, name) != getattr(default, name))
 
     def engine_arguments(self) -> dict[str, Any]:
         """Return the keyword arguments of `fairing.fair` that need no mesh; the options must be resolved."""

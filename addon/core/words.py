@@ -72,7 +72,10 @@ WORDS: dict[str, tuple[Words, ...]] = {
     ),
     "NO_FREE_VERTICES": (Words("No vertex is free to move: all are on the outline or pinned"),),
     "ZERO_NORMAL": (
-        Words("The surface has no direction at vertex {first}: the normals there cancel. Choose others, or pin it"),
+        Words(
+            "The surface has no direction at vertex {first}: the faces there have no area, or turn against each other. "
+            "Use Merge by Distance, or pin it"
+        ),
     ),
     "NOT_A_LOOP": (Words("The outline to be filled is no loop of border edges: look at vertex {first}"),),
     "DEGENERATE_FACE": (

@@ -76,8 +76,15 @@ def sample_faces(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: Fa
     mesh.polygons.foreach_get("hide", hidden)
     chosen &= ~hidden
     if not chosen.any():
-        raise ValueError("Detail From has no visible face: put all vertices of some faces into the group")
+        raise ValueError(_no_sample(options))
     return chosen
+
+
+def _no_sample(options: FairOptions) -> str:
+    """Say what is missing where no face has a skin to copy."""
+    if options.detail_from:
+        return "Detail From has no visible face: put all vertices of some faces into the group"
+    return f"Detail Face Set: no visible face is in the face set {options.detail_face_set}: choose another number"
 
 
 def _group_weights(mesh: bpy.types.Mesh, group: int) -> Floats:

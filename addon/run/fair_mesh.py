@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from typing import Any
 
@@ -30,11 +31,14 @@ def fair_mesh(
     by others, which come last in the mesh.
     Returns the `fairing` result for the patch: its vertices are those of the visible `faces`, in
     ascending order, in the space of `matrix`.
-    Raises fairing.MeshError (elements: vertices of `mesh`), ValueError, TypeError for a property
-    that does not exist, IndexError, fairing.SolverError and MemoryError; NotUsable where the result folds, crosses
-    itself or is none, unless accept="ALL". The mesh is untouched then.
+    Warns of properties that have no effect beside the others.
+    Raises fairing.MeshError (elements: vertices of `mesh`), ValueError, TypeError for a property that does not exist
+    and for a value of another kind, IndexError, fairing.SolverError and MemoryError; NotUsable where the result folds,
+    crosses itself or is none, unless accept="ALL". The mesh is untouched then.
     """
-    options = FairOptions(**properties)
+    options = FairOptions.named(properties)
+    for name in options.idle:
+        warnings.warn(f"fair_mesh: {name} has no effect with these options", stacklevel=2)
     outcome = fair_faces(mesh, faces, matrix, options)
     if not is_written([outcome], options):
         raise NotUsable(outcome.verdict, outcome.result)

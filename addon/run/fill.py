@@ -25,7 +25,7 @@ from . import compare, last_run
 from .background import Watched, at_once
 from .fill_properties import FillProperties
 from .job import Refused, is_unchanged, objects_in_mode
-from .report_properties import store
+from .report_properties import store, store_refusal
 
 
 @dataclass(frozen=True)
@@ -167,6 +167,8 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
 
     def _refuse(self, context: bpy.types.Context, refusal: Refused) -> set[str]:
         self._show(context, refusal.object_name, np.asarray(getattr(refusal.cause, "elements", ()), dtype=np.int64))
+        store_refusal(context.window_manager.fairing_report, refusal.object_name, str(refusal.cause))
+        last_run.forget()
         self.report({"ERROR"}, str(refusal))
         return {"CANCELLED"}
 

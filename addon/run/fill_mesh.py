@@ -40,7 +40,7 @@ def fill_mesh(
     property that does not exist, IndexError, fairing.SolverError and MemoryError; NotUsable where a surface folds,
     passes through the mesh or is none, unless accept="ALL". The mesh is untouched then.
     """
-    options = FillOptions(**properties)
+    options = FillOptions.named(properties)
     done = fill_borders(mesh, vertices, matrix, options)
     refuse_unusable(mesh.name, done.pieces, options)
     return [piece.result for piece in done.pieces]

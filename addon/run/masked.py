@@ -23,7 +23,7 @@ from . import compare, last_run
 from .fair_mesh import fair_faces
 from .properties import FairProperties
 from .redo_panel import draw_options
-from .report_properties import store
+from .report_properties import store, store_refusal
 
 _SOURCES = (
     ("MASK", "Mask", "The faces that are masked"),
@@ -31,6 +31,13 @@ _SOURCES = (
     ("VERTEX_GROUP", "Vertex Group", "The faces inside a vertex group"),
     ("LIVE", "Live Region", "The faces of the live region"),
 )
+# What is wrong where a source has no face.
+_NOTHING = {
+    "MASK": "Nothing is masked by half or more: paint a mask over whole faces",
+    "FACE_SET": "Several face sets are in sight: give the number of one, or click it",
+    "VERTEX_GROUP": "No face has all its vertices in the vertex group",
+    "LIVE": "There is no live region: make one in edit mode",
+}
 MODES = ("SCULPT", "OBJECT", "WEIGHT_PAINT")
 
 
@@ -102,6 +109,8 @@ class MESH_OT_fair_masked(FairProperties, bpy.types.Operator):
         try:
             return self._fair(context, obj)
         except REFUSALS as cause:
+            store_refusal(context.window_manager.fairing_report, obj.name, str(cause))
+            last_run.forget()
             self.report({"ERROR"}, f"{obj.name}: {cause}")
             return {"CANCELLED"}
         finally:
@@ -113,7 +122,7 @@ class MESH_OT_fair_masked(FairProperties, bpy.types.Operator):
         _check(obj)
         faces = self._faces(obj)
         if not len(faces):
-            raise ValueError("Nothing is chosen: paint a mask, or choose a face set or a vertex group")
+            raise ValueError(_nothing(self.source, self.face_set))
         options, before = FairOptions.of(self), painted.positions(obj.data)
         outcome = fair_faces(obj.data, faces.tolist(), np.array(obj.matrix_world, dtype=np.float64), options)
         report = make_report([(obj.name, outcome)], options, time.perf_counter() - begin)
@@ -135,6 +144,11 @@ class MESH_OT_fair_masked(FairProperties, bpy.types.Operator):
             return painted.face_set(obj.data, self.face_set or painted.only_visible_face_set(obj.data))
         active = obj.vertex_groups.active
         return painted.group_faces(obj, self.group or (active.name if active is not None else ""))
+
+
+def _nothing(source: str, face_set: int) -> str:
+    """Say why no face was found."""
+    return f"No face is in the face set {face_set}: choose another" if face_set else _NOTHING[source]
 
 
 def _check(obj: bpy.types.Object) -> None:

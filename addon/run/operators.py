@@ -22,7 +22,7 @@ from . import compare, job, last_run
 from .background import Watched, at_once
 from .properties import FairProperties
 from .redo_panel import draw_options
-from .report_properties import store
+from .report_properties import store, store_refusal
 
 
 class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
@@ -33,7 +33,7 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
     bl_label = "Fair Region"
     bl_options = {"REGISTER", "UNDO", "PRESET"}  # noqa: RUF012 - the form that Blender asks for
 
-    _tasks: list[job.Task]
+    _tasks: list[job.Task] = []  # noqa: RUF012 - each run sets its own
     _options: FairOptions
     _notes: tuple[str, ...] = ()  # on objects that there is nothing to do for
     _begin: float
@@ -128,5 +128,7 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
         if elements.size:
             context.tool_settings.mesh_select_mode = (True, False, False)
             selecting.select_vertices(job.objects_in_mode(context)[refusal.object_name].data, elements)
+        store_refusal(context.window_manager.fairing_report, refusal.object_name, str(refusal.cause))
+        last_run.refused(self._tasks)
         self.report({"ERROR"}, str(refusal))
         return {"CANCELLED"}

@@ -1,29 +1,32 @@
-"""The options in groups, for the redo panel."""
+"""The options in groups, for the redo panel: what is set often is in sight, the rest folded away."""
 
+from collections.abc import Callable
 from typing import Any
 
 import bpy
 
-_SOLVER = ("method", "levels", "tolerance", "max_iterations", "accept")
-OPEN = "fairing_more"  # of the window manager: whether the rarely used options show
+_SOLVER = ("otherwise", "method", "levels", "tolerance", "max_iterations", "accept")
+
+Draw = Callable[[Any, Any, bpy.types.Object], None]
 
 
 def draw_options(layout: Any, options: Any, obj: bpy.types.Object, manager: Any) -> None:
-    """Draw the properties of `mesh.fair_region`: shape, vertices, outline, and folded away what is rarely used."""
+    """Draw the properties of `mesh.fair_region`; those that nothing looks at beside the others don't show."""
     layout.use_property_split = True
     layout.prop(options, "factor")
     _draw_shape(_group(layout, "Shape"), options)
     _draw_vertices(_group(layout, "Vertices"), options)
-    _draw_detail(_group(layout, "Skin"), options, obj)
-    _draw_outline(_group(layout, "At the Outline"), options, obj)
-    # No collapsible layout panel: not every place that shows these options has them.
-    opened = bool(getattr(manager, OPEN))
-    row = layout.row()
-    row.use_property_split = False
-    row.alignment = "LEFT"
-    row.prop(manager, OPEN, icon="DOWNARROW_HLT" if opened else "RIGHTARROW", emboss=False)
-    if opened:
-        _draw_solver(layout.column(align=True), options)
+    _draw_skin(_group(layout, "Skin"), options)
+    _draw_outline(_group(layout, "At the Outline"), options)
+    for name, (_, _, draw) in FOLDS.items():
+        # No collapsible layout panel: not every place that shows these options has them.
+        opened = bool(getattr(manager, name))
+        row = layout.row()
+        row.use_property_split = False
+        row.alignment = "LEFT"
+        row.prop(manager, name, icon="DOWNARROW_HLT" if opened else "RIGHTARROW", emboss=False)
+        if opened:
+            draw(layout.column(align=True), options, obj)
 
 
 def _group(layout: Any, title: str) -> Any:
@@ -35,47 +38,29 @@ def _group(layout: Any, title: str) -> Any:
 
 def _draw_shape(group: Any, options: Any) -> None:
     group.prop(options, "equation")
-    row = group.row()
-    row.active = options.method == "GLOBAL" and options.equation not in ("MINIMAL", "LEAST_VARIATION")
-    row.prop(options, "otherwise")
-    row = group.row()
-    row.active = options.equation == "CONSTANT"
-    row.prop(options, "bulge", slider=True)
+    if options.equation == "CONSTANT":
+        group.prop(options, "bulge", slider=True)
 
 
 def _draw_vertices(group: Any, options: Any) -> None:
     group.prop(options, "mesh")
-    new = options.mesh == "NEW"
-    row = group.row()
-    row.active = new
-    row.prop(options, "spacing")
-    row = group.row()
-    row.active = new
-    row.prop(options, "quads")
-    row = group.row()
-    row.active = not new  # new vertices lie evenly
-    row.prop(options, "inner_fairness")
+    if options.mesh == "NEW":  # new vertices lie evenly
+        group.prop(options, "spacing")
+        group.prop(options, "quads")
+    else:
+        group.prop(options, "inner_fairness")
 
 
-def _draw_detail(group: Any, options: Any, obj: bpy.types.Object) -> None:
+def _draw_skin(group: Any, options: Any) -> None:
     group.prop(options, "detail", slider=True)
-    row = group.row()
-    row.active = options.detail > 0.0
-    row.prop(options, "detail_size", slider=True)
-    column = group.column(align=True)
-    column.active = options.detail > 0.0
-    column.prop_search(options, "detail_from", obj, "vertex_groups")
-    column.prop(options, "detail_face_set")
+    if options.detail > 0.0:
+        group.prop(options, "detail_size", slider=True)
     row = group.row()
     row.active = options.mesh == "KEEP"
     row.prop(options, "feather", slider=True)
-    column = group.column(align=True)
-    column.active = options.mesh == "KEEP"
-    column.prop_search(options, "factor_group", obj, "vertex_groups")
-    column.prop(options, "factor_mask")
 
 
-def _draw_outline(group: Any, options: Any, obj: bpy.types.Object) -> None:
+def _draw_outline(group: Any, options: Any) -> None:
     row = group.row()
     row.active = options.equation != "MINIMAL"  # meets positions only
     row.prop(options, "boundary_normals")
@@ -83,19 +68,54 @@ def _draw_outline(group: Any, options: Any, obj: bpy.types.Object) -> None:
     row.active = options.equation == "HARMONIC" and options.method == "GLOBAL"
     row.prop(options, "continuity")
     group.prop(options, "outline")
+
+
+def _draw_held(group: Any, options: Any, obj: bpy.types.Object) -> None:
     group.prop_search(options, "pin_group", obj, "vertex_groups")
-    row = group.row()
-    row.active = bool(options.pin_group)
-    row.prop(options, "pin_radius", slider=True)
+    if options.pin_group:
+        group.prop(options, "pin_radius", slider=True)
     group.prop(options, "pin_edges")
-    row = group.row()
-    row.active = options.pin_edges != "NONE"
-    row.prop(options, "pin_slope")
+    if options.pin_edges != "NONE":
+        group.prop(options, "pin_slope")
     group.prop(options, "open_border")
 
 
-def _draw_solver(group: Any, options: Any) -> None:
+def _draw_parts(group: Any, options: Any, obj: bpy.types.Object) -> None:
+    column = group.column(align=True)
+    column.active = options.mesh == "KEEP"
+    column.prop_search(options, "factor_group", obj, "vertex_groups")
+    column.prop(options, "factor_mask")
+    column = group.column(align=True)
+    column.active = options.detail > 0.0
+    column.prop_search(options, "detail_from", obj, "vertex_groups")
+    column.prop(options, "detail_face_set")
+
+
+def _draw_solver(group: Any, options: Any, _obj: bpy.types.Object) -> None:
     for name in _SOLVER:
         row = group.row()
-        row.active = name != "levels" or options.method == "PAPER"
+        row.active = {
+            "otherwise": options.method == "GLOBAL" and options.equation not in ("MINIMAL", "LEAST_VARIATION"),
+            "levels": options.method == "PAPER",
+        }.get(name, True)
         row.prop(options, name)
+
+
+# What is folded away: names of switches of the window manager, their labels and descriptions, what they show.
+FOLDS: dict[str, tuple[str, str, Draw]] = {
+    "fairing_held": ("Pins and Borders", "Show what holds the surface inside, and what open borders do", _draw_held),
+    "fairing_parts": ("Groups and Masks", "Show where weights, masks and the skin of other faces come in", _draw_parts),
+    "fairing_more": ("More", "Show how exactly the surface is found, and which results are written", _draw_solver),
+}
+
+
+def register() -> None:
+    """Make the switches known to Blender."""
+    for name, (label, description, _) in FOLDS.items():
+        setattr(bpy.types.WindowManager, name, bpy.props.BoolProperty(name=label, description=description))
+
+
+def unregister() -> None:
+    """Take them back."""
+    for name in FOLDS:
+        delattr(bpy.types.WindowManager, name)

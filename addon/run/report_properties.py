@@ -7,6 +7,7 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from ..core.report import GRADE_NAMES, MET, MISSED, TOLD, Report
+from ..core.verdict import UNUSABLE
 
 _GRADES = tuple((grade, name, "") for grade, name in GRADE_NAMES.items())
 _STATES = ((MET, "Met", ""), (MISSED, "Missed", ""), (TOLD, "Told", ""))
@@ -47,6 +48,14 @@ class FairProgress(bpy.types.PropertyGroup):
     running: BoolProperty()
     fraction: FloatProperty()
     stage: StringProperty()
+
+
+def store_refusal(shown: Any, object_name: str, reason: str) -> None:
+    """Have a FairReport tell of a run that was refused, and nothing of the one before."""
+    for known in shown.bl_rna.properties:
+        if known.identifier != "rna_type":
+            shown.property_unset(known.identifier)
+    shown.objects, shown.verdict, shown.reason = object_name, UNUSABLE, reason
 
 
 def store(shown: Any, report: Report) -> None:

@@ -7,9 +7,11 @@ from dataclasses import fields
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
 import fairing
+from core.filling import FillOptions
 from core.options import EQUATIONS, INNER_FAIRNESS, METHODS, OTHERWISE, FairOptions, option_names
 from fairing import _core
 
@@ -32,6 +34,52 @@ def test_an_unknown_value_is_refused_by_its_name(wrong: dict[str, Any]) -> None:
     (name,) = wrong
     with pytest.raises(ValueError, match=f"^{name}: expected"):
         FairOptions(**wrong)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "says"),
+    [
+        ({"factor": "1"}, "factor: expected a number, got '1'"),
+        ({"factor": None}, "factor: expected a number"),
+        ({"max_iterations": 2.5}, "max_iterations: expected a whole number"),
+        ({"quads": "yes"}, "quads: expected True or False"),
+        ({"pin_group": 3}, "pin_group: expected a text"),
+    ],
+)
+def test_a_value_of_another_kind_is_refused_by_its_name(wrong: dict[str, Any], says: str) -> None:
+    with pytest.raises(TypeError, match=says):
+        FairOptions(**wrong)
+
+
+def test_numpy_numbers_are_numbers() -> None:
+    assert FairOptions(factor=np.float32(0.5), levels=np.int64(2), quads=np.bool_(True)).factor == 0.5
+
+
+@pytest.mark.parametrize("options", [FairOptions, FillOptions])
+def test_a_property_that_does_not_exist_is_named(options: Any) -> None:
+    with pytest.raises(TypeError, match=r"There is no property 'spacings': did you mean 'spacing'\?"):
+        options.named({"spacings": 1.0})
+    with pytest.raises(TypeError, match=r"'nonsense': there are .*equation"):
+        options.named({"nonsense": 1})
+    assert options.named({"spacing": 2.0}).spacing == 2.0
+
+
+@pytest.mark.parametrize(
+    ("given", "beside"),
+    [
+        ({"quads": True}, {"mesh": "NEW"}),
+        ({"spacing": 2.0}, {"mesh": "NEW"}),
+        ({"bulge": 0.1}, {"equation": "CONSTANT"}),
+        ({"detail_size": 0.1}, {"detail": 0.5}),
+        ({"detail_from": "Skin"}, {"detail": 0.5}),
+        ({"detail_face_set": 1}, {"detail": 0.5}),
+        ({"pin_slope": "SMOOTH"}, {"pin_edges": "SHARP"}),
+    ],
+)
+def test_what_nothing_looks_at_is_told(given: dict[str, Any], beside: dict[str, Any]) -> None:
+    assert FairOptions(**given).idle == tuple(given)
+    assert FairOptions(**given, **beside).idle == ()
+    assert FairOptions(**beside).idle == ()
 
 
 def test_every_argument_for_the_engine_is_one_that_it_knows() -> None:

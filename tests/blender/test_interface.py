@@ -181,6 +181,14 @@ def test_operator_without_a_window(named: bool) -> None:
     assert meshes.positions(other).tobytes() == before.tobytes()
 
 
+def test_fair_mesh_warns_of_what_has_no_effect() -> None:
+    from bl_ext.user_default.intrinsic_fairing import fair_mesh
+
+    obj, faces = meshes.domed_grid()
+    with pytest.warns(UserWarning, match="quads has no effect"):
+        fair_mesh(obj.data, np.flatnonzero(faces).tolist(), quads=True)
+
+
 def test_fair_mesh_refuses() -> None:
     from bl_ext.user_default.intrinsic_fairing import fair_mesh
 

@@ -181,28 +181,53 @@ def test_report_is_drawn() -> None:
         assert check.value in text
 
 
-def test_redo_panel_shows_every_option() -> None:
+def in_redo_panel(opened: bool, **chosen: Any) -> list[str]:
+    """Return the options that the redo panel shows, in its order."""
     obj = meshes.grid()
-    options = module("core.options").FairOptions()
-    layout = Layout()
-    manager = bpy.context.window_manager
-    manager.fairing_more = False
-    module("run.redo_panel").draw_options(layout, options, obj, manager)
-    assert not {"method", "levels", "tolerance", "max_iterations", "accept"} & set(layout.told)
-    layout.told.clear()
-    manager.fairing_more = True
-    module("run.redo_panel").draw_options(layout, options, obj, manager)
-    names = module("core.options").option_names()
-    assert [text for text in layout.told if text in names] == [n for n in ORDER if n in names]
-    assert set(ORDER) == set(names)
+    panel, names = module("run.redo_panel"), module("core.options").option_names()
+    layout, manager = Layout(), bpy.context.window_manager
+    for name in panel.FOLDS:
+        setattr(manager, name, opened)
+    panel.draw_options(layout, module("core.options").FairOptions(**chosen), obj, manager)
+    return [text for text in layout.told if text in names]
 
 
-ORDER = (
-    "factor", "equation", "otherwise", "bulge", "mesh", "spacing", "quads", "inner_fairness", "detail", "detail_size",
-    "detail_from", "detail_face_set", "feather", "factor_group", "factor_mask", "boundary_normals", "continuity",
-    "outline", "pin_group", "pin_radius", "pin_edges", "pin_slope", "open_border", "method", "levels", "tolerance",
-    "max_iterations", "accept",
-)  # fmt: skip
+EVERYDAY = [
+    "factor",
+    "equation",
+    "mesh",
+    "inner_fairness",
+    "detail",
+    "feather",
+    "boundary_normals",
+    "continuity",
+    "outline",
+]
+
+
+def test_redo_panel_shows_what_is_set_often() -> None:
+    assert in_redo_panel(opened=False) == EVERYDAY
+
+
+@pytest.mark.parametrize(
+    ("chosen", "shown"),
+    [
+        ({"equation": "CONSTANT"}, {"bulge"}),
+        ({"mesh": "NEW"}, {"spacing", "quads"}),
+        ({"detail": 0.5}, {"detail_size"}),
+        ({"pin_group": "Pin"}, {"pin_radius"}),
+        ({"pin_edges": "SEAM"}, {"pin_slope"}),
+    ],
+)
+def test_redo_panel_shows_what_other_options_look_at(chosen: dict[str, Any], shown: set[str]) -> None:
+    assert set(in_redo_panel(opened=True, **chosen)) - set(in_redo_panel(opened=True)) == shown
+
+
+def test_redo_panel_has_every_option() -> None:
+    everything = in_redo_panel(True, equation="CONSTANT", detail=0.5, pin_group="Pin", pin_edges="SEAM")
+    found = everything + in_redo_panel(True, mesh="NEW")
+    assert len(everything) == len(set(everything))
+    assert set(found) == set(module("core.options").option_names())
 
 
 def presets() -> list[Path]:

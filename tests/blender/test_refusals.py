@@ -59,6 +59,28 @@ def test_refused_runs_leave_no_trace(spoil: Any, properties: Any, says: str) -> 
     assert [k for k in before if "select" not in k and before[k] != after[k]] == []
 
 
+def test_a_refused_run_takes_the_place_of_the_one_before() -> None:
+    obj, faces = meshes.domed_grid()
+    meshes.fair(obj, faces)
+    assert meshes.report().written
+    assert module("run.last_run").has_regions()
+    with pytest.raises(RuntimeError, match="Missing"):
+        meshes.fair(obj, faces, pin_group="Missing")
+    report = meshes.report()
+    assert (report.verdict, report.written, report.converged, report.free_vertices) == ("UNUSABLE", False, False, 0)
+    assert report.reason == "pin_group: there is no vertex group named 'Missing'"
+    assert (report.objects, report.warnings, len(report.checks), report.seconds) == (obj.name, "", 0, 0.0)
+    assert not module("run.last_run").has_regions()
+    assert not bpy.types.VIEW3D_PT_fairing_report.poll(bpy.context)
+
+
+def test_a_band_all_around_is_told_by_its_name() -> None:
+    obj = meshes.sphere(24)
+    upper = meshes.faces_where(obj, lambda c: c.z > 0.3)
+    with pytest.raises(RuntimeError, match="Feather reaches all around to the far side"):
+        meshes.fair(obj, upper, feather=3.0)
+
+
 def test_refused_run_adds_no_undo_step() -> None:
     obj, faces = meshes.domed_grid()
     original = meshes.positions(obj)

@@ -70,8 +70,10 @@ def test_the_only_visible_face_set_needs_no_number(sculpted: Any) -> None:
     obj, upper = half_sphere()
     paint_face_sets(obj, upper)
     bpy.ops.object.mode_set(mode="SCULPT")
-    with pytest.raises(RuntimeError, match="Nothing is chosen"):
+    with pytest.raises(RuntimeError, match="Several face sets are in sight"):
         bpy.ops.mesh.fair_masked(source="FACE_SET")
+    with pytest.raises(RuntimeError, match="No face is in the face set 99"):
+        bpy.ops.mesh.fair_masked(source="FACE_SET", face_set=99)
     bpy.ops.object.mode_set(mode="OBJECT")
     obj.data.attributes.remove(obj.data.attributes[".sculpt_face_set"])
     paint_face_sets(obj, np.ones_like(upper))
@@ -102,7 +104,7 @@ def test_half_a_mask_is_no_mask() -> None:
     values = np.full(len(obj.data.vertices), 0.49, dtype=np.float32)
     obj.data.attributes[".sculpt_mask"].data.foreach_set("value", values)
     before = meshes.contents(obj)
-    with pytest.raises(RuntimeError, match="Nothing is chosen"):
+    with pytest.raises(RuntimeError, match="Nothing is masked by half"):
         bpy.ops.mesh.fair_masked(source="MASK")
     assert meshes.contents(obj) == before
 

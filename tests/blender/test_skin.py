@@ -328,7 +328,7 @@ def test_a_script_copies_skin_too(nothing_solves: Any) -> None:
     ("options", "text"),
     [
         ({"detail_from": "Missing"}, "detail_from: there is no vertex group named 'Missing'"),
-        ({"detail_face_set": 3}, "Detail From has no visible face"),
+        ({"detail_face_set": 3}, "Detail Face Set: no visible face is in the face set 3"),
         ({"detail_from": "Skin", "feather": 0.1}, "Detail From copies a skin"),
     ],
 )
