@@ -185,16 +185,6 @@ def test_pins_far_from_their_surface_are_led_there() -> None:
     assert np.abs(result.mean_curvature).max() * size(patch) < 12.0
 
 
-def test_where_the_surface_changes_much_pins_are_led_in_short_steps() -> None:
-    """Four pins at ±0.2 D: longer steps stop just before, where those of 0.3 D pass by."""
-    patch = shapes.plane(1000)
-    pins = near(patch, [(-0.2, -0.1), (0.2, -0.1), (0.2, 0.1), (-0.2, 0.1)])
-    result, _ = lifted(patch, pins, [0.2, -0.2, 0.2, -0.2])
-    assert result.converged
-    assert not result.warnings
-    assert np.abs(result.mean_curvature[pins]).max() * size(patch) < 12.0
-
-
 def test_a_descent_that_leads_nowhere_is_not_followed() -> None:
     """Pins that steps do not reach: a coarse mesh tells that least variation ends nowhere either."""
     patch = shapes.plane(1000)
@@ -218,12 +208,13 @@ def test_a_far_pin_lifts_a_hill_not_a_needle() -> None:
 
 
 def test_the_tip_of_a_needle_is_told() -> None:
-    """Twice as far as the patch is wide, with or without a radius, and in least variation; not on a low hill."""
-    patch = shapes.plane(200)
+    """As far as the patch is wide, with or without a radius, and in least variation; not on a low hill."""
+    patch = shapes.plane(100)
     pin = near(patch, [(0.0, 0.0)])
-    for lift, sharp in ((0.1, False), (2.0, True)):
+    for lift, sharp in ((0.1, False), (1.0, True)):
         for how in ({}, {"pin_radius": 0.0}, {"equation": "least_variation"}):
             result, _ = lifted(patch, pin, [lift], **how)  # type: ignore[arg-type]
+            assert result.converged
             named = [list(told.elements) for told in result.warnings if told.code == "SHARP_PINS"]
             assert named == ([[pin[0]]] if sharp else [])
 

@@ -1,0 +1,31 @@
+// The base of a faired patch and its surroundings, and what it is without short waves: what a feather moves it to.
+#pragma once
+
+#include "api/input.h"
+#include "base/progress.h"
+
+namespace fairing {
+
+struct FairedSurface {
+    const MeshInput& mesh;            // faired, all detail put back; patches, bands and more around; free what may move
+    const Points& base;               // of the fair surfaces
+    const std::vector<char>& faired;  // the vertices, among the free ones, that `base` belongs to
+};
+
+struct SoftBaseSizes {
+    double detail = 0.0;    // share of the diameter, as in DetailOptions
+    double diameter = 0.0;  // D of the faired part
+    double width = 0.0;     // of the band
+};
+
+// 3 × vertices; where a vertex is fixed, and in patches without area, its place.
+struct SoftBase {
+    Points base;  // where faired the fair surface, elsewhere the low-pass surface (detail/old_base)
+    Points
+        soft;  // that without what repeats within less than two widths or D/2: the join with the surroundings is round
+};
+
+// Throws what check_mesh throws, NO_BOUNDARY and Cancelled.
+SoftBase soft_base(const FairedSurface& surface, const SoftBaseSizes& sizes, const ProgressCallback& callback);
+
+}  // namespace fairing
