@@ -147,6 +147,18 @@ def test_skin_on_a_turned_and_scaled_mesh(sphere: RoughSphere, grown: fairing.Fa
     assert result.vertices == pytest.approx(30 * grown.vertices @ turn.T + [5, -3, 8], abs=30 * 1e-4)
 
 
+def test_the_patch_is_no_sample(sphere: RoughSphere, grown: fairing.FairResult) -> None:
+    """A sample that is the whole mesh is what lies around the patch; the patch alone is none."""
+    whole = np.concatenate([sphere.inside, sphere.outside])
+    around = whole[~np.isin(whole, sphere.free).any(axis=1)]
+    skinned = sphere.fair(detail=1.0, detail_from=around)
+    assert np.array_equal(sphere.fair(detail=1.0, detail_from=whole).vertices, skinned.vertices)
+    middle = sphere.inside[np.isin(sphere.inside, sphere.free).all(axis=1)]
+    assert np.array_equal(dressed(sphere, detail_from=[*lower_half(sphere), *middle]).vertices, grown.vertices)
+    with pytest.raises(ValueError, match="detail_from: all of the sample lies in the patch itself"):
+        sphere.fair(detail=1.0, detail_from=middle)
+
+
 def test_a_sample_needs_an_inside(sphere: RoughSphere) -> None:
     with pytest.raises(ValueError, match="detail_from: the sample has no vertex inside"):
         dressed(sphere, detail_from=sphere.outside[:1])

@@ -202,6 +202,20 @@ def test_an_elbow_keeps_its_width(otherwise: str) -> None:
     assert np.abs(away - 0.4).max() < 0.02
 
 
+@pytest.mark.parametrize("radius", [0.3, 0.25, 0.2])
+def test_a_thin_elbow_is_found(radius: float) -> None:
+    """From a tube swept around the bend; the flat start led nowhere, in up to two minutes."""
+    vertices, triangles = elbow(radius)
+    loops = [
+        loop for loop in fairing.boundary_loops(triangles) if (np.abs(vertices[loop, :2]).min(axis=1) < 1e-9).all()
+    ]
+    result = fairing.fill(vertices, triangles, loops, bridge=True)
+    away = np.hypot(np.hypot(result.vertices[:, 0], result.vertices[:, 1]) - 1, result.vertices[:, 2])
+    assert (result.converged, result.equation) == (True, "least_variation")
+    assert np.abs(away - radius).max() < 0.02
+    assert len({*result.levels}) == 1  # the fine mesh begins at the first surface, without another coarse one
+
+
 @pytest.mark.parametrize("edges", [6, 24, 48, 96])
 @pytest.mark.parametrize("factor", [0.25, 0.5, 1.0, 2.0])
 def test_triangles_are_nearly_equilateral(edges: int, factor: float) -> None:

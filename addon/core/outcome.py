@@ -14,6 +14,7 @@ from .engine import Problem, islands
 from .options import FairOptions
 from .quality import Join, Quality
 from .region import MeshArrays, Patch, to_local
+from .rounded import rounded_edges
 from .solve import Solved
 from .symmetry import mirror_map, symmetrised, with_band
 from .verdict import GOOD, Evidence, Verdict, judge
@@ -54,7 +55,8 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     clear = as_solved and not mesh.mirror_x and _is_clear(patch, result)
     quality_before, quality_after = quality.compare(patch, (before[:own], after[:own]), clear)
     join = quality.join(problem, after)
-    verdict = judge(Evidence(problem, result, solved.failures, quality_before, quality_after, join), options)
+    rounded = _rounded(problem, after, moving, options)
+    verdict = judge(Evidence(problem, result, solved.failures, quality_before, quality_after, join, rounded), options)
     order = np.argsort(problem.vertices[moving])
     return Fairing(
         vertices=problem.vertices[moving][order],
@@ -69,6 +71,15 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
         verdict=verdict,
         free_count=len(patch.free),
     )
+
+
+def _rounded(problem: Problem, after: Floats, moving: Ints, options: FairOptions) -> Ints:
+    """Return the mesh vertices outside at hard edges that a smoothed outline has rounded."""
+    moved = np.setdiff1d(moving, problem.patch.free)
+    if options.outline != "MENDED" or not len(moved):
+        return moved[:0]
+    rounded: Ints = problem.vertices[rounded_edges(problem.points, after, problem.outside, moved)]
+    return rounded
 
 
 def _of_patch(result: fairing.FairResult, own: int) -> fairing.FairResult:

@@ -12,9 +12,10 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints, Mask
+from .bends import bends
 from .engine import Problem
 from .region import Patch
-from .vectors import area_vectors, unit
+from .vectors import area_vectors
 
 LARGE = 50_000  # triangles
 VISIBLE = 12.0  # degrees of Join from which the eye finds a kink among faces that bend little (fairing.visible_join)
@@ -121,25 +122,9 @@ def visible_from(points: Floats, triangles: Ints) -> float:
 
     Half of the range in which nine tenths of their edges bend: coarse cages bend at every edge.
     """
-    bends = _bends(points, triangles)
-    low, high = np.percentile(bends, [5.0, 95.0]) if len(bends) else (0.0, 0.0)
+    degrees = bends(points, triangles).degrees
+    low, high = np.percentile(degrees, [5.0, 95.0]) if len(degrees) else (0.0, 0.0)
     return float(np.clip(0.5 * (high - low), VISIBLE, COARSE))
-
-
-def _bends(points: Floats, triangles: Ints) -> Floats:
-    """Return the degrees by which the surface bends at each edge between two triangles with an area, convex above 0."""
-    normals = unit(area_vectors(points, triangles))
-    sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
-    order = np.lexsort(sides.T)
-    pairs = np.flatnonzero((sides[order[1:]] == sides[order[:-1]]).all(axis=1))
-    first, second = order[pairs], order[pairs + 1]
-    left, right = normals[first % len(triangles)], normals[second % len(triangles)]
-    opposite = points[triangles.T[[2, 0, 1]].ravel()[second]]
-    above = ((opposite - points[sides[first, 0]]) * left).sum(axis=1) > 0.0
-    angles = np.degrees(np.arccos(np.clip((left * right).sum(axis=1), -1.0, 1.0)))
-    known = (left != 0.0).any(axis=1) & (right != 0.0).any(axis=1)
-    bends: Floats = np.where(above, -angles, angles)[known]
-    return bends
 
 
 def texture_distortion(before: Floats, after: Floats, triangles: Ints) -> float:

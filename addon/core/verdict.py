@@ -18,7 +18,8 @@ GOOD, LOOK, UNUSABLE = "GOOD", "LOOK", "UNUSABLE"
 GRADES = (GOOD, LOOK, UNUSABLE)
 
 # What may help, each a way to run once more.
-GROW, SMOOTH_OUTLINE, EVEN_CURVATURE, WRITE = "GROW", "SMOOTH_OUTLINE", "EVEN_CURVATURE", "WRITE"
+GROW, SMOOTH_OUTLINE, AS_SELECTED, HOLD_BORDER = "GROW", "SMOOTH_OUTLINE", "AS_SELECTED", "HOLD_BORDER"
+EVEN_CURVATURE, WRITE = "EVEN_CURVATURE", "WRITE"
 
 
 @dataclass(frozen=True)
@@ -50,6 +51,7 @@ class Evidence:
     before: Quality
     after: Quality
     join: Join
+    rounded: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))  # mesh vertices of hard edges outside
 
 
 def judge(evidence: Evidence, options: FairOptions) -> Verdict:
@@ -93,6 +95,8 @@ def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str,
     offered = {
         GROW: has_outside,
         SMOOTH_OUTLINE: has_outside and options.outline == "GIVEN" and options.mesh == "KEEP",
+        AS_SELECTED: len(evidence.rounded) > 0,
+        HOLD_BORDER: bad and options.fairs_border,
         EVEN_CURVATURE: bad and not was_tried and options.equation in ("HARMONIC", "MINIMAL_ENERGY"),
         WRITE: bad and options.accept != "ALL",
     }
@@ -173,6 +177,9 @@ def _visible(evidence: Evidence, options: FairOptions) -> Found:
     tips = _told_of(evidence, "SHARP_PINS")
     if len(tips):
         return f"The surface comes to a point at {counted(len(tips), 'pinned vertex', 'pinned vertices')}", tips
+    if len(evidence.rounded):
+        text = counted(len(evidence.rounded), "vertex", "vertices")
+        return f"Outline: Smooth has rounded a hard edge outside at {text}: choose As Selected", evidence.rounded
     needles = np.setdiff1d(evidence.after.needles, evidence.before.needles)
     if len(needles):
         return counted(len(needles), "face is a needle", "faces are needles"), _corners(problem, needles)

@@ -10,7 +10,7 @@ from typing import Any
 import bpy
 from bpy.props import EnumProperty
 
-from ..core.verdict import EVEN_CURVATURE, GROW, SMOOTH_OUTLINE, WRITE
+from ..core.verdict import AS_SELECTED, EVEN_CURVATURE, GROW, HOLD_BORDER, SMOOTH_OUTLINE, WRITE
 from ..host.polling import require, require_edit_mode
 from ..host.status import look_at
 from . import last_run
@@ -61,12 +61,16 @@ class MESH_OT_fair_reselect(bpy.types.Operator):
 CHANGES: dict[str, dict[str, Any]] = {
     GROW: {},
     SMOOTH_OUTLINE: {"outline": "MENDED"},
+    AS_SELECTED: {"outline": "GIVEN"},
+    HOLD_BORDER: {"open_border": "HELD"},
     EVEN_CURVATURE: {"equation": "LEAST_VARIATION"},
     WRITE: {"accept": "ALL"},
 }
 _WAYS = (
     (GROW, "Grow by a Ring", "Select one ring of faces more and fair again"),
     (SMOOTH_OUTLINE, "Smooth Outline", "Smooth the outline and the two rings around it, and fair again"),
+    (AS_SELECTED, "Outline As Selected", "Leave the outline and what is around it where it is, and fair again"),
+    (HOLD_BORDER, "Hold Open Border", "Leave open borders where they are, and fair again"),
     (EVEN_CURVATURE, "Even Curvature", "Fair again with the shape Even Curvature, which exists more often"),
     (WRITE, "Write It All the Same", "Write the result as it is, folds and all"),
 )

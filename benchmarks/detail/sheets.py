@@ -17,6 +17,7 @@ COLOURS = 64
 GREY, TINT = (0.86, 0.86, 0.86), (0.93, 0.82, 0.7)
 WAYS: tuple[tuple[str, dict[str, float]], ...] = (
     ("fair", {}),
+    ("fair, with feather", {"feather": 0.15}),
     ("fair, with detail", {"detail": 1.0}),
     ("with detail and feather", {"detail": 1.0, "feather": 0.15}),
 )

@@ -91,7 +91,7 @@ def size() -> Iterator[str]:
 def joined() -> Iterator[str]:
     """Bridges between tubes."""
     yield "| bridge | new vertices | converged | angle | least angle | valence | equation | s |"
-    for name, (vertices, triangles, loops) in bridges.all_of_them().items():
+    for name, (vertices, triangles, loops) in (bridges.all_of_them() | bridges.thin_ones()).items():
         result, seconds = timed(vertices, triangles, loops, bridge=True)
         yield (
             f"| {name} | {len(result.vertices)} | {result.converged} | {result.boundary_angle.max():.1f}° | "

@@ -44,6 +44,16 @@ def arms(count: int, distance: float = 1.0, radius: float = 0.45) -> Gap:
     return joined(*(tube(distance * axis, axis, radius) for axis in axes))
 
 
+def elbow(radius: float) -> Gap:
+    """Two tubes at a right angle; the bend's radius is 1."""
+    return joined(tube([1, 0, 0], [1, 0, 0], radius), tube([0, 1, 0], [0, 1, 0], radius))
+
+
+def thin_ones() -> dict[str, Gap]:
+    """Of the tables only."""
+    return {f"elbow of 90°, tubes of 1/{part} of the bend": elbow(1 / part) for part in (4, 5)}
+
+
 def all_of_them() -> dict[str, Gap]:
     """By name."""
     return {
@@ -51,7 +61,7 @@ def all_of_them() -> dict[str, Gap]:
             tube([0, 0, 0], [0, 0, -1], 0.5), tube([0.9, 0, 1.0], [0, 0, 1], 0.3)
         ),
         "straight, gap of 3 radii": joined(tube([0, 0, 0], [0, 0, -1], 0.5), tube([0, 0, 1.5], [0, 0, 1], 0.5)),
-        "elbow of 90°": joined(tube([1, 0, 0], [1, 0, 0], 0.4), tube([0, 1, 0], [0, 1, 0], 0.4)),
+        "elbow of 90°": elbow(0.4),
         "three tubes": arms(3),
         "four tubes": arms(4),
     }

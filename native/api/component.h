@@ -30,7 +30,6 @@ struct ComponentData {
     const VectorX& curvatures;        // likewise; empty: none
     const Points& reference;          // M0
     const Triangles& outside;         // around the patches
-    const VectorX& weights;           // of the blend of both bases; empty: 1
     bool given_normals;               // by the caller
     const std::vector<char>& faired;  // border vertices that become fair
     const Triangles& sample;          // whose detail is put on the surface; empty: the old patch's own

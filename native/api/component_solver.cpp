@@ -102,7 +102,7 @@ bool ComponentSolver::keeps() const {
 }
 
 ComponentAnswer ComponentSolver::solve(const ComponentData& data, const Progress& progress) {
-    const bool wants_skin = options_.asked.detail.share > 0.0 || data.weights.size() > 0;
+    const bool wants_skin = options_.asked.detail.share > 0.0;
     if (!wants_skin) return solve_between(data, outline_as_given(data), progress);
     skin_.read(data, options_.asked.detail.size, progress);
     const BaseOutline outline = skin_.found() ? skin_.outline(data) : outline_as_given(data);
@@ -156,7 +156,7 @@ void ComponentSolver::read_reference(const Points& reference, const Normalisatio
 ComponentAnswer ComponentSolver::dressed(ComponentAnswer answer, const ComponentData& data, const BaseOutline& outline,
                                          const Progress& progress) {
     answer.warnings.insert(answer.warnings.end(), skin_.warnings().begin(), skin_.warnings().end());
-    if (!skin_.found() && data.weights.size() == 0) return answer;
+    if (!skin_.found()) return answer;
     const Stopwatch watch;
     Points& points = answer.solution.points;
     if (skin_.keeps_places()) points = relaid(answer.problem, points, skin_.base(), progress.here());
@@ -184,9 +184,10 @@ Solution ComponentSolver::solve_by_paper(const Problem& problem, const Progress&
 
 // Conformal weights of the vertices given leave them where they are within the surface.
 std::optional<NearStart> ComponentSolver::given_start(const ComponentAnswer& answer, const ComponentData& data) const {
+    const Start kind = options().start;
     const Equation equation = options().solver.equation;
-    if (options().start != Start::given || equation == Equation::minimal || equation == Equation::least_variation)
-        return std::nullopt;
+    const bool of_fourth_order = equation != Equation::minimal && equation != Equation::least_variation;
+    if (kind != Start::least_variation && !(kind == Start::given && of_fourth_order)) return std::nullopt;
     const Points start = answer.unit.to_unit(gather(data.vertices, patch_.to_input));
     return NearStart{start, options().inner_fairness == InnerFairness::conformal && reference_ == start};
 }
@@ -207,9 +208,10 @@ Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Componen
 Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optional<NearStart>& start,
                                         const Progress& progress) {
     std::optional<Solution> near_last = keeps() ? solve_near_last(problem, progress) : std::nullopt;
-    if (!near_last && start) near_last = solve_near(problem, *start, progress.range(0.0, 0.4));
-    if (!near_last && options().start == Start::least_variation)
-        near_last = solve_else(problem, Instead::least_variation, progress);
+    if (!near_last && start && options().start == Start::given)
+        near_last = solve_near(problem, *start, progress.range(0.0, 0.4));
+    if (!near_last && start && options().start == Start::least_variation)
+        near_last = solve_else(problem, Instead::least_variation, progress, &start->points);
     if (!near_last && options().start == Start::loft) near_last = solve_else(problem, Instead::loft, progress);
     Solution solution = near_last ? std::move(*near_last) : solve_pinned(problem, options().pin_radius, progress);
     if (!keeps()) return solution;

@@ -206,7 +206,6 @@ FairResult run_call(const MeshInput& input, const std::optional<Points>& referen
                              prepared->mesh.curvatures,
                              reference ? *reference : input.vertices,
                              input.outside,
-                             input.weights,
                              input.fixed_normals.has_value(),
                              prepared->mesh.roles.faired,
                              input.sample};

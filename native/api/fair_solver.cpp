@@ -25,7 +25,7 @@ std::optional<int> vertex_count(const MeshInput& input) {
 }  // namespace
 
 FairSolver::FairSolver(Triangles triangles, std::optional<Indices> fixed, HeldInside held, FairOptions options)
-    : input_{{}, std::move(triangles), std::move(fixed), {}, {}, Triangles(3, 0), {}, std::move(held)},
+    : input_{{}, std::move(triangles), std::move(fixed), {}, {}, Triangles(3, 0), std::move(held)},
       options_(std::make_unique<CallOptions>(std::move(options), true)) {
     const auto count = vertex_count(input_);
     if (!count) return;

@@ -21,7 +21,6 @@ struct MeshInput {
     std::optional<Points> fixed_normals;           // 3 × |fixed|
     std::optional<VectorX> fixed_curvatures = {};  // H at `fixed`, NaN where it is not known
     Triangles outside = {};                        // around the patches; they stay
-    VectorX weights = {};                          // per vertex, 0 … 1: see FairOptions' detail; empty: 1
     HeldInside held = {};
     Triangles sample = {};  // whose detail is put on the surface; empty: the patch's own is
 };

@@ -137,19 +137,10 @@ Dressed KeptSkin::put_back(const ComponentData& data, const Points& new_base, co
         if (detail) result.detail.leftCols(free) = unit_.diameter * *detail;
         return result;
     }
-    VectorX weights = VectorX::Ones(new_base.cols());
-    if (data.weights.size() > 0) {
-        weights = data.weights(patch_.to_input);
-        const Points old_base = skin_ ? unit_.from_unit(skin_->base()) : gather(data.vertices, patch_.to_input);
-        result.base.leftCols(free) = (old_base + (new_base - old_base) * weights.asDiagonal()).leftCols(free);
-    }
-    if (!skin_) return result;
-    Points all = Points::Zero(3, new_base.cols());
-    all.leftCols(free) = unit_.diameter * skin_->detail_on(result.base, at_outline / unit_.diameter);
-    all.rightCols(at_outline.cols()) = at_outline;
-    result.turned_over = skin_->turned_over(result.base, result.base + all);
-    result.detail.leftCols(free) = (all * weights.asDiagonal()).leftCols(free);
-    result.base.leftCols(free) += all.leftCols(free) - result.detail.leftCols(free);
+    result.detail.leftCols(free) = unit_.diameter * skin_->detail_on(new_base, at_outline / unit_.diameter);
+    Points shown = new_base + result.detail;
+    shown.rightCols(at_outline.cols()) += at_outline;
+    result.turned_over = skin_->turned_over(new_base, shown);
     return result;
 }
 

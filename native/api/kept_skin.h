@@ -44,8 +44,7 @@ public:
     // outside show.
     [[nodiscard]] BaseOutline outline(const ComponentData& data) const;
     [[nodiscard]] const Points& base() const { return skin_->base(); }
-    // The detail on a new base (3 × local vertices, in the caller's units). data.weights blend both bases, and keep the
-    // detail that `base` loses where they are below 1.
+    // The detail on a new base (3 × local vertices, in the caller's units).
     [[nodiscard]] Dressed put_back(const ComponentData& data, const Points& new_base, const Progress& progress) const;
     // Spent on reading since the last time that this was asked.
     [[nodiscard]] double take_seconds() { return std::exchange(seconds_, 0.0); }

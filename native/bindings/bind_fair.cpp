@@ -104,16 +104,14 @@ py::dict fair_arrays(const DoubleArray& vertices, const IntArray& triangles, con
                      const std::optional<DoubleArray>& fixed_normals,
                      const std::optional<DoubleArray>& fixed_curvatures, const std::optional<DoubleArray>& reference,
                      const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
-                     const std::optional<IntArray>& outside, const std::optional<DoubleArray>& blend,
-                     const std::optional<IntArray>& sample, const Options& options, const PaperOptions& paper,
-                     const py::object& callback) {
+                     const std::optional<IntArray>& outside, const std::optional<IntArray>& sample,
+                     const Options& options, const PaperOptions& paper, const py::object& callback) {
     const MeshInput input{to_points(vertices),
                           to_triangles(triangles),
                           to_optional(fixed, to_indices),
                           to_optional(fixed_normals, to_points),
                           to_optional(fixed_curvatures, to_vector),
                           outside ? to_triangles(*outside) : Triangles(3, 0),
-                          blend ? to_vector(*blend) : VectorX(),
                           {options.creases, options.smooth_curves, options.fair_border},
                           sample ? to_triangles(*sample) : Triangles(3, 0)};
     const auto m0 = to_optional(reference, to_points);
@@ -232,8 +230,8 @@ void bind_fair(py::module_& module) {
              py::arg("reference"), py::arg("progress"));
     module.def("fair", &fair_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("fixed_normals"), py::arg("fixed_curvatures"), py::arg("reference"), py::arg("neighbours"),
-               py::arg("weights"), py::arg("outside"), py::arg("blend"), py::arg("sample"), py::arg("options"),
-               py::arg("paper"), py::arg("progress"));
+               py::arg("weights"), py::arg("outside"), py::arg("sample"), py::arg("options"), py::arg("paper"),
+               py::arg("progress"));
 }
 
 }  // namespace fairing::bindings

@@ -1,4 +1,6 @@
-#include "bindings/convert.h"
+#include "api/soft_base.h"
+#include "base/parallel.h"
+#include "bindings/python_progress.h"
 #include "bindings/topics.h"
 #include "outline/bad_outline.h"
 #include "outline/creased.h"
@@ -63,6 +65,23 @@ py::array feather_weight_array(const DoubleArray& vertices, const IntArray& insi
     return from_vector(feather_weights(to_points(vertices), to_triangles(inside), to_triangles(outside), width));
 }
 
+std::pair<py::array, py::array> soft_base_arrays(const DoubleArray& vertices, const IntArray& triangles,
+                                                 const IntArray& fixed, const DoubleArray& base,
+                                                 const py::array_t<bool>& faired,
+                                                 const std::tuple<double, double, double>& sizes, int threads,
+                                                 const py::object& callback) {
+    const MeshInput mesh{to_points(vertices), to_triangles(triangles), to_indices(fixed), {}};
+    const Points fair = to_points(base);
+    const std::vector<char> marks(faired.data(), faired.data() + faired.size());
+    const auto [detail, diameter, width] = sizes;
+    const SoftBaseSizes lengths{detail, diameter, width};
+    const SoftBase result = without_gil(callback, [&](const ProgressCallback& progress) {
+        const Threads team(threads);
+        return soft_base({mesh, fair, marks}, lengths, progress);
+    });
+    return {from_points(result.base), from_points(result.soft)};
+}
+
 py::dict mended_outline_arrays(const DoubleArray& vertices, const IntArray& triangles, const IntArray& outline) {
     const MendedOutline result = mend_outline(to_points(vertices), to_triangles(triangles), to_indices(outline));
     py::dict dict = to_dict(result.normals);
@@ -89,6 +108,8 @@ void bind_outline(py::module_& module) {
     module.def("mend_outline", &mended_outline_arrays, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
     module.def("feather_weights", &feather_weight_array, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
                py::arg("width"));
+    module.def("soft_base", &soft_base_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
+               py::arg("base"), py::arg("faired"), py::arg("sizes"), py::arg("threads"), py::arg("progress"));
     module.def("visible_join", &visible_join_array, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
                py::arg("outline"), py::arg("before"));
 }

@@ -7,6 +7,7 @@
 #include "fill/ball_start.h"
 #include "fill/edge_lengths.h"
 #include "fill/even_mesh.h"
+#include "fill/tube_start.h"
 #include "method/near_start.h"
 #include "method/otherwise.h"
 #include "problem/surface_state.h"
@@ -93,6 +94,15 @@ bool is_even(const FirstSurface& surface) {
     });
 }
 
+// Whether a mesh of some 400 vertices would have many more: what a solve in vain leaves may be as long as it likes.
+bool has_blown_up(const FirstSurface& surface) {
+    constexpr double most_per_fixed = 10.0;
+    const Points& points = surface.solution.points;
+    const double count = expected_count(surface.patch, points, even_lengths(surface.patch, points));
+    const int fixed_count = surface.patch.vertex_count() - surface.patch.free_count;
+    return !(count < most_per_fixed * (400.0 + fixed_count));
+}
+
 // A mesh of some 400 vertices on the surface found, or more where the outline is fine.
 Meshed even_mesh(const OpenOutline& outline, const Patch& patch, const Points& points, const SolverOptions& options) {
     const SurfaceState state = measured_surface(problem_on(outline, patch, options), points);
@@ -130,6 +140,34 @@ std::optional<FirstSurface> from_ball(const OpenOutline& outline, const Meshed& 
     return near(outline, even, options, progress);
 }
 
+// Where a tube bends so much that the flat mesh grows into something else. The harmonic surface, or that of least
+// variation where it has none or a bulb.
+std::optional<FirstSurface> from_tube(const OpenOutline& outline, const SolverOptions& options,
+                                      const Progress& progress) {
+    const Patch bare = made_patch(0, outline.triangles, outline.points.cols());
+    std::optional<TubeMesh> tube = tube_start(bare, outline.points, outline.normals);
+    if (!tube) return std::nullopt;
+    const auto added = tube->points.cols();
+    Points points(3, added + outline.points.cols());
+    points << tube->points, outline.points;
+    const Patch swept = made_patch(static_cast<int>(added), std::move(tube->triangles), points.cols());
+    Meshed even = even_mesh(outline, swept, points, options);
+    const Problem problem = problem_on(outline, even.patch, options);
+    std::optional<Solution> solution;
+    if (options.equation != Equation::least_variation)
+        solution = solve_near(problem, {even.points, true}, progress.range(0.0, 0.3));
+    solution = solution ? or_else(problem, std::move(*solution), progress.range(0.3, 1.0), &even.points)
+                        : solve_else_roughly(problem, even.points, progress.range(0.3, 1.0));
+    if (!solution) return std::nullopt;
+    return FirstSurface{std::move(even.patch), std::move(*solution)};
+}
+
+std::optional<FirstSurface> from_shape(const OpenOutline& outline, const Meshed& flat, const SolverOptions& options,
+                                       const Progress& progress) {
+    std::optional<FirstSurface> found = from_ball(outline, flat, options, progress.range(0.0, 0.5));
+    return found ? std::move(found) : from_tube(outline, options, progress.range(0.5, 1.0));
+}
+
 FirstSurface from_flat(const OpenOutline& outline, Meshed& flat, const SolverOptions& options,
                        const Progress& progress) {
     Solution solution = solve_or_else(problem_on(outline, flat.patch, options), progress);
@@ -141,10 +179,11 @@ FirstSurface from_flat(const OpenOutline& outline, Meshed& flat, const SolverOpt
 FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
     constexpr int most_rounds = 4;
     Meshed flat = first_mesh(outline);
-    std::optional<FirstSurface> begun = from_ball(outline, flat, options, progress.range(0.0, 0.1));
+    std::optional<FirstSurface> begun = from_shape(outline, flat, options, progress.range(0.0, 0.1));
     FirstSurface result = begun ? std::move(*begun) : from_flat(outline, flat, options, progress.range(0.1, 0.4));
     for (int round = 0; round < most_rounds; ++round) {
         const bool converged = result.solution.termination == Termination::converged;
+        if (!converged && (round > 0 || has_blown_up(result))) break;
         if (converged && result.solution.flaw == Flaw::absent && is_even(result)) break;
         if (converged && result.solution.instead != Instead::nothing) break;  // solved on a mesh of its own
         const double begin = 0.4 + 0.15 * round;

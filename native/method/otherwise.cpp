@@ -69,15 +69,18 @@ VariationLimits limits_for(const Problem& problem, double most_product) {
     return {std::min(most_product, most_of_large), 1};
 }
 
-// Solved as a way of its own, after those that the first solution tells of. With `most_energy` only where a coarse mesh
-// promises less.
-std::optional<Solution> least_variation(const Problem& problem, const Solution& first, double most_energy,
+VariationLimits limits_near(const Points& near, double most_product, bool roughly) {
+    return {most_product, 1, NearVariation{near, roughly}};
+}
+
+// Solved as a way of its own, after those that the first solution tells of.
+std::optional<Solution> least_variation(const Problem& problem, const Solution& first, const VariationLimits& limits,
                                         const Progress& progress) {
     if (!is_worth_trying(problem)) return std::nullopt;
     const Stopwatch watch;
     std::optional<Solution> even;
     try {
-        even = solve_less_varying(problem, limits_for(problem, most_energy), progress);
+        even = solve_less_varying(problem, limits, progress);
     } catch (const SolverError&) {
         return std::nullopt;  // then the first one stays
     }
@@ -107,10 +110,12 @@ bool is_evener(const Problem& problem, const Solution& even, const Solution& lof
     return variation_energy(problem, even.points) < variation_energy(problem, loft.points);
 }
 
-Solution instead_of_bulb(const Problem& problem, Solution solution, const Progress& progress) {
+Solution instead_of_bulb(const Problem& problem, Solution solution, const Progress& progress, const Points* near) {
     const double energy = variation_energy(problem, solution.points);
     if (!(energy > least_energy)) return solution;
-    auto even = least_variation(problem, solution, energy / bulb, progress);
+    const double most = energy / bulb;
+    auto even =
+        least_variation(problem, solution, near ? limits_near(*near, most, true) : limits_for(problem, most), progress);
     if (!even || !is_answer(*even)) return solution;
     const double least = variation_energy(problem, even->points);
     if (energy <= bulb * least) return solution;
@@ -127,7 +132,7 @@ bool is_tried_enough(const Problem& problem, const Solution& solution) {
 
 Solution instead_of_failure(const Problem& problem, Solution solution, const Progress& progress) {
     const bool is_patient = problem.patch.loop_count() == 1 && problem.patch.free_count <= largest_patient;
-    auto even = least_variation(problem, solution, is_patient ? HUGE_VAL : most_to_join, progress);
+    auto even = least_variation(problem, solution, limits_for(problem, is_patient ? HUGE_VAL : most_to_join), progress);
     if (even && is_answer(*even)) return std::move(*even);
     if (even) solution.ways = even->ways;
     if (auto loft = lofted(problem, solution, progress); loft && !(even && is_evener(problem, *even, *loft)))
@@ -147,20 +152,32 @@ Solution solve_or_else(const Problem& problem, const Progress& progress) {
     return or_else(problem, solve_global(problem, progress), progress);
 }
 
-Solution or_else(const Problem& problem, Solution solution, const Progress& progress) {
+Solution or_else(const Problem& problem, Solution solution, const Progress& progress, const Points* near) {
     if (!has_else(problem)) return solution;
     const Progress rest = progress.range(begin, 1.0);
     if (is_answer(solution))
-        return has_room_for_bulb(problem, solution) ? instead_of_bulb(problem, std::move(solution), rest) : solution;
+        return has_room_for_bulb(problem, solution) ? instead_of_bulb(problem, std::move(solution), rest, near)
+                                                    : solution;
     if (lacks_surface(solution)) return instead_of_failure(problem, std::move(solution), rest);
     if (auto loft = is_tried_enough(problem, solution) ? lofted(problem, solution, rest) : std::nullopt)
         return std::move(*loft);
     return solution;
 }
 
-std::optional<Solution> solve_else(const Problem& problem, Instead kind, const Progress& progress) {
+std::optional<Solution> solve_else(const Problem& problem, Instead kind, const Progress& progress, const Points* near) {
     if (kind == Instead::loft) return lofted(problem, {}, progress);
-    auto even = least_variation(problem, {}, HUGE_VAL, progress);
+    if (near) {
+        auto even = least_variation(problem, {}, limits_near(*near, HUGE_VAL, false), progress);
+        if (even && is_answer(*even)) return even;
+    }
+    auto even = least_variation(problem, {}, limits_for(problem, HUGE_VAL), progress);
+    if (!even || !is_answer(*even)) return std::nullopt;
+    return even;
+}
+
+std::optional<Solution> solve_else_roughly(const Problem& problem, const Points& near, const Progress& progress) {
+    if (!has_else(problem) && problem.options.equation != Equation::least_variation) return std::nullopt;
+    auto even = least_variation(problem, {}, limits_near(near, most_to_join, true), progress);
     if (!even || !is_answer(*even)) return std::nullopt;
     return even;
 }

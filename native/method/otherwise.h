@@ -18,14 +18,21 @@ namespace fairing {
 // Cancelled.
 Solution solve_or_else(const Problem& problem, const Progress& progress);
 
-// The same after a solution of solve_global.
-Solution or_else(const Problem& problem, Solution solution, const Progress& progress);
+// The same after a solution of solve_global. With `near`, 3 × local vertices, the surface of least variation is sought
+// roughly, from there.
+Solution or_else(const Problem& problem, Solution solution, const Progress& progress, const Points* near = nullptr);
 
 // Whether the equation was not seen to have a surface: no answer, although iterations were left, the whole load was
 // tried, and not only because the vertices fold on it.
 bool lacks_surface(const Solution& solution);
 
-// What was taken instead for a problem nearby, at once. Nothing where it is not accepted.
-std::optional<Solution> solve_else(const Problem& problem, Instead kind, const Progress& progress);
+// What was taken instead for a problem nearby, at once. Nothing where it is not accepted. `near`: 3 × local vertices
+// where the surface of least variation is sought first.
+std::optional<Solution> solve_else(const Problem& problem, Instead kind, const Progress& progress,
+                                   const Points* near = nullptr);
+
+// The surface of least variation over two outlines or more, roughly, from `near` (3 × local vertices). Nothing where it
+// is not accepted.
+std::optional<Solution> solve_else_roughly(const Problem& problem, const Points& near, const Progress& progress);
 
 }  // namespace fairing

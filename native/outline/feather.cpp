@@ -105,21 +105,6 @@ private:
     std::priority_queue<Reached> next_;
 };
 
-// Vertices beyond the width with none of the triangles there, spikes of the skin, take the least weight beside them:
-// without one they would stay and hold the band like pins.
-void take_in_spikes(const Triangles& outside, VectorX& weights) {
-    const VectorX known = weights;
-    VectorX least = VectorX::Ones(weights.size());
-    for (const auto t : outside.colwise()) {
-        const Vector3 corners = known(t);
-        const double lowest = (corners.array() > 0.0).select(corners, 1.0).minCoeff();
-        for (int v : t) least[v] = corners.isZero(0.0) ? 0.0 : std::min(least[v], lowest);
-    }
-    for (int v : outside.reshaped()) {
-        if (known[v] == 0.0) weights[v] = least[v];
-    }
-}
-
 }  // namespace
 
 VectorX feather_weights(const Points& points, const Triangles& inside, const Triangles& outside, double width) {
@@ -127,7 +112,6 @@ VectorX feather_weights(const Points& points, const Triangles& inside, const Tri
     const VectorX share = (distance / width).cwiseMin(1.0);
     VectorX weights = 1.0 - share.array().square() * (3.0 - 2.0 * share.array());
     for (int v : inside.reshaped()) weights[v] = 1.0;
-    take_in_spikes(outside, weights);
     return weights;
 }
 

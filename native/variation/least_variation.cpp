@@ -46,6 +46,10 @@ struct Beginning {
 };
 constexpr std::array beginnings{Beginning{1.4, 1e-3}, Beginning{1.0, 1e-3}, Beginning{1.8, 1e-2}, Beginning{1.0, 0.1}};
 
+// From a surface that is near: elbows take half the steps that they take with the first beginning, or undamped.
+constexpr Beginning near_beginning{1.4, 1e-2};
+constexpr double near_damping = 1e-6;  // on the fine mesh
+
 Workspace make_workspace(const Problem& problem, const Progress& progress) {
     return {std::make_unique<BiharmonicOperator>(problem.patch),
             make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress)};
@@ -92,11 +96,13 @@ SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginnin
     return solve_on(mesh, problem, last, Measure::scale_free, {tolerance, 30, 1e-4}, progress.range(0.8, 1.0));
 }
 
-SolvedSheet solve_fine(ProxyMesh& mesh, const Problem& problem, const SolvedSheet& coarse, const Progress& progress) {
+SolvedSheet solve_fine(ProxyMesh& mesh, const Problem& problem, const SolvedSheet& coarse, double damping,
+                       const Progress& progress) {
     const int limit = std::clamp(3 * problem.patch.free_count, 3000, most_fine);
     mesh.adapt(sizing_of(problem, {fine_share, fine_turn, fine_growth}, limit));
     const int most_steps = std::min(problem.options.max_iterations, most_fine_steps);
-    return solve_on(mesh, problem, coarse, Measure::scale_free, {problem.options.tolerance, most_steps}, progress);
+    return solve_on(mesh, problem, coarse, Measure::scale_free, {problem.options.tolerance, most_steps, damping},
+                    progress);
 }
 
 Termination ending(const NewtonResult& result, const Problem& problem) {
@@ -146,8 +152,43 @@ std::optional<Attempt> attempted(const Problem& problem, const Points& start, co
     ProxyMesh mesh(problem.patch, start);
     const SolvedSheet coarse = solve_coarse(mesh, problem, beginning, progress.range(0.0, 0.5));
     if (std::isfinite(most) && !(coarse.result.merit <= most)) return std::nullopt;  // NaN, too
-    SolvedSheet fine = solve_fine(mesh, problem, coarse, progress.range(0.5, 1.0));
+    SolvedSheet fine = solve_fine(mesh, problem, coarse, 0.0, progress.range(0.5, 1.0));
     return Attempt{std::move(mesh), std::move(fine), coarse.result.gradient, coarse.mesh.patch.vertex_count()};
+}
+
+Solution solution_of(const Problem& problem, const Attempt& attempt, const Progress& progress) {
+    Solution solution = placed(problem, attempt.mesh, attempt.fine, progress);
+    solution.iterations = attempt.fine.result.steps;
+    solution.residual = attempt.fine.result.gradient;
+    solution.initial_residual = attempt.coarse_gradient;
+    solution.levels = {attempt.coarse_vertices, attempt.fine.mesh.patch.vertex_count()};
+    return solution;
+}
+
+// A surface as it is, with the normals that suit it.
+SolvedSheet unsolved(const ProxyMesh& mesh, const Problem& problem, const Progress& progress) {
+    ProxyMesh::Snapshot snapshot = mesh.snapshot();
+    const Problem here = on_patch(problem, snapshot.patch);
+    Sheet sheet{snapshot.points, fitted_normals(here, snapshot.points, Measure::scale_free, progress.here())};
+    return {std::move(snapshot), std::move(sheet), {}};
+}
+
+// One mesh, from a surface that is near.
+std::optional<Solution> solve_nearby(const Problem& problem, const NearVariation& near, double most,
+                                     const Progress& progress) {
+    Stopwatch watch;
+    ProxyMesh mesh(problem.patch, near.points);
+    SolvedSheet solved = near.roughly ? solve_coarse(mesh, problem, near_beginning, progress.range(0.0, 0.9))
+                                      : solve_fine(mesh, problem, unsolved(mesh, problem, progress), near_damping,
+                                                   progress.range(0.0, 0.9));
+    if (std::isfinite(most) && !(solved.result.merit <= most)) return std::nullopt;
+    const double solve_seconds = watch.lap();
+    const double gradient = solved.result.gradient;
+    const int count = solved.mesh.patch.vertex_count();
+    Solution solution =
+        solution_of(problem, {std::move(mesh), std::move(solved), gradient, count}, progress.range(0.9, 1.0));
+    solution.seconds = {{"iteration", solve_seconds}, {"placement", watch.lap()}};
+    return solution;
 }
 
 }  // namespace
@@ -159,6 +200,7 @@ Solution solve_least_variation(const Problem& problem, const Progress& progress)
 std::optional<Solution> solve_less_varying(const Problem& problem, const VariationLimits& limits,
                                            const Progress& progress) {
     const Checkpoints checkpoints(progress);
+    if (limits.near) return solve_nearby(problem, *limits.near, limits.most_product, progress);
     Stopwatch watch;
     const Points start = start_of(problem, progress.range(0.0, 0.1));
     const double start_seconds = watch.lap();
@@ -174,11 +216,7 @@ std::optional<Solution> solve_less_varying(const Problem& problem, const Variati
         begin = end;
     }
     const double solve_seconds = watch.lap();
-    Solution solution = placed(problem, best->mesh, best->fine, progress.range(0.9, 1.0));
-    solution.iterations = best->fine.result.steps;
-    solution.residual = best->fine.result.gradient;
-    solution.initial_residual = best->coarse_gradient;
-    solution.levels = {best->coarse_vertices, best->fine.mesh.patch.vertex_count()};
+    Solution solution = solution_of(problem, *best, progress.range(0.9, 1.0));
     solution.seconds = {{"fill", start_seconds}, {"iteration", solve_seconds}, {"placement", watch.lap()}};
     return solution;
 }

@@ -17,9 +17,16 @@ namespace fairing {
 // are of this problem; `polished` is false. Deterministic. Throws Cancelled, SolverError.
 Solution solve_least_variation(const Problem& problem, const Progress& progress);
 
+// A surface near the one sought: 3 × local vertices of the problem's patch, of good triangles.
+struct NearVariation {
+    Points points;
+    bool roughly;  // a coarse mesh will do: whoever asks solves again from what it finds
+};
+
 struct VariationLimits {
     double most_product = HUGE_VAL;  // nothing comes back where a coarse mesh shows more
     int most_beginnings = 4;         // other meshes and dampings that are tried where the first ends nowhere
+    std::optional<NearVariation> near = std::nullopt;  // where to begin; the one beginning, then
 };
 
 // The same within limits.

@@ -16,8 +16,8 @@ from core.options import FairOptions
 from core.outcome import Fairing, outcome
 from core.region import MeshArrays
 from core.solve import Kept, Solved, pose, solve
-from core.verdict import GOOD
-from polygon_mesh import grid, on_sphere
+from core.verdict import AS_SELECTED, GOOD, LOOK
+from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh
 
 EYE = np.eye(4)
 
@@ -198,3 +198,22 @@ def test_a_mended_outline_moves_with_what_is_around_it_and_nothing_else() -> Non
     # What is moved comes nearer to the sphere that it was before the noise.
     off = [np.abs(np.linalg.norm(p, axis=1) - 1.0) for p in (mended.positions, mesh.positions[mended.vertices])]
     assert np.median(off[0][np.isin(mended.vertices, more)]) < 0.7 * np.median(off[1][np.isin(mended.vertices, more)])
+
+
+def cube_corner(size: int = 13, radius: float = 0.5) -> MeshArrays:
+    """The three sides of a cube [−1, 1]³ that meet in (1, 1, 1), size² quads each; those near the corner selected."""
+    points = grid_points(size) + np.array([0.0, 0.0, 1.0])
+    sides = np.concatenate([np.roll(points, axis, axis=1) for axis in range(3)])
+    positions, numbers = np.unique(sides.round(9), axis=0, return_inverse=True)
+    quads = np.concatenate([np.array(grid_quads(size)) + axis * len(points) for axis in range(3)])
+    faces = numbers.reshape(-1)[quads]
+    near = np.linalg.norm(positions[faces].mean(axis=1) - 1.0, axis=1) < radius
+    return polygon_mesh(positions, faces.tolist(), near)
+
+
+def test_a_hard_edge_that_a_smoothed_outline_rounds_is_told() -> None:
+    mesh = cube_corner()
+    given, mended = fair(mesh).verdict, fair(mesh, outline="MENDED").verdict
+    assert given.grade == GOOD
+    assert (mended.grade, AS_SELECTED in mended.remedies) == (LOOK, True)
+    assert (np.sort(mesh.positions[mended.spots], axis=1)[:, 1:] == 1.0).all()  # on the cube's edges

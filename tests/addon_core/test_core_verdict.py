@@ -14,7 +14,20 @@ from core.arrays import Ints
 from core.options import FairOptions
 from core.quality import Join, Quality
 from core.solve import pose, solve
-from core.verdict import EVEN_CURVATURE, GOOD, GROW, LOOK, SMOOTH_OUTLINE, UNUSABLE, WRITE, Evidence, Verdict, judge
+from core.verdict import (
+    AS_SELECTED,
+    EVEN_CURVATURE,
+    GOOD,
+    GROW,
+    HOLD_BORDER,
+    LOOK,
+    SMOOTH_OUTLINE,
+    UNUSABLE,
+    WRITE,
+    Evidence,
+    Verdict,
+    judge,
+)
 from polygon_mesh import grid, on_sphere
 
 MESH = grid(12, 0.6, on_sphere)
@@ -46,6 +59,12 @@ def test_a_clean_result_is_good(fine: Evidence) -> None:
     assert not judged(fine).remedies
 
 
+def test_a_hard_edge_that_was_rounded_deserves_a_look(fine: Evidence) -> None:
+    verdict = judged(replace(fine, rounded=ints(3, 8)), outline="MENDED")
+    assert (verdict.grade, verdict.spots.tolist(), verdict.remedies) == (LOOK, [3, 8], (GROW, AS_SELECTED))
+    assert verdict.reason == "Outline: Smooth has rounded a hard edge outside at 2 vertices: choose As Selected"
+
+
 @pytest.mark.parametrize("termination", ["stalled", "iteration_limit"])
 def test_no_answer_is_not_usable(fine: Evidence, termination: Any) -> None:
     lost = replace(fine, result=replace(fine.result, converged=False, termination=termination), failures=("Why",))
@@ -56,6 +75,8 @@ def test_no_answer_is_not_usable(fine: Evidence, termination: Any) -> None:
     assert len(verdict.spots)
     assert verdict.remedies == (GROW, SMOOTH_OUTLINE, EVEN_CURVATURE, WRITE)
     assert judged(lost, equation="LEAST_VARIATION", outline="MENDED").remedies == (GROW, WRITE)
+    assert HOLD_BORDER in judged(lost, open_border="FAIRED").remedies
+    assert HOLD_BORDER not in judged(fine, open_border="FAIRED").remedies
     tried = replace(lost, result=replace(lost.result, way=(("direct", 0.1), ("variation", 0.4))))
     assert judged(tried).remedies == (GROW, SMOOTH_OUTLINE, WRITE)
     assert judged(lost, factor=0.5).grade == UNUSABLE

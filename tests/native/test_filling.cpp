@@ -12,6 +12,7 @@
 #include "fill/harmonic_values.h"
 #include "fill/joined_loops.h"
 #include "fill/triangulation.h"
+#include "fill/tube_start.h"
 #include "meshes.h"
 
 using namespace fairing;
@@ -307,4 +308,91 @@ TEST_CASE("the surface over a rim that asks for nearly a whole ball is found fro
         const bool at_once = found.solution.ways.size() == 1 && found.solution.ways.front().name == "near";
         CHECK(at_once == (half_angle > 115.0 * degree));
     }
+}
+
+namespace {
+
+// The rims of a quarter of a torus of radius 1 around the z axis, and what makes a patch of them.
+struct Elbow {
+    Points points;
+    Points normals;
+    Triangles triangles;
+};
+
+Elbow elbow(int n, double radius, int shift = 0) {
+    Elbow result{Points(3, 2 * n), Points(3, 2 * n), {}};
+    for (int k = 0; k < 2 * n; ++k) {
+        const double angle = 2.0 * std::numbers::pi * (k + (k < n ? 0 : shift)) / n;
+        const Vector3 out = k < n ? Vector3(1.0, 0.0, 0.0) : Vector3(0.0, 1.0, 0.0);
+        result.normals.col(k) = std::cos(angle) * out + std::sin(angle) * Vector3::UnitZ();
+        result.points.col(k) = out + radius * result.normals.col(k);
+    }
+    Indices below = first_numbers(n);
+    std::reverse(below.begin(), below.end());
+    const Indices above = first_numbers(n, n);
+    result.triangles = joined_loops(result.points, {below, above});
+    return result;
+}
+
+Patch bare_patch(const Elbow& elbow) {
+    PatchMembers members;
+    members.free_count = 0;
+    members.to_input = first_numbers(static_cast<int>(elbow.points.cols()));
+    members.input_triangle = first_numbers(static_cast<int>(elbow.triangles.cols()));
+    members.pin.assign(members.to_input.size(), 0);
+    members.triangles = elbow.triangles;
+    return Patch(std::move(members));
+}
+
+}  // namespace
+
+TEST_CASE("a start between two rims follows the bend, however thin the tube and wherever its rims begin") {
+    for (const double radius : {0.4, 0.1, 0.02}) {
+        for (const int shift : {0, 7}) {
+            const Elbow rims = elbow(24, radius, shift);
+            const auto tube = tube_start(bare_patch(rims), rims.points, rims.normals);
+            REQUIRE(tube.has_value());
+            CHECK(open_sides(tube->triangles).size() == 48);
+            Points points(3, tube->points.cols() + rims.points.cols());
+            points << tube->points, rims.points;
+            for (const auto place : tube->points.colwise()) {
+                const double away = std::hypot(std::hypot(place.x(), place.y()) - 1.0, place.z());
+                CHECK(away == doctest::Approx(radius).epsilon(0.03));  // a cubic is .0003 off an arc of radius 1
+            }
+            FaceGeometry faces;
+            faces.update(points, tube->triangles);
+            CHECK(faces.areas.sum() == doctest::Approx(std::numbers::pi * std::numbers::pi * radius).epsilon(0.02));
+        }
+    }
+}
+
+TEST_CASE("no tube begins between rims around a flat ring, or where one of them is seen from inside") {
+    const Elbow rims = elbow(24, 0.4);
+    Elbow flat = rims;
+    flat.points << ring(24, 0.0), 2.0 * ring(24, 0.0);
+    flat.normals.setZero();
+    flat.normals.row(2).setOnes();
+    CHECK_FALSE(tube_start(bare_patch(flat), flat.points, flat.normals).has_value());
+    Points half = rims.normals;
+    half.leftCols(24) *= -1.0;
+    CHECK_FALSE(tube_start(bare_patch(rims), rims.points, half).has_value());
+}
+
+TEST_CASE("a thin elbow is found at once, and a search in vain leaves a mesh of few vertices") {
+    const Elbow rims = elbow(32, 0.2);
+    const Vector3 middle = rims.points.rowwise().mean();
+    const double size = 2.0 * (rims.points.colwise() - middle).colwise().norm().maxCoeff();
+    SolverOptions options;
+    const OpenOutline outline{rims.points / size, rims.normals, rims.triangles};
+    const FirstSurface found = first_surface(outline, options, Progress());
+    CHECK(found.solution.termination == Termination::converged);
+    CHECK(found.solution.ways.size() == 1);
+    const Points surface = size * found.solution.points;
+    const Eigen::RowVectorXd across = surface.topRows<2>().colwise().norm().array() - 1.0;
+    const Eigen::RowVectorXd away = (across.array().square() + surface.row(2).array().square()).sqrt();
+    CHECK((away.array() / 0.2 - 1.0).abs().maxCoeff() < 0.1);
+    options.otherwise = Otherwise::stop;
+    const FirstSurface in_vain = first_surface(outline, options, Progress());
+    CHECK(in_vain.solution.termination != Termination::converged);
+    CHECK(in_vain.patch.free_count < 3000);
 }

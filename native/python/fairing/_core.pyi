@@ -76,7 +76,6 @@ def fair(
     neighbours: _Ints | None,
     weights: _Floats | None,
     outside: _Ints | None,
-    blend: _Floats | None,
     sample: _Ints | None,
     options: Options,
     paper: PaperOptions,
@@ -100,6 +99,16 @@ def conformal_distortion(reference: _Floats, vertices: _Floats, triangles: _Ints
 def surrounding_normals(vertices: _Floats, triangles: _Ints, at: _Ints, creases: _Ints) -> dict[str, Any]: ...
 def bad_outline(vertices: _Floats, outside: _Ints, outline: _Ints) -> _Ints: ...
 def feather_weights(vertices: _Floats, inside: _Ints, outside: _Ints, width: float) -> _Floats: ...
+def soft_base(
+    vertices: _Floats,
+    triangles: _Ints,
+    fixed: _Ints,
+    base: _Floats,
+    faired: npt.NDArray[np.bool_],
+    sizes: tuple[float, float, float],
+    threads: int,
+    progress: Callable[[float, str], bool | None] | None,
+) -> tuple[_Floats, _Floats]: ...
 def mend_outline(vertices: _Floats, outside: _Ints, outline: _Ints) -> dict[str, Any]: ...
 def visible_join(
     vertices: _Floats, inside: _Ints, outside: _Ints, outline: _Ints, before: _Floats | None

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core, _feather, _joining, _mending, _options, _paper
 from fairing._paper import PaperOptions
-from fairing._types import FairResult, FloatArray, IntArray
+from fairing._types import FairResult
 
 Progress = Callable[[float, str], "bool | None"]
 
@@ -143,12 +144,12 @@ def fair(
         Triangles of ``vertices``, a sample: their detail is put on the surface in place of the old patch's, for one
         that has none, like a filled hole. Heights are copied from it piece by piece, and meet the outline's own detail.
         ``detail_size`` 0 is then twelve mean edges of the sample. Needs ``detail`` above 0; not with ``feather`` or
-        ``weights``. Vertices lie as ``inner_fairness`` says.
+        ``weights``. Triangles of the patch itself don't count. Vertices lie as ``inner_fairness`` says.
     feather : float
-        Width of a band outside the patch that takes part, as a share of D: the change fades out in it. The surface is
-        computed for the outer edge of the band. From the old outline outwards the base goes a smaller part of the way
-        from the old patch's to the fair one, with no slope at either end, down to nothing at that edge; the detail
-        that ``detail`` leaves out fades in alike. Needs the triangles ``outside``. The result names the vertices of
+        Width of a band outside the patch that takes part, as a share of D: the change fades out in it. The join is
+        made round: the base loses what repeats within less than two widths, D/2 at most, all of it at the old outline,
+        less and less on both sides of it, nothing at a width's distance. The detail that ``detail`` leaves out of the
+        band fades in alike. Needs the triangles ``outside``. The result names the vertices of
         the band as ``moved``; all others keep their bits. docs/detail.md.
     weights : (n,) float
         In place of ``feather``: the part of the way that each vertex goes, 0 … 1, those inside too. The band is where
@@ -158,7 +159,7 @@ def fair(
         there, within a few steps and without folds, the outline alone decides as always. For the harmonic equations
         and "global"; where conformal weights are those of these same vertices, these move along the normals only.
         "least_variation", "loft": begin with what is taken in place of the equation's surface, where another solve has
-        shown that it has none; where that is not accepted the outline alone decides.
+        shown that it has none, the former at the vertices given; where that is not accepted the outline alone decides.
     creases : (c,) int
         Some of the fixed vertices, those at which a crease ends on the outline among them: position only, whatever
         ``fixed_normals`` says there. Each side of a curve of them finds a slope of its own. A component with such a
@@ -203,42 +204,40 @@ def fair(
     _options.callback(progress)
     kind, rows = _options.inner_fairness(inner_fairness, count)
     of_paper = _paper.engine_options(method, levels, paper)
+    shown = _arguments.share("detail", detail)
+    put_back = 1.0 if weights is not None or feather != 0.0 else shown
     options = _options.engine_options(
         equation=equation, otherwise=otherwise, load=load, bulge=bulge, fairness=kind, method=method, normals=normals,
-        tolerance=tolerance, max_iterations=max_iterations, threads=threads, detail=detail, detail_size=detail_size,
+        tolerance=tolerance, max_iterations=max_iterations, threads=threads, detail=put_back, detail_size=detail_size,
         start=start, creases=creases, smooth_curves=smooth_curves, open_border=open_border, pin_radius=pin_radius,
     )  # fmt: skip
     joins = _options.continuity(continuity, equation, method)
     sample = _options.sample(detail_from, count, detail)
     around = _mending.Surroundings.of(points, faces, fixed_list, outside)
+    held = around.rim if fixed_list is None else np.union1d(around.rim, fixed_list)
+    sample = _options.sample_around(sample, np.setdiff1d(around.inside, held))
     as_given = _mending.Boundary(points, fixed_list, given_normals)
     if not joins and fixed_curvatures is not None:
         raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
     if joins:
         as_given = _joining.with_curvatures(as_given, around, fixed_curvatures)
 
-    def solve(
-        boundary: _mending.Boundary, inside: IntArray, outside: IntArray, blend: FloatArray | None
-    ) -> dict[str, Any]:
+    def call(boundary: _mending.Boundary) -> dict[str, Any]:
         return _core.fair(
             boundary.vertices,
-            inside,
+            faces,
             boundary.fixed,
             boundary.normals,
             boundary.curvatures,
             m0,
             edges,
             rows,
-            outside,
-            blend,
+            around.outside,
             sample,
             options,
             of_paper,
             progress,
         )
-
-    def call(boundary: _mending.Boundary) -> dict[str, Any]:
-        return solve(boundary, faces, around.outside, None)
 
     mended = _arguments.choice("outline", outline, _options.OUTLINES) == "mended"
     if mended:
@@ -247,11 +246,9 @@ def fair(
     refused = {"reference": m0 is not None, "outline": mended, "continuity": joins, "detail_from": sample is not None}
     width = _feather.width(feather, parts, refused)
     if width > 0.0 or parts is not None:
-
-        def with_band(boundary: _mending.Boundary, wider: _mending.Surroundings, blend: FloatArray) -> dict[str, Any]:
-            return solve(boundary, wider.inside, wider.outside, blend)
-
-        how = width if parts is None else parts
-        return FairResult(**_feather.solve_feathered(with_band, as_given, faces, around, how))
+        fade = _feather.Fade(
+            shown, _arguments.share("detail_size", detail_size), width if parts is None else parts, threads, progress
+        )
+        return FairResult(**_feather.solve_feathered(call, as_given, around, fade))
     answer = _mending.solve_mended(call, as_given, faces, around) if mended else call(as_given)
     return FairResult(**_mending.with_join(answer, around))

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -11,21 +12,47 @@ import numpy.typing as npt
 
 from fairing import _arguments, _core, _mending
 from fairing._mending import Answer, Boundary, Surroundings
-from fairing._types import Diagnostic, FloatArray, IntArray
+from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
 
 Marks = npt.NDArray[np.bool_]
-Call = Callable[[Boundary, Surroundings, FloatArray], Answer]
+Call = Callable[[Boundary], Answer]
+LEAST_RINGS = 6  # of triangles around a band that its low-pass surface rests on: half of what counts as detail
+
+
+@dataclass(frozen=True)
+class Fade:
+    """How a change fades out.
+
+    detail: the part of it that is shown; detail_size: what counts as detail, a share of D, 0: chosen; how: the width of
+    the band as a share of D, or the weights (n,) themselves.
+    """
+
+    detail: float
+    detail_size: float
+    how: float | FloatArray
+    threads: int
+    progress: Callable[[float, str], bool | None] | None
 
 
 @dataclass(frozen=True)
 class Band:
-    """The patch with the band around it, as one wider patch."""
+    """What moves, marks (n,): ``faired`` inside the patch, ``freed`` in the band only; ``held`` nowhere."""
 
-    boundary: Boundary
-    around: Surroundings
-    """``inside``: the triangles of both; ``outside``: those beyond the band."""
-    freed: IntArray
-    """Vertices that only move with the band, ascending."""
+    faired: Marks
+    freed: Marks
+    held: Marks
+    weights: FloatArray
+
+
+@dataclass(frozen=True)
+class Part:
+    """Patches whose bands meet: triangles ``inside``, around them, and vertices that stay; D, the band's mean width."""
+
+    inside: IntArray
+    outside: IntArray
+    fixed: IntArray
+    diameter: float
+    width: float
 
 
 def vertex_weights(value: npt.ArrayLike | None, count: int) -> FloatArray | None:
@@ -51,28 +78,54 @@ def width(value: Any, weights: FloatArray | None, refused: dict[str, bool]) -> f
     return share
 
 
-def solve_feathered(
-    call: Call, given: Boundary, triangles: IntArray, around: Surroundings, how: float | FloatArray
-) -> Answer:
-    """Solve the patch with its band, whose vertices go their part of the way.
+def solve_feathered(call: Call, given: Boundary, around: Surroundings, fade: Fade) -> Answer:
+    """Solve the patch, round its join with the surroundings, and let the change fade out.
 
-    how: the width of the band as a share of D, or the weights (n,) themselves.
+    ``call`` puts back all of the detail. Vertices of the band move by what the rounding asks for, those inside by the
+    whole change, both times their weights.
     """
-    if isinstance(how, float) and not len(around.rim):
+    if isinstance(fade.how, float) and not len(around.rim):
         raise ValueError(
             "feather: a band needs the triangles outside: pass them as `outside`, or among the triangles with all "
             "their vertices in `fixed`"
         )
-    weights = _faded(given, around, how) if isinstance(how, float) else how
-    band = _widened(given, around, weights)
-    answer = _mending.with_join(call(band.boundary, band.around, weights), band.around)
-    for name in ("vertices", "base"):
-        answer[name] = np.where((weights > 0.0)[:, None], answer[name], given.vertices)
+    weights = _faded(given, around, fade.how) if isinstance(fade.how, float) else fade.how
+    band = _band(given, around, weights)
+    parts = _parts(given.vertices, around, band)
+    answer = call(given)
+    full, base = _rounded(answer, parts, band, fade)
+    moving = (band.faired | band.freed) & (weights > 0.0)
+    detail = answer["vertices"] - base
+    for name, shown in (("vertices", fade.detail), ("base", 0.0)):
+        there = full - (1.0 - shown) * detail
+        moved = given.vertices + weights[:, None] * (there - given.vertices)
+        answer[name] = np.where(moving[:, None], moved, given.vertices)
         answer[name].flags.writeable = False
-    answer["moved"] = band.freed
-    rows = _rows(band.around.inside, triangles)
-    answer["warnings"] = tuple(_renumbered(told, rows) for told in answer["warnings"])
-    return answer
+    answer["moved"] = np.flatnonzero(band.freed).astype(np.int32)
+    return _mending.with_join(answer, around)
+
+
+def _rounded(answer: Answer, parts: list[Part], band: Band, fade: Fade) -> tuple[FloatArray, FloatArray]:
+    """The faired mesh (n, 3), its detail included, with round joins; and its base without that."""
+    points = answer["vertices"]
+    full, base = points.copy(), np.where(band.faired[:, None], answer["base"], points)
+    ask = None if fade.progress is None else partial(_ask, fade.progress)
+    for part in parts:
+        triangles = np.concatenate([part.inside, part.outside])
+        sizes = (fade.detail_size, part.diameter, part.width)
+        fair, soft = _core.soft_base(
+            points, triangles, part.fixed, answer["base"], band.faired, sizes, fade.threads, ask
+        )
+        near = _core.feather_weights(points, part.outside, part.inside, part.width)
+        free = np.setdiff1d(triangles, part.fixed)
+        base[free] = fair[free]
+        full[free] += near[free, None] * (soft - fair)[free]
+    return full, base
+
+
+def _ask(progress: Callable[[float, str], bool | None], _fraction: float, _stage: str) -> bool | None:
+    """Whether to go on; nearly all is done."""
+    return progress(1.0, "detail")
 
 
 def feather_weights(
@@ -107,8 +160,7 @@ def _faded(given: Boundary, around: Surroundings, share: float) -> FloatArray:
         inside = around.inside[component == number]
         rim = points[np.intersect1d(inside, around.rim)]
         if len(rim):
-            diameter = 2.0 * float(np.linalg.norm(rim - rim.mean(axis=0), axis=1).max())
-            faded = _core.feather_weights(points, inside, around.outside, share * diameter)
+            faded = _core.feather_weights(points, inside, around.outside, share * _diameter(rim))
             np.maximum(weights, faded, out=weights)
     return weights
 
@@ -119,23 +171,77 @@ def _marked(vertices: npt.NDArray[Any], count: int) -> Marks:
     return mask
 
 
-def _widened(given: Boundary, around: Surroundings, weights: FloatArray) -> Band:
+def _band(given: Boundary, around: Surroundings, weights: FloatArray) -> Band:
     """Free the vertices of the triangles outside that have a weight.
 
     Those on the mesh border or at edges with more than two triangles stay, as do pins and curves inside the patch.
     """
     count = len(given.vertices)
-    both = np.concatenate([around.inside, around.outside])
-    held = _at_odd_edges(both, count)
-    freed = _marked(around.outside, count) & (weights > 0.0) & ~held
+    beyond = _marked(around.outside, count)
     fixed = _marked(around.rim if given.fixed is None else given.fixed, count)
-    free = (_marked(around.inside, count) & ~fixed & ~held) | freed
-    taken = np.concatenate([np.ones(len(around.inside), dtype=bool), free[around.outside].any(axis=1)])
-    wider = Surroundings.between(given.vertices, both[taken], both[~taken])
-    ends = np.flatnonzero(_marked(wider.inside, count) & ~free).astype(np.int32)
-    own = np.intersect1d(ends, around.inside)
-    boundary = Boundary(given.vertices, ends, _normals(given, own, wider, ends))
-    return Band(boundary, wider, np.flatnonzero(freed).astype(np.int32))
+    odd = _at_odd_edges(np.concatenate([around.inside, around.outside]), count)
+    held = odd | (fixed & ~beyond)
+    return Band(_marked(around.inside, count) & ~fixed & ~held, beyond & (weights > 0.0) & ~held, held, weights)
+
+
+def _parts(points: FloatArray, around: Surroundings, band: Band) -> list[Part]:
+    """The patches that have a band, with what lies around it. Raises MeshError where nothing would stay."""
+    if not band.freed.any():
+        return []
+    near = _around_band(around, band)
+    both = np.concatenate([around.inside, around.outside[near]])
+    fixed = band.held | _marked(around.outside[~near], len(points))
+    component = _core.components(both, np.flatnonzero(fixed & _marked(both, len(points))).astype(np.int32), len(points))
+    is_inside = np.arange(len(both)) < len(around.inside)
+    parts = []
+    for number in range(component.max(initial=-1) + 1):
+        inside, outside = both[(component == number) & is_inside], both[(component == number) & ~is_inside]
+        if len(inside) and band.freed[outside].any():
+            parts.append(_part(points, (inside, outside), fixed, band))
+    return parts
+
+
+def _around_band(around: Surroundings, band: Band) -> Marks:
+    """Marks (o,) of the triangles outside in the band, and in as many rings beyond, LEAST_RINGS or more."""
+    reached = _marked(around.rim, len(band.weights))
+    left = band.freed & ~reached
+    rings = 0
+    while left.any():
+        reached |= _marked(around.outside[reached[around.outside].any(axis=1)], len(reached))
+        if not (left & reached).any():
+            break
+        left &= ~reached
+        rings += 1
+    reached |= band.freed
+    for _ in range(max(rings, LEAST_RINGS)):
+        reached |= _marked(around.outside[reached[around.outside].any(axis=1)], len(reached))
+    return np.asarray(reached[around.outside].all(axis=1))
+
+
+def _part(points: FloatArray, triangles: tuple[IntArray, IntArray], fixed: Marks, band: Band) -> Part:
+    """Of triangles inside and outside. On a closed mesh that is all near, vertices without a weight stay."""
+    inside, outside = triangles
+    own = np.union1d(inside, outside)
+    stays = own[fixed[own]]
+    if not len(stays):
+        stays = own[~(band.faired | band.freed)[own]]
+    if not len(stays):
+        text = "feather: the band covers all that lies around the patch, so nothing stays: make it narrower"
+        raise MeshError(Diagnostic("NO_BOUNDARY", text, np.unique(inside).astype(np.int32), "vertex", {}))
+    sides = np.sort(np.concatenate([inside[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
+    edges, uses = np.unique(sides, axis=0, return_counts=True)
+    in_band = _marked(outside, len(points))
+    rim = edges[(uses == 1) & in_band[edges].all(axis=1)]
+    length = np.linalg.norm(points[rim[:, 0]] - points[rim[:, 1]], axis=1).sum()
+    corners = points[outside]
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2.0
+    width = 2.0 * float((areas * band.weights[outside].mean(axis=1)).sum() / length)
+    return Part(inside, outside, stays.astype(np.int32), _diameter(points[np.unique(rim)]), width)
+
+
+def _diameter(outline: FloatArray) -> float:
+    """D of a patch with this outline (k, 3)."""
+    return 2.0 * float(np.linalg.norm(outline - outline.mean(axis=0), axis=1).max())
 
 
 def _at_odd_edges(triangles: IntArray, count: int) -> Marks:
@@ -143,31 +249,3 @@ def _at_odd_edges(triangles: IntArray, count: int) -> Marks:
     sides = np.sort(np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
     edges, uses = np.unique(sides, axis=0, return_counts=True)
     return _marked(edges[uses != 2], count)
-
-
-def _normals(given: Boundary, own: IntArray, wider: Surroundings, ends: IntArray) -> FloatArray:
-    """As given at the patch's ``own``, else fitted where triangles lie beyond, else averaged."""
-    normals = _core.vertex_normals(given.vertices, wider.inside, "averaged")[ends]
-    nowhere = np.empty((0, 2), dtype=np.int32)
-    fitted = _core.surrounding_normals(given.vertices, wider.outside, wider.rim, nowhere)["normals"]
-    _, here, there = np.intersect1d(ends, wider.rim, return_indices=True)
-    normals[here] = fitted[there]
-    if given.normals is not None and given.fixed is not None:
-        kept, _, there = np.intersect1d(own, given.fixed, return_indices=True)
-        normals[np.searchsorted(ends, kept)] = given.normals[there]
-    return normals
-
-
-def _rows(triangles: IntArray, among: IntArray) -> IntArray:
-    """Which row of ``among`` each triangle is; −1: none."""
-    _, first, inverse = np.unique(np.concatenate([among, triangles]), axis=0, return_index=True, return_inverse=True)
-    rows = first[inverse.reshape(-1)[len(among) :]]
-    return np.where(rows < len(among), rows, -1).astype(np.int32)
-
-
-def _renumbered(told: Diagnostic, rows: IntArray) -> Diagnostic:
-    """By the caller's triangles; those of the band alone have no number."""
-    if told.kind != "triangle":
-        return told
-    elements = rows[told.elements]
-    return replace(told, elements=elements[elements >= 0])

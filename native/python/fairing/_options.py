@@ -135,6 +135,16 @@ def sample(value: npt.ArrayLike | None, count: int, detail: Any) -> IntArray | N
     return triangles
 
 
+def sample_around(sample: IntArray | None, free: IntArray) -> IntArray | None:
+    """What of the sample has no corner among the ``free`` vertices of the patch, whose skin is to be replaced."""
+    if sample is None:
+        return None
+    around: IntArray = sample[~np.isin(sample, free).any(axis=1)]
+    if not len(around):
+        raise ValueError("detail_from: all of the sample lies in the patch itself; name triangles outside it")
+    return around
+
+
 def inner_fairness(value: Any, count: int) -> tuple[str, FloatArray | None]:
     """The word for the engine and, for "custom", the rows (i, j, λ)."""
     if isinstance(value, str) or value is None:

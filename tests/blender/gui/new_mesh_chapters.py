@@ -9,7 +9,7 @@ from driver import Story, click, in_view, middle, press, screenshot, tell, type_
 from panel import open_redo_panel, open_tab, redo_panel, report, run_operator
 from verdict_chapters import framed, run_and_wait
 
-NEW_SPACING = 228  # pixels from the redo panel's upper edge down to the field Spacing of Fair Region
+NEW_SPACING = 186  # pixels from the redo panel's upper edge down to the field Spacing of Fair Region
 FILL_SPACING = 89  # and of Fair Fill
 
 

@@ -45,7 +45,7 @@ from verdict_chapters import (
     worth_a_look,
 )
 
-VERTICES_FIELD = 270  # pixels from the redo panel's upper edge down to the field
+VERTICES_FIELD = 186  # pixels from the redo panel's upper edge down to the field
 KEEP_SPACING = 93  # from there down to the entry of its menu
 
 
