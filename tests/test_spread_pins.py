@@ -215,7 +215,7 @@ def test_the_tip_of_a_needle_is_told() -> None:
         for how in ({}, {"pin_radius": 0.0}, {"equation": "least_variation"}):
             result, _ = lifted(patch, pin, [lift], **how)  # type: ignore[arg-type]
             assert result.converged
-            named = [list(told.elements) for told in result.warnings if told.code == "SHARP_PINS"]
+            named = [list(told.elements) for told in result.warnings if "tips" in told.figures]
             assert named == ([[pin[0]]] if sharp else [])
 
 

@@ -249,12 +249,12 @@ void warn_of_sharp_pins(const Patch& patch, const Solution& solution, Diagnostic
     Indices pins = sharp_pins(patch, solution.points);
     if (pins.empty()) return;
     for (int& place : pins) place = fixed_vertices(patch)[at(place)];
-    warnings.push_back({Code::sharp_pins,
+    warnings.push_back({Code::pins_not_spread,
                         counted(pins.size(), "pin is the tip of a needle", "pins are tips of needles") +
-                            ": the surface rises too far from its surroundings for so short a way",
+                            ": the surface rises far within a short way",
                         pins,
                         ElementKind::vertex,
-                        {{"pins", size_of(pins)}}});
+                        {{"tips", size_of(pins)}}});
 }
 
 }  // namespace

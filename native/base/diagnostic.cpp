@@ -6,7 +6,7 @@ namespace fairing {
 
 namespace {
 
-constexpr auto last = Code::sharp_pins;
+constexpr auto last = Code::pins_not_spread;
 
 constexpr std::array<std::string_view, static_cast<std::size_t>(last) + 1> names{
     "NONFINITE",
@@ -33,7 +33,6 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(last) + 1> names
     "PRECISION",
     "G2_NOT_MET",
     "PINS_NOT_SPREAD",
-    "SHARP_PINS",
 };
 static_assert(!names.back().empty(), "each code has a name");
 

@@ -36,7 +36,6 @@ enum class Code {
     precision,
     g2_not_met,
     pins_not_spread,
-    sharp_pins,
 };
 
 // The upper-case names that callers see, e.g. "NONMANIFOLD_EDGE", in the order of the enumeration.

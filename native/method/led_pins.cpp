@@ -14,24 +14,12 @@ namespace fairing {
 
 namespace {
 
-constexpr double shortest_step = 0.003;  // of a pin, in units of D
-// On the way there the surface is only roughly solved.
-constexpr double rough = 1e-3;
-constexpr int most_rough_iterations = 20;
+constexpr double longest_step = 0.05;  // of a pin, in units of D
+constexpr double shortest_step = 0.005;
 constexpr double growth = 0.15;          // of edge lengths per distance from the outline
 constexpr double longest_edge = 0.03;    // units of D
 constexpr double edge_of_radius = 0.35;  // so that bells have three edges to fall off
 constexpr int least_free_limit = 3000;
-
-// How pins are led: by steps (units of D) that grow by a factor until one has failed.
-struct Pace {
-    double first_step;
-    double growth;
-};
-constexpr Pace fast = {0.05, 2.0};
-// For long ways past which the surface changes much at some place: there each step has to be short.
-constexpr Pace slow = {0.025, 1.0};
-constexpr double far_enough = 0.7;  // of the way at the fast pace, for the slow one to be worth its time
 
 class LedPins {
 public:
@@ -47,32 +35,27 @@ public:
                    std::max(least_free_limit, 3 * problem.patch.free_count)};
     }
 
-    std::optional<Solution> run(const Pace& pace) {
-        const Points ways = problem_.fixed_points - start_.rightCols(problem_.fixed_points.cols());
-        const double way = std::max(largest_length(ways), pace.first_step);
-        double step = pace.first_step / way;
-        double factor = pace.growth;  // until a step has failed: failures cost most
-        while (reached_ < 1.0) {
-            progress_.report(0.8 * reached_, "pins");
-            constexpr double remnant = 0.1;  // of a step, not worth one of its own
-            const double share = reached_ + (1.0 + remnant) * step > 1.0 ? 1.0 : reached_ + step;
-            if (go_to(share, rough, most_rough_iterations)) {
-                reached_ = share;
-                step *= factor;
+    std::optional<Solution> run() {
+        const double way = largest_length(problem_.fixed_points - start_.rightCols(problem_.fixed_points.cols()));
+        const double shortest = shortest_step / std::max(way, longest_step);
+        double step = std::min(1.0, longest_step / std::max(way, longest_step));
+        bool growing = true;  // until a step has failed: failures cost most
+        for (double reached = 0.0; reached < 1.0;) {
+            progress_.report(0.8 * reached, "pins");
+            const double share = std::min(1.0, reached + step);
+            if (go_to(share)) {
+                reached = share;
+                step *= growing ? 2.0 : 1.0;
                 continue;
             }
-            factor = 1.0;
+            growing = false;
             step *= 0.5;
-            if (step * way < shortest_step) return std::nullopt;
+            if (step < shortest) return std::nullopt;
         }
         // Once more on the mesh that belongs to it.
-        const SolverOptions& options = problem_.options;
-        if (!go_to(1.0, options.tolerance, options.max_iterations)) return std::nullopt;
+        if (!go_to(1.0)) return std::nullopt;
         return placed();
     }
-
-    // Share of the way.
-    [[nodiscard]] double reached() const { return reached_; }
 
 private:
     struct Solved {
@@ -90,12 +73,10 @@ private:
     }
 
     // False where no surface without folds is found; the mesh then stays where it was.
-    bool go_to(double share, double tolerance, int most_iterations) {
+    bool go_to(double share) {
         mesh_.adapt(sizing_);
         ProxyMesh::Snapshot mesh = mesh_.snapshot();
-        Problem problem = on_mesh(mesh.patch, share);
-        problem.options.tolerance = std::max(tolerance, problem.options.tolerance);
-        problem.options.max_iterations = std::min(most_iterations, problem.options.max_iterations);
+        const Problem problem = on_mesh(mesh.patch, share);
         if (isolated_pins(mesh.patch).size() != pins_.size()) return false;
         Solution solution = spread_pins(problem, radius_, mesh.points, progress_.here());
         if (solution.termination != Termination::converged) return false;
@@ -131,7 +112,6 @@ private:
     const Progress& progress_;
     Indices pins_;
     ProxyMesh mesh_;
-    double reached_ = 0.0;
     Sizing sizing_{};
     std::optional<Solved> last_;
 };
@@ -140,10 +120,7 @@ private:
 
 std::optional<Solution> lead_pins(const Problem& problem, double radius, const LedStart& start,
                                   const Progress& progress) {
-    LedPins first(problem, radius, start, progress);
-    auto found = first.run(fast);
-    if (found || first.reached() < far_enough) return found;
-    return LedPins(problem, radius, start, progress).run(slow);
+    return LedPins(problem, radius, start, progress).run();
 }
 
 }  // namespace fairing

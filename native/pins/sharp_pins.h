@@ -5,8 +5,8 @@
 
 namespace fairing {
 
-// Isolated pins, by their places among the fixed vertices, with a triangle whose normal is more than 60° from the
-// vertex's own, the mean by area: the tip of a needle of at most 30° to its axis. `points`: 3 × local vertices.
+// Isolated pins, by their places among the fixed vertices, around which the triangles' normals have a mean cosine below
+// 1/2 to their mean, both by area: tips of needles of at most 30° to their axis. `points`: 3 × local vertices.
 Indices sharp_pins(const Patch& patch, const Points& points);
 
 }  // namespace fairing

@@ -115,7 +115,7 @@ def test_a_loft_that_lets_slopes_go_deserves_a_look(fine: Evidence) -> None:
 
 
 def test_the_tip_of_a_needle_deserves_a_look(fine: Evidence) -> None:
-    told = fairing.Diagnostic("SHARP_PINS", "", np.array([3], np.int32), "vertex", {"pins": 1.0})
+    told = fairing.Diagnostic("PINS_NOT_SPREAD", "", np.array([3], np.int32), "vertex", {"tips": 1.0})
     verdict = judged(replace(fine, result=replace(fine.result, warnings=(told,))))
     assert (verdict.grade, verdict.reason) == (LOOK, "The surface comes to a point at 1 pinned vertex")
     assert verdict.spots.tolist() == fine.problem.vertices[[3]].tolist()
