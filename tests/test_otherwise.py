@@ -181,6 +181,27 @@ def test_a_wing_is_a_loft_that_keeps_its_section() -> None:
     assert (made.faired(equation="harmonic", seed=1).vertices == result.vertices).all()
 
 
+def test_an_outline_that_folds_is_followed_by_a_loft_of_the_smoothed_one() -> None:
+    """Every other vertex lies behind the one before it."""
+    pipe = tubes.pipe(2.0)
+    vertices = pipe.vertices.copy()
+    angle = 1.6 * 2 * np.pi / 24
+    turned = vertices[pipe.fixed[1::2]] @ np.array(
+        [[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]]
+    )
+    vertices[pipe.fixed[1::2]] = turned
+    result = replace(pipe, vertices=vertices).faired(equation="harmonic")
+    assert result.converged
+    assert result.equation == "loft"
+    assert result.way[-1][0] == "eased loft"
+    assert (result.vertices[pipe.fixed] == vertices[pipe.fixed]).all()
+    (warning,) = [warning for warning in result.warnings if warning.code == "NO_SOLUTION"]
+    assert warning.figures["loft"] == 1
+    assert 0.3 * angle < warning.figures["distance"] * pipe.diameter < angle
+    middle = np.abs(pipe.vertices[:, 2] - 1.0) < 0.5
+    assert 0.75 < radii(result)[middle].min() <= radii(result)[middle].max() < 1.02
+
+
 def test_stop_makes_no_loft() -> None:
     result = wing().faired(equation="harmonic", otherwise="stop")
     assert not result.converged

@@ -12,6 +12,7 @@ from .arrays import Ints
 from .engine import Problem, Result, bad_outline
 from .options import FairOptions
 from .quality import Join, Quality
+from .region import nothing
 from .words import counted
 
 GOOD, LOOK, UNUSABLE = "GOOD", "LOOK", "UNUSABLE"
@@ -28,7 +29,7 @@ class Verdict:
 
     grade: str
     reason: str = ""
-    spots: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    spots: Ints = field(default_factory=nothing)
     remedies: tuple[str, ...] = ()
 
 
@@ -51,7 +52,8 @@ class Evidence:
     before: Quality
     after: Quality
     join: Join
-    rounded: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))  # mesh vertices of hard edges outside
+    rounded: Ints = field(default_factory=nothing)  # mesh vertices of hard edges outside that were rounded
+    swollen: Ints = field(default_factory=nothing)  # mesh vertices at the tops of knobs
 
 
 def judge(evidence: Evidence, options: FairOptions) -> Verdict:
@@ -86,7 +88,7 @@ def _once(spots: Ints) -> Ints:
 
 
 Found = tuple[str, Ints]
-_NOTHING: Found = ("", np.empty(0, dtype=np.int64))
+_NOTHING: Found = ("", nothing())
 
 
 def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str, ...]:
@@ -180,6 +182,9 @@ def _visible(evidence: Evidence, options: FairOptions) -> Found:
     if len(evidence.rounded):
         text = counted(len(evidence.rounded), "vertex", "vertices")
         return f"Outline: Smooth has rounded a hard edge outside at {text}: choose As Selected", evidence.rounded
+    if len(evidence.swollen) and judges_join(options) and not _is_meant_to_swell(options):
+        text = counted(len(evidence.swollen), "vertex", "vertices")
+        return f"The surface swells to a knob around {text}: another outline may avoid it", evidence.swollen
     needles = np.setdiff1d(evidence.after.needles, evidence.before.needles)
     if len(needles):
         return counted(len(needles), "face is a needle", "faces are needles"), _corners(problem, needles)
@@ -196,6 +201,10 @@ def _told_of(evidence: Evidence, code: str, figure: str) -> Ints:
     told = [w.elements for w in evidence.result.warnings if w.code == code and figure in w.figures]
     found: Ints = evidence.problem.vertices[np.concatenate([np.empty(0, np.int32), *told])]
     return found
+
+
+def _is_meant_to_swell(options: FairOptions) -> bool:
+    return options.detail > 0.0 or (options.equation == "CONSTANT" and options.bulge != 0.0)
 
 
 def judges_join(options: FairOptions) -> bool:

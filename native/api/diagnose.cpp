@@ -295,10 +295,12 @@ Diagnostic no_solution(const Problem& problem, const Solution& solution) {
     const std::string name = harmonic ? "harmonic surface" : "surface of that equation";
     Figures figures{{"free_vertices", patch.free_count}};
     if (harmonic) figures["harmonic"] = 1.0;
+    if (solution.instead == Instead::loft) figures["loft"] = 1.0;
     std::string text = "no " + name + " fits the outlines of a component of " + free;
     if (is_eased(solution)) {
         figures["distance"] = eased_by(problem);
-        return {Code::no_solution, text + " as they are: it follows them smoothly, and they stay beside it",
+        const std::string what = solution.instead == Instead::loft ? "a loft" : "it";
+        return {Code::no_solution, text + " as they are: " + what + " follows them smoothly, and they stay beside it",
                 Indices(free_vertices(patch).begin(), free_vertices(patch).end()), ElementKind::vertex, figures};
     }
     if (solution.variation_ratio > 0.0) {
@@ -310,7 +312,6 @@ Diagnostic no_solution(const Problem& problem, const Solution& solution) {
     Indices vertices(all.begin(), all.end());
     text += solution.instead == Instead::loft ? "; a loft was taken" : "; the surface of least variation was taken";
     if (solution.instead == Instead::loft) {
-        figures["loft"] = 1.0;
         if (Indices kinks = kinks_of(problem, solution); !kinks.empty()) {
             figures["kinks"] = size_of(kinks);
             text += ", with a kink at " + counted(kinks.size(), "outline vertex", "outline vertices");

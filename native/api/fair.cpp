@@ -41,8 +41,9 @@ public:
         add_warnings(answer.warnings);
         write_back(patch, answer);
         const Solution& solution = answer.solution;
-        if (solution.instead != Instead::nothing) add_instead(answer);
-        if (is_eased(solution) && end_of(solution) == Termination::converged) tell_of_no_solution(answer);
+        const bool eased = is_eased(solution) && end_of(solution) == Termination::converged;
+        if (solution.instead != Instead::nothing) note_instead(solution);
+        if (solution.instead != Instead::nothing || eased) tell_of_no_solution(answer);
         note_equation(answer.problem.options.equation);
         result_.residual = std::max(result_.residual, solution.residual);
         result_.initial_residual = std::max(result_.initial_residual, solution.initial_residual);
@@ -119,10 +120,9 @@ private:
         result_.equation = solved;
     }
 
-    void add_instead(const ComponentAnswer& answer) {
+    void note_instead(const Solution& solution) {
         result_.equation = Equation::least_variation;
-        result_.lofted = result_.lofted || answer.solution.instead == Instead::loft;
-        tell_of_no_solution(answer);
+        result_.lofted = result_.lofted || solution.instead == Instead::loft;
     }
 
     void tell_of_no_solution(const ComponentAnswer& answer) {

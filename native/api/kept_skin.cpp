@@ -60,6 +60,7 @@ Patch sample_patch(const ComponentData& data) {
 
 void KeptSkin::read(const ComponentData& data, double size, const Progress& progress) {
     const Stopwatch watch;
+    just_read_.reset();
     if (data.sample.cols() > 0) {
         progress.here().report(0.0, "detail");
         read_sample(data, size, progress);
@@ -79,8 +80,8 @@ void KeptSkin::read_own(const ComponentData& data, double size, const Progress& 
     const Points old = unit_.to_unit(reference);
     if (old.allFinite() && !has_collapsed_fan(patch_, old)) {
         wavelength_ = size > 0.0 ? size : detail_wavelength(patch_, old);
-        const Points outline = unit_.to_unit(low_pass_outline(data, data.reference).points);
-        skin_ = Skin::read(patch_, {old, outline}, wavelength_, progress.here());
+        just_read_ = low_pass_outline(data, data.reference);
+        skin_ = Skin::read(patch_, {old, unit_.to_unit(just_read_->points)}, wavelength_, progress.here());
     }
     if (!skin_) warn_of_missing_detail(warnings_);
     read_off_ = reference;
@@ -123,7 +124,10 @@ BaseOutline KeptSkin::low_pass_outline(const ComponentData& data, const Points& 
     return result;
 }
 
-BaseOutline KeptSkin::outline(const ComponentData& data) const { return low_pass_outline(data, data.vertices); }
+BaseOutline KeptSkin::outline(const ComponentData& data) {
+    const std::optional<BaseOutline> read = std::exchange(just_read_, std::nullopt);
+    return read && data.reference == data.vertices ? *read : low_pass_outline(data, data.vertices);
+}
 
 Dressed KeptSkin::put_back(const ComponentData& data, const Points& new_base, const Progress& progress) const {
     const int free = patch_.free_count;

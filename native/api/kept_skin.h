@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "api/component.h"
@@ -42,7 +43,7 @@ public:
     [[nodiscard]] const Diagnostics& warnings() const { return warnings_; }
     // Low-pass where triangles lie outside. Normals that the caller gave stay where they are others than triangles
     // outside show.
-    [[nodiscard]] BaseOutline outline(const ComponentData& data) const;
+    [[nodiscard]] BaseOutline outline(const ComponentData& data);
     [[nodiscard]] const Points& base() const { return skin_->base(); }
     // The detail on a new base (3 × local vertices, in the caller's units).
     [[nodiscard]] Dressed put_back(const ComponentData& data, const Points& new_base, const Progress& progress) const;
@@ -57,9 +58,10 @@ private:
     const Patch& patch_;
     std::unique_ptr<Skin> skin_;  // one of both
     std::unique_ptr<BorrowedSkin> borrowed_;
-    Points read_off_;          // 3 × local vertices, the caller's
-    Normalisation unit_{};     // of that
-    double wavelength_ = 0.0;  // share of D
+    Points read_off_;                       // 3 × local vertices, the caller's
+    std::optional<BaseOutline> just_read_;  // data.reference's outline, until `outline` is asked for
+    Normalisation unit_{};                  // of that
+    double wavelength_ = 0.0;               // share of D
     double seconds_ = 0.0;
     Diagnostics warnings_;
 };

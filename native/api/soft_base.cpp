@@ -18,30 +18,20 @@ double softened_length(const SoftBaseSizes& sizes, double detail) {
     return std::max(detail, std::min(widths * sizes.width / sizes.diameter, most));
 }
 
-// One patch, in units of the diameter.
-class SoftPatch {
-public:
-    SoftPatch(const Patch& patch, Points places, const Progress& progress)
-        : patch_(patch), places_(std::move(places)), progress_(progress) {
-        faces_.update(places_, patch.triangles);
-        stiffness_.update(faces_, patch);
-    }
+// As it is where that can't be told.
+Points without(BaseFilter& filter, const Points& surface, double wavelength, const Progress& progress) {
+    std::optional<Points> smooth = filter.without(surface, wavelength, progress);
+    if (!smooth || !smooth->allFinite()) return surface;
+    return std::move(*smooth);
+}
 
-    // Without what repeats within less than a wavelength; as it is where that can't be told.
-    [[nodiscard]] Points without(const Points& points, double wavelength) const {
-        const Points outline = points.rightCols(points.cols() - patch_.free_count);
-        std::optional<Points> smooth = old_base(patch_, stiffness_, {points, outline}, wavelength, progress_);
-        if (!smooth || !smooth->allFinite()) return points;
-        return std::move(*smooth);
-    }
-
-private:
-    const Patch& patch_;
-    Points places_;
-    const Progress& progress_;
-    FaceGeometry faces_;
-    Stiffness stiffness_;
-};
+Stiffness stiffness_of(const Patch& patch, const Points& places) {
+    FaceGeometry faces;
+    faces.update(places, patch.triangles);
+    Stiffness stiffness;
+    stiffness.update(faces, patch);
+    return stiffness;
+}
 
 void soften(const FairedSurface& surface, const Patch& patch, const SoftBaseSizes& sizes, const Progress& progress,
             SoftBase& result) {
@@ -49,14 +39,14 @@ void soften(const FairedSurface& surface, const Patch& patch, const SoftBaseSize
     const Points places = unit.to_unit(gather(surface.mesh.vertices, patch.to_input));
     if (!places.allFinite() || has_collapsed_fan(patch, places)) return;
     const double detail = sizes.detail > 0.0 ? sizes.detail : detail_wavelength(patch, places);
-    const SoftPatch smooth(patch, places, progress);
-    Points base = smooth.without(places, detail);
-    base.rightCols(places.cols() - patch.free_count) = places.rightCols(places.cols() - patch.free_count);
+    const Stiffness stiffness = stiffness_of(patch, places);
+    BaseFilter filter(patch, stiffness, {places, places.rightCols(places.cols() - patch.free_count)}, detail);
+    Points base = without(filter, places, detail, progress);
     const Points fair = unit.to_unit(gather(surface.base, patch.to_input));
     for (int v = 0; v < patch.free_count; ++v) {
         if (surface.faired[at(patch.to_input[at(v)])]) base.col(v) = fair.col(v);
     }
-    const Points soft = smooth.without(base, softened_length(sizes, detail));
+    const Points soft = without(filter, base, softened_length(sizes, detail), progress);
     const auto free = free_vertices(patch);
     result.base(Eigen::all, free) = unit.from_unit(base).leftCols(patch.free_count);
     result.soft(Eigen::all, free) = unit.from_unit(soft).leftCols(patch.free_count);

@@ -7,7 +7,6 @@
 
 #include "detail/low_pass.h"
 #include "geometry/surface_fit.h"
-#include "operators/biharmonic_operator.h"
 #include "problem/willmore.h"
 
 namespace fairing {
@@ -46,19 +45,33 @@ double detail_wavelength(const Patch& patch, const Points& old) {
     return std::min(edges * length / patch.edge_count(), share_of_patch);
 }
 
+BaseFilter::BaseFilter(const Patch& patch, const Stiffness& stiffness, const OldPatch& old, double wavelength)
+    : patch_(patch),
+      stiffness_(stiffness),
+      outline_(old.outline),
+      conormals_(own_conormals(patch, old, wavelength)),
+      smoothing_(patch, old.points.leftCols(patch.free_count)) {}
+
+std::optional<Points> BaseFilter::without(const Points& surface, double wavelength, const Progress& progress) {
+    const double mass = mass_factor(wavelength);
+    if (factorised_for_ != wavelength) {
+        factorised_for_ = 0.0;
+        if (!smoothing_.update_with_mass(stiffness_, mass, progress)) return std::nullopt;
+        factorised_for_ = wavelength;
+    }
+    Points base = surface;
+    base.rightCols(outline_.cols()) = outline_;
+    Points h = mixed_curvature_vectors(patch_, stiffness_, base, conormals_);
+    h.array().rowwise() /= 2.0 * stiffness_.mass.transpose().array();
+    const Eigen::MatrixXd first = smoothing_.solve(stiffness_.apply(patch_, h, patch_.free_count).transpose());
+    const Eigen::MatrixXd left = mass * stiffness_.mass.head(patch_.free_count).asDiagonal() * first;
+    base.leftCols(patch_.free_count) += (first - smoothing_.solve(left)).transpose();
+    return base;
+}
+
 std::optional<Points> old_base(const Patch& patch, const Stiffness& stiffness, const OldPatch& old, double wavelength,
                                const Progress& progress) {
-    BiharmonicOperator smoothing(patch, old.points.leftCols(patch.free_count));
-    const double mass = mass_factor(wavelength);
-    if (!smoothing.update_with_mass(stiffness, mass, progress)) return std::nullopt;
-    Points base = old.points;
-    base.rightCols(old.outline.cols()) = old.outline;
-    Points h = mixed_curvature_vectors(patch, stiffness, base, own_conormals(patch, old, wavelength));
-    h.array().rowwise() /= 2.0 * stiffness.mass.transpose().array();
-    const Eigen::MatrixXd first = smoothing.solve(stiffness.apply(patch, h, patch.free_count).transpose());
-    const Eigen::MatrixXd left = mass * stiffness.mass.head(patch.free_count).asDiagonal() * first;
-    base.leftCols(patch.free_count) += (first - smoothing.solve(left)).transpose();
-    return base;
+    return BaseFilter(patch, stiffness, old, wavelength).without(old.points, wavelength, progress);
 }
 
 }  // namespace fairing

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "base/parallel.h"
@@ -59,18 +58,14 @@ void add_outline_normals(const Patch& patch, const Points& points, const Points&
 
 }  // namespace
 
-void CurvatureLeastSquares::add_row(const Vector3& row, double value, double weight) {
-    matrix_.noalias() += weight * row * row.transpose();
-    rhs_ += weight * value * row;
-}
-
 void CurvatureLeastSquares::add_point(const Vector3& point) {
     const Vector3 d = point - centre_;
     const double squared = d.squaredNorm();
     const Eigen::Vector2d t(frame_.u.dot(d), frame_.v.dot(d));
     const double in_plane = t.squaredNorm();
     if (!(in_plane > no_direction * squared)) return;
-    add_row(Vector3(t.x() * t.x(), t.x() * t.y(), t.y() * t.y()) / in_plane, 2.0 * normal_.dot(d) / squared);
+    const Vector3 row(t.x() * t.x(), t.x() * t.y(), t.y() * t.y());
+    equations_.add(row / in_plane, 2.0 * normal_.dot(d) / squared, 1.0);
 }
 
 void CurvatureLeastSquares::add_twist(const Vector3& point, const Vector3& normal_there, double weight) {
@@ -82,13 +77,13 @@ void CurvatureLeastSquares::add_twist(const Vector3& point, const Vector3& norma
     const double product = t.x() * t.y();
     const Vector3 row(-product, 0.5 * (t.x() * t.x() - t.y() * t.y()), product);
     const Vector3 across = t.x() * frame_.v - t.y() * frame_.u;
-    add_row(row / in_plane, -normal_there.dot(across) / std::sqrt(in_plane * squared), weight);
+    equations_.add(row / in_plane, -normal_there.dot(across) / std::sqrt(in_plane * squared), weight);
 }
 
 CurvatureFit CurvatureLeastSquares::solve() const {
-    Eigen::Matrix3d A = matrix_;
-    A.diagonal().array() += 1e-9 * A.trace() + 1e-300;
-    const Vector3 x = A.llt().solve(rhs_);
+    NormalEquations<3> equations = equations_;
+    equations.add_to_diagonal(1e-9 * equations.trace() + 1e-300);
+    const Vector3 x = equations.solve();
     return {x[0], x[1], x[2]};
 }
 

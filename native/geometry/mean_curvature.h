@@ -4,6 +4,7 @@
 #include <span>
 
 #include "geometry/frame.h"
+#include "geometry/normal_equations.h"
 #include "geometry/vertex_normal.h"
 
 namespace fairing {
@@ -40,13 +41,10 @@ public:
     [[nodiscard]] CurvatureFit solve() const;
 
 private:
-    void add_row(const Vector3& row, double value, double weight = 1.0);
-
     Vector3 centre_;
     Vector3 normal_;
     Frame frame_;
-    Eigen::Matrix3d matrix_ = Eigen::Matrix3d::Zero();
-    Vector3 rhs_ = Vector3::Zero();
+    NormalEquations<3> equations_;
 };
 
 // From the normal curvatures κ_j = 2⟨d_j, n⟩/⟨d_j, d_j⟩ of the directions to `points` alone. Negative on a sphere with

@@ -20,9 +20,12 @@ using Corners = std::array<Vector3, 3>;
 constexpr int leaf_size = 4;
 constexpr int most_pieces = 64;  // of a level of the tree, to work on side by side
 
+// Twice the area of a triangle along its normal.
+Vector3 area_vector(const Corners& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
+
 // Six times the signed volume of a tetrahedron.
 double volume(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
-    return (b - a).cross(c - a).dot(d - a);
+    return area_vector({a, b, c}).dot(d - a);
 }
 
 // The triangles of a range of the order, split at the median.
@@ -41,12 +44,7 @@ public:
         const int count = static_cast<int>(triangles.cols());
         order_.resize(at(count));
         std::iota(order_.begin(), order_.end(), 0);
-        boxes_.resize(at(count));
-        for_ranges(count, coarse_grain, [&](int begin, int end) {
-            for (int t = begin; t < end; ++t) {
-                for (const Vector3& corner : corners(t)) boxes_[at(t)].extend(corner);
-            }
-        });
+        measure_triangles();
         int last_level = 1;  // nodes there: enough for all of them to be leaves
         while (last_level * leaf_size < count) last_level *= 2;
         nodes_.resize(2 * at(last_level));
@@ -69,6 +67,20 @@ private:
         int first;
         int second;
     };
+
+    void measure_triangles() {
+        const auto count = static_cast<int>(triangles_.cols());
+        boxes_.resize(at(count));
+        sizes_.resize(at(count));
+        areas_.resize(3, count);
+        for_ranges(count, coarse_grain, [&](int begin, int end) {
+            for (int t = begin; t < end; ++t) {
+                for (const Vector3& corner : corners(t)) boxes_[at(t)].extend(corner);
+                sizes_[at(t)] = boxes_[at(t)].diagonal().norm();
+                areas_.col(t) = area_vector(corners(t));
+            }
+        });
+    }
 
     [[nodiscard]] Corners corners(int t) const {
         return {points_.col(triangles_(0, t)), points_.col(triangles_(1, t)), points_.col(triangles_(2, t))};
@@ -173,11 +185,14 @@ private:
     [[nodiscard]] bool edge_pierces(int a, int b) const {
         constexpr double round_off = 1e-12;
         const Corners from = corners(a);
-        const Corners to = corners(b);
-        const double size = std::max(boxes_[at(a)].diagonal().norm(), boxes_[at(b)].diagonal().norm());
+        const double size = std::max(sizes_[at(a)], sizes_[at(b)]);
         const double slack = round_off * size * size * size;
+        const Vector3 origin = points_.col(triangles_(0, b));
         std::array<double, 3> above;
-        for (int k = 0; k < 3; ++k) above[at(k)] = volume(to[0], to[1], to[2], from[at(k)]);
+        for (int k = 0; k < 3; ++k) above[at(k)] = areas_.col(b).dot(from[at(k)] - origin);
+        if (std::min({above[0], above[1], above[2]}) >= -slack || std::max({above[0], above[1], above[2]}) <= slack)
+            return false;
+        const Corners to = corners(b);
         const auto is_corner_of_b = [&](int v) { return (triangles_.col(b).array() == v).any(); };
         for (int k = 0; k < 3; ++k) {
             const int next = (k + 1) % 3;
@@ -203,7 +218,9 @@ private:
     const Triangles& triangles_;
     const Points& points_;
     std::vector<std::atomic<char>> crossing_;
-    std::vector<Box> boxes_;  // of triangles
+    std::vector<Box> boxes_;     // of triangles
+    std::vector<double> sizes_;  // of these
+    Points areas_;               // area vectors of triangles
     Indices order_;
     std::vector<Node> nodes_;
 };

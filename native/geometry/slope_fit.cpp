@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 
 #include "geometry/frame.h"
 
@@ -47,6 +46,24 @@ struct Axes {
     bool known;
 };
 
+// The triangular factor of A = Q R in place of A, above the diagonal and on it, by Householder's reflections. For
+// systems this small half of the time of Eigen's would go into its blocks and buffers.
+void triangularise(Eigen::MatrixXd& A) {
+    const Eigen::Index rows = A.rows();
+    for (Eigen::Index j = 0; j < std::min(rows, A.cols()); ++j) {
+        auto v = A.col(j).tail(rows - j);
+        const double pivot = v[0] > 0.0 ? -v.norm() : v.norm();
+        v[0] -= pivot;
+        const double scale = -pivot * v[0];  // half of |v|²
+        if (!(scale > 0.0)) continue;
+        for (Eigen::Index k = j + 1; k < A.cols(); ++k) {
+            auto column = A.col(k).tail(rows - j);
+            column -= v.dot(column) / scale * v;
+        }
+        v[0] = pivot;
+    }
+}
+
 class Fit {
 public:
     Fit(const Vector3& centre, std::span<const Vector3> points, Degree degree, Centre at_centre)
@@ -69,7 +86,7 @@ public:
     // `constant`: c₀ of the round before.
     std::optional<Round> round(const Vector3& normal, const Axes& axes, double constant) {
         for (Eigen::Index k = 0; k < offsets_.cols(); ++k) fill_row(k, normal, axes, constant);
-        const Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> qr(system_);
+        triangularise(system_);
         return solve();
     }
 

@@ -1,10 +1,10 @@
 #include "geometry/vertex_normal.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "base/parallel.h"
 #include "geometry/frame.h"
+#include "geometry/normal_equations.h"
 #include "geometry/one_ring_buffer.h"
 #include "geometry/virtual_points.h"
 
@@ -28,11 +28,12 @@ Vector3 unit_or_zero(const Vector3& v) {
 template <typename Weight>
 Vector3 sum_of_cross_products(const OneRing& ring, Weight weight) {
     Vector3 sum = Vector3::Zero();
-    const std::size_t count = ring.points.size();
-    for (std::size_t j = 0; j + (ring.closed ? 0 : 1) < count; ++j) {
-        const Vector3 a = ring.points[j] - ring.centre;
-        const Vector3 b = ring.points[(j + 1) % count] - ring.centre;
+    if (ring.points.empty()) return sum;
+    Vector3 a = (ring.closed ? ring.points.back() : ring.points.front()) - ring.centre;
+    for (const Vector3& point : ring.points.subspan(ring.closed ? 0 : 1)) {
+        const Vector3 b = point - ring.centre;
         sum += weight(a, b) * a.cross(b);
+        a = b;
     }
     return unit_or_zero(sum);
 }
@@ -83,13 +84,10 @@ Vector3 max_normal(const OneRing& ring) {
 }
 
 Vector3 fitted_normal(const Vector3& centre, std::span<const Vector3> points, const Vector3& start) {
-    using Vector5 = Eigen::Matrix<double, 5, 1>;
-    using Matrix5 = Eigen::Matrix<double, 5, 5>;
     if (points.empty() || start.isZero()) return start;
     const Frame frame(start);
     const double h = mean_distance(centre, points);
-    Matrix5 A = Matrix5::Zero();
-    Vector5 rhs = Vector5::Zero();
+    NormalEquations<5> equations;
     for (const Vector3& p : points) {
         const Vector3 d = p - centre;
         const double squared = d.squaredNorm();
@@ -100,16 +98,13 @@ Vector3 fitted_normal(const Vector3& centre, std::span<const Vector3> points, co
         const double omega = squared / (h * h);
         const double weight = omega / (short_edge_softening + omega);
         const double reach = 2.0 * h / std::sqrt(squared);
-        Vector5 row;
-        row << t.x() * t.x(), t.x() * t.y(), t.y() * t.y(), reach * t.x(), reach * t.y();
-        A.noalias() += weight * row * row.transpose();
-        rhs += weight * (2.0 * start.dot(d) / squared) * row;
+        const NormalEquations<5>::Vector row{t.x() * t.x(), t.x() * t.y(), t.y() * t.y(), reach * t.x(), reach * t.y()};
+        equations.add(row, 2.0 * start.dot(d) / squared, weight);
     }
-    A.diagonal().array() += 1e-12 * A.trace() + 1e-300;
-    A(3, 3) += tilt_regularisation;
-    A(4, 4) += tilt_regularisation;
-    const Vector5 fit = A.llt().solve(rhs);
-    const Eigen::Vector2d tilt = h * fit.tail<2>();
+    equations.add_to_diagonal(1e-12 * equations.trace() + 1e-300);
+    equations.add_to_diagonal(3, tilt_regularisation);
+    equations.add_to_diagonal(4, tilt_regularisation);
+    const Eigen::Vector2d tilt = h * equations.solve().tail<2>();
     const double kept = fade(tilt.norm());
     if (!(kept > 0.0)) return start;
     return (start - kept * (tilt.x() * frame.u + tilt.y() * frame.v)).normalized();

@@ -38,7 +38,8 @@ public:
           damping_(damping),
           progress_(progress),
           conormals_(conormals(problem.patch, problem.fixed_points, problem.fixed_normals)),
-          anderson_(3L * problem.patch.free_count, history_depth) {}
+          own_history_(work.keeps_factor ? 0 : 3L * problem.patch.free_count, history_depth),
+          anderson_(work.keeps_factor ? kept_history() : own_history_) {}
 
     Solution run(const Points& start) {
         state_.points = start;
@@ -75,6 +76,13 @@ public:
     }
 
 private:
+    // The map hardly changes from one solve with a factor to the next, nor do its differences.
+    Anderson& kept_history() {
+        if (!work_.history) work_.history = std::make_unique<Anderson>(3L * patch_.free_count, history_depth);
+        work_.history->begin_again();
+        return *work_.history;
+    }
+
     void report(int k) {
         // Steps shrink geometrically: the share of the decades down to the tolerance that is done.
         const double decades = std::log10(std::max(1e-2 / problem_.options.tolerance, 10.0));
@@ -141,7 +149,8 @@ private:
     double damping_;
     const Progress& progress_;
     Points conormals_;
-    Anderson anderson_;
+    Anderson own_history_;
+    Anderson& anderson_;
     SurfaceState state_;
     VectorX outer_;
     double residual_ = 0.0;

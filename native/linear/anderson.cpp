@@ -43,14 +43,14 @@ Eigen::VectorXd least_squares_by_parts(const Eigen::MatrixXd& A, int columns, co
 Anderson::Anderson(Eigen::Index size, int depth) : depth_(depth), dx_(size, depth), df_(size, depth) {}
 
 Eigen::VectorXd Anderson::step(const Eigen::VectorXd& x, const Eigen::VectorXd& f) {
-    if (count_ > 0) {
-        const int slot = (count_ - 1) % depth_;
+    if (last_x_.size() > 0) {
+        const int slot = count_++ % depth_;
         dx_.col(slot) = x - last_x_;
         df_.col(slot) = f - last_f_;
     }
     last_x_ = x;
     last_f_ = f;
-    const int used = std::min(count_++, depth_);
+    const int used = std::min(count_, depth_);
     if (used == 0) return f;
     const Eigen::VectorXd gamma = least_squares_by_parts(df_, used, f);
     Eigen::VectorXd step = f;

@@ -15,14 +15,16 @@ public:
     // Moves points (3 × n or more) by that step, given the plain one (3 × n): the whole step shorter where a point
     // would go further than `longest`.
     void move(Eigen::Matrix3Xd& points, const Eigen::Matrix3Xd& plain, double longest);
-    void reset() { count_ = 0; }
+    void reset() { count_ = 0, last_x_.resize(0); }
+    // The next step is the first of an iteration of nearly the same f. The differences serve it too.
+    void begin_again() { last_x_.resize(0); }
 
 private:
     int depth_;
-    int count_ = 0;  // calls since the last reset
+    int count_ = 0;  // differences since the last reset
     Eigen::MatrixXd dx_;
     Eigen::MatrixXd df_;
-    Eigen::VectorXd last_x_;
+    Eigen::VectorXd last_x_;  // empty at the beginning
     Eigen::VectorXd last_f_;
 };
 

@@ -48,6 +48,31 @@ double dot(const double* a, const double* b, int begin, int end) {
     return Column(a + begin, end - begin).dot(Column(b + begin, end - begin));
 }
 
+using Lane = Eigen::Array<double, lanes, 1>;
+
+Eigen::Map<Lane> row_of(double* b, int row) { return Eigen::Map<Lane>(b + std::ptrdiff_t(lanes) * row); }
+
+// b_i ← b_i − Σ_k L_ik x_k over the rows i from `begin` on of `width` columns that begin at `column`.
+template <typename Stored>
+void subtract_lanes(const Stored* column, int rows, int width, int begin, double* x, double* b) {
+    if (width == block) {
+        const Stored* const c1 = column + rows;
+        const Stored* const c2 = c1 + rows;
+        const Stored* const c3 = c2 + rows;
+        const Lane x0 = row_of(x, 0);
+        const Lane x1 = row_of(x, 1);
+        const Lane x2 = row_of(x, 2);
+        const Lane x3 = row_of(x, 3);
+        for (int i = begin; i < rows; ++i) row_of(b, i) -= (column[i] * x0 + c1[i] * x1) + (c2[i] * x2 + c3[i] * x3);
+        return;
+    }
+    for (int k = 0; k < width; ++k) {
+        const Stored* const c = column + std::ptrdiff_t(k) * rows;
+        const Lane xk = row_of(x, k);
+        for (int i = begin; i < rows; ++i) row_of(b, i) -= c[i] * xk;
+    }
+}
+
 }  // namespace
 
 template <typename Stored>
@@ -75,9 +100,39 @@ void substitute_vector(const PanelOf<Stored>& panel, double* b) {
     }
 }
 
+template <typename Stored>
+void eliminate_lanes(const PanelOf<Stored>& panel, double* b) {
+    const int rows = static_cast<int>(panel.rows());
+    const int columns = static_cast<int>(panel.cols());
+    for (int j = 0; j < columns; j += block) {
+        const int width = std::min(block, columns - j);
+        for (int k = j; k < j + width; ++k) {
+            const Stored* const column = panel.data() + std::ptrdiff_t(k) * rows;
+            row_of(b, k) /= column[k];
+            for (int i = k + 1; i < j + width; ++i) row_of(b, i) -= column[i] * row_of(b, k);
+        }
+        subtract_lanes(panel.data() + std::ptrdiff_t(j) * rows, rows, width, j + width, b + lanes * j, b);
+    }
+}
+
+template <typename Stored>
+void substitute_lanes(const PanelOf<Stored>& panel, double* b) {
+    const int rows = static_cast<int>(panel.rows());
+    for (int j = static_cast<int>(panel.cols()); j-- > 0;) {
+        const Stored* const column = panel.data() + std::ptrdiff_t(j) * rows;
+        Lane sum = row_of(b, j);
+        for (int i = j + 1; i < rows; ++i) sum -= column[i] * row_of(b, i);
+        row_of(b, j) = sum / column[j];
+    }
+}
+
 template void eliminate_vector<double>(const PanelOf<double>&, double*);
 template void eliminate_vector<float>(const PanelOf<float>&, double*);
 template void substitute_vector<double>(const PanelOf<double>&, double*);
 template void substitute_vector<float>(const PanelOf<float>&, double*);
+template void eliminate_lanes<double>(const PanelOf<double>&, double*);
+template void eliminate_lanes<float>(const PanelOf<float>&, double*);
+template void substitute_lanes<double>(const PanelOf<double>&, double*);
+template void substitute_lanes<float>(const PanelOf<float>&, double*);
 
 }  // namespace fairing

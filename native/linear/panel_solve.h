@@ -1,4 +1,4 @@
-// Triangular solves of one right-hand side with a front's panel of a Cholesky factor.
+// Triangular solves of one right-hand side, or of four side by side, with a front's panel of a Cholesky factor.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,9 +19,20 @@ void eliminate_vector(const PanelOf<Stored>& panel, double* b);
 template <typename Stored>
 void substitute_vector(const PanelOf<Stored>& panel, double* b);
 
+// The same for four: b has four numbers in each row, one after the other.
+inline constexpr int lanes = 4;
+template <typename Stored>
+void eliminate_lanes(const PanelOf<Stored>& panel, double* b);
+template <typename Stored>
+void substitute_lanes(const PanelOf<Stored>& panel, double* b);
+
 extern template void eliminate_vector<double>(const PanelOf<double>&, double*);
 extern template void eliminate_vector<float>(const PanelOf<float>&, double*);
 extern template void substitute_vector<double>(const PanelOf<double>&, double*);
 extern template void substitute_vector<float>(const PanelOf<float>&, double*);
+extern template void eliminate_lanes<double>(const PanelOf<double>&, double*);
+extern template void eliminate_lanes<float>(const PanelOf<float>&, double*);
+extern template void substitute_lanes<double>(const PanelOf<double>&, double*);
+extern template void substitute_lanes<float>(const PanelOf<float>&, double*);
 
 }  // namespace fairing

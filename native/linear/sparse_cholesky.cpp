@@ -160,40 +160,37 @@ FrontReach SparseCholesky::reach(const Indices& rows) const {
     return {tree_, positions};
 }
 
-template <typename Stored>
-VectorX SparseCholesky::solve_with(const Stored* panels, const VectorX& rhs, const FrontReach& from,
-                                   const FrontReach& to) const {
-    const auto up = [&](int s, Eigen::Map<VectorX>& b) { eliminate_vector<Stored>(panel(panels, s), b.data()); };
-    const auto down = [&](int s, Eigen::Map<VectorX>& b) { substitute_vector<Stored>(panel(panels, s), b.data()); };
-    return solve_by_fronts(tree_, order_, rhs, FrontSweeps{up, down}, from, to);
+template <typename Visit>
+auto SparseCholesky::with_panels(const Visit& visit) const {
+    return kept_ == Kept::doubles ? visit(panels_.data()) : visit(singles_.data());
 }
 
 VectorX SparseCholesky::solve_vector(const VectorX& rhs, const FrontReach& from, const FrontReach& to) const {
-    if (kept_ == Kept::doubles) return solve_with(panels_.data(), rhs, from, to);
-    return solve_with(singles_.data(), rhs, from, to);
+    using Rows = Eigen::Map<VectorX>;
+    return with_panels([&](const auto* panels) {
+        const auto up = [&](int s, Rows& b) { eliminate_vector(panel(panels, s), b.data()); };
+        const auto down = [&](int s, Rows& b) { substitute_vector(panel(panels, s), b.data()); };
+        return solve_by_fronts(tree_, order_, rhs, FrontSweeps{up, down}, from, to);
+    });
 }
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& rhs) const {
-    if (rhs.cols() == 1 || kept_ == Kept::singles) {
-        Eigen::MatrixXd x(rhs.rows(), rhs.cols());
-        for (Eigen::Index k = 0; k < rhs.cols(); ++k) x.col(k) = solve_vector(rhs.col(k));
-        return x;
-    }
-    using Rows = Eigen::Map<Eigen::MatrixXd>;
-    const auto up = [this](int s, Rows& b) {
-        const auto front = panel(panels_.data(), s);
-        auto own = b.topRows(front.cols());
-        front.topRows(front.cols()).triangularView<Eigen::Lower>().solveInPlace(own);
-        b.bottomRows(b.rows() - own.rows()).noalias() -= front.bottomRows(b.rows() - own.rows()) * own;
-    };
-    const auto down = [this](int s, Rows& b) {
-        const auto front = panel(panels_.data(), s);
-        auto own = b.topRows(front.cols());
-        const auto below = b.bottomRows(b.rows() - own.rows());
-        own.noalias() -= front.bottomRows(below.rows()).transpose() * below;
-        front.topRows(front.cols()).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
-    };
-    return solve_by_fronts(tree_, order_, rhs, FrontSweeps{up, down});
+    Eigen::MatrixXd x(rhs.rows(), rhs.cols());
+    for (Eigen::Index k = 0; k < rhs.cols(); ++k) x.col(k) = solve_vector(rhs.col(k));
+    return x;
+}
+
+Points SparseCholesky::solve_points(const Points& rhs) const {
+    using Field = Eigen::Matrix<double, Eigen::Dynamic, lanes, Eigen::RowMajor>;
+    using Rows = Eigen::Map<Field>;
+    Field padded = Field::Zero(rhs.cols(), lanes);
+    padded.leftCols<3>() = rhs.transpose();
+    const Field x = with_panels([&](const auto* panels) {
+        const auto up = [&](int s, Rows& b) { eliminate_lanes(panel(panels, s), b.data()); };
+        const auto down = [&](int s, Rows& b) { substitute_lanes(panel(panels, s), b.data()); };
+        return solve_by_fronts(tree_, order_, padded, FrontSweeps{up, down});
+    });
+    return x.leftCols<3>().transpose();
 }
 
 }  // namespace fairing

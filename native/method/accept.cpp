@@ -1,6 +1,7 @@
 #include "method/accept.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "geometry/face_geometry.h"
 #include "geometry/flips.h"
@@ -17,11 +18,13 @@ namespace {
 // are none of the surface's: 1e-3 D off a sphere after 100 iterations, 2e-3 D off a cylinder after 29.
 constexpr int most_iterations = 20;
 
+// More than a line has that is as broad as the iteration is accurate.
 bool has_area(const Problem& problem, const Points& points) {
-    constexpr double least_area = 1e-9;  // D²
+    constexpr double usual_tolerance = 1e-6;  // looser ones are no reason to refuse narrow patches
+    const double least_area = 2.0 * std::min(problem.options.tolerance, usual_tolerance);  // D²
     FaceGeometry faces;
     faces.update(points, problem.patch.triangles);
-    return faces.areas.sum() > least_area;
+    return faces.areas.sum() > std::max(least_area, 1e-9);
 }
 
 // Met from the other side at most of the outline's vertices: a bulge that has turned inside out.
@@ -32,14 +35,19 @@ bool is_behind(const Problem& problem, const Solution& solution) {
     return 2 * (angles.array() > behind).count() > (angles.array() > 0.0).count();
 }
 
-// Those of triangles without fixed corners among each other: an eased outline lies beside the surface.
+// Of some triangles those without fixed corners: an eased outline lies beside the surface.
+Indices inside(const Patch& patch, Indices triangles) {
+    std::erase_if(triangles, [&](int t) { return patch.triangles.col(t).maxCoeff() >= patch.free_count; });
+    return triangles;
+}
+
+// Of the triangles inside among each other.
 Indices crossings_inside(const Patch& patch, const Points& points) {
-    Indices inside;
-    for (int t = 0; t < patch.triangle_count(); ++t) {
-        if (patch.triangles.col(t).maxCoeff() < patch.free_count) inside.push_back(t);
-    }
-    Indices crossing = crossing_triangles(patch.triangles(Eigen::all, inside), points);
-    for (int& t : crossing) t = inside[at(t)];
+    Indices all(at(patch.triangle_count()));
+    std::iota(all.begin(), all.end(), 0);
+    const Indices kept = inside(patch, std::move(all));
+    Indices crossing = crossing_triangles(patch.triangles(Eigen::all, kept), points);
+    for (int& t : crossing) t = kept[at(t)];
     return crossing;
 }
 
@@ -58,19 +66,20 @@ bool has_poor_triangles(const Patch& patch, const Points& points) {
 
 Flaw flaw_of(const Problem& problem, Solution& solution) {
     const bool folded_on_proxy = solution.termination == Termination::folded;
-    if (folded_on_proxy) return Flaw::folded;
-    if (solution.termination != Termination::converged) return Flaw::not_converged;
+    if (solution.termination != Termination::converged && !folded_on_proxy) return Flaw::not_converged;
     if (!has_area(problem, solution.points)) return Flaw::collapsed;
+    if (folded_on_proxy) return Flaw::folded;
     if (is_behind(problem, solution)) return Flaw::behind;
     // Placed vertices were compared with the surface that they lie on.
     Indices flipped = solution.polished ? flipped_by_solution(problem.patch, solution.points) : Indices{};
+    const bool eased = is_eased(solution);
+    if (eased) flipped = inside(problem.patch, std::move(flipped));
     if (flipped.size() > problem.tolerated_folds) {
         solution.bad_triangles = std::move(flipped);
         return Flaw::folded;
     }
     if (!solution.crosses) {
         if (!solution.crossings) solution.crossings = crossing_triangles(problem.patch.triangles, solution.points);
-        const bool eased = is_eased(solution);
         solution.bad_triangles = eased ? crossings_inside(problem.patch, solution.points) : *solution.crossings;
         if (!solution.bad_triangles.empty()) return Flaw::crossing;
     }
@@ -80,12 +89,12 @@ Flaw flaw_of(const Problem& problem, Solution& solution) {
 }
 
 Termination end_of(const Solution& solution) {
+    if (solution.flaw == Flaw::collapsed) return Termination::stalled;  // folded or not
     if (solution.termination != Termination::converged) return solution.termination;
     switch (solution.flaw) {
         case Flaw::folded:
         case Flaw::crossing: return Termination::folded;
-        case Flaw::behind:
-        case Flaw::collapsed: return Termination::stalled;
+        case Flaw::behind: return Termination::stalled;
         default: return Termination::converged;
     }
 }

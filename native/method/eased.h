@@ -10,6 +10,10 @@
 namespace fairing {
 
 inline constexpr const char* eased_way = "eased";
+inline constexpr const char* eased_loft_way = "eased loft";  // method/lofted
+
+// The problem with its outline without short waves.
+Problem eased(const Problem& problem);
 
 // Whether curvature varies so much along the outline that noise or folds of the surroundings must be the cause.
 bool is_jagged(const Problem& problem);
@@ -19,7 +23,7 @@ bool is_jagged(const Problem& problem);
 // that surface is not found either.
 std::optional<Solution> solve_eased(const Problem& problem, const Progress& progress);
 
-// Whether a solution came that way.
+// Whether a solution stands for another outline: it came that way, or is a loft over an eased one.
 bool is_eased(const Solution& solution);
 
 // How far the outline lies beside the eased one at most, units of D.

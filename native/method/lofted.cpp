@@ -1,9 +1,17 @@
 #include "method/lofted.h"
 
+#include <algorithm>
+#include <array>
+
 #include "base/stopwatch.h"
+#include "geometry/outline_angles.h"
+#include "geometry/spikes.h"
 #include "geometry/surface_fit.h"
 #include "method/accept.h"
+#include "method/eased.h"
+#include "placement/follow_outline.h"
 #include "problem/surface_state.h"
+#include "proxy/proxy_solver.h"
 #include "start/loft.h"
 
 namespace fairing {
@@ -12,47 +20,95 @@ namespace {
 
 constexpr double largest_growth = 2.0;  // of the area, by the bulge: beyond, it is a balloon or a horn
 
+// Roundness of a loft, and how many times less it must be bent than others to be taken: rounder ones have waists.
+struct Kind {
+    double roundness;
+    double handicap;
+};
+constexpr std::array kinds{Kind{0.6, 1.0}, Kind{1.5, 1.0}, Kind{4.0, 1.3}};
+constexpr double eased_handicap = 10.0;  // the outline as it is comes first
+
 double area_of(const Patch& patch, const Points& points) {
     FaceGeometry faces;
     faces.update(points, patch.triangles);
     return faces.areas.sum();
 }
 
-Solution solution_at(const Problem& problem, const Points& points) {
+// A share of the bulge over an outline, which may lie beside the problem's; nothing where it is a balloon.
+std::optional<Points> surface(const Problem& problem, const Problem& outline, const Fill& fill, double share) {
+    const Patch& patch = problem.patch;
+    Points points(3, patch.vertex_count());
+    points.rightCols(outline.fixed_points.cols()) = outline.fixed_points;
+    points.leftCols(patch.free_count) = fill.flat;
+    const double least_area = area_of(patch, points);
+    points.leftCols(patch.free_count) += share * fill.bulge;
+    if (area_of(patch, points) > largest_growth * least_area) return std::nullopt;
+    if (&outline != &problem) follow_outline(patch, problem.fixed_points - outline.fixed_points, points);
+    points.rightCols(problem.fixed_points.cols()) = problem.fixed_points;
+    return points;
+}
+
+struct Candidate {
+    Points points;
+    double merit;
+    bool eased;
+};
+
+std::vector<Candidate> candidates(const Problem& problem, const Progress& progress) {
+    const Problem smooth = eased(problem);
+    std::vector<Candidate> found;
+    for (const Kind& kind : kinds) {
+        const auto loft = Loft::of(problem, kind.roundness, progress);
+        if (!loft) continue;
+        for (const Problem* outline : {&problem, &smooth}) {
+            const Fill fill = loft->over(*outline);
+            const bool is_eased = outline == &smooth;
+            for (const double share : {1.0, 0.75, 0.5, 0.25, 0.0}) {
+                auto points = surface(problem, *outline, fill, share);
+                if (!points) continue;
+                const double merit =
+                    willmore_energy(problem, *points) * kind.handicap * (is_eased ? eased_handicap : 1.0);
+                found.push_back({std::move(*points), merit, is_eased});
+            }
+        }
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.merit < b.merit; });
+    return found;
+}
+
+Solution solution_at(const Problem& problem, const Candidate& candidate) {
     Solution solution;
-    solution.points = points;
+    solution.points = candidate.points;
     solution.termination = Termination::converged;
-    solution.mean_curvature = measured_surface(problem, points).curvature.mean;
-    solution.boundary_normals = one_sided_normals(problem.patch, points);
+    solution.mean_curvature = measured_surface(problem, candidate.points).curvature.mean;
+    solution.boundary_normals = one_sided_normals(problem.patch, candidate.points);
     solution.iterations = 1;
     solution.instead = Instead::loft;
+    solution.ways = {{candidate.eased ? eased_loft_way : "loft", 0.0}};
     solution.flaw = flaw_of(problem, solution);
     return solution;
 }
 
-// The free vertices of a share of the bulge; nothing where it is no answer.
-std::optional<Solution> accepted(const Problem& problem, const Fill& fill, double share) {
-    Points points(3, problem.patch.vertex_count());
-    points.rightCols(problem.fixed_points.cols()) = problem.fixed_points;
-    points.leftCols(problem.patch.free_count) = fill.flat;
-    const double least_area = area_of(problem.patch, points);
-    points.leftCols(problem.patch.free_count) += share * fill.bulge;
-    if (area_of(problem.patch, points) > largest_growth * least_area) return std::nullopt;
-    Solution solution = solution_at(problem, points);
-    if (end_of(solution) != Termination::converged) return std::nullopt;
-    return solution;
+// Hairs, where fingers end within the patch, and tips, where many vertices lie in few: finer than the outline shows.
+bool is_spiky(const Problem& problem, const Points& points) {
+    return has_spike(problem.patch, points, 0.5 * mean_outline_edge(problem));
 }
 
-// The most bulge that is accepted, the least waist first.
+// Met from the other side, where a surface without slopes runs back inside its surroundings.
+bool is_turned_in(const Problem& problem, const Solution& solution) {
+    constexpr double behind = 90.0;  // degrees
+    constexpr double most = 0.05;    // of the outline
+    const VectorX angles = boundary_angles(problem.patch, solution.boundary_normals, problem.fixed_normals);
+    return static_cast<double>((angles.array() > behind).count()) > most * static_cast<double>(angles.size());
+}
+
+// The least bent one that is accepted.
 std::optional<Solution> best_of(const Problem& problem, const Progress& progress) {
-    std::vector<Fill> fills;
-    for (const double roundness : {0.6, 1.5}) {
-        if (auto fill = loft(problem, roundness, progress)) fills.push_back(std::move(*fill));
-    }
-    for (const double share : {1.0, 0.75, 0.5, 0.25, 0.0}) {
-        for (const Fill& fill : fills) {
-            if (auto solution = accepted(problem, fill, share)) return solution;
-        }
+    for (const Candidate& candidate : candidates(problem, progress)) {
+        if (is_spiky(problem, candidate.points)) continue;
+        Solution solution = solution_at(problem, candidate);
+        if (end_of(solution) == Termination::converged && !is_turned_in(problem, solution)) return solution;
     }
     return std::nullopt;
 }
@@ -63,8 +119,9 @@ std::optional<Solution> lofted(const Problem& problem, const Solution& first, co
     const Stopwatch watch;
     auto solution = best_of(problem, progress);
     if (!solution) return std::nullopt;
+    const std::string way = solution->ways.back().name;
     solution->ways = first.ways;
-    solution->ways.push_back({"loft", watch.seconds()});
+    solution->ways.push_back({way, watch.seconds()});
     return solution;
 }
 

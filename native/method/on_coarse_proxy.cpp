@@ -41,6 +41,7 @@ public:
         const SolvedProxy proxy = solve_proxy(coarse, guess && starts_from(problem_, *guess) ? own : std::nullopt,
                                               membrane, problem_.patch.free_count, progress_.range(0.0, 0.5));
         seconds["proxy"] = watch_.lap();
+        if (polish == Polish::unwanted && !proxy.converged()) return std::nullopt;
         const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
         const Placed best = placed(proxy, target, own);
         Solution solution = placed_solution(problem_, proxy, target, best);

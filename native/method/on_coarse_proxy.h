@@ -12,7 +12,8 @@ namespace fairing {
 std::optional<Solution> solve_on_coarse_proxy(const Problem& problem, const std::optional<OwnSurface>& guess,
                                               const Progress& progress);
 
-// From nothing and without the polish: not for a surface that the problem's own mesh has no equal of.
+// From nothing and without the polish: not for a surface that the problem's own mesh has no equal of. Nothing either
+// where the proxy has no solution.
 std::optional<Solution> place_on_coarse_proxy(const Problem& problem, const Progress& progress);
 
 }  // namespace fairing

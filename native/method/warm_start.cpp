@@ -36,6 +36,7 @@ bool WarmStart::factorise(const Problem& problem, const Points& points, const Pr
     choose_operator(problem);
     work_.keeps_factor = false;  // Cancelled leaves none
     iterations_at_first_ = 0;
+    history_.reset();
     FaceGeometry faces;
     faces.update(points, patch_.triangles);
     factorised_.update(faces, patch_);
@@ -57,6 +58,7 @@ void WarmStart::remember(const Problem& problem, const Solution& solution, const
     if (!solution.polished || solution.flaw != Flaw::absent || has_poor_triangles(patch_, solution.points)) return;
     if (!work_.keeps_factor && !factorise(problem, solution.points, progress.here())) return;
     hold(problem, progress);
+    if (work_.history) history_ = std::move(work_.history);
     points_ = solution.points;
     normals_ = outline_of(problem).normals;
     ready_ = true;
@@ -100,7 +102,10 @@ Solution WarmStart::iterate_from(const Problem& problem, const Points& start, co
     Problem attempt = problem;
     attempt.options.max_iterations = std::min(most_iterations, problem.options.max_iterations);
     attempt.options.patience = patience;
-    return iterate(attempt, work_, start, progress);
+    work_.history = history_ ? std::make_unique<Anderson>(*history_) : nullptr;
+    Solution solution = iterate(attempt, work_, start, progress);
+    if (solution.termination != Termination::converged) work_.history.reset();
+    return solution;
 }
 
 std::optional<Solution> WarmStart::solve(const Problem& problem, const Progress& progress) {

@@ -20,7 +20,7 @@ public:
     void remember(const Problem& problem, const Solution& solution, const Progress& progress);
     void forget() { ready_ = false; }
     // λ of the next problem are others than those of the last one.
-    void new_weights() { work_.tangential.reset(); }
+    void new_weights() { work_.tangential.reset(), history_.reset(); }
 
     // The converged solution near the last answer. Nothing where there is no such answer, the boundary has changed too
     // much, or the iteration is not there within a few steps: then a solve from the boundary alone has to decide.
@@ -39,9 +39,10 @@ private:
 
     const Patch& patch_;
     Workspace work_;
-    bool is_laplacian_ = false;    // `work_.normal`, and the last answer: of minimal surfaces
-    Stiffness factorised_;         // what `work_.normal` holds the factor of
-    int iterations_at_first_ = 0;  // of the first solve with that factor; 0: not known yet
+    bool is_laplacian_ = false;          // `work_.normal`, and the last answer: of minimal surfaces
+    Stiffness factorised_;               // what `work_.normal` holds the factor of
+    int iterations_at_first_ = 0;        // of the first solve with that factor; 0: not known yet
+    std::unique_ptr<Anderson> history_;  // of the iterations with that factor, up to the last answer
     bool ready_ = false;
     Points points_;   // 3 × local vertices, units of D
     Points normals_;  // 3 × fixed count

@@ -51,10 +51,10 @@ bool ProxyMesh::should_flip(Edge e) const {
     const Halfedge g = mesh_.halfedge_handle(e, 1);
     const Vertex above = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h));
     const Vertex below = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(g));
-    if ((fixed(above) && fixed(below)) || !mesh_.is_flip_ok(e)) return false;
+    if (fixed(above) && fixed(below)) return false;
     const Diagonal diagonal{point(mesh_.from_vertex_handle(h)), point(mesh_.to_vertex_handle(h)), point(above),
                             point(below)};
-    return !diagonal.is_delaunay() && diagonal.flips_without_fold();
+    return !diagonal.is_delaunay() && mesh_.is_flip_ok(e) && diagonal.flips_without_fold();
 }
 
 int ProxyMesh::flip_round() {

@@ -5,8 +5,6 @@
 #include <numbers>
 
 #include "geometry/face_geometry.h"
-#include "operators/biharmonic_operator.h"
-#include "operators/laplace_operator.h"
 #include "problem/willmore.h"
 
 namespace fairing {
@@ -115,6 +113,18 @@ Points turned_into_planes(const Problem& problem, const Points& derivatives, con
     return result;
 }
 
+// How often a loop comes back to a vertex of the input: two outlines joined by an edge are one loop that passes both
+// ends of the edge twice.
+std::size_t touching(const Patch& patch, const std::vector<Indices>& loops) {
+    std::size_t count = 0;
+    for (Indices loop : loops) {
+        for (int& v : loop) v = patch.to_input[at(v)];
+        std::sort(loop.begin(), loop.end());
+        count += loop.size() - static_cast<std::size_t>(std::unique(loop.begin(), loop.end()) - loop.begin());
+    }
+    return count;
+}
+
 bool is_held_elsewhere(const Patch& patch, const std::vector<Indices>& loops) {
     std::size_t on_loops = 0;
     for (const Indices& loop : loops) on_loops += loop.size();
@@ -124,26 +134,34 @@ bool is_held_elsewhere(const Patch& patch, const std::vector<Indices>& loops) {
 
 }  // namespace
 
-std::optional<Fill> loft(const Problem& problem, double roundness, const Progress& progress) {
+std::optional<Loft> Loft::of(const Problem& problem, double roundness, const Progress& progress) {
     const Patch& patch = problem.patch;
     const std::vector<Indices> loops = patch.loops();
-    if (loops.size() < 2 || is_held_elsewhere(patch, loops)) return std::nullopt;
-    LaplaceOperator laplace(patch);
+    if (loops.size() + touching(patch, loops) < 2 || is_held_elsewhere(patch, loops)) return std::nullopt;
+    Loft loft(patch);
     const Stiffness even = uniform_stiffness(patch);
-    if (!laplace.update(even, progress)) return std::nullopt;
-    const Stiffness stiffness =
-        along_stream(patch, even, filled(patch, even, laplace, levels(problem, loops)), roundness);
-    BiharmonicOperator clamped(patch);
-    if (!laplace.update(stiffness, progress) || !clamped.update(stiffness, progress)) return std::nullopt;
+    if (!loft.laplace_->update(even, progress)) return std::nullopt;
+    const Points across = filled(patch, even, *loft.laplace_, levels(problem, loops));
+    loft.stiffness_ = along_stream(patch, even, across, roundness);
+    if (!loft.laplace_->update(loft.stiffness_, progress) || !loft.clamped_->update(loft.stiffness_, progress))
+        return std::nullopt;
+    return loft;
+}
+
+Loft::Loft(const Patch& patch)
+    : laplace_(std::make_unique<LaplaceOperator>(patch)), clamped_(std::make_unique<BiharmonicOperator>(patch)) {}
+
+Fill Loft::over(const Problem& problem) const {
+    const Patch& patch = problem.patch;
     Points lines = Points::Zero(3, patch.vertex_count());
     lines.rightCols(problem.fixed_points.cols()) = problem.fixed_points;
-    lines = filled(patch, stiffness, laplace, std::move(lines));
+    lines = filled(patch, stiffness_, *laplace_, std::move(lines));
     const Points derivatives =
-        0.5 * stiffness.apply(patch, lines, patch.vertex_count()).rightCols(problem.fixed_points.cols());
-    const Points turned = turned_into_planes(problem, derivatives, trust_in_slopes(problem, loops));
+        0.5 * stiffness_.apply(patch, lines, patch.vertex_count()).rightCols(problem.fixed_points.cols());
+    const Points turned = turned_into_planes(problem, derivatives, trust_in_slopes(problem, patch.loops()));
     const Points nowhere = Points::Zero(3, turned.cols());
     return Fill{lines.leftCols(patch.free_count),
-                clamped_displacement(patch, stiffness, nowhere, turned - derivatives, clamped)};
+                clamped_displacement(patch, stiffness_, nowhere, turned - derivatives, *clamped_)};
 }
 
 }  // namespace fairing

@@ -37,22 +37,30 @@ SymmetricStep::SymmetricStep(const Patch& patch, const InnerWeights& weights, co
 
 void SymmetricStep::hold(const Points& fixed_points) { pull_ = (coupling_ * fixed_points.transpose()).transpose(); }
 
-Points SymmetricStep::harmonic_positions() const {
-    return factor_.solve(Eigen::MatrixXd(pull_.transpose())).transpose();
-}
+Points SymmetricStep::harmonic_positions() const { return factor_.solve_points(pull_); }
 
 double SymmetricStep::merit(const Points& points, const Points& /*normals*/) const {
     const auto free = points.leftCols(free_count_);
     return 0.5 * inner_product<Points>(free, gradient(points) - pull_);
 }
 
-Points SymmetricStep::gradient(const Points& points) const {
-    return (laplacian_ * points.leftCols(free_count_).transpose()).transpose() - pull_;
+Points SymmetricStep::gradient(const Points& points) const { return applied(points) - pull_; }
+
+// Row i of the symmetric matrix is its column i.
+Points SymmetricStep::applied(const Points& points) const {
+    Points product(3, free_count_);
+    for_ranges(free_count_, coarse_grain, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i) {
+            Vector3 sum = Vector3::Zero();
+            for (SparseMatrix::InnerIterator entry(laplacian_, i); entry; ++entry)
+                sum += entry.value() * points.col(entry.row());
+            product.col(i) = sum;
+        }
+    });
+    return product;
 }
 
-Points SymmetricStep::inverse(const Points& field) const {
-    return factor_.solve(Eigen::MatrixXd(field.transpose())).transpose();
-}
+Points SymmetricStep::inverse(const Points& field) const { return factor_.solve_points(field); }
 
 Points SymmetricStep::precondition(const Points& field, const Points& normals) const {
     Points result = inverse(field);
@@ -65,7 +73,7 @@ Points SymmetricStep::displacement(const Points& points, const Points& normals, 
     Points r = -gradient(points);
     project_across(r, normals);
     const auto apply = [&](const Points& p, Points& product) {
-        product = (laplacian_ * p.transpose()).transpose();
+        product = applied(p);
         project_across(product, normals);
     };
     const auto approximate_inverse = [&](const Points& field, Points& z) { z = precondition(field, normals); };

@@ -23,6 +23,7 @@ public:
     [[nodiscard]] int free_count() const { return free_count_; }
 
 private:
+    [[nodiscard]] Points applied(const Points& points) const;  // L
     [[nodiscard]] Points gradient(const Points& points) const;
     [[nodiscard]] Points precondition(const Points& field, const Points& normals) const;
 

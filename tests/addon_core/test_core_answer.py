@@ -16,6 +16,7 @@ from core.options import FairOptions
 from core.outcome import Fairing, outcome
 from core.region import MeshArrays
 from core.solve import Kept, Solved, pose, solve
+from core.swelling import Disc
 from core.verdict import AS_SELECTED, GOOD, LOOK
 from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh
 
@@ -217,3 +218,18 @@ def test_a_hard_edge_that_a_smoothed_outline_rounds_is_told() -> None:
     assert given.grade == GOOD
     assert (mended.grade, AS_SELECTED in mended.remedies) == (LOOK, True)
     assert (np.sort(mesh.positions[mended.spots], axis=1)[:, 1:] == 1.0).all()  # on the cube's edges
+
+
+def test_knobs_are_looked_for_in_the_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    mesh = spoilt_sphere()
+
+    def most_lifted(pieces: tuple[Disc, ...], points: Floats, before: float) -> Ints:
+        assert before > 0.1  # the spoilt one
+        np.testing.assert_allclose(np.linalg.norm(points, axis=1), 1.0, atol=0.02)  # fair already
+        return pieces[0].inner[:1]
+
+    monkeypatch.setattr("core.outcome.swellings", most_lifted)
+    verdict = fair(mesh).verdict
+    assert verdict.grade == LOOK
+    assert "knob" in verdict.reason
+    assert np.isin(verdict.spots, pose(mesh, EYE, FairOptions())[0].patch.vertices).all()

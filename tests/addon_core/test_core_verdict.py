@@ -65,6 +65,15 @@ def test_a_hard_edge_that_was_rounded_deserves_a_look(fine: Evidence) -> None:
     assert verdict.reason == "Outline: Smooth has rounded a hard edge outside at 2 vertices: choose As Selected"
 
 
+def test_a_knob_deserves_a_look(fine: Evidence) -> None:
+    knob = replace(fine, swollen=ints(7, 4))
+    verdict = judged(knob)
+    assert (verdict.grade, verdict.spots.tolist(), verdict.remedies) == (LOOK, [7, 4], (GROW, SMOOTH_OUTLINE))
+    assert verdict.reason == "The surface swells to a knob around 2 vertices: another outline may avoid it"
+    for meant in ({"detail": 0.5}, {"equation": "CONSTANT", "bulge": 1.0}, {"factor": 0.5}):
+        assert judged(knob, **meant).grade == GOOD, meant
+
+
 @pytest.mark.parametrize("termination", ["stalled", "iteration_limit"])
 def test_no_answer_is_not_usable(fine: Evidence, termination: Any) -> None:
     lost = replace(fine, result=replace(fine.result, converged=False, termination=termination), failures=("Why",))

@@ -89,6 +89,18 @@ TEST_CASE("the factor solves random systems, connected or not, and keeps its ord
     }
 }
 
+TEST_CASE("points are solved for side by side as they are one coordinate after the other") {
+    for (const Kept kept : {Kept::doubles, Kept::singles}) {
+        for (const int n : {1, 3, 700}) {
+            SparseCholesky factor(Points(3, 0), kept);
+            REQUIRE(factor.factorise(random_matrix(n, 1, 9), "test", {}));
+            const Points rhs = Points::Random(3, n);
+            const Points apart = factor.solve(rhs.transpose()).transpose();
+            CHECK((factor.solve_points(rhs) - apart).norm() < 1e-12 * apart.norm());
+        }
+    }
+}
+
 TEST_CASE("a factor in single precision is right to single precision, and refuses what the other one does") {
     for (const int blocks : {1, 3}) {
         const SparseMatrix lower = random_matrix(600, blocks, 5);
@@ -188,6 +200,22 @@ TEST_CASE("Anderson acceleration ends a linear iteration within its dimension") 
     Anderson anderson(5, 6);
     for (int k = 0; k < 7; ++k) x += anderson.step(x, b - diagonal.cwiseProduct(x));
     CHECK((diagonal.cwiseProduct(x) - b).norm() < 1e-8);
+}
+
+TEST_CASE("differences of one iteration serve the next one of the same matrix") {
+    const VectorX diagonal = VectorX::LinSpaced(5, 0.01, 1.99);
+    const VectorX b = VectorX::Ones(5);
+    const VectorX other = VectorX::LinSpaced(5, -3.0, 2.0);
+    const auto left_after_one_step = [&](const auto& in_between) {
+        VectorX x = VectorX::Zero(5);
+        Anderson anderson(5, 6);
+        for (int k = 0; k < 6; ++k) x += anderson.step(x, b - diagonal.cwiseProduct(x));
+        in_between(anderson);
+        x += anderson.step(x, other - diagonal.cwiseProduct(x));
+        return (diagonal.cwiseProduct(x) - other).norm();
+    };
+    CHECK(left_after_one_step([](Anderson& anderson) { anderson.begin_again(); }) < 1e-8);
+    CHECK(left_after_one_step([](Anderson& anderson) { anderson.reset(); }) > 0.1);
 }
 
 TEST_CASE("an accelerated move is the step, shortened as a whole where a point would go too far") {

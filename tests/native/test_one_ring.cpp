@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "geometry/mean_curvature.h"
+#include "geometry/normal_equations.h"
 #include "geometry/vertex_normal.h"
 
 using namespace fairing;
@@ -109,6 +110,22 @@ TEST_CASE("in a narrow corner H falls where the neighbour between the sides fall
         CHECK(response(wedge, true) > 0.0);
         CHECK((response(wedge, false) > 0.0) == (degrees > 90.0));
     }
+}
+
+TEST_CASE("normal equations have the weighted least squares' solution") {
+    const Eigen::Matrix<double, 5, Eigen::Dynamic> rows = Eigen::Matrix<double, 5, Eigen::Dynamic>::Random(5, 12);
+    const VectorX values = VectorX::Random(12);
+    const VectorX weights = VectorX::LinSpaced(12, 0.1, 2.0);
+    NormalEquations<5> equations;
+    for (int k = 0; k < 12; ++k) equations.add(rows.col(k), values[k], weights[k]);
+    CHECK(equations.trace() == doctest::Approx((rows.colwise().squaredNorm() * weights).value()));
+    equations.add_to_diagonal(0.25);
+    equations.add_to_diagonal(3, 0.5);
+    Eigen::MatrixXd A = rows * weights.asDiagonal() * rows.transpose();
+    A.diagonal().array() += 0.25;
+    A(3, 3) += 0.5;
+    const VectorX rhs = rows * weights.cwiseProduct(values);
+    CHECK((A * equations.solve() - rhs).norm() < 1e-12 * rhs.norm());
 }
 
 TEST_CASE("the curvature fit is finite whatever it is given") {

@@ -118,9 +118,9 @@ def fills_a_hole() -> Story:
     yield 0.7
     screenshot("fill_before")
     run_operator("mesh.fair_fill")
-    yield 1.5
+    yield from wait_until(lambda: spoilt_scenes.face_count() > faces, 20.0)  # in the background on a busy machine
+    yield 1.0
     screenshot("fill_after")
-    assert spoilt_scenes.face_count() > faces
     yield from open_redo_panel()
     screenshot("fill_redo")
     yield from _undo()

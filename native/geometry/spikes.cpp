@@ -1,0 +1,80 @@
+#include "geometry/spikes.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+namespace fairing {
+
+namespace {
+
+constexpr double least_turn = 2.0 * std::numbers::pi * (1.0 - 1.0 / std::numbers::sqrt2);
+
+double angle_at(const Vector3& corner, const Vector3& a, const Vector3& b) {
+    return std::atan2((a - corner).cross(b - corner).norm(), (a - corner).dot(b - corner));
+}
+
+// 2π minus the angles around each free vertex; zero at the others.
+VectorX angle_defects(const Patch& patch, const Points& points) {
+    VectorX defects = VectorX::Zero(patch.vertex_count());
+    defects.head(patch.free_count).setConstant(2.0 * std::numbers::pi);
+    for (const auto corners : patch.triangles.colwise()) {
+        for (int k = 0; k < 3; ++k) {
+            const int v = corners[k];
+            if (!patch.is_free(v)) continue;
+            defects[v] -= angle_at(points.col(v), points.col(corners[(k + 1) % 3]), points.col(corners[(k + 2) % 3]));
+        }
+    }
+    return defects;
+}
+
+// Of the vertices that lie within the radius of one of them and are connected with it there.
+class Neighbourhood {
+public:
+    Neighbourhood(const Patch& patch, const Points& points, double radius)
+        : patch_(patch), points_(points), radius_(radius), seen_at_(at(patch.vertex_count()), none) {}
+
+    const Indices& around(int centre) {
+        members_.assign(1, centre);
+        seen_at_[at(centre)] = centre;
+        for (std::size_t k = 0; k < members_.size(); ++k) {
+            for (const int v : patch_.ring(members_[k]).vertices) {
+                if (seen_at_[at(v)] == centre || away(v, centre) >= radius_) continue;
+                seen_at_[at(v)] = centre;
+                members_.push_back(v);
+            }
+        }
+        return members_;
+    }
+
+    [[nodiscard]] double away(int v, int centre) const { return (points_.col(v) - points_.col(centre)).norm(); }
+
+private:
+    const Patch& patch_;
+    const Points& points_;
+    double radius_;
+    Indices seen_at_;  // the last centre whose neighbourhood each vertex was in
+    Indices members_;
+};
+
+}  // namespace
+
+bool has_spike(const Patch& patch, const Points& points, double radius) {
+    constexpr double spacing = 0.25;  // of the radius, between the vertices looked around: where many lie in one place
+    const VectorX defects = angle_defects(patch, points);
+    Neighbourhood neighbourhood(patch, points, radius);
+    std::vector<char> done(at(patch.vertex_count()), 0);
+    for (int v = 0; v < patch.free_count; ++v) {
+        if (done[at(v)]) continue;
+        double turn = 0.0;
+        for (const int u : neighbourhood.around(v)) {
+            turn += defects[u];
+            if (neighbourhood.away(u, v) < spacing * radius) done[at(u)] = 1;
+        }
+        if (turn > least_turn) return true;
+    }
+    return false;
+}
+
+}  // namespace fairing

@@ -1,0 +1,110 @@
+"""Knobs are told from what a surface must do: by Gauss and Bonnet a round bump of slope θ turns by 2π (1 − cos θ)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core.arrays import Floats
+from core.region import Patch
+from core.swelling import CALMER, LEAST, discs, swellings, waviness
+
+RINGS, COLUMNS = 40, 48
+
+
+def disc() -> Patch:
+    """Rings of vertices around vertex 0, which is the middle."""
+    rings = 1 + np.arange(RINGS * COLUMNS).reshape(RINGS, COLUMNS)
+    ahead = np.roll(rings, -1, axis=1)
+    middle = np.stack([np.zeros(COLUMNS, dtype=np.int64), rings[0], ahead[0]], axis=1)
+    inside, outside, beside, beyond = (part.ravel() for part in (rings[:-1], rings[1:], ahead[:-1], ahead[1:]))
+    bands = [np.stack([inside, outside, beyond], axis=1), np.stack([inside, beyond, beside], axis=1)]
+    triangles = np.concatenate([middle, *bands])
+    count = 1 + rings.size
+    rim = rings[-1]
+    free = np.setdiff1d(np.arange(count), rim)
+    return Patch(np.arange(count), triangles, np.arange(len(triangles)), free, rim, rim, None)
+
+
+def turned(radii: Floats, heights: Floats) -> Floats:
+    """The disc's vertices on a surface of revolution: a profile of RINGS + 1 points, the first on the axis."""
+    around = 2.0 * np.pi * np.arange(COLUMNS) / COLUMNS
+    x, y = np.outer(radii[1:], np.cos(around)), np.outer(radii[1:], np.sin(around))
+    z = np.repeat(heights[1:], COLUMNS)
+    return np.concatenate([[[0.0, 0.0, heights[0]]], np.stack([x.ravel(), y.ravel(), z], axis=1)])
+
+
+def bump(degrees: float) -> Floats:
+    """A bump on a plane that is steepest, by so much, half-way down."""
+    radii = np.linspace(0.0, 1.0, RINGS + 1)
+    return turned(radii, np.tan(np.radians(degrees)) / np.pi * (1.0 + np.cos(np.pi * radii)))
+
+
+def test_a_bump_counts_from_a_quarter_of_a_turn_on() -> None:
+    assert LEAST == 0.25
+    limit = np.degrees(np.arccos(1.0 - LEAST))
+    assert not len(swellings(discs(disc()), bump(limit - 3.0)))
+    found = swellings(discs(disc()), bump(limit + 3.0))
+    assert 0 in found
+    assert np.linalg.norm(bump(limit)[found, :2], axis=1).max() < 0.5  # the ball, not the neck
+    assert not len(swellings(discs(disc()), bump(0.0)))
+
+
+def test_a_round_end_is_no_knob_and_a_ball_on_a_neck_is_one() -> None:
+    angles = np.linspace(0.0, 0.5 * np.pi, RINGS + 1)
+    half_ball = turned(np.sin(angles), np.cos(angles))
+    assert not len(swellings(discs(disc()), half_ball))
+    half = RINGS // 2
+    angles = np.linspace(0.0, 2.5, half + 1)
+    radii = np.concatenate([np.sin(angles), np.linspace(np.sin(2.5), 2.0, RINGS - half + 1)[1:]])
+    ball = turned(radii, np.concatenate([np.cos(angles), np.full(RINGS - half, np.cos(2.5))]))
+    found = swellings(discs(disc()), ball)
+    assert len(found)
+    assert ball[found, 2].min() > np.cos(2.5)  # on the ball alone
+
+
+def test_what_became_calmer_is_none() -> None:
+    old = waviness(discs(disc()), bump(75.0))
+    assert old == pytest.approx(1.0 - np.cos(np.radians(75.0)), abs=0.02)
+    limit = np.degrees(np.arccos(1.0 - CALMER * old))
+    assert not len(swellings(discs(disc()), bump(limit - 3.0), old))
+    assert len(swellings(discs(disc()), bump(limit + 3.0), old))
+
+
+def test_size_and_place_do_not_matter() -> None:
+    found, again = (swellings(discs(disc()), points) for points in (bump(60.0), 1e-3 * bump(60.0) + 7.0))
+    assert abs(len(found) - len(again)) <= 1  # vertices of a ring are equal but for rounding
+    assert 0 in found
+    assert 0 in again
+
+
+def test_what_lifts_a_pin_is_meant() -> None:
+    patch = disc()
+    pinned = replace(patch, free=patch.free[1:], fixed=np.append(patch.fixed, 0))
+    assert not len(swellings(discs(pinned), bump(60.0)))
+
+
+@pytest.mark.parametrize(("degrees", "count"), [(37.0, 0), (60.0, 2)])
+def test_pieces_count_each_on_its_own(degrees: float, count: int) -> None:
+    """Two of .2 turns are none of .4."""
+    one, points = disc(), bump(degrees)
+    more = len(points)
+    both = Patch(
+        *(np.concatenate([part, part + shift]) for part, shift in (
+            (one.vertices, more), (one.triangles, more), (one.faces, len(one.faces)),
+            (one.free, more), (one.fixed, more), (one.outline, more),
+        )), None,
+    )  # fmt: skip
+    found = swellings(discs(both), np.concatenate([points, points + 3.0]))
+    assert np.count_nonzero(np.isin(found, [0, more])) == count
+
+
+def test_what_is_no_disc_is_left_alone() -> None:
+    """A ring turns as its two outlines ask it to."""
+    patch = disc()
+    triangles = patch.triangles[COLUMNS:]
+    rims = np.append(patch.outline, 1 + np.arange(COLUMNS))
+    ring = replace(patch, triangles=triangles, faces=np.arange(len(triangles)), outline=rims, fixed=np.append(rims, 0))
+    assert not len(swellings(discs(ring), bump(75.0)))
