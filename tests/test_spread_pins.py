@@ -187,7 +187,7 @@ def test_pins_far_from_their_surface_are_led_there() -> None:
 
 def test_a_descent_that_leads_nowhere_is_not_followed() -> None:
     """Pins that steps do not reach: a coarse mesh tells that least variation ends nowhere either."""
-    patch = shapes.plane(1000)
+    patch = shapes.plane(650)
     pins = near(patch, [(-0.04, 0.0), (0.04, 0.0)])
     result, _ = lifted(patch, pins, [1.0, -1.0])
     assert not result.converged
@@ -242,8 +242,8 @@ def test_pins_that_are_too_much_say_so() -> None:
     patch = shapes.plane(600)
     pins = near(patch, [(-0.04, 0.0), (0.04, 0.0)])
     result, _ = lifted(patch, pins, [1.0, -1.0], otherwise="stop")
-    told = next(told for told in result.warnings if told.code == "PINS_NOT_SPREAD")
-    assert set(told.elements) == set(pins)
+    named = [set(told.elements) for told in result.warnings if told.code == "PINS_NOT_SPREAD"]
+    assert named == [set(pins), set(pins)]  # tips of needles, and in points
 
 
 def test_a_solver_spreads_pins_while_they_move() -> None:
