@@ -16,7 +16,7 @@ from .quality import Join, Quality
 from .region import MeshArrays, Patch, to_local
 from .rounded import rounded_edges
 from .solve import Solved
-from .swelling import swellings, waviness
+from .swelling import discs, swellings, waviness
 from .symmetry import mirror_map, symmetrised, with_band
 from .verdict import GOOD, Evidence, Verdict, judge
 
@@ -56,7 +56,7 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     clear = as_solved and not mesh.mirror_x and _is_clear(patch, result)
     quality_before, quality_after = quality.compare(patch, (before[:own], after[:own]), clear)
     join = quality.join(problem, after)
-    odd = _rounded(problem, after, moving, options), swellings(patch, after[:own], waviness(patch, before[:own]))
+    odd = _rounded(problem, after, moving, options), _swollen(patch, before, after)
     verdict = judge(Evidence(problem, result, solved.failures, quality_before, quality_after, join, *odd), options)
     order = np.argsort(problem.vertices[moving])
     return Fairing(
@@ -72,6 +72,13 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
         verdict=verdict,
         free_count=len(patch.free),
     )
+
+
+def _swollen(patch: Patch, before: Floats, after: Floats) -> Ints:
+    """Return the mesh vertices at the tops of knobs that the old surface had less of."""
+    pieces, own = discs(patch), len(patch.vertices)
+    vertices: Ints = patch.vertices[swellings(pieces, after[:own], waviness(pieces, before[:own]))]
+    return vertices
 
 
 def _rounded(problem: Problem, after: Floats, moving: Ints, options: FairOptions) -> Ints:

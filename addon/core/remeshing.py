@@ -19,7 +19,7 @@ from .options import FairOptions
 from .outcome import Fairing
 from .region import MeshArrays, Patch, to_local
 from .solve import pose, told_by
-from .swelling import swellings, waviness
+from .swelling import discs, swellings, waviness
 from .verdict import GOOD, Evidence, judge
 from .words import in_mesh_words
 
@@ -76,7 +76,8 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
     own = replace(after, points=np.concatenate([points, after.points[len(points) :]]))
     join = quality.join(own, own.points)
     told, failures, hints = told_by(result, _origin(problem, result))
-    swollen = swellings(after.patch, points, waviness(problem.patch, problem.own_points))
+    was = waviness(discs(problem.patch), problem.own_points)
+    swollen = after.patch.vertices[swellings(discs(after.patch), points, was)]
     verdict = judge(Evidence(after, result, failures, *measured, join, swollen=swollen), options)
     local = to_local(points, matrix)
     stay = len(part.stay)

@@ -6,7 +6,7 @@ that does no more than it must has one sign of it nearly everywhere; a knob on a
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -19,31 +19,44 @@ LEAST = 0.25  # of 2π: by how much a knob bends like a ball, and its neck like 
 CALMER = 0.8  # of what the old surface had of it: a surface with less is an improvement, whatever it is
 
 
-def swellings(patch: Patch, points: Floats, before: float = 0.0) -> Ints:
-    """Return the mesh vertices at the tops of knobs, for each piece of the patch that is a disc without pins.
+@dataclass(frozen=True)
+class Disc:
+    """A piece of a patch with one outline and without pins."""
+
+    triangles: Ints  # (m, 3) patch indices
+    inner: Ints  # patch indices of the vertices off its border, ascending
+
+
+def discs(patch: Patch) -> tuple[Disc, ...]:
+    """Return the pieces of the patch that knobs are looked for in."""
+    pieces = fairing.components(patch.triangles, fixed=patch.fixed)
+    found = (_disc(patch.triangles[pieces == piece]) for piece in range(int(pieces.max(initial=-1)) + 1))
+    return tuple(disc for disc in found if disc is not None and not np.isin(disc.inner, patch.fixed).any())
+
+
+def _disc(triangles: Ints) -> Disc | None:
+    """Return connected triangles that have the Euler characteristic of a disc."""
+    edges, uses = _sides(triangles)
+    vertices = np.unique(triangles)
+    if len(vertices) - len(edges) + len(triangles) != 1:
+        return None
+    return Disc(triangles, np.setdiff1d(vertices, edges[uses == 1]))
+
+
+def swellings(pieces: tuple[Disc, ...], points: Floats, before: float = 0.0) -> Ints:
+    """Return the vertices at the tops of knobs, as patch indices.
 
     points: (p, 3) of the patch; before: what `waviness` was. On each knob they are the most bent ones, which make up
     half of its turn.
     """
     limit = max(LEAST, CALMER * before)
-    tops = [_tops(inner, turns) for inner, turns in _pieces(patch, points) if _both_ways(turns) > limit]
-    found: Ints = patch.vertices[np.concatenate([nothing(), *tops])]
-    return found
+    turns = [(disc.inner, _turns(points, disc.triangles)[disc.inner]) for disc in pieces]
+    return np.concatenate([nothing(), *(_tops(inner, bends) for inner, bends in turns if _both_ways(bends) > limit)])
 
 
-def waviness(patch: Patch, points: Floats) -> float:
-    """Return by how much, of 2π, the pieces that are discs bend both like a ball and like a saddle, at most."""
-    return max((_both_ways(turns) for _, turns in _pieces(patch, points)), default=0.0)
-
-
-def _pieces(patch: Patch, points: Floats) -> Iterator[tuple[Ints, Floats]]:
-    """Yield the inner vertices of each piece that is a disc without pins, and the turns that they miss."""
-    pieces = fairing.components(patch.triangles, fixed=patch.fixed)
-    for piece in range(int(pieces.max(initial=-1)) + 1):
-        triangles = patch.triangles[pieces == piece]
-        inner = _inner(triangles)
-        if _is_disc(triangles) and not np.isin(inner, patch.fixed).any():
-            yield inner, _turns(points, triangles)[inner]
+def waviness(pieces: tuple[Disc, ...], points: Floats) -> float:
+    """Return by how much, of 2π, the pieces bend both like a ball and like a saddle, at most."""
+    return max((_both_ways(_turns(points, disc.triangles)[disc.inner]) for disc in pieces), default=0.0)
 
 
 def _both_ways(turns: Floats) -> float:
@@ -76,15 +89,3 @@ def _sides(triangles: Ints) -> tuple[Ints, Ints]:
     count = int(triangles.max()) + 1
     numbers, uses = np.unique(sides[:, 0].astype(np.int64) * count + sides[:, 1], return_counts=True)
     return np.stack(np.divmod(numbers, count), axis=1), uses
-
-
-def _inner(triangles: Ints) -> Ints:
-    """Return the vertices off the border of the triangles, ascending."""
-    edges, uses = _sides(triangles)
-    inner: Ints = np.setdiff1d(triangles, edges[uses == 1])
-    return inner
-
-
-def _is_disc(triangles: Ints) -> bool:
-    """Tell whether connected triangles have the Euler characteristic of a disc."""
-    return len(np.unique(triangles)) - len(_sides(triangles)[0]) + len(triangles) == 1

@@ -14,8 +14,9 @@ from core.engine import RepeatedSolve
 from core.memory import Memory
 from core.options import FairOptions
 from core.outcome import Fairing, outcome
-from core.region import MeshArrays, Patch
+from core.region import MeshArrays
 from core.solve import Kept, Solved, pose, solve
+from core.swelling import Disc
 from core.verdict import AS_SELECTED, GOOD, LOOK
 from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh
 
@@ -222,12 +223,13 @@ def test_a_hard_edge_that_a_smoothed_outline_rounds_is_told() -> None:
 def test_knobs_are_looked_for_in_the_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     mesh = spoilt_sphere()
 
-    def most_lifted(patch: Patch, points: Floats, before: float) -> Ints:
+    def most_lifted(pieces: tuple[Disc, ...], points: Floats, before: float) -> Ints:
         assert before > 0.1  # the spoilt one
         np.testing.assert_allclose(np.linalg.norm(points, axis=1), 1.0, atol=0.02)  # fair already
-        return patch.vertices[:1]
+        return pieces[0].inner[:1]
 
     monkeypatch.setattr("core.outcome.swellings", most_lifted)
     verdict = fair(mesh).verdict
     assert verdict.grade == LOOK
     assert "knob" in verdict.reason
+    assert np.isin(verdict.spots, pose(mesh, EYE, FairOptions())[0].patch.vertices).all()

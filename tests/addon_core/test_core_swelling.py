@@ -9,13 +9,13 @@ import pytest
 
 from core.arrays import Floats
 from core.region import Patch
-from core.swelling import CALMER, LEAST, swellings, waviness
+from core.swelling import CALMER, LEAST, discs, swellings, waviness
 
 RINGS, COLUMNS = 40, 48
 
 
 def disc() -> Patch:
-    """Rings of vertices around vertex 0, which is the middle; mesh numbers are 100 more."""
+    """Rings of vertices around vertex 0, which is the middle."""
     rings = 1 + np.arange(RINGS * COLUMNS).reshape(RINGS, COLUMNS)
     ahead = np.roll(rings, -1, axis=1)
     middle = np.stack([np.zeros(COLUMNS, dtype=np.int64), rings[0], ahead[0]], axis=1)
@@ -25,7 +25,7 @@ def disc() -> Patch:
     count = 1 + rings.size
     rim = rings[-1]
     free = np.setdiff1d(np.arange(count), rim)
-    return Patch(100 + np.arange(count), triangles, np.arange(len(triangles)), free, rim, rim, None)
+    return Patch(np.arange(count), triangles, np.arange(len(triangles)), free, rim, rim, None)
 
 
 def turned(radii: Floats, heights: Floats) -> Floats:
@@ -45,45 +45,45 @@ def bump(degrees: float) -> Floats:
 def test_a_bump_counts_from_a_quarter_of_a_turn_on() -> None:
     assert LEAST == 0.25
     limit = np.degrees(np.arccos(1.0 - LEAST))
-    assert not len(swellings(disc(), bump(limit - 3.0)))
-    found = swellings(disc(), bump(limit + 3.0)) - 100
+    assert not len(swellings(discs(disc()), bump(limit - 3.0)))
+    found = swellings(discs(disc()), bump(limit + 3.0))
     assert 0 in found
     assert np.linalg.norm(bump(limit)[found, :2], axis=1).max() < 0.5  # the ball, not the neck
-    assert not len(swellings(disc(), bump(0.0)))
+    assert not len(swellings(discs(disc()), bump(0.0)))
 
 
 def test_a_round_end_is_no_knob_and_a_ball_on_a_neck_is_one() -> None:
     angles = np.linspace(0.0, 0.5 * np.pi, RINGS + 1)
     half_ball = turned(np.sin(angles), np.cos(angles))
-    assert not len(swellings(disc(), half_ball))
+    assert not len(swellings(discs(disc()), half_ball))
     half = RINGS // 2
     angles = np.linspace(0.0, 2.5, half + 1)
     radii = np.concatenate([np.sin(angles), np.linspace(np.sin(2.5), 2.0, RINGS - half + 1)[1:]])
     ball = turned(radii, np.concatenate([np.cos(angles), np.full(RINGS - half, np.cos(2.5))]))
-    found = swellings(disc(), ball) - 100
+    found = swellings(discs(disc()), ball)
     assert len(found)
     assert ball[found, 2].min() > np.cos(2.5)  # on the ball alone
 
 
 def test_what_became_calmer_is_none() -> None:
-    old = waviness(disc(), bump(75.0))
+    old = waviness(discs(disc()), bump(75.0))
     assert old == pytest.approx(1.0 - np.cos(np.radians(75.0)), abs=0.02)
     limit = np.degrees(np.arccos(1.0 - CALMER * old))
-    assert not len(swellings(disc(), bump(limit - 3.0), old))
-    assert len(swellings(disc(), bump(limit + 3.0), old))
+    assert not len(swellings(discs(disc()), bump(limit - 3.0), old))
+    assert len(swellings(discs(disc()), bump(limit + 3.0), old))
 
 
 def test_size_and_place_do_not_matter() -> None:
-    found, again = (swellings(disc(), points) for points in (bump(60.0), 1e-3 * bump(60.0) + 7.0))
+    found, again = (swellings(discs(disc()), points) for points in (bump(60.0), 1e-3 * bump(60.0) + 7.0))
     assert abs(len(found) - len(again)) <= 1  # vertices of a ring are equal but for rounding
-    assert 100 in found
-    assert 100 in again
+    assert 0 in found
+    assert 0 in again
 
 
 def test_what_lifts_a_pin_is_meant() -> None:
     patch = disc()
     pinned = replace(patch, free=patch.free[1:], fixed=np.append(patch.fixed, 0))
-    assert not len(swellings(pinned, bump(60.0)))
+    assert not len(swellings(discs(pinned), bump(60.0)))
 
 
 @pytest.mark.parametrize(("degrees", "count"), [(37.0, 0), (60.0, 2)])
@@ -97,8 +97,8 @@ def test_pieces_count_each_on_its_own(degrees: float, count: int) -> None:
             (one.free, more), (one.fixed, more), (one.outline, more),
         )), None,
     )  # fmt: skip
-    found = swellings(both, np.concatenate([points, points + 3.0]))
-    assert np.count_nonzero(np.isin(found, [100, 100 + more])) == count
+    found = swellings(discs(both), np.concatenate([points, points + 3.0]))
+    assert np.count_nonzero(np.isin(found, [0, more])) == count
 
 
 def test_what_is_no_disc_is_left_alone() -> None:
@@ -107,4 +107,4 @@ def test_what_is_no_disc_is_left_alone() -> None:
     triangles = patch.triangles[COLUMNS:]
     rims = np.append(patch.outline, 1 + np.arange(COLUMNS))
     ring = replace(patch, triangles=triangles, faces=np.arange(len(triangles)), outline=rims, fixed=np.append(rims, 0))
-    assert not len(swellings(ring, bump(75.0)))
+    assert not len(swellings(discs(ring), bump(75.0)))
