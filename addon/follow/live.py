@@ -33,7 +33,7 @@ from .session import Session, check_key, fits, matrix_of, read, session_of
 
 PATIENCE = 0.15  # seconds for an answer in the middle of changes: with reading and writing a step stays below 0.3
 LEISURE = 3.0  # seconds of the processor for each of the three ways to an answer at their end: other work is no reason
-REST = 0.5  # and for the first way alone where the mouse rests, but has not let go
+REST = 0.2  # and for the first way alone where the mouse rests, but has not let go
 MOST_SKIPPED = 15  # changes in a row that are carried along without asking for an answer
 PAUSE = 0.3  # seconds without a change that count as their end
 STAND_IN = "No fair surface leads here: Even Curvature stands in for it"
