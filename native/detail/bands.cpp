@@ -57,10 +57,14 @@ std::optional<Bands> Bands::of(const Points& points, const Triangles& triangles,
     faces.update(points, triangles);
     Bands bands;
     bands.mass_ = masses(faces, triangles, points.cols());
+    const SparseMatrix unit = screened_laplacian(points, triangles, 1.0).triangularView<Eigen::Lower>();
+    SparseCholesky low(points);
     for (const double wavelength : wavelengths) {
-        const SparseMatrix matrix = screened_laplacian(points, triangles, filter_of(wavelength));
-        SparseCholesky& low = bands.low_.emplace_back(points);
-        if (!low.factorise(matrix.triangularView<Eigen::Lower>(), "detail", progress)) return std::nullopt;
+        const double t = filter_of(wavelength);
+        SparseMatrix matrix = t * unit;
+        for (int v = 0; v < static_cast<int>(points.cols()); ++v) matrix.coeffRef(v, v) += (1.0 - t) * bands.mass_[v];
+        if (!low.factorise(matrix, "detail", progress)) return std::nullopt;
+        bands.low_.push_back(low);
     }
     return bands;
 }
