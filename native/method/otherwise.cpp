@@ -170,6 +170,7 @@ std::optional<Solution> solve_else(const Problem& problem, Instead kind, const P
         auto even = least_variation(problem, {}, limits_near(*near, HUGE_VAL, false), progress);
         if (even && is_answer(*even)) return even;
     }
+    if (near && problem.patch.loop_count() > 1) return lofted(problem, {}, progress);  // anew it took 20 s, for a loft
     auto even = least_variation(problem, {}, limits_for(problem, HUGE_VAL), progress);
     if (!even || !is_answer(*even)) return std::nullopt;
     return even;
