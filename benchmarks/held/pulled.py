@@ -46,13 +46,13 @@ class Case:
     pins: IntArray
     ways: FloatArray
 
-    def fair(self, *, share: float = 1.0, noise: float = 0.0, seed: int = 0) -> fairing.FairResult:
-        """The surface with its pins at a share of their ways, the interior given with noise (of D)."""
+    def fair(self, *, noise: float = 0.0, seed: int = 0) -> fairing.FairResult:
+        """The surface, the interior given with noise (of D)."""
         base = self.base
         start = base.vertices.copy()
         free = np.setdiff1d(np.arange(len(start)), base.fixed)
         start[free] += noise * base.size * np.random.default_rng(seed).standard_normal((len(free), 3))
-        start[self.pins] = base.vertices[self.pins] + share * self.ways
+        start[self.pins] = base.vertices[self.pins] + self.ways
         fixed, normals = self.held()
         return fairing.fair(start, base.triangles, fixed=fixed, fixed_normals=normals, threads=1)
 
