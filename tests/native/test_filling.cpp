@@ -370,8 +370,9 @@ TEST_CASE("no tube begins between rims around a flat ring, or where one of them 
     const Elbow rims = elbow(24, 0.4);
     Elbow flat = rims;
     flat.points << ring(24, 0.0), 2.0 * ring(24, 0.0);
-    flat.normals.setZero();
+    flat.normals << 0.2 * ring(24, 0.0), 0.2 * ring(24, 0.0);  // nearly flat, seen from outside like a tube
     flat.normals.row(2).setOnes();
+    flat.normals.colwise().normalize();
     CHECK_FALSE(tube_start(bare_patch(flat), flat.points, flat.normals).has_value());
     Points half = rims.normals;
     half.leftCols(24) *= -1.0;
