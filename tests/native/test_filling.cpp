@@ -395,5 +395,5 @@ TEST_CASE("a thin elbow is found at once, and a search in vain leaves a mesh of 
     options.otherwise = Otherwise::stop;
     const FirstSurface in_vain = first_surface(outline, options, Progress());
     CHECK(in_vain.solution.termination != Termination::converged);
-    CHECK(in_vain.patch.free_count < 3000);
+    CHECK(in_vain.patch.free_count < 1000);  // 281; 1699 where the search goes on
 }
