@@ -171,7 +171,7 @@ private:
     }
 
     void test_triangles(int a, int b) {
-        if (!boxes_[at(a)].intersects(boxes_[at(b)])) return;
+        if (!boxes_[at(a)].intersects(boxes_[at(b)]) || lies_beside(a, b) || lies_beside(b, a)) return;
         int shared = 0;
         for (int v : triangles_.col(a)) {
             for (int w : triangles_.col(b)) shared += v == w;
@@ -180,19 +180,30 @@ private:
         if (edge_pierces(a, b) || edge_pierces(b, a)) crossing_[at(a)] = crossing_[at(b)] = 1;
     }
 
+    // Of the corners of triangle a over b's plane, times twice b's area.
+    [[nodiscard]] std::array<double, 3> heights(int a, int b) const {
+        const Vector3 normal = areas_.col(b);
+        const Vector3 origin = points_.col(triangles_(0, b));
+        std::array<double, 3> above;
+        for (int k = 0; k < 3; ++k) above[at(k)] = normal.dot(points_.col(triangles_(k, a)) - origin);
+        return above;
+    }
+
+    // All of triangle a lies on one side of b's plane: neither passes through the other. Most neighbours end here.
+    [[nodiscard]] bool lies_beside(int a, int b) const {
+        const auto [p, q, r] = heights(a, b);
+        return std::min({p, q, r}) >= 0.0 || std::max({p, q, r}) <= 0.0;
+    }
+
     // An edge of triangle a passes through the inside of triangle b, by more than round-off. Edges that end in a corner
     // of b only touch it.
     [[nodiscard]] bool edge_pierces(int a, int b) const {
         constexpr double round_off = 1e-12;
         const Corners from = corners(a);
+        const Corners to = corners(b);
         const double size = std::max(sizes_[at(a)], sizes_[at(b)]);
         const double slack = round_off * size * size * size;
-        const Vector3 origin = points_.col(triangles_(0, b));
-        std::array<double, 3> above;
-        for (int k = 0; k < 3; ++k) above[at(k)] = areas_.col(b).dot(from[at(k)] - origin);
-        if (std::min({above[0], above[1], above[2]}) >= -slack || std::max({above[0], above[1], above[2]}) <= slack)
-            return false;
-        const Corners to = corners(b);
+        const std::array<double, 3> above = heights(a, b);
         const auto is_corner_of_b = [&](int v) { return (triangles_.col(b).array() == v).any(); };
         for (int k = 0; k < 3; ++k) {
             const int next = (k + 1) % 3;

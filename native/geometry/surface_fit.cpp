@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "base/direction.h"
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "geometry/face_geometry.h"
 
@@ -17,10 +18,6 @@ constexpr int cubic_rings = 3;
 constexpr int wide_rings = 4;
 constexpr std::size_t nearest_points = 22;
 constexpr std::size_t wide_points = 40;
-
-Reach reach_of(Centre at_centres) {
-    return at_centres == Centre::free ? Reach{wide_rings, wide_points} : Reach{cubic_rings, nearest_points};
-}
 
 struct Candidate {
     std::span<const Vector3> points;
@@ -49,6 +46,10 @@ Points averaged_at(const Points& points, const Triangles& triangles) {
 
 }  // namespace
 
+Reach SurfaceFits::reach_of(Centre at_centres) {
+    return at_centres == Centre::free ? Reach{wide_rings, wide_points} : Reach{cubic_rings, nearest_points};
+}
+
 SurfaceFits::SurfaceFits(const Points& points, const Triangles& triangles, Centre at_centres)
     : points_(points),
       adjacency_(triangles, static_cast<int>(points.cols())),
@@ -57,11 +58,11 @@ SurfaceFits::SurfaceFits(const Points& points, const Triangles& triangles, Centr
       at_centres_(at_centres) {}
 
 // The standard error falls with more terms where the surface has them, and rises where the points don't determine them.
-std::optional<SlopeFit> SurfaceFits::at_vertex(int vertex) {
-    around_.gather(vertex);
+std::optional<SlopeFit> SurfaceFits::at_vertex(int vertex, Neighbourhood& around) const {
+    around.gather(vertex);
     std::optional<SlopeFit> best;
     std::optional<SlopeFit> most_certain;  // of its curvature
-    for (const auto& [points, degree] : candidates(around_, at_centres_)) {
+    for (const auto& [points, degree] : candidates(around, at_centres_)) {
         const auto fit = fit_slopes(points_.col(vertex), points, averaged_.col(vertex), degree, at_centres_);
         if (fit && (!best || fit->error < best->error)) best = fit;
         if (fit && (!most_certain || fit->curvature_error < most_certain->curvature_error)) most_certain = fit;
@@ -81,13 +82,18 @@ UnitSized to_unit_size(const Points& points, const Triangles& triangles) {
 
 Points one_sided_normals(const Patch& patch, const Points& points) {
     const UnitSized unit = to_unit_size(points, patch.triangles);
-    SurfaceFits fits(unit.points, patch.triangles, Centre::met);
-    Points normals(3, patch.vertex_count() - patch.free_count);
-    for (int v = patch.free_count; v < patch.vertex_count(); ++v) {
-        checkpoint();
-        const auto fit = fits.at_vertex(v);
-        normals.col(v - patch.free_count) = fit ? fit->normal : fits.averaged(v);
-    }
+    const SurfaceFits fits(unit.points, patch.triangles, Centre::met);
+    const int count = patch.vertex_count() - patch.free_count;
+    Points normals(3, count);
+    // Few pieces: each has marks for all vertices.
+    for_ranges(count, std::max(16, count / 16), [&](int begin, int end) {
+        Neighbourhood around = fits.walk();
+        for (int k = begin; k < end; ++k) {
+            checkpoint();
+            const auto fit = fits.at_vertex(patch.free_count + k, around);
+            normals.col(k) = fit ? fit->normal : fits.averaged(patch.free_count + k);
+        }
+    });
     return normals;
 }
 

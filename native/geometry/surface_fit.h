@@ -16,11 +16,16 @@ public:
 
     // The fit whose slopes have the least standard error, with the curvature of the fit that knows it best; nothing
     // where the points are too few.
-    std::optional<SlopeFit> at_vertex(int vertex);
+    std::optional<SlopeFit> at_vertex(int vertex) { return at_vertex(vertex, around_); }
+    // The same with a walk of the caller's own, for loops on several threads.
+    std::optional<SlopeFit> at_vertex(int vertex, Neighbourhood& around) const;
+    [[nodiscard]] Neighbourhood walk() const { return {adjacency_, points_, reach_of(at_centres_)}; }
     // The normalised sum of the adjacent triangles' cross products; zero where there are none.
     [[nodiscard]] Vector3 averaged(int vertex) const { return averaged_.col(vertex); }
 
 private:
+    static Reach reach_of(Centre at_centres);
+
     const Points& points_;
     VertexAdjacency adjacency_;
     Neighbourhood around_;
