@@ -232,10 +232,11 @@ int EvenMesh::flip_edges() {
 // Of the two triangles beside it.
 std::array<EvenMesh::Edge, 4> EvenMesh::sides_around(Edge e) const {
     std::array<Edge, 4> sides;
+    std::size_t count = 0;
     for (const unsigned k : {0U, 1U}) {
         const Halfedge next = mesh_.next_halfedge_handle(mesh_.halfedge_handle(e, k));
-        sides[2 * k] = mesh_.edge_handle(next);
-        sides[2 * k + 1] = mesh_.edge_handle(mesh_.next_halfedge_handle(next));
+        sides[count++] = mesh_.edge_handle(next);
+        sides[count++] = mesh_.edge_handle(mesh_.next_halfedge_handle(next));
     }
     return sides;
 }
