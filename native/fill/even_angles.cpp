@@ -11,7 +11,8 @@ namespace fairing {
 
 namespace {
 
-constexpr double wanted_angle = 30.0;  // degrees; promised are 25
+constexpr double wanted_angle = 30.0;    // degrees; promised are 25
+constexpr double wanted_cosine = 0.866;  // of a little more
 constexpr double gain = 0.1;
 constexpr int most_rounds = 12;
 
@@ -37,6 +38,7 @@ bool EvenMesh::improve_flip(Edge e) {
     const Vector3 b = point(mesh_.to_vertex_handle(h));
     const Vector3 c = point(apex(h));
     const Vector3 d = point(apex(mesh_.halfedge_handle(e, 1)));
+    if (!may_be_sharper(a, b, c, wanted_cosine) && !may_be_sharper(b, a, d, wanted_cosine)) return false;
     const double before = std::min(least_angle(a, b, c), least_angle(b, a, d));
     if (before >= wanted_angle) return false;
     const double after = std::min(least_angle(c, d, b), least_angle(d, c, a));
@@ -90,7 +92,8 @@ void EvenMesh::improve() {
             std::array<Vertex, 3> corners;
             std::size_t k = 0;
             for (const Vertex v : mesh_.fv_range(f)) corners[k++] = v;
-            if (least_angle(point(corners[0]), point(corners[1]), point(corners[2])) >= wanted_angle) continue;
+            const auto [a, b, c] = std::array{point(corners[0]), point(corners[1]), point(corners[2])};
+            if (!may_be_sharper(a, b, c, wanted_cosine) || least_angle(a, b, c) >= wanted_angle) continue;
             for (const Vertex v : corners) {
                 if (fixed(v) || listed[at(v.idx())] != 0) continue;
                 listed[at(v.idx())] = 1;

@@ -206,20 +206,39 @@ Diagonal EvenMesh::diagonal(Edge e) const {
             point(apex(mesh_.halfedge_handle(e, 1)))};
 }
 
+// An edge is looked at again where a flip has changed a triangle beside it, or where it may not flip yet.
 int EvenMesh::flip_edges() {
     constexpr int most_rounds = 4;
+    std::vector<char> pending(mesh_.n_edges(), 1);
     int flips = 0;
     for (int round = 0; round < most_rounds; ++round) {
         const int before = flips;
         for (const Edge e : mesh_.edges()) {
             checkpoint(e.idx());
-            if (stays(e) || diagonal(e).is_delaunay() || !may_flip(e)) continue;
-            mesh_.flip(e);
-            ++flips;
+            if (pending[at(e.idx())] == 0) continue;
+            if (stays(e) || diagonal(e).is_delaunay()) {
+                pending[at(e.idx())] = 0;
+            } else if (may_flip(e)) {
+                mesh_.flip(e);
+                ++flips;
+                for (const Edge side : sides_around(e)) pending[at(side.idx())] = 1;
+            }
         }
         if (flips == before) break;
     }
     return flips;
+}
+
+// Of the two triangles beside it.
+std::array<EvenMesh::Edge, 4> EvenMesh::sides_around(Edge e) const {
+    std::array<Edge, 4> sides;
+    std::size_t count = 0;
+    for (const unsigned k : {0U, 1U}) {
+        const Halfedge next = mesh_.next_halfedge_handle(mesh_.halfedge_handle(e, k));
+        sides[count++] = mesh_.edge_handle(next);
+        sides[count++] = mesh_.edge_handle(mesh_.next_halfedge_handle(next));
+    }
+    return sides;
 }
 
 // Each free vertex to the centroid of its star, where large triangles count more: those around come to one size, in

@@ -57,6 +57,7 @@ private:
     [[nodiscard]] bool may_flip(Edge e) const;
     [[nodiscard]] Diagonal diagonal(Edge e) const;
     int flip_edges();
+    [[nodiscard]] std::array<Edge, 4> sides_around(Edge e) const;
     void smooth(int sweeps);
     bool improve_flip(Edge e);
     int improve_flips();

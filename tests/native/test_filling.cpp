@@ -370,8 +370,9 @@ TEST_CASE("no tube begins between rims around a flat ring, or where one of them 
     const Elbow rims = elbow(24, 0.4);
     Elbow flat = rims;
     flat.points << ring(24, 0.0), 2.0 * ring(24, 0.0);
-    flat.normals.setZero();
+    flat.normals << 0.2 * ring(24, 0.0), 0.2 * ring(24, 0.0);  // nearly flat, seen from outside like a tube
     flat.normals.row(2).setOnes();
+    flat.normals.colwise().normalize();
     CHECK_FALSE(tube_start(bare_patch(flat), flat.points, flat.normals).has_value());
     Points half = rims.normals;
     half.leftCols(24) *= -1.0;
@@ -394,5 +395,5 @@ TEST_CASE("a thin elbow is found at once, and a search in vain leaves a mesh of 
     options.otherwise = Otherwise::stop;
     const FirstSurface in_vain = first_surface(outline, options, Progress());
     CHECK(in_vain.solution.termination != Termination::converged);
-    CHECK(in_vain.patch.free_count < 3000);
+    CHECK(in_vain.patch.free_count < 1000);  // 281; 1699 where the search goes on
 }
