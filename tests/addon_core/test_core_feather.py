@@ -43,7 +43,8 @@ def band(mesh: MeshArrays, done: Fairing) -> Ints:
 
 def test_the_band_moves_less_and_less() -> None:
     mesh = swollen()
-    done = fair(mesh, feather=WIDTH)
+    # Where the join moves most depends on what counts as detail of a swelling this wide: shorter waves than by default.
+    done = fair(mesh, feather=WIDTH, detail_size=0.4)
     moves = np.linalg.norm(done.positions - mesh.positions[done.vertices], axis=1)
     row = SIZE // 2 * (SIZE + 1) + np.arange(SIZE // 2, SIZE + 1)  # from the middle to the border
     along = [float(moves[done.vertices == vertex][0]) for vertex in row if vertex in done.vertices]
