@@ -202,7 +202,7 @@ def test_an_elbow_keeps_its_width(otherwise: str) -> None:
     assert np.abs(away - 0.4).max() < 0.02
 
 
-@pytest.mark.parametrize("radius", [0.3, 0.25, 0.2])
+@pytest.mark.parametrize("radius", [0.3, 0.25, 0.2, 0.15])
 def test_a_thin_elbow_is_found(radius: float) -> None:
     """From a tube swept around the bend; the flat start led nowhere, in up to two minutes."""
     vertices, triangles = elbow(radius)

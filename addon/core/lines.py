@@ -9,6 +9,14 @@ from .outline import two_sided_edges
 from .region import MeshArrays
 
 SAME = 1e-6  # of values that are meant to be one
+_WORDS = {
+    "sharp_edge": "Mark Sharp",
+    "freestyle_edge": "Mark Freestyle Edge",
+    "crease_edge": "Edge Crease",
+    "bevel_weight_edge": "Edge Bevel Weight",
+    "material_index": "materials",
+    ".sculpt_face_set": "face sets",
+}  # of Blender's own attributes, which it shows by other names
 MOST = 0.5  # of the edges inside that may stay, or there is nothing to be meshed anew
 
 
@@ -34,12 +42,19 @@ def inner_lines(mesh: MeshArrays) -> Mask:
     inside = np.zeros(len(mesh.edges), dtype=bool)
     sides = two_sided_edges(mesh, np.ones(len(mesh.edges), dtype=bool))
     inside[sides.edges] = mesh.in_patch[sides.faces].all(axis=1)
-    if mesh.lines is None:
-        return np.zeros(len(mesh.edges), dtype=bool)
-    lines: Mask = mesh.lines & inside
+    lines = np.zeros(len(mesh.edges), dtype=bool)
+    for of_one_kind in mesh.lines.values():
+        lines |= of_one_kind & inside
     if np.count_nonzero(lines) > MOST * np.count_nonzero(inside):
-        raise ValueError(
-            f"{np.count_nonzero(lines)} of {np.count_nonzero(inside)} edges inside the selection are seams of UVs, "
-            "colours or materials, or marked, and would stay: there is nothing to mesh anew. Choose Mesh: Keep"
-        )
+        raise ValueError(_refusal(mesh, lines, inside))
     return lines
+
+
+def _refusal(mesh: MeshArrays, lines: Mask, inside: Mask) -> str:
+    counts = {name: np.count_nonzero(mask & inside) for name, mask in mesh.lines.items()}
+    most = max(counts, key=lambda name: counts[name])
+    return (
+        f"{np.count_nonzero(lines)} of {np.count_nonzero(inside)} edges inside the selection are seams of UVs, "
+        f"colours or materials, or marked ({counts[most]} by {_WORDS.get(most, most)}), and would stay: there is "
+        "nothing to mesh anew. Clear these, or choose Mesh: Keep"
+    )

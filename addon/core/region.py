@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -36,7 +37,8 @@ class MeshArrays:
     textured: bool = False  # the patch has a UV map
     hidden: Mask | None = None  # (f,); None: nothing is
     notes: tuple[str, ...] = ()  # what turned out odd when it was read
-    lines: Mask | None = None  # (e,) edges that a new mesh keeps; None: not asked for
+    # (e,) edges that a new mesh keeps, by the attribute that says so; none where that is not asked for
+    lines: Mapping[str, Mask] = field(default_factory=dict)
     sample: Mask | None = None  # (f,) visible faces whose skin is copied; None: not asked for
     parts: Floats | None = None  # (n,) how much of the way each vertex may go, 0 … 1; None: all of it, inside alone
 

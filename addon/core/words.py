@@ -144,6 +144,16 @@ WORDS: dict[str, tuple[Words, ...]] = {
     ),
     "REFERENCE_UNUSABLE": (
         Words(
+            "Some faces of the selection have no area, so that no skin can be read off it: the result is smooth. "
+            "Merge vertices by distance first",
+            when="old_skin",
+        ),
+        Words(
+            "Some faces of the sample have no area, so that no skin can be copied: the result is smooth. "
+            "Leave them out of Detail From",
+            when="sample_skin",
+        ),
+        Words(
             "{n} face is a needle or turned over, so that no spacing can be read off the mesh; even spacing was used",
             "{n} faces are needles or turned over, so that no spacing can be read off the mesh; even spacing was used",
         ),
@@ -203,6 +213,11 @@ WORDS: dict[str, tuple[Words, ...]] = {
         ),
     ),
     "PINS_NOT_SPREAD": (
+        Words(
+            "The surface comes to a point at {n} pinned vertex: move it nearer, or pin more around it",
+            "The surface comes to a point at {n} pinned vertices: move them nearer, or pin more around them",
+            when="tips",
+        ),
         Words(
             "{n} pin acts in a point: pins are nearer to each other than two radii, so make the radius smaller",
             "{n} pins act in points: some are nearer to each other than two radii, so make the radius smaller",

@@ -25,20 +25,20 @@ _OWN = {".sculpt_face_set"}  # of Blender's own attributes, which begin with a p
 _NOT_MARKS = {"custom_normal", "sharp_face"}  # what new faces have of their own, and shading
 
 
-def lines(mesh: bpy.types.Mesh, arrays: MeshArrays) -> Mask:
-    """Return the (e,) mask of edges with marks, and of those where UVs, colours, materials or face sets part."""
-    found = np.zeros(len(arrays.edges), dtype=bool)
+def lines(mesh: bpy.types.Mesh, arrays: MeshArrays) -> dict[str, Mask]:
+    """Return (e,) masks of edges with marks, and where UVs, colours, materials or face sets part, by attribute."""
+    found = {}
     for attribute in mesh.attributes:
         hidden = attribute.name.startswith(".") and attribute.name not in _OWN
         if hidden or attribute.name in _NOT_MARKS or attribute.data_type not in _WIDTHS:
             continue
         if attribute.domain == "EDGE":
-            found |= (_values(attribute, len(arrays.edges)) != 0.0).any(axis=1)
+            found[attribute.name] = (_values(attribute, len(arrays.edges)) != 0.0).any(axis=1)
         elif attribute.domain == "CORNER":
-            found |= parting_edges(arrays, _values(attribute, len(arrays.corner_vertices)))
+            found[attribute.name] = parting_edges(arrays, _values(attribute, len(arrays.corner_vertices)))
         elif attribute.domain == "FACE":
             values = _values(attribute, len(arrays.in_patch))
-            found |= parting_edges(arrays, values[arrays.corner_faces])
+            found[attribute.name] = parting_edges(arrays, values[arrays.corner_faces])
     return found
 
 

@@ -51,7 +51,7 @@ def elbow(radius: float) -> Gap:
 
 def thin_ones() -> dict[str, Gap]:
     """Of the tables only."""
-    return {f"elbow of 90°, tubes of 1/{part} of the bend": elbow(1 / part) for part in (4, 5)}
+    return {f"elbow of 90°, tubes of {share:g} of the bend": elbow(share) for share in (0.25, 0.2, 0.15)}
 
 
 def all_of_them() -> dict[str, Gap]:

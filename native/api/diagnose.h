@@ -14,8 +14,10 @@ bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostic
 // Whether the triangles at some free vertex all lack area (3 × local vertices).
 bool has_collapsed_fan(const Patch& patch, const Points& points);
 
-// About detail: REFERENCE_UNUSABLE, and FLIPPED_TRIANGLES where it turns triangles over (local numbers).
-void warn_of_missing_detail(Diagnostics& warnings);
+// About detail: REFERENCE_UNUSABLE, with the figure `old_skin` or `sample_skin`, and FLIPPED_TRIANGLES where it turns
+// triangles over (local numbers).
+enum class SkinOf { old_patch, sample };
+void warn_of_missing_detail(SkinOf source, Diagnostics& warnings);
 void warn_of_folded_detail(const Patch& patch, const Indices& triangles, Diagnostics& warnings);
 
 // D and the largest move, in units of D, at which the solve stops.
@@ -35,7 +37,8 @@ Diagnostics failures_of(const Patch& patch, const Solution& solution, Terminatio
 // G2_NOT_MET where a curvature was asked for and the surface is only tangent; with these fixed vertices.
 void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& warnings);
 
-// PINS_NOT_SPREAD where a radius was asked for and pins act in a point; with these pins.
+// PINS_NOT_SPREAD where a radius was asked for and pins act in a point; with these pins. Another one, with the figure
+// "tips", names those at which the surface comes to a point (pins/sharp_pins).
 void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& warnings);
 // NO_SOLUTION: another surface was taken instead, with the free vertices. Figures: "free_vertices"; "harmonic", 1, for
 // that equation; for a bulb "variation", how many times as much its curvatures varied; for a loft "loft", 1, and where

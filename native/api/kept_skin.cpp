@@ -83,7 +83,7 @@ void KeptSkin::read_own(const ComponentData& data, double size, const Progress& 
         just_read_ = low_pass_outline(data, data.reference);
         skin_ = Skin::read(patch_, {old, unit_.to_unit(just_read_->points)}, wavelength_, progress.here());
     }
-    if (!skin_) warn_of_missing_detail(warnings_);
+    if (!skin_) warn_of_missing_detail(SkinOf::old_patch, warnings_);
     read_off_ = reference;
 }
 
@@ -98,7 +98,7 @@ void KeptSkin::read_sample(const ComponentData& data, double size, const Progres
     std::optional<SkinSample> read;
     if (!has_collapsed_fan(sample, points)) read = sample_of(sample, points, wavelength_, progress.here());
     if (read) borrowed_ = BorrowedSkin::of(std::move(*read), wavelength_, progress.here());
-    if (!borrowed_) warn_of_missing_detail(warnings_);
+    if (!borrowed_) warn_of_missing_detail(SkinOf::sample, warnings_);
 }
 
 BaseOutline KeptSkin::low_pass_outline(const ComponentData& data, const Points& positions) const {

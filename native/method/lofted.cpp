@@ -10,6 +10,7 @@
 #include "method/accept.h"
 #include "method/eased.h"
 #include "placement/follow_outline.h"
+#include "placement/refill.h"
 #include "problem/surface_state.h"
 #include "proxy/proxy_solver.h"
 #include "start/loft.h"
@@ -26,7 +27,6 @@ struct Kind {
     double handicap;
 };
 constexpr std::array kinds{Kind{0.6, 1.0}, Kind{1.5, 1.0}, Kind{4.0, 1.3}};
-constexpr double eased_handicap = 10.0;  // the outline as it is comes first
 
 double area_of(const Patch& patch, const Points& points) {
     FaceGeometry faces;
@@ -54,22 +54,27 @@ struct Candidate {
     bool eased;
 };
 
-std::vector<Candidate> candidates(const Problem& problem, const Progress& progress) {
-    const Problem smooth = eased(problem);
-    std::vector<Candidate> found;
+using Lofts = std::vector<std::pair<double, Loft>>;  // with their handicaps
+
+Lofts lofts_of(const Problem& problem, const Progress& progress) {
+    Lofts lofts;
     for (const Kind& kind : kinds) {
-        const auto loft = Loft::of(problem, kind.roundness, progress);
-        if (!loft) continue;
-        for (const Problem* outline : {&problem, &smooth}) {
-            const Fill fill = loft->over(*outline);
-            const bool is_eased = outline == &smooth;
-            for (const double share : {1.0, 0.75, 0.5, 0.25, 0.0}) {
-                auto points = surface(problem, *outline, fill, share);
-                if (!points) continue;
-                const double merit =
-                    willmore_energy(problem, *points) * kind.handicap * (is_eased ? eased_handicap : 1.0);
-                found.push_back({std::move(*points), merit, is_eased});
-            }
+        if (auto loft = Loft::of(problem, kind.roundness, progress))
+            lofts.emplace_back(kind.handicap, std::move(*loft));
+    }
+    return lofts;
+}
+
+// The least bent first.
+std::vector<Candidate> candidates(const Problem& problem, const Problem& outline, const Lofts& lofts) {
+    std::vector<Candidate> found;
+    for (const auto& [handicap, loft] : lofts) {
+        const Fill fill = loft.over(outline);
+        for (const double share : {1.0, 0.75, 0.5, 0.25, 0.0}) {
+            auto points = surface(problem, outline, fill, share);
+            if (!points) continue;
+            const double merit = handicap * willmore_energy(problem, *points);
+            found.push_back({std::move(*points), merit, &outline != &problem});
         }
     }
     std::stable_sort(found.begin(), found.end(),
@@ -77,10 +82,16 @@ std::vector<Candidate> candidates(const Problem& problem, const Progress& progre
     return found;
 }
 
+// Hairs, where fingers end within the patch, and tips, where many vertices lie in few: finer than the outline shows.
+bool is_spiky(const Problem& problem, const Points& points) {
+    return has_spike(problem.patch, points, 0.5 * mean_outline_edge(problem));
+}
+
 Solution solution_at(const Problem& problem, const Candidate& candidate) {
     Solution solution;
     solution.points = candidate.points;
-    solution.termination = Termination::converged;
+    solution.termination = is_spiky(problem, candidate.points) ? Termination::stalled : Termination::converged;
+    if (solution.termination != Termination::converged) return solution;
     solution.mean_curvature = measured_surface(problem, candidate.points).curvature.mean;
     solution.boundary_normals = one_sided_normals(problem.patch, candidate.points);
     solution.iterations = 1;
@@ -88,11 +99,6 @@ Solution solution_at(const Problem& problem, const Candidate& candidate) {
     solution.ways = {{candidate.eased ? eased_loft_way : "loft", 0.0}};
     solution.flaw = flaw_of(problem, solution);
     return solution;
-}
-
-// Hairs, where fingers end within the patch, and tips, where many vertices lie in few: finer than the outline shows.
-bool is_spiky(const Problem& problem, const Points& points) {
-    return has_spike(problem.patch, points, 0.5 * mean_outline_edge(problem));
 }
 
 // Met from the other side, where a surface without slopes runs back inside its surroundings.
@@ -103,14 +109,43 @@ bool is_turned_in(const Problem& problem, const Solution& solution) {
     return static_cast<double>((angles.array() > behind).count()) > most * static_cast<double>(angles.size());
 }
 
-// The least bent one that is accepted.
-std::optional<Solution> best_of(const Problem& problem, const Progress& progress) {
-    for (const Candidate& candidate : candidates(problem, progress)) {
-        if (is_spiky(problem, candidate.points)) continue;
-        Solution solution = solution_at(problem, candidate);
-        if (end_of(solution) == Termination::converged && !is_turned_in(problem, solution)) return solution;
+bool is_accepted(const Problem& problem, const Solution& solution) {
+    return end_of(solution) == Termination::converged && !is_turned_in(problem, solution);
+}
+
+// Where few triangles fold or cross, what lies around them is filled anew.
+std::optional<Solution> mended(const Problem& problem, const Candidate& candidate, const Solution& flawed) {
+    constexpr std::size_t few = 20;
+    constexpr std::array rings{2, 3, 4};
+    if (flawed.bad_triangles.empty() || flawed.bad_triangles.size() > few) return std::nullopt;
+    Candidate trial = candidate;
+    for (const int reach : rings) {
+        trial.points = refilled(problem.patch, candidate.points, flawed.bad_triangles, reach);
+        Solution solution = solution_at(problem, trial);
+        if (is_accepted(problem, solution)) return solution;
     }
     return std::nullopt;
+}
+
+// The least bent one over an outline that is accepted, mended where none is.
+std::optional<Solution> best_over(const Problem& problem, const Problem& outline, const Lofts& lofts) {
+    std::vector<std::pair<Candidate, Solution>> flawed;
+    for (Candidate& candidate : candidates(problem, outline, lofts)) {
+        Solution solution = solution_at(problem, candidate);
+        if (is_accepted(problem, solution)) return solution;
+        flawed.emplace_back(std::move(candidate), std::move(solution));
+    }
+    for (const auto& [candidate, solution] : flawed) {
+        if (auto better = mended(problem, candidate, solution)) return better;
+    }
+    return std::nullopt;
+}
+
+// The outline as it is comes first.
+std::optional<Solution> best_of(const Problem& problem, const Progress& progress) {
+    const Lofts lofts = lofts_of(problem, progress);
+    auto solution = best_over(problem, problem, lofts);
+    return solution ? std::move(solution) : best_over(problem, eased(problem), lofts);
 }
 
 }  // namespace

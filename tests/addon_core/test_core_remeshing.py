@@ -75,9 +75,8 @@ def test_values_come_from_where_the_new_vertices_lie() -> None:
 
 def test_corners_take_values_of_their_own_side() -> None:
     mesh = spoilt_sphere()
-    mesh = replace(mesh, lines=parting_edges(mesh, sides(mesh)))
-    assert mesh.lines is not None
-    assert np.array_equal(mesh.lines, seam(mesh))
+    mesh = replace(mesh, lines={"side": parting_edges(mesh, sides(mesh))})
+    assert np.array_equal(mesh.lines["side"], seam(mesh))
     done = remesh(mesh, spacing=0.7)
     assert len(done.vertices) == np.count_nonzero(seam(mesh) & inner_lines(mesh)) - 1
     carried = done.part.corners.mean(sides(mesh)).reshape(-1, 3)
@@ -94,7 +93,7 @@ def test_an_open_seam_keeps_both_sides_apart() -> None:
     mesh = spoilt_sphere()
     half = seam(mesh) & (mesh.edges % (SIZE + 1) <= SIZE // 2).all(axis=1)
     values = np.where(mesh.positions[mesh.corner_vertices, :1] < 0.0, sides(mesh), 0.0)
-    done = remesh(replace(mesh, lines=half), spacing=0.7)
+    done = remesh(replace(mesh, lines={"half": half}), spacing=0.7)
     carried = done.part.corners.mean(values).reshape(-1, 3)
     kept = np.isin(done.part.triangles, np.arange(done.part.fixed_count, len(done.part.stay)))
     both = {round(float(value), 9) for value in carried[kept]}
@@ -103,8 +102,9 @@ def test_an_open_seam_keeps_both_sides_apart() -> None:
 
 
 def test_nothing_but_lines_is_refused() -> None:
-    mesh = replace(spoilt_sphere(), lines=np.ones(len(spoilt_sphere().edges), dtype=bool))
-    with pytest.raises(ValueError, match="nothing to mesh anew"):
+    every = np.ones(len(spoilt_sphere().edges), dtype=bool)
+    mesh = replace(spoilt_sphere(), lines={"UVMap": every & False, "sharp_edge": every, "crease_edge": every & False})
+    with pytest.raises(ValueError, match=r"marked \(\d+ by Mark Sharp\).*nothing to mesh anew"):
         remesh(mesh)
 
 

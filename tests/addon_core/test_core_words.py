@@ -48,6 +48,12 @@ def _fields(words: Words) -> set[str]:
     return {field for text in (words.one, words.many) for _, field, _, _ in Formatter().parse(text) if field}
 
 
+def test_a_skin_that_was_left_out_is_told_with_its_place() -> None:
+    own, sample = (told(diagnostic("REFERENCE_UNUSABLE", [], **{skin: 1.0})) for skin in ("old_skin", "sample_skin"))
+    assert own[0].startswith("Some faces of the selection have no area, so that no skin can be read off it")
+    assert sample[0].startswith("Some faces of the sample have no area, so that no skin can be copied")
+
+
 def test_triangles_are_counted_by_their_faces_and_edges_by_the_meshs_vertices() -> None:
     assert told(diagnostic("FLIPPED_TRIANGLES", [0, 2, 3], "triangle", triangles=3.0)) == (
         "2 faces of the result are turned over",

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <random>
 
 #include "geometry/flips.h"
 #include "geometry/outline_angles.h"
@@ -172,7 +173,7 @@ TEST_CASE("one outline, and vertices held elsewhere, have no loft") {
 }
 
 TEST_CASE("the least bent of the lofts is taken") {
-    for (const double lean : {0.0, 0.5}) {
+    for (const double lean : {0.1, 0.5}) {
         const Pipe tube(pipe(20), lean);
         const auto solution = lofted(tube.problem, {}, Progress());
         REQUIRE(solution);
@@ -201,15 +202,42 @@ TEST_CASE("two outlines joined by an edge have a loft") {
 }
 
 TEST_CASE("a finger that ends inside does not become a hair") {
-    for (const double lean : {0.3, -0.3}) {
-        const Pipe tube(with_finger(pipe(30), 15 * around + 5, 12), lean);
-        const double radius = std::numbers::pi / around;  // half an edge of the outline
-        const auto fill = loft(tube.problem, 0.6);
-        REQUIRE(fill);
-        CHECK(has_spike(tube.single.patch(), tube.with(fill->flat + fill->bulge), radius));
+    const double radius = std::numbers::pi / around;  // half an edge of the outline
+    for (const int row : {8, 15}) {
+        const Pipe tube(with_finger(pipe(30), row * around + 5, 6), -1.0);
+        double least = 1e9;
+        bool least_is_spiky = false;
+        for (const double roundness : {0.6, 1.5, 4.0}) {
+            const auto fill = loft(tube.problem, roundness);
+            REQUIRE(fill);
+            for (const double share : {1.0, 0.75, 0.5, 0.25, 0.0}) {
+                const Points points = tube.with(fill->flat + share * fill->bulge);
+                const double energy = willmore_energy(tube.problem, points);
+                if (energy >= least) continue;
+                least = energy;
+                least_is_spiky = has_spike(tube.single.patch(), points, radius);
+            }
+        }
+        CHECK(least_is_spiky);
         const auto solution = lofted(tube.problem, {}, Progress());
         REQUIRE(solution);
         CHECK_FALSE(has_spike(tube.single.patch(), solution->points, radius));
+    }
+}
+
+TEST_CASE("few folds of a loft are turned back") {
+    const double edge = 2.0 * std::numbers::pi / around;
+    for (const unsigned seed : {2U, 3U, 4U, 5U, 6U, 7U, 10U}) {
+        Pipe tube(6, 0.3);
+        std::mt19937 random(seed);
+        const auto noise = [&] { return 2.0 * static_cast<double>(random()) / 4294967295.0 - 1.0; };
+        for (double& coordinate : tube.problem.fixed_points.leftCols(around / 2).reshaped())
+            coordinate += 0.9 * edge * noise();
+        const auto solution = lofted(tube.problem, {}, Progress());
+        CHECK_MESSAGE(solution, seed);
+        if (!solution) continue;
+        CHECK_MESSAGE(!is_eased(*solution), seed);
+        CHECK(flipped_by_solution(tube.single.patch(), solution->points).empty());
     }
 }
 

@@ -6,6 +6,7 @@
 #include "meshes.h"
 #include "placement/first_placement.h"
 #include "placement/folds.h"
+#include "placement/refill.h"
 #include "placement/relax.h"
 #include "placement/untangle.h"
 #include "problem/surface_state.h"
@@ -135,4 +136,23 @@ TEST_CASE("springs that hold folds back get less than all they pull for, and fol
     const double after = relax(problem, *tangential, square.target, held, Folds::held_back);
     CHECK(after < before);
     CHECK(folded_mask(problem, square.target, held) == std::vector<char>(at(square.patch().triangle_count()), 0));
+}
+
+TEST_CASE("a refill restores a plane around a vertex pulled out of it, and nothing else moves") {
+    const Square square;
+    const Patch& patch = square.patch();
+    Points points = square.single.points;
+    const int pulled = patch.free_count / 2;
+    points.col(pulled) += Vector3(0.4, -0.3, 2.0);
+    Indices around;
+    for (int t = 0; t < patch.triangle_count(); ++t) {
+        if ((patch.triangles.col(t).array() == pulled).any()) around.push_back(t);
+    }
+    points.col(0).z() += 1e-3;  // a corner, far from them
+    for (const int rings : {0, 1}) {
+        const Points result = refilled(patch, points, around, rings);
+        CHECK((result.col(pulled) - square.single.points.col(pulled)).norm() < 1e-12);
+        const bool kept = result.col(0) == points.col(0);
+        CHECK(kept);
+    }
 }
