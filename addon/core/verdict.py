@@ -176,6 +176,9 @@ def _visible(evidence: Evidence, options: FairOptions) -> Found:
     if len(kinks) and judges_join(options):
         text = counted(len(kinks), "vertex", "vertices")
         return f"The loft does not continue the slope of its surroundings at {text} of the outline", kinks
+    tips = _told_of(evidence, "PINS_NOT_SPREAD", "tips")
+    if len(tips):
+        return f"The surface comes to a point at {counted(len(tips), 'pinned vertex', 'pinned vertices')}", tips
     if len(evidence.rounded):
         text = counted(len(evidence.rounded), "vertex", "vertices")
         return f"Outline: Smooth has rounded a hard edge outside at {text}: choose As Selected", evidence.rounded
@@ -190,7 +193,12 @@ def _visible(evidence: Evidence, options: FairOptions) -> Found:
 
 def _kinks_of_loft(evidence: Evidence) -> Ints:
     """Return the mesh vertices where a loft leaves the tangent planes; dihedral angles show it on fine meshes only."""
-    told = [w.elements for w in evidence.result.warnings if w.code == "NO_SOLUTION" and "kinks" in w.figures]
+    return _told_of(evidence, "NO_SOLUTION", "kinks")
+
+
+def _told_of(evidence: Evidence, code: str, figure: str) -> Ints:
+    """Return the mesh vertices that the engine names with a code and a figure."""
+    told = [w.elements for w in evidence.result.warnings if w.code == code and figure in w.figures]
     found: Ints = evidence.problem.vertices[np.concatenate([np.empty(0, np.int32), *told])]
     return found
 

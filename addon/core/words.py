@@ -214,6 +214,11 @@ WORDS: dict[str, tuple[Words, ...]] = {
     ),
     "PINS_NOT_SPREAD": (
         Words(
+            "The surface comes to a point at {n} pinned vertex: move it nearer, or pin more around it",
+            "The surface comes to a point at {n} pinned vertices: move them nearer, or pin more around them",
+            when="tips",
+        ),
+        Words(
             "{n} pin acts in a point: pins are nearer to each other than two radii, so make the radius smaller",
             "{n} pins act in points: some are nearer to each other than two radii, so make the radius smaller",
             when="close",

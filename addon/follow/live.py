@@ -25,6 +25,7 @@ from ..core import signals
 from ..core.arrays import Floats
 from ..core.engine import REFUSALS
 from ..core.options import FairOptions
+from ..host.context import is_dragging
 from ..host.handlers import call_later, call_off, listen, unlisten
 from ..host.status import redraw_sidebars, redraw_views
 from ..mesh import live_mesh, mesh_io
@@ -32,6 +33,7 @@ from .session import Session, check_key, fits, matrix_of, read, session_of
 
 PATIENCE = 0.15  # seconds for an answer in the middle of changes: with reading and writing a step stays below 0.3
 LEISURE = 3.0  # seconds of the processor for each of the three ways to an answer at their end: other work is no reason
+REST = 0.2  # and for the first way alone where the mouse rests, but has not let go
 MOST_SKIPPED = 15  # changes in a row that are carried along without asking for an answer
 PAUSE = 0.3  # seconds without a change that count as their end
 STAND_IN = "No fair surface leads here: Even Curvature stands in for it"
@@ -47,6 +49,7 @@ class Live:
         self.message = ""
         self.updates = 0  # answers written since the switch was turned on
         self.changed_at = 0.0  # the last change that waits for an answer, by time.monotonic
+        self.rested_at = 0.0  # the last of these that was looked at while all was quiet
         self.on = False
 
     def take(self, obj: bpy.types.Object, options: FairOptions) -> None:
@@ -101,6 +104,8 @@ class Live:
     def _at_leisure(self, session: Session) -> Floats | None:
         """Answer at the end of changes: the surface itself, or the one that stands in for it."""
         self.message = ""
+        if is_dragging():
+            return _asked(session, session.region.answer, REST, time.process_time)
         for ask in (session.region.answer, session.region.afresh):
             answer = _asked(session, ask, LEISURE, time.process_time)
             if answer is not None:
@@ -209,14 +214,20 @@ def _on_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
 
 
 def _follow_later() -> float | None:
-    """Follow, or return the seconds to wait until the changes may have ended."""
+    """Follow, or return the seconds to wait until the changes may have ended.
+
+    A drag that rests is answered once, in a moment or not at all: the rest of the time belongs to the mouse.
+    """
     wait = live.changed_at + PAUSE - time.monotonic()
     if wait > 0.0:
         return wait
+    if is_dragging() and live.rested_at == live.changed_at:
+        return PAUSE
+    live.rested_at = live.changed_at
     for obj in edited_objects():
         follow(obj)
     redraw_views(bpy.context)
-    return None
+    return PAUSE if is_dragging() and any(session.lost for session in live.sessions.values()) else None
 
 
 def _on_step(*_arguments: object) -> None:

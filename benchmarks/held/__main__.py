@@ -2,7 +2,7 @@
 
 Means and worst of meshes and noises of seeds that nothing was tuned on: limits and smoothing were tried on 0 and 1.
 
-python benchmarks/held [creases | fades | pins | windows | pictures …]
+python benchmarks/held [creases | fades | pins | pulled | windows | pictures …]
 """
 
 from __future__ import annotations
@@ -16,6 +16,8 @@ from PIL import Image
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+
+import pulled
 
 import creased
 import fairing
@@ -98,6 +100,12 @@ def pins() -> None:
         print(f"| {n_free} | {told[0]:.2f} | {told[1]:.2f} |", flush=True)
 
 
+def pulled_pins() -> None:
+    """Pins pulled off surfaces: what became of them, seconds, and whether a noisy start gives the same."""
+    for n_free in (300, 1000):
+        pulled.told(pulled.exact_cases(2, n_free))
+
+
 def _opened(kind: windows.Kind, around: int, seed: int, own_edge: bool) -> list[float]:
     """Distances off the border before, after, and of the best least-squares fit; off the surface before and after."""
     window = windows.window(kind, around, seed)
@@ -159,7 +167,8 @@ def pictures() -> None:
 
 
 TABLES: dict[str, Callable[[], None]] = {
-    "creases": creases, "fades": fades, "pins": pins, "windows": noisy_windows, "pictures": pictures,
+    "creases": creases, "fades": fades, "pins": pins, "pulled": pulled_pins, "windows": noisy_windows,
+    "pictures": pictures,
 }  # fmt: skip
 
 

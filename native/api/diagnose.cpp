@@ -14,6 +14,7 @@
 #include "geometry/outline_angles.h"
 #include "geometry/self_intersection.h"
 #include "method/eased.h"
+#include "pins/sharp_pins.h"
 #include "pins/spread_pins.h"
 
 namespace fairing {
@@ -244,7 +245,24 @@ void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& war
                         {{"vertices", size_of(vertices)}}});
 }
 
+namespace {
+
+void warn_of_sharp_pins(const Patch& patch, const Solution& solution, Diagnostics& warnings) {
+    Indices pins = sharp_pins(patch, solution.points);
+    if (pins.empty()) return;
+    for (int& place : pins) place = fixed_vertices(patch)[at(place)];
+    warnings.push_back({Code::pins_not_spread,
+                        counted(pins.size(), "pin is the tip of a needle", "pins are tips of needles") +
+                            ": the surface rises far within a short way",
+                        pins,
+                        ElementKind::vertex,
+                        {{"tips", size_of(pins)}}});
+}
+
+}  // namespace
+
 void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& warnings) {
+    warn_of_sharp_pins(patch, solution, warnings);
     if (solution.pins == Pins::absent || solution.pins == Pins::spread) return;
     Indices pins = isolated_pins(patch);
     for (int& place : pins) place = fixed_vertices(patch)[at(place)];

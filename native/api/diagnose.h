@@ -37,7 +37,8 @@ Diagnostics failures_of(const Patch& patch, const Solution& solution, Terminatio
 // G2_NOT_MET where a curvature was asked for and the surface is only tangent; with these fixed vertices.
 void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& warnings);
 
-// PINS_NOT_SPREAD where a radius was asked for and pins act in a point; with these pins.
+// PINS_NOT_SPREAD where a radius was asked for and pins act in a point; with these pins. Another one, with the figure
+// "tips", names those at which the surface comes to a point (pins/sharp_pins).
 void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& warnings);
 // NO_SOLUTION: another surface was taken instead, with the free vertices. Figures: "free_vertices"; "harmonic", 1, for
 // that equation; for a bulb "variation", how many times as much its curvatures varied; for a loft "loft", 1, and where

@@ -39,7 +39,7 @@ Points own_conormals(const Patch& patch, const OldPatch& old, double wavelength)
 
 double detail_wavelength(const Patch& patch, const Points& old) {
     constexpr double edges = 12.0;
-    constexpr double share_of_patch = 0.4;
+    constexpr double share_of_patch = 0.45;
     double length = 0.0;
     for (const auto& [a, b] : patch.edge_ends) length += (old.col(a) - old.col(b)).norm();
     return std::min(edges * length / patch.edge_count(), share_of_patch);

@@ -13,7 +13,7 @@ struct OldPatch {
     const Points& outline;  // 3 × fixed vertices: where the base meets its outline
 };
 
-// Twelve mean edges of the old patch (3 × local vertices, D = 1), but 0.4 D at most: a patch of a few edges has no
+// Twelve mean edges of the old patch (3 × local vertices, D = 1), but 0.45 D at most: a patch of a few edges has no
 // detail.
 double detail_wavelength(const Patch& patch, const Points& old);
 

@@ -111,7 +111,7 @@ void eliminate_lanes(const PanelOf<Stored>& panel, double* b) {
             row_of(b, k) /= column[k];
             for (int i = k + 1; i < j + width; ++i) row_of(b, i) -= column[i] * row_of(b, k);
         }
-        subtract_lanes(panel.data() + std::ptrdiff_t(j) * rows, rows, width, j + width, b + lanes * j, b);
+        subtract_lanes(panel.data() + std::ptrdiff_t(j) * rows, rows, width, j + width, row_of(b, j).data(), b);
     }
 }
 

@@ -22,9 +22,9 @@ constexpr double bulb = 2.0;  // ratio of variations
 // Changes of curvature by less than one over the patch's size can't be seen, and ratios of such energies are noise:
 // spheres and cylinders have none at all.
 constexpr double least_energy = 1.0;
-// Between jagged outlines V · A reaches 10³ to 10⁵, and no descent was seen to end there. It is 95 for an elbow of
-// 150°.
-constexpr double most_to_join = 1000.0;
+// Largest V · A from which a descent is tried. Between jagged outlines it reaches 10³ to 10⁵, and none was seen to end
+// there. It is 95 for an elbow of 150°.
+constexpr double most_to_try = 1000.0;
 // Nor on larger patches with one outline, in 10 to 30 s each; of 500 random patches one small one ended above.
 constexpr int largest_patient = 600;  // free vertices
 constexpr double begin = 0.9;         // share of the progress; most solves end before
@@ -132,7 +132,7 @@ bool is_tried_enough(const Problem& problem, const Solution& solution) {
 
 Solution instead_of_failure(const Problem& problem, Solution solution, const Progress& progress) {
     const bool is_patient = problem.patch.loop_count() == 1 && problem.patch.free_count <= largest_patient;
-    auto even = least_variation(problem, solution, limits_for(problem, is_patient ? HUGE_VAL : most_to_join), progress);
+    auto even = least_variation(problem, solution, limits_for(problem, is_patient ? HUGE_VAL : most_to_try), progress);
     if (even && is_answer(*even)) return std::move(*even);
     if (even) solution.ways = even->ways;
     if (auto loft = lofted(problem, solution, progress); loft && !(even && is_evener(problem, *even, *loft)))
@@ -178,7 +178,7 @@ std::optional<Solution> solve_else(const Problem& problem, Instead kind, const P
 
 std::optional<Solution> solve_else_roughly(const Problem& problem, const Points& near, const Progress& progress) {
     if (!has_else(problem) && problem.options.equation != Equation::least_variation) return std::nullopt;
-    auto even = least_variation(problem, {}, limits_near(near, most_to_join, true), progress);
+    auto even = least_variation(problem, {}, limits_near(near, most_to_try, true), progress);
     if (!even || !is_answer(*even)) return std::nullopt;
     return even;
 }

@@ -7,6 +7,7 @@
 #include "method/led_pins.h"
 #include "method/otherwise.h"
 #include "pins/released.h"
+#include "pins/sharp_pins.h"
 #include "pins/spread_pins.h"
 
 namespace fairing {
@@ -37,6 +38,9 @@ bool are_close(const Problem& problem, const Indices& pins, double distance) {
 Solution judged(const Problem& problem, Solution found) {
     found.from_surface = true;
     found.flaw = flaw_of(problem, found);
+    // Far pins have spurious surfaces, too: a needle on one ring of triangles, whatever the radius.
+    if (found.flaw == Flaw::absent && !sharp_pins(problem.patch, found.points).empty())
+        found.flaw = Flaw::poor_triangles;
     found.pins = Pins::spread;
     return found;
 }

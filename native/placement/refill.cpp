@@ -36,6 +36,7 @@ Indices unknowns_near(const Patch& patch, const Indices& triangles, int rings) {
 Points refilled(const Patch& patch, const Points& points, const Indices& triangles, int rings) {
     const Indices number = unknowns_near(patch, triangles, rings);
     const auto count = patch.free_count - std::count(number.begin(), number.begin() + patch.free_count, none);
+    if (count == 0) return points;
     Triplets entries;
     Eigen::MatrixXd known = Eigen::MatrixXd::Zero(patch.vertex_count(), 3);
     const auto add = [&](int row, int vertex, double value) {

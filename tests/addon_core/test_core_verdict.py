@@ -123,6 +123,13 @@ def test_a_loft_that_lets_slopes_go_deserves_a_look(fine: Evidence) -> None:
     assert judged(replace(fine, result=replace(fine.result, warnings=(smooth,)))).grade == GOOD
 
 
+def test_the_tip_of_a_needle_deserves_a_look(fine: Evidence) -> None:
+    told = fairing.Diagnostic("PINS_NOT_SPREAD", "", np.array([3], np.int32), "vertex", {"tips": 1.0})
+    verdict = judged(replace(fine, result=replace(fine.result, warnings=(told,))))
+    assert (verdict.grade, verdict.reason) == (LOOK, "The surface comes to a point at 1 pinned vertex")
+    assert verdict.spots.tolist() == fine.problem.vertices[[3]].tolist()
+
+
 def test_half_way_old_folds_may_be_left(fine: Evidence) -> None:
     same = replace(fine, before=replace(CLEAN, folded=ints(FACE)), after=replace(CLEAN, folded=ints(FACE)))
     assert judged(same, factor=0.5).grade == GOOD

@@ -292,6 +292,31 @@ def test_a_slow_answer_is_carried_along_until_the_end_of_the_drag(live: Any, mon
     assert_fair(faces)
 
 
+def test_a_drag_that_rests_is_not_held_up(live: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """While the mouse has not let go, one short look is all; the long ways come after it."""
+    home = module("follow.live")
+    table_mountain()
+    region = live.sessions["Grid"].region
+    asked: list[str] = []
+    for way in ("answer", "afresh", "stand_in"):
+        monkeypatch.setattr(type(region), way, lambda *_, way=way: asked.append(way))
+    monkeypatch.setattr(home, "is_dragging", lambda: True)
+    drag(flank(now()), (0.0, 0.0, 0.05))
+    live.changed_at -= home.PAUSE
+    asked.clear()
+    assert home._follow_later() == home.PAUSE
+    assert home._follow_later() == home.PAUSE
+    assert asked == ["answer"]
+    assert len(live.lost_points()) > 0
+    monkeypatch.setattr(home, "is_dragging", lambda: False)
+    assert home._follow_later() is None
+    assert asked == ["answer", "answer", "afresh", "stand_in"]
+
+
+def test_nothing_is_dragged_without_a_window() -> None:
+    assert not module("host.context").is_dragging()
+
+
 def test_other_work_on_the_machine_is_no_reason_to_give_up_at_the_end(
     live: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:

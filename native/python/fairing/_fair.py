@@ -139,7 +139,7 @@ def fair(
         Normals given that are others than the triangles outside show stay. docs/detail.md.
     detail_size : float
         Shape that repeats within less than this counts as detail: a wavelength as a share of D. 0: twelve mean edges,
-        .4 D at most.
+        .45 D at most.
     detail_from : (s, 3) int
         Triangles of ``vertices``, a sample: their detail is put on the surface in place of the old patch's, for one
         that has none, like a filled hole. Heights are copied from it piece by piece, and meet the outline's own detail.

@@ -15,6 +15,7 @@ from driver import Story, click, in_view, look_as_first, middle, press, screensh
 from panel import drag, module, open_tab, report, run_operator, set_options, wait_until
 
 STEPS = 40  # of the mouse in one drag
+DEEP = (0, -470)  # pixels by which the neck goes down to the bottom, where no fair surface is found in time
 SELECTION = (1250, 781)  # header of the panel Selection, whose height changes: it is folded
 HEADER = (1250, 754)  # of the panel Live below it, where there is no report
 SWITCH = (1081, 754)
@@ -61,11 +62,12 @@ def live_finds_no_surface() -> Story:
     yield 1.0
     start = scenes.positions()
     with _answers() as spent:
-        yield from drag(STEPS, (0, -330), "Z")
+        yield from drag(STEPS, DEEP, "Z")
     tell(f"lost: {len(spent)} steps, marked {len(_live().lost_points())} points")
+    assert len(_live().lost_points())
     _tell_longest(spent)
     screenshot("live_lost_during")
-    press("LEFTMOUSE", *_target((0, -330)))
+    press("LEFTMOUSE", *_target(DEEP))
     yield 6.0
     tell(f"at the end: {_live().message or 'no message'}")
     screenshot("live_lost_released")

@@ -1,0 +1,12 @@
+// Pins at which a surface comes to a point.
+#pragma once
+
+#include "mesh/patch.h"
+
+namespace fairing {
+
+// Isolated pins, by their places among the fixed vertices, around which the triangles' normals have a mean cosine below
+// 1/2 to their mean, both by area: tips of needles of at most 30° to their axis. `points`: 3 × local vertices.
+Indices sharp_pins(const Patch& patch, const Points& points);
+
+}  // namespace fairing

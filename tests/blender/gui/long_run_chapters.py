@@ -1,0 +1,142 @@
+"""Long runs in a real window: cancelled, finished, and redone from their redo panel."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Generator
+
+import bpy
+import numpy as np
+import scenes
+from driver import Story, click, in_view, middle, press, screenshot, tell, view
+from panel import module, open_redo_panel, open_tab, redo_panel, report, run_operator, set_options, wait_until
+
+VERTICES_FIELD = 186  # pixels from the redo panel's upper edge down to the field
+KEEP_SPACING = 93  # from there down to the entry of its menu
+
+
+def seconds_of_redraw() -> Generator[float, None, float]:
+    """Software OpenGL may need long for a picture, in which Blender hears of nothing."""
+    worst = 0.0
+    for _ in range(3):
+        view()[1].tag_redraw()
+        begin = time.perf_counter()
+        yield 0.0
+        yield 0.0
+        worst = max(worst, time.perf_counter() - begin)
+    return worst
+
+
+def seconds_to_background() -> Generator[float, None, float]:
+    """Call the operator and wait until it runs in the background."""
+    progress = bpy.context.window_manager.fairing_progress
+    begin = time.perf_counter()
+    run_operator()
+
+    def running() -> bool:
+        return bool(progress.running)
+
+    yield from wait_until(running, 20.0)
+    return time.perf_counter() - begin
+
+
+def seconds_to_stop() -> Generator[float, None, float]:
+    """Press Esc and wait until nothing runs any more."""
+    progress = bpy.context.window_manager.fairing_progress
+    begin = time.perf_counter()
+    press("ESC", *middle())
+
+    def stopped() -> bool:
+        return not progress.running
+
+    yield from wait_until(stopped, 5.0)
+    return time.perf_counter() - begin
+
+
+def cancel_a_long_run() -> Story:
+    faces = scenes.large()
+    set_options()
+    with in_view():
+        bpy.ops.view3d.view_all()
+    open_tab()
+    yield 1.0
+    redraw = yield from seconds_of_redraw()
+    tell(f"large: {faces} faces; a redraw takes {redraw:.2f} s here")
+    before = scenes.contents()
+    progress = bpy.context.window_manager.fairing_progress
+    waited = yield from seconds_to_background()
+    tell(f"background run began after {waited:.2f} s")
+    yield 0.3
+    assert progress.running, "the run was too short to be cancelled"
+    seconds = yield from seconds_to_stop()
+    tell(f"Esc: Blender was free again after {seconds:.2f} s")
+    assert seconds < 0.3 + 2 * redraw
+    yield 2.0
+    assert scenes.contents() == before, "the cancelled run left a trace"
+    assert not progress.running
+
+
+def cancel_a_hopeless_run() -> Story:
+    """Few vertices that take long: Blender waits a moment, then goes on in the background."""
+    scenes.hopeless()
+    set_options(tolerance=1e-14)
+    open_tab()
+    yield 1.0
+    before = scenes.contents()
+    waited = yield from seconds_to_background()
+    tell(f"hopeless: in the background after {waited:.2f} s")
+    yield 0.1
+    yield from seconds_to_stop()
+    yield 1.0
+    assert scenes.contents() == before, "the cancelled run left a trace"
+
+
+def finish_a_long_run() -> Story:
+    report().free_vertices = 0
+    begin = time.perf_counter()
+    ticks = 0
+    run_operator()
+
+    def reported() -> bool:
+        nonlocal ticks
+        ticks += 1
+        if ticks == 8:
+            screenshot("progress")
+        return bool(report().free_vertices)
+
+    yield from wait_until(reported, 120.0)
+    seconds = time.perf_counter() - begin
+    tell(f"large: {report().free_vertices} vertices in {seconds:.2f} s, looked at {ticks} times meanwhile")
+    assert ticks > 5, "Blender did not stay responsive"
+    assert report().converged
+    yield 0.5
+
+
+def redo_after_a_long_run() -> Story:
+    """Another way to spread the vertices, chosen in the redo panel: answered by the solver that the run left."""
+    solvers = module("run.job").solvers
+    *_, solver = solvers._values.values()
+    assert solver is not None
+    first, before = report().seconds, scenes.positions()
+    yield from open_redo_panel()
+    hud = redo_panel()
+    screenshot("redo_long_open")
+    x, y = hud.x + int(0.7 * hud.width), hud.y + hud.height - VERTICES_FIELD
+    report().free_vertices = 0
+    yield from click(x, y)
+    yield 0.5
+    screenshot("redo_long_menu")
+    yield from click(x, y - KEEP_SPACING)
+
+    def answered() -> bool:
+        return bool(report().free_vertices)
+
+    yield from wait_until(answered, 60.0)
+    yield 1.0
+    operator = bpy.context.window_manager.operators[-1]
+    assert operator.inner_fairness == "INVERSE_DISTANCE", "the redo panel's menu was not met"
+    assert report().converged
+    assert np.abs(scenes.positions() - before).max() > 1e-4
+    assert list(solvers._values.values())[-1] is solver
+    tell(f"redo: {operator.inner_fairness} answered in {report().seconds:.2f} s, the run took {first:.2f} s")
+    screenshot("redo_long")
