@@ -58,7 +58,7 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     join = quality.join(problem, after)
     odd = _rounded(problem, after, moving, options), _swollen(patch, before, after)
     evidence = Evidence(problem, result, solved.failures, quality_before, quality_after, join, *odd, points=after)
-    verdict = judge(evidence, options)
+    verdict = judge(evidence, options.resolved(mesh.textured))
     order = np.argsort(problem.vertices[moving])
     return Fairing(
         vertices=problem.vertices[moving][order],

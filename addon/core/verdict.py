@@ -118,6 +118,7 @@ def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str,
     offered = {
         GROW: has_outside,
         SMOOTH_OUTLINE: has_outside and options.outline == "GIVEN" and options.mesh == "KEEP",
+        EVEN_SPREAD: bad and _is_folded(evidence) and options.mesh == "KEEP" and options.inner_fairness != "UNIFORM",
         AS_SELECTED: len(evidence.rounded) > 0,
         HOLD_BORDER: bad and options.fairs_border,
         EVEN_CURVATURE: bad and not was_tried and options.equation in ("HARMONIC", "MINIMAL_ENERGY"),
@@ -126,12 +127,30 @@ def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str,
     return tuple(name for name, offer in offered.items() if offer)
 
 
+def _is_folded(evidence: Evidence) -> bool:
+    return evidence.result.termination == "folded" or len(evidence.after.folded) > 0
+
+
 def _no_answer(evidence: Evidence, _options: FairOptions) -> Found:
     result, patch = evidence.result, evidence.problem.patch
     if result.converged or result.termination == "folded":
         return _NOTHING
     reason = evidence.failures[0] if evidence.failures else "No fair surface was found"
+    reason += _ending(evidence)
     return reason, _troubled(evidence.problem) if len(evidence.problem.outside) else patch.vertices[patch.outline]
+
+
+def _ending(evidence: Evidence) -> str:
+    """Return how the search ended, where the engine does not tell why, and what there is instead."""
+    if any(evidence.told("NOT_CONVERGED", "load_share", "area", "from_behind")):
+        return ""
+    steps = counted(evidence.result.iterations, "step", "steps")
+    stalled = evidence.result.termination == "stalled"
+    text = f": it got no further after {steps}" if stalled else f": it was not there after all {steps} allowed"
+    after = evidence.after
+    if len(after.folded) or (after.crossing is not None and len(after.crossing)) or len(evidence.join.seen):
+        return text
+    return f"{text}. What it came to has no folds and no kinks"
 
 
 def _troubled(problem: Problem) -> Ints:
@@ -158,7 +177,11 @@ def _folded(evidence: Evidence, options: FairOptions) -> Found:
     if not len(after):
         return _NOTHING
     text = counted(len(after), "face of the result is folded over", "faces of the result are folded over")
-    return text, _corners(evidence.problem, after)
+    corners, patch = _corners(evidence.problem, after), evidence.problem.patch
+    pins = np.intersect1d(corners, patch.vertices[np.setdiff1d(patch.fixed, patch.outline)])
+    if len(pins):
+        text += f", at {counted(len(pins), 'pinned vertex', 'pinned vertices')}"
+    return text, corners
 
 
 def _named_folds(evidence: Evidence) -> Found:

@@ -18,6 +18,7 @@ from core.solve import pose, solve
 from core.verdict import (
     AS_SELECTED,
     EVEN_CURVATURE,
+    EVEN_SPREAD,
     GOOD,
     GROW,
     HOLD_BORDER,
@@ -29,6 +30,7 @@ from core.verdict import (
     Verdict,
     judge,
 )
+from core.words import counted
 from polygon_mesh import grid, on_sphere
 
 MESH = grid(12, 0.6, on_sphere)
@@ -79,7 +81,19 @@ def test_a_knob_deserves_a_look(fine: Evidence) -> None:
 def test_no_answer_is_not_usable(fine: Evidence, termination: Any) -> None:
     lost = replace(fine, result=replace(fine.result, converged=False, termination=termination), failures=("Why",))
     verdict = judged(lost)
-    assert (verdict.grade, verdict.reason) == (UNUSABLE, "Why")
+    assert verdict.grade == UNUSABLE
+    assert verdict.reason.startswith("Why: it ")
+    assert counted(fine.result.iterations, "step", "steps") in verdict.reason
+    assert ("allowed" in verdict.reason) == (termination == "iteration_limit")
+    assert verdict.reason.endswith("What it came to has no folds and no kinks")
+    for spoilt in (
+        replace(lost, after=replace(CLEAN, crossing=ints(FACE))),
+        replace(lost, after=replace(CLEAN, folded=ints(FACE))),
+        replace(lost, join=Join(ints(7), np.array([31.0]))),
+    ):
+        assert "What it came to" not in judged(spoilt).reason
+    told = fairing.Diagnostic("NOT_CONVERGED", "", np.empty(0, np.int32), "vertex", {"area": 0.0})
+    assert judged(replace(lost, result=replace(lost.result, warnings=(told,)))).reason == "Why"
     outline = fine.problem.patch.vertices[fine.problem.patch.outline]
     assert set(verdict.spots) <= set(outline)
     assert len(verdict.spots)
@@ -96,6 +110,26 @@ def test_folds_are_not_usable_and_their_corners_are_the_spots(fine: Evidence) ->
     verdict = judged(replace(fine, after=replace(CLEAN, folded=ints(FACE))))
     assert (verdict.grade, verdict.reason) == (UNUSABLE, "1 face of the result is folded over")
     assert verdict.spots.tolist() == CORNERS
+
+
+def test_folds_offer_to_spread_vertices_evenly(fine: Evidence) -> None:
+    folded = replace(fine, after=replace(CLEAN, folded=ints(FACE)))
+    assert EVEN_SPREAD in judged(folded, inner_fairness="CONFORMAL").remedies
+    assert EVEN_SPREAD not in judged(folded, inner_fairness="UNIFORM").remedies
+    assert EVEN_SPREAD not in judged(folded, inner_fairness="CONFORMAL", mesh="NEW").remedies
+    crossing = replace(fine, after=replace(CLEAN, crossing=ints(FACE)))
+    assert EVEN_SPREAD not in judged(crossing, inner_fairness="CONFORMAL").remedies
+
+
+def test_folds_at_a_pin_name_it(fine: Evidence) -> None:
+    patch = fine.problem.patch
+    pin = int(np.flatnonzero(patch.vertices == CORNERS[0])[0])
+    pinned = replace(patch, free=np.setdiff1d(patch.free, [pin]), fixed=np.append(patch.fixed, pin))
+    problem = replace(fine.problem, patch=pinned)
+    folded = replace(fine, problem=problem, after=replace(CLEAN, folded=ints(FACE)))
+    assert judged(folded).reason == "1 face of the result is folded over, at 1 pinned vertex"
+    away = replace(folded, after=replace(CLEAN, folded=ints(int(np.flatnonzero(MESH.in_patch)[-1]))))
+    assert judged(away).reason == "1 face of the result is folded over"
 
 
 def test_folds_that_hang_on_a_jagged_outline_deserve_a_look(fine: Evidence) -> None:
@@ -229,5 +263,5 @@ def test_without_anything_outside_there_is_nothing_to_grow_into(fine: Evidence) 
     lost = replace(fine, problem=problem, result=replace(fine.result, converged=False, termination="stalled"))
     verdict = judged(lost)
     assert verdict.remedies == (EVEN_CURVATURE, WRITE)
-    assert verdict.reason == "No fair surface was found"
+    assert verdict.reason.startswith("No fair surface was found: it got no further after ")
     assert verdict.spots.tolist() == problem.patch.vertices[problem.patch.outline].tolist()
