@@ -181,7 +181,7 @@ def answers(case: Ball, mended_folds: int, given_folds: int) -> tuple[dict[str, 
         asked.append(boundary)
         count = given_folds if boundary.vertices is case.noisy else mended_folds
         folds = fairing.Diagnostic("FLIPPED_TRIANGLES", "", np.arange(count, dtype=np.int32), "triangle")
-        return {"converged": True, "warnings": (folds,) if count else ()}
+        return {"converged": True, "warnings": (folds,) if count else (), "vertices": case.exact}  # joins without kinks
 
     given = _mending.Boundary(case.noisy, None, None)
     around = _mending.Surroundings.of(case.noisy, case.inside, None, case.outside)
@@ -197,6 +197,30 @@ def test_a_mended_outline_that_folds_the_patch_is_given_up() -> None:
     assert len(answer["moved"]) and len(asked) == 2
     answer, asked = answers(case, 0, 1)
     assert len(answer["moved"]) and len(asked) == 1
+
+
+@pytest.mark.parametrize(
+    ("mended_lift", "given_lift", "kept"), [(1.2, 1.0, True), (1.2, 1.3, False), (1.0, 1.2, False)]
+)
+def test_a_mended_outline_that_joins_worse_is_given_up(mended_lift: float, given_lift: float, kept: bool) -> None:
+    """One vertex beside the outline lifted off a sphere stands for a surface that comes in at an angle."""
+    case = ball(0.1)
+    ring = case.inside[np.isin(case.inside, case.outline).any(axis=1)]
+    beside = int(np.setdiff1d(ring, case.outline)[0])
+    asked = 0
+
+    def call(boundary: _mending.Boundary) -> dict[str, Any]:
+        nonlocal asked
+        asked += 1
+        vertices = case.exact.copy()
+        vertices[beside] *= given_lift if boundary.vertices is case.noisy else mended_lift
+        return {"converged": True, "warnings": (), "vertices": vertices}
+
+    given = _mending.Boundary(case.noisy, None, None)
+    around = _mending.Surroundings.of(case.noisy, case.inside, None, case.outside)
+    answer = _mending.solve_mended(call, given, case.inside, around)
+    assert ("moved" not in answer) == kept
+    assert asked == (1 if mended_lift == 1.0 else 2)  # what joins well is not solved twice
 
 
 def with_a_spike() -> tuple[Ball, int]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from .filling import FillOptions, Piece, worst
 from .quality import VISIBLE
-from .report import MET, MISSED, Check, Report, angle_text
+from .report import MET, MISSED, Check, Report, angle_text, distortion_text
 from .verdict import GRADES, UNUSABLE, NotUsable, Verdict
 from .words import counted
 
@@ -88,5 +88,5 @@ def _checks(pieces: list[Piece], added: Sequence[Added], distortion: float) -> t
     return (
         Check("New faces", str(faces)),
         *((Check("Surfaces", str(len(pieces))),) if len(pieces) > 1 else ()),
-        *((Check("Texture distortion", f"{distortion:.1%}"),) if distortion else ()),
+        *((Check("Texture distortion", distortion_text(distortion)),) if distortion else ()),
     )

@@ -16,6 +16,7 @@ from .verdict import GOOD, GRADES, LOOK, UNUSABLE, Verdict, judges_join
 from .words import counted
 
 MET, MISSED, TOLD = "MET", "MISSED", "TOLD"
+MOST_DISTORTED = 10.0  # of texture distortion; beyond, more of it means nothing
 GRADE_NAMES = {GOOD: "Good", LOOK: "Look here", UNUSABLE: "Not usable"}
 
 Named = tuple[str, Fairing]
@@ -116,16 +117,21 @@ def _bulge_note(named: list[Named], options: FairOptions) -> tuple[str, ...]:
 
 
 def _checks(outcomes: list[Fairing], options: FairOptions) -> tuple[Check, ...]:
-    _, worst = _worst_join(outcomes)
-    kink = Check(
-        "Kink at the outline", f"≤ {angle_text(worst)}", _state(not any(len(outcome.join.seen) for outcome in outcomes))
+    worst = max((outcome.join for outcome in outcomes), key=lambda join: join.worst)
+    kinks = (
+        Check(
+            "Kink at the outline",
+            f"≤ {angle_text(worst.worst)}",
+            _state(not any(len(outcome.join.seen) for outcome in outcomes)),
+        ),
+        Check("Kinks show here from", f"{worst.limit:.0f}°"),
     )
     return (
-        *((kink,) if judges_join(options) and any(len(o.join.vertices) for o in outcomes) else ()),
+        *(kinks if judges_join(options) and any(len(o.join.vertices) for o in outcomes) else ()),
         _count_check("Folded faces", outcomes, lambda quality: quality.folded),
         _count_check("Faces that cross", outcomes, lambda quality: quality.crossing),
         _count_check("Needles", outcomes, lambda quality: quality.needles),
-        Check("Texture distortion", f"{max(o.distortion for o in outcomes):.1%}"),
+        Check("Texture distortion", distortion_text(max(o.distortion for o in outcomes))),
     )
 
 
@@ -177,6 +183,11 @@ def _endings(outcomes: list[Fairing]) -> str:
 def _residual_text(result: Result) -> str:
     """Say how far down the residual came: alone its size, which grows with the mesh's resolution, tells little."""
     return f"{result.initial_residual:.0e} → {result.residual:.0e}"
+
+
+def distortion_text(distortion: float) -> str:
+    """Return it in per cent, as far as that says something: needles in the old mesh make it as large as one likes."""
+    return f"{distortion:.1%}" if distortion <= MOST_DISTORTED else f"> {MOST_DISTORTED:.0%}"
 
 
 def angle_text(degrees: float) -> str:

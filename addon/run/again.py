@@ -10,7 +10,7 @@ from typing import Any
 import bpy
 from bpy.props import EnumProperty
 
-from ..core.verdict import AS_SELECTED, EVEN_CURVATURE, GROW, HOLD_BORDER, SMOOTH_OUTLINE, WRITE
+from ..core.verdict import AS_SELECTED, EVEN_CURVATURE, EVEN_SPREAD, GROW, HOLD_BORDER, SMOOTH_OUTLINE, WRITE
 from ..host.polling import require, require_edit_mode
 from ..host.status import look_at
 from . import last_run
@@ -64,6 +64,7 @@ CHANGES: dict[str, dict[str, Any]] = {
     AS_SELECTED: {"outline": "GIVEN"},
     HOLD_BORDER: {"open_border": "HELD"},
     EVEN_CURVATURE: {"equation": "LEAST_VARIATION"},
+    EVEN_SPREAD: {"inner_fairness": "UNIFORM"},
     WRITE: {"accept": "ALL"},
 }
 _WAYS = (
@@ -72,6 +73,7 @@ _WAYS = (
     (AS_SELECTED, "Outline As Selected", "Leave the outline and what is around it where it is, and fair again"),
     (HOLD_BORDER, "Hold Open Border", "Leave open borders where they are, and fair again"),
     (EVEN_CURVATURE, "Even Curvature", "Fair again with the shape Even Curvature, which exists more often"),
+    (EVEN_SPREAD, "Spread Vertices Evenly", "Fair again with vertices that lie evenly, whatever the old mesh was like"),
     (WRITE, "Write It All the Same", "Write the result as it is, folds and all"),
 )
 WAY_NAMES = {identifier: name for identifier, name, _ in _WAYS}

@@ -60,6 +60,8 @@ def test_of_several_objects_the_worst_counts(sphere: Fairing) -> None:
     assert both.free_vertices == 2 * len(sphere.vertices)
     assert both.join == (4.0, 30.0)
     assert values(both)["Kink at the outline"] == "≤ 30°"
+    assert values(both)["Kinks show here from"] == "12°"
+    assert values(report(replace(sphere, join=replace(seen, limit=25.0))))["Kinks show here from"] == "25°"
     assert states(both)["Kink at the outline"] == MISSED
     assert values(both)["Equation solved"] == "no further progress, yes"
     assert (both.verdict.grade, both.verdict.reason) == (UNUSABLE, f"Object 0: {BAD.reason}")
@@ -113,6 +115,11 @@ def test_counts_must_not_grow(
 @pytest.mark.parametrize("options", [{"equation": "MINIMAL"}, {"factor": 0.5}])
 def test_a_soap_film_and_a_blend_promise_no_smooth_join(sphere: Fairing, options: dict[str, Any]) -> None:
     assert "Kink at the outline" not in states(report(sphere, **options))
+
+
+@pytest.mark.parametrize(("distortion", "text"), [(0.0366, "3.7%"), (9.99, "999.0%"), (6.7e9, "> 1000%")])
+def test_texture_distortion_beyond_sense_is_told_as_such(sphere: Fairing, distortion: float, text: str) -> None:
+    assert values(report(replace(sphere, distortion=distortion)))["Texture distortion"] == text
 
 
 def test_warnings_name_their_object_where_there_are_several(sphere: Fairing) -> None:

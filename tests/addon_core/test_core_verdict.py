@@ -11,12 +11,14 @@ import pytest
 
 import fairing
 from core.arrays import Ints
+from core.findings import Origin
 from core.options import FairOptions
 from core.quality import Join, Quality
 from core.solve import pose, solve
 from core.verdict import (
     AS_SELECTED,
     EVEN_CURVATURE,
+    EVEN_SPREAD,
     GOOD,
     GROW,
     HOLD_BORDER,
@@ -28,6 +30,7 @@ from core.verdict import (
     Verdict,
     judge,
 )
+from core.words import counted
 from polygon_mesh import grid, on_sphere
 
 MESH = grid(12, 0.6, on_sphere)
@@ -78,7 +81,19 @@ def test_a_knob_deserves_a_look(fine: Evidence) -> None:
 def test_no_answer_is_not_usable(fine: Evidence, termination: Any) -> None:
     lost = replace(fine, result=replace(fine.result, converged=False, termination=termination), failures=("Why",))
     verdict = judged(lost)
-    assert (verdict.grade, verdict.reason) == (UNUSABLE, "Why")
+    assert verdict.grade == UNUSABLE
+    assert verdict.reason.startswith("Why: it ")
+    assert counted(fine.result.iterations, "step", "steps") in verdict.reason
+    assert ("allowed" in verdict.reason) == (termination == "iteration_limit")
+    assert verdict.reason.endswith("What it came to has no folds and no kinks")
+    for spoilt in (
+        replace(lost, after=replace(CLEAN, crossing=ints(FACE))),
+        replace(lost, after=replace(CLEAN, folded=ints(FACE))),
+        replace(lost, join=Join(ints(7), np.array([31.0]))),
+    ):
+        assert "What it came to" not in judged(spoilt).reason
+    told = fairing.Diagnostic("NOT_CONVERGED", "", np.empty(0, np.int32), "vertex", {"area": 0.0})
+    assert judged(replace(lost, result=replace(lost.result, warnings=(told,)))).reason == "Why"
     outline = fine.problem.patch.vertices[fine.problem.patch.outline]
     assert set(verdict.spots) <= set(outline)
     assert len(verdict.spots)
@@ -95,6 +110,26 @@ def test_folds_are_not_usable_and_their_corners_are_the_spots(fine: Evidence) ->
     verdict = judged(replace(fine, after=replace(CLEAN, folded=ints(FACE))))
     assert (verdict.grade, verdict.reason) == (UNUSABLE, "1 face of the result is folded over")
     assert verdict.spots.tolist() == CORNERS
+
+
+def test_folds_offer_to_spread_vertices_evenly(fine: Evidence) -> None:
+    folded = replace(fine, after=replace(CLEAN, folded=ints(FACE)))
+    assert EVEN_SPREAD in judged(folded, inner_fairness="CONFORMAL").remedies
+    assert EVEN_SPREAD not in judged(folded, inner_fairness="UNIFORM").remedies
+    assert EVEN_SPREAD not in judged(folded, inner_fairness="CONFORMAL", mesh="NEW").remedies
+    crossing = replace(fine, after=replace(CLEAN, crossing=ints(FACE)))
+    assert EVEN_SPREAD not in judged(crossing, inner_fairness="CONFORMAL").remedies
+
+
+def test_folds_at_a_pin_name_it(fine: Evidence) -> None:
+    patch = fine.problem.patch
+    pin = int(np.flatnonzero(patch.vertices == CORNERS[0])[0])
+    pinned = replace(patch, free=np.setdiff1d(patch.free, [pin]), fixed=np.append(patch.fixed, pin))
+    problem = replace(fine.problem, patch=pinned)
+    folded = replace(fine, problem=problem, after=replace(CLEAN, folded=ints(FACE)))
+    assert judged(folded).reason == "1 face of the result is folded over, at 1 pinned vertex"
+    away = replace(folded, after=replace(CLEAN, folded=ints(int(np.flatnonzero(MESH.in_patch)[-1]))))
+    assert judged(away).reason == "1 face of the result is folded over"
 
 
 def test_folds_that_hang_on_a_jagged_outline_deserve_a_look(fine: Evidence) -> None:
@@ -119,8 +154,47 @@ def test_a_loft_that_lets_slopes_go_deserves_a_look(fine: Evidence) -> None:
     assert verdict.grade == LOOK
     assert "2 vertices of the outline" in verdict.reason
     assert verdict.spots.tolist() == fine.problem.vertices[[2, 4]].tolist()
-    smooth = replace(told, elements=np.empty(0, np.int32), figures={"loft": 1.0})
-    assert judged(replace(fine, result=replace(fine.result, warnings=(smooth,)))).grade == GOOD
+
+
+def with_warning(evidence: Evidence, code: str, elements: Ints, **figures: float) -> Evidence:
+    told = fairing.Diagnostic(code, "", elements.astype(np.int32), "vertex", figures)
+    return replace(evidence, result=replace(evidence.result, warnings=(told,)))
+
+
+def test_a_smooth_loft_deserves_a_look_where_it_bends_most(fine: Evidence) -> None:
+    """One vertex stands out of the sphere: the edges around it bend, and it is among the worst."""
+    patch = fine.problem.patch
+    points = fine.problem.points.copy()
+    spike = patch.free[len(patch.free) // 2]
+    points[spike] *= 1.2
+    verdict = judged(replace(with_warning(fine, "NO_SOLUTION", ints(), loft=1.0), points=points))
+    assert verdict.grade == LOOK
+    assert "loft" in verdict.reason and "substitute" in verdict.reason
+    around = patch.vertices[np.unique(patch.triangles[(patch.triangles == spike).any(axis=1)])]
+    assert 0 < len(verdict.spots) <= 0.05 * len(patch.free) + 1
+    assert set(verdict.spots) <= set(around)
+    assert judged(with_warning(fine, "NO_SOLUTION", ints(), harmonic=1.0)).grade == GOOD  # as Otherwise asks
+
+
+def test_good_is_only_what_was_asked_for(fine: Evidence) -> None:
+    verdict = judged(with_warning(fine, "G2_NOT_MET", ints(4, 2)), continuity="G2")
+    assert (verdict.grade, verdict.spots.tolist()) == (LOOK, fine.problem.vertices[[4, 2]].tolist())
+    assert verdict.reason == "The curvature outside is not continued at 2 vertices of the outline, as was asked for"
+    for skin in ("old_skin", "sample_skin"):
+        verdict = judged(with_warning(fine, "REFERENCE_UNUSABLE", ints(), **{skin: 1.0}), detail=1.0)
+        assert (verdict.grade, verdict.reason) == (
+            LOOK,
+            "The detail asked for could not be put back: the result is smooth",
+        )
+        assert len(verdict.spots)
+    assert judged(with_warning(fine, "REFERENCE_UNUSABLE", ints())).grade == GOOD  # the surface is the same
+
+
+def test_on_a_new_mesh_the_engines_numbers_are_those_of_the_mesh_that_it_solved(fine: Evidence) -> None:
+    own = len(fine.problem.vertices)
+    origin = Origin(np.arange(100, 110 + own), np.empty((0, 3), np.int64), ints())
+    told = replace(with_warning(fine, "PINS_NOT_SPREAD", ints(own + 5), tips=1.0), origin=origin)
+    assert judged(told).spots.tolist() == [own + 105]
 
 
 def test_the_tip_of_a_needle_deserves_a_look(fine: Evidence) -> None:
@@ -189,5 +263,5 @@ def test_without_anything_outside_there_is_nothing_to_grow_into(fine: Evidence) 
     lost = replace(fine, problem=problem, result=replace(fine.result, converged=False, termination="stalled"))
     verdict = judged(lost)
     assert verdict.remedies == (EVEN_CURVATURE, WRITE)
-    assert verdict.reason == "No fair surface was found"
+    assert verdict.reason.startswith("No fair surface was found: it got no further after ")
     assert verdict.spots.tolist() == problem.patch.vertices[problem.patch.outline].tolist()

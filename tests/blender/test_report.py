@@ -32,6 +32,7 @@ def test_report_of_a_restored_hemisphere() -> None:
     assert meshes.report().verdict == "GOOD"
     assert [name for name in found if not details()[name]] == [
         "Kink at the outline",
+        "Kinks show here from",
         "Folded faces",
         "Faces that cross",
         "Needles",

@@ -116,6 +116,25 @@ def test_again_with_even_curvature() -> None:
     meshes.leave()
 
 
+def test_a_pin_pulled_aside_offers_to_spread_vertices_evenly() -> None:
+    """The old mesh folds at the pin, and so does what keeps its texture; evenly spread vertices don't."""
+    obj = meshes.grid(24)
+    points = meshes.positions(obj)
+    pin = np.linalg.norm(points[:, :2], axis=1).argmin()
+    points[pin] += [0.25, 0.06, 0.0]
+    meshes.move(obj, points)
+    obj.data.uv_layers.new()
+    obj.vertex_groups.new(name="Pin").add([int(pin)], 1.0, "REPLACE")
+    meshes.select(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7))
+    meshes.edit(obj)
+    with pytest.raises(RuntimeError, match="folded over, at 1 pinned vertex"):
+        meshes.run(pin_group="Pin")
+    assert "EVEN_SPREAD" in meshes.report().remedies.split(",")
+    assert bpy.ops.mesh.fair_again(way="EVEN_SPREAD") == {"FINISHED"}
+    assert meshes.report().verdict == "GOOD"
+    meshes.leave()
+
+
 def test_again_with_a_smooth_outline() -> None:
     obj = meshes.grid(16)
     points = meshes.positions(obj)

@@ -120,7 +120,8 @@ def fair(
     outline : "given" | "mended"
         "mended": a noisy outline is moved onto the fit of its surroundings first, and the two rings outside with it, as
         :func:`fairing.mend_outline` does; the normals there are the fit's. The result names what ``moved``. Where that
-        gives folds or no solution, and the outline as given does not, the latter is kept (warning OUTLINE_KEPT).
+        gives folds, no solution, or a worst ``join`` above 12° that is larger than with the outline as given, the
+        latter is kept (warning OUTLINE_KEPT); both are solved then.
     continuity : "G1" | "G2"
         "G2": the surface continues the curvature of its surroundings, too, and Δ_B² H = 0 (docs/joins.md). Where that
         is not known, or no such surface is found, the tangent join is kept, and the warning G2_NOT_MET says so. For

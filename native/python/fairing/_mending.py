@@ -12,6 +12,7 @@ from fairing import _arguments, _core
 from fairing._types import FOLDS, Diagnostic, FloatArray, IntArray
 
 Answer = dict[str, Any]
+VISIBLE = 12.0  # degrees of the join from which the eye may find a kink: below, none is worth a second solve
 
 
 @dataclass(frozen=True)
@@ -81,7 +82,10 @@ def refuse_creases(creases: Any, around: Surroundings) -> None:
 def solve_mended(
     call: Callable[[Boundary], Answer], given: Boundary, triangles: IntArray, around: Surroundings
 ) -> Answer:
-    """The better of both answers: the mended outline's, unless it has folds or no solution where the given one does."""
+    """The better of both answers: the mended outline's, unless the given one is solved, or folds less, or joins better.
+
+    The given one is asked for only where the mended one leaves something to be wished for.
+    """
     if not len(around.rim):
         raise ValueError(
             "outline: 'mended' needs the triangles outside: pass them as `outside`, or among the triangles with all "
@@ -91,10 +95,11 @@ def solve_mended(
     if not len(mended["moved"]):
         return call(given)
     answer = call(_moved(given, triangles, around.rim, mended))
-    if not answer["converged"] or _folds(answer):
+    worth = _worth(answer, around)
+    if worth != _FLAWLESS:
         kept = call(given)
-        if (kept["converged"], -_folds(kept)) > (answer["converged"], -_folds(answer)):
-            return _told(kept, mended["moved"], "its mended place gives folds or no solution")
+        if _worth(kept, around) > worth:
+            return _told(kept, mended["moved"], "its mended place gives folds, a larger kink or no solution")
     answer["moved"] = mended["moved"]
     return _told(answer, mended["held"], "moving it would turn triangles over")
 
@@ -110,6 +115,18 @@ def _moved(given: Boundary, triangles: IntArray, rim: IntArray, mended: Answer) 
     found = (rim[place] == fixed) & mended["fitted"][place]
     normals[found] = mended["normals"][place[found]]
     return replace(given, vertices=mended["vertices"], fixed=fixed, normals=normals)
+
+
+_FLAWLESS = (True, 0, 0.0)
+
+
+def _worth(answer: Answer, around: Surroundings) -> tuple[bool, int, float]:
+    """What two answers are compared by: solved; folds; the worst kink in degrees, as far as it may be visible."""
+    if not answer["converged"]:
+        return False, -_folds(answer), 0.0
+    seen = _core.visible_join(answer["vertices"], around.inside, around.outside, around.rim, None)
+    worst = float(np.max(seen, initial=0.0))
+    return True, -_folds(answer), -worst if worst > VISIBLE else 0.0
 
 
 def _folds(answer: Answer) -> int:
