@@ -220,6 +220,7 @@ def test_a_mended_outline_that_joins_worse_is_given_up(mended_lift: float, given
     around = _mending.Surroundings.of(case.noisy, case.inside, None, case.outside)
     answer = _mending.solve_mended(call, given, case.inside, around)
     assert ("moved" not in answer) == kept
+    assert [warning.figures.get("worse", 0.0) for warning in answer["warnings"]] == ([1.0] if kept else [])
     assert asked == (1 if mended_lift == 1.0 else 2)  # what joins well is not solved twice
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.special import j0
@@ -173,6 +175,19 @@ def test_a_pin_pulled_sideways_has_a_radius_too(pull: float) -> None:
     assert peaks[0] == pytest.approx(peaks[1], rel=0.03)
     sharp, patch, apex = pulled_sideways(1000, pull, pin_radius=0)
     assert abs(float(sharp.mean_curvature[apex])) * size(patch) > 1.1 * abs(peaks[1])
+
+
+def test_a_folded_surface_has_no_spread_pins() -> None:
+    """A pin that goes up and aside: the first surface with the radius is folded, the pin is led to another one."""
+    patch = shapes.plane(300)
+    pin = near(patch, [(0.0, 0.0)])
+    pulled = replace(patch, vertices=patch.vertices.copy())
+    pulled.vertices[pin, 2] += 0.2 * size(patch)
+    result, _ = lifted(pulled, pin, [0.2])
+    assert result.equation == "harmonic"
+    assert result.converged
+    assert not result.warnings
+    assert len(fairing.flipped_triangles(result.vertices, patch.triangles)) == 0
 
 
 def test_pins_far_from_their_surface_are_led_there() -> None:

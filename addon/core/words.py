@@ -227,6 +227,11 @@ WORDS: dict[str, tuple[Words, ...]] = {
     ),
     "OUTLINE_KEPT": (
         Words(
+            "Outline: Smooth was left out: with {n} outline vertex moved, the result is worse",
+            "Outline: Smooth was left out: with {n} outline vertices moved, the result is worse",
+            when="worse",
+        ),
+        Words(
             "{n} vertex of a noisy outline keeps its place",
             "{n} vertices of a noisy outline keep their place",
         ),

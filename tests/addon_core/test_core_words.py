@@ -70,6 +70,10 @@ def test_triangles_are_counted_by_their_faces_and_edges_by_the_meshs_vertices() 
     assert told(diagnostic("NO_SOLUTION", [0, 1, 2], free_vertices=3.0, harmonic=1.0, loft=1.0)) == (
         "No fair surface fits these outlines: they were joined by a loft",
     )
+    assert told(diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0, worse=1.0)) == (
+        "Outline: Smooth was left out: with 2 outline vertices moved, the result is worse",
+    )
+    assert told(diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0)) == ("2 vertices of a noisy outline keep their place",)
     edge = refusal(found(diagnostic("NONMANIFOLD_EDGE", [4, 1, 0, 2], edges=2.0), ORIGIN))
     assert "the edge 50–20" in str(edge)
     assert edge.elements.tolist() == [10, 20, 30, 50]

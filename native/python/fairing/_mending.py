@@ -99,7 +99,8 @@ def solve_mended(
     if worth != _FLAWLESS:
         kept = call(given)
         if _worth(kept, around) > worth:
-            return _told(kept, mended["moved"], "its mended place gives folds, a larger kink or no solution")
+            why = "its mended place gives folds, a larger kink or no solution"
+            return _told(kept, mended["moved"], why, worse=1.0)
     answer["moved"] = mended["moved"]
     return _told(answer, mended["held"], "moving it would turn triangles over")
 
@@ -133,10 +134,11 @@ def _folds(answer: Answer) -> int:
     return sum(len(warning.elements) for warning in answer["warnings"] if warning.code in FOLDS)
 
 
-def _told(answer: Answer, vertices: IntArray, why: str) -> Answer:
+def _told(answer: Answer, vertices: IntArray, why: str, **figures: float) -> Answer:
     if len(vertices):
         text = f"{len(vertices)} vertices of a noisy outline keep their place: {why}"
-        answer["warnings"] += (Diagnostic("OUTLINE_KEPT", text, vertices, "vertex", {"vertices": len(vertices)}),)
+        told = {"vertices": len(vertices), **figures}
+        answer["warnings"] += (Diagnostic("OUTLINE_KEPT", text, vertices, "vertex", told),)
     return answer
 
 
