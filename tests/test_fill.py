@@ -175,13 +175,21 @@ def test_three_outlines_become_a_blend() -> None:
     assert {*np.sign(top[:, 2])} == {-1.0, 1.0}
 
 
-def elbow(radius: float) -> tuple[FloatArray, IntArray]:
-    """Two open tubes at right angles, a quarter of a torus of radius 1 around the origin apart; outward normals."""
+def elbow(radius: float, bend: float = 90.0) -> tuple[FloatArray, IntArray]:
+    """Two open tubes with a part of a torus of radius 1 around the origin between them; outward normals."""
     part, faces = holes.sheet(
         lambda u, v: (1 + radius * np.cos(2 * np.pi * u), -v, radius * np.sin(2 * np.pi * u)), (32, 8),
         lambda u, v: np.zeros(len(u), dtype=bool), closed=True,
     )  # fmt: skip
-    return np.concatenate([part, part[:, [1, 0, 2]]]), np.concatenate([faces, faces[:, ::-1] + len(part)])
+    half = np.radians(bend / 2)
+    mirror = np.array([[np.cos(2 * half), np.sin(2 * half), 0], [np.sin(2 * half), -np.cos(2 * half), 0], [0, 0, 1]])
+    return np.concatenate([part, part @ mirror]), np.concatenate([faces, faces[:, ::-1] + len(part)])
+
+
+def rims_of_elbow(vertices: FloatArray, triangles: IntArray) -> list[IntArray]:
+    """Those at the gap, where v is 0."""
+    half = len(vertices) // 2
+    return [loop for loop in fairing.boundary_loops(triangles) if (loop % half % 9 == 0).all()]
 
 
 @pytest.mark.parametrize("otherwise", ["least_variation", "stop"])
@@ -214,6 +222,16 @@ def test_a_thin_elbow_is_found(radius: float) -> None:
     assert (result.converged, result.equation) == (True, "least_variation")
     assert np.abs(away - radius).max() < 0.02
     assert len({*result.levels}) == 1  # the fine mesh begins at the first surface, without another coarse one
+
+
+@pytest.mark.parametrize(("radius", "bend"), [(0.4, 120.0), (0.25, 120.0), (0.4, 135.0)])
+def test_a_bridge_leads_around_a_wide_bend(radius: float, bend: float) -> None:
+    """Two of the three only by way of one more coarse mesh: the fine one stalls."""
+    vertices, triangles = elbow(radius, bend)
+    result = fairing.fill(vertices, triangles, rims_of_elbow(vertices, triangles), bridge=True)
+    away = np.hypot(np.hypot(result.vertices[:, 0], result.vertices[:, 1]) - 1, result.vertices[:, 2])
+    assert (result.converged, result.equation) == (True, "least_variation")
+    assert np.abs(away - radius).max() < 0.1 * radius
 
 
 @pytest.mark.parametrize("edges", [6, 24, 48, 96])

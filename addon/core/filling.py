@@ -26,6 +26,7 @@ from .verdict import GOOD, LOFT_REASON, LOOK, UNUSABLE, Verdict
 from .words import counted, in_mesh_words
 
 _TOO_MANY = "Bridge joins all {} selected outlines in one surface: select only those that belong together"
+_TWO = "Bridge needs two outlines that face each other: switch it off to close each of them by itself"
 SHAPES = ("HARMONIC", "MINIMAL_ENERGY", "LEAST_VARIATION")
 
 
@@ -217,7 +218,12 @@ def _advised(verdict: Verdict, options: FillOptions, loops: int) -> Verdict:
     """Return the verdict with what to do about it where too many outlines were joined."""
     if verdict.grade != UNUSABLE or not options.bridge or loops < 3:
         return verdict
-    return replace(verdict, reason=f"{verdict.reason}. {_TOO_MANY.format(loops)}")
+    return replace(verdict, reason=f"{verdict.reason}. {joining_advice(loops)}")
+
+
+def joining_advice(loops: int) -> str:
+    """Return what to do where so many outlines were not joined."""
+    return _TOO_MANY.format(loops) if loops > 2 else _TWO
 
 
 @contextmanager
@@ -228,7 +234,7 @@ def _joining(options: FillOptions, outline: Ints, loops: int) -> Iterator[None]:
     except fairing.MeshError as error:
         if not options.bridge or error.code != "NONMANIFOLD_EDGE" or "doubles" in error.diagnostic.figures:
             raise
-        raise BorderRefusal(f"No surface joins these outlines. {_TOO_MANY.format(loops)}", outline) from error
+        raise BorderRefusal(f"No surface joins these outlines. {joining_advice(loops)}", outline) from error
 
 
 def _crossing(world: MeshArrays, outline: Ints, points: Floats, triangles: Ints) -> int:

@@ -10,7 +10,6 @@
 #include "base/parallel.h"
 #include "fill/even_mesh.h"
 #include "fill/first_surface.h"
-#include "fill/joined_loops.h"
 #include "mesh/pieces.h"
 
 namespace fairing {
@@ -142,8 +141,7 @@ NewSurface fill_loops(const OpenLoops& input, bool bridge, const SolverOptions& 
         const OutlineData data = gathered(input, chosen);
         const Normalisation unit = normalise(data.points);
         const Points points = unit.to_unit(data.points);
-        const FirstSurface first =
-            first_surface({points, data.normals, joined_loops(points, data.loops)}, options, part.range(0.1, 1.0));
+        const FirstSurface first = first_surface({points, data.normals, data.loops}, options, part.range(0.1, 1.0));
         const int free_count = first.patch.free_count;
         assembly.add(first.patch.triangles, unit.from_unit(first.solution.points.leftCols(free_count)), data.to_input);
         result.converged = result.converged && first.solution.termination == Termination::converged;

@@ -7,6 +7,7 @@
 #include "fill/ball_start.h"
 #include "fill/edge_lengths.h"
 #include "fill/even_mesh.h"
+#include "fill/joined_loops.h"
 #include "fill/tube_start.h"
 #include "method/near_start.h"
 #include "method/otherwise.h"
@@ -33,10 +34,9 @@ Patch made_patch(int free_count, Triangles triangles, Eigen::Index vertex_count)
 
 // The triangulation. A lone triangle has no chord to split: it gets a vertex in its middle.
 ProxyMesh outline_mesh(const OpenOutline& outline) {
-    if (outline.triangles.cols() > 1) {
-        return {made_patch(0, outline.triangles, outline.points.cols()), outline.points};
-    }
-    const Eigen::Vector3i corners = outline.triangles.col(0) + Eigen::Vector3i::Ones();
+    const Triangles triangles = joined_loops(outline.points, outline.loops);
+    if (triangles.cols() > 1) return {made_patch(0, triangles, outline.points.cols()), outline.points};
+    const Eigen::Vector3i corners = triangles.col(0) + Eigen::Vector3i::Ones();
     Triangles fan(3, 3);
     for (int k = 0; k < 3; ++k) fan.col(k) << corners[k], corners[(k + 1) % 3], 0;
     Points points(3, outline.points.cols() + 1);
@@ -144,14 +144,14 @@ std::optional<FirstSurface> from_ball(const OpenOutline& outline, const Meshed& 
 // variation where it has none or a bulb.
 std::optional<FirstSurface> from_tube(const OpenOutline& outline, const SolverOptions& options,
                                       const Progress& progress) {
-    const Patch bare = made_patch(0, outline.triangles, outline.points.cols());
-    std::optional<TubeMesh> tube = tube_start(bare, outline.points, outline.normals);
-    if (!tube) return std::nullopt;
-    const auto added = tube->points.cols();
+    const auto swept = SweptTube::between(outline.loops, outline.points, outline.normals);
+    if (!swept) return std::nullopt;
+    TubeMesh tube = tube_start(*swept);
+    const auto added = tube.points.cols();
     Points points(3, added + outline.points.cols());
-    points << tube->points, outline.points;
-    const Patch swept = made_patch(static_cast<int>(added), std::move(tube->triangles), points.cols());
-    Meshed even = even_mesh(outline, swept, points, options);
+    points << tube.points, outline.points;
+    const Patch patch = made_patch(static_cast<int>(added), std::move(tube.triangles), points.cols());
+    Meshed even = even_mesh(outline, patch, points, options);
     const Problem problem = problem_on(outline, even.patch, options);
     std::optional<Solution> solution;
     if (options.equation != Equation::least_variation)
@@ -162,15 +162,12 @@ std::optional<FirstSurface> from_tube(const OpenOutline& outline, const SolverOp
     return FirstSurface{std::move(even.patch), std::move(*solution)};
 }
 
-std::optional<FirstSurface> from_shape(const OpenOutline& outline, const Meshed& flat, const SolverOptions& options,
-                                       const Progress& progress) {
-    std::optional<FirstSurface> found = from_ball(outline, flat, options, progress.range(0.0, 0.5));
-    return found ? std::move(found) : from_tube(outline, options, progress.range(0.5, 1.0));
-}
-
-FirstSurface from_flat(const OpenOutline& outline, Meshed& flat, const SolverOptions& options,
-                       const Progress& progress) {
-    Solution solution = solve_or_else(problem_on(outline, flat.patch, options), progress);
+// From a coarse and flat mesh.
+FirstSurface from_flat(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
+    Meshed flat = first_mesh(outline);
+    std::optional<FirstSurface> found = from_ball(outline, flat, options, progress.range(0.0, 0.2));
+    if (found) return std::move(*found);
+    Solution solution = solve_or_else(problem_on(outline, flat.patch, options), progress.range(0.2, 1.0));
     return {std::move(flat.patch), std::move(solution)};
 }
 
@@ -178,9 +175,8 @@ FirstSurface from_flat(const OpenOutline& outline, Meshed& flat, const SolverOpt
 
 FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
     constexpr int most_rounds = 4;
-    Meshed flat = first_mesh(outline);
-    std::optional<FirstSurface> begun = from_shape(outline, flat, options, progress.range(0.0, 0.1));
-    FirstSurface result = begun ? std::move(*begun) : from_flat(outline, flat, options, progress.range(0.1, 0.4));
+    std::optional<FirstSurface> begun = from_tube(outline, options, progress.range(0.0, 0.1));
+    FirstSurface result = begun ? std::move(*begun) : from_flat(outline, options, progress.range(0.1, 0.4));
     for (int round = 0; round < most_rounds; ++round) {
         const bool converged = result.solution.termination == Termination::converged;
         if (!converged && (round > 0 || has_blown_up(result))) break;

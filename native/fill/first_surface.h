@@ -7,11 +7,11 @@
 
 namespace fairing {
 
-// Outlines with the normals wanted there, in units of D, and a triangulation of what they bound.
+// Outlines with the normals wanted there, in units of D.
 struct OpenOutline {
-    Points points;        // 3 × vertices, all on the outline
-    Points normals;       // unit
-    Triangles triangles;  // fill/joined_loops
+    Points points;               // 3 × vertices, all on the outline
+    Points normals;              // unit
+    std::vector<Indices> loops;  // of vertices, the surface on their left
 };
 
 // A mesh of the engine's own with the surface on it. Fixed vertices: the outline's, in their order.
@@ -21,7 +21,7 @@ struct FirstSurface {
 };
 
 // Some 300 free vertices or more, and the surface of the equation as `method` finds it there. Throws Cancelled,
-// SolverError.
+// SolverError, MeshError where no triangulation joins the outlines.
 FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& options, const Progress& progress);
 
 }  // namespace fairing

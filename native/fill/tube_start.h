@@ -1,9 +1,7 @@
-// A start between two outlines that face each other along a bend.
+// A mesh of the tube between two outlines.
 #pragma once
 
-#include <optional>
-
-#include "mesh/patch.h"
+#include "start/swept_tube.h"
 
 namespace fairing {
 
@@ -13,9 +11,6 @@ struct TubeMesh {
     Triangles triangles;
 };
 
-// Nothing where `bare`, a patch without free vertices, has other than two loops, or where they don't face along one
-// tube. The sections are swept along the cubic that leaves each outline's middle into the gap; in between they are
-// blended in frames that don't turn about it (Wang et al. 2008, double reflection). `points`, `normals`: 3 × vertices.
-std::optional<TubeMesh> tube_start(const Patch& bare, const Points& points, const Points& normals);
+TubeMesh tube_start(const SweptTube& tube);
 
 }  // namespace fairing

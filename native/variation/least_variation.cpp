@@ -180,7 +180,11 @@ std::optional<Solution> solve_nearby(const Problem& problem, const NearVariation
     ProxyMesh mesh(problem.patch, near.points);
     SolvedSheet solved = near.roughly ? solve_coarse(mesh, problem, near_beginning, progress.range(0.0, 0.9))
                                       : solve_fine(mesh, problem, unsolved(mesh, problem, progress), near_damping,
-                                                   progress.range(0.0, 0.9));
+                                                   progress.range(0.0, 0.5));
+    if (!near.roughly && !solved.result.converged) {  // too far from it: over a coarse mesh
+        const auto anew = attempted(problem, near.points, near_beginning, most, progress.range(0.5, 0.9));
+        if (anew) return solution_of(problem, *anew, progress.range(0.9, 1.0));
+    }
     if (std::isfinite(most) && !(solved.result.merit <= most)) return std::nullopt;
     if (near.roughly) solved.result.converged = true;  // near enough, whatever its last steps were
     const double solve_seconds = watch.lap();

@@ -26,7 +26,7 @@ struct NearVariation {
 struct VariationLimits {
     double most_product = HUGE_VAL;  // nothing comes back where a coarse mesh shows more
     int most_beginnings = 4;         // other meshes and dampings that are tried where the first ends nowhere
-    std::optional<NearVariation> near = std::nullopt;  // where to begin; the one beginning, then
+    std::optional<NearVariation> near = std::nullopt;  // where to begin, instead of those
 };
 
 // The same within limits.

@@ -10,7 +10,7 @@ import pytest
 
 from core.arrays import Floats, Ints, Mask
 from core.border import BorderRefusal, border_loops
-from core.filling import FillOptions, Piece, fill, judge
+from core.filling import FillOptions, Piece, fill, joining_advice, judge
 from core.harmonic import harmonic, nearest
 from core.region import MeshArrays
 from core.verdict import GOOD, LOOK, UNUSABLE
@@ -120,6 +120,12 @@ def test_each_loop_for_itself_or_all_joined() -> None:
     (tube,) = filled(mesh, *seeds, bridge=True)
     assert [len(loop) for loop in tube.loops] == [24, 24]
     assert np.abs(np.linalg.norm(tube.positions[:, :2], axis=1) - 1.0).max() < 1e-2
+
+
+def test_who_selected_just_two_outlines_is_not_told_to_select_fewer() -> None:
+    assert "all 3 selected outlines" in joining_advice(3)
+    assert "two outlines that face each other" in joining_advice(2)
+    assert "select only" not in joining_advice(2)
 
 
 def test_a_surface_through_the_mesh_is_unusable() -> None:

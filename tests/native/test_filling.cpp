@@ -301,8 +301,7 @@ TEST_CASE("the surface over a rim that asks for nearly a whole ball is found fro
     for (const double half_angle : {100.0 * degree, 150.0 * degree}) {
         const double radius = 0.5 / std::sin(half_angle);
         const Points rim = radius * (ring(n, 1.0 / std::tan(half_angle)) * std::sin(half_angle));
-        const FirstSurface found =
-            first_surface({rim, rim / radius, joined_loops(rim, {first_numbers(n)})}, SolverOptions(), Progress());
+        const FirstSurface found = first_surface({rim, rim / radius, {first_numbers(n)}}, SolverOptions(), Progress());
         CHECK(found.solution.termination == Termination::converged);
         CHECK((found.solution.points.colwise().norm().array() / radius - 1.0).abs().maxCoeff() < 1e-3);
         const bool at_once = found.solution.ways.size() == 1 && found.solution.ways.front().name == "near";
@@ -312,36 +311,25 @@ TEST_CASE("the surface over a rim that asks for nearly a whole ball is found fro
 
 namespace {
 
-// The rims of a quarter of a torus of radius 1 around the z axis, and what makes a patch of them.
+// The rims of a part of a torus of radius 1 around the z axis.
 struct Elbow {
     Points points;
     Points normals;
-    Triangles triangles;
+    std::vector<Indices> loops;
 };
 
-Elbow elbow(int n, double radius, int shift = 0) {
+Elbow elbow(int n, double radius, int shift = 0, double bend = 0.5 * std::numbers::pi) {
     Elbow result{Points(3, 2 * n), Points(3, 2 * n), {}};
     for (int k = 0; k < 2 * n; ++k) {
         const double angle = 2.0 * std::numbers::pi * (k + (k < n ? 0 : shift)) / n;
-        const Vector3 out = k < n ? Vector3(1.0, 0.0, 0.0) : Vector3(0.0, 1.0, 0.0);
+        const Vector3 out = k < n ? Vector3::UnitX() : Vector3(std::cos(bend), std::sin(bend), 0.0);
         result.normals.col(k) = std::cos(angle) * out + std::sin(angle) * Vector3::UnitZ();
         result.points.col(k) = out + radius * result.normals.col(k);
     }
     Indices below = first_numbers(n);
     std::reverse(below.begin(), below.end());
-    const Indices above = first_numbers(n, n);
-    result.triangles = joined_loops(result.points, {below, above});
+    result.loops = {below, first_numbers(n, n)};
     return result;
-}
-
-Patch bare_patch(const Elbow& elbow) {
-    PatchMembers members;
-    members.free_count = 0;
-    members.to_input = first_numbers(static_cast<int>(elbow.points.cols()));
-    members.input_triangle = first_numbers(static_cast<int>(elbow.triangles.cols()));
-    members.pin.assign(members.to_input.size(), 0);
-    members.triangles = elbow.triangles;
-    return Patch(std::move(members));
 }
 
 }  // namespace
@@ -349,19 +337,24 @@ Patch bare_patch(const Elbow& elbow) {
 TEST_CASE("a start between two rims follows the bend, however thin the tube and wherever its rims begin") {
     for (const double radius : {0.4, 0.1, 0.02}) {
         for (const int shift : {0, 7}) {
-            const Elbow rims = elbow(24, radius, shift);
-            const auto tube = tube_start(bare_patch(rims), rims.points, rims.normals);
-            REQUIRE(tube.has_value());
-            CHECK(open_sides(tube->triangles).size() == 48);
-            Points points(3, tube->points.cols() + rims.points.cols());
-            points << tube->points, rims.points;
-            for (const auto place : tube->points.colwise()) {
-                const double away = std::hypot(std::hypot(place.x(), place.y()) - 1.0, place.z());
-                CHECK(away == doctest::Approx(radius).epsilon(0.03));  // a cubic is .0003 off an arc of radius 1
+            for (const double bend : {0.5, 1.0}) {
+                const Elbow rims = elbow(24, radius, shift, bend * std::numbers::pi);
+                const auto swept = SweptTube::between(rims.loops, rims.points, rims.normals);
+                REQUIRE(swept.has_value());
+                const TubeMesh tube = tube_start(*swept);
+                CHECK(open_sides(tube.triangles).size() == 48);
+                Points points(3, tube.points.cols() + rims.points.cols());
+                points << tube.points, rims.points;
+                for (const auto place : tube.points.colwise()) {
+                    // A cubic is .0003 off an arc of 90° of radius 1, and .02 off one of 180°.
+                    const double away = std::hypot(std::hypot(place.x(), place.y()) - 1.0, place.z());
+                    CHECK(std::abs(away - radius) < 0.03 * radius + (bend > 0.9 ? 0.02 : 0.0));
+                }
+                FaceGeometry faces;
+                faces.update(points, tube.triangles);
+                const double area = 2.0 * bend * std::numbers::pi * std::numbers::pi * radius;
+                CHECK(faces.areas.sum() == doctest::Approx(area).epsilon(0.02));
             }
-            FaceGeometry faces;
-            faces.update(points, tube->triangles);
-            CHECK(faces.areas.sum() == doctest::Approx(std::numbers::pi * std::numbers::pi * radius).epsilon(0.02));
         }
     }
 }
@@ -373,10 +366,11 @@ TEST_CASE("no tube begins between rims around a flat ring, or where one of them 
     flat.normals << 0.2 * ring(24, 0.0), 0.2 * ring(24, 0.0);  // nearly flat, seen from outside like a tube
     flat.normals.row(2).setOnes();
     flat.normals.colwise().normalize();
-    CHECK_FALSE(tube_start(bare_patch(flat), flat.points, flat.normals).has_value());
+    CHECK_FALSE(SweptTube::between(flat.loops, flat.points, flat.normals).has_value());
     Points half = rims.normals;
     half.leftCols(24) *= -1.0;
-    CHECK_FALSE(tube_start(bare_patch(rims), rims.points, half).has_value());
+    CHECK_FALSE(SweptTube::between(rims.loops, rims.points, half).has_value());
+    CHECK_FALSE(SweptTube::between({rims.loops[0]}, rims.points, rims.normals).has_value());
 }
 
 TEST_CASE("a thin elbow is found at once, and a search in vain leaves a mesh of few vertices") {
@@ -384,7 +378,7 @@ TEST_CASE("a thin elbow is found at once, and a search in vain leaves a mesh of 
     const Vector3 middle = rims.points.rowwise().mean();
     const double size = 2.0 * (rims.points.colwise() - middle).colwise().norm().maxCoeff();
     SolverOptions options;
-    const OpenOutline outline{rims.points / size, rims.normals, rims.triangles};
+    const OpenOutline outline{rims.points / size, rims.normals, rims.loops};
     const FirstSurface found = first_surface(outline, options, Progress());
     CHECK(found.solution.termination == Termination::converged);
     CHECK(found.solution.ways.size() == 1);

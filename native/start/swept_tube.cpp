@@ -1,0 +1,108 @@
+#include "start/swept_tube.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include "base/direction.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr double least_agreement = 0.5;  // of the directions into the gap; 0 around a flat ring, 1 at a tube
+constexpr double least_share = 1e-12;
+
+struct Rim {
+    TubeEnd end;
+    double outward;  // of the normals: above 0 where they point away from the axis
+};
+
+std::optional<Rim> rim_at(const Indices& loop, const Points& points, const Points& normals) {
+    Rim rim{{Vector3::Zero(), Vector3::Zero()}, 0.0};
+    for (const int v : loop) rim.end.middle += points.col(v) / static_cast<double>(loop.size());
+    double total = 0.0;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+        const int a = loop[k];
+        const int b = loop[(k + 1) % loop.size()];
+        const Vector3 normal = normals.col(a) + normals.col(b);
+        const Vector3 into = normal.cross(Vector3(points.col(b) - points.col(a)));
+        rim.end.into += into;
+        total += into.norm();
+        rim.outward += normals.col(a).dot(points.col(a) - rim.end.middle);
+    }
+    if (!(rim.end.into.norm() > least_agreement * total)) return std::nullopt;
+    rim.end.into = direction(rim.end.into);
+    return rim;
+}
+
+double distance(const TubeSection& a, const TubeSection& b, int samples) {
+    double sum = 0.0;
+    for (int k = 0; k < samples; ++k) {
+        const double u = static_cast<double>(k) / samples;
+        sum += (a.at_share(u) - b.at_share(u)).squaredNorm();
+    }
+    return sum;
+}
+
+// Begun where it lies best before the other one.
+std::size_t best_beginning(const Indices& loop, const Points& points, const TubeAxis& axis, const TubeSection& other) {
+    constexpr int samples = 32;
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t best = 0;
+    for (std::size_t first = 0; first < loop.size(); ++first) {
+        const double here = distance(other, TubeSection(loop, first, points, axis, 1.0), samples);
+        if (here >= least) continue;
+        least = here;
+        best = first;
+    }
+    return best;
+}
+
+}  // namespace
+
+TubeSection::TubeSection(const Indices& loop, std::size_t first, const Points& points, const TubeAxis& axis, double s) {
+    const Eigen::Matrix3d frame = axis.frame(s);
+    for (std::size_t k = 0; k <= loop.size(); ++k) {
+        const int v = loop[(first + k) % loop.size()];
+        if (k < loop.size()) vertices_.push_back(v);
+        locals_.emplace_back(frame.transpose() * (points.col(v) - axis.place(s)));
+        const double step = k == 0 ? 0.0 : (locals_[k] - locals_[k - 1]).norm();
+        shares_.push_back(k == 0 ? 0.0 : shares_.back() + step);
+    }
+    girth_ = shares_.back();
+    for (double& share : shares_) share /= girth_;
+}
+
+Vector3 TubeSection::at_share(double u) const {
+    const auto after = std::upper_bound(shares_.begin() + 1, shares_.end() - 1, u);
+    const auto k = static_cast<std::size_t>(after - shares_.begin());
+    const double part = (u - shares_[k - 1]) / std::max(shares_[k] - shares_[k - 1], least_share);
+    return (1.0 - part) * locals_[k - 1] + part * locals_[k];
+}
+
+std::optional<SweptTube> SweptTube::between(const std::vector<Indices>& loops, const Points& points,
+                                            const Points& normals) {
+    if (loops.size() != 2 || loops[0].size() + loops[1].size() != static_cast<std::size_t>(points.cols()))
+        return std::nullopt;
+    const auto first = rim_at(loops[0], points, normals);
+    const auto last = rim_at(loops[1], points, normals);
+    if (!first || !last || !(first->outward * last->outward > 0.0)) return std::nullopt;
+    TubeAxis axis(first->end, last->end);
+    TubeSection below(loops[0], 0, points, axis, 0.0);
+    Indices turned = loops[1];
+    std::reverse(turned.begin(), turned.end());  // around the axis as the first one
+    TubeSection above(turned, best_beginning(turned, points, axis, below), points, axis, 1.0);
+    return SweptTube(std::move(axis), std::move(below), std::move(above));
+}
+
+SweptTube::SweptTube(TubeAxis axis, TubeSection first, TubeSection last)
+    : axis_(std::move(axis)), first_(std::move(first)), last_(std::move(last)) {}
+
+Vector3 SweptTube::place(double s, double u) const {
+    return axis_.place(s) + axis_.frame(s) * ((1.0 - s) * first_.at_share(u) + s * last_.at_share(u));
+}
+
+}  // namespace fairing

@@ -1,0 +1,53 @@
+// The tube between two outlines that face each other along a bend.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/types.h"
+#include "start/tube_axis.h"
+
+namespace fairing {
+
+// A closed section in its frame of the axis. Shares are those of its length, from 0 below 1.
+class TubeSection {
+public:
+    // `loop`: counter-clockwise around the axis, columns of `points`; it begins at `first`.
+    TubeSection(const Indices& loop, std::size_t first, const Points& points, const TubeAxis& axis, double s);
+
+    [[nodiscard]] Vector3 at_share(double u) const;
+    // Around the axis, from the one with the share 0.
+    [[nodiscard]] const Indices& vertices() const { return vertices_; }
+    [[nodiscard]] double share(std::size_t k) const { return shares_[k]; }
+    [[nodiscard]] double girth() const { return girth_; }
+
+private:
+    Indices vertices_;
+    std::vector<Vector3> locals_;  // these two: once more the first one at the end
+    std::vector<double> shares_;
+    double girth_;
+};
+
+// The sections are swept along the cubic that leaves each outline's middle into the gap, and blended in between.
+class SweptTube {
+public:
+    // `loops`: columns of `points` and `normals` (3 × outline vertices), the surface on their left. Nothing where there
+    // are other than two, where they leave out a vertex, or where they don't face along one tube.
+    static std::optional<SweptTube> between(const std::vector<Indices>& loops, const Points& points,
+                                            const Points& normals);
+
+    // `s`: 0 at the first outline, 1 at the second one; `u`: share around.
+    [[nodiscard]] Vector3 place(double s, double u) const;
+    [[nodiscard]] const TubeSection& first() const { return first_; }
+    [[nodiscard]] const TubeSection& last() const { return last_; }
+    [[nodiscard]] double length() const { return axis_.length(); }
+
+private:
+    SweptTube(TubeAxis axis, TubeSection first, TubeSection last);
+
+    TubeAxis axis_;
+    TubeSection first_;
+    TubeSection last_;
+};
+
+}  // namespace fairing
