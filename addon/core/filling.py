@@ -22,7 +22,7 @@ from .harmonic import harmonic, nearest
 from .options import ACCEPT, LEAST_SPACING
 from .quality import VISIBLE
 from .region import MeshArrays, to_local
-from .verdict import GOOD, LOOK, UNUSABLE, Verdict
+from .verdict import GOOD, LOFT_REASON, LOOK, UNUSABLE, Verdict
 from .words import counted, in_mesh_words
 
 _TOO_MANY = "Bridge joins all {} selected outlines in one surface: select only those that belong together"
@@ -208,6 +208,8 @@ def judge(world: MeshArrays, outline: Ints, surface: tuple[Floats, Ints], result
         text = counted(int(seen.sum()), "vertex", "vertices")
         worst = float(result.join.max())
         return Verdict(LOOK, f"A kink shows at {text} of the outline, of {worst:.0f}° at worst", np.unique(outline))
+    if result.equation == "loft":
+        return Verdict(LOOK, LOFT_REASON, np.unique(outline))
     return Verdict(GOOD)
 
 

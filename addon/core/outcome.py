@@ -57,7 +57,8 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     quality_before, quality_after = quality.compare(patch, (before[:own], after[:own]), clear)
     join = quality.join(problem, after)
     odd = _rounded(problem, after, moving, options), _swollen(patch, before, after)
-    verdict = judge(Evidence(problem, result, solved.failures, quality_before, quality_after, join, *odd), options)
+    evidence = Evidence(problem, result, solved.failures, quality_before, quality_after, join, *odd, points=after)
+    verdict = judge(evidence, options)
     order = np.argsort(problem.vertices[moving])
     return Fairing(
         vertices=problem.vertices[moving][order],

@@ -75,10 +75,12 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
     measured = quality.measure(problem.patch, problem.own_points), quality.measure(after.patch, points)
     own = replace(after, points=np.concatenate([points, after.points[len(points) :]]))
     join = quality.join(own, own.points)
-    told, failures, hints = told_by(result, _origin(problem, result))
+    origin = _origin(problem, result)
+    told, failures, hints = told_by(result, origin)
     was = waviness(discs(problem.patch), problem.own_points)
     swollen = after.patch.vertices[swellings(discs(after.patch), points, was)]
-    verdict = judge(Evidence(after, result, failures, *measured, join, swollen=swollen), options)
+    evidence = Evidence(after, result, failures, *measured, join, swollen=swollen, points=own.points, origin=origin)
+    verdict = judge(evidence, options)
     local = to_local(points, matrix)
     stay = len(part.stay)
     return Remeshed(

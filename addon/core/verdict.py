@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
 
 import fairing
 
-from .arrays import Ints
+from .arrays import Floats, Ints
+from .bends import bends
 from .engine import Problem, Result, bad_outline
+from .findings import Finding, Origin, found
 from .options import FairOptions
 from .quality import Join, Quality
 from .region import nothing
@@ -17,10 +20,13 @@ from .words import counted
 
 GOOD, LOOK, UNUSABLE = "GOOD", "LOOK", "UNUSABLE"
 GRADES = (GOOD, LOOK, UNUSABLE)
+MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
 
 # What may help, each a way to run once more.
 GROW, SMOOTH_OUTLINE, AS_SELECTED, HOLD_BORDER = "GROW", "SMOOTH_OUTLINE", "AS_SELECTED", "HOLD_BORDER"
-EVEN_CURVATURE, WRITE = "EVEN_CURVATURE", "WRITE"
+EVEN_CURVATURE, EVEN_SPREAD, WRITE = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE"
+
+LOFT_REASON = "No fair surface fits these outlines: the loft that joins them is a substitute, so look at its shape"
 
 
 @dataclass(frozen=True)
@@ -54,12 +60,27 @@ class Evidence:
     join: Join
     rounded: Ints = field(default_factory=nothing)  # mesh vertices of hard edges outside that were rounded
     swollen: Ints = field(default_factory=nothing)  # mesh vertices at the tops of knobs
+    points: Floats | None = None  # (q, 3) of problem.vertices after the run; None: problem.points
+    origin: Origin | None = None  # what the engine's numbers stand for; None: problem.origin
+
+    def told(self, code: str, *figures: str) -> Iterator[Finding]:
+        """Find what the engine told of by a code, with any of the figures; all of that code without any."""
+        origin = self.origin or self.problem.origin
+        for warning in self.result.warnings:
+            if warning.code == code and (not figures or any(name in warning.figures for name in figures)):
+                yield found(warning, origin)
+
+    def named(self, code: str, figure: str = "") -> Ints:
+        """Return the mesh vertices that the engine names so."""
+        told = (finding.named for finding in self.told(code, *filter(None, [figure])))
+        vertices: Ints = np.concatenate([nothing(), *told])
+        return vertices
 
 
 def judge(evidence: Evidence, options: FairOptions) -> Verdict:
     """Return the verdict on what would be written."""
-    for found in (_no_answer, _folded, _crossing):
-        reason, spots = found(evidence, options)
+    for look in (_no_answer, _folded, _crossing):
+        reason, spots = look(evidence, options)
         if reason:
             bad = not _calms(evidence)
             return Verdict(UNUSABLE if bad else LOOK, reason, np.unique(spots), _remedies(evidence, options, bad))
@@ -74,7 +95,7 @@ def _calms(evidence: Evidence) -> bool:
 
     Those that are left hang on the outline, which has to stay.
     """
-    eased = any(told.code == "NO_SOLUTION" and "distance" in told.figures for told in evidence.result.warnings)
+    eased = any(evidence.told("NO_SOLUTION", "distance"))
     before, after = evidence.before, evidence.after
     if not (evidence.result.converged and eased and len(after.folded) < len(before.folded)):
         return False
@@ -142,11 +163,8 @@ def _folded(evidence: Evidence, options: FairOptions) -> Found:
 
 def _named_folds(evidence: Evidence) -> Found:
     """Tell what the engine tells of folds that show as crossings only."""
-    patch = evidence.problem.patch
-    named = [warning.elements for warning in evidence.result.warnings if warning.code == "FOLDED"]
-    triangles = np.concatenate([np.empty(0, np.int32), *named])
     reason = evidence.failures[0] if evidence.failures else "The surface can't be reached without folds"
-    return reason, patch.vertices[patch.triangles[triangles].ravel()]
+    return reason, evidence.named("FOLDED")
 
 
 def _crossing(evidence: Evidence, options: FairOptions) -> Found:
@@ -167,40 +185,85 @@ def _crossing(evidence: Evidence, options: FairOptions) -> Found:
 
 
 def _visible(evidence: Evidence, options: FairOptions) -> Found:
-    problem, join = evidence.problem, evidence.join
-    seen = join.seen
-    if len(seen) and judges_join(options):
-        text = counted(len(seen), "vertex", "vertices")
-        return f"A kink shows at {text} of the outline, of {join.worst:.0f}° at worst", seen
-    kinks = _kinks_of_loft(evidence)
-    if len(kinks) and judges_join(options):
-        text = counted(len(kinks), "vertex", "vertices")
-        return f"The loft does not continue the slope of its surroundings at {text} of the outline", kinks
-    tips = _told_of(evidence, "PINS_NOT_SPREAD", "tips")
-    if len(tips):
-        return f"The surface comes to a point at {counted(len(tips), 'pinned vertex', 'pinned vertices')}", tips
-    if len(evidence.rounded):
-        text = counted(len(evidence.rounded), "vertex", "vertices")
-        return f"Outline: Smooth has rounded a hard edge outside at {text}: choose As Selected", evidence.rounded
-    if len(evidence.swollen) and judges_join(options) and not _is_meant_to_swell(options):
-        text = counted(len(evidence.swollen), "vertex", "vertices")
-        return f"The surface swells to a knob around {text}: another outline may avoid it", evidence.swollen
-    needles = np.setdiff1d(evidence.after.needles, evidence.before.needles)
-    if len(needles):
-        return counted(len(needles), "face is a needle", "faces are needles"), _corners(problem, needles)
+    for look in (_kinked, _pointed, _rounded, _swollen, _lofted, _refused, _needles):
+        told = look(evidence, options)
+        if told[0]:
+            return told
     return _NOTHING
 
 
-def _kinks_of_loft(evidence: Evidence) -> Ints:
-    """Return the mesh vertices where a loft leaves the tangent planes; dihedral angles show it on fine meshes only."""
-    return _told_of(evidence, "NO_SOLUTION", "kinks")
+def _kinked(evidence: Evidence, options: FairOptions) -> Found:
+    if not judges_join(options):
+        return _NOTHING
+    seen = evidence.join.seen
+    if len(seen):
+        text = counted(len(seen), "vertex", "vertices")
+        return f"A kink shows at {text} of the outline, of {evidence.join.worst:.0f}° at worst", seen
+    kinks = evidence.named("NO_SOLUTION", "kinks")  # dihedral angles show these on fine meshes only
+    if not len(kinks):
+        return _NOTHING
+    text = counted(len(kinks), "vertex", "vertices")
+    return f"The loft does not continue the slope of its surroundings at {text} of the outline", kinks
 
 
-def _told_of(evidence: Evidence, code: str, figure: str) -> Ints:
-    """Return the mesh vertices that the engine names with a code and a figure."""
-    told = [w.elements for w in evidence.result.warnings if w.code == code and figure in w.figures]
-    found: Ints = evidence.problem.vertices[np.concatenate([np.empty(0, np.int32), *told])]
-    return found
+def _pointed(evidence: Evidence, _options: FairOptions) -> Found:
+    tips = evidence.named("PINS_NOT_SPREAD", "tips")
+    if not len(tips):
+        return _NOTHING
+    return f"The surface comes to a point at {counted(len(tips), 'pinned vertex', 'pinned vertices')}", tips
+
+
+def _rounded(evidence: Evidence, _options: FairOptions) -> Found:
+    if not len(evidence.rounded):
+        return _NOTHING
+    text = counted(len(evidence.rounded), "vertex", "vertices")
+    return f"Outline: Smooth has rounded a hard edge outside at {text}: choose As Selected", evidence.rounded
+
+
+def _swollen(evidence: Evidence, options: FairOptions) -> Found:
+    if not len(evidence.swollen) or not judges_join(options) or _is_meant_to_swell(options):
+        return _NOTHING
+    text = counted(len(evidence.swollen), "vertex", "vertices")
+    return f"The surface swells to a knob around {text}: another outline may avoid it", evidence.swollen
+
+
+def _lofted(evidence: Evidence, _options: FairOptions) -> Found:
+    """Tell of a loft: it is smooth, but by its lines alone, and may be as flat as a strap."""
+    if not any(evidence.told("NO_SOLUTION", "loft")):
+        return _NOTHING
+    return LOFT_REASON, _most_bent(evidence)
+
+
+def _most_bent(evidence: Evidence) -> Ints:
+    """Return the mesh vertices of the free ones where edges bend most, the worst first."""
+    problem = evidence.problem
+    patch, points = problem.patch, problem.points if evidence.points is None else evidence.points
+    edges = bends(points[: len(patch.vertices)], patch.triangles)
+    sharpest = np.zeros(len(patch.vertices))
+    for end in edges.edges.T:
+        np.maximum.at(sharpest, end, np.abs(edges.degrees))
+    order = patch.free[np.argsort(-sharpest[patch.free], kind="stable")]
+    worst: Ints = patch.vertices[order[: int(np.ceil(MOST_BENT * len(order)))]]
+    return worst
+
+
+def _refused(evidence: Evidence, _options: FairOptions) -> Found:
+    """Tell what was asked for and not given: curvature that is continued, the old skin."""
+    curvature = evidence.named("G2_NOT_MET")
+    if len(curvature):
+        text = counted(len(np.unique(curvature)), "vertex", "vertices")
+        return f"The curvature outside is not continued at {text} of the outline, as was asked for", curvature
+    if any(evidence.told("REFERENCE_UNUSABLE", "old_skin", "sample_skin")):
+        outline = evidence.problem.patch.vertices[evidence.problem.patch.outline]
+        return "The detail asked for could not be put back: the result is smooth", outline
+    return _NOTHING
+
+
+def _needles(evidence: Evidence, _options: FairOptions) -> Found:
+    needles = np.setdiff1d(evidence.after.needles, evidence.before.needles)
+    if not len(needles):
+        return _NOTHING
+    return counted(len(needles), "face is a needle", "faces are needles"), _corners(evidence.problem, needles)
 
 
 def _is_meant_to_swell(options: FairOptions) -> bool:

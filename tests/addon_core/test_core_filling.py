@@ -145,12 +145,15 @@ def test_what_has_not_converged_is_unusable() -> None:
     assert set(piece.verdict.spots.tolist()) == set(piece.outline.tolist())
 
 
-def test_a_fold_is_unusable() -> None:
+def test_a_fold_is_unusable_and_a_loft_worth_a_look() -> None:
     points, triangles, rim = disc(3)
     sheet = polygon_mesh(points, triangles.tolist(), np.zeros(len(triangles), dtype=bool))
     empty = replace(sheet, triangles=sheet.triangles[:0])
-    result = SimpleNamespace(converged=True, termination="converged", join=np.zeros(rim))
+    result = SimpleNamespace(converged=True, termination="converged", join=np.zeros(rim), equation="harmonic")
     assert judge(empty, np.arange(rim), (points, triangles), result).grade == GOOD  # type: ignore[arg-type]
+    loft = SimpleNamespace(**{**vars(result), "equation": "loft"})
+    verdict = judge(empty, np.arange(rim), (points, triangles), loft)  # type: ignore[arg-type]
+    assert (verdict.grade, "the loft that joins them is a substitute" in verdict.reason) == (LOOK, True)
     points = points.copy()
     points[-1, 0] += 2.5  # the middle, far beyond its neighbours
     verdict = judge(empty, np.arange(rim), (points, triangles), result)  # type: ignore[arg-type]

@@ -11,6 +11,7 @@ import pytest
 
 import fairing
 from core.arrays import Ints
+from core.findings import Origin
 from core.options import FairOptions
 from core.quality import Join, Quality
 from core.solve import pose, solve
@@ -119,8 +120,47 @@ def test_a_loft_that_lets_slopes_go_deserves_a_look(fine: Evidence) -> None:
     assert verdict.grade == LOOK
     assert "2 vertices of the outline" in verdict.reason
     assert verdict.spots.tolist() == fine.problem.vertices[[2, 4]].tolist()
-    smooth = replace(told, elements=np.empty(0, np.int32), figures={"loft": 1.0})
-    assert judged(replace(fine, result=replace(fine.result, warnings=(smooth,)))).grade == GOOD
+
+
+def with_warning(evidence: Evidence, code: str, elements: Ints, **figures: float) -> Evidence:
+    told = fairing.Diagnostic(code, "", elements.astype(np.int32), "vertex", figures)
+    return replace(evidence, result=replace(evidence.result, warnings=(told,)))
+
+
+def test_a_smooth_loft_deserves_a_look_where_it_bends_most(fine: Evidence) -> None:
+    """One vertex stands out of the sphere: the edges around it bend, and it is among the worst."""
+    patch = fine.problem.patch
+    points = fine.problem.points.copy()
+    spike = patch.free[len(patch.free) // 2]
+    points[spike] *= 1.2
+    verdict = judged(replace(with_warning(fine, "NO_SOLUTION", ints(), loft=1.0), points=points))
+    assert verdict.grade == LOOK
+    assert "loft" in verdict.reason and "substitute" in verdict.reason
+    around = patch.vertices[np.unique(patch.triangles[(patch.triangles == spike).any(axis=1)])]
+    assert 0 < len(verdict.spots) <= 0.05 * len(patch.free) + 1
+    assert set(verdict.spots) <= set(around)
+    assert judged(with_warning(fine, "NO_SOLUTION", ints(), harmonic=1.0)).grade == GOOD  # as Otherwise asks
+
+
+def test_good_is_only_what_was_asked_for(fine: Evidence) -> None:
+    verdict = judged(with_warning(fine, "G2_NOT_MET", ints(4, 2)), continuity="G2")
+    assert (verdict.grade, verdict.spots.tolist()) == (LOOK, fine.problem.vertices[[4, 2]].tolist())
+    assert verdict.reason == "The curvature outside is not continued at 2 vertices of the outline, as was asked for"
+    for skin in ("old_skin", "sample_skin"):
+        verdict = judged(with_warning(fine, "REFERENCE_UNUSABLE", ints(), **{skin: 1.0}), detail=1.0)
+        assert (verdict.grade, verdict.reason) == (
+            LOOK,
+            "The detail asked for could not be put back: the result is smooth",
+        )
+        assert len(verdict.spots)
+    assert judged(with_warning(fine, "REFERENCE_UNUSABLE", ints())).grade == GOOD  # the surface is the same
+
+
+def test_on_a_new_mesh_the_engines_numbers_are_those_of_the_mesh_that_it_solved(fine: Evidence) -> None:
+    own = len(fine.problem.vertices)
+    origin = Origin(np.arange(100, 110 + own), np.empty((0, 3), np.int64), ints())
+    told = replace(with_warning(fine, "PINS_NOT_SPREAD", ints(own + 5), tips=1.0), origin=origin)
+    assert judged(told).spots.tolist() == [own + 105]
 
 
 def test_the_tip_of_a_needle_deserves_a_look(fine: Evidence) -> None:
