@@ -122,6 +122,19 @@ def test_curvature_is_read_off_the_surroundings() -> None:
     assert off[1] < 0.5 * off[0]
 
 
+def both_joins(vertices: FloatArray, triangles: IntArray, within: Any) -> list[fairing.FairResult]:
+    """The triangles within, faired from what those outside say: tangent, and with their curvature, met everywhere."""
+    outline = np.intersect1d(triangles[within], triangles[~within])
+    fits = fairing.surrounding_normals(vertices, triangles[~within], outline)
+    options = {"fixed": outline, "fixed_normals": fits.normals, "outside": triangles[~within]}
+    results = []
+    for continuity in ("G1", "G2"):
+        results.append(fairing.fair(vertices, triangles[within], continuity=continuity, **options))
+        assert results[-1].continuity == continuity
+        assert not codes(results[-1])
+    return results
+
+
 @pytest.mark.parametrize("size", [60, 72])
 def test_an_outline_in_steps_is_met_in_its_curvature(size: int) -> None:
     """A barrel whose curvature changes; the outline of an oval runs in steps along the grid."""
@@ -133,14 +146,8 @@ def test_an_outline_in_steps_is_met_in_its_curvature(size: int) -> None:
     triangles = np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]])
     middle = np.tile(vertices[quads, :2].mean(axis=1), (2, 1))
     within = (middle[:, 0] / 0.62) ** 2 + (middle[:, 1] / 0.5) ** 2 < 1
-    outline = np.intersect1d(triangles[within], triangles[~within])
-    fits = fairing.surrounding_normals(vertices, triangles[~within], outline)
-    options = {"fixed": outline, "fixed_normals": fits.normals, "outside": triangles[~within]}
     off = []
-    for continuity in ("G1", "G2"):
-        result = fairing.fair(vertices, triangles[within], continuity=continuity, **options)
-        assert result.continuity == continuity
-        assert not codes(result)
+    for result in both_joins(vertices, triangles, within):
         off.append(np.abs(result.vertices[:, 2] - height).max())
     assert off[1] < 0.75 * off[0]
 
@@ -164,14 +171,8 @@ def test_waves_that_do_not_settle_leave_longer_ones(rings: int) -> None:
     vertices, triangles = ellipsoid_of_rows(rings)
     middle = np.tile((vertices[triangles].mean(axis=1).reshape(2, -1, 3)).mean(axis=0), (2, 1))
     within = np.linalg.norm(middle - [0.8, -0.8, 0.3], axis=1) < 0.75
-    outline = np.intersect1d(triangles[within], triangles[~within])
-    fits = fairing.surrounding_normals(vertices, triangles[~within], outline)
-    options = {"fixed": outline, "fixed_normals": fits.normals, "outside": triangles[~within]}
     off = []
-    for continuity in ("G1", "G2"):
-        result = fairing.fair(vertices, triangles[within], continuity=continuity, **options)
-        assert result.continuity == continuity
-        assert not codes(result)
+    for result in both_joins(vertices, triangles, within):
         level = ((result.vertices / [2.0, 1.0, 0.8]) ** 2).sum(axis=1) - 1.0
         off.append(np.abs(level / (2.0 * np.linalg.norm(result.vertices / [4.0, 1.0, 0.64], axis=1))).max())
     assert off[1] < 0.3 * off[0]
