@@ -30,6 +30,9 @@ class Words:
 
 
 _DOUBLED = "The new surface doubles back onto faces that stick out into the outline: delete these first, or select them"
+_SLOPE_ONLY = (
+    "{vertices:.0f} of the outline's {outline_vertices:.0f} vertices are met in slope only, not in curvature. "
+)
 
 WORDS: dict[str, tuple[Words, ...]] = {
     "NONFINITE": (
@@ -208,9 +211,22 @@ WORDS: dict[str, tuple[Words, ...]] = {
     ),
     "G2_NOT_MET": (
         Words(
-            "{n} vertex of the outline is met in its slope, not in its curvature",
-            "{n} vertices of the outline are met in their slope, not in their curvature",
+            _SLOPE_ONLY + "The curvature around it looks like noise: smooth the surroundings, or grow the selection",
+            when="smooth_share",
         ),
+        Words(
+            _SLOPE_ONLY + "The search for a surface with the curvature did not converge: grow or shrink the selection",
+            when="not_found",
+        ),
+        Words(
+            _SLOPE_ONLY + "The faces are too uneven to tell the curvature of the new surface: Remesh first",
+            when="own_mesh",
+        ),
+        Words(
+            _SLOPE_ONLY + "No surface with that slope was found to begin with: see the other messages",
+            when="no_tangent_join",
+        ),
+        Words(_SLOPE_ONLY + "The faces outside tell too little there: leave three rings of even faces around it"),
     ),
     "PINS_NOT_SPREAD": (
         Words(

@@ -103,12 +103,24 @@ Reason reason_of(const Solution& solution, const VectorX& angles) {
     return {"did not converge; its positions are the best that were found", {}};
 }
 
-std::string_view reason_of(Join join) {
-    switch (join) {
-        case Join::other_mesh: return "the surface was solved on a mesh of the engine's own";
-        case Join::no_tangent_join: return "the surface that is only tangent was not found either";
-        case Join::not_found: return "no acceptable surface has that curvature";
-        default: return "the surroundings say too little about it";
+Reason reason_of_join(const Solution& solution) {
+    switch (solution.join) {
+        case Join::other_mesh:
+            return {"the surface was solved on a mesh of the engine's own; let its triangles be more even",
+                    {{"own_mesh", 1.0}}};
+        case Join::no_tangent_join:
+            return {"the surface that is only tangent was not found either", {{"no_tangent_join", 1.0}}};
+        case Join::not_found:
+            return {"the iteration for it did not converge to an acceptable surface; let the outline lie further out",
+                    {{"not_found", 1.0}}};
+        case Join::too_rough:
+            return {"what the tangent surface lacks looks like noise: waves of twelve vertices and more explain " +
+                        std::to_string(std::lround(100.0 * solution.smooth_share)) +
+                        " % of it, and 50 % are needed; smooth the surroundings",
+                    {{"smooth_share", solution.smooth_share}}};
+        default:
+            return {"the surroundings say too little about it: leave three rings of even triangles around the patch",
+                    {}};
     }
 }
 
@@ -236,13 +248,15 @@ void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& war
     } else {
         vertices.assign(fixed.begin(), fixed.end());
     }
+    auto [why, figures] = reason_of_join(solution);
+    figures["vertices"] = size_of(vertices);
+    figures["outline_vertices"] = static_cast<double>(fixed.size());
+    const std::string share = vertices.size() == fixed.size()
+                                  ? "all " + std::to_string(fixed.size())
+                                  : std::to_string(vertices.size()) + " of " + std::to_string(fixed.size());
     warnings.push_back({Code::g2_not_met,
-                        counted(vertices.size(), "outline vertex is met in its slope, not in its curvature: ",
-                                "outline vertices are met in their slope, not in their curvature: ") +
-                            std::string(reason_of(solution.join)),
-                        vertices,
-                        ElementKind::vertex,
-                        {{"vertices", size_of(vertices)}}});
+                        share + " outline vertices are met in their slope, not in their curvature: " + why, vertices,
+                        ElementKind::vertex, std::move(figures)});
 }
 
 namespace {

@@ -34,7 +34,9 @@ void warn_of_precision(const Patch& patch, const Points& input, const Precision&
 // between the normals prescribed and obtained.
 Diagnostics failures_of(const Patch& patch, const Solution& solution, Termination end, const VectorX& angles);
 
-// G2_NOT_MET where a curvature was asked for and the surface is only tangent; with these fixed vertices.
+// G2_NOT_MET where a curvature was asked for and the surface is only tangent; with these fixed vertices. Figures:
+// "vertices", "outline_vertices", and why: "smooth_share" (of the curvature that is lacking, below 0.5: noise), or 1
+// for "not_found", "own_mesh" or "no_tangent_join"; none where the curvature is not known.
 void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& warnings);
 
 // PINS_NOT_SPREAD where a radius was asked for and pins act in a point; with these pins. Another one, with the figure

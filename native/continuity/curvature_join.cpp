@@ -20,12 +20,13 @@ constexpr int patience = 6;  // iterations without a shorter step
 
 class CurvatureJoin {
 public:
-    CurvatureJoin(const Problem& problem, const KnownCurvature& known, const Points& start, const Progress& progress)
+    CurvatureJoin(const Problem& problem, const KnownCurvature& known, const Points& start, int vertices_per_wave,
+                  const Progress& progress)
         : problem_(problem),
           patch_(problem.patch),
           known_(known),
           progress_(progress),
-          modes_(known.curves, problem.fixed_points),
+          modes_(known.curves, problem.fixed_points, vertices_per_wave),
           operator_(problem.patch, problem.fixed_points, modes_, start.leftCols(problem.patch.free_count)),
           tangential_(make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())),
           anderson_(3L * problem.patch.free_count, history_depth),
@@ -100,8 +101,8 @@ private:
 }  // namespace
 
 Solution join_curvatures(const Problem& problem, const KnownCurvature& known, const Points& start,
-                         const Progress& progress) {
-    return CurvatureJoin(problem, known, start, progress).run();
+                         int vertices_per_wave, const Progress& progress) {
+    return CurvatureJoin(problem, known, start, vertices_per_wave, progress).run();
 }
 
 }  // namespace fairing

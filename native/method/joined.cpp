@@ -1,7 +1,9 @@
 #include "method/joined.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "base/stopwatch.h"
 #include "continuity/curvature_join.h"
@@ -26,57 +28,84 @@ bool varies_wildly(const Problem& problem, const Solution& joined, const Solutio
     return !(joined.mean_curvature.cwiseAbs().maxCoeff() <= most * std::max(given, before));
 }
 
-enum class Difference { negligible, smooth, rough };
-
-// What the tangent join's curvature lacks at the outline. Where it is rough, it comes from noise in the outline or its
-// surroundings, and a surface that followed it would only be wavier: on surfaces with noise of 0.02 edges and more,
-// errors grew by a half. Rough is what waves of twelve vertices and more explain less than half of; of white noise they
-// explain a sixth.
-Difference difference_of(const Problem& problem, const KnownCurvature& known, const Solution& tangent) {
-    constexpr double negligible = 0.01;  // root mean square, of the largest |H| on the outline or of 1/D
-    constexpr int vertices_per_wave = 12;
-    const VectorX missing = known.missing(tangent.mean_curvature.tail(known.values.size()));
+// What the tangent join's curvature lacks at the outline, of the largest |H| there or of 1/D.
+double relative_size(const KnownCurvature& known, const VectorX& missing) {
     double count = 0.0;
     for (const OutlineCurve& curve : known.curves) count += static_cast<double>(curve.places.size());
     const double scale = std::max(1.0, known.values.cwiseAbs().maxCoeff());
-    if (missing.norm() <= negligible * scale * std::sqrt(count)) return Difference::negligible;
+    return missing.norm() / (scale * std::sqrt(count));
+}
+
+// How much of it waves of twelve vertices and more explain. Of white noise they explain a sixth.
+double smooth_share(const Problem& problem, const KnownCurvature& known, const VectorX& missing) {
+    constexpr int vertices_per_wave = 12;
     const OutlineModes modes(known.curves, problem.fixed_points, vertices_per_wave);
-    const double smooth = modes.combined(modes.projected(missing)).squaredNorm();
-    return smooth < 0.5 * missing.squaredNorm() ? Difference::rough : Difference::smooth;
+    return modes.combined(modes.projected(missing)).squaredNorm() / missing.squaredNorm();
 }
 
 Join kind_of(const KnownCurvature& known) { return known.unknown.empty() ? Join::curvature : Join::partly_curvature; }
 
+// A converged surface with that curvature, without flaws.
+std::optional<Solution> acceptable(const Problem& problem, const KnownCurvature& known, const Solution& tangent,
+                                   int vertices_per_wave, const Progress& progress) {
+    Solution found = join_curvatures(problem, known, tangent.points, vertices_per_wave, progress);
+    if (found.termination != Termination::converged) return std::nullopt;
+    found.boundary_normals = one_sided_normals(problem.patch, found.points);
+    found.flaw = flaw_of(problem, found);
+    if (found.flaw != Flaw::absent || varies_wildly(problem, found, tangent)) return std::nullopt;
+    return found;
+}
+
+// With the fastest waves of H first. On outlines in steps these may not answer to the multipliers, and the iteration
+// does not settle: long waves do, and meet what is smooth of H as well.
+std::optional<Solution> with_curvature(const Problem& problem, const KnownCurvature& known, const Solution& tangent,
+                                       const Progress& progress) {
+    constexpr std::array vertices_per_wave{6, 12, 24};
+    std::optional<Solution> found;
+    for (std::size_t k = 0; k < vertices_per_wave.size() && !found; ++k) {
+        const double begin = 1.0 - std::pow(0.5, static_cast<double>(k));
+        found = acceptable(problem, known, tangent, vertices_per_wave[k], progress.range(begin, 0.5 * (1.0 + begin)));
+    }
+    return found;
+}
+
+// What holds for the surface that replaces the tangent join.
+void inherit(Solution& found, Solution tangent, const KnownCurvature& known) {
+    found.initial_residual = tangent.initial_residual;
+    found.levels = std::move(tangent.levels);
+    found.seconds = std::move(tangent.seconds);
+    found.ways = std::move(tangent.ways);
+    found.tangent_only = known.unknown;
+    found.join = kind_of(known);
+    if (tangent.pins != Pins::absent) found.pins = Pins::curvature_met;
+}
+
 }  // namespace
 
 Solution joined(const Problem& problem, Solution tangent, const Progress& progress) {
+    // Root mean square. Where what is lacking is rough, it comes from noise in the outline or its surroundings, and a
+    // surface that followed it would only be wavier: on surfaces with noise of 0.02 edges and more errors grew by a
+    // half.
+    constexpr double negligible = 0.01;
+    constexpr double least_smooth_share = 0.5;
     if (tangent.flaw != Flaw::absent || tangent.even_weights || tangent.instead != Instead::nothing)
         return with_join(std::move(tangent), Join::no_tangent_join);
     if (!tangent.polished) return with_join(std::move(tangent), Join::other_mesh);
     const KnownCurvature known = known_curvature(problem.patch, tangent.points, problem.fixed_curvatures);
     tangent.tangent_only = known.unknown;
     if (known.curves.empty()) return with_join(std::move(tangent), Join::curvature_unknown);
-    const Difference difference = difference_of(problem, known, tangent);
-    if (difference == Difference::negligible) return with_join(std::move(tangent), kind_of(known));
-    if (difference == Difference::rough) return with_join(std::move(tangent), Join::curvature_unknown);
+    const VectorX missing = known.missing(tangent.mean_curvature.tail(known.values.size()));
+    if (relative_size(known, missing) <= negligible) return with_join(std::move(tangent), kind_of(known));
+    tangent.smooth_share = smooth_share(problem, known, missing);
+    if (tangent.smooth_share < least_smooth_share) return with_join(std::move(tangent), Join::too_rough);
     const Stopwatch watch;
-    Solution found = join_curvatures(problem, known, tangent.points, progress);
+    std::optional<Solution> found = with_curvature(problem, known, tangent, progress);
     const double seconds = watch.seconds();
     tangent.seconds["curvature"] = seconds;
     tangent.ways.push_back({"curvature", seconds});
-    if (found.termination != Termination::converged) return with_join(std::move(tangent), Join::not_found);
-    found.boundary_normals = one_sided_normals(problem.patch, found.points);
-    found.flaw = flaw_of(problem, found);
-    if (found.flaw != Flaw::absent || varies_wildly(problem, found, tangent))
-        return with_join(std::move(tangent), Join::not_found);
-    found.initial_residual = tangent.initial_residual;
-    found.levels = tangent.levels;
-    found.seconds = tangent.seconds;
-    found.ways = tangent.ways;
-    found.tangent_only = known.unknown;
-    found.join = kind_of(known);
-    if (tangent.pins != Pins::absent) found.pins = Pins::curvature_met;
-    return found;
+    if (!found) return with_join(std::move(tangent), Join::not_found);
+    inherit(*found, std::move(tangent), known);
+    return std::move(*found);
 }
 
 }  // namespace fairing

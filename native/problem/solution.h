@@ -31,6 +31,7 @@ enum class Join {
     curvature,          // with the curvature prescribed
     partly_curvature,   // not where it isn't known
     curvature_unknown,  // nearly nowhere is it known
+    too_rough,          // what the tangent join's curvature lacks looks like noise
     no_tangent_join,    // the tangent join, from which it begins, was not found either
     other_mesh,         // the tangent join was solved on a mesh of the engine's own only
     not_found,          // no surface, or none that is accepted
@@ -73,7 +74,8 @@ struct Solution {
     bool even_weights = false;     // uniform weights were taken instead of the problem's
     Join join = Join::tangent;
     Pins pins = Pins::absent;
-    Indices tangent_only;  // of partly_curvature: fixed vertices, counted from the first one
+    Indices tangent_only;       // of partly_curvature: fixed vertices, counted from the first one
+    double smooth_share = 0.0;  // of too_rough: how much of what is lacking long waves explain, 0 … 1
 };
 
 }  // namespace fairing

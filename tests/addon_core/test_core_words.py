@@ -54,6 +54,19 @@ def test_a_skin_that_was_left_out_is_told_with_its_place() -> None:
     assert sample[0].startswith("Some faces of the sample have no area, so that no skin can be copied")
 
 
+def test_a_curvature_that_is_not_met_is_told_with_its_share_and_why() -> None:
+    """The figures of several islands are added."""
+    of = {"vertices": 2.0, "outline_vertices": 5.0}
+    whys = {"smooth_share": "noise", "not_found": "converge", "own_mesh": "uneven", "no_tangent_join": "no surface"}
+    for figure, why in whys.items():
+        (text,) = told(diagnostic("G2_NOT_MET", [0, 1], **of, **{figure: 0.4}))
+        assert text.startswith("2 of the outline's 5 vertices are met in slope only")
+        assert why in text.lower()
+    (text,) = told(*2 * [diagnostic("G2_NOT_MET", [0, 1], **of)])
+    assert text.startswith("4 of the outline's 10 vertices")
+    assert "three rings" in text
+
+
 def test_triangles_are_counted_by_their_faces_and_edges_by_the_meshs_vertices() -> None:
     assert told(diagnostic("FLIPPED_TRIANGLES", [0, 2, 3], "triangle", triangles=3.0)) == (
         "2 faces of the result are turned over",
