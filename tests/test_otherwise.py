@@ -138,6 +138,14 @@ def test_a_solver_tries_again_after_a_large_move() -> None:
     assert np.abs(radii(result) - 1).max() < 1e-3
 
 
+def test_an_elbow_of_90_degrees_may_be_a_bulb() -> None:
+    """Its harmonic surface has a waist, with twice the variation of the torus: short as it is, it is a tube."""
+    result = tubes.elbow(2.5, 90.0, seed=1).faired(equation="harmonic")
+    assert result.equation == "least_variation"
+    assert [warning.figures["variation"] > 2.0 for warning in result.warnings] == [True]
+    assert tubes.off_torus(result.vertices, 2.5) < 0.02
+
+
 def test_an_elbow_of_150_degrees_is_no_loft() -> None:
     """Its V · A is about 100, that of jagged outlines thousands. A loft would be one radius off the torus.
 
@@ -150,6 +158,13 @@ def test_an_elbow_of_150_degrees_is_no_loft() -> None:
         assert tubes.off_torus(result.vertices, bend) < 0.15
         converged += result.converged
     assert converged >= 2
+
+
+def test_a_descent_that_nearly_ended_is_better_than_a_loft() -> None:
+    """An elbow of 160°: the descent stalls beside the torus. The loft would be one radius off it."""
+    result = tubes.elbow(3.0, 160.0, seed=2).faired(equation="harmonic")
+    assert result.equation == "least_variation"
+    assert tubes.off_torus(result.vertices, 3.0) < 0.15
 
 
 def wing(length: float = 3.0, thickness: float = 0.08, lean: float = 0.0) -> tubes.Tube:
