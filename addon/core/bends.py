@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .arrays import Floats, Ints
+from .faces import inner_edges
 from .vectors import area_vectors, unit
 
 
@@ -24,13 +25,10 @@ def bends(points: Floats, triangles: Ints) -> Bends:
     points: (q, 3). Edges are the same, in the same order, whatever the points are.
     """
     normals = unit(area_vectors(points, triangles))
-    sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
-    order = np.lexsort(sides.T)
-    pairs = np.flatnonzero((sides[order[1:]] == sides[order[:-1]]).all(axis=1))
-    first, second = order[pairs], order[pairs + 1]
-    left, right = normals[first % len(triangles)], normals[second % len(triangles)]
-    opposite = points[triangles.T[[2, 0, 1]].ravel()[second]]
-    above = ((opposite - points[sides[first, 0]]) * left).sum(axis=1) > 0.0
+    edges, sides = inner_edges(triangles)
+    left, right = normals[sides[:, 0]], normals[sides[:, 1]]
+    opposite = points[triangles[sides[:, 1]].sum(axis=1) - edges.sum(axis=1)]
+    above = ((opposite - points[edges[:, 0]]) * left).sum(axis=1) > 0.0
     angles = np.degrees(np.arccos(np.clip((left * right).sum(axis=1), -1.0, 1.0)))
     known = (left != 0.0).any(axis=1) & (right != 0.0).any(axis=1)
-    return Bends(sides[first], np.where(known, np.where(above, -angles, angles), 0.0))
+    return Bends(edges, np.where(known, np.where(above, -angles, angles), 0.0))
