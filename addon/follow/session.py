@@ -45,7 +45,7 @@ class Session:
         return True
 
     def call_off(self) -> None:
-        """Stop searching. Nobody may ask the region before the search has ended, which may take a step of the engine."""
+        """Stop searching. Nobody may ask the region before it has ended, which may take a step of the engine."""
         if self.search is not None:
             self.search.stop()
             if self.search.wait(BLINK):

@@ -26,12 +26,12 @@ class Slow:
 
     def __init__(self, real: Callable[..., Any]) -> None:
         self.real, self.go, self.begun = real, threading.Event(), 0
-        self.inside = self.most_inside = 0
+        self.inside = self.most_inside = self.clashes = 0
 
     def __call__(self, region: Any, positions: Any, matrix: Any, progress: Any = None) -> Any:
         """Wait as the engine works: asked to stop, it ends a while later."""
         if threading.current_thread() is threading.main_thread():
-            assert not self.inside, "the region was asked while a search had its solver"
+            self.clashes += self.inside  # asked while a search has its solver
             return None  # not in time
         self.begun += 1
         self.inside += 1
@@ -59,6 +59,7 @@ def slow(home: Any, monkeypatch: pytest.MonkeyPatch) -> Iterator[Slow]:
     monkeypatch.setattr(kind, "answer", lambda *given: way(*given))
     yield way
     way.go.set()
+    assert way.clashes == 0
 
 
 def tick(home: Any) -> float | None:
@@ -101,9 +102,10 @@ def test_blender_goes_on_while_the_surface_is_searched_for(home: Any, slow: Slow
 def test_a_change_meanwhile_makes_the_answer_worthless(home: Any, slow: Slow) -> None:
     """What was searched for the old place is not written; no step waits for it, nor asks the region beside it."""
     lose(home)
-    begin = time.perf_counter()
-    drag(flank(now()), (0.0, 0.0, 0.03))
-    assert time.perf_counter() - begin < LONGEST
+    for _ in range(3):  # after one that failed, the next change doesn't ask
+        begin = time.perf_counter()
+        drag(flank(now()), (0.0, 0.0, 0.01))
+        assert time.perf_counter() - begin < LONGEST
     carried = now()
     assert tick(home) == home.TICK  # the old search has not ended yet
     assert slow.begun == 1
@@ -160,6 +162,7 @@ def test_leaving_edit_mode_meanwhile(home: Any, slow: Slow) -> None:
 @pytest.mark.parametrize("way", ["switched off", "forgotten", "another file", "the mesh is gone"])
 def test_a_search_that_nobody_waits_for_writes_nothing(home: Any, slow: Slow, way: str) -> None:
     carried = lose(home)
+    search = home.live.sessions["Grid"].search
     if way == "switched off":
         switch(False)
     elif way == "forgotten":
@@ -169,9 +172,10 @@ def test_a_search_that_nobody_waits_for_writes_nothing(home: Any, slow: Slow, wa
         bpy.ops.wm.read_homefile(use_empty=True)
     else:
         bpy.data.meshes.remove(bpy.data.objects["Grid"].data)
+    assert tick(home) is None
+    assert search.stopped
     slow.go.set()
     assert module("core.runner").wait_for_all(10.0)
-    assert tick(home) is None
     assert tick(home) is None
     if way in ("switched off", "forgotten"):
         assert np.array_equal(now(), carried)
