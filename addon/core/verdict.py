@@ -11,6 +11,7 @@ import fairing
 
 from .arrays import Floats, Ints
 from .bends import bends
+from .eaten import Eaten
 from .engine import Problem, Result, bad_outline
 from .findings import Finding, Origin, found
 from .options import FairOptions
@@ -24,7 +25,7 @@ MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
 
 # What may help, each a way to run once more.
 GROW, SMOOTH_OUTLINE, AS_SELECTED, HOLD_BORDER = "GROW", "SMOOTH_OUTLINE", "AS_SELECTED", "HOLD_BORDER"
-EVEN_CURVATURE, EVEN_SPREAD, WRITE = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE"
+EVEN_CURVATURE, EVEN_SPREAD, KEEP_SHARP, WRITE = "EVEN_CURVATURE", "EVEN_SPREAD", "KEEP_SHARP", "WRITE"
 
 LOFT_REASON = "No fair surface fits these outlines: the loft that joins them is a substitute, so look at its shape"
 
@@ -60,6 +61,7 @@ class Evidence:
     join: Join
     rounded: Ints = field(default_factory=nothing)  # mesh vertices of hard edges outside that were rounded
     swollen: Ints = field(default_factory=nothing)  # mesh vertices at the tops of knobs
+    eaten: Eaten = field(default_factory=Eaten)
     points: Floats | None = None  # (q, 3) of problem.vertices after the run; None: problem.points
     origin: Origin | None = None  # what the engine's numbers stand for; None: problem.origin
 
@@ -120,6 +122,7 @@ def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str,
         SMOOTH_OUTLINE: has_outside and options.outline == "GIVEN" and options.mesh == "KEEP",
         EVEN_SPREAD: bad and _is_folded(evidence) and options.mesh == "KEEP" and options.inner_fairness != "UNIFORM",
         AS_SELECTED: len(evidence.rounded) > 0,
+        KEEP_SHARP: len(evidence.eaten.marked) > 0 and options.pin_edges == "NONE" and options.method == "GLOBAL",
         HOLD_BORDER: bad and options.fairs_border,
         EVEN_CURVATURE: bad and not was_tried and options.equation in ("HARMONIC", "MINIMAL_ENERGY"),
         WRITE: bad and options.accept != "ALL",
@@ -208,7 +211,7 @@ def _crossing(evidence: Evidence, options: FairOptions) -> Found:
 
 
 def _visible(evidence: Evidence, options: FairOptions) -> Found:
-    for look in (_kinked, _pointed, _rounded, _swollen, _lofted, _refused, _needles):
+    for look in (_rounded, _eaten, _kinked, _pointed, _swollen, _lofted, _refused, _needles):
         told = look(evidence, options)
         if told[0]:
             return told
@@ -252,6 +255,19 @@ def _rounded(evidence: Evidence, _options: FairOptions) -> Found:
         return _NOTHING
     text = counted(len(evidence.rounded), "vertex", "vertices")
     return f"Outline: Smooth has rounded a hard edge outside at {text}: choose As Selected", evidence.rounded
+
+
+def _eaten(evidence: Evidence, options: FairOptions) -> Found:
+    if not judges_join(options):
+        return _NOTHING
+    marked, running = evidence.eaten.marked, evidence.eaten.running_on
+    if len(marked):
+        text = counted(len(marked), "vertex", "vertices")
+        return f"Edges that are marked sharp were rounded off, at {text}: Pinned Edges can keep them", marked
+    if len(running):
+        text = counted(len(running), "vertex", "vertices")
+        return f"A hard edge runs on outside, but was rounded off at {text}: mark it sharp and pin it to keep", running
+    return _NOTHING
 
 
 def _swollen(evidence: Evidence, options: FairOptions) -> Found:

@@ -10,7 +10,16 @@ from typing import Any
 import bpy
 from bpy.props import EnumProperty
 
-from ..core.verdict import AS_SELECTED, EVEN_CURVATURE, EVEN_SPREAD, GROW, HOLD_BORDER, SMOOTH_OUTLINE, WRITE
+from ..core.verdict import (
+    AS_SELECTED,
+    EVEN_CURVATURE,
+    EVEN_SPREAD,
+    GROW,
+    HOLD_BORDER,
+    KEEP_SHARP,
+    SMOOTH_OUTLINE,
+    WRITE,
+)
 from ..host.polling import require, require_edit_mode
 from ..host.status import look_at
 from . import last_run
@@ -65,6 +74,7 @@ CHANGES: dict[str, dict[str, Any]] = {
     HOLD_BORDER: {"open_border": "HELD"},
     EVEN_CURVATURE: {"equation": "LEAST_VARIATION"},
     EVEN_SPREAD: {"inner_fairness": "UNIFORM"},
+    KEEP_SHARP: {"pin_edges": "SHARP"},
     WRITE: {"accept": "ALL"},
 }
 _WAYS = (
@@ -74,6 +84,7 @@ _WAYS = (
     (HOLD_BORDER, "Hold Open Border", "Leave open borders where they are, and fair again"),
     (EVEN_CURVATURE, "Even Curvature", "Fair again with the shape Even Curvature, which exists more often"),
     (EVEN_SPREAD, "Spread Vertices Evenly", "Fair again with vertices that lie evenly, whatever the old mesh was like"),
+    (KEEP_SHARP, "Keep Sharp Edges", "Pin the edges that are marked sharp, as creases, and fair again"),
     (WRITE, "Write It All the Same", "Write the result as it is, folds and all"),
 )
 WAY_NAMES = {identifier: name for identifier, name, _ in _WAYS}
