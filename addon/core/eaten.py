@@ -15,9 +15,10 @@ from .arrays import Floats, Ints, Mask
 from .bends import bends
 from .engine import Problem
 from .region import nothing
-from .rounded import ROUNDED, rounded_edges
+from .rounded import ROUNDED, SHARP, rounded_edges
 
 RUNS_ON = 2  # edges of a row that lie outside at least
+MOST_MARKED = 0.25  # of the edges inside: importers mark nearly all of them, which sets none apart
 
 
 @dataclass(frozen=True)
@@ -49,10 +50,18 @@ def _blunted(problem: Problem, after: Floats, sharp: Ints, moves: Mask) -> Ints:
     patch = problem.patch
     own = len(patch.vertices)
     old, new = bends(problem.points[:own], patch.triangles), bends(after[:own], patch.triangles)
-    flatter = np.abs(old.degrees) - np.abs(new.degrees) > ROUNDED
-    edges = patch.vertices[old.edges[flatter & moves[old.edges].any(axis=1)]]
-    count = int(patch.vertices.max(initial=0)) + 1
-    inside = sharp[(sharp < count).all(axis=1)]
-    found = np.isin(edges[:, 0] * count + edges[:, 1], inside[:, 0] * count + inside[:, 1])
-    vertices: Ints = np.unique(edges[found])
+    flatter = (np.abs(old.degrees) > SHARP) & (np.abs(old.degrees) - np.abs(new.degrees) > ROUNDED)
+    marked = _is_among(patch.vertices[old.edges], sharp)
+    if np.count_nonzero(marked) > MOST_MARKED * len(marked):
+        return nothing()
+    found = marked & flatter & moves[old.edges].any(axis=1)
+    vertices: Ints = np.unique(patch.vertices[old.edges[found]])
     return vertices
+
+
+def _is_among(edges: Ints, some: Ints) -> Mask:
+    """Return the (e,) mask of edges (e, 2) that are among some (k, 2); all are ordered within."""
+    count = int(edges.max(initial=0)) + 1
+    known = some[(some < count).all(axis=1)]
+    found: Mask = np.isin(edges[:, 0] * count + edges[:, 1], known[:, 0] * count + known[:, 1])
+    return found

@@ -25,7 +25,7 @@ MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
 
 # What may help, each a way to run once more.
 GROW, SMOOTH_OUTLINE, AS_SELECTED, HOLD_BORDER = "GROW", "SMOOTH_OUTLINE", "AS_SELECTED", "HOLD_BORDER"
-EVEN_CURVATURE, EVEN_SPREAD, KEEP_SHARP, WRITE = "EVEN_CURVATURE", "EVEN_SPREAD", "KEEP_SHARP", "WRITE"
+EVEN_CURVATURE, EVEN_SPREAD, WRITE = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE"
 
 LOFT_REASON = "No fair surface fits these outlines: the loft that joins them is a substitute, so look at its shape"
 
@@ -122,7 +122,6 @@ def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str,
         SMOOTH_OUTLINE: has_outside and options.outline == "GIVEN" and options.mesh == "KEEP",
         EVEN_SPREAD: bad and _is_folded(evidence) and options.mesh == "KEEP" and options.inner_fairness != "UNIFORM",
         AS_SELECTED: len(evidence.rounded) > 0,
-        KEEP_SHARP: len(evidence.eaten.marked) > 0 and options.pin_edges == "NONE" and options.method == "GLOBAL",
         HOLD_BORDER: bad and options.fairs_border,
         EVEN_CURVATURE: bad and not was_tried and options.equation in ("HARMONIC", "MINIMAL_ENERGY"),
         WRITE: bad and options.accept != "ALL",
@@ -263,7 +262,7 @@ def _eaten(evidence: Evidence, options: FairOptions) -> Found:
     marked, running = evidence.eaten.marked, evidence.eaten.running_on
     if len(marked):
         text = counted(len(marked), "vertex", "vertices")
-        return f"Edges that are marked sharp were rounded off, at {text}: Pinned Edges can keep them", marked
+        return f"Edges marked sharp were rounded off at {text}: undo, and Pin Edges: Sharp keeps them", marked
     if len(running):
         text = counted(len(running), "vertex", "vertices")
         return f"A hard edge runs on outside, but was rounded off at {text}: mark it sharp and pin it to keep", running

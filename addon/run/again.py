@@ -16,7 +16,6 @@ from ..core.verdict import (
     EVEN_SPREAD,
     GROW,
     HOLD_BORDER,
-    KEEP_SHARP,
     SMOOTH_OUTLINE,
     WRITE,
 )
@@ -74,7 +73,6 @@ CHANGES: dict[str, dict[str, Any]] = {
     HOLD_BORDER: {"open_border": "HELD"},
     EVEN_CURVATURE: {"equation": "LEAST_VARIATION"},
     EVEN_SPREAD: {"inner_fairness": "UNIFORM"},
-    KEEP_SHARP: {"pin_edges": "SHARP"},
     WRITE: {"accept": "ALL"},
 }
 _WAYS = (
@@ -84,7 +82,6 @@ _WAYS = (
     (HOLD_BORDER, "Hold Open Border", "Leave open borders where they are, and fair again"),
     (EVEN_CURVATURE, "Even Curvature", "Fair again with the shape Even Curvature, which exists more often"),
     (EVEN_SPREAD, "Spread Vertices Evenly", "Fair again with vertices that lie evenly, whatever the old mesh was like"),
-    (KEEP_SHARP, "Keep Sharp Edges", "Pin the edges that are marked sharp, as creases, and fair again"),
     (WRITE, "Write It All the Same", "Write the result as it is, folds and all"),
 )
 WAY_NAMES = {identifier: name for identifier, name, _ in _WAYS}

@@ -95,6 +95,11 @@ def test_edges_that_are_marked_sharp_are_missed_wherever_they_end() -> None:
     assert len(eaten(mesh, ~along & False)[0].marked) == 0
 
 
+def test_marks_on_most_edges_say_nothing() -> None:
+    mesh = ridge(60.0, ends=0.25)
+    assert len(eaten(mesh, np.ones(len(mesh.edges), dtype=bool))[0].marked) == 0
+
+
 def test_a_pinned_edge_is_not_missed() -> None:
     mesh = ridge(60.0)
     along: Mask = on_ridge(mesh)[mesh.edges].all(axis=1)

@@ -35,6 +35,18 @@ for _ in range(20):
     addon_utils.disable('bl_ext.user_default.intrinsic_fairing')
     addon_utils.enable('bl_ext.user_default.intrinsic_fairing')
 """,
+    "disabled during a search": """
+import sys
+import bmesh
+home = sys.modules['bl_ext.user_default.intrinsic_fairing.follow.live']
+home.PATIENCE, home.moment = -1.0, lambda: 0.0  # nothing is found at once, and nobody waits
+for vertex in bmesh.from_edit_mesh(bpy.context.object.data).verts:
+    vertex.co.z += 0.3 * vertex.co.x**2
+bmesh.update_edit_mesh(bpy.context.object.data)
+bpy.context.view_layer.update()
+assert home.settle_all() and home.live.sessions['Grid'].search is not None
+addon_utils.disable('bl_ext.user_default.intrinsic_fairing')
+""",
     "another file": "bpy.ops.wm.read_homefile(use_empty=True)",
 }
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from extension import module
 from mathutils import Vector
-from test_held import box, bumpy, off_box
+from test_held import box, bumpy
 from test_interface import command
 from test_panel import drawn
 
@@ -361,22 +361,14 @@ def test_a_hard_edge_that_smoothing_rounds_is_told() -> None:
     assert np.abs(meshes.positions(obj) - before)[~meshes.free_vertices(obj, faces)].max() > 0.0
 
 
-def test_edges_that_are_marked_sharp_are_kept_on_demand() -> None:
-    obj, faces = box()
-    on_edge = np.isclose(meshes.positions(obj), 0.0).sum(axis=1) >= 2
-    bumpy(obj, meshes.free_vertices(obj, faces) & ~on_edge)
-    meshes.select(obj, faces)
-    meshes.edit(obj)
-    meshes.run()
-    report = meshes.report()
-    assert report.verdict == "LOOK"
-    assert report.reason.startswith("Edges that are marked sharp were rounded off")
-    assert "KEEP_SHARP" in report.remedies
-    bpy.ops.ed.undo_push(message="run")
-    assert bpy.ops.mesh.fair_again(way="KEEP_SHARP") == {"FINISHED"}
-    assert "KEEP_SHARP" not in report.remedies
-    meshes.leave()
-    assert off_box(meshes.positions(obj)) < 1e-5
+def test_edges_that_are_marked_sharp_are_missed_unless_they_are_pinned() -> None:
+    for pins, grade in (("NONE", "LOOK"), ("SHARP", "GOOD")):
+        obj, faces = box()
+        on_edge = np.isclose(meshes.positions(obj), 0.0).sum(axis=1) >= 2
+        bumpy(obj, meshes.free_vertices(obj, faces) & ~on_edge)
+        meshes.fair(obj, faces, pin_edges=pins)
+        assert meshes.report().verdict == grade
+        assert meshes.report().reason.startswith("Edges marked sharp were rounded off") == (grade == "LOOK")
 
 
 @pytest.mark.parametrize("height", [0.02, 0.8])
