@@ -46,4 +46,3 @@ def test_large_graded_pipes_are_straight(length: float) -> None:
     assert result.equation == "harmonic"
     assert pipe.error(result.vertices) < 2e-3
     assert not len(fairing.flipped_triangles(result.vertices, pipe.triangles))
-
