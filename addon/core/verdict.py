@@ -220,13 +220,24 @@ def _kinked(evidence: Evidence, options: FairOptions) -> Found:
         return _NOTHING
     seen = evidence.join.seen
     if len(seen):
-        text = counted(len(seen), "vertex", "vertices")
-        return f"A kink shows at {text} of the outline, of {evidence.join.worst:.0f}° at worst", seen
+        return kink_reason(evidence.join), seen
     kinks = evidence.named("NO_SOLUTION", "kinks")  # dihedral angles show these on fine meshes only
     if not len(kinks):
         return _NOTHING
     text = counted(len(kinks), "vertex", "vertices")
     return f"The loft does not continue the slope of its surroundings at {text} of the outline", kinks
+
+
+def kink_reason(join: Join) -> str:
+    """Return the sentence for a join that is seen."""
+    text = counted(len(join.seen), "vertex", "vertices")
+    return f"A kink shows at {text} of the outline, of {join.worst:.0f}° at worst"
+
+
+def slope_reason(vertices: Ints) -> str:
+    """Return the sentence for outline vertices where a curvature was asked for and is not continued."""
+    text = counted(len(vertices), "vertex", "vertices")
+    return f"The curvature outside is not continued at {text} of the outline, as was asked for"
 
 
 def _pointed(evidence: Evidence, _options: FairOptions) -> Found:
@@ -274,8 +285,7 @@ def _refused(evidence: Evidence, _options: FairOptions) -> Found:
     """Tell what was asked for and not given: curvature that is continued, the old skin."""
     curvature = evidence.named("G2_NOT_MET")
     if len(curvature):
-        text = counted(len(np.unique(curvature)), "vertex", "vertices")
-        return f"The curvature outside is not continued at {text} of the outline, as was asked for", curvature
+        return slope_reason(np.unique(curvature)), curvature
     if any(evidence.told("REFERENCE_UNUSABLE", "old_skin", "sample_skin")):
         outline = evidence.problem.patch.vertices[evidence.problem.patch.outline]
         return "The detail asked for could not be put back: the result is smooth", outline
