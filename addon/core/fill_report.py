@@ -18,16 +18,21 @@ class Added:
     """What there is to tell about the new faces of one object."""
 
     faces: int
-    seams: int  # outline vertices where UVs or other values of the two border faces differ: their mean counts
+    mixed: int  # outline vertices where colours or other values of the two border faces differ: their mean counts
+    seams: int  # new edges where UVs part
     distortion: float  # area-weighted mean of the conformal distortion − 1 on the active UV map; 0 without one
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """A sentence for what is worth a look."""
-        if not self.seams:
-            return ()
-        text = counted(self.seams, "vertex of the outline lies", "vertices of the outline lie")
-        return (f"{text} on a seam of UVs or colours: new faces begin with the mean there",)
+        """A sentence for each thing that is worth a look."""
+        notes = []
+        if self.seams:
+            text = counted(self.seams, "new edge is a seam", "new edges are seams")
+            notes.append(f"{text} of UVs: each island at the outline goes on by itself")
+        if self.mixed:
+            text = counted(self.mixed, "vertex of the outline lies", "vertices of the outline lie")
+            notes.append(f"{text} where colours of two faces differ: new faces begin with the mean there")
+        return tuple(notes)
 
 
 def is_written(named: Named, options: FillOptions) -> bool:

@@ -87,11 +87,14 @@ class Piece:
     quads: bool = False  # whether triangles are written in pairs
     notes: tuple[str, ...] = field(default=())
 
-    def faces(self, kinds: Ints) -> Faces:
-        """Return what is written; kinds: (m,) of the triangles, only those of one kind are paired."""
+    def faces(self, kinds: Ints, lines: Ints) -> Faces:
+        """Return what is written; kinds: (m,) of the triangles, only those of one kind are paired.
+
+        lines: (l, 2) edges that no quad runs across.
+        """
         if not self.quads:
             return faces_of(self.triangles)
-        return paired_faces(self.points, self.triangles, np.empty((0, 2), dtype=np.int64), kinds)
+        return paired_faces(self.points, self.triangles, lines, kinds)
 
     @property
     def outline(self) -> Ints:
@@ -99,10 +102,14 @@ class Piece:
         return np.concatenate(self.loops)
 
     @property
+    def rims(self) -> tuple[Ints, ...]:
+        """Each loop as numbers of `points`."""
+        return tuple(np.split(np.arange(len(self.outline)), np.cumsum([len(loop) for loop in self.loops])[:-1]))
+
+    @property
     def following(self) -> Ints:
         """For each of the r outline vertices the next one, as numbers of `points`."""
-        numbers = np.split(np.arange(len(self.outline)), np.cumsum([len(loop) for loop in self.loops])[:-1])
-        return np.concatenate([np.roll(part, -1) for part in numbers])
+        return np.concatenate([np.roll(rim, -1) for rim in self.rims])
 
     def carried(self, values: Floats) -> Floats:
         """Return (k, c): values (r, c) of the outline at the new vertices."""

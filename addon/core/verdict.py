@@ -27,6 +27,7 @@ MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
 GROW, SMOOTH_OUTLINE, AS_SELECTED, HOLD_BORDER = "GROW", "SMOOTH_OUTLINE", "AS_SELECTED", "HOLD_BORDER"
 EVEN_CURVATURE, EVEN_SPREAD, WRITE = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE"
 
+_KNOT = "Seams and marks inside, which stay, are squeezed to a knot at {}"
 LOFT_REASON = "No fair surface fits these outlines: the loft that joins them is a substitute, so look at its shape"
 
 
@@ -62,6 +63,7 @@ class Evidence:
     rounded: Ints = field(default_factory=nothing)  # mesh vertices of hard edges outside that were rounded
     swollen: Ints = field(default_factory=nothing)  # mesh vertices at the tops of knobs
     eaten: Eaten = field(default_factory=Eaten)
+    squeezed: Ints = field(default_factory=nothing)  # mesh vertices where lines that a new mesh keeps are a knot
     points: Floats | None = None  # (q, 3) of problem.vertices after the run; None: problem.points
     origin: Origin | None = None  # what the engine's numbers stand for; None: problem.origin
 
@@ -210,7 +212,7 @@ def _crossing(evidence: Evidence, options: FairOptions) -> Found:
 
 
 def _visible(evidence: Evidence, options: FairOptions) -> Found:
-    for look in (_rounded, _eaten, _kinked, _pointed, _swollen, _lofted, _refused, _needles):
+    for look in (_rounded, _eaten, _kinked, _pointed, _swollen, _lofted, _refused, _squeezed, _needles):
         told = look(evidence, options)
         if told[0]:
             return told
@@ -305,6 +307,13 @@ def _refused(evidence: Evidence, _options: FairOptions) -> Found:
         outline = evidence.problem.patch.vertices[evidence.problem.patch.outline]
         return "The detail asked for could not be put back: the result is smooth", outline
     return _NOTHING
+
+
+def _squeezed(evidence: Evidence, _options: FairOptions) -> Found:
+    if not len(evidence.squeezed):
+        return _NOTHING
+    text = counted(len(evidence.squeezed), "vertex", "vertices")
+    return f"{_KNOT.format(text)}: to be rid of them, delete the faces and use Fair Fill", evidence.squeezed
 
 
 def _needles(evidence: Evidence, _options: FairOptions) -> Found:

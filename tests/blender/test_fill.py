@@ -358,18 +358,18 @@ def test_live_region_does_not_grow() -> None:
     assert set(values[old:]) == {0}
 
 
-def test_a_seam_of_uvs_begins_with_the_mean_and_is_told(capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_seam_of_colours_begins_with_the_mean_and_is_told(capfd: pytest.CaptureFixture[str]) -> None:
     obj = open_sphere()
-    layer = obj.data.uv_layers.new(name="Map").uv
+    layer = obj.data.color_attributes.new("Paint", "FLOAT_COLOR", "CORNER")
     sides = [float(p.center.x > 0.0) for p in obj.data.polygons for _ in p.loop_indices]
-    layer.foreach_set("vector", np.column_stack([sides, sides]).astype(np.float32).ravel())
+    layer.data.foreach_set("color", np.repeat(sides, 4))
     old = len(sides)
     assert fill_hole(obj) == {"FINISHED"}
-    values = np.array([item.vector[0] for item in obj.data.uv_layers["Map"].uv])
+    values = np.array([item.color[0] for item in obj.data.color_attributes["Paint"].data])
     assert values[:old].tolist() == sides
     assert ((values[old:] >= 0.0) & (values[old:] <= 1.0)).all()
     assert (values[old:] == 0.5).any()
-    assert "2 vertices of the outline lie on a seam" in "".join(capfd.readouterr())
+    assert "2 vertices of the outline lie where colours of two faces differ" in "".join(capfd.readouterr())
 
 
 def test_custom_normals_outside_stay_and_new_corners_have_none() -> None:
