@@ -53,7 +53,8 @@ addon_utils.disable('bl_ext.user_default.intrinsic_fairing')
 
 @pytest.mark.parametrize("ending", ENDINGS)
 def test_blender_ends_well(ending: str, tmp_path: Path) -> None:
-    environment = {**os.environ, "PYTHONPATH": str(TESTS), "TMPDIR": str(tmp_path)}
+    path = os.pathsep.join([str(TESTS), os.environ.get("PYTHONPATH", "")])  # bpy itself may be found by it
+    environment = {**os.environ, "PYTHONPATH": path, "TMPDIR": str(tmp_path)}
     ended = subprocess.run(
         [sys.executable, "-c", USE + ENDINGS[ending]], env=environment, capture_output=True, text=True, timeout=120.0
     )
