@@ -42,7 +42,13 @@ struct Patience {
 
 Patience patience_for(int shown) { return is_small(shown) ? Patience{100, 30} : Patience{40, 12}; }
 
-<<<<<<< HEAD
+// These were counted at the default tolerance, and steps shrink geometrically: tighter ones take as many again.
+int most_iterations_to(double tolerance, int usual) {
+    constexpr double first_step = 1e-2;  // units of D
+    const double decades = std::log10(first_step / tolerance) / std::log10(first_step / SolverOptions{}.tolerance);
+    return static_cast<int>(usual * std::max(decades, 1.0));
+}
+
 // What has become of a coarse proxy.
 enum class CoarseEnd { converged, near, far };
 
@@ -55,13 +61,6 @@ CoarseEnd end_of(const Solution& solution, const Problem& problem, int shown) {
     if (solution.termination == Termination::converged) return CoarseEnd::converged;
     const bool tells = shown >= coarse_tells && problem.patch.loop_count() == 1;
     return tells && solution.least_step > near_step ? CoarseEnd::far : CoarseEnd::near;
-=======
-// These were counted at the default tolerance, and steps shrink geometrically: tighter ones take as many again.
-int most_iterations_to(double tolerance, int usual) {
-    constexpr double first_step = 1e-2;  // units of D
-    const double decades = std::log10(first_step / tolerance) / std::log10(first_step / SolverOptions{}.tolerance);
-    return static_cast<int>(usual * std::max(decades, 1.0));
->>>>>>> main
 }
 
 // A problem on the proxy's own connectivity: uniform weights, the same boundary data.
