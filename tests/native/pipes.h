@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Geometry>
+
 #include "geometry/face_geometry.h"
 #include "meshes.h"
 #include "problem/problem.h"
