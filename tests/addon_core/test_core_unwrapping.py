@@ -190,6 +190,12 @@ def test_a_bridge_between_ends_of_one_island_has_one_seam_from_end_to_end() -> N
     np.testing.assert_allclose(found.corners, own, atol=1e-7)
 
 
+def test_a_bridge_that_is_a_little_longer_than_its_texture_is_one_map() -> None:
+    found = unwrapped(tube(), cut_tube(tube(), np.array([[1.0, 1.0], [0.0, 0.6]])))
+    assert odd_ends(found.seams) == [0, 12]
+    assert 0.1 < found.distortion < 0.5
+
+
 def test_a_bridge_between_two_islands_has_a_seam_around_its_middle() -> None:
     surface = tube()
     apart = np.array([[0.5, 0.5], [30.0, 0.0]])
