@@ -1,5 +1,6 @@
 #include "placement/disc_placement.h"
 
+#include <cmath>
 #include <numbers>
 
 #include "placement/first_placement.h"

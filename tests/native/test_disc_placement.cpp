@@ -1,11 +1,12 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "geometry/self_intersection.h"
 #include "meshes.h"
 #include "placement/disc_placement.h"
-#include "placement/folds.h"
 #include "placement/place.h"
 #include "problem/surface_state.h"
 
