@@ -8,6 +8,7 @@
 
 #include "fill/ball_start.h"
 #include "fill/edge_lengths.h"
+#include "fill/even_mesh.h"
 #include "fill/first_surface.h"
 #include "fill/harmonic_values.h"
 #include "fill/joined_loops.h"
@@ -239,6 +240,23 @@ TEST_CASE("harmonic values stay within the range of those given, wide angles or 
         CHECK(inside->col(c).minCoeff() >= given.col(c).minCoeff() - 1e-12);
         CHECK(inside->col(c).maxCoeff() <= given.col(c).maxCoeff() + 1e-12);
     }
+}
+
+TEST_CASE("a mesh over a crumpled surface does not grow without end") {
+    Stretched square = stretched_square(12);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> noise(-4.0, 4.0);
+    for (int v = 0; v < square.patch.free_count; ++v)
+        square.points.col(v) += Vector3(noise(random), noise(random), noise(random));
+    const auto count = square.points.cols();
+    Points normals = Points::Zero(3, count);
+    normals.row(2).setOnes();
+    const TargetSurface surface(square.patch, square.points, normals);
+    const VectorX lengths = VectorX::Constant(count, 1.0);
+    EvenMesh mesh(square.patch, square.points, surface, lengths);
+    mesh.make_even();
+    const double expected = expected_count(square.patch, square.points, lengths);
+    CHECK(double(mesh.result().points.cols()) < 5.0 * (expected + double(count)));
 }
 
 namespace {
