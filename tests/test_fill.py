@@ -119,6 +119,28 @@ def test_holes_in_other_surfaces(place: Place, distance: Callable[[FloatArray], 
     assert result.boundary_angle.max() < 0.1
 
 
+def test_the_surface_of_least_variation_is_the_torus() -> None:
+    """The harmonic surface there is another one, 3.7e-4 of the diameter away on any mesh."""
+    vertices, triangles = holes.sheet(torus, (40, 40), holes.disc)
+    loop = min(fairing.boundary_loops(triangles), key=len)
+    diameter = 2 * np.linalg.norm(vertices[loop] - vertices[loop].mean(axis=0), axis=1).max()
+    result = fairing.fill(vertices, triangles, [loop], equation="least_variation")
+    assert abs(np.hypot(radius(result.vertices) - 2, result.vertices[:, 2]) - 0.7).max() < 1e-4 * diameter
+
+
+def test_with_exact_normals_a_coarse_catenoid_comes_back() -> None:
+    """Those of its surroundings are off by half a degree, which moves it by 8e-4 of the diameter."""
+    vertices, triangles = holes.sheet(catenoid, (30, 15), holes.band, closed=True)
+    loops = sorted(fairing.boundary_loops(triangles), key=lambda loop: abs(vertices[loop, 2].mean()))[:2]
+    away = vertices[:, :2] / radius(vertices)[:, None]
+    normals = np.column_stack([away, -np.sinh(vertices[:, 2])])
+    normals *= np.sign((normals[loops[0]] * fairing.surrounding_normals(vertices, triangles, loops[0]).normals).sum())
+    result = fairing.fill(vertices, triangles, loops, normals=normals, bridge=True)
+    rim = vertices[np.concatenate(loops)]
+    diameter = 2 * np.linalg.norm(rim - rim.mean(axis=0), axis=1).max()
+    assert abs(radius(result.vertices) - np.cosh(result.vertices[:, 2])).max() < 2e-4 * diameter
+
+
 def test_a_coarse_mesh_is_cut_from_a_fine_surface() -> None:
     """A coarse mesh that is solved itself is 4e-5 D away."""
     vertices, triangles = holes.sheet(saddle, (60, 60), holes.disc)

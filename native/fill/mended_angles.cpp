@@ -141,6 +141,7 @@ std::vector<EvenMesh::Face> EvenMesh::bad_faces() const {
     }
     std::sort(bad.begin(), bad.end());
     std::vector<Face> result;
+    result.reserve(bad.size());
     for (const auto& [angle, index] : bad) result.emplace_back(index);
     return result;
 }
