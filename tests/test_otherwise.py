@@ -167,6 +167,16 @@ def test_a_descent_that_nearly_ended_is_better_than_a_loft() -> None:
     assert tubes.off_torus(result.vertices, 3.0) < 0.15
 
 
+@pytest.mark.parametrize(("bend", "degrees", "seed"), [(1.7, 180.0, 4), (2.5, 180.0, 2), (3.0, 160.0, 4)])
+def test_an_elbow_is_found_from_a_swept_tube(bend: float, degrees: float, seed: int) -> None:
+    """From the membrane no descent ends beside these; they ended as lofts, one radius off."""
+    result = tubes.elbow(bend, degrees, seed=seed).faired(equation="harmonic")
+    assert result.converged
+    assert result.equation == "least_variation"
+    assert not codes(result) & {"FLIPPED_TRIANGLES", "SELF_INTERSECTION"}
+    assert tubes.off_torus(result.vertices, bend) < 0.27
+
+
 def wing(length: float = 3.0, thickness: float = 0.08, lean: float = 0.0) -> tubes.Tube:
     """An elliptical section whose normals turn by more than 60° along an edge at its ends."""
     tube = tubes.pipe(length, lean, seed=3)

@@ -100,6 +100,10 @@ _MESHES = (
         "marked edges stay; UVs, colours, weights and shape keys are carried over",
     ),
 )
+_INNER = (
+    ("OUTLINE", "Like the Outline", "Short where the outline's edges nearby are short, long where these are long"),
+    ("EVEN", "Even", "All of one length, but for those beside an outline that is finer or coarser"),
+)
 _PIN_EDGES = (
     ("NONE", "None", "No edge inside the selection is held"),
     ("SHARP", "Sharp", "The surface passes through edges marked sharp; closed loops of them divide it"),
@@ -132,6 +136,12 @@ class SurfaceProperties:
         step=5,
         precision=2,
     )
+    inner: EnumProperty(
+        name="New Edges",
+        description="How long new edges are, compared with each other",
+        items=_INNER,
+        default="OUTLINE",
+    )
     quads: BoolProperty(
         name="Quads",
         description="New faces are quads, as far as pairs of triangles make some. None runs across a border of "
@@ -150,6 +160,16 @@ class SurfaceProperties:
 def equation_property(items: tuple[tuple[str, str, str], ...]) -> Any:
     """Return the property of the shape; items: those of EQUATIONS that are to be had."""
     return EnumProperty(name="Shape", description="Which surface spans the outline", items=items, default="HARMONIC")
+
+
+def continuity_property() -> Any:
+    """Return the property of the join."""
+    return EnumProperty(
+        name="Join",
+        description="How smoothly the surface continues its surroundings",
+        items=_CONTINUITIES,
+        default="G1",
+    )
 
 
 class FairProperties(SurfaceProperties, SkinProperties):
@@ -192,12 +212,7 @@ class FairProperties(SurfaceProperties, SkinProperties):
         items=_BOUNDARY_NORMALS,
         default="SURROUNDING",
     )
-    continuity: EnumProperty(
-        name="Join",
-        description="How smoothly the surface continues its surroundings",
-        items=_CONTINUITIES,
-        default="G1",
-    )
+    continuity: continuity_property()
     method: EnumProperty(name="Method", description="How the surface is computed", items=_METHODS, default="GLOBAL")
     levels: IntProperty(
         name="Levels",

@@ -5,6 +5,7 @@
 #include "bindings/python_progress.h"
 #include "bindings/topics.h"
 #include "bindings/words.h"
+#include "fill/conformal_map.h"
 #include "fill/quads.h"
 
 namespace fairing::bindings {
@@ -35,6 +36,14 @@ py::dict fill_arrays(const DoubleArray& vertices, const std::vector<IntArray>& l
     return dict;
 }
 
+// Spacing, least count, and whether one length holds everywhere.
+using Wanted = std::tuple<double, int, bool>;
+
+WantedLengths to_lengths(const Wanted& wanted) {
+    const auto& [spacing, least_count, even] = wanted;
+    return {spacing, least_count, even ? Spread::even : Spread::outline};
+}
+
 MeshInput to_input(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
                    const std::optional<DoubleArray>& fixed_normals) {
     return {to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices),
@@ -42,11 +51,11 @@ MeshInput to_input(const DoubleArray& vertices, const IntArray& triangles, const
 }
 
 py::dict remesh_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
-                       const std::optional<DoubleArray>& fixed_normals, const VertexPairs& kept,
-                       const std::pair<double, int>& wanted, int threads, const py::object& callback) {
+                       const std::optional<DoubleArray>& fixed_normals, const VertexPairs& kept, const Wanted& wanted,
+                       int threads, const py::object& callback) {
     const MeshInput input = to_input(vertices, triangles, fixed, fixed_normals);
     const NewMesh result = without_gil(callback, [&](const ProgressCallback& progress) {
-        return remesh(input, kept, {wanted.first, wanted.second}, threads, progress);
+        return remesh(input, kept, to_lengths(wanted), threads, progress);
     });
     py::dict dict;
     dict["vertices"] = from_points(result.vertices);
@@ -59,24 +68,37 @@ py::dict remesh_arrays(const DoubleArray& vertices, const IntArray& triangles, c
 }
 
 double expected_count_of(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
-                         const std::optional<DoubleArray>& fixed_normals, const std::pair<double, int>& wanted) {
-    return expected_remesh_count(to_input(vertices, triangles, fixed, fixed_normals), {wanted.first, wanted.second});
+                         const std::optional<DoubleArray>& fixed_normals, const Wanted& wanted) {
+    return expected_remesh_count(to_input(vertices, triangles, fixed, fixed_normals), to_lengths(wanted));
+}
+
+Eigen::MatrixXd to_matrix(const DoubleArray& rows) {
+    return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+        rows.data(), rows.shape(0), rows.shape(1));
+}
+
+py::array from_matrix(const Eigen::MatrixXd& matrix) {
+    return py::array_t<double>({matrix.rows(), matrix.cols()},
+                               {sizeof(double), sizeof(double) * static_cast<std::size_t>(matrix.rows())},
+                               matrix.data());
 }
 
 py::array interpolated(const DoubleArray& vertices, const IntArray& triangles, const IntArray& fixed,
                        const DoubleArray& values) {
     const MeshInput input{to_points(vertices), to_triangles(triangles), to_indices(fixed), std::nullopt};
-    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> given(
-        values.data(), values.shape(0), values.shape(1));
-    const Eigen::MatrixXd columns = given;
+    const Eigen::MatrixXd columns = to_matrix(values);
     Eigen::MatrixXd result;
     {
         const py::gil_scoped_release released;
         result = interpolate(input, columns);
     }
-    return py::array_t<double>({result.rows(), result.cols()},
-                               {sizeof(double), sizeof(double) * static_cast<std::size_t>(result.rows())},
-                               result.data());
+    return from_matrix(result);
+}
+
+py::array conformal_map_of(const DoubleArray& vertices, const IntArray& triangles, const IntArray& fixed,
+                           const DoubleArray& places) {
+    return from_matrix(
+        conformal_map(to_points(vertices), to_triangles(triangles), to_indices(fixed), to_matrix(places)));
 }
 
 py::tuple quads_of(const DoubleArray& vertices, const IntArray& triangles, const VertexPairs& kept) {
@@ -94,6 +116,8 @@ py::tuple quads_of(const DoubleArray& vertices, const IntArray& triangles, const
 void bind_fill(py::module_& module) {
     module.def("interpolate", &interpolated, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("values"));
+    module.def("conformal_map", &conformal_map_of, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
+               py::arg("places"));
     module.def("paired_quads", &quads_of, py::arg("vertices"), py::arg("triangles"), py::arg("kept"));
     module.def("fill_loops", &fill_arrays, py::arg("vertices"), py::arg("loops"), py::arg("normals"), py::arg("bridge"),
                py::arg("equation"), py::arg("progress"));

@@ -65,12 +65,17 @@ bool is_worth_trying(const Problem& problem) { return !is_large(problem) || !is_
 // more.
 VariationLimits limits_for(const Problem& problem, double most_product) {
     constexpr double most_of_large = 1e4;
-    if (!is_large(problem)) return {most_product};
-    return {std::min(most_product, most_of_large), 1};
+    VariationLimits limits{most_product};
+    if (!is_large(problem)) return limits;
+    limits.most_product = std::min(most_product, most_of_large);
+    limits.most_beginnings = 1;
+    return limits;
 }
 
 VariationLimits limits_near(const Points& near, double most_product, bool roughly) {
-    return {most_product, 1, NearVariation{near, roughly}};
+    VariationLimits limits{most_product};
+    limits.near = NearVariation{near, roughly};
+    return limits;
 }
 
 // Solved as a way of its own, after those that the first solution tells of.
@@ -114,8 +119,9 @@ Solution instead_of_bulb(const Problem& problem, Solution solution, const Progre
     const double energy = variation_energy(problem, solution.points);
     if (!(energy > least_energy)) return solution;
     const double most = energy / bulb;
-    auto even =
-        least_variation(problem, solution, near ? limits_near(*near, most, true) : limits_for(problem, most), progress);
+    VariationLimits limits = near ? limits_near(*near, most, true) : limits_for(problem, most);
+    limits.from_tube = false;  // where the membrane's bulge leads to no better surface, the bulb may be none
+    auto even = least_variation(problem, solution, limits, progress);
     if (!even || !is_answer(*even)) return solution;
     const double least = variation_energy(problem, even->points);
     if (energy <= bulb * least) return solution;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 
 #include "base/stopwatch.h"
 #include "geometry/self_intersection.h"
@@ -16,6 +15,7 @@
 #include "proxy/proxy_solver.h"
 #include "start/best_fill.h"
 #include "start/membrane.h"
+#include "start/swept_start.h"
 #include "variation/inflate.h"
 #include "variation/lift.h"
 #include "variation/own_mesh.h"
@@ -96,13 +96,18 @@ SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginnin
     return solve_on(mesh, problem, last, Measure::scale_free, {tolerance, 30, 1e-4}, progress.range(0.8, 1.0));
 }
 
-SolvedSheet solve_fine(ProxyMesh& mesh, const Problem& problem, const SolvedSheet& coarse, double damping,
+struct FineStart {
+    double damping = 0.0;
+    double most_merit = HUGE_VAL;  // given up where it stays above
+};
+
+SolvedSheet solve_fine(ProxyMesh& mesh, const Problem& problem, const SolvedSheet& coarse, const FineStart& begin,
                        const Progress& progress) {
     const int limit = std::clamp(3 * problem.patch.free_count, 3000, most_fine);
     mesh.adapt(sizing_of(problem, {fine_share, fine_turn, fine_growth}, limit));
     const int most_steps = std::min(problem.options.max_iterations, most_fine_steps);
-    return solve_on(mesh, problem, coarse, Measure::scale_free, {problem.options.tolerance, most_steps, damping},
-                    progress);
+    return solve_on(mesh, problem, coarse, Measure::scale_free,
+                    {problem.options.tolerance, most_steps, begin.damping, 0.0, begin.most_merit}, progress);
 }
 
 Termination ending(const NewtonResult& result, const Problem& problem) {
@@ -152,7 +157,7 @@ std::optional<Attempt> attempted(const Problem& problem, const Points& start, co
     ProxyMesh mesh(problem.patch, start);
     const SolvedSheet coarse = solve_coarse(mesh, problem, beginning, progress.range(0.0, 0.5));
     if (std::isfinite(most) && !(coarse.result.merit <= most)) return std::nullopt;  // NaN, too
-    SolvedSheet fine = solve_fine(mesh, problem, coarse, 0.0, progress.range(0.5, 1.0));
+    SolvedSheet fine = solve_fine(mesh, problem, coarse, {}, progress.range(0.5, 1.0));
     return Attempt{std::move(mesh), std::move(fine), coarse.result.gradient, coarse.mesh.patch.vertex_count()};
 }
 
@@ -173,13 +178,25 @@ SolvedSheet unsolved(const ProxyMesh& mesh, const Problem& problem, const Progre
     return {std::move(snapshot), std::move(sheet), {}};
 }
 
+// On one fine mesh: there elbows end in 11 to 46 steps, from a coarse mesh many of them nowhere.
+std::optional<Attempt> attempted_on_tube(const Problem& problem, const Points& tube, double most,
+                                         const Progress& progress) {
+    constexpr double damping = 1e-3;
+    ProxyMesh mesh(problem.patch, tube);
+    SolvedSheet fine = solve_fine(mesh, problem, unsolved(mesh, problem, progress), {damping, most}, progress);
+    if (std::isfinite(most) && !(fine.result.merit <= most)) return std::nullopt;
+    const double gradient = fine.result.gradient;
+    const int count = fine.mesh.patch.vertex_count();
+    return Attempt{std::move(mesh), std::move(fine), gradient, count};
+}
+
 // One mesh, from a surface that is near.
 std::optional<Solution> solve_nearby(const Problem& problem, const NearVariation& near, double most,
                                      const Progress& progress) {
     Stopwatch watch;
     ProxyMesh mesh(problem.patch, near.points);
     SolvedSheet solved = near.roughly ? solve_coarse(mesh, problem, near_beginning, progress.range(0.0, 0.9))
-                                      : solve_fine(mesh, problem, unsolved(mesh, problem, progress), near_damping,
+                                      : solve_fine(mesh, problem, unsolved(mesh, problem, progress), {near_damping},
                                                    progress.range(0.0, 0.5));
     if (!near.roughly && !solved.result.converged) {  // too far from it: over a coarse mesh
         const auto anew = attempted(problem, near.points, near_beginning, most, progress.range(0.5, 0.9));
@@ -196,6 +213,39 @@ std::optional<Solution> solve_nearby(const Problem& problem, const NearVariation
     return solution;
 }
 
+// The beginnings one after the other, until one ends in a surface.
+struct Search {
+    const Problem& problem;
+    const VariationLimits& limits;
+    std::optional<Attempt> best;
+
+    [[nodiscard]] bool has_ended() const { return best && best->fine.result.converged; }
+
+    // Whether it was worth going on with to the end.
+    bool takes(std::optional<Attempt> attempt) {
+        const bool is_worth_it = attempt.has_value();
+        if (attempt && (!best || attempt->is_better_than(*best))) best = std::move(attempt);
+        return is_worth_it;
+    }
+
+    bool tries(const Points& start, const Beginning& beginning, const Progress& progress) {
+        return takes(attempted(problem, start, beginning, limits.most_product, progress));
+    }
+
+    void run(const Points& start, const Progress& progress) {
+        const bool begins_well = tries(start, beginnings[0], progress.range(0.0, 0.2));
+        if (has_ended()) return;
+        if (const auto tube = limits.from_tube ? swept_start(problem, progress.here()) : std::nullopt) {
+            takes(attempted_on_tube(problem, *tube, limits.most_product, progress.range(0.2, 1.0)));
+            return;
+        }
+        if (!begins_well) return;
+        for (int k = 1; k < limits.most_beginnings && !has_ended(); ++k) {
+            if (!tries(start, beginnings[at(k)], progress.range(0.2 * k, 0.2 + 0.2 * k))) break;
+        }
+    }
+};
+
 }  // namespace
 
 Solution solve_least_variation(const Problem& problem, const Progress& progress) {
@@ -207,21 +257,13 @@ std::optional<Solution> solve_less_varying(const Problem& problem, const Variati
     const Checkpoints checkpoints(progress);
     if (limits.near) return solve_nearby(problem, *limits.near, limits.most_product, progress);
     Stopwatch watch;
+    Search search{problem, limits, std::nullopt};
     const Points start = start_of(problem, progress.range(0.0, 0.1));
     const double start_seconds = watch.lap();
-    std::optional<Attempt> best;
-    double begin = 0.1;
-    const auto count = std::min(beginnings.size(), static_cast<std::size_t>(limits.most_beginnings));
-    for (const Beginning& beginning : std::span(beginnings).first(count)) {
-        const double end = begin + 0.2;
-        auto attempt = attempted(problem, start, beginning, limits.most_product, progress.range(begin, end));
-        if (!attempt) return std::nullopt;
-        if (!best || attempt->is_better_than(*best)) best = std::move(attempt);
-        if (best->fine.result.converged) break;
-        begin = end;
-    }
+    search.run(start, progress.range(0.1, 0.9));
+    if (!search.best) return std::nullopt;
     const double solve_seconds = watch.lap();
-    Solution solution = solution_of(problem, *best, progress.range(0.9, 1.0));
+    Solution solution = solution_of(problem, *search.best, progress.range(0.9, 1.0));
     solution.seconds = {{"fill", start_seconds}, {"iteration", solve_seconds}, {"placement", watch.lap()}};
     return solution;
 }

@@ -79,7 +79,7 @@ public:
             ++result.steps;
             result.converged = share_ == 1.0 && used_damping_ <= least_damping && largest_height_ < limits_.tolerance &&
                                largest_turn_ < limits_.turns;
-            if (share_ < limits_.shortest_share) break;
+            if (share_ < limits_.shortest_share || is_hopeless(result.steps)) break;
         }
         energy_.update(sheet_, model_);
         result.merit = model_.merit;
@@ -88,6 +88,11 @@ public:
     }
 
 private:
+    [[nodiscard]] bool is_hopeless(int steps) const {
+        constexpr int patience = 10;
+        return steps >= patience && model_.merit > limits_.most_merit;
+    }
+
     // One step of less merit; false where none is found. Where the second derivatives are not positive definite, less
     // of their indefinite part is taken before damping is: damping slows what is smooth most.
     bool step() {
@@ -225,7 +230,8 @@ Points fitted_normals(const Problem& problem, const Points& points, Measure meas
     const int most_steps = measure == Measure::plain ? 3 : 20;  // a start needs no more
     Sheet sheet{points, max_normals(problem.patch, points, problem.fixed_normals)};
     const VariationEnergy energy(problem, Moving::normals, measure);
-    if (energy.unknowns().count() > 0) minimise(energy, sheet, {settled, most_steps, 0.0, 0.0, settled}, progress);
+    if (energy.unknowns().count() > 0)
+        minimise(energy, sheet, {settled, most_steps, 0.0, 0.0, HUGE_VAL, settled}, progress);
     return sheet.normals;
 }
 

@@ -11,9 +11,10 @@ namespace fairing {
 struct NewtonLimits {
     double tolerance;  // of the largest height of a full step, units of D
     int most_steps;
-    double damping = 0.0;         // at first; large damping removes roughness before anything moves far
-    double shortest_share = 0.0;  // of a step; where less of it can be taken, the mesh is in the way
-    double turns = HUGE_VAL;      // tolerance of the largest turn of a full step, radians
+    double damping = 0.0;          // at first; large damping removes roughness before anything moves far
+    double shortest_share = 0.0;   // of a step; where less of it can be taken, the mesh is in the way
+    double most_merit = HUGE_VAL;  // given up where it is more after ten steps
+    double turns = HUGE_VAL;       // tolerance of the largest turn of a full step, radians
 };
 
 struct NewtonResult {

@@ -1,5 +1,6 @@
 """Intrinsic fairing of triangle meshes: Δ_B H = 0 with G1 boundary data (Schneider & Kobbelt 2001)."""
 
+from fairing._conformal_map import conformal_map
 from fairing._core import __version__
 from fairing._fair import fair
 from fairing._feather import feather_weights
@@ -19,6 +20,7 @@ from fairing._measure import (
 )
 from fairing._new_mesh import FillResult, RemeshResult
 from fairing._outline import (
+    VISIBLE_KINK,
     MendedOutline,
     SurroundingNormals,
     bad_outline,
@@ -33,6 +35,7 @@ from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, 
 
 __all__ = [
     "CODES",
+    "VISIBLE_KINK",
     "Cancelled",
     "Diagnostic",
     "FairResult",
@@ -51,6 +54,7 @@ __all__ = [
     "boundary_loops",
     "components",
     "conformal_distortion",
+    "conformal_map",
     "cotan_laplacian",
     "fair",
     "feather_weights",

@@ -128,15 +128,16 @@ def remesh(
     fixed: _Ints | None,
     fixed_normals: _Floats | None,
     kept: _Ints,
-    wanted: tuple[float, int],
+    wanted: tuple[float, int, bool],
     threads: int,
     progress: Callable[[float, str], bool | None] | None,
 ) -> dict[str, Any]: ...
 def interpolate(vertices: _Floats, triangles: _Ints, fixed: _Ints, values: _Floats) -> _Floats: ...
+def conformal_map(vertices: _Floats, triangles: _Ints, fixed: _Ints, places: _Floats) -> _Floats: ...
 def expected_count(
     vertices: _Floats,
     triangles: _Ints,
     fixed: _Ints | None,
     fixed_normals: _Floats | None,
-    wanted: tuple[float, int],
+    wanted: tuple[float, int, bool],
 ) -> float: ...
