@@ -89,7 +89,7 @@ struct OldSurface {
     }
 
     [[nodiscard]] VectorX lengths(const WantedLengths& wanted, const KeptEdges& kept = {}) const {
-        return edge_lengths(patch, points, {wanted.spacing / unit.diameter, wanted.least_count}, kept);
+        return edge_lengths(patch, points, {wanted.spacing / unit.diameter, wanted.least_count, wanted.spread}, kept);
     }
 
     const Patch& patch;

@@ -80,7 +80,8 @@ VectorX even_lengths(const Patch& patch, const Points& points) {
     constexpr double square_per_vertex = 1.1547;  // of the edge: 2/√3
     FaceGeometry faces;
     faces.update(points, patch.triangles);
-    return edge_lengths(patch, points, {std::sqrt(square_per_vertex * faces.areas.sum() / even_count), 0});
+    return edge_lengths(patch, points,
+                        {std::sqrt(square_per_vertex * faces.areas.sum() / even_count), 0, Spread::even});
 }
 
 // Whether the mesh suits its surface: a dome that has grown from a flat mesh, or a tube that has opened, is stretched.

@@ -163,7 +163,7 @@ TEST_CASE("lengths are the outline's at the outline and grow by half of the way"
     const Patch& patch = single.patch();
     const double edge = (single.points.col(patch.edge_ends[0][0]) - single.points.col(patch.edge_ends[0][1])).norm();
     for (const double spacing : {0.25 * edge, 4.0 * edge}) {
-        const VectorX lengths = edge_lengths(patch, single.points, {spacing, 0});
+        const VectorX lengths = edge_lengths(patch, single.points, {spacing, 0, Spread::even});
         for (int e = 0; e < patch.edge_count(); ++e) {
             const auto [a, b] = patch.edge_ends[at(e)];
             const double length = (single.points.col(a) - single.points.col(b)).norm();
