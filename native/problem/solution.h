@@ -69,6 +69,7 @@ struct Solution {
     bool crosses = false;              // the surface passes through itself, whatever the mesh
     double first_step = 0.0;           // largest moves of the first and the last iteration, units of D
     double last_step = 0.0;
+    double least_step = 0.0;  // of all iterations
     Instead instead = Instead::nothing;
     double variation_ratio = 0.0;  // of the bulb that it replaces, where it is one
     bool even_weights = false;     // uniform weights were taken instead of the problem's
