@@ -41,7 +41,8 @@ enum class Join {
 enum class Pins { absent, spread, no_surface, no_outline, too_close, not_found, curvature_met };
 
 // What holds in place of the problem's equation, where that has no surface (method/otherwise).
-enum class Instead { nothing, least_variation, loft };
+// `smoothed`: the shape before, as smooth as it can be (method/smoothed).
+enum class Instead { nothing, least_variation, loft, smoothed };
 
 // A way that was tried (method/ways), and how long it took.
 struct WayTaken {
