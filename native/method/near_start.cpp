@@ -32,11 +32,11 @@ private:
     Points points_;  // 3 × free count
 };
 
-std::optional<Solution> accepted(const Problem& problem, Solution solution, const Stopwatch& watch) {
+std::optional<Solution> accepted(const Problem& problem, Solution solution, const WayTaken& way) {
     if (solution.termination != Termination::converged) return std::nullopt;
     solution.flaw = flaw_of(problem, solution);
     if (solution.flaw != Flaw::absent) return std::nullopt;
-    solution.ways = {{"near", watch.seconds()}};
+    solution.ways = {way};
     return solution;
 }
 
@@ -51,7 +51,7 @@ std::optional<Solution> vary_least_near(const Problem& problem, const Points& po
     } catch (const SolverError&) {
         return std::nullopt;
     }
-    return solution ? accepted(problem, std::move(*solution), watch) : std::nullopt;
+    return solution ? accepted(problem, std::move(*solution), {"variation", watch.seconds()}) : std::nullopt;
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ std::optional<Solution> solve_near(const Problem& problem, const NearStart& star
     if (solution.termination != Termination::converged) return std::nullopt;
     solution.boundary_normals = one_sided_normals(problem.patch, solution.points);
     solution.seconds = {{"iteration", watch.seconds()}};
-    return accepted(problem, std::move(solution), watch);
+    return accepted(problem, std::move(solution), {"near", watch.seconds()});
 }
 
 }  // namespace fairing

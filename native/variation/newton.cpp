@@ -77,7 +77,7 @@ public:
             energy_.update(sheet_, model_);
             if (!step()) break;
             ++result.steps;
-            result.converged = is_whole() && used_damping_ <= least_damping && largest_height_ < limits_.tolerance &&
+            result.converged = share_ == 1.0 && used_damping_ <= least_damping && largest_height_ < limits_.tolerance &&
                                largest_turn_ < limits_.turns;
             if (share_ < limits_.shortest_share || is_hopeless(result.steps)) break;
         }
@@ -88,11 +88,6 @@ public:
     }
 
 private:
-    // Whether the whole step was taken. Of one that moves next to nothing roundoff decides how much lowers the merit.
-    [[nodiscard]] bool is_whole() const {
-        constexpr double next_to_nothing = 1e-6;  // of the tolerance
-        return share_ == 1.0 || largest_height_ < next_to_nothing * limits_.tolerance;
-    }
     [[nodiscard]] bool is_hopeless(int steps) const {
         constexpr int patience = 10;
         return steps >= patience && model_.merit > limits_.most_merit;
