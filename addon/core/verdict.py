@@ -29,6 +29,7 @@ EVEN_CURVATURE, EVEN_SPREAD, WRITE = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE"
 
 _KNOT = "Seams and marks inside, which stay, are squeezed to a knot at {}"
 LOFT_REASON = "No fair surface fits these outlines: the loft that joins them is a substitute, so look at its shape"
+SMOOTHED_REASON = "No fair surface fits these outlines: the old shape was smoothed as far as it goes, so look at it"
 
 
 @dataclass(frozen=True)
@@ -212,7 +213,7 @@ def _crossing(evidence: Evidence, options: FairOptions) -> Found:
 
 
 def _visible(evidence: Evidence, options: FairOptions) -> Found:
-    for look in (_rounded, _eaten, _kinked, _pointed, _swollen, _lofted, _refused, _squeezed, _needles):
+    for look in (_rounded, _eaten, _kinked, _pointed, _swollen, _substituted, _refused, _squeezed, _needles):
         told = look(evidence, options)
         if told[0]:
             return told
@@ -229,7 +230,7 @@ def _kinked(evidence: Evidence, options: FairOptions) -> Found:
     if not len(kinks):
         return _NOTHING
     text = counted(len(kinks), "vertex", "vertices")
-    return f"The loft does not continue the slope of its surroundings at {text} of the outline", kinks
+    return f"The surface does not continue the slope of its surroundings at {text} of the outline", kinks
 
 
 def kink_reason(join: Join) -> str:
@@ -278,11 +279,12 @@ def _swollen(evidence: Evidence, options: FairOptions) -> Found:
     return f"The surface swells to a knob around {text}: another outline may avoid it", evidence.swollen
 
 
-def _lofted(evidence: Evidence, _options: FairOptions) -> Found:
-    """Tell of a loft: it is smooth, but by its lines alone, and may be as flat as a strap."""
-    if not any(evidence.told("NO_SOLUTION", "loft")):
-        return _NOTHING
-    return LOFT_REASON, _most_bent(evidence)
+def _substituted(evidence: Evidence, _options: FairOptions) -> Found:
+    """Tell of a loft, which may be as flat as a strap, and of the old shape smoothed, which may keep part of it."""
+    for figure, reason in (("loft", LOFT_REASON), ("smoothed", SMOOTHED_REASON)):
+        if any(evidence.told("NO_SOLUTION", figure)):
+            return reason, _most_bent(evidence)
+    return _NOTHING
 
 
 def _most_bent(evidence: Evidence) -> Ints:
