@@ -29,6 +29,7 @@ EVEN_CURVATURE, EVEN_SPREAD, WRITE = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE"
 
 _KNOT = "Seams and marks inside, which stay, are squeezed to a knot at {}"
 LOFT_REASON = "No fair surface fits these outlines: the loft that joins them is a substitute, so look at its shape"
+SMOOTHED_REASON = "No fair surface fits these outlines: the old shape was smoothed as far as it goes, so look at it"
 
 
 @dataclass(frozen=True)
@@ -64,6 +65,7 @@ class Evidence:
     swollen: Ints = field(default_factory=nothing)  # mesh vertices at the tops of knobs
     eaten: Eaten = field(default_factory=Eaten)
     squeezed: Ints = field(default_factory=nothing)  # mesh vertices where lines that a new mesh keeps are a knot
+    pierced: Ints = field(default_factory=nothing)  # mesh vertices where the surface passes through faces outside
     points: Floats | None = None  # (q, 3) of problem.vertices after the run; None: problem.points
     origin: Origin | None = None  # what the engine's numbers stand for; None: problem.origin
 
@@ -212,11 +214,18 @@ def _crossing(evidence: Evidence, options: FairOptions) -> Found:
 
 
 def _visible(evidence: Evidence, options: FairOptions) -> Found:
-    for look in (_rounded, _eaten, _kinked, _pointed, _swollen, _lofted, _refused, _squeezed, _needles):
+    for look in (_pierced, _rounded, _eaten, _kinked, _pointed, _swollen, _substituted, _refused, _squeezed, _needles):
         told = look(evidence, options)
         if told[0]:
             return told
     return _NOTHING
+
+
+def _pierced(evidence: Evidence, _options: FairOptions) -> Found:
+    if not len(evidence.pierced):
+        return _NOTHING
+    text = counted(len(evidence.pierced), "vertex", "vertices")
+    return f"The surface passes through faces outside the selection at {text}: select or move these", evidence.pierced
 
 
 def _kinked(evidence: Evidence, options: FairOptions) -> Found:
@@ -229,7 +238,7 @@ def _kinked(evidence: Evidence, options: FairOptions) -> Found:
     if not len(kinks):
         return _NOTHING
     text = counted(len(kinks), "vertex", "vertices")
-    return f"The loft does not continue the slope of its surroundings at {text} of the outline", kinks
+    return f"The surface does not continue the slope of its surroundings at {text} of the outline", kinks
 
 
 def kink_reason(join: Join) -> str:
@@ -278,11 +287,12 @@ def _swollen(evidence: Evidence, options: FairOptions) -> Found:
     return f"The surface swells to a knob around {text}: another outline may avoid it", evidence.swollen
 
 
-def _lofted(evidence: Evidence, _options: FairOptions) -> Found:
-    """Tell of a loft: it is smooth, but by its lines alone, and may be as flat as a strap."""
-    if not any(evidence.told("NO_SOLUTION", "loft")):
-        return _NOTHING
-    return LOFT_REASON, _most_bent(evidence)
+def _substituted(evidence: Evidence, _options: FairOptions) -> Found:
+    """Tell of a loft, which may be as flat as a strap, and of the old shape smoothed, which may keep part of it."""
+    for figure, reason in (("loft", LOFT_REASON), ("smoothed", SMOOTHED_REASON)):
+        if any(evidence.told("NO_SOLUTION", figure)):
+            return reason, _most_bent(evidence)
+    return _NOTHING
 
 
 def _most_bent(evidence: Evidence) -> Ints:

@@ -133,6 +133,7 @@ ComponentAnswer ComponentSolver::solve_between(const ComponentData& data, const 
     hold_border(data.faired, answer.problem);
     warn_of_precision(patch_, data.vertices, {unit.diameter, solver.tolerance}, answer.warnings);
     read_reference(gather(data.reference, patch_.to_input), unit);
+    answer.problem.before = unit.to_unit(gather(data.reference, patch_.to_input));
     answer.warnings.insert(answer.warnings.end(), reference_warnings_.begin(), reference_warnings_.end());
     answer.solution = options().method == Method::paper ? solve_by_paper(answer.problem, progress)
                                                         : solve_globally(answer, data, progress);
@@ -185,9 +186,8 @@ Solution ComponentSolver::solve_by_paper(const Problem& problem, const Progress&
 // Conformal weights of the vertices given leave them where they are within the surface.
 std::optional<NearStart> ComponentSolver::given_start(const ComponentAnswer& answer, const ComponentData& data) const {
     const Start kind = options().start;
-    const Equation equation = options().solver.equation;
-    const bool of_fourth_order = equation != Equation::minimal && equation != Equation::least_variation;
-    if (kind != Start::least_variation && !(kind == Start::given && of_fourth_order)) return std::nullopt;
+    const bool meets_normals = options().solver.equation != Equation::minimal;
+    if (kind != Start::least_variation && !(kind == Start::given && meets_normals)) return std::nullopt;
     const Points start = answer.unit.to_unit(gather(data.vertices, patch_.to_input));
     return NearStart{start, options().inner_fairness == InnerFairness::conformal && reference_ == start};
 }
@@ -213,6 +213,7 @@ Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optio
     if (!near_last && start && options().start == Start::least_variation)
         near_last = solve_else(problem, Instead::least_variation, progress, &start->points);
     if (!near_last && options().start == Start::loft) near_last = solve_else(problem, Instead::loft, progress);
+    if (!near_last && options().start == Start::smoothed) near_last = solve_else(problem, Instead::smoothed, progress);
     Solution solution = near_last ? std::move(*near_last) : solve_pinned(problem, options().pin_radius, progress);
     if (!keeps()) return solution;
     replaced_.reset();

@@ -46,7 +46,7 @@ private:
             const std::size_t before = folded.size();
             untangle(problem_, target_, placement);
             folded = folds_of_placement(problem_, target_, placement);
-            if (folded.size() > few_folds && 2 * folded.size() > before) break;
+            if (folded.size() > few_folds ? 2 * folded.size() > before : folded.size() >= before) break;
             folded = relax_unfolded(placement, std::move(folded));
         }
         const bool done = folded.empty();

@@ -177,6 +177,12 @@ def test_a_smooth_loft_deserves_a_look_where_it_bends_most(fine: Evidence) -> No
     assert judged(with_warning(fine, "NO_SOLUTION", ints(), harmonic=1.0)).grade == GOOD  # as Otherwise asks
 
 
+def test_a_smoothed_shape_deserves_a_look(fine: Evidence) -> None:
+    verdict = judged(with_warning(fine, "NO_SOLUTION", ints(), smoothed=1.0))
+    assert verdict.grade == LOOK
+    assert "old shape" in verdict.reason
+
+
 def test_good_is_only_what_was_asked_for(fine: Evidence) -> None:
     verdict = judged(with_warning(fine, "G2_NOT_MET", ints(4, 2)), continuity="G2")
     assert (verdict.grade, verdict.spots.tolist()) == (LOOK, fine.problem.vertices[[4, 2]].tolist())
