@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
-from .filling import FillOptions, Piece, worst
-from .quality import VISIBLE
-from .report import MET, MISSED, Check, Report, angle_text, distortion_text
+from .filling import FillOptions, Piece
+from .report import Check, Report, distortion_text, kink_checks
 from .verdict import GRADES, UNUSABLE, NotUsable, Verdict
 from .words import counted
 
@@ -21,21 +18,26 @@ class Added:
     """What there is to tell about the new faces of one object."""
 
     faces: int
-    seams: int  # outline vertices where UVs or other values of the two border faces differ: their mean counts
+    mixed: int  # outline vertices where colours or other values of the two border faces differ: their mean counts
+    seams: int  # new edges where UVs part
     distortion: float  # area-weighted mean of the conformal distortion − 1 on the active UV map; 0 without one
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """A sentence for what is worth a look."""
-        if not self.seams:
-            return ()
-        text = counted(self.seams, "vertex of the outline lies", "vertices of the outline lie")
-        return (f"{text} on a seam of UVs or colours: new faces begin with the mean there",)
+        """A sentence for each thing that is worth a look."""
+        notes = []
+        if self.seams:
+            text = counted(self.seams, "new edge is a seam", "new edges are seams")
+            notes.append(f"{text} of UVs: each island at the outline goes on by itself")
+        if self.mixed:
+            text = counted(self.mixed, "vertex of the outline lies", "vertices of the outline lie")
+            notes.append(f"{text} where colours of two faces differ: new faces begin with the mean there")
+        return tuple(notes)
 
 
 def is_written(named: Named, options: FillOptions) -> bool:
     """Tell whether the run changes its meshes: all of them, or none."""
-    return options.accept == "ALL" or all(worst(pieces).grade != UNUSABLE for _, pieces in named)
+    return options.accept == "ALL" or all(_worst(pieces).grade != UNUSABLE for _, pieces in named)
 
 
 def refuse_unusable(name: str, pieces: list[Piece], options: FillOptions) -> None:
@@ -49,14 +51,9 @@ def make_fill_report(named: Named, options: FillOptions, seconds: float, added: 
     """Sum up the surfaces of one run, by object name; added: what was written, if anything was."""
     pieces = [piece for _, of_object in named for piece in of_object]
     results = [piece.result for piece in pieces]
-    joins = np.concatenate([np.empty(0), *(result.join for result in results)])
-    join = (float(np.median(joins)), float(joins.max())) if len(joins) else (0.0, 0.0)
+    joins = [piece.join for piece in pieces]
+    worst_join = max(joins, key=lambda join: join.worst)
     distortion = max((each.distortion for each in added), default=0.0)
-    kink = Check(
-        "Kink at the outline",
-        f"{angle_text(join[0])}, at most {angle_text(join[1])}",
-        MET if join[1] <= VISIBLE else MISSED,
-    )
     return Report(
         objects=tuple(name for name, _ in named),
         free_vertices=sum(len(piece.positions) for piece in pieces),
@@ -65,19 +62,23 @@ def make_fill_report(named: Named, options: FillOptions, seconds: float, added: 
         boundary_angle=max((float(result.boundary_angle.max(initial=0.0)) for result in results), default=0.0),
         distortion=distortion,
         seconds=seconds,
-        checks=(kink, *_checks(pieces, added, distortion)),
+        checks=(*kink_checks(joins), *_checks(pieces, added, distortion)),
         warnings=tuple(dict.fromkeys(note for piece in pieces for note in piece.notes))
         + tuple(note for each in added for note in each.notes),
         verdict=_named_worst(named),
         written=is_written(named, options),
-        join=join,
+        join=(worst_join.typical, worst_join.worst),
         deed="filled in",
     )
 
 
+def _worst(pieces: list[Piece]) -> Verdict:
+    return max((piece.verdict for piece in pieces), key=lambda verdict: GRADES.index(verdict.grade))
+
+
 def _named_worst(named: Named) -> Verdict:
-    name, pieces = max(named, key=lambda pair: GRADES.index(worst(pair[1]).grade))
-    verdict = worst(pieces)
+    name, pieces = max(named, key=lambda pair: GRADES.index(_worst(pair[1]).grade))
+    verdict = _worst(pieces)
     if len(named) == 1 or not verdict.reason:
         return verdict
     return Verdict(verdict.grade, f"{name}: {verdict.reason}", verdict.spots)

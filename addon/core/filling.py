@@ -1,4 +1,4 @@
-"""From border loops to the surface over them, and what it is worth. Plain numpy, no bpy."""
+"""From border loops to the surface over them. Plain numpy, no bpy."""
 
 from __future__ import annotations
 
@@ -17,13 +17,14 @@ from .border import BorderRefusal
 from .checked import refuse_other_kinds, refuse_unknown
 from .engine import Progress, sub_range
 from .faces import Faces, faces_of, paired_faces
+from .fill_verdict import Surface, judge
 from .findings import Origin
 from .harmonic import harmonic, nearest
-from .options import ACCEPT, LEAST_SPACING
-from .quality import VISIBLE
-from .region import MeshArrays, to_local
-from .verdict import GOOD, LOFT_REASON, LOOK, UNUSABLE, Verdict
-from .words import counted, in_mesh_words
+from .options import ACCEPT, CONTINUITIES, LEAST_SPACING
+from .quality import Join, visible_from
+from .region import MeshArrays, nothing, to_local
+from .verdict import UNUSABLE, Verdict
+from .words import in_mesh_words, sentences
 
 _TOO_MANY = "Bridge joins all {} selected outlines in one surface: select only those that belong together"
 _TWO = "Bridge needs two outlines that face each other: switch it off to close each of them by itself"
@@ -38,6 +39,7 @@ class FillOptions:
     """
 
     equation: str = "HARMONIC"
+    continuity: str = "G1"  # G2: the curvature around is continued, too
     bridge: bool = False  # all loops of an object are joined
     spacing: float = 1.0  # of new edges, as a factor of the outline's
     quads: bool = False  # triangles are written in pairs, as far as they can be
@@ -46,6 +48,8 @@ class FillOptions:
     def __post_init__(self) -> None:
         if self.equation not in SHAPES:
             raise ValueError(f"equation: expected one of {', '.join(SHAPES)}, got {self.equation!r}")
+        if self.continuity not in CONTINUITIES:
+            raise ValueError(f"continuity: expected one of {', '.join(CONTINUITIES)}, got {self.continuity!r}")
         if self.accept not in ACCEPT:
             raise ValueError(f"accept: expected one of {', '.join(ACCEPT)}, got {self.accept!r}")
         refuse_other_kinds(self)
@@ -63,6 +67,11 @@ class FillOptions:
         """Read every option from an object with attributes of the same names."""
         return cls(**{each.name: getattr(properties, each.name) for each in fields(cls)})
 
+    @property
+    def joins_curvature(self) -> bool:
+        """Whether the curvature around counts: only for the harmonic shape."""
+        return self.continuity == "G2" and self.equation == "HARMONIC"
+
 
 @dataclass(frozen=True)
 class Piece:
@@ -74,14 +83,18 @@ class Piece:
     triangles: Ints  # (m, 3) in numbers of `points`, wound like the mesh
     verdict: Verdict
     result: fairing.FillResult
+    join: Join
     quads: bool = False  # whether triangles are written in pairs
     notes: tuple[str, ...] = field(default=())
 
-    def faces(self, kinds: Ints) -> Faces:
-        """Return what is written; kinds: (m,) of the triangles, only those of one kind are paired."""
+    def faces(self, kinds: Ints, lines: Ints) -> Faces:
+        """Return what is written; kinds: (m,) of the triangles, only those of one kind are paired.
+
+        lines: (l, 2) edges that no quad runs across.
+        """
         if not self.quads:
             return faces_of(self.triangles)
-        return paired_faces(self.points, self.triangles, np.empty((0, 2), dtype=np.int64), kinds)
+        return paired_faces(self.points, self.triangles, lines, kinds)
 
     @property
     def outline(self) -> Ints:
@@ -89,10 +102,14 @@ class Piece:
         return np.concatenate(self.loops)
 
     @property
+    def rims(self) -> tuple[Ints, ...]:
+        """Each loop as numbers of `points`."""
+        return tuple(np.split(np.arange(len(self.outline)), np.cumsum([len(loop) for loop in self.loops])[:-1]))
+
+    @property
     def following(self) -> Ints:
         """For each of the r outline vertices the next one, as numbers of `points`."""
-        numbers = np.split(np.arange(len(self.outline)), np.cumsum([len(loop) for loop in self.loops])[:-1])
-        return np.concatenate([np.roll(part, -1) for part in numbers])
+        return np.concatenate([np.roll(rim, -1) for rim in self.rims])
 
     def carried(self, values: Floats) -> Floats:
         """Return (k, c): values (r, c) of the outline at the new vertices."""
@@ -136,28 +153,31 @@ def _piece(
     outline = np.concatenate(loops)
     vertices, around = _surroundings(world, outline)
     given = [np.searchsorted(vertices, loop) for loop in loops]
-    with (
-        _joining(options, outline, len(loops)),
-        in_mesh_words(Origin(vertices, around, np.zeros(len(around), np.int64))),
-    ):
+    origin = Origin(vertices, around, np.zeros(len(around), np.int64))
+    with _joining(options, outline, len(loops)), in_mesh_words(origin):
         result = fairing.fill(
             world.positions[vertices], around, given, bridge=options.bridge, spacing=_spacing(world, loops, options),
-            equation=options.equation.lower(), progress=progress,
+            equation=options.equation.lower(), continuity="G2" if options.joins_curvature else "G1", progress=progress,
         )  # fmt: skip
     number = np.full(len(vertices) + len(result.vertices), -1, dtype=np.int64)
     number[np.concatenate(given)] = np.arange(len(outline))
     number[len(vertices) :] = len(outline) + np.arange(len(result.vertices))
     triangles = number[result.triangles]
     points = np.concatenate([world.positions[outline], result.vertices])
+    join = Join(vertices[result.fixed], result.join, visible_from(world.positions[vertices], around))
+    slopes = tuple(warning for warning in result.warnings if warning.code == "G2_NOT_MET")
+    tangent_only = np.unique(np.concatenate([nothing(), *(vertices[warning.elements] for warning in slopes)]))
+    verdict = judge(world, outline, Surface(points, triangles, result, join, tangent_only))
     return Piece(
         loops=tuple(loops),
         points=points,
         positions=to_local(result.vertices, matrix),
         triangles=triangles[:, ::-1] if world.mirrored else triangles,
-        verdict=_advised(judge(world, outline, (points, triangles), result), options, len(loops)),
+        verdict=_advised(verdict, options, len(loops)),
         result=result,
+        join=join,
         quads=options.quads,
-        notes=_notes(options, result),
+        notes=_notes(options, result) + sentences(slopes, origin),
     )
 
 
@@ -187,33 +207,6 @@ def _notes(options: FillOptions, result: fairing.FillResult) -> tuple[str, ...]:
     return ()
 
 
-def judge(world: MeshArrays, outline: Ints, surface: tuple[Floats, Ints], result: fairing.FillResult) -> Verdict:
-    """Return the verdict on a surface: its points, those of the outline first, and its triangles.
-
-    world: the mesh around, in the same space. outline: (r,) its vertices. result: of the surface's solve.
-    """
-    points, triangles = surface
-    edges = counted(len(outline), "edge", "edges")
-    if not result.converged and result.termination != "folded":
-        return Verdict(UNUSABLE, f"No fair surface was found for an outline of {edges}", np.unique(outline))
-    folds = fairing.flipped_triangles(points, triangles, fixed=np.arange(len(outline)))
-    if len(folds) or result.termination == "folded":
-        text = f"The surface over an outline of {edges} is folded over"
-        return Verdict(UNUSABLE, text, np.unique(outline))
-    crossing = _crossing(world, outline, points, triangles)
-    if crossing:
-        text = counted(crossing, "new face passes through others", "new faces pass through others")
-        return Verdict(UNUSABLE, text, np.unique(outline))
-    seen = result.join > VISIBLE
-    if seen.any():
-        text = counted(int(seen.sum()), "vertex", "vertices")
-        worst = float(result.join.max())
-        return Verdict(LOOK, f"A kink shows at {text} of the outline, of {worst:.0f}° at worst", np.unique(outline))
-    if result.equation == "loft":
-        return Verdict(LOOK, LOFT_REASON, np.unique(outline))
-    return Verdict(GOOD)
-
-
 def _advised(verdict: Verdict, options: FillOptions, loops: int) -> Verdict:
     """Return the verdict with what to do about it where too many outlines were joined."""
     if verdict.grade != UNUSABLE or not options.bridge or loops < 3:
@@ -235,25 +228,3 @@ def _joining(options: FillOptions, outline: Ints, loops: int) -> Iterator[None]:
         if not options.bridge or error.code != "NONMANIFOLD_EDGE" or "doubles" in error.diagnostic.figures:
             raise
         raise BorderRefusal(f"No surface joins these outlines. {joining_advice(loops)}", outline) from error
-
-
-def _crossing(world: MeshArrays, outline: Ints, points: Floats, triangles: Ints) -> int:
-    """Count the new triangles that pass through each other or through those of the mesh, wherever these are."""
-    low, high = points.min(axis=0), points.max(axis=0)
-    corners = world.positions[world.triangles]
-    with np.errstate(invalid="ignore"):
-        near = ((corners.min(axis=1) <= high) & (corners.max(axis=1) >= low)).all(axis=1)
-    old = world.triangles[near]
-    vertices = np.setdiff1d(old, outline)
-    number = np.zeros(len(world.positions), dtype=np.int64)
-    number[outline] = np.arange(len(outline))
-    number[vertices] = len(points) + np.arange(len(vertices))
-    everything = np.concatenate([points, world.positions[vertices]])
-    found = fairing.self_intersections(everything, np.concatenate([triangles, number[old]]))
-    return int(np.count_nonzero(found < len(triangles)))
-
-
-def worst(pieces: list[Piece]) -> Verdict:
-    """Return the verdict on the piece that is worth least."""
-    order = (GOOD, LOOK, UNUSABLE)
-    return max((piece.verdict for piece in pieces), key=lambda verdict: order.index(verdict.grade))

@@ -23,6 +23,9 @@ from .swelling import discs, swellings, waviness
 from .verdict import GOOD, Evidence, judge
 from .words import in_mesh_words
 
+MOST_SQUEEZED = 0.25  # of the old length of an edge that stays: below, it counts as squeezed,
+LEAST_SQUEEZED = 4  # where so many are
+
 
 @dataclass(frozen=True)
 class Remeshed(Fairing):
@@ -66,7 +69,8 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
     options = replace(options, inner_fairness="CONFORMAL")  # new vertices take values from where they were
     lines = inner_lines(mesh)
     problem, warnings = pose(mesh, matrix, options)
-    result = _solved(problem, mesh.edges[lines], options, progress)
+    kept = _kept_edges(problem, mesh.edges[lines])
+    result = _solved(problem, kept, options, progress)
     part = new_part(mesh, problem.patch, result, lines)
     place = _places(problem)
     after = _new_problem(problem, part, result, place)
@@ -79,7 +83,10 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
     told, failures, hints = told_by(result, origin)
     was = waviness(discs(problem.patch), problem.own_points)
     swollen = after.patch.vertices[swellings(discs(after.patch), points, was)]
-    evidence = Evidence(after, result, failures, *measured, join, swollen=swollen, points=own.points, origin=origin)
+    evidence = Evidence(
+        after, result, failures, *measured, join, swollen=swollen, squeezed=_squeezed(problem, kept, result),
+        points=own.points, origin=origin,
+    )  # fmt: skip
     verdict = judge(evidence, options)
     local = to_local(points, matrix)
     stay = len(part.stay)
@@ -102,10 +109,28 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
     )
 
 
-def _solved(problem: Problem, lines: Ints, options: FairOptions, progress: Progress | None) -> fairing.RemeshResult:
+def squeezed(before: Floats, after: Floats, lines: Ints) -> Ints:
+    """Return the ends of those of the lines (l, 2) that are far shorter at one state of the points than before.
+
+    None where there are few: some edge of a crumpled old surface always is.
+    """
+    lengths = [np.linalg.norm(points[lines[:, 0]] - points[lines[:, 1]], axis=1) for points in (before, after)]
+    short = lengths[1] < MOST_SQUEEZED * lengths[0]
+    ends: Ints = np.unique(lines[short]) if np.count_nonzero(short) >= LEAST_SQUEEZED else lines[:0, 0]
+    return ends
+
+
+def _squeezed(problem: Problem, kept: Ints, result: fairing.RemeshResult) -> Ints:
+    """Return the mesh vertices on lines that stay where these have become a knot."""
+    after = problem.own_points.copy()
+    on_line = result.old >= 0
+    after[result.old[on_line]] = result.vertices[on_line]
+    found: Ints = problem.patch.vertices[squeezed(problem.own_points, after, kept)]
+    return found
+
+
+def _solved(problem: Problem, kept: Ints, options: FairOptions, progress: Progress | None) -> fairing.RemeshResult:
     patch = problem.patch
-    number = {vertex: k for k, vertex in enumerate(patch.vertices.tolist())}
-    kept = [[number[a], number[b]] for a, b in lines.tolist()]
     arguments = options.engine_arguments()
     for name in ("method", "levels", "detail", "detail_size"):
         del arguments[name]
@@ -114,12 +139,15 @@ def _solved(problem: Problem, lines: Ints, options: FairOptions, progress: Progr
     with in_mesh_words(problem.origin):
         return fairing.remesh(
             problem.own_points, patch.triangles, fixed=patch.fixed, fixed_normals=problem.normals,
-            kept=_edges_of(patch, kept), spacing=_spacing(problem, options), progress=progress, **arguments,
+            kept=kept, spacing=_spacing(problem, options), progress=progress, **arguments,
         )  # fmt: skip
 
 
-def _edges_of(patch: Patch, pairs: list[list[int]]) -> Ints:
-    """Return those of the pairs that are edges of the patch's triangles: fins are left out of these."""
+def _kept_edges(problem: Problem, lines: Ints) -> Ints:
+    """Return those of the mesh's edges that are edges of the patch's triangles, in its numbers: fins are no part."""
+    patch = problem.patch
+    number = {vertex: k for k, vertex in enumerate(patch.vertices.tolist())}
+    pairs = [[number[a], number[b]] for a, b in lines.tolist()]
     sides = np.concatenate([patch.triangles[:, [0, 1]], patch.triangles[:, [1, 2]], patch.triangles[:, [2, 0]]])
     known = {tuple(side) for side in np.sort(sides, axis=1).tolist()}
     found = [pair for pair in pairs if tuple(sorted(pair)) in known]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +11,7 @@ from .arrays import Ints
 from .engine import Result
 from .options import FairOptions
 from .outcome import Fairing
-from .quality import VISIBLE, Quality
+from .quality import VISIBLE, Join, Quality
 from .verdict import GOOD, GRADES, LOOK, UNUSABLE, Verdict, judges_join
 from .words import counted
 
@@ -117,21 +117,23 @@ def _bulge_note(named: list[Named], options: FairOptions) -> tuple[str, ...]:
 
 
 def _checks(outcomes: list[Fairing], options: FairOptions) -> tuple[Check, ...]:
-    worst = max((outcome.join for outcome in outcomes), key=lambda join: join.worst)
-    kinks = (
-        Check(
-            "Kink at the outline",
-            f"≤ {angle_text(worst.worst)}",
-            _state(not any(len(outcome.join.seen) for outcome in outcomes)),
-        ),
-        Check("Kinks show here from", f"{worst.limit:.0f}°"),
-    )
     return (
-        *(kinks if judges_join(options) and any(len(o.join.vertices) for o in outcomes) else ()),
+        *(kink_checks([outcome.join for outcome in outcomes]) if judges_join(options) else ()),
         _count_check("Folded faces", outcomes, lambda quality: quality.folded),
         _count_check("Faces that cross", outcomes, lambda quality: quality.crossing),
         _count_check("Needles", outcomes, lambda quality: quality.needles),
         Check("Texture distortion", distortion_text(max(o.distortion for o in outcomes))),
+    )
+
+
+def kink_checks(joins: Sequence[Join]) -> tuple[Check, ...]:
+    """Return the lines on how the surfaces join what is around; none where nothing is."""
+    if not any(len(join.vertices) for join in joins):
+        return ()
+    worst = max(joins, key=lambda join: join.worst)
+    return (
+        Check("Kink at the outline", f"≤ {angle_text(worst.worst)}", _state(not any(len(join.seen) for join in joins))),
+        Check("Kinks show here from", f"{worst.limit:.0f}°"),
     )
 
 

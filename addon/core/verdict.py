@@ -26,6 +26,7 @@ MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
 GROW, SMOOTH_OUTLINE, AS_SELECTED, HOLD_BORDER = "GROW", "SMOOTH_OUTLINE", "AS_SELECTED", "HOLD_BORDER"
 EVEN_CURVATURE, EVEN_SPREAD, WRITE = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE"
 
+_KNOT = "Seams and marks inside, which stay, are squeezed to a knot at {}"
 LOFT_REASON = "No fair surface fits these outlines: the loft that joins them is a substitute, so look at its shape"
 
 
@@ -60,6 +61,7 @@ class Evidence:
     join: Join
     rounded: Ints = field(default_factory=nothing)  # mesh vertices of hard edges outside that were rounded
     swollen: Ints = field(default_factory=nothing)  # mesh vertices at the tops of knobs
+    squeezed: Ints = field(default_factory=nothing)  # mesh vertices where lines that a new mesh keeps are a knot
     points: Floats | None = None  # (q, 3) of problem.vertices after the run; None: problem.points
     origin: Origin | None = None  # what the engine's numbers stand for; None: problem.origin
 
@@ -208,7 +210,7 @@ def _crossing(evidence: Evidence, options: FairOptions) -> Found:
 
 
 def _visible(evidence: Evidence, options: FairOptions) -> Found:
-    for look in (_kinked, _pointed, _rounded, _swollen, _lofted, _refused, _needles):
+    for look in (_kinked, _pointed, _rounded, _swollen, _lofted, _refused, _squeezed, _needles):
         told = look(evidence, options)
         if told[0]:
             return told
@@ -220,13 +222,24 @@ def _kinked(evidence: Evidence, options: FairOptions) -> Found:
         return _NOTHING
     seen = evidence.join.seen
     if len(seen):
-        text = counted(len(seen), "vertex", "vertices")
-        return f"A kink shows at {text} of the outline, of {evidence.join.worst:.0f}° at worst", seen
+        return kink_reason(evidence.join), seen
     kinks = evidence.named("NO_SOLUTION", "kinks")  # dihedral angles show these on fine meshes only
     if not len(kinks):
         return _NOTHING
     text = counted(len(kinks), "vertex", "vertices")
     return f"The loft does not continue the slope of its surroundings at {text} of the outline", kinks
+
+
+def kink_reason(join: Join) -> str:
+    """Return the sentence for a join that is seen."""
+    text = counted(len(join.seen), "vertex", "vertices")
+    return f"A kink shows at {text} of the outline, of {join.worst:.0f}° at worst"
+
+
+def slope_reason(vertices: Ints) -> str:
+    """Return the sentence for outline vertices where a curvature was asked for and is not continued."""
+    text = counted(len(vertices), "vertex", "vertices")
+    return f"The curvature outside is not continued at {text} of the outline, as was asked for"
 
 
 def _pointed(evidence: Evidence, _options: FairOptions) -> Found:
@@ -274,12 +287,18 @@ def _refused(evidence: Evidence, _options: FairOptions) -> Found:
     """Tell what was asked for and not given: curvature that is continued, the old skin."""
     curvature = evidence.named("G2_NOT_MET")
     if len(curvature):
-        text = counted(len(np.unique(curvature)), "vertex", "vertices")
-        return f"The curvature outside is not continued at {text} of the outline, as was asked for", curvature
+        return slope_reason(np.unique(curvature)), curvature
     if any(evidence.told("REFERENCE_UNUSABLE", "old_skin", "sample_skin")):
         outline = evidence.problem.patch.vertices[evidence.problem.patch.outline]
         return "The detail asked for could not be put back: the result is smooth", outline
     return _NOTHING
+
+
+def _squeezed(evidence: Evidence, _options: FairOptions) -> Found:
+    if not len(evidence.squeezed):
+        return _NOTHING
+    text = counted(len(evidence.squeezed), "vertex", "vertices")
+    return f"{_KNOT.format(text)}: to be rid of them, delete the faces and use Fair Fill", evidence.squeezed
 
 
 def _needles(evidence: Evidence, _options: FairOptions) -> Found:

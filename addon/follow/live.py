@@ -24,19 +24,20 @@ import fairing
 from ..core import signals
 from ..core.arrays import Floats
 from ..core.engine import REFUSALS
+from ..core.live_region import LiveRegion
 from ..core.options import FairOptions
-from ..host.context import is_dragging
 from ..host.handlers import call_later, call_off, listen, unlisten
 from ..host.status import redraw_sidebars, redraw_views
 from ..mesh import live_mesh, mesh_io
+from .search import Search
 from .session import Session, check_key, fits, matrix_of, read, session_of
 
 PATIENCE = 0.15  # seconds for an answer in the middle of changes: with reading and writing a step stays below 0.3
-LEISURE = 3.0  # seconds of the processor for each of the three ways to an answer at their end: other work is no reason
-REST = 0.2  # and for the first way alone where the mouse rests, but has not let go
 MOST_SKIPPED = 15  # changes in a row that are carried along without asking for an answer
 PAUSE = 0.3  # seconds without a change that count as their end
+TICK = 0.05  # seconds between two looks at a search
 STAND_IN = "No fair surface leads here: Even Curvature stands in for it"
+SEARCHING = "Looking for a fair surface: the region is carried along meanwhile"
 CARRIED = "No fair surface leads here: the region is carried along, and mends when it is dragged back"
 NO_REGION = "No live region: select faces, then Live Region"
 
@@ -48,8 +49,7 @@ class Live:
         self.sessions: dict[str, Session] = {}
         self.message = ""
         self.updates = 0  # answers written since the switch was turned on
-        self.changed_at = 0.0  # the last change that waits for an answer, by time.monotonic
-        self.rested_at = 0.0  # the last of these that was looked at while all was quiet
+        self.changed_at = 0.0  # the last change, by time.monotonic
         self.on = False
 
     def take(self, obj: bpy.types.Object, options: FairOptions) -> None:
@@ -63,60 +63,73 @@ class Live:
         if answer is None:
             raise fairing.SolverError("No fair surface was found for the region")
         live_mesh.mark_faces(obj.data, region.faces, options, mesh_io.writable_key(obj))
-        session = self.sessions[obj.data.name] = session_of(obj, region)
-        self._write(obj, session, answer)
+        self._write(obj, self._open(obj, region), answer)
 
-    def follow(self, obj: bpy.types.Object, hurried: bool = False) -> bool:
+    def follow(self, obj: bpy.types.Object) -> bool:
         """Make the region fair again where something has changed around it; tell whether it was written.
 
-        hurried: in the middle of changes; the region is carried along where there is no answer so soon.
+        Where there is no answer so soon the region is carried along, and waits for `settle`.
         """
         session = self._current(obj)
         if session is None:
             return False
-        positions, matrix = live_mesh.positions(obj.data, session.region.vertices), matrix_of(obj)
-        same = np.array_equal(positions, session.positions) and np.array_equal(matrix, session.matrix)
-        if same and (hurried or not session.lost):
+        if not session.moved(live_mesh.positions(obj.data, session.region.vertices), matrix_of(obj)):
             return False
-        session.positions, session.matrix = positions, matrix
-        answer = self._hurried(session) if hurried else self._at_leisure(session)
+        answer = self._hurried(session)
         session.lost = answer is None
+        self.message = ""
         if answer is None:
             session.mark_outline()
-            answer = session.region.carried(positions)
-            self.message = "" if hurried else CARRIED
+            answer = session.region.carried(session.positions)
         self._write(obj, session, answer)
         return True
 
     def _hurried(self, session: Session) -> Floats | None:
         """Answer in the middle of changes, or not: after an answer that took too long some changes do without."""
+        if session.search is not None:
+            return None
         if session.waited < session.skip:
             session.waited += 1
             return None
-        answer = _asked(session, session.region.answer, PATIENCE, time.perf_counter)
-        failed = answer is None
-        session.skip = min(2 * session.skip + 1, MOST_SKIPPED) if failed else 0
+        answer = _asked(session)
+        session.skip = min(2 * session.skip + 1, MOST_SKIPPED) if answer is None else 0
         session.waited = 0
-        if not failed:
-            self.message = ""
         return answer
 
-    def _at_leisure(self, session: Session) -> Floats | None:
-        """Answer at the end of changes: the surface itself, or the one that stands in for it."""
-        self.message = ""
-        if is_dragging():
-            return _asked(session, session.region.answer, REST, time.process_time)
-        for ask in (session.region.answer, session.region.afresh):
-            answer = _asked(session, ask, LEISURE, time.process_time)
-            if answer is not None:
-                return answer
-        self.message = STAND_IN
-        return _asked(session, session.region.stand_in, LEISURE, time.process_time)
+    def settle(self, obj: bpy.types.Object) -> bool:
+        """Search for the surface of a lost region, and write it once it is found; tell whether the search goes on."""
+        session = self._current(obj)
+        if session is None or not session.lost or session.given_up:
+            return False
+        if session.search is None:
+            session.search = Search(session.region, session.positions, session.matrix)
+            self.message = SEARCHING
+        if not session.search.wait(moment()):
+            return True
+        search, session.search = session.search, None
+        if search.stopped or self._has_moved(obj, session):
+            return True
+        self._end(obj, session, search)
+        return False
 
-    def is_lost(self, obj: bpy.types.Object) -> bool:
-        """Tell whether the region still waits for an answer."""
+    def _end(self, obj: bpy.types.Object, session: Session, search: Search) -> None:
+        """Write what was found, or leave the region as it was carried along; raises what went wrong."""
+        session.given_up = True
+        found = search.found()
+        self.message = CARRIED if found.positions is None else STAND_IN if found.stands_in else ""
+        if found.positions is not None:
+            session.lost, session.skip = False, 0
+            self._write(obj, session, found.positions)
+
+    def _has_moved(self, obj: bpy.types.Object, session: Session) -> bool:
+        """Tell whether the surroundings have moved since the last look; the handler of changes will take it up."""
+        now = live_mesh.positions(obj.data, session.region.vertices), matrix_of(obj)
+        return not (np.array_equal(now[0], session.positions) and np.array_equal(now[1], session.matrix))
+
+    def waits(self, obj: bpy.types.Object) -> bool:
+        """Tell whether the region waits for a search, or for the end of one."""
         session = self.sessions.get(obj.data.name)
-        return session is not None and session.lost
+        return session is not None and session.lost and not session.given_up
 
     def lost_points(self) -> Floats:
         """Return the outlines (k, 3) in world space of all regions that have no fair surface now."""
@@ -130,17 +143,27 @@ class Live:
         """
         mesh = obj.data
         if not live_mesh.has_region(mesh):
-            self.sessions.pop(mesh.name, None)
+            self._close(mesh.name)
             return None
         try:
             check_key(obj)
         except ValueError:
-            self.sessions.pop(mesh.name, None)
+            self._close(mesh.name)
             raise
         session = self.sessions.get(mesh.name)
         if session is None or not fits(session, mesh):
-            session = self.sessions[mesh.name] = session_of(obj, read(obj, live_mesh.region_options(mesh), mesh))
+            session = self._open(obj, read(obj, live_mesh.region_options(mesh), mesh))
         return session
+
+    def _open(self, obj: bpy.types.Object, region: LiveRegion) -> Session:
+        self._close(obj.data.name)
+        session = self.sessions[obj.data.name] = session_of(obj, region)
+        return session
+
+    def _close(self, name: str) -> None:
+        session = self.sessions.pop(name, None)
+        if session is not None:
+            session.call_off()
 
     def _write(self, obj: bpy.types.Object, session: Session, answer: Floats) -> None:
         mesh_io.write_edit_mesh(obj.data, session.region.free, answer)
@@ -152,8 +175,15 @@ class Live:
         for session in self.sessions.values():
             session.checked = False
 
+    def rest(self, edited: set[str]) -> None:
+        """Stop the searches for meshes that are no longer edited; they begin anew when these are."""
+        for name, session in self.sessions.items():
+            if name not in edited:
+                session.call_off()
+
     def forget(self) -> None:
         """Drop everything that was kept; regions stay in their meshes."""
+        self.rest(set())
         self.sessions.clear()
         self.message = ""
 
@@ -161,13 +191,17 @@ class Live:
 live = Live()
 
 
-def _asked(
-    session: Session, ask: Callable[..., Floats | None], patience: float, clock: Callable[[], float]
-) -> Floats | None:
-    """Ask for an answer, for so many seconds by the clock; None where there is none, or not in time."""
-    begin, end = time.perf_counter(), clock() + patience
+def moment() -> float | None:
+    """Return the seconds that Blender may stand still for a search; None: a script waits for the end of it."""
+    return None if bpy.app.background else 0.0
+
+
+def _asked(session: Session) -> Floats | None:
+    """Ask for an answer at once; None where there is none, or not in time."""
+    begin = time.perf_counter()
+    end = begin + PATIENCE
     try:
-        return ask(session.positions, session.matrix, lambda *_: clock() < end)
+        return session.region.answer(session.positions, session.matrix, lambda *_: time.perf_counter() < end)
     except (fairing.Cancelled, fairing.SolverError):
         return None
     finally:
@@ -192,15 +226,26 @@ def edited_objects() -> Iterator[bpy.types.Object]:
     """Yield one object for each mesh in edit mode; a handler has no context that would tell them."""
     seen = set()
     for obj in bpy.context.view_layer.objects:
-        if obj.mode == "EDIT" and obj.type == "MESH" and obj.data.name not in seen:
+        # None stands for an object that a script has removed since the scene was updated.
+        if obj is not None and obj.mode == "EDIT" and obj.type == "MESH" and obj.data.name not in seen:
             seen.add(obj.data.name)
             yield obj
 
 
-def follow(obj: bpy.types.Object, hurried: bool = False) -> bool:
-    """Follow one object; what goes wrong is told in the panel, and the mesh is left as it is."""
+def follow(obj: bpy.types.Object) -> bool:
+    """Follow one object; tell whether its region was written."""
+    return _told(live.follow, obj)
+
+
+def settle(obj: bpy.types.Object) -> bool:
+    """Search for one object's surface; tell whether the search goes on."""
+    return _told(live.settle, obj)
+
+
+def _told(act: Callable[[bpy.types.Object], bool], obj: bpy.types.Object) -> bool:
+    """Do it; what goes wrong is told in the panel, and the mesh is left as it is."""
     try:
-        return live.follow(obj, hurried)
+        return act(obj)
     except REFUSALS as cause:
         live.message = f"{obj.name}: {cause}"
         return False
@@ -208,26 +253,28 @@ def follow(obj: bpy.types.Object, hurried: bool = False) -> bool:
 
 def _on_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     for obj in _edited(depsgraph):
-        if follow(obj, hurried=True) and live.is_lost(obj):
+        if follow(obj):
             live.changed_at = time.monotonic()
-            call_later(_follow_later, PAUSE)
+        if live.waits(obj):
+            call_later(_settle_later, PAUSE)
 
 
-def _follow_later() -> float | None:
-    """Follow, or return the seconds to wait until the changes may have ended.
-
-    A drag that rests is answered once, in a moment or not at all: the rest of the time belongs to the mouse.
-    """
+def _settle_later() -> float | None:
+    """Search, look whether a search has ended, or return the seconds to wait until the changes may have ended."""
     wait = live.changed_at + PAUSE - time.monotonic()
     if wait > 0.0:
         return wait
-    if is_dragging() and live.rested_at == live.changed_at:
-        return PAUSE
-    live.rested_at = live.changed_at
-    for obj in edited_objects():
-        follow(obj)
-    redraw_views(bpy.context)
-    return PAUSE if is_dragging() and any(session.lost for session in live.sessions.values()) else None
+    return TICK if settle_all() else None
+
+
+def settle_all() -> bool:
+    """Search for the surfaces of all lost regions that are being edited; tell whether a search goes on."""
+    said, edited = live.message, list(edited_objects())
+    live.rest({obj.data.name for obj in edited})
+    going_on = [settle(obj) for obj in edited]
+    if live.message != said or not any(going_on):
+        redraw_views(bpy.context)
+    return any(going_on)
 
 
 def _on_step(*_arguments: object) -> None:
@@ -245,6 +292,8 @@ def switched(context: bpy.types.Context) -> None:
         start()
         for obj in edited_objects():
             follow(obj)
+        if settle_all():
+            call_later(_settle_later, TICK)
     else:
         stop()
     redraw_sidebars(context)
@@ -268,7 +317,7 @@ def stop() -> None:
         unlisten(bpy.app.handlers.undo_post, _on_step)
         unlisten(bpy.app.handlers.depsgraph_update_post, _on_change)
     live.on = False
-    call_off(_follow_later)
+    call_off(_settle_later)
     live.forget()
 
 

@@ -12,6 +12,9 @@ from ..core.live_region import LiveRegion
 from ..core.options import FairOptions
 from ..core.region import free_vertices
 from ..mesh import live_mesh, mesh_io
+from .search import Search
+
+BLINK = 0.02  # seconds that a step of a drag waits for a search to stop
 
 
 @dataclass
@@ -26,10 +29,27 @@ class Session:
     matrix: Floats = field(default_factory=lambda: np.zeros((4, 4)))
     seconds: float = 0.0  # of the last answer
     lost: bool = False  # no fair surface is shown: the last good one, carried along
+    given_up: bool = False  # as there is none for these positions: a search has ended without
+    search: Search | None = None  # for the surface, under way or about to stop: it alone may ask the region
     skip: int = 0  # changes for which no answer is asked for, as the last ones took too long
     waited: int = 0  # changes that were skipped before the last try
     points: Floats = field(default_factory=lambda: np.empty((0, 3)))  # of the outline in world space, where lost
     checked: bool = True  # an undo may have brought back another region
+
+    def moved(self, positions: Floats, matrix: Floats) -> bool:
+        """Take other positions, for which no search holds any more; tell whether they differ."""
+        if np.array_equal(positions, self.positions) and np.array_equal(matrix, self.matrix):
+            return False
+        self.positions, self.matrix, self.given_up = positions, matrix, False
+        self.call_off()
+        return True
+
+    def call_off(self) -> None:
+        """Stop searching. Nobody may ask the region before it has ended, which may take a step of the engine."""
+        if self.search is not None:
+            self.search.stop()
+            if self.search.wait(BLINK):
+                self.search = None
 
     def mark_outline(self) -> None:
         """Remember where the outline is now."""

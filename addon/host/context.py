@@ -23,9 +23,3 @@ def edited_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
 def active_object(context: bpy.types.Context) -> Any:
     """Return the active object, None where there is none: without a window that is the rule."""
     return getattr(context, "active_object", None)
-
-
-def is_dragging() -> bool:
-    """Tell whether something is being moved, turned or scaled with the mouse, in any window."""
-    running = (operator for window in bpy.context.window_manager.windows for operator in window.modal_operators)
-    return any(operator.bl_idname.startswith("TRANSFORM_OT_") for operator in running)

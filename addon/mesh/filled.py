@@ -5,6 +5,7 @@ What has a mean is carried over from the outline; all else is copied from the ne
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import bmesh
@@ -14,7 +15,7 @@ import numpy as np
 from ..core.arrays import Floats, Mask
 from ..core.fill_report import Added
 from ..core.filling import Piece
-from ..core.quality import texture_distortion
+from ..core.unwrapping import SAME, RimUVs, Surface, unwrapped
 from .layers import OF_CORNERS, MeanLayers, Shapes, in_object_mode
 from .new_faces import FaceData, VertexData, kinds, make_faces, make_vertices, refuse_doubles
 from .selecting import select_new_faces
@@ -60,8 +61,12 @@ def _add(bm: Any, shapes: Shapes, pieces: list[Piece]) -> Added:
     faces = [face for rim, data in zip(rims, new, strict=True) for face in rim.fill(bm, shapes, data)]
     select_new_faces(bm, faces)
     bm.normal_update()
-    areas = [rim.distortion for rim in rims]
-    return Added(len(faces), sum(rim.seams for rim in rims), max(areas, default=0.0))
+    return Added(
+        faces=len(faces),
+        mixed=sum(rim.mixed for rim in rims),
+        seams=sum(rim.seams for rim in rims),
+        distortion=max((rim.distortion for rim in rims), default=0.0),
+    )
 
 
 class _Rim:
@@ -75,9 +80,19 @@ class _Rim:
         before = np.argsort(piece.following).tolist()
         self._after = [_corner(self._faces[i], vertex) for i, vertex in enumerate(self._vertices)]
         self._before = [_corner(self._faces[before[i]], vertex) for i, vertex in enumerate(self._vertices)]
-        after, other = (MeanLayers(bm.loops.layers, OF_CORNERS).read(side) for side in (self._after, self._before))
-        self.seams = int(np.count_nonzero((np.abs(after - other) > 1e-6).any(axis=1)))
-        self.distortion = 0.0
+        layers = MeanLayers(bm.loops.layers, OF_CORNERS)
+        after, other = (np.nan_to_num(layers.read(side)) for side in (self._after, self._before))
+        self._own = 2 * len(layers.uv_names)  # columns from which on values are carried
+        self.mixed = int(np.count_nonzero((np.abs(after - other)[:, self._own :] > SAME).any(axis=1)))
+        self._rims = [
+            RimUVs(after[:, 2 * k : 2 * k + 2], other[:, 2 * k : 2 * k + 2], self._mirrored(bm.loops.layers.uv[name]))
+            for k, name in enumerate(layers.uv_names)
+        ]
+        surface = Surface(piece.points, piece.triangles, piece.rims)
+        self._maps = [unwrapped(surface, rim) for rim in self._rims]
+        self.seams = max((len(flat.seams) for flat in self._maps), default=0)
+        active = bm.loops.layers.uv.active
+        self.distortion = 0.0 if active is None else self._maps[layers.uv_names.index(active.name)].distortion
 
     def fill(self, bm: Any, shapes: Shapes, data: FaceData) -> list[Any]:
         """Make vertices, then faces; return the faces."""
@@ -86,38 +101,50 @@ class _Rim:
         examples = [self._vertices[number] for number in near.tolist()]
         vertices = make_vertices(bm, shapes, VertexData(piece.positions, self._vertices, piece.carried, examples))
         made = make_faces(bm, vertices, data)
-        self.distortion = self._distortion(bm, made, data.numbers)
+        table = [*self._vertices, *vertices]
+        for rim, flat in zip(self._rims, self._maps, strict=True):
+            if self._is_marked(rim):
+                for a, b in flat.seams.tolist():
+                    bm.edges.get((table[a], table[b])).seam = True
         return made
 
     def data(self, bm: Any) -> FaceData:
         """Tell what the new faces are made of."""
         piece = self._piece
         _, of_face = piece.examples()
-        faces = piece.faces(kinds(bm, self._faces, self._after)[of_face])
+        seams = np.concatenate([np.empty((0, 2), dtype=np.int64), *(flat.seams for flat in self._maps)])
+        faces = piece.faces(kinds(bm, self._faces, self._after)[of_face], seams)
         return FaceData(
             stay=self._vertices,
             polygons=faces.polygons,
             sources=self._after + self._before,
             carry=self._corner_values,
-            numbers=piece.triangles.ravel()[faces.corners].tolist(),
+            numbers=faces.corners.tolist(),
             corner_examples=[self._after[number] for number in of_face[faces.corners // 3].tolist()],
             examples=[self._faces[number] for number in of_face[faces.triangles].tolist()],
         )
 
-    def _distortion(self, bm: Any, faces: list[Any], numbers: list[int]) -> float:
-        layer = bm.loops.layers.uv.active
-        if layer is None:
-            return 0.0
-        places = np.array([corner[layer].uv[:] for face in faces for corner in face.loops]).reshape(-1, 2)
-        flat = np.zeros((len(self._piece.points), 3))
-        flat[numbers, :2] = places
-        return texture_distortion(self._piece.points, flat, self._piece.triangles)
+    def _mirrored(self, layer: Any) -> Mask:
+        """Return the (r,) mask of border faces that are turned over in a UV map."""
+        return np.array([_flat_area([corner[layer].uv for corner in face.loops]) < 0.0 for face in self._faces])
+
+    def _is_marked(self, rim: RimUVs) -> bool:
+        """Tell whether seams of UVs that reach the outline are marked as such."""
+        ends = [self._vertices[number] for number in np.flatnonzero(rim.broken).tolist()]
+        return any(edge.seam for vertex in ends for edge in vertex.link_edges if not edge.is_boundary)
 
     def _corner_values(self, values: Floats) -> Floats:
-        """Return (r + k, w): the values at the corners of new faces, one for each vertex."""
-        after, before = np.split(values, 2)
+        """Return (3 m, w): the values at the corners of new triangles."""
+        after, before = np.split(values[:, self._own :], 2)
         mean = np.where(after == before, after, 0.5 * (after + before))
-        return np.concatenate([mean, self._piece.carried(mean)])
+        carried = np.concatenate([mean, self._piece.carried(mean)])[self._piece.triangles.ravel()]
+        return np.concatenate([*(flat.corners for flat in self._maps), carried], axis=1)
+
+
+def _flat_area(places: Sequence[Any]) -> float:
+    """Return twice the area of a polygon in the plane, positive counter-clockwise."""
+    area: float = sum(a.cross(b) for a, b in zip(places, [*places[1:], places[0]], strict=True))
+    return area
 
 
 def _border_face(tail: Any, head: Any) -> Any:

@@ -29,9 +29,10 @@ class MeanLayers:
             if layer.name != _OWN_NORMALS
         ]
         self.width = sum(width for _, _, width in self._layers)
+        self.uv_names = [layer.name for layer, is_uv, _ in self._layers if is_uv]
 
     def read(self, elements: Sequence[Any]) -> Floats:
-        """Return (n, width)."""
+        """Return (n, width); columns of UVs come first, two for each of uv_names."""
         columns = [np.empty((len(elements), 0))]
         for layer, is_uv, width in self._layers:
             values = [element[layer].uv[:] if is_uv else element[layer] for element in elements]

@@ -98,8 +98,10 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay the options out."""
         self.layout.use_property_split = True
-        for name in ("equation", "bridge", "spacing", "quads", "accept"):
-            self.layout.prop(self, name)
+        for name in ("equation", "continuity", "bridge", "spacing", "quads", "accept"):
+            row = self.layout.row()
+            row.active = name != "continuity" or self.equation == "HARMONIC"
+            row.prop(self, name)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Fill in every object in edit mode, or in none of them where one is refused; return when done."""

@@ -7,13 +7,14 @@ No postponed annotations here: Blender reads them as property definitions.
 from bpy.props import BoolProperty
 
 from ..core.filling import SHAPES
-from .properties import EQUATIONS, SurfaceProperties, equation_property
+from .properties import EQUATIONS, SurfaceProperties, continuity_property, equation_property
 
 
 class FillProperties(SurfaceProperties):
     """The properties of `mesh.fair_fill`; names and defaults are those of filling.FillOptions."""
 
     equation: equation_property(tuple(item for item in EQUATIONS if item[0] in SHAPES))
+    continuity: continuity_property()
     bridge: BoolProperty(
         name="Bridge",
         description="One surface joins all outlines of an object: a tube between two, a blend between more",

@@ -152,6 +152,16 @@ def equation_property(items: tuple[tuple[str, str, str], ...]) -> Any:
     return EnumProperty(name="Shape", description="Which surface spans the outline", items=items, default="HARMONIC")
 
 
+def continuity_property() -> Any:
+    """Return the property of the join."""
+    return EnumProperty(
+        name="Join",
+        description="How smoothly the surface continues its surroundings",
+        items=_CONTINUITIES,
+        default="G1",
+    )
+
+
 class FairProperties(SurfaceProperties, SkinProperties):
     """The properties of `mesh.fair_region`; names and defaults are those of options.FairOptions."""
 
@@ -192,12 +202,7 @@ class FairProperties(SurfaceProperties, SkinProperties):
         items=_BOUNDARY_NORMALS,
         default="SURROUNDING",
     )
-    continuity: EnumProperty(
-        name="Join",
-        description="How smoothly the surface continues its surroundings",
-        items=_CONTINUITIES,
-        default="G1",
-    )
+    continuity: continuity_property()
     method: EnumProperty(name="Method", description="How the surface is computed", items=_METHODS, default="GLOBAL")
     levels: IntProperty(
         name="Levels",

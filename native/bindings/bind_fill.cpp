@@ -5,6 +5,7 @@
 #include "bindings/python_progress.h"
 #include "bindings/topics.h"
 #include "bindings/words.h"
+#include "fill/conformal_map.h"
 #include "fill/quads.h"
 
 namespace fairing::bindings {
@@ -63,20 +64,33 @@ double expected_count_of(const DoubleArray& vertices, const IntArray& triangles,
     return expected_remesh_count(to_input(vertices, triangles, fixed, fixed_normals), {wanted.first, wanted.second});
 }
 
+Eigen::MatrixXd to_matrix(const DoubleArray& rows) {
+    return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+        rows.data(), rows.shape(0), rows.shape(1));
+}
+
+py::array from_matrix(const Eigen::MatrixXd& matrix) {
+    return py::array_t<double>({matrix.rows(), matrix.cols()},
+                               {sizeof(double), sizeof(double) * static_cast<std::size_t>(matrix.rows())},
+                               matrix.data());
+}
+
 py::array interpolated(const DoubleArray& vertices, const IntArray& triangles, const IntArray& fixed,
                        const DoubleArray& values) {
     const MeshInput input{to_points(vertices), to_triangles(triangles), to_indices(fixed), std::nullopt};
-    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> given(
-        values.data(), values.shape(0), values.shape(1));
-    const Eigen::MatrixXd columns = given;
+    const Eigen::MatrixXd columns = to_matrix(values);
     Eigen::MatrixXd result;
     {
         const py::gil_scoped_release released;
         result = interpolate(input, columns);
     }
-    return py::array_t<double>({result.rows(), result.cols()},
-                               {sizeof(double), sizeof(double) * static_cast<std::size_t>(result.rows())},
-                               result.data());
+    return from_matrix(result);
+}
+
+py::array conformal_map_of(const DoubleArray& vertices, const IntArray& triangles, const IntArray& fixed,
+                           const DoubleArray& places) {
+    return from_matrix(
+        conformal_map(to_points(vertices), to_triangles(triangles), to_indices(fixed), to_matrix(places)));
 }
 
 py::tuple quads_of(const DoubleArray& vertices, const IntArray& triangles, const VertexPairs& kept) {
@@ -94,6 +108,8 @@ py::tuple quads_of(const DoubleArray& vertices, const IntArray& triangles, const
 void bind_fill(py::module_& module) {
     module.def("interpolate", &interpolated, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("values"));
+    module.def("conformal_map", &conformal_map_of, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
+               py::arg("places"));
     module.def("paired_quads", &quads_of, py::arg("vertices"), py::arg("triangles"), py::arg("kept"));
     module.def("fill_loops", &fill_arrays, py::arg("vertices"), py::arg("loops"), py::arg("normals"), py::arg("bridge"),
                py::arg("equation"), py::arg("progress"));

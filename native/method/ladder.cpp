@@ -25,9 +25,11 @@ bool is_least_variation(const Problem& problem) { return problem.options.equatio
 // Of fourth order in the positions: what the other ways solve.
 bool is_fourth_order(const Problem& problem) { return !is_minimal(problem) && !is_least_variation(problem); }
 
-// What a coarse level has refused, the full size would only refuse later.
+// What a coarse level has refused, the full size would only refuse later; but long pipes between two outlines may have
+// no straight surface on a coarse mesh, and keep it on their own.
 bool takes_direct(const Problem& problem, const Situation& situation) {
-    return is_fourth_order(problem) && problem.patch.free_count <= largest_direct && !situation.tried("nested");
+    const bool refused = situation.tried("nested") && !is_tube(problem);
+    return is_fourth_order(problem) && problem.patch.free_count <= largest_direct && !refused;
 }
 
 bool takes_patience(const Problem& problem, const Situation& situation) {

@@ -11,6 +11,12 @@ namespace fairing {
 
 namespace {
 
+// A coarse level's vertices would lose which of a tube's surfaces it is.
+bool takes_coarse_proxy(const Problem& problem, const std::optional<OwnSurface>& guess) {
+    const bool leads = guess && guess->solved && is_tube(problem) && problem.patch.free_count <= largest_direct;
+    return is_large(problem) && !leads;
+}
+
 std::optional<OwnSurface> guess_from(const Situation& situation) {
     const Solution* own = situation.own_mesh();
     if (!own || !own->points.allFinite()) return std::nullopt;
@@ -31,7 +37,7 @@ Way on_proxy() {
     return {"proxy", [](const Problem&, const Situation&) { return true; },
             [](const Problem& problem, const Situation& situation, const Progress& progress) {
                 const auto guess = guess_from(situation);
-                if (is_large(problem)) {
+                if (takes_coarse_proxy(problem, guess)) {
                     if (auto solution = solve_on_coarse_proxy(problem, guess, progress)) return solution;
                 }
                 return std::optional(solve_on_proxy(problem, guess, progress));

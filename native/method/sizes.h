@@ -15,4 +15,7 @@ inline bool is_large(const Problem& problem) {
     return problem.options.nested && problem.patch.free_count > smallest_nested;
 }
 
+// Between two outlines: several surfaces may fit there, and a coarser mesh may lead from one to another.
+inline bool is_tube(const Problem& problem) { return problem.patch.loop_count() == 2; }
+
 }  // namespace fairing

@@ -42,12 +42,20 @@ struct Patience {
 
 Patience patience_for(int shown) { return is_small(shown) ? Patience{100, 30} : Patience{40, 12}; }
 
+// These were counted at the default tolerance, and steps shrink geometrically: tighter ones take as many again.
+int most_iterations_to(double tolerance, int usual) {
+    constexpr double first_step = 1e-2;  // units of D
+    const double decades = std::log10(first_step / tolerance) / std::log10(first_step / SolverOptions{}.tolerance);
+    return static_cast<int>(usual * std::max(decades, 1.0));
+}
+
 // A problem on the proxy's own connectivity: uniform weights, the same boundary data.
 Problem proxy_problem(const Problem& problem, int shown, const Patch& patch) {
     Problem result{patch, problem.fixed_points, problem.fixed_normals, uniform_weights(patch), problem.options};
     if (pays_patience(problem, shown)) return result;
     const Patience patience = patience_for(shown);
-    result.options.max_iterations = std::min(patience.most_iterations, problem.options.max_iterations);
+    const int most = most_iterations_to(problem.options.tolerance, patience.most_iterations);
+    result.options.max_iterations = std::min(most, problem.options.max_iterations);
     result.options.patience = std::min(patience.in_vain, problem.options.patience);
     return result;
 }

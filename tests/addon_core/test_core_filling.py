@@ -10,10 +10,14 @@ import pytest
 
 from core.arrays import Floats, Ints, Mask
 from core.border import BorderRefusal, border_loops
-from core.filling import FillOptions, Piece, fill, joining_advice, judge
+from core.fill_report import make_fill_report
+from core.fill_verdict import Surface, judge
+from core.filling import FillOptions, Piece, fill, joining_advice
 from core.harmonic import harmonic, nearest
+from core.quality import Join
 from core.region import MeshArrays
-from core.verdict import GOOD, LOOK, UNUSABLE
+from core.report import angle_text
+from core.verdict import GOOD, LOOK, UNUSABLE, Verdict
 from core.words import MeshRefusal
 from polygon_mesh import grid_points, grid_quads, on_sphere, polygon_mesh
 
@@ -151,33 +155,94 @@ def test_what_has_not_converged_is_unusable() -> None:
     assert set(piece.verdict.spots.tolist()) == set(piece.outline.tolist())
 
 
-def test_a_fold_is_unusable_and_a_loft_worth_a_look() -> None:
-    points, triangles, rim = disc(3)
-    sheet = polygon_mesh(points, triangles.tolist(), np.zeros(len(triangles), dtype=bool))
+def judged(points: Floats, join: Join, *tangent_only: int, **of_result: object) -> Verdict:
+    """The verdict on a disc with these points, whose outline comes first, and nothing around it."""
+    flat, triangles, rim = disc(3)
+    sheet = polygon_mesh(flat, triangles.tolist(), np.zeros(len(triangles), dtype=bool))
     empty = replace(sheet, triangles=sheet.triangles[:0])
-    result = SimpleNamespace(converged=True, termination="converged", join=np.zeros(rim), equation="harmonic")
-    assert judge(empty, np.arange(rim), (points, triangles), result).grade == GOOD  # type: ignore[arg-type]
-    loft = SimpleNamespace(**{**vars(result), "equation": "loft"})
-    verdict = judge(empty, np.arange(rim), (points, triangles), loft)  # type: ignore[arg-type]
+    result = SimpleNamespace(**{"converged": True, "termination": "converged", "equation": "harmonic", **of_result})
+    only_tangent = np.array(tangent_only, dtype=np.int64)
+    return judge(empty, np.arange(rim), Surface(points, triangles, result, join, only_tangent))  # type: ignore[arg-type]
+
+
+def joined(degrees: float = 0.0, limit: float = 12.0) -> Join:
+    """One vertex of the outline, 2, with such a kink."""
+    return Join(np.arange(4), np.where(np.arange(4) == 2, degrees, 1.0), limit)
+
+
+def test_a_fold_is_unusable_and_a_loft_worth_a_look() -> None:
+    points, _, _ = disc(3)
+    assert judged(points, joined()).grade == GOOD
+    verdict = judged(points, joined(), equation="loft")
     assert (verdict.grade, "the loft that joins them is a substitute" in verdict.reason) == (LOOK, True)
-    points = points.copy()
     points[-1, 0] += 2.5  # the middle, far beyond its neighbours
-    verdict = judge(empty, np.arange(rim), (points, triangles), result)  # type: ignore[arg-type]
+    verdict = judged(points, joined())
     assert (verdict.grade, "folded over" in verdict.reason) == (UNUSABLE, True)
 
 
-def test_a_kink_is_worth_a_look() -> None:
-    points, triangles, rim = disc(3)
-    sheet = polygon_mesh(points, triangles.tolist(), np.zeros(len(triangles), dtype=bool))
-    result = SimpleNamespace(converged=True, termination="converged", join=np.where(np.arange(rim) == 2, 30.0, 1.0))
-    empty = replace(sheet, triangles=sheet.triangles[:0])
-    verdict = judge(empty, np.arange(rim), (points, triangles), result)  # type: ignore[arg-type]
-    assert verdict.grade == LOOK
+def test_a_kink_is_worth_a_look_where_it_is_seen() -> None:
+    points, _, _ = disc(3)
+    verdict = judged(points, joined(30.0))
+    assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [2])
     assert "1 vertex of the outline, of 30°" in verdict.reason
+    assert judged(points, joined(20.0, limit=25.0)).grade == GOOD
+
+
+def test_a_curvature_that_is_not_continued_is_worth_a_look() -> None:
+    verdict = judged(disc(3)[0], joined(), 4, 5)
+    assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [4, 5])
+    assert "not continued at 2 vertices" in verdict.reason
+
+
+def test_kinks_show_from_the_same_limit_as_in_a_faired_region() -> None:
+    """A coarse cage bends at each of its own edges."""
+    coarse, fine = holed((4, 4), half=2), holed((4, 4), half=2)
+    coarse = replace(coarse, positions=coarse.positions * (1.0, 1.0, 0.0) + crumpled(len(coarse.positions)))
+    (smooth,), (piece,) = (filled(mesh, vertex(2, 2)) for mesh in (fine, coarse))
+    assert smooth.join.limit == 12.0
+    assert piece.join.limit > 15.0
+    assert set(piece.join.vertices.tolist()) == set(piece.outline.tolist())
+    report = make_fill_report([("Cage", [piece])], FillOptions(), 1.0)
+    values = {check.name: check.value for check in report.checks}
+    assert values["Kinks show here from"] == f"{piece.join.limit:.0f}°"
+    assert values["Kink at the outline"] == f"≤ {angle_text(piece.join.worst)}"
+
+
+def crumpled(count: int) -> Floats:
+    heights = 0.05 * np.random.default_rng(1).uniform(-1.0, 1.0, count)
+    return np.column_stack([0 * heights, 0 * heights, heights])
+
+
+def test_the_curvature_around_is_continued_where_it_can_be() -> None:
+    grid = grid_points(40)
+    x, y = grid[:, 0], grid[:, 1]
+    waves = np.column_stack([x, y, 0.3 * np.sin(2.5 * x) * np.cos(2.0 * y)])
+    rows, columns = np.divmod(np.arange(1600), 40)
+    keep = np.hypot(rows - 19.5, columns - 19.5) > 8
+    quads = [quad for quad, stays in zip(grid_quads(40), keep, strict=True) if stays]
+    sheet = polygon_mesh(waves, quads, np.zeros(len(quads), dtype=bool))
+    rim = int(np.intersect1d(np.array(grid_quads(40))[~keep], np.array(quads))[0])
+    off, notes = {}, {}
+    for name, noise in (("G1", 0.0), ("G2", 0.0), ("rough", 2e-3)):
+        rough = waves + noise * np.random.default_rng(0).normal(size=waves.shape)
+        (piece,) = filled(replace(sheet, positions=rough), rim, continuity="G1" if name == "G1" else "G2")
+        px, py, pz = piece.positions.T
+        off[name] = np.abs(pz - 0.3 * np.sin(2.5 * px) * np.cos(2.0 * py)).max()
+        notes[name] = piece.notes
+    assert off["G2"] < 0.5 * off["G1"]
+    assert notes["G1"] == notes["G2"] == ()
+    (note,) = notes["rough"]
+    assert "met in slope only, not in curvature. The curvature around it looks like noise" in note
 
 
 def test_unknown_options_are_refused() -> None:
-    for options in ({"equation": "MINIMAL"}, {"spacing": 0.0}, {"spacing": float("nan")}, {"accept": "SOME"}):
+    for options in (
+        {"equation": "MINIMAL"},
+        {"continuity": "G3"},
+        {"spacing": 0.0},
+        {"spacing": float("nan")},
+        {"accept": "SOME"},
+    ):
         with pytest.raises(ValueError, match=next(iter(options))):
             FillOptions(**options)  # type: ignore[arg-type]
 

@@ -12,8 +12,8 @@ from core.arrays import Floats, Mask
 from core.lines import inner_lines, parting_edges
 from core.options import FairOptions
 from core.region import MeshArrays
-from core.remeshing import Remeshed, remesh_arrays
-from core.verdict import GOOD
+from core.remeshing import Remeshed, remesh_arrays, squeezed
+from core.verdict import GOOD, LOOK
 from polygon_mesh import grid, on_sphere
 
 SIZE = 16
@@ -127,3 +127,26 @@ def test_the_factor_blends_with_the_old_surface() -> None:
     whole, half = remesh(mesh), remesh(mesh, factor=0.5)
     old = half.part.vertices.mean(mesh.positions)
     np.testing.assert_allclose(half.new_positions, 0.5 * (old + whole.new_positions), atol=1e-12)
+
+
+def test_a_seam_over_a_limb_that_is_gone_is_a_knot() -> None:
+    """The old surface has a horn in the middle of the seam, which its edges climb."""
+    mesh = grid(SIZE, 0.6, on_sphere)
+    away = np.linalg.norm(mesh.positions[:, :2], axis=1)
+    verdicts = []
+    for height in (0.0, 3.0):
+        horn = replace(mesh, positions=mesh.positions * (1.0 + height * np.exp(-30.0 * away**2))[:, None])
+        verdicts.append(remesh(replace(horn, lines={"seam": seam(horn)})).verdict)
+    assert [verdict.grade for verdict in verdicts] == [GOOD, LOOK]
+    assert "squeezed to a knot" in verdicts[1].reason
+    assert (away[verdicts[1].spots] < 0.3).all()
+    assert remesh(replace(horn, lines={})).verdict.grade == GOOD
+
+
+def test_a_few_short_edges_are_no_knot() -> None:
+    before = np.column_stack([np.arange(8.0), np.zeros((8, 2))])
+    lines = np.column_stack([np.arange(7), np.arange(1, 8)])
+    for count, ends in ((3, []), (4, [0, 1, 2, 3, 4])):
+        steps = np.where(np.arange(7) < count, 0.2, 1.0)
+        after = np.column_stack([np.concatenate([[0.0], np.cumsum(steps)]), np.zeros((8, 2))])
+        assert squeezed(before, after, lines).tolist() == ends

@@ -233,6 +233,48 @@ def test_spacing_gives_more_faces_on_the_same_surface() -> None:
     assert counts[0] < counts[1] < counts[2]
 
 
+def waves() -> bpy.types.Object:
+    """A wavy sheet with a hole in it, whose curvature no harmonic surface has."""
+    obj = meshes.grid(40)
+    points = meshes.positions(obj)
+    points[:, 2] = 0.3 * np.sin(2.5 * points[:, 0]) * np.cos(2.0 * points[:, 1])
+    meshes.move(obj, points)
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    gone = [face for face in bm.faces if face.calc_center_median().xy.length < 0.4]
+    bmesh.ops.delete(bm, geom=gone, context="FACES")
+    bm.to_mesh(obj.data)
+    bm.free()
+    return obj
+
+
+def test_the_curvature_around_is_continued_if_asked_for(tmp_path: Any) -> None:
+    """By the operator, a script and the command line."""
+    inner: Chosen = lambda co: co.xy.length < 0.6  # noqa: E731
+
+    def by_script(obj: bpy.types.Object) -> None:
+        rim = [v.index for v in obj.data.vertices if v.co.xy.length < 0.45]
+        module().fill_mesh(obj.data, rim, continuity="G2")
+
+    def by_command(obj: bpy.types.Object) -> None:
+        obj.vertex_groups.new(name="Rim").add([v.index for v in obj.data.vertices if inner(v.co)], 1.0, "REPLACE")
+        target = str(tmp_path / "filled.blend")
+        given = ["--object", obj.name, "--output", target, "--fill", "--vertex-group", "Rim", "--continuity", "G2"]
+        assert module("run.cli").execute(given) == 0
+
+    ways: tuple[Callable[[Any], Any], ...] = (
+        lambda obj: fill_hole(obj, inner), lambda obj: fill_hole(obj, inner, continuity="G2"), by_script, by_command,
+    )  # fmt: skip
+    off = []
+    for way in ways:
+        obj = waves()
+        way(obj)
+        assert border_edges(obj) == 160
+        x, y, z = meshes.positions(obj).T
+        off.append(np.abs(z - 0.3 * np.sin(2.5 * x) * np.cos(2.0 * y)).max())
+    assert max(off[1:]) < 0.5 * off[0]
+
+
 def test_scale_of_the_object_counts() -> None:
     """What is a sphere in world space becomes one there, with a scale that turns it inside out."""
     obj = open_sphere()
@@ -316,18 +358,18 @@ def test_live_region_does_not_grow() -> None:
     assert set(values[old:]) == {0}
 
 
-def test_a_seam_of_uvs_begins_with_the_mean_and_is_told(capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_seam_of_colours_begins_with_the_mean_and_is_told(capfd: pytest.CaptureFixture[str]) -> None:
     obj = open_sphere()
-    layer = obj.data.uv_layers.new(name="Map").uv
+    layer = obj.data.color_attributes.new("Paint", "FLOAT_COLOR", "CORNER")
     sides = [float(p.center.x > 0.0) for p in obj.data.polygons for _ in p.loop_indices]
-    layer.foreach_set("vector", np.column_stack([sides, sides]).astype(np.float32).ravel())
+    layer.data.foreach_set("color", np.repeat(sides, 4))
     old = len(sides)
     assert fill_hole(obj) == {"FINISHED"}
-    values = np.array([item.vector[0] for item in obj.data.uv_layers["Map"].uv])
+    values = np.array([item.color[0] for item in obj.data.color_attributes["Paint"].data])
     assert values[:old].tolist() == sides
     assert ((values[old:] >= 0.0) & (values[old:] <= 1.0)).all()
     assert (values[old:] == 0.5).any()
-    assert "2 vertices of the outline lie on a seam" in "".join(capfd.readouterr())
+    assert "2 vertices of the outline lie where colours of two faces differ" in "".join(capfd.readouterr())
 
 
 def test_custom_normals_outside_stay_and_new_corners_have_none() -> None:
@@ -360,6 +402,8 @@ def test_the_report_tells_of_a_fill() -> None:
     checks = {check.name: check.value for check in report.checks}
     assert int(checks["New faces"]) > 0
     assert "Surfaces" not in checks  # there is one
+    assert checks["Kinks show here from"] == "12°"
+    assert checks["Kink at the outline"].startswith("≤ ")
     assert 0.0 < report.distortion < 0.5
     assert checks["Texture distortion"] == f"{report.distortion:.1%}"
 
@@ -491,7 +535,7 @@ def test_a_surface_that_is_not_usable_is_told_to_scripts(tmp_path: Any) -> None:
 def test_operator_has_the_documented_properties() -> None:
     found = [p for p in bpy.ops.mesh.fair_fill.get_rna_type().properties if p.identifier != "rna_type"]
     assert {p.identifier: p.default for p in found} == {
-        "equation": "HARMONIC", "bridge": False, "spacing": 1.0, "quads": False, "accept": "USABLE",
+        "equation": "HARMONIC", "continuity": "G1", "bridge": False, "spacing": 1.0, "quads": False, "accept": "USABLE",
     }  # fmt: skip
     assert all(p.description for p in found)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+from pathlib import Path
 from typing import Any
 
 import bmesh
@@ -11,7 +13,10 @@ import meshes
 import numpy as np
 import pytest
 
-from test_fill import border_edges, dress
+sys.path.insert(0, str(Path(__file__).parents[2] / "scripts"))
+
+import demo_scenes
+from test_fill import border_edges, dress, fill_hole
 
 UPPER = 0.45  # faces of the sphere above are selected
 
@@ -329,3 +334,24 @@ def test_corners_of_the_selection_and_seams_leave_no_loose_ends(uvs: bool, wave:
     triples = [tuple(sorted(polygon.vertices)) for polygon in obj.data.polygons]
     assert len(set(triples)) == len(triples)
     assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 2e-3
+
+
+def test_seams_of_an_ear_that_is_gone_are_a_knot_and_a_fill_has_none() -> None:
+    obj = demo_scenes.suzanne()
+    ear = demo_scenes.ear_faces(obj.data)
+    assert fair_new(obj, ear) == {"FINISHED"}
+    report = bpy.context.window_manager.fairing_report
+    assert (report.verdict, "squeezed to a knot" in report.reason) == ("LOOK", True)
+    obj = demo_scenes.suzanne()
+    count = len(obj.data.vertices)
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    bm.faces.ensure_lookup_table()
+    bmesh.ops.delete(bm, geom=[face for face, gone in zip(list(bm.faces), ear, strict=True) if gone], context="FACES")
+    bm.to_mesh(obj.data)
+    bm.free()
+    assert fill_hole(obj, lambda co: co.x > 0.3 and co.y > -0.35) == {"FINISHED"}  # the eyes have borders, too
+    assert bpy.context.window_manager.fairing_report.verdict == "GOOD"
+    areas = np.array([polygon.area for polygon in new_polygons(obj)])
+    assert areas.min() > 0.1 * np.median(areas)
+    assert len(obj.data.vertices) < count

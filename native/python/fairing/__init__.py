@@ -1,5 +1,6 @@
 """Intrinsic fairing of triangle meshes: Δ_B H = 0 with G1 boundary data (Schneider & Kobbelt 2001)."""
 
+from fairing._conformal_map import conformal_map
 from fairing._core import __version__
 from fairing._fair import fair
 from fairing._feather import feather_weights
@@ -51,6 +52,7 @@ __all__ = [
     "boundary_loops",
     "components",
     "conformal_distortion",
+    "conformal_map",
     "cotan_laplacian",
     "fair",
     "feather_weights",

@@ -31,6 +31,7 @@ def fill(
     bridge: bool = False,
     spacing: float = 0.0,
     longest: int = 0,
+    fixed_curvatures: Any = None,
     progress: _Progress | None = None,
     **options: Any,
 ) -> FillResult:
@@ -57,11 +58,15 @@ def fill(
         the outline, whose edges stay, lengths grow or shrink by a half of the distance.
     longest : int
         Without ``loops``: border loops with more edges than that are left open; 0: none.
+    fixed_curvatures : (n,), (Σ k,) float, or a list with a (k,) for each loop
+        Mean curvatures H at the outline, NaN where not known, for ``continuity="G2"``: the surface continues the
+        curvature around it, too. Default: fitted to the triangles around.
     progress : callable(fraction, stage) -> None | bool
         As for :func:`fairing.fair`.
     options
-        Those of :func:`fairing.fair` that don't concern the outline: ``equation``, ``load``, ``bulge``, ``tolerance``,
-        ``max_iterations``, ``threads``, … ``inner_fairness`` is by default that which keeps the triangles' shapes.
+        Those of :func:`fairing.fair` that don't concern the outline: ``equation``, ``load``, ``bulge``, ``continuity``,
+        ``tolerance``, ``max_iterations``, ``threads``, … ``inner_fairness`` is by default that which keeps the
+        triangles' shapes.
 
     Raises
     ------
@@ -82,6 +87,8 @@ def fill(
     outline = _loops.border_loops(around, limit) if loops is None else _loops.given_loops(loops, points, around)
     _loops.check(outline, points)
     normals = _loops.loop_normals(normals, outline, points, around)
+    if fixed_curvatures is not None:
+        options["fixed_curvatures"] = _loops.loop_curvatures(fixed_curvatures, outline, len(points))
     watch = _Watch(progress)
     first = _core.fill_loops(
         points, list(outline.loops), outline.split(normals), bool(bridge), _first_equation(options), watch.part(0, 0.2)
@@ -241,6 +248,9 @@ def _check_options(options: dict[str, Any], progress: Any) -> None:
             raise ValueError(f"{name}: not accepted here; the mesh and its outline are made by this call")
     if options.get("equation") == "minimal":
         raise ValueError("equation: 'minimal' has no normals to continue; accepted are the others")
+    _options.continuity(
+        options.get("continuity", "G1"), options.get("equation", "harmonic"), options.get("method", "global")
+    )
     _options.callback(progress)
 
 

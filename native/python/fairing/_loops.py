@@ -32,9 +32,20 @@ class Outline:
         """Rows in the loops' order, those of each loop apart."""
         return np.split(rows, np.cumsum([len(loop) for loop in self.loops])[:-1])
 
-    def from_given_order(self, rows: FloatArray) -> FloatArray:
-        parts = zip(self.split(rows), self.turned, strict=True)
-        return np.concatenate([part[::-1] if turned else part for part, turned in parts])
+    def rows_of(self, rows: FloatArray, name: str, count: int) -> FloatArray:
+        """Rows in the loops' order, of an argument with a row for each vertex of the loops, as the caller named these,
+        or for each of the mesh's ``count`` vertices."""
+        here = len(self.vertices)
+        if self.named and len(rows) == here:
+            parts = zip(self.split(rows), self.turned, strict=True)
+            return np.concatenate([part[::-1] if turned else part for part, turned in parts])
+        if len(rows) == count:
+            of_loops: FloatArray = rows[self.vertices]
+            return of_loops
+        if len(rows) != here:
+            text = f"{name}: {here} rows, one for each vertex of the loops, or {count}, one for each vertex of the mesh"
+            raise ValueError(f"{text}, are needed, not {len(rows)}")
+        return rows
 
 
 def border_loops(triangles: IntArray, longest: int) -> Outline:
@@ -96,11 +107,7 @@ def loop_normals(normals: Any, outline: Outline, vertices: FloatArray, triangles
         if len(missing):
             _refuse("ZERO_NORMAL", f"no triangle touches {_listed(missing)}: pass `normals`", missing)
         return around
-    rows = _stacked(normals, len(where), len(vertices))
-    if outline.named and len(rows) == len(where):
-        rows = outline.from_given_order(rows)
-    elif len(rows) == len(vertices):
-        rows = rows[where]
+    rows = outline.rows_of(_arguments.floats("normals", _stacked(normals, 2)), "normals", len(vertices))
     size = np.linalg.norm(rows, axis=1)
     bad = where[~(np.isfinite(size) & (size > 0))]
     if len(bad):
@@ -113,14 +120,19 @@ def loop_normals(normals: Any, outline: Outline, vertices: FloatArray, triangles
     return unit
 
 
-def _stacked(normals: Any, outline: int, count: int) -> FloatArray:
-    if isinstance(normals, (list, tuple)) and len(normals) and np.ndim(normals[0]) == 2:
-        normals = np.concatenate([np.asarray(rows) for rows in normals])
-    rows = _arguments.floats("normals", normals)
-    if len(rows) not in (outline, count):
-        text = f"normals: {outline} rows, one for each vertex of the loops, or {count}, one for each vertex of the mesh"
-        raise ValueError(f"{text}, are needed, not {len(rows)}")
-    return rows
+def loop_curvatures(curvatures: Any, outline: Outline, count: int) -> FloatArray:
+    """(Σ k,) mean curvatures in the order of the loops, NaN where not known; ``count``: of the mesh's vertices."""
+    stacked = _stacked(curvatures, 1)
+    here = outline.vertices
+    rows = here if np.shape(stacked) == here.shape else np.arange(count, dtype=np.int32)
+    return outline.rows_of(_arguments.curvatures(stacked, rows), "fixed_curvatures", count)
+
+
+def _stacked(values: Any, dimensions: int) -> Any:
+    """A list with an array of so many dimensions for each loop as one array; anything else as it is."""
+    if isinstance(values, (list, tuple)) and len(values) and np.ndim(values[0]) == dimensions:
+        return np.concatenate([np.asarray(rows) for rows in values])
+    return values
 
 
 def _directed_edges(triangles: IntArray, count: int) -> npt.NDArray[np.int64]:

@@ -68,8 +68,7 @@ def live_finds_no_surface() -> Story:
     _tell_longest(spent)
     screenshot("live_lost_during")
     press("LEFTMOUSE", *_target(DEEP))
-    yield 6.0
-    tell(f"at the end: {_live().message or 'no message'}")
+    yield from _searched()
     screenshot("live_lost_released")
     assert np.isfinite(scenes.positions()).all()
     press("Z", *middle(), ctrl=True)
@@ -79,6 +78,26 @@ def live_finds_no_surface() -> Story:
     assert _live().message == "", _live().message
     screenshot("live_lost_undone")
     yield from _switch(False)
+
+
+def _searched() -> Story:
+    """Wait for the search that follows the release, with a picture of it; Blender must never stand still meanwhile."""
+    home, gaps = module("follow.live"), []
+    last = begin = time.perf_counter()
+    pictured = False
+    while time.perf_counter() < begin + 15.0:
+        yield 0.01
+        now = time.perf_counter()
+        gaps.append(now - last)
+        if not pictured and _live().message == home.SEARCHING:
+            pictured = True
+            screenshot("live_lost_searching")
+        last = time.perf_counter()  # the picture's own time is not Blender's
+        if now > begin + 2.0 and _live().message != home.SEARCHING:
+            break
+    tell(f"after the release: {now - begin:.1f} s; between two events {1e3 * max(gaps):.0f} ms at most")
+    tell(f"at the end: {_live().message or 'no message'}")
+    assert pictured, "nothing was searched for"
 
 
 def _live() -> Any:

@@ -1,0 +1,65 @@
+"""What a surface over border loops is worth. Plain numpy, no bpy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+import fairing
+
+from .arrays import Floats, Ints
+from .quality import Join
+from .region import MeshArrays
+from .verdict import GOOD, LOFT_REASON, LOOK, UNUSABLE, Verdict, kink_reason, slope_reason
+from .words import counted
+
+
+@dataclass(frozen=True)
+class Surface:
+    """What was found over an outline of r vertices, in world space."""
+
+    points: Floats  # (r + k, 3), those of the outline first
+    triangles: Ints
+    result: fairing.FillResult
+    join: Join
+    tangent_only: Ints  # mesh vertices where a curvature was asked for and is not continued
+
+
+def judge(world: MeshArrays, outline: Ints, surface: Surface) -> Verdict:
+    """Return the verdict on a surface; world: the mesh around, outline: (r,) its vertices."""
+    points, triangles, result = surface.points, surface.triangles, surface.result
+    edges = counted(len(outline), "edge", "edges")
+    if not result.converged and result.termination != "folded":
+        return Verdict(UNUSABLE, f"No fair surface was found for an outline of {edges}", np.unique(outline))
+    folds = fairing.flipped_triangles(points, triangles, fixed=np.arange(len(outline)))
+    if len(folds) or result.termination == "folded":
+        text = f"The surface over an outline of {edges} is folded over"
+        return Verdict(UNUSABLE, text, np.unique(outline))
+    crossing = _crossing(world, outline, points, triangles)
+    if crossing:
+        text = counted(crossing, "new face passes through others", "new faces pass through others")
+        return Verdict(UNUSABLE, text, np.unique(outline))
+    if len(surface.join.seen):
+        return Verdict(LOOK, kink_reason(surface.join), surface.join.seen)
+    if result.equation == "loft":
+        return Verdict(LOOK, LOFT_REASON, np.unique(outline))
+    if len(surface.tangent_only):
+        return Verdict(LOOK, slope_reason(surface.tangent_only), surface.tangent_only)
+    return Verdict(GOOD)
+
+
+def _crossing(world: MeshArrays, outline: Ints, points: Floats, triangles: Ints) -> int:
+    """Count the new triangles that pass through each other or through those of the mesh, wherever these are."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    corners = world.positions[world.triangles]
+    with np.errstate(invalid="ignore"):
+        near = ((corners.min(axis=1) <= high) & (corners.max(axis=1) >= low)).all(axis=1)
+    old = world.triangles[near]
+    vertices = np.setdiff1d(old, outline)
+    number = np.zeros(len(world.positions), dtype=np.int64)
+    number[outline] = np.arange(len(outline))
+    number[vertices] = len(points) + np.arange(len(vertices))
+    everything = np.concatenate([points, world.positions[vertices]])
+    found = fairing.self_intersections(everything, np.concatenate([triangles, number[old]]))
+    return int(np.count_nonzero(found < len(triangles)))

@@ -1,0 +1,237 @@
+"""UVs of new faces: islands go on by themselves, exactly where the surface is flat, with seams from those around."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from core.arrays import Floats, Ints, Mask
+from core.nearest_source import nearest_sources, owners
+from core.unwrapping import RimUVs, Surface, Unwrapped, unwrapped
+
+RINGS = 8
+
+
+def disc() -> Surface:
+    """A flat hexagon of equilateral triangles, its rim first and counter-clockwise from the positive x-axis."""
+    span = range(-RINGS, RINGS + 1)
+    places = [(i, j) for i in span for j in span if abs(i + j) <= RINGS]
+    flat = np.array([(i + 0.5 * j, np.sqrt(0.75) * j, 0.0) for i, j in places])
+    ring = np.array([max(abs(i), abs(j), abs(i + j)) for i, j in places])
+    order = np.lexsort([np.arctan2(flat[:, 1], flat[:, 0]) % (2 * np.pi), -ring])
+    number = {places[old]: k for k, old in enumerate(order.tolist())}
+    triangles = [
+        [number[(i, j)], number[b], number[c]]
+        for i, j in places
+        for b, c in (((i + 1, j), (i, j + 1)), ((i + 1, j - 1), (i + 1, j)))
+        if b in number and c in number
+    ]
+    return Surface(flat[order], np.array(triangles), (np.arange(6 * RINGS),))
+
+
+def tube(columns: int = 12, rows: int = 8, height: float = 3.0) -> Surface:
+    """A prism without ends, axis z: the upper rim first, then the lower one."""
+    turn = 2 * np.pi * np.arange(columns) / columns
+    rings = [0, rows, *range(1, rows)]  # of the vertices' order
+    points = np.array([(np.cos(t), np.sin(t), height * (1 - ring / rows)) for ring in rings for t in turn])
+    first = {ring: k * columns for k, ring in enumerate(rings)}
+    triangles = []
+    for ring in range(rows):
+        for i in range(columns):
+            a, b = first[ring] + i, first[ring] + (i + 1) % columns
+            c, d = first[ring + 1] + i, first[ring + 1] + (i + 1) % columns
+            triangles += [[a, c, d], [a, d, b]]
+    upper = np.concatenate([[0], np.arange(columns - 1, 0, -1)])
+    return Surface(points, np.array(triangles), (upper, columns + np.arange(columns)))
+
+
+def halves(surface: Surface, uv: Floats, other: Floats, is_other: Mask, mirrored: Mask | None = None) -> RimUVs:
+    """UVs (n, 2) around the outline, the other ones at the edges (by their tails) of a mask."""
+    rim = np.concatenate(surface.loops)
+    rows = np.empty((2, len(rim), 2))
+    for loop in surface.loops:
+        tails, heads = loop, np.roll(loop, -1)
+        side = is_other[tails][:, None]
+        rows[0, tails] = np.where(side, other[tails], uv[tails])
+        rows[1, heads] = np.where(side, other[heads], uv[heads])
+    return RimUVs(rows[0], rows[1], np.zeros(len(rim), bool) if mirrored is None else mirrored)
+
+
+def odd_ends(seams: Ints) -> list[int]:
+    """Vertices where an odd number of seams meet: where lines of them end or branch."""
+    vertices, counts = np.unique(seams, return_counts=True)
+    ends: list[int] = vertices[counts % 2 == 1].tolist()
+    return ends
+
+
+def corner_points(surface: Surface) -> Floats:
+    points: Floats = surface.points[surface.triangles.ravel()]
+    return points
+
+
+def areas(flat: Unwrapped) -> Floats:
+    a, b, c = flat.corners.reshape(-1, 3, 2).transpose(1, 0, 2)
+    found: Floats = 0.5 * np.cross(b - a, c - a)
+    return found
+
+
+def test_without_seams_one_map_goes_through_all_of_it() -> None:
+    surface = disc()
+    uv = surface.points[:, :2] * [0.2, 0.1] + 0.5
+    found = unwrapped(surface, halves(surface, uv, uv, np.zeros(len(uv), bool)))
+    np.testing.assert_allclose(found.corners, uv[surface.triangles.ravel()], atol=1e-7)
+    assert len(found.seams) == 0
+    assert found.distortion == pytest.approx(1.0)  # twice as long one way as the other
+
+
+@pytest.mark.parametrize("turned_over", [False, True])
+def test_two_islands_go_on_by_themselves_to_the_middle(turned_over: bool) -> None:
+    surface = disc()
+    uv = surface.points[:, :2] * 0.1
+    other = uv * ([-1.0, 1.0] if turned_over else [1.0, 1.0]) + [5.0, 2.0]
+    loop = surface.loops[0]
+    right = np.where(loop < 6, True, loop >= 30)  # 24 of the 48 edges
+    found = unwrapped(surface, halves(surface, uv, other, right, right & turned_over))
+    is_right = found.corners[:, 0] > 2.5
+    corner = surface.triangles.ravel()
+    np.testing.assert_allclose(found.corners[is_right], other[corner[is_right]], atol=1e-8)
+    np.testing.assert_allclose(found.corners[~is_right], uv[corner[~is_right]], atol=1e-8)
+    assert set(is_right.reshape(-1, 3).sum(axis=1)) == {0, 3}
+    assert odd_ends(found.seams) == [6, 30]
+    assert found.distortion == pytest.approx(0.0, abs=1e-8)
+    # The line between the two seams that reach the outline; all triangles lie on the nearer side, but for an edge.
+    a, b = surface.points[6, :2], surface.points[30, :2]
+    along = (b - a) / np.linalg.norm(b - a)
+    middles = surface.points[surface.triangles].mean(axis=1)[:, :2] - a
+    beyond = middles @ [-along[1], along[0]]
+    sides = is_right[::3]
+    assert (sides[beyond > 2.0] == sides[beyond.argmax()]).all()
+    assert (sides[beyond < -2.0] == sides[beyond.argmin()]).all()
+    assert sides[beyond.argmax()] != sides[beyond.argmin()]
+
+
+def test_three_islands_meet_in_one_vertex() -> None:
+    surface = disc()
+    uv = surface.points[:, :2] * 0.1
+    loop = surface.loops[0]
+    third = loop // 16
+    after = uv[loop] + 4.0 * third[:, None]
+    before = uv[loop] + 4.0 * third[loop - 1][:, None]
+    found = unwrapped(surface, RimUVs(after, before, np.zeros(len(loop), bool)))
+    ends = odd_ends(found.seams)
+    assert ends[:3] == [0, 16, 32]
+    assert len(ends) == 4
+    assert np.linalg.norm(surface.points[ends[3]]) < 0.25 * RINGS
+    island = np.round((found.corners - uv[surface.triangles.ravel()])[:, 0] / 4.0)
+    np.testing.assert_allclose(found.corners, uv[surface.triangles.ravel()] + 4.0 * island[:, None], atol=1e-8)
+    assert set(island) == {0.0, 1.0, 2.0}
+
+
+def test_a_single_seam_ends_inside() -> None:
+    """The outline of a strip around a pole."""
+    surface = disc()
+    loop = surface.loops[0]
+    after = np.column_stack([loop / 48, np.zeros(48)])
+    before = np.column_stack([(loop - 1) % 48 + 1, 0 * loop]) / 48.0
+    found = unwrapped(surface, RimUVs(after, before, np.zeros(48, bool)))
+    first, last = odd_ends(found.seams)
+    assert first == 0
+    assert np.linalg.norm(surface.points[last]) < 0.3 * RINGS
+    assert (areas(found) > 0).all()
+    assert found.distortion < 1.0
+
+
+def test_corners_at_the_outline_keep_their_bits() -> None:
+    surface = disc()
+    rng = np.random.default_rng(0)
+    uv = surface.points[:, :2] * 0.1 + 0.01 * rng.normal(size=(len(surface.points), 2))
+    right = surface.loops[0] < 24
+    rim = halves(surface, uv, uv + 3.0, right)
+    found = unwrapped(surface, rim)
+    flat = found.corners.reshape(-1, 3, 2)
+    for triangle, corners in zip(surface.triangles.tolist(), flat, strict=True):
+        for k in range(3):
+            tail, head = triangle[k], triangle[(k + 1) % 3]
+            if tail < 48 and head == (tail + 1) % 48:
+                np.testing.assert_array_equal(corners[k], rim.after[tail])
+                np.testing.assert_array_equal(corners[(k + 1) % 3], rim.before[head])
+
+
+def strip(surface: Surface) -> tuple[Floats, Floats]:
+    """The prism laid out: (n, 2) with u from 0 on at x = 1, and again with the whole way around added there."""
+    x, y, z = surface.points.T
+    side = 2 * np.sin(np.pi / 12)
+    steps = np.round((np.arctan2(y, x) % (2 * np.pi)) / (2 * np.pi / 12))
+    uv = np.column_stack([steps * side, z])
+    around = np.array([12 * side, 0.0])
+    return uv, np.where((steps == 0)[:, None], uv + around, uv)
+
+
+def cut_tube(surface: Surface, lower: Floats) -> RimUVs:
+    """Its UVs, those of the lower rim multiplied and moved by the rows of `lower`."""
+    uv, far = strip(surface)
+    after, before = np.empty((2, 24, 2))
+    for loop, forwards in zip(surface.loops, (False, True), strict=True):
+        after[loop] = uv[loop] if forwards else far[loop]
+        before[loop] = far[loop] if forwards else uv[loop]
+    for rows in (after, before):
+        rows[12:] = rows[12:] * lower[0] + lower[1]
+    return RimUVs(after, before, np.zeros(24, bool))
+
+
+def test_a_bridge_between_ends_of_one_island_has_one_seam_from_end_to_end() -> None:
+    surface = tube()
+    found = unwrapped(surface, cut_tube(surface, np.array([[1.0, 1.0], [0.0, 0.0]])))
+    assert odd_ends(found.seams) == [0, 12]
+    assert len(found.seams) == 8
+    uv, far = strip(surface)
+    corner = surface.triangles.ravel()
+    own = np.where((np.abs(found.corners - uv[corner]) < 1e-7).all(axis=1)[:, None], uv[corner], far[corner])
+    np.testing.assert_allclose(found.corners, own, atol=1e-7)
+
+
+def test_a_bridge_that_is_a_little_longer_than_its_texture_is_one_map() -> None:
+    found = unwrapped(tube(), cut_tube(tube(), np.array([[1.0, 1.0], [0.0, 0.6]])))
+    assert odd_ends(found.seams) == [0, 12]
+    assert 0.1 < found.distortion < 0.5
+
+
+def test_a_bridge_between_two_islands_has_a_seam_around_its_middle() -> None:
+    surface = tube()
+    apart = np.array([[0.5, 0.5], [30.0, 0.0]])
+    found = unwrapped(surface, cut_tube(surface, apart))
+    is_lower = found.corners[:, 0] > 25.0
+    assert set(is_lower.reshape(-1, 3).sum(axis=1)) == {0, 3}
+    middles = surface.points[surface.triangles].mean(axis=1)[:, 2]
+    assert (is_lower[::3] == (middles < 1.5))[np.abs(middles - 1.5) > 0.2].all()
+    assert found.distortion == pytest.approx(0.0, abs=1e-7)
+    assert (areas(found) > 0).all()
+    texels = areas(found)[is_lower[::3]].mean() / areas(found)[~is_lower[::3]].mean()
+    assert texels == pytest.approx(0.25, rel=1e-6)
+
+
+def test_a_bridge_between_outlines_without_seams_is_one_map_where_that_fits() -> None:
+    """A flat ring, of which one half of the texture may be elsewhere."""
+    surface = tube()
+    x, y, z = surface.points.T
+    flat = np.column_stack([x, y]) * (1.0 + z)[:, None]
+    plane = Surface(
+        np.column_stack([flat, 0 * z]), surface.triangles[:, ::-1], tuple(loop[::-1] for loop in surface.loops)
+    )
+    no = np.zeros(24, bool)
+    near = unwrapped(plane, RimUVs(flat[:24], flat[:24], no))
+    assert len(near.seams) == 0
+    far = flat[:24] + np.where(np.arange(24) < 12, 40.0, 0.0)[:, None]
+    parted = unwrapped(plane, RimUVs(far, far, no))
+    assert parted.distortion < 0.1
+    assert odd_ends(parted.seams) == []
+    assert len(parted.seams) >= 12
+
+
+def test_ways_lead_to_the_nearest_source() -> None:
+    links = np.array([[0, 1], [1, 2], [2, 3], [3, 4], [0, 4]])
+    before = nearest_sources(6, links, np.array([1.0, 1.0, 1.0, 1.0, 1.5]), np.array([1, 4]))
+    assert before.tolist() == [1, 1, 1, 4, 4, -1]
+    assert owners(before).tolist() == [1, 1, 1, 4, 4, -1]
+    chain = nearest_sources(4, np.array([[3, 2], [2, 1], [1, 0]]), np.ones(3), np.array([3]))
+    assert owners(chain).tolist() == [3] * 4

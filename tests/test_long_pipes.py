@@ -1,0 +1,48 @@
+"""Straight pipes beyond 2π radii, where several harmonic surfaces fit: the straight one, on large meshes too.
+
+The coarse levels of such meshes may have none, or another one.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+import fairing
+import graded
+import shapes
+from shapes import Patch, Style
+
+
+def solved(pipe: Patch) -> fairing.FairResult:
+    """From its outlines, to many digits, one way and no other equation."""
+    return fairing.fair(
+        shapes.start_from_nothing(pipe), pipe.triangles, fixed=pipe.fixed, fixed_normals=pipe.fixed_normals,
+        reference=pipe.vertices, tolerance=1e-10, otherwise="stop",
+    )  # fmt: skip
+
+
+def even(length: float) -> Patch:
+    """250 vertices for each radius of length."""
+    return shapes.cylinder(int(250 * length), Style(jitter=0.0), length=length)
+
+
+@pytest.mark.parametrize("length", [8.0, 10.0, 12.0])
+def test_large_pipes_are_straight_where_a_coarse_level_has_no_surface(length: float) -> None:
+    """Measured 2e-6, 1e-6 and 5e-6."""
+    pipe = even(length)
+    result = solved(pipe)
+    assert result.converged
+    assert result.equation == "harmonic"
+    assert [way for way, _ in result.way][:2] == ["nested", "direct"]
+    assert pipe.error(result.vertices) < 1e-4
+
+
+@pytest.mark.parametrize("length", [8.0, 9.0])
+def test_large_graded_pipes_are_straight(length: float) -> None:
+    """Edges of 40 : 1, 24 around the coarser rim: measured 4e-4 and 6e-4; bulbs of .06 and .09 fit them as well."""
+    pipe = graded.regraded(even(length), int(500 * length))
+    result = solved(pipe)
+    assert result.converged
+    assert result.equation == "harmonic"
+    assert pipe.error(result.vertices) < 2e-3
+    assert not len(fairing.flipped_triangles(result.vertices, pipe.triangles))
