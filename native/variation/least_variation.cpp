@@ -151,14 +151,32 @@ struct Attempt {
     }
 };
 
+struct Begun {
+    ProxyMesh mesh;
+    SolvedSheet coarse;
+
+    // NaN is not, too.
+    [[nodiscard]] bool is_within(double most) const { return !std::isfinite(most) || coarse.result.merit <= most; }
+};
+
+Begun begun(const Problem& problem, const Points& start, const Beginning& beginning, const Progress& progress) {
+    ProxyMesh mesh(problem.patch, start);
+    SolvedSheet coarse = solve_coarse(mesh, problem, beginning, progress);
+    return {std::move(mesh), std::move(coarse)};
+}
+
+Attempt ended(const Problem& problem, Begun begun, const Progress& progress) {
+    SolvedSheet fine = solve_fine(begun.mesh, problem, begun.coarse, {}, progress);
+    return {std::move(begun.mesh), std::move(fine), begun.coarse.result.gradient,
+            begun.coarse.mesh.patch.vertex_count()};
+}
+
 // Nothing where the coarse mesh's merit is more than `most`.
 std::optional<Attempt> attempted(const Problem& problem, const Points& start, const Beginning& beginning, double most,
                                  const Progress& progress) {
-    ProxyMesh mesh(problem.patch, start);
-    const SolvedSheet coarse = solve_coarse(mesh, problem, beginning, progress.range(0.0, 0.5));
-    if (std::isfinite(most) && !(coarse.result.merit <= most)) return std::nullopt;  // NaN, too
-    SolvedSheet fine = solve_fine(mesh, problem, coarse, {}, progress.range(0.5, 1.0));
-    return Attempt{std::move(mesh), std::move(fine), coarse.result.gradient, coarse.mesh.patch.vertex_count()};
+    Begun coarse = begun(problem, start, beginning, progress.range(0.0, 0.5));
+    if (!coarse.is_within(most)) return std::nullopt;
+    return ended(problem, std::move(coarse), progress.range(0.5, 1.0));
 }
 
 Solution solution_of(const Problem& problem, const Attempt& attempt, const Progress& progress) {
@@ -221,27 +239,30 @@ struct Search {
 
     [[nodiscard]] bool has_ended() const { return best && best->fine.result.converged; }
 
-    // Whether it was worth going on with to the end.
+    // Whether there was anything to take.
     bool takes(std::optional<Attempt> attempt) {
-        const bool is_worth_it = attempt.has_value();
+        const bool is_there = attempt.has_value();
         if (attempt && (!best || attempt->is_better_than(*best))) best = std::move(attempt);
-        return is_worth_it;
+        return is_there;
     }
 
-    bool tries(const Points& start, const Beginning& beginning, const Progress& progress) {
-        return takes(attempted(problem, start, beginning, limits.most_product, progress));
+    // Whether there is a tube.
+    bool tries_tube(const Progress& progress) {
+        const auto tube = limits.from_tube ? swept_start(problem, progress.here()) : std::nullopt;
+        if (tube) takes(attempted_on_tube(problem, *tube, limits.most_product, progress));
+        return tube.has_value();
     }
 
+    // Where the coarse mesh does not settle the fine one takes 5 to 20 s, mostly in vain; elbows end on a tube in one.
     void run(const Points& start, const Progress& progress) {
-        const bool begins_well = tries(start, beginnings[0], progress.range(0.0, 0.2));
-        if (has_ended()) return;
-        if (const auto tube = limits.from_tube ? swept_start(problem, progress.here()) : std::nullopt) {
-            takes(attempted_on_tube(problem, *tube, limits.most_product, progress.range(0.2, 1.0)));
-            return;
-        }
-        if (!begins_well) return;
+        Begun first = begun(problem, start, beginnings[0], progress.range(0.0, 0.1));
+        const bool is_tube = !first.coarse.result.converged && tries_tube(progress.range(0.1, 0.2));
+        if (has_ended() || !first.is_within(limits.most_product)) return;
+        takes(ended(problem, std::move(first), progress.range(0.2, 0.4)));
+        if (has_ended() || is_tube || tries_tube(progress.range(0.4, 0.6))) return;
         for (int k = 1; k < limits.most_beginnings && !has_ended(); ++k) {
-            if (!tries(start, beginnings[at(k)], progress.range(0.2 * k, 0.2 + 0.2 * k))) break;
+            const Progress part = progress.range(0.2 + 0.2 * k, 0.4 + 0.2 * k);
+            if (!takes(attempted(problem, start, beginnings[at(k)], limits.most_product, part))) break;
         }
     }
 };
