@@ -63,7 +63,11 @@ TEST_CASE("a mesh is laid on a bent tube one to one and untwisted, however long 
     for (const unsigned seed : {1U, 2U, 3U, 4U}) {
         for (const double twist : {-0.4, 0.0, 0.4}) {
             const test::Single single = test::single_patch(half_ring(seed, 0.2 * seed, twist));
-            const auto start = swept_start(problem_of(single), Progress());
+            const Problem problem = problem_of(single);
+            const auto tube = tube_between(problem);
+            REQUIRE(tube.has_value());
+            CHECK(tube->turn() == doctest::Approx(std::numbers::pi).epsilon(0.01));
+            const auto start = swept_start(problem, *tube, Progress());
             REQUIRE(start.has_value());
             // The tube of the cubic is 0.02 off the torus; random diagonals move vertices by a tenth of a turn.
             CHECK((*start - single.points).colwise().norm().maxCoeff() < 0.6 * thin);
@@ -80,5 +84,5 @@ TEST_CASE("nothing is laid between outlines that don't face along one tube") {
     const test::Single single = test::single_patch(half_ring(1, 0.0));
     Problem problem = problem_of(single);
     problem.fixed_normals.leftCols(around) *= -1.0;
-    CHECK_FALSE(swept_start(problem, Progress()).has_value());
+    CHECK_FALSE(tube_between(problem).has_value());
 }
