@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -257,6 +258,29 @@ def test_a_solver_stays_with_a_loft() -> None:
     assert [first.equation, second.equation] == ["loft", "loft"]
     assert [name for name, _ in second.way] == ["loft"]
     assert np.abs(second.vertices - first.vertices).max() < 0.021
+
+
+def smoothed(seed: int = 0, **options: Any) -> fairing.FairResult:
+    """A pipe of 8 radii from its own shape, which `reference` holds; the vertices inside are scattered."""
+    made = tubes.pipe(8.0)
+    return made.faired(equation="harmonic", start="smoothed", reference=made.vertices, seed=seed, **options)
+
+
+def test_the_shape_before_is_smoothed_as_far_as_it_keeps_its_girth() -> None:
+    """As a whole it would have a waist of less than a fifth."""
+    result = smoothed()
+    assert result.converged
+    assert result.equation == "smoothed"
+    assert [name for name, _ in result.way] == ["smoothed"]
+    (warning,) = [warning for warning in result.warnings if warning.code == "NO_SOLUTION"]
+    assert warning.figures["smoothed"] == 1
+    assert 0.4 < radii(result).min() < 0.99
+    assert (smoothed(seed=1).vertices == result.vertices).all()
+
+
+def test_a_shape_that_is_not_known_is_not_smoothed() -> None:
+    """The vertices inside are scattered."""
+    assert tubes.pipe(2.0).faired(equation="harmonic", start="smoothed").equation == "harmonic"
 
 
 def test_otherwise_is_checked() -> None:

@@ -20,7 +20,7 @@ from .faces import Faces, faces_of, paired_faces
 from .fill_verdict import Surface, judge
 from .findings import Origin
 from .harmonic import harmonic, nearest
-from .options import ACCEPT, CONTINUITIES, LEAST_SPACING
+from .options import ACCEPT, CONTINUITIES, INNER, LEAST_SPACING
 from .quality import Join, visible_from
 from .region import MeshArrays, nothing, to_local
 from .verdict import UNUSABLE, Verdict
@@ -42,6 +42,7 @@ class FillOptions:
     continuity: str = "G1"  # G2: the curvature around is continued, too
     bridge: bool = False  # all loops of an object are joined
     spacing: float = 1.0  # of new edges, as a factor of the outline's
+    inner: str = "OUTLINE"  # in proportion to the outline's nearby; EVEN: of one length
     quads: bool = False  # triangles are written in pairs, as far as they can be
     accept: str = "USABLE"  # ALL: written whatever it is worth
 
@@ -50,6 +51,8 @@ class FillOptions:
             raise ValueError(f"equation: expected one of {', '.join(SHAPES)}, got {self.equation!r}")
         if self.continuity not in CONTINUITIES:
             raise ValueError(f"continuity: expected one of {', '.join(CONTINUITIES)}, got {self.continuity!r}")
+        if self.inner not in INNER:
+            raise ValueError(f"inner: expected one of {', '.join(INNER)}, got {self.inner!r}")
         if self.accept not in ACCEPT:
             raise ValueError(f"accept: expected one of {', '.join(ACCEPT)}, got {self.accept!r}")
         refuse_other_kinds(self)
@@ -157,7 +160,8 @@ def _piece(
     with _joining(options, outline, len(loops)), in_mesh_words(origin):
         result = fairing.fill(
             world.positions[vertices], around, given, bridge=options.bridge, spacing=_spacing(world, loops, options),
-            equation=options.equation.lower(), continuity="G2" if options.joins_curvature else "G1", progress=progress,
+            inner=options.inner.lower(), equation=options.equation.lower(),
+            continuity="G2" if options.joins_curvature else "G1", progress=progress,
         )  # fmt: skip
     number = np.full(len(vertices) + len(result.vertices), -1, dtype=np.int64)
     number[np.concatenate(given)] = np.arange(len(outline))
@@ -192,7 +196,7 @@ def _surroundings(world: MeshArrays, outline: Ints) -> tuple[Ints, Ints]:
 
 
 def _spacing(world: MeshArrays, loops: list[Ints], options: FillOptions) -> float:
-    """Return the wanted length; 0, which follows the outline's own edges, for a factor of 1."""
+    """Return the wanted length; 0, which stands for that of the outline's edges, for a factor of 1."""
     if options.spacing == 1.0:
         return 0.0
     edges = [world.positions[np.roll(loop, -1)] - world.positions[loop] for loop in loops]

@@ -75,6 +75,7 @@ def _part(mesh: MeshArrays, faces: Mask, vertices: Mask) -> MeshArrays:
         corner_normals=None if normals is None else normals[corners],
         sample=None,
         parts=None,
+        sharp=None,
     )
 
 

@@ -20,6 +20,7 @@ OPEN_BORDERS = ("HELD", "FAIRED")
 OUTLINES = ("GIVEN", "MENDED")
 ACCEPT = ("USABLE", "ALL")
 MESHES = ("KEEP", "NEW")
+INNER = ("OUTLINE", "EVEN")
 FACTOR_MASKS = ("IGNORED", "USED")
 LEAST_SPACING = 0.05  # of the outline's edges
 
@@ -36,6 +37,7 @@ _CHOICES = {
     "outline": OUTLINES,
     "accept": ACCEPT,
     "mesh": MESHES,
+    "inner": INNER,
     "factor_mask": FACTOR_MASKS,
 }
 
@@ -74,6 +76,7 @@ class FairOptions:
     accept: str = "USABLE"  # ALL: written whatever it is worth
     mesh: str = "KEEP"  # NEW: other vertices and triangles for the same surface
     spacing: float = 1.0  # of a new mesh, as a factor of the outline's edges
+    inner: str = "OUTLINE"  # new edges are in proportion to the outline's nearby; EVEN: of one length
     quads: bool = False  # a new mesh has quads, as far as pairs of triangles make some
 
     def __post_init__(self) -> None:
@@ -175,6 +178,7 @@ class FairOptions:
         only = {
             "bulge": self.equation == "CONSTANT",
             "spacing": self.mesh == "NEW",
+            "inner": self.mesh == "NEW",
             "quads": self.mesh == "NEW",
             "detail_size": self.detail > 0.0,
             "detail_from": self.detail > 0.0,

@@ -10,6 +10,7 @@ import fairing
 
 from . import quality
 from .arrays import Floats, Ints
+from .eaten import Eaten, eaten_edges
 from .engine import Problem, islands
 from .options import FairOptions
 from .quality import Join, Quality
@@ -56,7 +57,7 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     clear = as_solved and not mesh.mirror_x and _is_clear(patch, result)
     quality_before, quality_after = quality.compare(patch, (before[:own], after[:own]), clear)
     join = quality.join(problem, after)
-    odd = _rounded(problem, after, moving, options), _swollen(patch, before, after)
+    odd = _rounded(problem, after, moving, options), _swollen(patch, before, after), _eaten(mesh, problem, after)
     evidence = Evidence(problem, result, solved.failures, quality_before, quality_after, join, *odd, points=after)
     verdict = judge(evidence, options.resolved(mesh.textured))
     order = np.argsort(problem.vertices[moving])
@@ -80,6 +81,12 @@ def _swollen(patch: Patch, before: Floats, after: Floats) -> Ints:
     pieces, own = discs(patch), len(patch.vertices)
     vertices: Ints = patch.vertices[swellings(pieces, after[:own], waviness(pieces, before[:own]))]
     return vertices
+
+
+def _eaten(mesh: MeshArrays, problem: Problem, after: Floats) -> Eaten:
+    """Find hard edges that are no more, though they run on outside or were marked sharp."""
+    sharp = None if mesh.sharp is None else np.sort(mesh.edges[mesh.sharp], axis=1)
+    return eaten_edges(problem, after, sharp)
 
 
 def _rounded(problem: Problem, after: Floats, moving: Ints, options: FairOptions) -> Ints:

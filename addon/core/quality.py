@@ -14,12 +14,15 @@ import fairing
 from .arrays import Floats, Ints, Mask
 from .bends import bends
 from .engine import Problem
+from .faces import edges_with_uses
 from .region import Patch
 from .vectors import area_vectors
 
 LARGE = 50_000  # triangles
-VISIBLE = 12.0  # degrees of Join from which the eye finds a kink among faces that bend little (fairing.visible_join)
+VISIBLE = fairing.VISIBLE_KINK  # degrees of Join from which the eye finds a kink among faces that bend as most do
+FINE = 5.0  # and from which it finds one among faces that hardly bend
 COARSE = 30.0  # and from which it finds one whatever the faces around bend
+ALONE = 1.5  # of these degrees, for a kink at one vertex of the outline: it is short
 FLATTEST = 1e-3  # height over longest side, below which a triangle is a needle
 
 
@@ -39,6 +42,7 @@ class Join:
     vertices: Ints  # (k,) of the mesh
     degrees: Floats  # (k,) by how much the bend there exceeds what is usual around; see fairing.visible_join
     limit: float = VISIBLE  # degrees from which it is seen
+    edges: Ints | None = None  # (e, 2) of the outline, places in `vertices`; None: not known
 
     @property
     def typical(self) -> float:
@@ -54,8 +58,18 @@ class Join:
     def seen(self) -> Ints:
         """The mesh vertices where it is more visible than the limit, the worst first."""
         order = np.argsort(-self.degrees, kind="stable")
-        found: Ints = self.vertices[order[self.degrees[order] > self.limit]]
+        found: Ints = self.vertices[order[self._is_seen()[order]]]
         return found
+
+    def _is_seen(self) -> Mask:
+        """Tell where it is above the limit at two neighbours, or well above it at one."""
+        above = self.degrees > self.limit
+        if self.edges is None:
+            return above
+        long = np.zeros(len(above), dtype=bool)
+        long[self.edges[above[self.edges].all(axis=1)]] = True
+        seen: Mask = long | (self.degrees > ALONE * self.limit)
+        return seen
 
 
 def compare(patch: Patch, points: tuple[Floats, Floats], clear: bool) -> tuple[Quality, Quality]:
@@ -114,26 +128,38 @@ def join(problem: Problem, points: Floats) -> Join:
     patch = problem.patch
     rim = np.intersect1d(patch.outline, problem.outside)
     degrees = fairing.visible_join(points, patch.triangles, problem.outside, rim)
-    return Join(patch.vertices[rim], degrees, visible_from(points, problem.outside))
+    limit = visible_from(points, problem.outside)
+    return Join(patch.vertices[rim], degrees, limit, np.searchsorted(rim, _outline_edges(patch, rim)))
+
+
+def _outline_edges(patch: Patch, rim: Ints) -> Ints:
+    """Return the edges (e, 2) at the patch's border between vertices of the rim."""
+    edges, uses = edges_with_uses(patch.triangles)
+    found: Ints = edges[(uses == 1) & np.isin(edges, rim).all(axis=1)]
+    return found
 
 
 def visible_from(points: Floats, triangles: Ints) -> float:
     """Return the degrees from which a kink stands out among triangles that bend as these do.
 
-    Half of the range in which nine tenths of their edges bend: coarse cages bend at every edge.
+    Nine tenths of their edges bend within some range. Where it is narrow, what exceeds it is seen; of a wide one half
+    is enough: coarse cages bend at every edge. Without any triangles nothing is known.
     """
+    if not len(triangles):
+        return VISIBLE
     degrees = bends(points, triangles).degrees
     low, high = np.percentile(degrees, [5.0, 95.0]) if len(degrees) else (0.0, 0.0)
-    return float(np.clip(0.5 * (high - low), VISIBLE, COARSE))
+    return float(np.clip(max(min(high - low, VISIBLE), 0.5 * (high - low)), FINE, COARSE))
 
 
 def texture_distortion(before: Floats, after: Floats, triangles: Ints) -> float:
     """Return the area-weighted mean of conformal distortion − 1; 0 where all angles are kept.
 
-    Weighted by the areas before; triangles without area on either side are left out.
+    Weighted by the areas after: what shrinks to nothing, such as a removed limb, is seen no more. Triangles without
+    area on either side are left out.
     """
     distortion = fairing.conformal_distortion(before, after, triangles)
-    areas = np.linalg.norm(area_vectors(before, triangles), axis=1)
+    areas = np.linalg.norm(area_vectors(after, triangles), axis=1)
     usable = np.isfinite(distortion) & (areas > 0.0)
     if not usable.any():
         return 0.0

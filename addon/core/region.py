@@ -34,7 +34,8 @@ class MeshArrays:
     corner_normals: Floats | None = None  # (c, 3), where they were asked for
     mirrored: bool = False  # the corners go clockwise, seen from outside
     mirror_x: bool = False  # the mesh asks for symmetric results
-    textured: bool = False  # the patch has a UV map
+    textured: bool = False  # the patch has a UV map, and a shape that is worth keeping
+    sharp: Mask | None = None  # (e,) edges marked sharp; None: none is
     hidden: Mask | None = None  # (f,); None: nothing is
     notes: tuple[str, ...] = ()  # what turned out odd when it was read
     # (e,) edges that a new mesh keeps, by the attribute that says so; none where that is not asked for

@@ -139,7 +139,7 @@ def _solved(problem: Problem, kept: Ints, options: FairOptions, progress: Progre
     with in_mesh_words(problem.origin):
         return fairing.remesh(
             problem.own_points, patch.triangles, fixed=patch.fixed, fixed_normals=problem.normals,
-            kept=kept, spacing=_spacing(problem, options), progress=progress, **arguments,
+            kept=kept, spacing=_spacing(problem, options), inner=options.inner.lower(), progress=progress, **arguments,
         )  # fmt: skip
 
 
@@ -155,7 +155,7 @@ def _kept_edges(problem: Problem, lines: Ints) -> Ints:
 
 
 def _spacing(problem: Problem, options: FairOptions) -> float:
-    """Return the wanted length; 0, which follows the outline's own edges, for a factor of 1."""
+    """Return the wanted length; 0, which stands for that of the outline's edges, for a factor of 1."""
     if options.spacing == 1.0:
         return 0.0
     loops = fairing.boundary_loops(problem.patch.triangles)

@@ -13,6 +13,7 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints
+from .faces import edges_with_uses
 from .region import Patch, nothing
 
 LEAST = 0.25  # of 2π: by how much a knob bends like a ball, and its neck like a saddle; an elbow of 90° has as much
@@ -36,7 +37,7 @@ def discs(patch: Patch) -> tuple[Disc, ...]:
 
 def _disc(triangles: Ints) -> Disc | None:
     """Return connected triangles that have the Euler characteristic of a disc."""
-    edges, uses = _sides(triangles)
+    edges, uses = edges_with_uses(triangles)
     vertices = np.unique(triangles)
     if len(vertices) - len(edges) + len(triangles) != 1:
         return None
@@ -81,11 +82,3 @@ def _turns(points: Floats, triangles: Ints) -> Floats:
         angles = np.arctan2(across, (one * other).sum(axis=1))
         turns -= np.bincount(triangles[:, first], weights=angles, minlength=len(points))
     return turns
-
-
-def _sides(triangles: Ints) -> tuple[Ints, Ints]:
-    """Return the edges (e, 2) and how many of the triangles each has."""
-    sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
-    count = int(triangles.max()) + 1
-    numbers, uses = np.unique(sides[:, 0].astype(np.int64) * count + sides[:, 1], return_counts=True)
-    return np.stack(np.divmod(numbers, count), axis=1), uses

@@ -11,6 +11,7 @@ import fairing
 
 from .arrays import Floats, Ints
 from .bends import bends
+from .eaten import Eaten
 from .engine import Problem, Result, bad_outline
 from .findings import Finding, Origin, found
 from .options import FairOptions
@@ -28,6 +29,7 @@ EVEN_CURVATURE, EVEN_SPREAD, WRITE = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE"
 
 _KNOT = "Seams and marks inside, which stay, are squeezed to a knot at {}"
 LOFT_REASON = "No fair surface fits these outlines: the loft that joins them is a substitute, so look at its shape"
+SMOOTHED_REASON = "No fair surface fits these outlines: the old shape was smoothed as far as it goes, so look at it"
 
 
 @dataclass(frozen=True)
@@ -61,6 +63,7 @@ class Evidence:
     join: Join
     rounded: Ints = field(default_factory=nothing)  # mesh vertices of hard edges outside that were rounded
     swollen: Ints = field(default_factory=nothing)  # mesh vertices at the tops of knobs
+    eaten: Eaten = field(default_factory=Eaten)
     squeezed: Ints = field(default_factory=nothing)  # mesh vertices where lines that a new mesh keeps are a knot
     points: Floats | None = None  # (q, 3) of problem.vertices after the run; None: problem.points
     origin: Origin | None = None  # what the engine's numbers stand for; None: problem.origin
@@ -210,7 +213,7 @@ def _crossing(evidence: Evidence, options: FairOptions) -> Found:
 
 
 def _visible(evidence: Evidence, options: FairOptions) -> Found:
-    for look in (_kinked, _pointed, _rounded, _swollen, _lofted, _refused, _squeezed, _needles):
+    for look in (_rounded, _eaten, _kinked, _pointed, _swollen, _substituted, _refused, _squeezed, _needles):
         told = look(evidence, options)
         if told[0]:
             return told
@@ -227,7 +230,7 @@ def _kinked(evidence: Evidence, options: FairOptions) -> Found:
     if not len(kinks):
         return _NOTHING
     text = counted(len(kinks), "vertex", "vertices")
-    return f"The loft does not continue the slope of its surroundings at {text} of the outline", kinks
+    return f"The surface does not continue the slope of its surroundings at {text} of the outline", kinks
 
 
 def kink_reason(join: Join) -> str:
@@ -256,6 +259,19 @@ def _rounded(evidence: Evidence, _options: FairOptions) -> Found:
     return f"Outline: Smooth has rounded a hard edge outside at {text}: choose As Selected", evidence.rounded
 
 
+def _eaten(evidence: Evidence, options: FairOptions) -> Found:
+    if not judges_join(options):
+        return _NOTHING
+    marked, running = evidence.eaten.marked, evidence.eaten.running_on
+    if len(marked):
+        text = counted(len(marked), "vertex", "vertices")
+        return f"Edges marked sharp were rounded off at {text}: undo, and Pin Edges: Sharp keeps them", marked
+    if len(running):
+        text = counted(len(running), "vertex", "vertices")
+        return f"A hard edge runs on outside, but was rounded off at {text}: mark it sharp and pin it to keep", running
+    return _NOTHING
+
+
 def _swollen(evidence: Evidence, options: FairOptions) -> Found:
     if not len(evidence.swollen) or not judges_join(options) or _is_meant_to_swell(options):
         return _NOTHING
@@ -263,11 +279,12 @@ def _swollen(evidence: Evidence, options: FairOptions) -> Found:
     return f"The surface swells to a knob around {text}: another outline may avoid it", evidence.swollen
 
 
-def _lofted(evidence: Evidence, _options: FairOptions) -> Found:
-    """Tell of a loft: it is smooth, but by its lines alone, and may be as flat as a strap."""
-    if not any(evidence.told("NO_SOLUTION", "loft")):
-        return _NOTHING
-    return LOFT_REASON, _most_bent(evidence)
+def _substituted(evidence: Evidence, _options: FairOptions) -> Found:
+    """Tell of a loft, which may be as flat as a strap, and of the old shape smoothed, which may keep part of it."""
+    for figure, reason in (("loft", LOFT_REASON), ("smoothed", SMOOTHED_REASON)):
+        if any(evidence.told("NO_SOLUTION", figure)):
+            return reason, _most_bent(evidence)
+    return _NOTHING
 
 
 def _most_bent(evidence: Evidence) -> Ints:

@@ -198,6 +198,10 @@ WORDS: dict[str, tuple[Words, ...]] = {
             when="distance",
         ),
         Words(
+            "No fair surface fits these outlines: the shape there was smoothed as far as it goes",
+            when="smoothed",
+        ),
+        Words(
             "No fair surface fits these outlines: they were joined by a loft, with a kink at {n} outline vertex",
             "No fair surface fits these outlines: they were joined by a loft, with a kink at {n} outline vertices",
             when="kinks",

@@ -15,6 +15,7 @@ from ..core.arrays import Floats, Ints, Mask
 from ..core.options import FairOptions
 from ..core.region import MeshArrays, free_vertices
 from ..core.selection import enclosed_faces
+from ..core.spiked import is_spiked
 from ..core.symmetry import with_image
 from .columns import column, indices, stored
 from .marked_lines import lines
@@ -158,6 +159,7 @@ def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: Fa
     in_patch = selected & ~hidden
     edges = stored(mesh, ".edge_verts", (mesh.edges, "vertices"), 2)
     custom = options.boundary_normals == "CUSTOM"
+    sharp = _marked_edges(mesh, "SHARP")
     arrays = MeshArrays(
         positions=column(mesh.vertices, "co", 3, np.float32).astype(np.float64),
         edges=edges,
@@ -171,9 +173,12 @@ def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: Fa
         corner_normals=_corner_normals(mesh) if custom else None,
         hidden=hidden if hidden.any() else None,
         textured=_is_textured(mesh, in_patch[corner_faces]) if options.inner_fairness == "AUTOMATIC" else False,
+        sharp=sharp if sharp.any() else None,
     )
     if options.mesh == "NEW":
         arrays = replace(arrays, lines=lines(mesh, arrays))
+    if arrays.textured and is_spiked(arrays):
+        arrays = replace(arrays, textured=False)
     return _pinned(arrays, mesh, group, options)
 
 

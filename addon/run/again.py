@@ -10,7 +10,15 @@ from typing import Any
 import bpy
 from bpy.props import EnumProperty
 
-from ..core.verdict import AS_SELECTED, EVEN_CURVATURE, EVEN_SPREAD, GROW, HOLD_BORDER, SMOOTH_OUTLINE, WRITE
+from ..core.verdict import (
+    AS_SELECTED,
+    EVEN_CURVATURE,
+    EVEN_SPREAD,
+    GROW,
+    HOLD_BORDER,
+    SMOOTH_OUTLINE,
+    WRITE,
+)
 from ..host.polling import require, require_edit_mode
 from ..host.status import look_at
 from . import last_run

@@ -100,6 +100,10 @@ _MESHES = (
         "marked edges stay; UVs, colours, weights and shape keys are carried over",
     ),
 )
+_INNER = (
+    ("OUTLINE", "Like the Outline", "Short where the outline's edges nearby are short, long where these are long"),
+    ("EVEN", "Even", "All of one length, but for those beside an outline that is finer or coarser"),
+)
 _PIN_EDGES = (
     ("NONE", "None", "No edge inside the selection is held"),
     ("SHARP", "Sharp", "The surface passes through edges marked sharp; closed loops of them divide it"),
@@ -131,6 +135,12 @@ class SurfaceProperties:
         soft_max=4.0,
         step=5,
         precision=2,
+    )
+    inner: EnumProperty(
+        name="New Edges",
+        description="How long new edges are, compared with each other",
+        items=_INNER,
+        default="OUTLINE",
     )
     quads: BoolProperty(
         name="Quads",

@@ -46,6 +46,7 @@ def _draw_vertices(group: Any, options: Any) -> None:
     group.prop(options, "mesh")
     if options.mesh == "NEW":  # new vertices lie evenly
         group.prop(options, "spacing")
+        group.prop(options, "inner")
         group.prop(options, "quads")
     else:
         group.prop(options, "inner_fairness")

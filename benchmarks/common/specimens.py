@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+import fairing
 from engine import Engine, FloatArray, Outcome
 from interiors import moved
 from real_meshes import RealPatch
@@ -26,8 +27,9 @@ class Record:
 
     turn: largest turn of the prescribed normals per outline edge; unfitted: share of normals that are averages;
     converged, polished: how many starts; folded, crossing: of the converged ones, those with triangles that are
-    turned over or pass through others; way, equation: of the first start; slowest: CPU seconds of one start; claimed:
-    the spread of those that say that they converged.
+    turned over or pass through others; torn: of these, those with triangles that pass through others and did not
+    before; bend: largest |H| inside over that on the outline, of the first start; way, equation: of the first start;
+    slowest: CPU seconds of one start; claimed: the spread of those that say that they converged.
     """
 
     name: str
@@ -53,6 +55,8 @@ class Record:
     codes: str
     cpu: float
     equation: str
+    torn: int
+    bend: float
 
     @property
     def good(self) -> bool:
@@ -114,12 +118,26 @@ def measured(engine: Engine, patch: RealPatch, weights: str) -> Specimen:
         np.nan if refusals else float(np.median(first.boundary_angle)), first.residual,
         " ".join(sorted({code for outcome in outcomes for code in outcome.codes})),
         sum(outcome.cpu for outcome in outcomes), first.equation,
+        sum(outcome.converged and _torn(outcome, patch) for outcome in outcomes),
+        np.nan if refusals else _bend(first, patch),
     )  # fmt: skip
     return Specimen(record, patch, patch.vertices if refusals else first.vertices)
 
 
 def _claiming(outcomes: list[Outcome], code: str) -> int:
     return sum(outcome.converged and code in outcome.codes for outcome in outcomes)
+
+
+def _torn(outcome: Outcome, patch: RealPatch) -> bool:
+    before, after = (fairing.self_intersections(v, patch.triangles) for v in (patch.vertices, outcome.vertices))
+    return bool(len(np.setdiff1d(after, before)))
+
+
+def _bend(outcome: Outcome, patch: RealPatch) -> float:
+    bend = np.abs(outcome.mean_curvature)
+    inside = np.ones(len(bend), dtype=bool)
+    inside[patch.fixed] = False
+    return float(bend[inside].max() / bend[patch.fixed].max())
 
 
 def _spread(outcomes: list[Outcome]) -> float:

@@ -133,6 +133,7 @@ ComponentAnswer ComponentSolver::solve_between(const ComponentData& data, const 
     hold_border(data.faired, answer.problem);
     warn_of_precision(patch_, data.vertices, {unit.diameter, solver.tolerance}, answer.warnings);
     read_reference(gather(data.reference, patch_.to_input), unit);
+    answer.problem.before = unit.to_unit(gather(data.reference, patch_.to_input));
     answer.warnings.insert(answer.warnings.end(), reference_warnings_.begin(), reference_warnings_.end());
     answer.solution = options().method == Method::paper ? solve_by_paper(answer.problem, progress)
                                                         : solve_globally(answer, data, progress);
@@ -213,6 +214,7 @@ Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optio
     if (!near_last && start && options().start == Start::least_variation)
         near_last = solve_else(problem, Instead::least_variation, progress, &start->points);
     if (!near_last && options().start == Start::loft) near_last = solve_else(problem, Instead::loft, progress);
+    if (!near_last && options().start == Start::smoothed) near_last = solve_else(problem, Instead::smoothed, progress);
     Solution solution = near_last ? std::move(*near_last) : solve_pinned(problem, options().pin_radius, progress);
     if (!keeps()) return solution;
     replaced_.reset();

@@ -302,6 +302,24 @@ Indices kinks_of(const Problem& problem, const Solution& solution) {
     return kinks;
 }
 
+const char* taken(Instead instead) {
+    switch (instead) {
+        case Instead::loft: return "a loft was taken";
+        case Instead::smoothed: return "the shape before was taken, as smooth as it can be";
+        default: return "the surface of least variation was taken";
+    }
+}
+
+// A loft and a smoothed shape may leave tangent planes, and name where they do.
+void add_kinks(const Problem& problem, const Solution& solution, Diagnostic& diagnostic) {
+    if (solution.instead != Instead::loft && solution.instead != Instead::smoothed) return;
+    Indices kinks = kinks_of(problem, solution);
+    if (kinks.empty()) return;
+    diagnostic.figures["kinks"] = size_of(kinks);
+    diagnostic.message += ", with a kink at " + counted(kinks.size(), "outline vertex", "outline vertices");
+    diagnostic.elements = std::move(kinks);
+}
+
 }  // namespace
 
 Diagnostic no_solution(const Problem& problem, const Solution& solution) {
@@ -312,6 +330,7 @@ Diagnostic no_solution(const Problem& problem, const Solution& solution) {
     Figures figures{{"free_vertices", patch.free_count}};
     if (harmonic) figures["harmonic"] = 1.0;
     if (solution.instead == Instead::loft) figures["loft"] = 1.0;
+    if (solution.instead == Instead::smoothed) figures["smoothed"] = 1.0;
     std::string text = "no " + name + " fits the outlines of a component of " + free;
     if (is_eased(solution)) {
         figures["distance"] = eased_by(problem);
@@ -325,16 +344,10 @@ Diagnostic no_solution(const Problem& problem, const Solution& solution) {
                std::to_string(std::lround(solution.variation_ratio)) + " times as much as they need";
     }
     const auto all = free_vertices(patch);
-    Indices vertices(all.begin(), all.end());
-    text += solution.instead == Instead::loft ? "; a loft was taken" : "; the surface of least variation was taken";
-    if (solution.instead == Instead::loft) {
-        if (Indices kinks = kinks_of(problem, solution); !kinks.empty()) {
-            figures["kinks"] = size_of(kinks);
-            text += ", with a kink at " + counted(kinks.size(), "outline vertex", "outline vertices");
-            vertices = std::move(kinks);
-        }
-    }
-    return {Code::no_solution, text, std::move(vertices), ElementKind::vertex, figures};
+    Diagnostic diagnostic{Code::no_solution, text + "; " + taken(solution.instead), Indices(all.begin(), all.end()),
+                          ElementKind::vertex, figures};
+    add_kinks(problem, solution, diagnostic);
+    return diagnostic;
 }
 
 void diagnose(const Patch& patch, const Solution& solution, const Points& prescribed, Diagnostics& warnings) {

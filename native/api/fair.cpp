@@ -122,7 +122,7 @@ private:
 
     void note_instead(const Solution& solution) {
         result_.equation = Equation::least_variation;
-        result_.lofted = result_.lofted || solution.instead == Instead::loft;
+        if (solution.instead != Instead::least_variation) result_.instead = std::max(result_.instead, solution.instead);
     }
 
     void tell_of_no_solution(const ComponentAnswer& answer) {

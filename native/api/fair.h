@@ -12,7 +12,7 @@ enum class Method { global, paper };
 
 // Where a solve begins: the outline alone; the vertices given, where they lead to a surface; or, where the equation was
 // seen to have none, what was taken in its place.
-enum class Start { outline, given, least_variation, loft };
+enum class Start { outline, given, least_variation, loft, smoothed };
 
 // What of the reference is put back on the fair surface (detail/skin.h). With it vertices sit conformally to the base
 // of the reference, whatever `inner_fairness` says.
@@ -38,7 +38,8 @@ struct FairOptions {
 
 struct FairResult {
     Equation equation = Equation::harmonic;  // that holds: least_variation where any component took it instead
-    bool lofted = false;                     // a component took a loft instead, which no equation has
+    // What a component took instead that no equation has: a loft, or the shape before, smoothed.
+    Instead instead = Instead::nothing;
     Points vertices;
     Points base;  // without detail: the fair surface, which all figures below are about; no columns: `vertices`
     Indices fixed;

@@ -11,13 +11,19 @@ namespace fairing::bindings {
 
 namespace {
 
+// What no equation has goes first.
+std::string equation_of(const FairResult& result) {
+    if (result.instead == Instead::nothing) return equation_words.word(result.equation);
+    return instead_words.word(result.instead);
+}
+
 py::dict to_dict(const FairResult& result) {
     py::list warnings;
     for (const Diagnostic& warning : result.warnings) warnings.append(from_diagnostic(warning));
     py::list ways;
     for (const WayTaken& way : result.ways) ways.append(py::make_tuple(way.name, way.seconds));
     py::dict dict;
-    dict["equation"] = result.lofted ? std::string("loft") : equation_words.word(result.equation);
+    dict["equation"] = equation_of(result);
     dict["vertices"] = from_points(result.vertices);
     dict["base"] = result.base.cols() > 0 ? from_points(result.base) : dict["vertices"];
     dict["fixed"] = from_indices(result.fixed);

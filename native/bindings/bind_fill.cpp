@@ -36,6 +36,14 @@ py::dict fill_arrays(const DoubleArray& vertices, const std::vector<IntArray>& l
     return dict;
 }
 
+// Spacing, least count, and whether one length holds everywhere.
+using Wanted = std::tuple<double, int, bool>;
+
+WantedLengths to_lengths(const Wanted& wanted) {
+    const auto& [spacing, least_count, even] = wanted;
+    return {spacing, least_count, even ? Spread::even : Spread::outline};
+}
+
 MeshInput to_input(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
                    const std::optional<DoubleArray>& fixed_normals) {
     return {to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices),
@@ -43,11 +51,11 @@ MeshInput to_input(const DoubleArray& vertices, const IntArray& triangles, const
 }
 
 py::dict remesh_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
-                       const std::optional<DoubleArray>& fixed_normals, const VertexPairs& kept,
-                       const std::pair<double, int>& wanted, int threads, const py::object& callback) {
+                       const std::optional<DoubleArray>& fixed_normals, const VertexPairs& kept, const Wanted& wanted,
+                       int threads, const py::object& callback) {
     const MeshInput input = to_input(vertices, triangles, fixed, fixed_normals);
     const NewMesh result = without_gil(callback, [&](const ProgressCallback& progress) {
-        return remesh(input, kept, {wanted.first, wanted.second}, threads, progress);
+        return remesh(input, kept, to_lengths(wanted), threads, progress);
     });
     py::dict dict;
     dict["vertices"] = from_points(result.vertices);
@@ -60,8 +68,8 @@ py::dict remesh_arrays(const DoubleArray& vertices, const IntArray& triangles, c
 }
 
 double expected_count_of(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
-                         const std::optional<DoubleArray>& fixed_normals, const std::pair<double, int>& wanted) {
-    return expected_remesh_count(to_input(vertices, triangles, fixed, fixed_normals), {wanted.first, wanted.second});
+                         const std::optional<DoubleArray>& fixed_normals, const Wanted& wanted) {
+    return expected_remesh_count(to_input(vertices, triangles, fixed, fixed_normals), to_lengths(wanted));
 }
 
 Eigen::MatrixXd to_matrix(const DoubleArray& rows) {

@@ -31,11 +31,14 @@ struct Words {
 };
 
 inline constexpr Words<Method, 2> method_words{"method", {{{"global", Method::global}, {"paper", Method::paper}}}};
-inline constexpr Words<Start, 4> solve_start_words{"start",
+inline constexpr Words<Start, 5> solve_start_words{"start",
                                                    {{{"outline", Start::outline},
                                                      {"given", Start::given},
                                                      {"least_variation", Start::least_variation},
-                                                     {"loft", Start::loft}}}};
+                                                     {"loft", Start::loft},
+                                                     {"smoothed", Start::smoothed}}}};
+inline constexpr Words<Instead, 2> instead_words{"equation",
+                                                 {{{"loft", Instead::loft}, {"smoothed", Instead::smoothed}}}};
 inline constexpr Words<NormalKind, 2> normal_words{
     "normals", {{{"fitted", NormalKind::fitted}, {"averaged", NormalKind::averaged}}}};
 inline constexpr Words<Equation, 5> equation_words{"equation",

@@ -56,7 +56,8 @@ std::optional<Points> BaseFilter::without(const Points& surface, double waveleng
     const double mass = mass_factor(wavelength);
     if (factorised_for_ != wavelength) {
         factorised_for_ = 0.0;
-        if (!smoothing_.update_with_mass(stiffness_, mass, progress)) return std::nullopt;
+        if (!smoothing_.update_with_mass(stiffness_, VectorX::Constant(patch_.free_count, mass), progress))
+            return std::nullopt;
         factorised_for_ = wavelength;
     }
     Points base = surface;

@@ -32,6 +32,19 @@ VectorX border_lengths(const Patch& patch, const Points& points, const KeptEdges
     return lengths.cwiseQuotient(counts.cwiseMax(1.0));
 }
 
+// Of the edges of the border; 0 without one.
+double mean_border_edge(const Patch& patch, const Points& points) {
+    double length = 0.0;
+    double count = 0.0;
+    for (int e = 0; e < patch.edge_count(); ++e) {
+        if (patch.edge_triangles[at(e)][1] != none) continue;
+        const auto [a, b] = patch.edge_ends[at(e)];
+        length += (points.col(a) - points.col(b)).norm();
+        count += 1.0;
+    }
+    return length / std::max(count, 1.0);
+}
+
 // exp of the harmonic continuation of the border's log lengths.
 VectorX continued(const Patch& patch, const Points& points, const VectorX& border) {
     double sum = 0.0;
@@ -90,6 +103,17 @@ VectorX graded(const Patch& patch, const Points& points, double growth, const Ve
     return lengths;
 }
 
+// Those wanted away from all that stays.
+VectorX lengths_inside(const Patch& patch, const Points& points, const WantedLengths& wanted, const VectorX& border) {
+    const double mean = mean_border_edge(patch, points);
+    const bool has_scale = mean > 0.0 && wanted.spacing > 0.0;
+    if (wanted.spread == Spread::outline && (has_scale || wanted.spacing <= 0.0))
+        return (has_scale ? wanted.spacing / mean : 1.0) * continued(patch, points, border);
+    const double same = wanted.spacing > 0.0 ? wanted.spacing : mean;
+    if (same > 0.0) return VectorX::Constant(patch.vertex_count(), same);
+    return continued(patch, points, border);
+}
+
 }  // namespace
 
 double expected_count(const Patch& patch, const Points& points, const VectorX& lengths) {
@@ -109,8 +133,7 @@ VectorX edge_lengths(const Patch& patch, const Points& points, const WantedLengt
     constexpr int halvings = 12;
     constexpr double smallest_scale = 1e-2;
     const VectorX border = border_lengths(patch, points, kept);
-    const VectorX inside = wanted.spacing > 0.0 ? VectorX(VectorX::Constant(patch.vertex_count(), wanted.spacing))
-                                                : continued(patch, points, border);
+    const VectorX inside = lengths_inside(patch, points, wanted, border);
     VectorX lengths = graded(patch, points, even_growth, border, inside);
     const auto suffices = [&](const VectorX& tried) {
         return expected_count(patch, points, tried) >= wanted.least_count;

@@ -5,9 +5,13 @@
 
 namespace fairing {
 
+// In proportion to the outline's own edges, harmonic in between, or the same everywhere.
+enum class Spread { outline, even };
+
 struct WantedLengths {
-    double spacing = 0.0;  // 0: as the outline's own edges, harmonic in between
+    double spacing = 0.0;  // of an edge in the mean of the outline's; 0: as these are
     int least_count = 0;   // about so many vertices at least: lengths shrink evenly until they give that many
+    Spread spread = Spread::outline;
 };
 
 // One entry for each edge of a patch: whether the new mesh has it, too. Border edges stay anyway; empty: no others.

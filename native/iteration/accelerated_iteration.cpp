@@ -61,6 +61,7 @@ public:
             solution_.iterations = k + 1;
             if (k == 0) solution_.first_step = largest;
             solution_.last_step = largest;
+            solution_.least_step = k == 0 ? largest : std::min(solution_.least_step, largest);
             if (largest <= problem_.options.tolerance) {
                 solution_.termination = Termination::converged;
                 keep();

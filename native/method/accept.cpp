@@ -41,6 +41,18 @@ Indices inside(const Patch& patch, Indices triangles) {
     return triangles;
 }
 
+// Those that are not in a list; both are in ascending order. `known` is empty but for a smoothed shape, which may keep
+// what was there before.
+Indices without(const Indices& triangles, const Indices& known) {
+    Indices rest;
+    std::set_difference(triangles.begin(), triangles.end(), known.begin(), known.end(), std::back_inserter(rest));
+    return rest;
+}
+
+bool keeps_shape(const Problem& problem, const Solution& solution) {
+    return solution.instead == Instead::smoothed && problem.before.cols() == problem.patch.vertex_count();
+}
+
 // Of the triangles inside among each other.
 Indices crossings_inside(const Patch& patch, const Points& points) {
     Indices all(at(patch.triangle_count()));
@@ -74,6 +86,8 @@ Flaw flaw_of(const Problem& problem, Solution& solution) {
     Indices flipped = solution.polished ? flipped_by_solution(problem.patch, solution.points) : Indices{};
     const bool eased = is_eased(solution);
     if (eased) flipped = inside(problem.patch, std::move(flipped));
+    const bool keeps = keeps_shape(problem, solution);
+    if (keeps) flipped = without(flipped, flipped_by_solution(problem.patch, problem.before));
     if (flipped.size() > problem.tolerated_folds) {
         solution.bad_triangles = std::move(flipped);
         return Flaw::folded;
@@ -81,6 +95,9 @@ Flaw flaw_of(const Problem& problem, Solution& solution) {
     if (!solution.crosses) {
         if (!solution.crossings) solution.crossings = crossing_triangles(problem.patch.triangles, solution.points);
         solution.bad_triangles = eased ? crossings_inside(problem.patch, solution.points) : *solution.crossings;
+        if (keeps)
+            solution.bad_triangles =
+                without(solution.bad_triangles, crossing_triangles(problem.patch.triangles, problem.before));
         if (!solution.bad_triangles.empty()) return Flaw::crossing;
     }
     if (!solution.polished || solution.from_surface) return Flaw::absent;

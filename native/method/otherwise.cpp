@@ -12,6 +12,7 @@
 #include "method/ladder.h"
 #include "method/lofted.h"
 #include "method/sizes.h"
+#include "method/smoothed.h"
 #include "variation/least_variation.h"
 
 namespace fairing {
@@ -136,13 +137,29 @@ bool is_tried_enough(const Problem& problem, const Solution& solution) {
     return solution.termination != Termination::iteration_limit || problem.options.max_iterations >= usual_iterations;
 }
 
+// A loft without blemishes, or the shape before as smooth as it can be, or any loft.
+std::optional<Solution> without_equation(const Problem& problem, const Solution& first, const Progress& progress) {
+    auto loft = lofted(problem, first, progress);
+    if (loft && !is_blemished(problem, *loft, progress)) return loft;
+    auto shape = smoothed(problem, loft ? *loft : first, progress);
+    return shape ? std::move(shape) : std::move(loft);
+}
+
+// Over a jagged outline an eased surface may cross itself where the shape before did not.
+Solution instead_of_crossing(const Problem& problem, Solution solution, const Progress& progress) {
+    if (!crosses_anew(problem, solution)) return solution;
+    auto shape = smoothed(problem, solution, progress);
+    return shape ? std::move(*shape) : std::move(solution);
+}
+
 Solution instead_of_failure(const Problem& problem, Solution solution, const Progress& progress) {
     const bool is_patient = problem.patch.loop_count() == 1 && problem.patch.free_count <= largest_patient;
     auto even = least_variation(problem, solution, limits_for(problem, is_patient ? HUGE_VAL : most_to_try), progress);
     if (even && is_answer(*even)) return std::move(*even);
     if (even) solution.ways = even->ways;
-    if (auto loft = lofted(problem, solution, progress); loft && !(even && is_evener(problem, *even, *loft)))
-        return std::move(*loft);
+    auto other = without_equation(problem, solution, progress);
+    if (other && !(even && other->instead == Instead::loft && is_evener(problem, *even, *other)))
+        return std::move(*other);
     return even && is_better(problem, *even, solution) ? std::move(*even) : std::move(solution);
 }
 
@@ -161,17 +178,19 @@ Solution solve_or_else(const Problem& problem, const Progress& progress) {
 Solution or_else(const Problem& problem, Solution solution, const Progress& progress, const Points* near) {
     if (!has_else(problem)) return solution;
     const Progress rest = progress.range(begin, 1.0);
-    if (is_answer(solution))
-        return has_room_for_bulb(problem, solution) ? instead_of_bulb(problem, std::move(solution), rest, near)
-                                                    : solution;
+    if (is_answer(solution)) {
+        if (has_room_for_bulb(problem, solution)) solution = instead_of_bulb(problem, std::move(solution), rest, near);
+        return instead_of_crossing(problem, std::move(solution), rest);
+    }
     if (lacks_surface(solution)) return instead_of_failure(problem, std::move(solution), rest);
-    if (auto loft = is_tried_enough(problem, solution) ? lofted(problem, solution, rest) : std::nullopt)
-        return std::move(*loft);
+    if (auto other = is_tried_enough(problem, solution) ? without_equation(problem, solution, rest) : std::nullopt)
+        return std::move(*other);
     return solution;
 }
 
 std::optional<Solution> solve_else(const Problem& problem, Instead kind, const Progress& progress, const Points* near) {
     if (kind == Instead::loft) return lofted(problem, {}, progress);
+    if (kind == Instead::smoothed) return smoothed(problem, {}, progress);
     if (near) {
         auto even = least_variation(problem, {}, limits_near(*near, HUGE_VAL, false), progress);
         if (even && is_answer(*even)) return even;

@@ -79,11 +79,12 @@ bool BiharmonicOperator::update(const Stiffness& stiffness, const Progress& prog
     return factor_.factorise(matrix_, "the fairness operator", progress);
 }
 
-bool BiharmonicOperator::update_with_mass(const Stiffness& stiffness, double factor, const Progress& progress) {
+bool BiharmonicOperator::update_with_mass(const Stiffness& stiffness, const VectorX& factors,
+                                          const Progress& progress) {
     assemble(stiffness);
     // Rows begin at the diagonal.
     for (int i = 0; i < patch_.free_count; ++i) {
-        matrix_.valuePtr()[matrix_.outerIndexPtr()[i]] += factor * stiffness.mass[i];
+        matrix_.valuePtr()[matrix_.outerIndexPtr()[i]] += factors[i] * stiffness.mass[i];
     }
     return factor_.factorise(matrix_, "the smoothing operator", progress);
 }

@@ -14,8 +14,8 @@ public:
     // `layout`: about where the free vertices are (3 × free count), to order the factorisation by; or nothing.
     explicit BiharmonicOperator(const Patch& patch, Points layout = {});
     [[nodiscard]] bool update(const Stiffness& stiffness, const Progress& progress) override;
-    // The same for K + factor · M; `factor` in length⁻⁴.
-    [[nodiscard]] bool update_with_mass(const Stiffness& stiffness, double factor, const Progress& progress);
+    // The same for K + factor · M; the free vertices' factors in length⁻⁴.
+    [[nodiscard]] bool update_with_mass(const Stiffness& stiffness, const VectorX& factors, const Progress& progress);
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const override { return factor_.solve(rhs); }
 
 private:

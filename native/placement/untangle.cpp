@@ -18,59 +18,101 @@ namespace {
 
 using Vector2 = Eigen::Vector2d;
 
-// Triangle between a vertex at the origin and a side of its ring; `up`: unit normal of the surface there.
+// A triangle between a vertex and a side of its ring as the vertex moves in its tangent plane, to `step` from the
+// origin. δ = delta + slope · step; the sum of the squared sides = squares − 2 sides · step + 2 |step|².
 struct Corner {
-    Vector3 a;
-    Vector3 b;
-    Vector3 up;
+    double delta;
+    Vector2 slope;
+    double squares;
+    Vector2 sides;
 };
 
-// The triangles around a vertex as it moves in its tangent plane.
-struct LocalEnergy {
-    Frame frame;
-    std::vector<Corner> corners;
-    double area;  // the mean one
-    double epsilon;
+// With derivatives by the step.
+struct Value {
+    double value = 0.0;
+    Vector2 gradient = Vector2::Zero();
+    Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
+};
 
-    [[nodiscard]] double operator()(double x, double y) const {
-        const Vector3 p = x * frame.u + y * frame.v;
+// The triangles around a vertex.
+class LocalEnergy {
+public:
+    // `area`: the mean one.
+    LocalEnergy(Frame frame, double area, double epsilon)
+        : frame_(std::move(frame)),
+          area_(area),
+          epsilon_squared_(epsilon * epsilon),
+          shape_(1.0 / (4.0 * std::numbers::sqrt3 * area)) {}
+
+    // a, b: from the vertex to the ends of a side; `up`: unit normal of the surface there.
+    void add(const Vector3& a, const Vector3& b, const Vector3& up) {
+        const double scale = 0.5 / area_;
+        corners_.push_back({scale * a.cross(b).dot(up), scale * in_plane((a - b).cross(up)),
+                            a.squaredNorm() + b.squaredNorm() + (b - a).squaredNorm(), in_plane(a + b)});
+    }
+
+    [[nodiscard]] Vector3 in_space(const Vector2& step) const { return step.x() * frame_.u + step.y() * frame_.v; }
+    [[nodiscard]] double edge() const { return std::sqrt(area_); }
+
+    [[nodiscard]] double operator()(const Vector2& step) const {
         double sum = 0.0;
-        for (const Corner& corner : corners) {
-            const Vector3 a = corner.a - p;
-            const Vector3 b = corner.b - p;
-            const double delta = 0.5 * a.cross(b).dot(corner.up) / area;
-            const double squares = a.squaredNorm() + b.squaredNorm() + (b - a).squaredNorm();
-            sum += (squares / (4.0 * std::numbers::sqrt3 * area) + 0.25 * (delta * delta + 1.0)) / barrier(delta);
+        for (const Corner& corner : corners_) {
+            const double delta = corner.delta + corner.slope.dot(step);
+            const double squares = corner.squares + 2.0 * step.dot(step - corner.sides);
+            sum += (shape_ * squares + 0.25 * (delta * delta + 1.0)) / barrier(delta, root(delta));
         }
         return sum;
     }
 
-    [[nodiscard]] double barrier(double delta) const {
-        return 0.5 * (delta + std::sqrt(epsilon * epsilon + delta * delta));
+    [[nodiscard]] Value at_origin() const {
+        Value sum;
+        for (const Corner& corner : corners_) add_derivatives(corner, sum);
+        return sum;
     }
+
+private:
+    [[nodiscard]] Vector2 in_plane(const Vector3& d) const { return {d.dot(frame_.u), d.dot(frame_.v)}; }
+    [[nodiscard]] double root(double delta) const { return std::sqrt(epsilon_squared_ + delta * delta); }
+    // Without the difference of equal numbers far below zero.
+    [[nodiscard]] double barrier(double delta, double r) const {
+        return delta > 0.0 ? 0.5 * (delta + r) : 0.5 * epsilon_squared_ / (r - delta);
+    }
+
+    // Of N/χ.
+    void add_derivatives(const Corner& corner, Value& sum) const {
+        const double delta = corner.delta;
+        const double r = root(delta);
+        const double chi = barrier(delta, r);
+        const double first = 1.0 / r;                                      // χ'/χ
+        const double second = 0.5 * epsilon_squared_ / (r * r * r * chi);  // χ''/χ
+        const double f = (shape_ * corner.squares + 0.25 * (delta * delta + 1.0)) / chi;
+        const Vector2 n = (-2.0 * shape_ * corner.sides + 0.5 * delta * corner.slope) / chi;  // ∇N/χ
+        const Vector2 c = first * corner.slope;                                               // ∇χ/χ
+        sum.value += f;
+        sum.gradient += n - f * c;
+        sum.hessian += 4.0 * shape_ / chi * Eigen::Matrix2d::Identity() - n * c.transpose() - c * n.transpose() +
+                       (0.5 / chi - f * second) * corner.slope * corner.slope.transpose() + 2.0 * f * c * c.transpose();
+    }
+
+    Frame frame_;
+    double area_;
+    double epsilon_squared_;
+    double shape_;
+    std::vector<Corner> corners_;
 };
 
-// One damped Newton step from the origin; derivatives by central differences, which are exact enough for a step.
+// One damped Newton step from the origin.
 Vector2 lower(const LocalEnergy& f) {
-    const double h = 1e-4 * std::sqrt(f.area);
-    const double f0 = f(0, 0);
-    const double xp = f(h, 0);
-    const double xm = f(-h, 0);
-    const double yp = f(0, h);
-    const double ym = f(0, -h);
-    const Vector2 gradient((xp - xm) / (2 * h), (yp - ym) / (2 * h));
-    Eigen::Matrix2d hessian;
-    const double mixed = (f(h, h) - f(h, -h) - f(-h, h) + f(-h, -h)) / (4 * h * h);
-    hessian << (xp - 2 * f0 + xm) / (h * h), mixed, mixed, (yp - 2 * f0 + ym) / (h * h);
+    const auto [f0, gradient, hessian] = f.at_origin();
     const bool convex = hessian.determinant() > 0.0 && hessian.trace() > 0.0;
     Vector2 step = convex ? Vector2(-hessian.llt().solve(gradient))
                           : Vector2(-gradient / std::max(std::abs(hessian.trace()), 1e-12));
-    const double longest = 2.0 * std::sqrt(f.area);
+    const double longest = 2.0 * f.edge();
     if (!step.allFinite()) return Vector2::Zero();
     if (step.norm() > longest) step *= longest / step.norm();
     constexpr int most_halvings = 6;
     for (int k = 0; k < most_halvings; ++k, step *= 0.5) {
-        if (f(step.x(), step.y()) < f0) return step;
+        if (f(step) < f0) return step;
     }
     return Vector2::Zero();
 }
@@ -133,13 +175,19 @@ private:
         constexpr std::size_t window = 10;
         constexpr double falls_at_first = 0.6;  // in a window
         constexpr double falls = 0.93;
+        constexpr std::size_t patience = 20;  // sweeps in which the last few folds may stay
         std::vector<double> folded{count_folded(where)};
         int settled = 0;
         for (int sweep = 0; sweep < most_sweeps && settled < settling_sweeps; ++sweep) {
             sweep_once(where);
             folded.push_back(count_folded(where));
             settled = folded.back() > 0 ? 0 : settled + 1;
-            if (folded.size() <= window || folded.back() <= few_folds) continue;
+            if (folded.back() <= few_folds) {
+                const bool stays = folded.size() > patience && folded.back() >= folded[folded.size() - 1 - patience];
+                if (folded.back() > 0 && stays) return true;
+                continue;
+            }
+            if (folded.size() <= window) continue;
             const double share = folded.back() / folded[folded.size() - 1 - window];
             if (folded.size() == window + 1 && share > falls_at_first) return false;
             if (share > falls) return true;
@@ -181,18 +229,17 @@ private:
     void move(int v, double area, double epsilon) {
         const SurfacePoint old = placement_.where[at(v)];
         const Vector3 centre = placement_.points.col(v);
-        LocalEnergy energy{Frame(target_.normal(old)), {}, area, epsilon};
+        LocalEnergy energy(Frame(target_.normal(old)), area, epsilon);
         const auto ring = patch_.ring(v).vertices;
         for (std::size_t k = 0; k < ring.size(); ++k) {
             const int a = ring[k];
             const int b = ring[(k + 1) % ring.size()];
             const Vector3 up = upwards(v) + upwards(a) + upwards(b);
-            energy.corners.push_back(
-                {placement_.points.col(a) - centre, placement_.points.col(b) - centre, up.normalized()});
+            energy.add(placement_.points.col(a) - centre, placement_.points.col(b) - centre, up.normalized());
         }
         const Vector2 step = lower(energy);
         if (step.isZero()) return;
-        const Vector3 wanted = centre + step.x() * energy.frame.u + step.y() * energy.frame.v;
+        const Vector3 wanted = centre + energy.in_space(step);
         put(placement_, v, target_, target_.project(wanted, old.triangle));
     }
 

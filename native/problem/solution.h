@@ -41,7 +41,8 @@ enum class Join {
 enum class Pins { absent, spread, no_surface, no_outline, too_close, not_found, curvature_met };
 
 // What holds in place of the problem's equation, where that has no surface (method/otherwise).
-enum class Instead { nothing, least_variation, loft };
+// `smoothed`: the shape before, as smooth as it can be (method/smoothed).
+enum class Instead { nothing, least_variation, loft, smoothed };
 
 // A way that was tried (method/ways), and how long it took.
 struct WayTaken {
@@ -69,6 +70,7 @@ struct Solution {
     bool crosses = false;              // the surface passes through itself, whatever the mesh
     double first_step = 0.0;           // largest moves of the first and the last iteration, units of D
     double last_step = 0.0;
+    double least_step = 0.0;  // of all iterations
     Instead instead = Instead::nothing;
     double variation_ratio = 0.0;  // of the bulb that it replaces, where it is one
     bool even_weights = false;     // uniform weights were taken instead of the problem's

@@ -49,6 +49,20 @@ int most_iterations_to(double tolerance, int usual) {
     return static_cast<int>(usual * std::max(decades, 1.0));
 }
 
+// What has become of a coarse proxy.
+enum class CoarseEnd { converged, near, far };
+
+// Of the regions of scans with one outline and 5,000 free vertices or more whose coarse proxy did not converge, those
+// with a step of 2e-5 to 3e-4 D were found on the fine one, those of 7e-4 to .3 were not. One of 2,800, whose coarse
+// proxy has 300, was found from 7e-3.
+CoarseEnd end_of(const Solution& solution, const Problem& problem, int shown) {
+    constexpr int coarse_tells = 5000;  // free vertices shown
+    constexpr double near_step = 2e-3;  // units of D
+    if (solution.termination == Termination::converged) return CoarseEnd::converged;
+    const bool tells = shown >= coarse_tells && problem.patch.loop_count() == 1;
+    return tells && solution.least_step > near_step ? CoarseEnd::far : CoarseEnd::near;
+}
+
 // A problem on the proxy's own connectivity: uniform weights, the same boundary data.
 Problem proxy_problem(const Problem& problem, int shown, const Patch& patch) {
     Problem result{patch, problem.fixed_points, problem.fixed_normals, uniform_weights(patch), problem.options};
@@ -93,11 +107,12 @@ public:
              {std::pair(0.5, 0.0), std::pair(0.25, 0.35), std::pair(0.12, 0.35)}) {
             ProxyMesh mesh(problem_.patch, membrane);
             mesh.adapt({growth, longest_coarse, free_limit_});
-            const bool converged = solve_coarse(mesh, growth);
+            const CoarseEnd end = solve_coarse(mesh, growth);
+            if (end == CoarseEnd::far) return given_up(std::move(mesh));
             const double longest =
                 std::clamp(share_of_outline * mean_outline_edge(problem_), longest_fine, longest_coarse);
             const Sizing fine{std::min(growth, finest_growth), longest, free_limit_};
-            SolvedProxy proxy = solve_fine(std::move(mesh), fine, converged);
+            SolvedProxy proxy = solve_fine(std::move(mesh), fine, end == CoarseEnd::converged);
             if (proxy.converged()) return proxy;
             if (!least_bent || proxy.energy < least_bent->energy) least_bent.emplace(std::move(proxy));
             // Of 23 regions of scans that were solved none needed another proxy, and those that fail are dearer each.
@@ -109,23 +124,23 @@ public:
 private:
     struct Coarse {
         ProxyMesh mesh;
-        bool converged;
+        CoarseEnd end;
     };
 
-    // A start for the fine proxy: the harmonic surface where the iteration finds it (true), the least bent one
-    // otherwise. Between loops the data may admit several surfaces: the one that follows their normals goes first,
-    // which keeps pipes straight, and the long way by descent is taken only where that fails.
-    bool solve_coarse(ProxyMesh& mesh, double growth) {
+    // A start for the fine proxy: the harmonic surface where the iteration finds it, the least bent one otherwise.
+    // Between loops the data may admit several surfaces: the one that follows their normals goes first, which keeps
+    // pipes straight, and the long way by descent is taken only where that fails.
+    CoarseEnd solve_coarse(ProxyMesh& mesh, double growth) {
         if (problem_.patch.loop_count() > 1) {
             auto along_normals = coarse_along_normals(mesh, growth);
-            if (along_normals && along_normals->converged) {
+            if (along_normals && along_normals->end == CoarseEnd::converged) {
                 mesh = std::move(along_normals->mesh);
-                return true;
+                return CoarseEnd::converged;
             }
         }
         Coarse bent = coarse_by_descent(std::move(mesh), growth);
         mesh = std::move(bent.mesh);
-        return bent.converged;
+        return bent.end;
     }
 
     std::optional<Coarse> coarse_along_normals(ProxyMesh mesh, double growth) {
@@ -167,10 +182,9 @@ private:
         Workspace work = make_workspace(problem, progress_);
         const Points start = make_start(problem, work, snapshot.points);
         const Solution solution = solve_patiently(problem, work, start, progress_.here());
-        const bool converged = solution.termination == Termination::converged;
-        const Points& points = converged ? solution.points : start;
-        mesh.read_back(snapshot.patch, points);
-        return {std::move(mesh), converged};
+        const CoarseEnd end = end_of(solution, problem_, shown_);
+        mesh.read_back(snapshot.patch, end == CoarseEnd::converged ? solution.points : start);
+        return {std::move(mesh), end};
     }
 
     void descend(ProxyMesh& mesh) {
@@ -202,8 +216,21 @@ private:
             start = globalise(problem, work, start, progress_.range(0.4, 0.5));
             solution = solve_patiently(problem, work, start, progress_.range(0.5, 0.8));
         }
-        const bool converged = solution.termination == Termination::converged;
-        const SurfaceState state = measured_surface(problem, converged ? solution.points : start);
+        if (solution.termination == Termination::converged) start = solution.points;
+        return measured(std::move(mesh), snapshot, problem, start, std::move(solution));
+    }
+
+    // The least bent surface of a coarse proxy; a fine one would not be found.
+    [[nodiscard]] SolvedProxy given_up(ProxyMesh mesh) const {
+        auto snapshot = mesh.snapshot();
+        const Problem problem = proxy_problem(problem_, shown_, snapshot.patch);
+        return measured(std::move(mesh), snapshot, problem, snapshot.points, {});
+    }
+
+    // `problem`: of the snapshot's patch.
+    static SolvedProxy measured(ProxyMesh mesh, ProxyMesh::Snapshot& snapshot, const Problem& problem,
+                                const Points& points, Solution solution) {
+        const SurfaceState state = measured_surface(problem, points);
         solution.mean_curvature = state.curvature.mean;
         solution.residual = largest_residual(problem, state, outer_residual(problem, state));
         const double energy = willmore_energy(problem, state.points);

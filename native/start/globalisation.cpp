@@ -20,6 +20,11 @@ constexpr int most_fixed_point_steps = 12;
 constexpr int most_descent_steps = 40;
 constexpr double descended = 5e-3;
 constexpr double armijo = 1e-4;
+// Beyond so many free vertices a descent ends that gains less than this share of the energy in so many steps: over
+// outlines of noisy scans it went on to the last step for the last hundredth.
+constexpr int largest_patient = 600;
+constexpr double least_gain = 5e-3;
+constexpr std::size_t gain_window = 5;
 
 Points along_normals(const Points& normals, const VectorX& lengths) {
     return normals.leftCols(lengths.size()).array().rowwise() * lengths.transpose().array();
@@ -89,12 +94,19 @@ private:
 
     // Willmore descent with the vertices kept even in between.
     void descend() {
-        for (int k = 0; k < most_descent_steps; ++k) {
+        std::vector<double> energies;
+        for (int k = 0; k < most_descent_steps && !creeps(energies); ++k) {
             report(k, most_descent_steps);
-            const double before = energy_;
+            energies.push_back(energy_);
             if (descend_once() < descended) return;
-            even_out(before);
+            even_out(energies.back());
         }
+    }
+
+    // `energies`: before each of the steps taken.
+    [[nodiscard]] bool creeps(const std::vector<double>& energies) const {
+        if (patch_.free_count <= largest_patient || energies.size() < gain_window) return false;
+        return energy_ > (1.0 - least_gain) * energies[energies.size() - gain_window];
     }
 
     // Largest displacement before the line search; 0 when no step lowers the energy.

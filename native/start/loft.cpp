@@ -6,14 +6,13 @@
 
 #include "geometry/face_geometry.h"
 #include "problem/willmore.h"
+#include "start/several_outlines.h"
 
 namespace fairing {
 
 namespace {
 
 constexpr double least_stream = 0.05;  // of the typical |∇u|²: below, ∇u is less and less of a direction
-constexpr double trusted_turn = 30.0;  // degrees between the normals at the ends of an outline edge
-constexpr double lost_turn = 60.0;
 constexpr double tiny = 1e-30;
 
 using Vector2 = Eigen::Vector2d;
@@ -83,23 +82,6 @@ Stiffness along_stream(const Patch& patch, const Stiffness& even, const Points& 
     return result;
 }
 
-// How far the slope at each fixed vertex is believed, 0 … 1.
-VectorX trust_in_slopes(const Problem& problem, const std::vector<Indices>& loops) {
-    VectorX trust = VectorX::Ones(problem.fixed_normals.cols());
-    for (const Indices& loop : loops) {
-        for (std::size_t k = 0; k < loop.size(); ++k) {
-            const int a = loop[k] - problem.patch.free_count;
-            const int b = loop[(k + 1) % loop.size()] - problem.patch.free_count;
-            const double cosine = problem.fixed_normals.col(a).dot(problem.fixed_normals.col(b));
-            const double turn = std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi;
-            const double here = std::clamp((lost_turn - turn) / (lost_turn - trusted_turn), 0.0, 1.0);
-            trust[a] = std::min(trust[a], here);
-            trust[b] = std::min(trust[b], here);
-        }
-    }
-    return trust;
-}
-
 // The lines' own derivatives at the outline, turned into the given tangent planes where these are believed.
 Points turned_into_planes(const Problem& problem, const Points& derivatives, const VectorX& trust) {
     const Points given = conormals(problem.patch, problem.fixed_points, problem.fixed_normals);
@@ -113,35 +95,15 @@ Points turned_into_planes(const Problem& problem, const Points& derivatives, con
     return result;
 }
 
-// How often a loop comes back to a vertex of the input: two outlines joined by an edge are one loop that passes both
-// ends of the edge twice.
-std::size_t touching(const Patch& patch, const std::vector<Indices>& loops) {
-    std::size_t count = 0;
-    for (Indices loop : loops) {
-        for (int& v : loop) v = patch.to_input[at(v)];
-        std::sort(loop.begin(), loop.end());
-        count += loop.size() - static_cast<std::size_t>(std::unique(loop.begin(), loop.end()) - loop.begin());
-    }
-    return count;
-}
-
-bool is_held_elsewhere(const Patch& patch, const std::vector<Indices>& loops) {
-    std::size_t on_loops = 0;
-    for (const Indices& loop : loops) on_loops += loop.size();
-    const bool pinned = std::any_of(patch.pin.begin(), patch.pin.end(), [](char pin) { return pin != 0; });
-    return pinned || on_loops != at(patch.vertex_count() - patch.free_count);
-}
-
 }  // namespace
 
 std::optional<Loft> Loft::of(const Problem& problem, double roundness, const Progress& progress) {
     const Patch& patch = problem.patch;
-    const std::vector<Indices> loops = patch.loops();
-    if (loops.size() + touching(patch, loops) < 2 || is_held_elsewhere(patch, loops)) return std::nullopt;
+    if (!joins_outlines(problem)) return std::nullopt;
     Loft loft(patch);
     const Stiffness even = uniform_stiffness(patch);
     if (!loft.laplace_->update(even, progress)) return std::nullopt;
-    const Points across = filled(patch, even, *loft.laplace_, levels(problem, loops));
+    const Points across = filled(patch, even, *loft.laplace_, levels(problem, patch.loops()));
     loft.stiffness_ = along_stream(patch, even, across, roundness);
     if (!loft.laplace_->update(loft.stiffness_, progress) || !loft.clamped_->update(loft.stiffness_, progress))
         return std::nullopt;
@@ -158,7 +120,7 @@ Fill Loft::over(const Problem& problem) const {
     lines = filled(patch, stiffness_, *laplace_, std::move(lines));
     const Points derivatives =
         0.5 * stiffness_.apply(patch, lines, patch.vertex_count()).rightCols(problem.fixed_points.cols());
-    const Points turned = turned_into_planes(problem, derivatives, trust_in_slopes(problem, patch.loops()));
+    const Points turned = turned_into_planes(problem, derivatives, trust_in_slopes(problem));
     const Points nowhere = Points::Zero(3, turned.cols());
     return Fill{lines.leftCols(patch.free_count),
                 clamped_displacement(patch, stiffness_, nowhere, turned - derivatives, *clamped_)};

@@ -239,6 +239,7 @@ def test_unknown_options_are_refused() -> None:
     for options in (
         {"equation": "MINIMAL"},
         {"continuity": "G3"},
+        {"inner": "GRADED"},
         {"spacing": 0.0},
         {"spacing": float("nan")},
         {"accept": "SOME"},

@@ -69,6 +69,7 @@ def test_a_property_that_does_not_exist_is_named(options: Any) -> None:
     [
         ({"quads": True}, {"mesh": "NEW"}),
         ({"spacing": 2.0}, {"mesh": "NEW"}),
+        ({"inner": "EVEN"}, {"mesh": "NEW"}),
         ({"bulge": 0.1}, {"equation": "CONSTANT"}),
         ({"detail_size": 0.1}, {"detail": 0.5}),
         ({"detail_from": "Skin"}, {"detail": 0.5}),

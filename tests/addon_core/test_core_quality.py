@@ -36,6 +36,15 @@ def test_texture_distortion_of_a_stretched_square(stretch: float, distortion: fl
     assert quality.texture_distortion(QUAD, turned, TWO) == pytest.approx(0.0, abs=1e-12)
 
 
+def test_what_shrinks_to_nothing_counts_for_nothing() -> None:
+    """Two squares: one keeps its shape, the other is stretched threefold and a thousandth as large."""
+    squares = np.concatenate([QUAD, QUAD + np.array([5.0, 0.0, 0.0])])
+    both = np.concatenate([TWO, TWO + len(QUAD)])
+    after = np.concatenate([QUAD, 1e-3 * QUAD * [3.0, 1.0, 1.0]])
+    assert quality.texture_distortion(squares, after, both) < 1e-5
+    assert quality.texture_distortion(after, squares, both) > 0.1
+
+
 def square_patch() -> Patch:
     """The grid of 4 × 4 quads, all of it selected."""
     return make_patch(grid(4, 2.0))
@@ -129,6 +138,11 @@ def test_the_join_is_judged_by_what_is_usual_around() -> None:
 def test_figures_of_a_join() -> None:
     join = quality.Join(np.array([4, 7, 9]), np.array([13.0, 1.0, 20.0]))
     assert (join.typical, join.worst, join.seen.tolist()) == (13.0, 20.0, [9, 4])
+    ends = np.array([[0, 1], [2, 3], [3, 4]])
+    short = quality.Join(np.arange(5), np.array([13.0, 1.0, 13.0, 14.0, 20.0]), 12.0, ends)
+    assert short.seen.tolist() == [4, 3, 2]  # at one vertex alone 13° are not seen
+    alone = quality.Join(np.arange(3), np.array([17.0, 1.0, 19.0]), 12.0, ends[:1])
+    assert alone.seen.tolist() == [2]
     none = quality.Join(np.empty(0, dtype=np.int64), np.empty(0))
     assert (none.typical, none.worst) == (0.0, 0.0)
 
@@ -144,9 +158,12 @@ def prism(sides: int, rows: int = 4) -> tuple[Floats, Ints]:
     return points, np.concatenate(halves)
 
 
-@pytest.mark.parametrize(("sides", "limit"), [(64, quality.VISIBLE), (8, 22.5), (7, 180.0 / 7), (4, quality.COARSE)])
+@pytest.mark.parametrize(("sides", "limit"), [
+    (128, quality.FINE), (64, 5.625), (32, 11.25), (24, quality.VISIBLE),
+    (8, 22.5), (7, 180.0 / 7), (4, quality.COARSE),
+])  # fmt: skip
 def test_on_coarse_meshes_a_kink_is_seen_later(sides: int, limit: float) -> None:
-    """A prism bends by a full turn over its number of sides, at a third of its edges: half of that, between bounds."""
+    """A prism bends by a full turn over its number of sides, at a third of its edges: that, from 12° on half of it."""
     points, triangles = prism(sides)
     assert quality.visible_from(points, triangles) == pytest.approx(limit)
     assert quality.visible_from(points, triangles[:, ::-1]) == pytest.approx(limit)

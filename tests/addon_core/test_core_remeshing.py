@@ -52,6 +52,20 @@ def test_the_sphere_comes_back(spacing: float) -> None:
     assert set(done.part.gone_faces) == set(np.flatnonzero(mesh.in_patch))
 
 
+def test_new_edges_are_like_the_outlines_or_even() -> None:
+    """On a sheet whose columns grow: the number of new vertices on the side of the short edges tells."""
+    mesh = grid(SIZE, 0.6, on_sphere)
+    x, y, z = mesh.positions.T
+    bent = np.column_stack([np.sign(x) * np.where(x < 0, 0.45, 1.55) * np.abs(x), y, z])
+    mesh = replace(mesh, positions=bent / np.linalg.norm(bent, axis=1, keepdims=True))
+    counts = []
+    for inner in ("OUTLINE", "EVEN"):
+        new = remesh(mesh, inner=inner, spacing=0.6).new_positions
+        near, far = (np.abs(new[:, 0] - place) < 0.1 for place in (-0.1, 0.3))
+        counts.append(np.count_nonzero(near) / np.count_nonzero(far))
+    assert counts[0] > 1.15 * counts[1]
+
+
 def test_the_whole_patch_is_covered_once() -> None:
     mesh = spoilt_sphere()
     done = remesh(mesh)

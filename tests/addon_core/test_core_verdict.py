@@ -11,6 +11,7 @@ import pytest
 
 import fairing
 from core.arrays import Ints
+from core.eaten import Eaten
 from core.findings import Origin
 from core.options import FairOptions
 from core.quality import Join, Quality
@@ -176,6 +177,12 @@ def test_a_smooth_loft_deserves_a_look_where_it_bends_most(fine: Evidence) -> No
     assert judged(with_warning(fine, "NO_SOLUTION", ints(), harmonic=1.0)).grade == GOOD  # as Otherwise asks
 
 
+def test_a_smoothed_shape_deserves_a_look(fine: Evidence) -> None:
+    verdict = judged(with_warning(fine, "NO_SOLUTION", ints(), smoothed=1.0))
+    assert verdict.grade == LOOK
+    assert "old shape" in verdict.reason
+
+
 def test_good_is_only_what_was_asked_for(fine: Evidence) -> None:
     verdict = judged(with_warning(fine, "G2_NOT_MET", ints(4, 2)), continuity="G2")
     assert (verdict.grade, verdict.spots.tolist()) == (LOOK, fine.problem.vertices[[4, 2]].tolist())
@@ -234,6 +241,18 @@ def test_crossings_count_where_the_original_had_none(
         assert judged(crossing).spots.tolist() == CORNERS
     unknown = replace(crossing, before=replace(CLEAN, crossing=None))
     assert judged(unknown).grade == UNUSABLE
+
+
+def test_a_hard_edge_that_was_eaten_deserves_a_look(fine: Evidence) -> None:
+    running = replace(fine, eaten=Eaten(running_on=ints(3, 8)))
+    assert judged(running).grade == LOOK
+    assert judged(running).spots.tolist() == [3, 8]
+    assert judged(running).reason.startswith("A hard edge runs on outside, but was rounded off at 2 vertices")
+    marked = replace(fine, eaten=Eaten(running_on=ints(3, 8), marked=ints(4)))
+    assert judged(marked).spots.tolist() == [4]
+    assert judged(marked).reason.startswith("Edges marked sharp were rounded off at 1 vertex")
+    for options in ({"factor": 0.5}, {"equation": "MINIMAL"}):
+        assert judged(marked, **options).grade == GOOD
 
 
 def test_a_kink_deserves_a_look_at_its_vertices(fine: Evidence) -> None:

@@ -35,13 +35,26 @@ for _ in range(20):
     addon_utils.disable('bl_ext.user_default.intrinsic_fairing')
     addon_utils.enable('bl_ext.user_default.intrinsic_fairing')
 """,
+    "disabled during a search": """
+import sys
+import bmesh
+home = sys.modules['bl_ext.user_default.intrinsic_fairing.follow.live']
+home.PATIENCE, home.moment = -1.0, lambda: 0.0  # nothing is found at once, and nobody waits
+for vertex in bmesh.from_edit_mesh(bpy.context.object.data).verts:
+    vertex.co.z += 0.3 * vertex.co.x**2
+bmesh.update_edit_mesh(bpy.context.object.data)
+bpy.context.view_layer.update()
+assert home.settle_all() and home.live.sessions['Grid'].search is not None
+addon_utils.disable('bl_ext.user_default.intrinsic_fairing')
+""",
     "another file": "bpy.ops.wm.read_homefile(use_empty=True)",
 }
 
 
 @pytest.mark.parametrize("ending", ENDINGS)
 def test_blender_ends_well(ending: str, tmp_path: Path) -> None:
-    environment = {**os.environ, "PYTHONPATH": str(TESTS), "TMPDIR": str(tmp_path)}
+    path = os.pathsep.join([str(TESTS), os.environ.get("PYTHONPATH", "")])  # bpy itself may be found by it
+    environment = {**os.environ, "PYTHONPATH": path, "TMPDIR": str(tmp_path)}
     ended = subprocess.run(
         [sys.executable, "-c", USE + ENDINGS[ending]], env=environment, capture_output=True, text=True, timeout=120.0
     )

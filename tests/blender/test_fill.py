@@ -275,6 +275,49 @@ def test_the_curvature_around_is_continued_if_asked_for(tmp_path: Any) -> None:
     assert max(off[1:]) < 0.5 * off[0]
 
 
+def uneven_sphere() -> bpy.types.Object:
+    """A sphere with a hole whose outline is four times as fine at x > 0."""
+    steps = np.linspace(0.0, 2.0 * np.pi, 2001)[:-1]
+    density = 4.0 ** (0.5 * (1.0 + np.tanh(6.0 * np.cos(steps))))
+    turn = np.interp(np.arange(48) / 48, np.cumsum(density) / density.sum(), steps)
+    rings = [(np.cos(turn) * np.sin(a), np.sin(turn) * np.sin(a), np.full(48, np.cos(a))) for a in (0.9, 1.0, 1.1, 1.2)]
+    points = np.concatenate([np.stack(ring, axis=1) for ring in rings])
+    faces = [
+        [48 * ring + i, 48 * ring + 48 + i, 48 * ring + 48 + (i + 1) % 48, 48 * ring + (i + 1) % 48]
+        for ring in range(3)
+        for i in range(48)
+    ]
+    return meshes.add(points, faces, "Uneven")
+
+
+def test_new_edges_are_like_the_outlines_or_even(tmp_path: Any) -> None:
+    def ratio(fill_it: Chosen) -> float:
+        obj = uneven_sphere()
+        old = len(obj.data.polygons)
+        fill_it(obj)
+        mesh = obj.data
+        found: dict[bool, list[float]] = {True: [], False: []}
+        for polygon in list(mesh.polygons)[old:]:
+            if abs(polygon.center.x) > 0.2 and polygon.center.xy.length < 0.55:
+                found[polygon.center.x > 0.0].append(polygon.area)
+        return float(np.sqrt(np.median(found[False]) / np.median(found[True])))
+
+    def by_command(obj: Any) -> bool:
+        given = ["--object", obj.name, "--output", str(tmp_path / "filled.blend"), "--fill", "--inner", "EVEN"]
+        obj.vertex_groups.new(name="Rim").add(list(range(48)), 1.0, "REPLACE")
+        return bool(module("run.cli").execute([*given, "--vertex-group", "Rim", "--spacing", "0.8"]) == 0)
+
+    upper: Chosen = lambda co: co.z > 0.6  # noqa: E731
+    for spacing in (1.0, 0.8):
+        like, even = (
+            ratio(lambda obj, f=spacing, w=inner: fill_hole(obj, upper, spacing=f, inner=w))  # type: ignore[misc]
+            for inner in ("OUTLINE", "EVEN")
+        )
+        assert like > 1.4
+        assert even < 1.2
+    assert ratio(by_command) < 1.2
+
+
 def test_scale_of_the_object_counts() -> None:
     """What is a sphere in world space becomes one there, with a scale that turns it inside out."""
     obj = open_sphere()
@@ -402,7 +445,7 @@ def test_the_report_tells_of_a_fill() -> None:
     checks = {check.name: check.value for check in report.checks}
     assert int(checks["New faces"]) > 0
     assert "Surfaces" not in checks  # there is one
-    assert checks["Kinks show here from"] == "12°"
+    assert checks["Kinks show here from"] == "11°"  # as far as the faces of the sphere around bend
     assert checks["Kink at the outline"].startswith("≤ ")
     assert 0.0 < report.distortion < 0.5
     assert checks["Texture distortion"] == f"{report.distortion:.1%}"
@@ -535,7 +578,8 @@ def test_a_surface_that_is_not_usable_is_told_to_scripts(tmp_path: Any) -> None:
 def test_operator_has_the_documented_properties() -> None:
     found = [p for p in bpy.ops.mesh.fair_fill.get_rna_type().properties if p.identifier != "rna_type"]
     assert {p.identifier: p.default for p in found} == {
-        "equation": "HARMONIC", "continuity": "G1", "bridge": False, "spacing": 1.0, "quads": False, "accept": "USABLE",
+        "equation": "HARMONIC", "continuity": "G1", "bridge": False, "spacing": 1.0, "inner": "OUTLINE", "quads": False,
+        "accept": "USABLE",
     }  # fmt: skip
     assert all(p.description for p in found)
 

@@ -41,6 +41,7 @@ DEFAULTS = {
     "accept": "USABLE",
     "mesh": "KEEP",
     "spacing": 1.0,
+    "inner": "OUTLINE",
     "quads": False,
 }
 CHOICES = {
@@ -56,6 +57,7 @@ CHOICES = {
     "outline": ["GIVEN", "MENDED"],
     "accept": ["USABLE", "ALL"],
     "mesh": ["KEEP", "NEW"],
+    "inner": ["OUTLINE", "EVEN"],
     "factor_mask": ["IGNORED", "USED"],
 }
 

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from extension import module
 from mathutils import Vector
+from test_held import box, bumpy
 from test_interface import command
 from test_panel import drawn
 
@@ -128,7 +129,7 @@ def test_a_pin_pulled_aside_offers_to_spread_vertices_evenly() -> None:
     meshes.select(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7))
     meshes.edit(obj)
     with pytest.raises(RuntimeError, match="folded over, at 1 pinned vertex"):
-        meshes.run(pin_group="Pin")
+        meshes.run(pin_group="Pin", inner_fairness="CONFORMAL")
     assert "EVEN_SPREAD" in meshes.report().remedies.split(",")
     assert bpy.ops.mesh.fair_again(way="EVEN_SPREAD") == {"FINISHED"}
     assert meshes.report().verdict == "GOOD"
@@ -358,3 +359,32 @@ def test_a_hard_edge_that_smoothing_rounds_is_told() -> None:
     assert report.reason.startswith("Outline: Smooth has rounded a hard edge outside")
     assert "AS_SELECTED" in report.remedies
     assert np.abs(meshes.positions(obj) - before)[~meshes.free_vertices(obj, faces)].max() > 0.0
+
+
+def test_edges_that_are_marked_sharp_are_missed_unless_they_are_pinned() -> None:
+    for pins, grade in (("NONE", "LOOK"), ("SHARP", "GOOD")):
+        obj, faces = box()
+        on_edge = np.isclose(meshes.positions(obj), 0.0).sum(axis=1) >= 2
+        bumpy(obj, meshes.free_vertices(obj, faces) & ~on_edge)
+        meshes.fair(obj, faces, pin_edges=pins)
+        assert meshes.report().verdict == grade
+        assert meshes.report().reason.startswith("Edges marked sharp were rounded off") == (grade == "LOOK")
+
+
+@pytest.mark.parametrize("height", [0.02, 0.8])
+def test_automatic_keeps_no_texture_of_a_spike(height: float) -> None:
+    """A plain with a texture, one vertex of which was pulled out: as high as an edge is long, or eight times that."""
+    results = {}
+    for choice in ("AUTOMATIC", "UNIFORM", "CONFORMAL"):
+        obj = meshes.grid(20)
+        layer = obj.data.uv_layers.new(name="UVMap")
+        points = meshes.positions(obj)
+        points[:, 0] += 0.02 * np.sin(9.0 * points[:, 1])
+        for corner, place in zip(obj.data.loops, layer.uv, strict=True):
+            place.vector = points[corner.vertex_index, :2]
+        points[np.argmin(np.linalg.norm(points, axis=1)), 2] += height
+        meshes.move(obj, points)
+        meshes.fair(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6), inner_fairness=choice)
+        results[choice] = meshes.positions(obj).tobytes()
+    assert results["UNIFORM"] != results["CONFORMAL"]
+    assert results["AUTOMATIC"] == results["UNIFORM" if height > 0.1 else "CONFORMAL"]

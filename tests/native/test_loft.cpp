@@ -9,39 +9,18 @@
 #include "geometry/flips.h"
 #include "geometry/outline_angles.h"
 #include "geometry/spikes.h"
-#include "meshes.h"
 #include "method/eased.h"
 #include "method/lofted.h"
+#include "pipes.h"
 #include "problem/surface_state.h"
 #include "start/loft.h"
 
 using namespace fairing;
+using test::around;
+using test::Pipe;
+using test::pipe;
 
 namespace {
-
-constexpr int around = 48;
-
-// A round pipe along z of equilateral triangles.
-test::Mesh pipe(int rows) {
-    const double height = std::numbers::sqrt3 * std::numbers::pi / around;
-    test::Mesh mesh{Points(3, around * (rows + 1)), Triangles(3, 2 * around * rows)};
-    for (int r = 0; r <= rows; ++r) {
-        for (int c = 0; c < around; ++c) {
-            const double angle = 2.0 * std::numbers::pi * (c + 0.5 * r) / around;
-            mesh.points.col(r * around + c) << std::cos(angle), std::sin(angle), height * r;
-        }
-    }
-    Eigen::Index t = 0;
-    for (int r = 0; r < rows; ++r) {
-        for (int c = 0; c < around; ++c) {
-            const int a = r * around + c;
-            const int b = r * around + (c + 1) % around;
-            mesh.triangles.col(t++) << a, b, a + around;
-            mesh.triangles.col(t++) << b, b + around, a + around;
-        }
-    }
-    return mesh;
-}
 
 // A finger of six vertices around instead of the triangles at one vertex: it ends inside.
 test::Mesh with_finger(const test::Mesh& mesh, int vertex, int length) {
@@ -78,36 +57,6 @@ test::Mesh with_finger(const test::Mesh& mesh, int vertex, int length) {
     for (std::size_t t = 0; t < kept.size(); ++t) result.triangles.col(static_cast<Eigen::Index>(t)) = kept[t];
     return result;
 }
-
-// Its ends lean outwards by `lean`, like trumpets.
-struct Pipe {
-    test::Single single;
-    Problem problem;
-
-    explicit Pipe(int rows, double lean = 0.0) : Pipe(pipe(rows), lean) {}
-    Pipe(const test::Mesh& mesh, double lean)
-        : single(test::single_patch(mesh)), problem{single.patch(), {}, {}, uniform_weights(single.patch()), {}} {
-        const Eigen::Index fixed = single.points.cols() - single.patch().free_count;
-        problem.fixed_points = single.points.rightCols(fixed);
-        problem.fixed_normals = problem.fixed_points;
-        const double middle = 0.5 * problem.fixed_points.row(2).maxCoeff();
-        for (auto normal : problem.fixed_normals.colwise()) {
-            const double side = normal[2] < middle ? 1.0 : -1.0;
-            normal *= std::cos(lean);
-            normal[2] = side * std::sin(lean);
-        }
-    }
-    [[nodiscard]] Points with(const Points& free) const {
-        Points points = single.points;
-        points.leftCols(free.cols()) = free;
-        return points;
-    }
-    [[nodiscard]] double area(const Points& points) const {
-        FaceGeometry faces;
-        faces.update(points, single.patch().triangles);
-        return faces.areas.sum();
-    }
-};
 
 std::optional<Fill> loft(const Problem& problem, double roundness) {
     const auto way = Loft::of(problem, roundness, Progress());

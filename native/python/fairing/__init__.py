@@ -20,6 +20,7 @@ from fairing._measure import (
 )
 from fairing._new_mesh import FillResult, RemeshResult
 from fairing._outline import (
+    VISIBLE_KINK,
     MendedOutline,
     SurroundingNormals,
     bad_outline,
@@ -34,6 +35,7 @@ from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, 
 
 __all__ = [
     "CODES",
+    "VISIBLE_KINK",
     "Cancelled",
     "Diagnostic",
     "FairResult",

@@ -128,7 +128,7 @@ def remesh(
     fixed: _Ints | None,
     fixed_normals: _Floats | None,
     kept: _Ints,
-    wanted: tuple[float, int],
+    wanted: tuple[float, int, bool],
     threads: int,
     progress: Callable[[float, str], bool | None] | None,
 ) -> dict[str, Any]: ...
@@ -139,5 +139,5 @@ def expected_count(
     triangles: _Ints,
     fixed: _Ints | None,
     fixed_normals: _Floats | None,
-    wanted: tuple[float, int],
+    wanted: tuple[float, int, bool],
 ) -> float: ...

@@ -73,7 +73,8 @@ def fair(
         So do border vertices that are left out of ``fixed``: they stay fixed, and take that average.
         :func:`fairing.surrounding_normals` gives zero where no triangle lies outside; leave these vertices out.
     reference : (n, 3) float
-        The original mesh M0 of all weights but the uniform ones; default: ``vertices``.
+        The original mesh M0 of all weights but the uniform ones, and the shape that is kept in part where no surface is
+        found (``otherwise``); default: ``vertices``.
     equation : "harmonic" | "constant" | "minimal_energy" | "minimal" | "least_variation"
         Δ_B H = 0, Δ_B H = ``load`` or Δ_B H = −2H(H² − K) with tangent planes met (G1), or H = 0 with positions
         met only (G0). See §7.5. "least_variation": the surface whose normal curvatures vary least (G1), which exists
@@ -81,8 +82,9 @@ def fair(
     otherwise : "least_variation" | "stop"
         What is taken where ``equation`` has no surface that is accepted (method "global", all but "minimal"). By
         default it is that of least variation, also in place of a bulb between two outlines: a surface whose curvatures
-        vary more than twice as much as they need. Several outlines that have
-        none of it either are joined by a loft, which may leave the tangent planes given: docs/least_variation.md.
+        vary more than twice as much as they need. Several outlines that have none of it either are joined by a loft,
+        which may leave the tangent planes given, or, where the loft has threads, waists, sharp bends or crossings or
+        there is none, keep the shape of ``reference``, smoothed as far as it goes: docs/least_variation.md.
         ``result.equation`` names what holds, and the warning NO_SOLUTION says so. "stop": the best surface found, not
         ``converged``; bulbs stay. A solve that ran out of fewer than 200 ``max_iterations``, or has part of its load,
         is never replaced.
@@ -155,12 +157,13 @@ def fair(
     weights : (n,) float
         In place of ``feather``: the part of the way that each vertex goes, 0 … 1, those inside too. The band is where
         vertices of ``outside`` have a weight.
-    start : "outline" | "given" | "least_variation" | "loft"
+    start : "outline" | "given" | "least_variation" | "loft" | "smoothed"
         "given": begin at the vertices given, which lie near the surface. Where the iteration does not find it from
         there, within a few steps and without folds, the outline alone decides as always. For the harmonic equations
         and "global"; where conformal weights are those of these same vertices, these move along the normals only.
-        "least_variation", "loft": begin with what is taken in place of the equation's surface, where another solve has
-        shown that it has none, the former at the vertices given; where that is not accepted the outline alone decides.
+        "least_variation", "loft", "smoothed": begin with what is taken in place of the equation's surface, where
+        another solve has shown that it has none, the first at the vertices given; where that is not accepted the
+        outline alone decides.
     creases : (c,) int
         Some of the fixed vertices, those at which a crease ends on the outline among them: position only, whatever
         ``fixed_normals`` says there. Each side of a curve of them finds a slope of its own. A component with such a

@@ -19,6 +19,8 @@ LEAST_COUNT = 1000
 """Free vertices of the mesh that is solved, for each component. Coarser wishes are cut from its surface."""
 MOST_COUNT = 4_000_000
 
+INNER = ("outline", "even")
+
 _Progress = Callable[[float, str], "bool | None"]
 
 
@@ -31,6 +33,7 @@ def fill(
     bridge: bool = False,
     spacing: float = 0.0,
     longest: int = 0,
+    inner: str | None = None,
     fixed_curvatures: Any = None,
     progress: _Progress | None = None,
     **options: Any,
@@ -56,6 +59,10 @@ def fill(
     spacing : float
         Length of the new edges away from the outline, in the unit of ``vertices``. 0: as the outline's own edges. From
         the outline, whose edges stay, lengths grow or shrink by a half of the distance.
+    inner : "outline" | "even"
+        "outline": new edges are in proportion to those of the outline around them, and ``spacing`` long in the mean.
+        "even": all are ``spacing`` long; as the outline's mean edge for 0. Default: "outline" for a spacing of 0, else
+        "even".
     longest : int
         Without ``loops``: border loops with more edges than that are left open; 0: none.
     fixed_curvatures : (n,), (Σ k,) float, or a list with a (k,) for each loop
@@ -80,7 +87,7 @@ def fill(
     points = _arguments.floats("vertices", vertices)
     around = _arguments.triangles_within(triangles, len(points))
     limit = _arguments.whole("longest", longest, 0)
-    length = _spacing(spacing)
+    length = _spacing(spacing, inner)
     _check_options(options, progress)
     if not isinstance(bridge, (bool, np.bool_)):
         raise ValueError(f"bridge: True or False is needed, not {bridge!r}")
@@ -100,7 +107,8 @@ def fill(
     watch.lap("mesh")
     _loops.check_doubles(fine.triangles, around)
     coarser = count < 0.9 * LEAST_COUNT * (1 if bridge else len(outline.loops))
-    report = fine.faired(_start(first["start"], options), around, options, watch.part(0.4, 0.9 if coarser else 1.0))
+    chosen = options if first["converged"] else {**options, "otherwise": "stop"}  # it was sought in vain once
+    report = fine.faired(_start(first["start"], options), around, chosen, watch.part(0.4, 0.9 if coarser else 1.0))
     values = _report(report, len(points))
     if coarser:
         solved = _Patch(report.vertices, fine.triangles, outline.vertices, normals)
@@ -122,6 +130,7 @@ def remesh(
     fixed_normals: npt.ArrayLike | None = None,
     kept: npt.ArrayLike | None = None,
     spacing: float = 0.0,
+    inner: str | None = None,
     progress: _Progress | None = None,
     **options: Any,
 ) -> RemeshResult:
@@ -129,9 +138,9 @@ def remesh(
 
     Fixed vertices and the outline's edges stay. ``origin`` says where each new vertex lies on the old patch, so that
     what belongs to its vertices or corners can be carried over: what :func:`fairing.fair` makes of the old mesh, with
-    ``inner_fairness="conformal"`` by default, takes them there. ``spacing`` is that of :func:`fairing.fill`, the
-    other parameters are those of :func:`fairing.fair`. Where the new mesh is coarser than the old one and has less than
-    1000 vertices, it is cut from the surface of the old one, and not solved again.
+    ``inner_fairness="conformal"`` by default, takes them there. ``spacing`` and ``inner`` are those of
+    :func:`fairing.fill`, the other parameters those of :func:`fairing.fair`. Where the new mesh is coarser than the
+    old one and has less than 1000 vertices, it is cut from the surface of the old one, and not solved again.
 
     ``kept``, (e, 2): edges of the old mesh that the new one has, too, between new vertices at the same places of the
     surface, which ``result.old`` names: seams of a texture.
@@ -140,7 +149,7 @@ def remesh(
     faces = _arguments.triangles_within(triangles, len(points))
     held, given_normals = _arguments.boundary(fixed, fixed_normals)
     lines = _arguments.edges_of("kept", kept, faces)
-    length = _spacing(spacing)
+    length = _spacing(spacing, inner)
     outside = options.pop("outside", None)
     _check_options(options, progress)
     watch = _Watch(progress)
@@ -166,6 +175,17 @@ def remesh(
 
 
 @dataclass(frozen=True)
+class _Spacing:
+    """How long new edges are to be."""
+
+    length: float
+    even: bool
+
+    def wanted(self, least: int) -> tuple[float, int, bool]:
+        return self.length, least, self.even
+
+
+@dataclass(frozen=True)
 class _Patch:
     """A mesh to be solved or meshed anew, with its outline and the normals there."""
 
@@ -174,15 +194,15 @@ class _Patch:
     fixed: IntArray | None
     normals: FloatArray | None
 
-    def expected_count(self, spacing: float) -> float:
+    def expected_count(self, spacing: _Spacing) -> float:
         """About how many vertices a mesh of that spacing has; ValueError where these are too many."""
-        count = _core.expected_count(self.vertices, self.triangles, self.fixed, self.normals, (spacing, 0))
+        count = _core.expected_count(self.vertices, self.triangles, self.fixed, self.normals, spacing.wanted(0))
         if not count <= MOST_COUNT:
-            raise ValueError(f"spacing: {spacing} gives about {count:.2g} vertices; {MOST_COUNT} are accepted")
+            raise ValueError(f"spacing: {spacing.length} gives about {count:.2g} vertices; {MOST_COUNT} are accepted")
         return count
 
     def remeshed(
-        self, old_count: int, spacing: float, least: int, options: dict[str, Any], progress: _Progress | None
+        self, old_count: int, spacing: _Spacing, least: int, options: dict[str, Any], progress: _Progress | None
     ) -> tuple[_Patch, Origin]:
         """On the first ``old_count`` of these vertices and new ones."""
         new, origin, _ = self.meshed_anew(old_count, _arguments.NO_EDGES, (spacing, least), options, progress)
@@ -192,14 +212,14 @@ class _Patch:
         self,
         old_count: int,
         lines: IntArray,
-        wanted: tuple[float, int],
+        wanted: tuple[_Spacing, int],
         options: dict[str, Any],
         progress: _Progress | None,
     ) -> tuple[_Patch, Origin, IntArray]:
         """The same with edges that stay, and with the old vertex that each new one is, or −1."""
         self.expected_count(wanted[0])
         mesh = _core.remesh(
-            self.vertices, self.triangles, self.fixed, self.normals, lines, wanted,
+            self.vertices, self.triangles, self.fixed, self.normals, lines, wanted[0].wanted(wanted[1]),
             _arguments.whole("threads", options.get("threads", 0), 0), progress,
         )  # fmt: skip
         triangles = mesh["triangles"].copy()
@@ -254,10 +274,11 @@ def _check_options(options: dict[str, Any], progress: Any) -> None:
     _options.callback(progress)
 
 
-def _spacing(value: Any) -> float:
+def _spacing(value: Any, inner: str | None) -> _Spacing:
     if _arguments.finite("spacing", value) < 0:
         raise ValueError(f"spacing: a length, or 0 for that of the outline's edges, is needed, not {value!r}")
-    return float(value)
+    chosen = ("even" if value else "outline") if inner is None else inner
+    return _Spacing(float(value), _arguments.choice("inner", chosen, INNER) == "even")
 
 
 def _start(first: str, options: dict[str, Any]) -> str:

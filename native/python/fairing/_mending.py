@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from fairing import _arguments, _core
+from fairing._outline import VISIBLE_KINK
 from fairing._types import FOLDS, Diagnostic, FloatArray, IntArray
 
 Answer = dict[str, Any]
-VISIBLE = 12.0  # degrees of the join from which the eye may find a kink: below, none is worth a second solve
 
 
 @dataclass(frozen=True)
@@ -122,12 +122,15 @@ _FLAWLESS = (True, 0, 0.0)
 
 
 def _worth(answer: Answer, around: Surroundings) -> tuple[bool, int, float]:
-    """What two answers are compared by: solved; folds; the worst kink in degrees, as far as it may be visible."""
+    """What two answers are compared by: solved; folds; the worst kink in degrees, as far as it may be visible.
+
+    Below, none is worth a second solve.
+    """
     if not answer["converged"]:
         return False, -_folds(answer), 0.0
     seen = _core.visible_join(answer["vertices"], around.inside, around.outside, around.rim, None)
     worst = float(np.max(seen, initial=0.0))
-    return True, -_folds(answer), -worst if worst > VISIBLE else 0.0
+    return True, -_folds(answer), -worst if worst > VISIBLE_KINK else 0.0
 
 
 def _folds(answer: Answer) -> int:

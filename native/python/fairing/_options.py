@@ -18,7 +18,7 @@ OTHERWISE = _core.WORDS["otherwise"]
 INNER_FAIRNESS = _core.WORDS["inner_fairness"]
 OUTLINES = ("given", "mended")
 CONTINUITIES = ("G1", "G2")
-STARTS = ("outline", "given", "least_variation", "loft")
+STARTS = ("outline", "given", "least_variation", "loft", "smoothed")
 OPEN_BORDERS = ("held", "faired")
 
 

@@ -12,6 +12,8 @@ import numpy.typing as npt
 from fairing import _arguments, _core
 from fairing._types import FloatArray, IntArray
 
+VISIBLE_KINK = 12.0  # degrees of visible_join from which the eye finds a kink on most meshes
+
 
 @dataclass(frozen=True, eq=False)
 class _OutlineNormals:
@@ -129,7 +131,7 @@ def visible_join(
     By how much the signed dihedral angles of the outline's edges exceed what is usual within three rings on either side
     (the middle half of the angles, by length), and what the same edge had in ``before`` (n, 3), the positions before
     fairing; the mean over the outline's edges at the vertex. 0 on a sphere or tube however coarse, and on a crease that
-    goes on on either side. From about 12 on a kink can be seen.
+    goes on on either side. From about ``VISIBLE_KINK`` = 12 on a kink can be seen.
     """
     points, within, where = _bounded(vertices, ("inside", inside), ("outline", outline))
     _, beyond, _ = _bounded(vertices, ("outside", outside), ("outline", outline))

@@ -73,8 +73,9 @@ class FairResult:
 
     equation: str
     """The equation that holds: the one asked for, or "least_variation" where any component has it instead, or "loft"
-    where any is a loft (see ``otherwise`` of :func:`fairing.fair`; the warning NO_SOLUTION names the component).
-    ``converged`` refers to it. A loft is one linear solve: ``residual`` says nothing about it."""
+    where any is a loft, or "smoothed" where any is its own shape, smoothed (see ``otherwise`` of :func:`fairing.fair`;
+    the warning NO_SOLUTION names the component). ``converged`` refers to it. The last two are linear solves:
+    ``residual`` says nothing about them."""
     vertices: FloatArray
     """(n, 3) positions; vertices that are neither free nor in ``moved`` keep their bits."""
     base: FloatArray
@@ -120,8 +121,8 @@ class FairResult:
 
     "warm" starts from the last answer, "nested" goes from coarse to fine, "direct" stays on the mesh given, "proxy"
     takes a mesh of the engine's own, "eased" does so over the smoothed outline, "even" and "uniform" take uniform
-    weights first or only. "minimal", "variation", "loft" and "paper" belong to the surfaces and the method of that
-    name, "patient" is a direct solve with all iterations. Several components follow each other."""
+    weights first or only. "minimal", "variation", "loft", "smoothed" and "paper" belong to the surfaces and the method
+    of that name, "patient" is a direct solve with all iterations. Several components follow each other."""
     warnings: tuple[Diagnostic, ...]
     moved: IntArray = field(default_factory=lambda: np.empty(0, np.int32))
     """Fixed and outside vertices that ``outline="mended"``, ``feather`` or ``weights`` have moved, ascending."""

@@ -205,9 +205,9 @@ def _answers() -> Iterator[list[tuple[float, float]]]:
     home = module("follow.live")
     follow, spent = home.follow, list[tuple[float, float]]()
 
-    def timed(obj: Any, hurried: bool = False) -> bool:
+    def timed(obj: Any) -> bool:
         wall, processor = time.perf_counter(), time.process_time()
-        written = bool(follow(obj, hurried))
+        written = bool(follow(obj))
         if written:
             spent.append((time.perf_counter() - wall, time.process_time() - processor))
         return written

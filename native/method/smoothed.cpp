@@ -1,0 +1,102 @@
+#include "method/smoothed.h"
+
+#include <algorithm>
+#include <limits>
+#include <queue>
+
+#include "base/stopwatch.h"
+#include "geometry/self_intersection.h"
+#include "geometry/surface_fit.h"
+#include "method/accept.h"
+#include "method/blemishes.h"
+#include "problem/surface_state.h"
+#include "start/several_outlines.h"
+#include "start/shape_before.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr int most_rounds = 14;  // 2^-13 D is less than the edges of any patch that is solved
+
+// Half of what it was, or of 2 D, at some vertices; around them no longer than that and the way there.
+void shorten(const Patch& patch, const Points& before, const Indices& vertices, VectorX& wavelengths) {
+    using Reached = std::pair<double, int>;
+    std::priority_queue<Reached, std::vector<Reached>, std::greater<>> reached;
+    for (const int v : vertices) reached.emplace(0.5 * std::min(wavelengths[v], 2.0), v);
+    while (!reached.empty()) {
+        const auto [length, v] = reached.top();
+        reached.pop();
+        if (!(length < wavelengths[v])) continue;
+        wavelengths[v] = length;
+        for (const int w : patch.ring(v).vertices) reached.emplace(length + (before.col(v) - before.col(w)).norm(), w);
+    }
+}
+
+Indices all_of(const Blemishes& blemishes) {
+    Indices all = blemishes.torn;
+    all.insert(all.end(), blemishes.bent.begin(), blemishes.bent.end());
+    all.insert(all.end(), blemishes.narrow.begin(), blemishes.narrow.end());
+    return all;
+}
+
+// The first without blemishes, or the last one that is not torn.
+std::optional<Points> smoothest(const Problem& problem, ShapeBefore& shape, const Progress& progress) {
+    const BlemishFinder finder(problem, shape.points(), progress);
+    VectorX wavelengths = VectorX::Constant(problem.patch.vertex_count(), std::numeric_limits<double>::infinity());
+    std::optional<Points> best;
+    for (int round = 0; round < most_rounds; ++round) {
+        const auto points = shape.smoothed(wavelengths, progress);
+        if (!points || !points->allFinite()) return best;
+        const Blemishes blemishes = finder.in(*points);
+        if (blemishes.torn.empty()) best = *points;
+        if (blemishes.absent()) return best;
+        shorten(problem.patch, shape.points(), all_of(blemishes), wavelengths);
+    }
+    return best;
+}
+
+Solution solution_at(const Problem& problem, const Points& points) {
+    Solution solution;
+    solution.points = points;
+    solution.termination = Termination::converged;
+    solution.mean_curvature = measured_surface(problem, points).curvature.mean;
+    solution.boundary_normals = one_sided_normals(problem.patch, points);
+    solution.iterations = 1;
+    solution.instead = Instead::smoothed;
+    solution.flaw = flaw_of(problem, solution);
+    return solution;
+}
+
+}  // namespace
+
+std::optional<Solution> smoothed(const Problem& problem, const Solution& first, const Progress& progress) {
+    const Stopwatch watch;
+    if (!joins_outlines(problem)) return std::nullopt;
+    auto shape = ShapeBefore::of(problem, progress);
+    if (!shape) return std::nullopt;
+    const auto points = smoothest(problem, *shape, progress);
+    if (!points) return std::nullopt;
+    Solution solution = solution_at(problem, *points);
+    if (end_of(solution) != Termination::converged) return std::nullopt;
+    solution.ways = first.ways;
+    solution.ways.push_back({"smoothed", watch.seconds()});
+    return solution;
+}
+
+bool is_blemished(const Problem& problem, const Solution& solution, const Progress& progress) {
+    if (!joins_outlines(problem)) return false;
+    const auto shape = ShapeBefore::of(problem, progress);
+    return shape && !BlemishFinder(problem, shape->points(), progress).in(solution.points).absent();
+}
+
+bool crosses_anew(const Problem& problem, const Solution& solution) {
+    const Triangles& triangles = problem.patch.triangles;
+    if (!joins_outlines(problem) || problem.before.cols() != problem.patch.vertex_count()) return false;
+    const Indices now = crossing_triangles(triangles, solution.points);
+    if (now.empty()) return false;
+    const Indices known = crossing_triangles(triangles, problem.before);
+    return !std::includes(known.begin(), known.end(), now.begin(), now.end());
+}
+
+}  // namespace fairing

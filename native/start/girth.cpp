@@ -1,0 +1,76 @@
+#include "start/girth.h"
+
+#include <algorithm>
+#include <array>
+
+#include "operators/laplace_operator.h"
+#include "start/clamped_fill.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr int line_count = 17;
+constexpr double first_level = 0.1;  // the last one as far from the other end
+
+double level_of(int line) { return first_level + (1.0 - 2.0 * first_level) * line / (line_count - 1); }
+
+// The part of a level line within a triangle; nothing elsewhere.
+double length_within(const Eigen::Vector3i& corners, const VectorX& values, double level, const Points& points) {
+    std::array<Vector3, 2> ends;
+    std::size_t count = 0;
+    for (int k = 0; k < 3; ++k) {
+        const int a = corners[k];
+        const int b = corners[(k + 1) % 3];
+        if ((values[a] < level) == (values[b] < level)) continue;
+        const double share = (level - values[a]) / (values[b] - values[a]);
+        ends[count++] = (1.0 - share) * points.col(a) + share * points.col(b);
+    }
+    return count == 2 ? (ends[1] - ends[0]).norm() : 0.0;
+}
+
+}  // namespace
+
+std::optional<CrossSections> CrossSections::of(const Patch& patch, const Progress& progress) {
+    CrossSections result(patch);
+    result.loops_ = patch.loops();
+    const Stiffness even = uniform_stiffness(patch);
+    LaplaceOperator laplace(patch);
+    if (result.loops_.size() < 2 || !laplace.update(even, progress)) return std::nullopt;
+    for (const Indices& loop : result.loops_) {
+        Eigen::RowVectorXd field = Eigen::RowVectorXd::Zero(patch.vertex_count());
+        for (const int v : loop) field[v] = 1.0;
+        const Eigen::RowVectorXd pull = even.apply(patch, field, patch.free_count);
+        field.head(patch.free_count) = -laplace.solve(pull.transpose()).transpose();
+        result.levels_.emplace_back(field.transpose());
+    }
+    return result;
+}
+
+VectorX CrossSections::lengths(int outline, const Points& points) const {
+    VectorX result = VectorX::Zero(line_count);
+    for (int line = 0; line < line_count; ++line) {
+        for (const auto triangle : patch_.triangles.colwise())
+            result[line] += length_within(triangle, levels_[at(outline)], level_of(line), points);
+    }
+    return result;
+}
+
+Indices CrossSections::triangles(int outline, int line) const {
+    Indices found;
+    for (int t = 0; t < patch_.triangle_count(); ++t) {
+        const Vector3 values = levels_[at(outline)](patch_.triangles.col(t));
+        if (values.minCoeff() < level_of(line) && values.maxCoeff() >= level_of(line)) found.push_back(t);
+    }
+    return found;
+}
+
+double CrossSections::outline_length(int outline, const Points& points) const {
+    const Indices& loop = loops_[at(outline)];
+    double sum = 0.0;
+    for (std::size_t k = 0; k < loop.size(); ++k)
+        sum += (points.col(loop[(k + 1) % loop.size()]) - points.col(loop[k])).norm();
+    return sum;
+}
+
+}  // namespace fairing

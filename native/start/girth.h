@@ -1,0 +1,35 @@
+// How thick a surface is between its outlines.
+#pragma once
+
+#include <optional>
+
+#include "base/progress.h"
+#include "mesh/patch.h"
+
+namespace fairing {
+
+// Cross-sections of a patch around each of its outlines: level lines of the function that is harmonic on equilateral
+// triangles, 1 on that outline and 0 on the others. The lines belong to the connectivity, so that those of several
+// surfaces of one patch can be compared.
+class CrossSections {
+public:
+    // Nothing with fewer than two outlines.
+    static std::optional<CrossSections> of(const Patch& patch, const Progress& progress);
+
+    [[nodiscard]] int outline_count() const { return static_cast<int>(levels_.size()); }
+    // Lengths of the lines around one outline on a surface (3 × local vertices), from the others towards it.
+    [[nodiscard]] VectorX lengths(int outline, const Points& points) const;
+    // The triangles that a line around an outline runs through.
+    [[nodiscard]] Indices triangles(int outline, int line) const;
+    // Length of an outline itself.
+    [[nodiscard]] double outline_length(int outline, const Points& points) const;
+
+private:
+    explicit CrossSections(const Patch& patch) : patch_(patch) {}
+
+    const Patch& patch_;
+    std::vector<Indices> loops_;
+    std::vector<VectorX> levels_;  // of all vertices, for each outline
+};
+
+}  // namespace fairing

@@ -1,0 +1,56 @@
+#include "start/several_outlines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace fairing {
+
+namespace {
+
+constexpr double trusted_turn = 30.0;  // degrees between the normals at the ends of an outline edge
+constexpr double lost_turn = 60.0;
+
+// How often a loop comes back to a vertex of the input: two outlines joined by an edge are one loop that passes both
+// ends of the edge twice.
+std::size_t touching(const Patch& patch, const std::vector<Indices>& loops) {
+    std::size_t count = 0;
+    for (Indices loop : loops) {
+        for (int& v : loop) v = patch.to_input[at(v)];
+        std::sort(loop.begin(), loop.end());
+        count += loop.size() - static_cast<std::size_t>(std::unique(loop.begin(), loop.end()) - loop.begin());
+    }
+    return count;
+}
+
+bool is_held_elsewhere(const Patch& patch, const std::vector<Indices>& loops) {
+    std::size_t on_loops = 0;
+    for (const Indices& loop : loops) on_loops += loop.size();
+    const bool pinned = std::any_of(patch.pin.begin(), patch.pin.end(), [](char pin) { return pin != 0; });
+    return pinned || on_loops != at(patch.vertex_count() - patch.free_count);
+}
+
+}  // namespace
+
+bool joins_outlines(const Problem& problem) {
+    const std::vector<Indices> loops = problem.patch.loops();
+    return loops.size() + touching(problem.patch, loops) > 1 && !is_held_elsewhere(problem.patch, loops);
+}
+
+VectorX trust_in_slopes(const Problem& problem) {
+    VectorX trust = VectorX::Ones(problem.fixed_normals.cols());
+    for (const Indices& loop : problem.patch.loops()) {
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            const int a = loop[k] - problem.patch.free_count;
+            const int b = loop[(k + 1) % loop.size()] - problem.patch.free_count;
+            const double cosine = problem.fixed_normals.col(a).dot(problem.fixed_normals.col(b));
+            const double turn = std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi;
+            const double here = std::clamp((lost_turn - turn) / (lost_turn - trusted_turn), 0.0, 1.0);
+            trust[a] = std::min(trust[a], here);
+            trust[b] = std::min(trust[b], here);
+        }
+    }
+    return trust;
+}
+
+}  // namespace fairing

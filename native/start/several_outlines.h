@@ -1,0 +1,16 @@
+// What joining several outlines needs to know of them.
+#pragma once
+
+#include "problem/problem.h"
+
+namespace fairing {
+
+// Whether the patch lies between several outlines, of which two joined by an edge are one loop, and nothing is held
+// elsewhere.
+bool joins_outlines(const Problem& problem);
+
+// How far the slope at each fixed vertex is believed: 1 where the given normals turn by less than 30° along the
+// outline, less and less up to 60°, 0 beyond.
+VectorX trust_in_slopes(const Problem& problem);
+
+}  // namespace fairing

@@ -1,0 +1,93 @@
+#include "start/shape_before.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/flips.h"
+#include "operators/laplace_operator.h"
+#include "problem/willmore.h"
+#include "start/clamped_fill.h"
+#include "start/several_outlines.h"
+
+namespace fairing {
+
+namespace {
+
+bool is_usable(const Problem& problem) {
+    constexpr double most_turned = 0.05;  // of the triangles
+    const Patch& patch = problem.patch;
+    if (problem.before.cols() != patch.vertex_count() || !problem.before.allFinite()) return false;
+    FaceGeometry faces;
+    faces.update(problem.before, patch.triangles);
+    if (!(faces.areas.sum() > 1e-9)) return false;
+    const auto turned = static_cast<double>(flipped_triangles(patch, problem.before).size());
+    return turned <= most_turned * patch.triangle_count();
+}
+
+// The shape before over the outline of today.
+std::optional<Points> over_outline(const Problem& problem, const Progress& progress) {
+    const Patch& patch = problem.patch;
+    Points moves = Points::Zero(3, patch.vertex_count());
+    moves.rightCols(problem.fixed_points.cols()) =
+        problem.fixed_points - problem.before.rightCols(problem.fixed_points.cols());
+    if (moves.isZero(0.0)) return problem.before;
+    const Stiffness even = uniform_stiffness(patch);
+    LaplaceOperator laplace(patch);
+    if (!laplace.update(even, progress)) return std::nullopt;
+    moves.leftCols(patch.free_count) =
+        -laplace.solve(even.apply(patch, moves, patch.free_count).transpose()).transpose();
+    return Points(problem.before + moves);
+}
+
+// Of some shape, without the weights and masses of its needles, which drown their neighbours'.
+Stiffness bounded_stiffness(const Patch& patch, const Points& points) {
+    constexpr double largest_weight = 10.0;  // 2 / √3 between equilateral triangles
+    constexpr double least_mass = 1e-3;      // of the mean
+    FaceGeometry faces;
+    faces.update(points, patch.triangles);
+    Stiffness stiffness;
+    stiffness.update(faces, patch);
+    stiffness.weights = stiffness.weights.cwiseMax(-largest_weight).cwiseMin(largest_weight);
+    stiffness.mass = stiffness.mass.cwiseMax(least_mass * stiffness.mass.mean());
+    return stiffness;
+}
+
+// Of ∫ |Δx|² at the shape itself, between the tangent planes wanted.
+Points pull_of(const Problem& problem, const Points& points, const Stiffness& stiffness) {
+    const Patch& patch = problem.patch;
+    Points bending = -stiffness.apply(patch, points, patch.vertex_count());
+    const Points own = -bending.rightCols(problem.fixed_points.cols());
+    const Points given = 2.0 * conormals(patch, problem.fixed_points, problem.fixed_normals);
+    const Eigen::RowVectorXd trust = trust_in_slopes(problem).transpose();
+    bending.rightCols(own.cols()) += own + ((given - own).array().rowwise() * trust.array()).matrix();
+    bending.array().rowwise() /= 4.0 * stiffness.mass.transpose().array();
+    return stiffness.apply(patch, bending, patch.free_count);
+}
+
+}  // namespace
+
+std::optional<ShapeBefore> ShapeBefore::of(const Problem& problem, const Progress& progress) {
+    if (!is_usable(problem)) return std::nullopt;
+    auto points = over_outline(problem, progress);
+    if (!points) return std::nullopt;
+    return ShapeBefore(problem, std::move(*points));
+}
+
+ShapeBefore::ShapeBefore(const Problem& problem, Points points)
+    : problem_(problem),
+      points_(std::move(points)),
+      stiffness_(bounded_stiffness(problem.patch, points_)),
+      pull_(pull_of(problem, points_, stiffness_)),
+      operator_(problem.patch, points_.leftCols(problem.patch.free_count)) {}
+
+std::optional<Points> ShapeBefore::smoothed(const VectorX& wavelengths, const Progress& progress) {
+    const int count = problem_.patch.free_count;
+    const VectorX factors = (2.0 * std::numbers::pi / wavelengths.head(count).array()).pow(4);
+    if (!operator_.update_with_mass(stiffness_, factors, progress)) return std::nullopt;
+    Points result = points_;
+    result.leftCols(count) += operator_.solve(pull_.transpose()).transpose();
+    return result;
+}
+
+}  // namespace fairing

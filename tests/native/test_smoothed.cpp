@@ -1,0 +1,230 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "geometry/self_intersection.h"
+#include "method/accept.h"
+#include "method/blemishes.h"
+#include "method/otherwise.h"
+#include "method/smoothed.h"
+#include "pipes.h"
+#include "start/girth.h"
+#include "start/shape_before.h"
+
+using namespace fairing;
+using test::around;
+using test::Pipe;
+
+namespace {
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+// A pipe that knows its own shape.
+struct Known : Pipe {
+    explicit Known(int rows, double lean = 0.0) : Pipe(rows, lean) { problem.before = single.points; }
+    [[nodiscard]] double length() const { return single.points.row(2).maxCoeff(); }
+    // Its points with the radius r(z).
+    [[nodiscard]] Points shaped(const std::function<double(double)>& radius) const {
+        Points points = single.points;
+        for (auto point : points.colwise()) point.head<2>() *= radius(point[2] / length());
+        return points;
+    }
+    [[nodiscard]] double middle_radius(const Points& points) const {
+        double sum = 0.0;
+        int count = 0;
+        for (int v = 0; v < single.patch().free_count; ++v) {
+            if (std::abs(single.points(2, v) - 0.5 * length()) > 0.1) continue;
+            sum += points.col(v).head<2>().norm();
+            ++count;
+        }
+        return sum / count;
+    }
+    [[nodiscard]] int vertex_near(const Vector3& place) const {
+        int found = 0;
+        (single.points.leftCols(single.patch().free_count).colwise() - place).colwise().norm().minCoeff(&found);
+        return found;
+    }
+};
+
+Points smoothed_by(const Known& pipe, double wavelength) {
+    auto shape = ShapeBefore::of(pipe.problem, Progress());
+    REQUIRE(shape);
+    const auto points = shape->smoothed(VectorX::Constant(pipe.single.patch().vertex_count(), wavelength), Progress());
+    REQUIRE(points);
+    return *points;
+}
+
+BlemishFinder finder(const Known& pipe) { return {pipe.problem, pipe.problem.before, Progress()}; }
+
+// A wall pulled through the wall across from it.
+Points pierced(const Known& pipe, double height) {
+    Points points = pipe.single.points;
+    points.col(pipe.vertex_near({1.0, 0.0, height * pipe.length()})) += Vector3(-2.3, 0.04, 0.02);
+    return points;
+}
+
+Solution taken(const Points& points, Instead instead) {
+    Solution solution;
+    solution.points = points;
+    solution.termination = Termination::converged;
+    solution.instead = instead;
+    return solution;
+}
+
+}  // namespace
+
+TEST_CASE("cross-sections of a pipe have the lengths of its circles") {
+    const Known pipe(40);
+    const auto sections = CrossSections::of(pipe.single.patch(), Progress());
+    REQUIRE(sections);
+    REQUIRE(sections->outline_count() == 2);
+    const Points waisted = pipe.shaped([](double t) { return 1.0 - 0.7 * std::sin(std::numbers::pi * t); });
+    for (int k = 0; k < 2; ++k) {
+        const double circle = 2.0 * around * std::sin(std::numbers::pi / around);
+        CHECK(sections->outline_length(k, pipe.single.points) == doctest::Approx(circle).epsilon(1e-9));
+        const VectorX straight = sections->lengths(k, pipe.single.points);
+        CHECK(straight.minCoeff() == doctest::Approx(circle).epsilon(2e-3));
+        CHECK(straight.maxCoeff() == doctest::Approx(circle).epsilon(2e-3));
+        CHECK(sections->lengths(k, waisted).minCoeff() == doctest::Approx(0.3 * circle).epsilon(5e-3));
+    }
+}
+
+TEST_CASE("a pipe that is smoothed as a whole has the waist of the closed form") {
+    for (const double lean : {0.0, 0.3}) {
+        const Known pipe(30, lean);
+        const double a = 0.5 * pipe.length();  // r'''' − 2 r'' + r = 0 with r = 1 at the ends, |r'| = sin lean
+        const double waist =
+            (std::sinh(a) + a * std::cosh(a) - std::sin(lean) * a * std::sinh(a)) / (std::sinh(a) * std::cosh(a) + a);
+        CHECK(pipe.middle_radius(smoothed_by(pipe, endless)) == doctest::Approx(waist).epsilon(5e-3));
+    }
+}
+
+TEST_CASE("waves longer than a wavelength stay") {
+    const Known pipe(120);
+    for (const double wavelength : {2.0, std::numbers::pi}) {
+        const double factor = std::pow(2.0 * std::numbers::pi / wavelength, 4);  // far from the ends: (1 + μ) r = μ
+        const double radius = pipe.middle_radius(smoothed_by(pipe, wavelength));
+        CHECK(radius == doctest::Approx(factor / (1.0 + factor)).epsilon(5e-3));
+    }
+}
+
+TEST_CASE("the shape before goes with its outline") {
+    Known pipe(20);
+    const Vector3 move(0.3, -0.2, 0.1);
+    pipe.problem.fixed_points.colwise() += move;
+    const auto shape = ShapeBefore::of(pipe.problem, Progress());
+    REQUIRE(shape);
+    CHECK((shape->points() - (pipe.single.points.colwise() + move)).cwiseAbs().maxCoeff() < 1e-12);
+}
+
+TEST_CASE("a shape that is not known, or crumpled, is not smoothed") {
+    Known pipe(20);
+    CHECK(smoothed(pipe.problem, {}, Progress()));
+    pipe.problem.before.leftCols(pipe.single.patch().free_count).array() *=
+        Points::Random(3, pipe.single.patch().free_count).array();
+    CHECK_FALSE(smoothed(pipe.problem, {}, Progress()));
+    pipe.problem.before.resize(3, 0);
+    CHECK_FALSE(smoothed(pipe.problem, {}, Progress()));
+}
+
+TEST_CASE("blemishes are what the shape before has not") {
+    const Known pipe(40);
+    CHECK(finder(pipe).in(pipe.single.points).absent());
+
+    const Points torn = pierced(pipe, 0.5);
+    const int pulled = pipe.vertex_near({1.0, 0.0, 0.5 * pipe.length()});
+    const Blemishes found = finder(pipe).in(torn);
+    CHECK(std::find(found.torn.begin(), found.torn.end(), pulled) != found.torn.end());
+    Known before = pipe;
+    before.problem.before = torn;
+    CHECK(finder(before).in(torn).absent());
+
+    Points knob = pipe.single.points;
+    knob.col(pulled).head<2>() *= 1.15;
+    const Indices bent = finder(pipe).in(knob).bent;
+    CHECK(std::find(bent.begin(), bent.end(), pulled) != bent.end());
+    before.problem.before = knob;
+    CHECK(finder(before).in(knob).bent.empty());
+
+    const Points thread = pipe.shaped([](double t) { return 1.0 - 0.6 * std::sin(std::numbers::pi * t); });
+    const Blemishes narrow = finder(pipe).in(thread);
+    REQUIRE_FALSE(narrow.narrow.empty());
+    for (const int v : narrow.narrow) CHECK(thread.col(v).head<2>().norm() < 0.55);
+    CHECK(finder(pipe)
+              .in(pipe.shaped([](double t) { return 1.0 - 0.4 * std::sin(std::numbers::pi * t); }))
+              .narrow.empty());
+    before.problem.before = thread;
+    CHECK(finder(before).in(thread).narrow.empty());
+}
+
+TEST_CASE("a long pipe is smoothed as far as it keeps half of its girth") {
+    const Known pipe(90);
+    REQUIRE(pipe.middle_radius(smoothed_by(pipe, endless)) < 0.1);
+    const auto solution = smoothed(pipe.problem, {}, Progress());
+    REQUIRE(solution);
+    CHECK(solution->instead == Instead::smoothed);
+    CHECK(end_of(*solution) == Termination::converged);
+    CHECK(finder(pipe).in(solution->points).absent());
+    const double kept = std::pow(2.0 * std::numbers::pi, 4);  // μ of a wavelength of 1, the first that is tried
+    CHECK(pipe.middle_radius(solution->points) == doctest::Approx(kept / (1.0 + kept)).epsilon(1e-5));
+}
+
+TEST_CASE("a smoothed shape may keep the crossings that were there, and no others") {
+    Known pipe(40);
+    const Points crossing = pierced(pipe, 0.5);
+    REQUIRE_FALSE(crossing_triangles(pipe.single.patch().triangles, crossing).empty());
+    Solution before = taken(crossing, Instead::smoothed);
+    CHECK(crosses_anew(pipe.problem, before));
+    pipe.problem.before = crossing;
+    before.boundary_normals = pipe.problem.fixed_normals;
+    CHECK_FALSE(crosses_anew(pipe.problem, before));
+    before.flaw = flaw_of(pipe.problem, before);
+    CHECK(end_of(before) == Termination::converged);
+    Solution loft = taken(crossing, Instead::loft);
+    loft.boundary_normals = pipe.problem.fixed_normals;
+    loft.flaw = flaw_of(pipe.problem, loft);
+    CHECK(end_of(loft) == Termination::folded);
+    Solution elsewhere = taken(pierced(pipe, 0.25), Instead::smoothed);
+    elsewhere.boundary_normals = pipe.problem.fixed_normals;
+    elsewhere.flaw = flaw_of(pipe.problem, elsewhere);
+    CHECK(end_of(elsewhere) == Termination::folded);
+    CHECK(crosses_anew(pipe.problem, elsewhere));
+}
+
+TEST_CASE("a loft with a waist gives way to the shape before") {
+    Known pipe(30);
+    const Patch& patch = pipe.single.patch();
+    for (int v = 0; v < patch.vertex_count(); ++v) {
+        const double twist = 2.6 * pipe.single.points(2, v) / pipe.length();  // of the lines: their waist is cos 1.3
+        pipe.problem.before.col(v) = Eigen::AngleAxisd(twist, Vector3::UnitZ()) * Vector3(pipe.single.points.col(v));
+    }
+    Points& outline = pipe.problem.fixed_points;
+    outline = pipe.problem.before.rightCols(outline.cols());
+    for (Eigen::Index k = 0; k < outline.cols(); ++k) {
+        const double up = k % 2 == 0 ? std::sin(0.6) : -std::sin(0.6);
+        pipe.problem.fixed_normals.col(k) << std::cos(0.6) * outline(0, k), std::cos(0.6) * outline(1, k), up;
+    }
+    Solution failed;
+    failed.points = pipe.problem.before;
+    failed.flaw = Flaw::not_converged;
+    const Solution solution = or_else(pipe.problem, failed, Progress());
+    CHECK(solution.instead == Instead::smoothed);
+    CHECK(solution.ways.back().name == "smoothed");
+    CHECK(finder(pipe).in(solution.points).narrow.empty());
+    pipe.problem.before.resize(3, 0);
+    const Solution alone = or_else(pipe.problem, failed, Progress());
+    CHECK(alone.instead == Instead::loft);
+}
+
+TEST_CASE("a surface that crosses itself where the shape before did not gives way to that") {
+    const Known pipe(15);
+    Solution crossing = taken(pierced(pipe, 0.5), Instead::nothing);
+    crossing.boundary_normals = pipe.problem.fixed_normals;
+    CHECK(or_else(pipe.problem, crossing, Progress()).instead == Instead::smoothed);
+    crossing.points = pipe.single.points;
+    CHECK(or_else(pipe.problem, crossing, Progress()).instead == Instead::nothing);
+}

@@ -1,0 +1,115 @@
+"""`spacing` and `inner` of fairing.fill and fairing.remesh: new edges as the outline's nearby, or all of one length."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import fairing
+import holes
+from holes import FloatArray, IntArray
+
+EMPTY = np.empty((0, 3), dtype=int)
+
+
+def uneven_circle() -> FloatArray:
+    """Radius 1, edges four times as long on the left (x < 0) as on the right, growing in between."""
+    turn = np.linspace(0.0, 2 * np.pi, 4000, endpoint=False)
+    density = 4.0 ** (0.5 * (1.0 + np.tanh(6.0 * np.cos(turn))))
+    share = np.cumsum(density) / density.sum()
+    chosen = np.interp(np.arange(64) / 64, share, turn)
+    return np.column_stack([np.cos(chosen), np.sin(chosen), 0 * chosen])
+
+
+CIRCLE = uneven_circle()
+MEAN = float(np.linalg.norm(CIRCLE - np.roll(CIRCLE, 1, axis=0), axis=1).mean())
+
+
+def disc(**options: Any) -> fairing.FillResult:
+    """A flat surface over the circle."""
+    return fairing.fill(CIRCLE, EMPTY, [np.arange(64)], normals=np.tile([0.0, 0.0, 1.0], (64, 1)), **options)
+
+
+def lengths(result: fairing.FillResult | fairing.RemeshResult, old: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """(e, 3) middles and (e,) lengths of new edges away from the circle."""
+    points = np.concatenate([old, result.vertices])
+    ends = points[holes.edges_of(result.triangles)]
+    middles = ends.mean(axis=1)
+    inside = np.linalg.norm(middles, axis=1) < 0.75
+    return middles[inside], np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)[inside]
+
+
+def ratio(result: fairing.FillResult | fairing.RemeshResult, old: FloatArray = CIRCLE) -> float:
+    """Of edges on the left to those on the right."""
+    middles, found = lengths(result, old)
+    return float(np.median(found[middles[:, 0] < -0.3]) / np.median(found[middles[:, 0] > 0.3]))
+
+
+def typical(result: fairing.FillResult) -> float:
+    return float(np.median(lengths(result, CIRCLE)[1]))
+
+
+@pytest.mark.parametrize("factor", [0.5, 1.0, 2.0])
+def test_edges_follow_the_outlines_or_have_one_length(factor: float) -> None:
+    even = disc(spacing=factor * MEAN, inner="even")
+    assert ratio(even) == pytest.approx(1.0, abs=0.15)
+    assert 0.7 < typical(even) / (factor * MEAN) < 1.4
+    graded = disc(spacing=factor * MEAN, inner="outline")
+    assert ratio(graded) > 1.5
+    assert 0.6 < typical(graded) / (factor * MEAN) < 1.6
+
+
+def test_the_outlines_own_edges_and_their_mean_as_spacing_are_the_same() -> None:
+    own, mean = disc(), disc(spacing=MEAN, inner="outline")
+    assert len(own.vertices) == pytest.approx(len(mean.vertices), rel=0.03)  # meshes that roundoff makes others
+    few, more = (len(disc(spacing=factor * MEAN, inner="outline").vertices) for factor in (1.0, 0.98))
+    assert 1.0 <= more / few < 1.1  # no jump
+
+
+def test_even_edges_are_as_the_mean_of_the_outlines_unless_told() -> None:
+    counts = [
+        len(disc(**spacing, inner="even").vertices) for spacing in ({}, {"spacing": MEAN}, {"spacing": 1.1 * MEAN})
+    ]
+    assert counts[0] == pytest.approx(counts[1], rel=0.03)  # of meshes that roundoff makes others
+    assert counts[2] < 0.92 * counts[0]
+
+
+def test_without_a_word_a_length_is_a_length() -> None:
+    np.testing.assert_array_equal(disc(spacing=0.1).vertices, disc(spacing=0.1, inner="even").vertices)
+    np.testing.assert_array_equal(disc().vertices, disc(inner="outline").vertices)
+
+
+def test_each_hole_follows_its_own_outline() -> None:
+    """Two circles, one ten times as large: as many new vertices in both, in proportion to their edges' mean."""
+    both = np.concatenate([CIRCLE, 10.0 * CIRCLE + [30.0, 0.0, 0.0]])
+    loops = [np.arange(64), 64 + np.arange(64)]
+    up = np.tile([0.0, 0.0, 1.0], (128, 1))
+    counts = []
+    for inner in ("outline", "even"):
+        result = fairing.fill(both, EMPTY, loops, normals=up, inner=inner)
+        small = result.vertices[:, 0] < 5.0
+        counts.append((np.count_nonzero(small), np.count_nonzero(~small)))
+    for small, large in counts:
+        assert small == pytest.approx(large, rel=0.05)
+
+
+def test_a_patch_is_meshed_anew_likewise() -> None:
+    result = disc(spacing=0.1)
+    vertices = np.concatenate([CIRCLE, result.vertices])
+    options: dict[str, Any] = {"fixed": np.arange(64), "fixed_normals": np.tile([0.0, 0.0, 1.0], (64, 1))}
+
+    def again(**more: Any) -> fairing.RemeshResult:
+        return fairing.remesh(vertices, result.triangles, spacing=MEAN, **options, **more)
+
+    assert ratio(again(), vertices) == pytest.approx(1.0, abs=0.15)
+    assert ratio(again(inner="outline"), vertices) > 1.5
+
+
+def test_other_words_are_refused() -> None:
+    with pytest.raises(ValueError, match="inner"):
+        disc(inner="graded")
+    triangles: IntArray = np.array([[0, 1, 2]])
+    with pytest.raises(ValueError, match="inner"):
+        fairing.remesh(np.eye(3), triangles, inner="graded")
