@@ -10,8 +10,9 @@ import pytest
 from scipy.spatial import ConvexHull
 
 import fairing
+import forced
 import holes
-from fairing import _loops
+from fairing import _core, _fill, _loops
 from holes import FloatArray, IntArray
 from tetrathing import subdivided
 
@@ -116,6 +117,28 @@ def test_holes_in_other_surfaces(place: Place, distance: Callable[[FloatArray], 
     assert result.converged
     assert abs(distance(result.vertices)).max() < bound * diameter
     assert result.boundary_angle.max() < 0.1
+
+
+def test_the_surface_of_least_variation_is_the_torus() -> None:
+    """The harmonic surface there is another one, 3.7e-4 of the diameter away on any mesh."""
+    vertices, triangles = holes.sheet(torus, (40, 40), holes.disc)
+    loop = min(fairing.boundary_loops(triangles), key=len)
+    diameter = 2 * np.linalg.norm(vertices[loop] - vertices[loop].mean(axis=0), axis=1).max()
+    result = fairing.fill(vertices, triangles, [loop], equation="least_variation")
+    assert abs(np.hypot(radius(result.vertices) - 2, result.vertices[:, 2]) - 0.7).max() < 1e-4 * diameter
+
+
+def test_with_exact_normals_a_coarse_catenoid_comes_back() -> None:
+    """Those of its surroundings are off by half a degree, which moves it by 8e-4 of the diameter."""
+    vertices, triangles = holes.sheet(catenoid, (30, 15), holes.band, closed=True)
+    loops = sorted(fairing.boundary_loops(triangles), key=lambda loop: abs(vertices[loop, 2].mean()))[:2]
+    away = vertices[:, :2] / radius(vertices)[:, None]
+    normals = np.column_stack([away, -np.sinh(vertices[:, 2])])
+    normals *= np.sign((normals[loops[0]] * fairing.surrounding_normals(vertices, triangles, loops[0]).normals).sum())
+    result = fairing.fill(vertices, triangles, loops, normals=normals, bridge=True)
+    rim = vertices[np.concatenate(loops)]
+    diameter = 2 * np.linalg.norm(rim - rim.mean(axis=0), axis=1).max()
+    assert abs(radius(result.vertices) - np.cosh(result.vertices[:, 2])).max() < 2e-4 * diameter
 
 
 def test_a_coarse_mesh_is_cut_from_a_fine_surface() -> None:
@@ -261,23 +284,25 @@ def jagged(seed: int, edges: int = 80) -> FloatArray:
     return np.column_stack([np.cos(turn), np.sin(turn), 0 * turn]) * (1 + rng.uniform(-0.12, 0.12, (edges, 1)))
 
 
-@pytest.mark.parametrize("seed", [0, 1, 2, 5])
-def test_few_small_angles_are_left_at_a_jagged_outline(seed: int) -> None:
-    """But for those between two of its edges. Moves and flips alone leave 13, 4, 7 and 2."""
+@pytest.mark.parametrize("seed", [0, 1, 3, 11, 12, 18, 20])
+def test_no_small_angles_are_left_at_a_jagged_outline(seed: int) -> None:
+    """But for those that it forces. Single splits and collapses that keep the mesh unfolded leave up to six."""
     outline = jagged(seed)
     count = len(outline)
     result = fairing.fill(outline, EMPTY, [np.arange(count)], normals=np.tile([0.0, 0.0, 1.0], (count, 1)))
     points = np.concatenate([outline, result.vertices])
-    angles = holes.angles(points, result.triangles)
-    corners = result.triangles
-    after, before = np.roll(corners, -1, axis=1), np.roll(corners, 1, axis=1)
-    follows = [{(v - 1) % count, (v + 1) % count} for v in range(count)]
-    forced = [
-        [v < count and {int(b), int(a)} == follows[v] for v, a, b in zip(*rows, strict=True)]
-        for rows in zip(corners, after, before, strict=True)
-    ]
-    assert np.count_nonzero(angles[~np.array(forced)] < 25.0) <= (2 if seed == 0 else 0)
-    assert np.bincount(holes.edges_of(corners).ravel())[count:].max() <= 9
+    assert forced.unforced_angles(points, result.triangles).min() >= 25.0
+    assert np.bincount(holes.edges_of(result.triangles).ravel())[count:].max() <= 9
+
+
+def test_what_an_outline_forces() -> None:
+    """A corner of 17° forces its own angle; halved without need, one of 60° forces nothing."""
+    sharp = np.array([[0, 0, 0], [1, -0.15, 0], [1, 0.15, 0], [2, 0, 0]], float)
+    assert forced.unforced_angles(sharp, np.array([[0, 1, 2], [1, 3, 2]])).min() > 70
+    roof = np.array([[0, 0, 0], [1, 0, 0], [0.5, 0.87, 0], [0.5, 0.1, 0]])
+    assert forced.unforced_angles(roof, np.array([[0, 1, 3], [1, 2, 3], [2, 0, 3]])).min() < 15
+    slot = np.array([[0, 0, 0], [1, 0, 0], [1, 0.2, 0], [0, 0.2, 0]])
+    assert forced.unforced_angles(slot, np.array([[0, 1, 2], [0, 2, 3]])).size == 0
 
 
 def test_the_new_part_closes_the_mesh_and_leaves_the_rest() -> None:
@@ -293,6 +318,22 @@ def test_the_new_part_closes_the_mesh_and_leaves_the_rest() -> None:
     assert sorted(result.fixed) == [*range(48)]
     assert not result.vertices.flags.writeable
     assert not result.triangles.flags.writeable
+
+
+def test_what_was_sought_in_vain_is_not_sought_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The surface of least variation, where the first mesh has found none."""
+    find, fair = _core.fill_loops, _fill.fair
+    ways = []
+
+    def seen(*given: Any, **options: Any) -> Any:
+        ways.append(options.get("otherwise", "not given"))
+        return fair(*given, **options)
+
+    monkeypatch.setattr(_fill, "fair", seen)
+    fairing.fill(*holes.bowl(24))
+    monkeypatch.setattr(_core, "fill_loops", lambda *given: {**find(*given), "converged": False})
+    fairing.fill(*holes.bowl(24))
+    assert ways == ["not given", "stop"]
 
 
 def test_all_holes_are_filled_or_only_short_ones() -> None:

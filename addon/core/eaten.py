@@ -6,18 +6,23 @@ surface as if it had been bitten off.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from .around import nearby
 from .arrays import Floats, Ints, Mask
-from .bends import bends
+from .bends import Bends, bends
 from .engine import Problem
+from .groups import groups
 from .region import nothing
-from .rounded import ROUNDED, SHARP, rounded_edges
 
-RUNS_ON = 2  # edges of a row that lie outside at least
+SHARP = 35.0  # degrees by which a hard edge bends
+ROUNDED = 15.0  # by which one has become flatter that is rounded off
+CHAIN = 4  # connected hard edges at least, and as many of their lengths from end to end
+RUNS_ON = 2  # of them that stay, and that are rounded off, at least
+MOST_SHARP = 0.12  # of the edges around may be sharp: among more, as noise has them, none stands out
 MOST_MARKED = 0.25  # of the edges inside: importers mark nearly all of them, which sets none apart
 
 
@@ -25,7 +30,7 @@ MOST_MARKED = 0.25  # of the edges inside: importers mark nearly all of them, wh
 class Eaten:
     """Mesh vertices at hard edges that the patch had and has no more, ascending."""
 
-    running_on: Ints = field(default_factory=nothing)  # of rows that lead out of the patch
+    running_on: Ints = field(default_factory=nothing)  # of chains that lead out of the patch
     marked: Ints = field(default_factory=nothing)  # marked sharp, though not pinned
 
 
@@ -34,26 +39,64 @@ def eaten_edges(problem: Problem, after: Floats, sharp: Ints | None) -> Eaten:
 
     sharp: (k, 2) edges that are marked so, in numbers of the mesh, ordered within; None: none.
     """
-    patch, before = problem.patch, problem.points
-    moves = np.zeros(len(before), dtype=bool)
+    patch, moves = problem.patch, np.zeros(len(problem.points), dtype=bool)
     moves[patch.free] = True
-    # Far inside an edge may be a feature of its own: rows are followed near the outline alone.
-    outline = np.zeros(len(before), dtype=bool)
-    outline[np.intersect1d(patch.outline, problem.outside)] = True
-    near = nearby(np.concatenate([patch.triangles, problem.outside]), outline)
-    running = rounded_edges(before, after, near, patch.free, RUNS_ON)
     marked = nothing() if sharp is None else _blunted(problem, after, sharp, moves)
-    return Eaten(problem.vertices[running], marked)
+    return Eaten(problem.vertices[_running_on(problem, after, moves)], marked)
+
+
+def _running_on(problem: Problem, after: Floats, moves: Mask) -> Ints:
+    """Return the free vertices, in numbers of the problem, at rounded edges of chains that lead out of the patch."""
+    # Far inside an edge may be a feature of its own: chains are followed near the outline alone.
+    outline = np.zeros(len(moves), dtype=bool)
+    outline[np.intersect1d(problem.patch.outline, problem.outside)] = True
+    near = nearby(np.concatenate([problem.patch.triangles, problem.outside]), outline)
+    old = bends(problem.points, near)
+    inside = moves[old.edges].any(axis=1)
+    outside = ~inside & ~outline[old.edges].all(axis=1)  # a chain along the outline leads nowhere
+    flatter = inside & (np.abs(old.degrees) - np.abs(bends(after, near).degrees) > ROUNDED)
+    found = [nothing()]
+    for chain in _chains(problem.points, old):
+        if min(np.count_nonzero(outside[chain]), np.count_nonzero(flatter[chain])) >= RUNS_ON:
+            found.append(old.edges[chain[flatter[chain]]].ravel())
+    ends = np.unique(np.concatenate(found))
+    free: Ints = ends[moves[ends]]
+    return free
+
+
+def _chains(points: Floats, of: Bends) -> Iterator[Ints]:
+    """Yield which edges are connected hard edges, convex ones and concave ones each on their own."""
+    for sign in (1.0, -1.0):
+        hard = np.flatnonzero(sign * of.degrees > SHARP)
+        if len(hard) > MOST_SHARP * len(of.edges):
+            continue
+        for members in groups(len(hard), _touching(of.edges[hard])):
+            chain: Ints = hard[members]
+            ends = points[of.edges[chain]]
+            length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).mean()
+            if len(chain) >= CHAIN and np.linalg.norm(np.ptp(ends, axis=(0, 1))) >= CHAIN * length:
+                yield chain
+
+
+def _touching(edges: Ints) -> Iterator[tuple[int, int]]:
+    """Yield pairs of the edges (e, 2) that share a vertex, as many as connect them."""
+    last: dict[int, int] = {}
+    for edge, ends in enumerate(edges.tolist()):
+        for vertex in ends:
+            if vertex in last:
+                yield edge, last[vertex]
+            last[vertex] = edge
 
 
 def _blunted(problem: Problem, after: Floats, sharp: Ints, moves: Mask) -> Ints:
+    """Return the mesh vertices at hard edges marked sharp that are rounded off."""
     patch = problem.patch
     own = len(patch.vertices)
     old, new = bends(problem.points[:own], patch.triangles), bends(after[:own], patch.triangles)
-    flatter = (np.abs(old.degrees) > SHARP) & (np.abs(old.degrees) - np.abs(new.degrees) > ROUNDED)
     marked = _is_among(patch.vertices[old.edges], sharp)
     if np.count_nonzero(marked) > MOST_MARKED * len(marked):
         return nothing()
+    flatter = (np.abs(old.degrees) > SHARP) & (np.abs(old.degrees) - np.abs(new.degrees) > ROUNDED)
     found = marked & flatter & moves[old.edges].any(axis=1)
     vertices: Ints = np.unique(patch.vertices[old.edges[found]])
     return vertices

@@ -49,24 +49,28 @@ def enclosed_faces(mesh: MeshArrays, walls: Mask) -> Mask:
     """Return the (f,) mask of the visible faces that selected edges, the (e,) mask `walls`, enclose.
 
     Between several loops the faces that touch all of them; else everything but the largest piece of each connected
-    part of the mesh. Nothing where no piece is cut off.
+    part of the mesh. The largest one lies between the loops, too, if all others end at the mesh's border, as the ends
+    of a tube do, and it does not. Nothing where no piece is cut off.
     """
     shown = visible(mesh)
     whole, cut = pieces(mesh, shown), pieces(mesh, shown, walls)
+    open_pieces = np.unique(cut[shown & _open_faces(mesh)])
     sides = two_sided_edges(mesh, walls)
     parting = sides.faces[shown[sides.faces].all(axis=1)]
     parting = parting[cut[parting[:, 0]] != cut[parting[:, 1]]]
     chosen = np.zeros(len(shown), dtype=bool)
     for part in np.unique(whole[parting]):
-        chosen |= np.isin(cut, _inside(cut, cut[parting[whole[parting[:, 0]] == part]]))
+        chosen |= np.isin(cut, _inside(cut, cut[parting[whole[parting[:, 0]] == part]], open_pieces))
     return chosen
 
 
-def _inside(cut: Ints, sides: Ints) -> Ints:
+def _inside(cut: Ints, sides: Ints, open_pieces: Ints) -> Ints:
     """Choose among the pieces of one connected part; sides (k, 2): those on both sides of each parting edge."""
     touching = np.unique(sides)
     order = touching[np.argsort([np.count_nonzero(cut == piece) for piece in touching], kind="stable")]
-    between = [piece for piece in order[:-1] if (sides == piece).any(axis=1).all()]
+    is_open = np.isin(order, open_pieces)
+    is_middle = len(order) > 2 and is_open[:-1].all() and not is_open[-1]
+    between = [piece for piece in (order if is_middle else order[:-1]) if (sides == piece).any(axis=1).all()]
     return np.array(between[:1]) if between else order[:-1]
 
 
@@ -75,12 +79,8 @@ def left_out_faces(mesh: MeshArrays) -> Mask:
     rest = visible(mesh) & ~mesh.in_patch
     label = pieces(mesh, rest)
     sizes = np.bincount(label[rest], minlength=len(rest))
-    uses = np.bincount(mesh.corner_edges, minlength=len(mesh.edges))
-    open_faces = np.zeros(len(rest), dtype=bool)
-    open_faces[mesh.corner_faces[uses[mesh.corner_edges] == 1]] = True
-    open_faces[mesh.corner_faces[_beside_hidden(mesh)[mesh.corner_edges]]] = True
     is_open = np.zeros(len(rest), dtype=bool)
-    is_open[label[rest & open_faces]] = True
+    is_open[label[rest & _open_faces(mesh)]] = True
     small: Mask = rest & (sizes[label] <= LEFT_OUT) & ~is_open[label]
     return small
 
@@ -96,6 +96,15 @@ def far_sides(mesh: MeshArrays) -> list[Ints]:
     touching = np.unique(label[rim])
     sides = [np.flatnonzero(label == piece) for piece in touching if piece >= 0]
     return sorted(sides, key=len)
+
+
+def _open_faces(mesh: MeshArrays) -> Mask:
+    """Return the (f,) mask of the faces at the border of the mesh or beside hidden ones."""
+    uses = np.bincount(mesh.corner_edges, minlength=len(mesh.edges))
+    found = np.zeros(len(mesh.in_patch), dtype=bool)
+    found[mesh.corner_faces[uses[mesh.corner_edges] == 1]] = True
+    found[mesh.corner_faces[_beside_hidden(mesh)[mesh.corner_edges]]] = True
+    return found
 
 
 def _beside_hidden(mesh: MeshArrays) -> Mask:

@@ -1,6 +1,7 @@
 """Holes and bridges: exact surfaces, independence of the spacing, real meshes, pictures.
 
-    python benchmarks/fill [hemisphere | spacing | caps | size | bridges | real | peers | pictures …]
+    python benchmarks/fill [hemisphere | spacing | caps | limits | size | bridges | real | remade | unseen | peers |
+                            pictures …]
 
 Prints the tables of docs/fill.md; `pictures` writes docs/pictures/fill_holes.png, fill_bridges.png and
 fill_meshes.png. Processor time, one thread. `real` and `pictures` need shared/data beside the checkout, `peers` takes
@@ -22,8 +23,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import bridges
 import hole_fillers
+import limits
 
 import fairing
+import forced
 import holes
 import real_meshes
 from holes import FloatArray, IntArray
@@ -38,11 +41,10 @@ def timed(vertices: FloatArray, triangles: IntArray, *loops: Any, **options: Any
     return result, time.process_time() - start
 
 
-def shape_of(vertices: FloatArray, result: fairing.FillResult) -> str:
-    """Least angle away from corners that the outline forces, and the highest valence of a new vertex."""
+def shape_of(vertices: FloatArray, result: fairing.FillResult | fairing.RemeshResult) -> str:
+    """Least angle that the outline does not force, and the highest valence of a new vertex."""
     points = np.concatenate([vertices, result.vertices])
-    free_corners = (result.triangles >= len(vertices)).sum(axis=1)
-    angles = holes.angles(points, result.triangles[free_corners > 0])
+    angles = forced.unforced_angles(points, result.triangles)
     valence = np.bincount(holes.edges_of(result.triangles).ravel())[len(vertices) :].max()
     return f"{angles.min():.0f}° | {valence}"
 
@@ -79,6 +81,11 @@ def caps() -> Iterator[str]:
         yield f"| {half_angle}° | {len(result.vertices)} | {result.converged} | {error:.1e} | {seconds:.2f} |"
 
 
+def accuracy() -> Iterator[str]:
+    """What limits the error: the equation over a torus, the fitted normals at a catenoid."""
+    yield from limits.table()
+
+
 def size() -> Iterator[str]:
     """Many new vertices."""
     yield "| rim | new vertices | largest error | s |"
@@ -108,6 +115,26 @@ def real() -> Iterator[str]:
     plane = real_meshes.mesh("plane_holes")
     for k, loop in enumerate(fairing.boundary_loops(plane.triangles)):
         yield row(f"plane_holes, hole {k}", plane.vertices, plane.triangles, [loop], False)
+
+
+def remade() -> Iterator[str]:
+    """The patches of patches.json with new meshes."""
+    yield "| patch | new | least angle | valence | s |"
+    for patch in real_meshes.listed_patches():
+        start = time.process_time()
+        result = fairing.remesh(
+            patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=patch.normals, threads=1
+        )
+        shape = shape_of(patch.vertices, result)
+        yield f"| {patch.name} | {len(result.vertices)} | {shape} | {time.process_time() - start:.2f} |"
+
+
+def unseen() -> Iterator[str]:
+    """Random patches of a seed that nothing was tuned on, deleted and filled."""
+    yield "| hole | rim | new | converged | angle, median | join > 12° | warnings | least angle | valence | s |"
+    for patch in real_meshes.random_patches(36, 101):
+        loops = [patch.vertices_in_mesh[loop] for loop in fairing.boundary_loops(patch.triangles)]
+        yield row(patch.name, patch.whole, patch.outside, loops, len(loops) > 1)
 
 
 def row(name: str, vertices: FloatArray, triangles: IntArray, loops: list[Any], bridge: bool) -> str:
@@ -148,8 +175,8 @@ def pictures() -> Iterator[str]:
 
 
 TABLES: dict[str, Callable[[], Iterator[str]]] = {
-    "hemisphere": hemisphere, "spacing": spacing, "caps": caps, "size": size, "bridges": joined, "real": real,
-    "peers": peers, "pictures": pictures,
+    "hemisphere": hemisphere, "spacing": spacing, "caps": caps, "limits": accuracy, "size": size, "bridges": joined,
+    "real": real, "remade": remade, "unseen": unseen, "peers": peers, "pictures": pictures,
 }  # fmt: skip
 
 

@@ -11,6 +11,7 @@
 #include "fill/even_mesh.h"
 #include "fill/first_surface.h"
 #include "mesh/pieces.h"
+#include "method/accept.h"
 
 namespace fairing {
 
@@ -144,7 +145,7 @@ NewSurface fill_loops(const OpenLoops& input, bool bridge, const SolverOptions& 
         const FirstSurface first = first_surface({points, data.normals, data.loops}, options, part.range(0.1, 1.0));
         const int free_count = first.patch.free_count;
         assembly.add(first.patch.triangles, unit.from_unit(first.solution.points.leftCols(free_count)), data.to_input);
-        result.converged = result.converged && first.solution.termination == Termination::converged;
+        result.converged = result.converged && end_of(first.solution) == Termination::converged;
         const Instead kind = first.solution.instead;
         result.instead = s == 0 || result.instead == kind ? kind : Instead::nothing;
     }

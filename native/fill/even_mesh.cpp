@@ -17,8 +17,9 @@ namespace {
 
 constexpr double split_above = 4.0 / 3.0;  // of the wanted length
 constexpr double collapse_below = 0.75;
-constexpr double longest_after = 1.4;  // edges that a collapse makes
-constexpr int highest_valence = 8;     // flips and collapses make none higher
+constexpr double longest_after = 1.4;      // edges that a collapse makes
+constexpr double most_per_expected = 2.0;  // vertices; on a surface with folds splits would never end
+constexpr int highest_valence = 8;         // flips and collapses make none higher
 
 Vector3 cross_product(const Vector3& a, const Vector3& b, const Vector3& c) { return (b - a).cross(c - a); }
 
@@ -29,9 +30,10 @@ using ShortestFirst = std::priority_queue<QueuedEdge, std::vector<QueuedEdge>, s
 
 EvenMesh::EvenMesh(const Patch& patch, const Points& points, const TargetSurface& surface, const VectorX& lengths,
                    KeptEdges kept)
-    : patch_(patch),
-      surface_(surface),
-      lengths_(lengths),
+    : patch_(&patch),
+      points_(&points),
+      surface_(&surface),
+      lengths_(&lengths),
       mesh_(surface_mesh(patch)),
       kept_(std::move(kept)),
       free_count_(patch.free_count) {
@@ -74,7 +76,7 @@ bool EvenMesh::cuts_sharp_corner(Edge e, const Points& normals) const {
         const Vector3 a = point(mesh_.from_vertex_handle(h));
         const Vector3 b = point(mesh_.to_vertex_handle(h));
         const bool turned =
-            normals.cols() > 0 && (b - a).cross(corner - a).dot(normals.col(apex(h).idx() - patch_.free_count)) < 0.0;
+            normals.cols() > 0 && (b - a).cross(corner - a).dot(normals.col(apex(h).idx() - patch_->free_count)) < 0.0;
         if (!turned && angle_at(corner, a, b) < sharp_corner) return true;
     }
     return false;
@@ -82,10 +84,10 @@ bool EvenMesh::cuts_sharp_corner(Edge e, const Points& normals) const {
 
 // The place on the surface that a walk from `triangle` finds.
 void EvenMesh::put(Vertex v, const Vector3& position, int triangle) {
-    const SurfacePoint where = surface_.project(position, triangle);
+    const SurfacePoint where = surface_->project(position, triangle);
     where_[at(v.idx())] = where;
-    mesh_.set_point(v, surface_.position(where));
-    wanted_[at(v.idx())] = surface_.interpolate(lengths_, where);
+    mesh_.set_point(v, surface_->position(where));
+    wanted_[at(v.idx())] = surface_->interpolate(*lengths_, where);
 }
 
 // A triangle of the surface on this side of all kept edges. Only an edge that was always there has none but fixed
@@ -96,7 +98,7 @@ int EvenMesh::triangle_beside(Edge e) const {
          {mesh_.to_vertex_handle(h), mesh_.from_vertex_handle(h), apex(h), apex(mesh_.halfedge_handle(e, 1))}) {
         if (!fixed(v)) return where_[at(v.idx())].triangle;
     }
-    return patch_.edge_triangles[at(e.idx())][0];
+    return patch_->edge_triangles[at(e.idx())][0];
 }
 
 EvenMesh::Vertex EvenMesh::split(Edge e) {
@@ -147,7 +149,7 @@ bool EvenMesh::may_collapse(Halfedge h) {
     const Vertex kept = mesh_.to_vertex_handle(h);
     if (fixed(gone) || !mesh_.is_collapse_ok(h)) return false;
     const Vector3 place = point(kept);
-    const Vector3 normal = surface_.normal(where_[at(kept.idx())]);
+    const Vector3 normal = surface_->normal(where_[at(kept.idx())]);
     if (static_cast<int>(mesh_.valence(gone) + mesh_.valence(kept)) - 4 > highest_valence) return false;
     for (const Halfedge spoke : mesh_.voh_range(gone)) {
         const Vertex other = mesh_.to_vertex_handle(spoke);
@@ -263,15 +265,15 @@ void EvenMesh::smooth(int sweeps) {
                     total += weight;
                 }
                 const Vector3 goal = total > 0.0 ? Vector3(sum / total) : point(v);
-                moved[at(k)] = surface_.project(goal, where_[at(k)].triangle);
+                moved[at(k)] = surface_->project(goal, where_[at(k)].triangle);
             }
         });
         for (int k = 0; k < count; ++k) {
             const Vertex v(k);
             if (fixed(v) || mesh_.status(v).deleted()) continue;
             where_[at(k)] = moved[at(k)];
-            mesh_.set_point(v, surface_.position(moved[at(k)]));
-            wanted_[at(k)] = surface_.interpolate(lengths_, moved[at(k)]);
+            mesh_.set_point(v, surface_->position(moved[at(k)]));
+            wanted_[at(k)] = surface_->interpolate(*lengths_, moved[at(k)]);
         }
     }
 }
@@ -280,9 +282,11 @@ void EvenMesh::make_even() {
     constexpr int most_rounds = 20;
     constexpr int settling_rounds = 4;
     int settled = 0;
+    const double most = most_per_expected * (expected_count(*patch_, *points_, *lengths_) + patch_->vertex_count());
     split_chords();
     for (int round = 0; round < most_rounds && settled < settling_rounds; ++round) {
         const int before = static_cast<int>(mesh_.n_vertices());
+        if (before > most) break;
         int changes = split_long();
         changes += collapse_short();
         flip_edges();

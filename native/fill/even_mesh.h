@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <span>
 
 #include "fill/edge_lengths.h"
 #include "geometry/edge_flip.h"
@@ -65,16 +66,34 @@ private:
     [[nodiscard]] double worst_angle_around(Vertex v, const Vector3& position) const;
     void improve();
     [[nodiscard]] std::array<Halfedge, 3> sides(Face f) const;
+    // A triangle seen from one of its corners.
+    struct Side {
+        Vector3 b, c;                // the other two, counter-clockwise
+        Vector3 normal;              // of the surface
+        std::array<bool, 3> forced;  // whether two edges that stay make the angle: at the corner, at b, at c
+        // Its least angle that is not forced if the corner were there; negative where it is turned over. Degrees.
+        [[nodiscard]] double free_angle(const Vector3& place) const;
+    };
+    [[nodiscard]] Side side_of(Halfedge h) const;
+    [[nodiscard]] std::vector<Side> star(Vertex v) const;
     [[nodiscard]] double free_angle(Face f) const;
-    [[nodiscard]] Indices region(Face f) const;
     [[nodiscard]] double penalty(const Indices& vertices) const;
-    [[nodiscard]] bool halves_sharp_corner(Edge e) const;
+    int settle_place(Vertex v);
+    int settle_edges(Vertex v, const Indices& vertices);
     void settle(const Indices& vertices);
+    [[nodiscard]] Indices region(Face f) const;
+    [[nodiscard]] bool closes_sharp_corner(Vertex a, Vertex b) const;
+    [[nodiscard]] bool may_join(Vertex a, Vertex b) const;
+    [[nodiscard]] bool may_close(Halfedge h);
+    void centre(std::span<const Vertex> vertices);
+    int turn_edge(Edge e);
     [[nodiscard]] std::vector<std::function<int(EvenMesh&)>> remedies(Face f);
+    [[nodiscard]] std::vector<Face> bad_faces() const;
     bool mend(Face f);
-    const Patch& patch_;
-    const TargetSurface& surface_;
-    const VectorX& lengths_;
+    const Patch* patch_;
+    const Points* points_;
+    const TargetSurface* surface_;
+    const VectorX* lengths_;
     SurfaceMesh mesh_;
     std::vector<char> fixed_;  // in the patch, or at a kept edge
     KeptEdges kept_;

@@ -3,7 +3,7 @@
 
 namespace fairing {
 
-bool EvenMesh::fixed_in_patch(Vertex v) const { return v.idx() < patch_.vertex_count() && !patch_.is_free(v.idx()); }
+bool EvenMesh::fixed_in_patch(Vertex v) const { return v.idx() < patch_->vertex_count() && !patch_->is_free(v.idx()); }
 
 EvenMesh::Result EvenMesh::result() const {
     Result result;
@@ -15,7 +15,8 @@ EvenMesh::Result EvenMesh::result() const {
         result.old.push_back(fixed(v) ? v.idx() : none);
     }
     const int free_count = static_cast<int>(result.where.size());
-    for (int v = patch_.free_count; v < patch_.vertex_count(); ++v) number[at(v)] = free_count + v - patch_.free_count;
+    for (int v = patch_->free_count; v < patch_->vertex_count(); ++v)
+        number[at(v)] = free_count + v - patch_->free_count;
     result.points.resize(3, free_count);
     for (const Vertex v : mesh_.vertices()) {
         if (!fixed_in_patch(v)) result.points.col(number[at(v.idx())]) = point(v);

@@ -9,6 +9,7 @@
 #include "fill/even_mesh.h"
 #include "fill/joined_loops.h"
 #include "fill/tube_start.h"
+#include "method/accept.h"
 #include "method/near_start.h"
 #include "method/otherwise.h"
 #include "problem/surface_state.h"
@@ -127,7 +128,9 @@ FirstSurface on_even_mesh(const OpenOutline& outline, const FirstSurface& last, 
     Meshed even = even_mesh(outline, last.patch, last.solution.points, options);
     std::optional<FirstSurface> found = near(outline, even, options, progress.range(0.0, 0.3));
     if (found) return std::move(*found);
-    const Problem problem = problem_on(outline, even.patch, options);
+    Problem problem = problem_on(outline, even.patch, options);
+    // What was sought in vain once, in 1 to 5 s, is not found on another mesh either.
+    if (end_of(last.solution) != Termination::converged) problem.options.otherwise = Otherwise::stop;
     Solution solution = solve_or_else(problem, progress.range(0.3, 1.0));
     return {std::move(even.patch), std::move(solution)};
 }

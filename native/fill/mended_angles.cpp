@@ -1,7 +1,6 @@
 // Small angles that moving and flipping can't mend: a vertex more or less there may.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <functional>
 #include <optional>
 
@@ -13,10 +12,9 @@ namespace fairing {
 
 namespace {
 
-constexpr double wanted_angle = 30.0;  // degrees; promised are 25
-constexpr double bad_angle = 26.0;
-constexpr double of_turned = -30.0;           // counts as the angle of a triangle that is turned over
+constexpr double bad_angle = 26.0;            // degrees; promised are 25
 constexpr double worth_it = 0.9;              // of the penalty before
+constexpr double most_bad = 0.2;              // of all triangles; where there are more, the surface is folded
 constexpr std::size_t most_attempts = 60;     // triangles
 constexpr std::size_t most_copied = 600'000;  // vertices in all attempts; each copies the mesh some ten times
 constexpr unsigned most_valence = 8;
@@ -27,24 +25,6 @@ std::array<EvenMesh::Halfedge, 3> EvenMesh::sides(Face f) const {
     const Halfedge h = mesh_.halfedge_handle(f);
     const Halfedge next = mesh_.next_halfedge_handle(h);
     return {h, next, mesh_.next_halfedge_handle(next)};
-}
-
-// The least angle of a triangle that is not between two edges that stay: these force it.
-double EvenMesh::free_angle(Face f) const {
-    const auto around = sides(f);
-    double least = 180.0;
-    Vector3 normal = Vector3::Zero();
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Vertex corner = mesh_.from_vertex_handle(around[k]);
-        normal += surface_.normal(where_[at(corner.idx())]);
-        if (stays(mesh_.edge_handle(around[k])) && stays(mesh_.edge_handle(around[(k + 2) % 3]))) continue;
-        least =
-            std::min(least, angle_at(point(corner), point(mesh_.to_vertex_handle(around[k])), point(apex(around[k]))));
-    }
-    const Vector3 p = point(mesh_.from_vertex_handle(around[0]));
-    const Vector3 q = point(mesh_.from_vertex_handle(around[1]));
-    const Vector3 r = point(mesh_.from_vertex_handle(around[2]));
-    return (q - p).cross(r - p).dot(normal) > 0.0 ? least : of_turned;
 }
 
 // The vertices within two edges of a triangle, ascending.
@@ -61,85 +41,67 @@ Indices EvenMesh::region(Face f) const {
     return found;
 }
 
-// How bad the triangles at these vertices are.
-double EvenMesh::penalty(const Indices& vertices) const {
-    double sum = 0.0;
-    for (const int v : vertices) {
-        if (mesh_.status(Vertex(v)).deleted()) continue;
-        for (const Face f : mesh_.vf_range(Vertex(v))) {
-            int inside = 0;
-            for (const Halfedge h : sides(f))
-                inside += std::binary_search(vertices.begin(), vertices.end(), mesh_.to_vertex_handle(h).idx()) ? 1 : 0;
-            const double lack = std::max(0.0, wanted_angle - free_angle(f));
-            sum += lack * lack / inside;  // each triangle once
-        }
-    }
-    return sum;
-}
-
-// Flips and moves among these vertices alone.
-void EvenMesh::settle(const Indices& vertices) {
-    constexpr int most_rounds = 4;
-    const auto is_inside = [&](Vertex v) { return std::binary_search(vertices.begin(), vertices.end(), v.idx()); };
-    for (int round = 0; round < most_rounds; ++round) {
-        int changes = 0;
-        std::vector<int> movable;
-        for (const int k : vertices) {
-            const Vertex v(k);
-            if (mesh_.status(v).deleted()) continue;
-            std::vector<Halfedge> spokes;
-            for (const Halfedge h : mesh_.voh_range(v)) spokes.push_back(h);
-            for (const Halfedge h : spokes) {
-                const Edge e = mesh_.edge_handle(h);
-                if (mesh_.to_vertex_handle(h).idx() < k || stays(e)) continue;
-                const Halfedge back = mesh_.opposite_halfedge_handle(h);
-                if (!is_inside(mesh_.to_vertex_handle(h)) || !is_inside(apex(h)) || !is_inside(apex(back))) continue;
-                changes += improve_flip(e) ? 1 : 0;
-            }
-            if (fixed(v)) continue;
-            for (const Face f : mesh_.vf_range(v)) {
-                if (free_angle(f) >= wanted_angle) continue;
-                movable.push_back(k);
-                break;
-            }
-        }
-        changes += improve_places(movable);
-        if (changes == 0) return;
-    }
-}
-
-// Whether an edge halves a sharp corner between two edges that stay, which could be one triangle.
-bool EvenMesh::halves_sharp_corner(Edge e) const {
-    const Halfedge h = mesh_.halfedge_handle(e, 0);
-    if (stays(e) || !mesh_.is_flip_ok(e) || !diagonal(e).flips_without_fold()) return false;
-    for (const Halfedge side : {h, mesh_.opposite_halfedge_handle(h)}) {
-        const Halfedge back = mesh_.opposite_halfedge_handle(side);
-        const Vertex corner = mesh_.from_vertex_handle(side);
-        if (mesh_.valence(corner) != 3 || !stays(mesh_.edge_handle(mesh_.prev_halfedge_handle(side)))) continue;
-        if (!stays(mesh_.edge_handle(mesh_.next_halfedge_handle(back)))) continue;
-        if (angle_at(point(corner), point(apex(side)), point(apex(back))) < sharp_corner) return true;
+// Whether an edge between these two would cut off a sharp corner between two edges that stay, a neighbour of both.
+bool EvenMesh::closes_sharp_corner(Vertex a, Vertex b) const {
+    for (const Halfedge h : mesh_.voh_range(a)) {
+        const Vertex corner = mesh_.to_vertex_handle(h);
+        const Halfedge on = mesh_.find_halfedge(corner, b);
+        if (!on.is_valid() || !stays(mesh_.edge_handle(h)) || !stays(mesh_.edge_handle(on))) continue;
+        if (angle_at(point(corner), point(a), point(b)) < sharp_corner) return true;
     }
     return false;
 }
 
-// What may be done about a triangle: each returns the vertex that is new, or none.
+bool EvenMesh::may_join(Vertex a, Vertex b) const { return !fixed(a) || !fixed(b) || closes_sharp_corner(a, b); }
+
+// Whether the ends of h may become one, whatever shape the triangles have then.
+bool EvenMesh::may_close(Halfedge h) {
+    const Vertex gone = mesh_.from_vertex_handle(h);
+    const Vertex kept = mesh_.to_vertex_handle(h);
+    if (fixed(gone) || free_count_ < 2 || !mesh_.is_collapse_ok(h)) return false;
+    if (mesh_.valence(gone) + mesh_.valence(kept) > most_valence + 4) return false;
+    for (const Vertex other : mesh_.vv_range(gone)) {
+        if (other != kept && !mesh_.find_halfedge(kept, other).is_valid() && !may_join(kept, other)) return false;
+    }
+    return true;
+}
+
+// Each free vertex among these to the middle of its neighbours.
+void EvenMesh::centre(std::span<const Vertex> vertices) {
+    for (const Vertex v : vertices) {
+        if (fixed(v)) continue;
+        Vector3 sum = Vector3::Zero();
+        for (const Vertex u : mesh_.vv_range(v)) sum += point(u);
+        put(v, sum / static_cast<double>(mesh_.valence(v)), where_[at(v.idx())].triangle);
+    }
+}
+
+int EvenMesh::turn_edge(Edge e) {
+    const Halfedge h = mesh_.halfedge_handle(e, 0);
+    const std::array ends{mesh_.from_vertex_handle(h), mesh_.to_vertex_handle(h)};
+    mesh_.flip(e);
+    centre(ends);
+    return none;
+}
+
+// What may be done about a triangle: each returns the vertex that is new, or none. Turned edges and collapses may fold
+// the mesh: `settle` unfolds it, or the penalty is high.
 std::vector<std::function<int(EvenMesh&)>> EvenMesh::remedies(Face f) {
     std::vector<std::function<int(EvenMesh&)>> result;
     for (const Halfedge side : sides(f)) {
         const Edge e = mesh_.edge_handle(side);
-        const Halfedge back = mesh_.opposite_halfedge_handle(side);
-        if (!stays(e) && mesh_.valence(apex(side)) <= most_valence && mesh_.valence(apex(back)) <= most_valence)
-            result.emplace_back([e](EvenMesh& mesh) { return mesh.split(e).idx(); });
-        if (halves_sharp_corner(e)) {
-            result.emplace_back([e](EvenMesh& mesh) {
-                mesh.mesh_.flip(e);
-                return none;
-            });
-        }
         const Vertex corner = mesh_.from_vertex_handle(side);
-        if (fixed(corner) || free_count_ < 2) continue;
+        if (!stays(e)) {
+            const Vertex above = apex(side);
+            const Vertex below = apex(mesh_.opposite_halfedge_handle(side));
+            const bool has_room = mesh_.valence(above) <= most_valence && mesh_.valence(below) <= most_valence;
+            if (has_room) result.emplace_back([e](EvenMesh& mesh) { return mesh.split(e).idx(); });
+            if (has_room && mesh_.is_flip_ok(e) && may_join(above, below))
+                result.emplace_back([e](EvenMesh& mesh) { return mesh.turn_edge(e); });
+        }
+        if (fixed(corner)) continue;
         for (const Halfedge h : mesh_.voh_range(corner)) {
-            if (!may_collapse(h)) continue;
+            if (!may_close(h)) continue;
             result.emplace_back([h](EvenMesh& mesh) {
                 mesh.mesh_.collapse(h);
                 --mesh.free_count_;
@@ -155,7 +117,6 @@ bool EvenMesh::mend(Face f) {
     double least = worth_it * penalty(vertices);
     std::optional<EvenMesh> best;
     for (const auto& remedy : remedies(f)) {
-        checkpoint();
         EvenMesh tried(*this);
         Indices known = vertices;
         const int added = remedy(tried);
@@ -167,13 +128,22 @@ bool EvenMesh::mend(Face f) {
         best.emplace(std::move(tried));
     }
     if (!best) return false;
-    mesh_ = std::move(best->mesh_);
-    fixed_ = std::move(best->fixed_);
-    kept_ = std::move(best->kept_);
-    where_ = std::move(best->where_);
-    wanted_ = std::move(best->wanted_);
-    free_count_ = best->free_count_;
+    *this = std::move(*best);
     return true;
+}
+
+// The worst first.
+std::vector<EvenMesh::Face> EvenMesh::bad_faces() const {
+    std::vector<std::pair<double, int>> bad;
+    for (const Face f : mesh_.faces()) {
+        const double angle = free_angle(f);
+        if (angle < bad_angle) bad.emplace_back(angle, f.idx());
+    }
+    std::sort(bad.begin(), bad.end());
+    std::vector<Face> result;
+    result.reserve(bad.size());
+    for (const auto& [angle, index] : bad) result.emplace_back(index);
+    return result;
 }
 
 void EvenMesh::mend_angles() {
@@ -181,15 +151,10 @@ void EvenMesh::mend_angles() {
     const std::size_t most = std::min(most_attempts, most_copied / mesh_.n_vertices() + 1);
     std::size_t attempts = 0;
     for (int round = 0; round < most_rounds; ++round) {
-        std::vector<std::pair<double, int>> bad;
-        for (const Face f : mesh_.faces()) {
-            const double angle = free_angle(f);
-            if (angle < bad_angle) bad.emplace_back(angle, f.idx());
-        }
-        std::sort(bad.begin(), bad.end());
+        const std::vector<Face> bad = bad_faces();
+        if (static_cast<double>(bad.size()) > most_bad * static_cast<double>(mesh_.n_faces())) return;
         int mended = 0;
-        for (const auto& [angle, index] : bad) {
-            const Face f(index);
+        for (const Face f : bad) {
             if (mesh_.status(f).deleted() || free_angle(f) >= bad_angle) continue;
             if (++attempts > most) return;
             mended += mend(f) ? 1 : 0;

@@ -11,10 +11,9 @@ namespace fairing {
 
 // Vertices of a patch, each at most once in a list.
 struct Blemishes {
-    Indices torn;  // of triangles that cross others or are turned over
-    Indices bent;  // where |H| is beyond twice the largest on the outline and the largest nearby before
-    Indices
-        narrow;  // of waists and threads: cross-sections of less than half of the shortest before and of the outline
+    Indices torn;    // of triangles that cross others or are turned over
+    Indices bent;    // where |H| is beyond twice the largest on the outline and the largest nearby before
+    Indices narrow;  // of waists and threads: less than half as long around as the shortest before and the outline
 
     [[nodiscard]] bool absent() const { return torn.empty() && bent.empty() && narrow.empty(); }
 };

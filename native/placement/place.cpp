@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "placement/disc_placement.h"
 #include "placement/first_placement.h"
 #include "placement/folds.h"
 #include "placement/relax.h"
@@ -83,8 +84,10 @@ Placed place(const Problem& problem, const TangentialStep& tangential, const Own
              const std::optional<Points>& guess, const Progress& progress) {
     const TargetSurface& target = surface.target;
     Placing placing(problem, tangential, target, progress);
-    if (!guess || !placing.from(by_surface(problem, *guess, surface.mesh.patch, target)))
-        placing.from(by_history(problem, surface.history, surface.mesh, target));
+    if (guess && placing.from(by_surface(problem, *guess, surface.mesh.patch, target)))
+        return std::move(placing).best();
+    if (placing.from(by_history(problem, surface.history, surface.mesh, target))) return std::move(placing).best();
+    if (const auto start = by_disc(problem, surface.mesh.patch, target)) placing.from(*start);
     return std::move(placing).best();
 }
 

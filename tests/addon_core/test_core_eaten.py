@@ -80,6 +80,21 @@ def test_what_stays_is_not_eaten() -> None:
     assert len(eaten_edges(problem, problem.points, mesh.edges).marked) == 0
 
 
+def test_a_knob_at_the_outline_is_no_chain() -> None:
+    """Four edges that meet in one lifted vertex beside the outline reach no farther than two of their lengths."""
+    mesh = ridge(0.0)
+    problem, _ = pose(mesh, np.eye(4), FairOptions())
+    points = mesh.positions
+    outline = problem.vertices[problem.patch.outline]
+    tip = outline[np.argmin(np.linalg.norm(points[outline] - [0.4, 0.0, 0.0], axis=1))]
+    lifted = points.copy()
+    lifted[tip, 2] = 0.3
+    before = replace(problem, points=lifted[problem.vertices])
+    flat = before.points.copy()
+    flat[:, 2] = 0.0
+    assert len(eaten_edges(before, flat, None).running_on) == 0
+
+
 @pytest.mark.parametrize("noise", [0.02, 0.04])
 def test_noise_has_no_edges_that_run_on(noise: float) -> None:
     assert len(eaten(ridge(0.0, noise=noise))[0].running_on) == 0

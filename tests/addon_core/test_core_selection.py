@@ -58,7 +58,7 @@ def test_two_loops_far_apart_enclose_one_region_each() -> None:
     assert np.array_equal(enclosed_faces(FLAT, outline_of(FLAT, inside)), inside)
 
 
-@pytest.mark.parametrize(("low", "high"), [(3, 6), (12, 19)])
+@pytest.mark.parametrize(("low", "high"), [(3, 6), (12, 19), (5, 15), (2, 18)])
 def test_two_loops_round_a_limb_enclose_what_is_between(low: int, high: int) -> None:
     mesh = tube()
     row = np.arange(len(mesh.in_patch)) // 10

@@ -8,6 +8,7 @@
 
 #include "fill/ball_start.h"
 #include "fill/edge_lengths.h"
+#include "fill/even_mesh.h"
 #include "fill/first_surface.h"
 #include "fill/harmonic_values.h"
 #include "fill/joined_loops.h"
@@ -239,6 +240,23 @@ TEST_CASE("harmonic values stay within the range of those given, wide angles or 
         CHECK(inside->col(c).minCoeff() >= given.col(c).minCoeff() - 1e-12);
         CHECK(inside->col(c).maxCoeff() <= given.col(c).maxCoeff() + 1e-12);
     }
+}
+
+TEST_CASE("a mesh over a crumpled surface does not grow without end") {
+    Stretched square = stretched_square(6);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> noise(-4.0, 4.0);
+    const auto any = [&] { return Vector3(noise(random), noise(random), noise(random)); };
+    for (int v = 0; v < square.patch.free_count; ++v) square.points.col(v) += any();
+    const auto count = square.points.cols();
+    Points normals(3, count);
+    for (Eigen::Index v = 0; v < count; ++v) normals.col(v) = any().normalized();
+    const TargetSurface surface(square.patch, square.points, normals);
+    const VectorX lengths = VectorX::Constant(count, 0.7);
+    EvenMesh mesh(square.patch, square.points, surface, lengths);
+    mesh.make_even();
+    const double expected = expected_count(square.patch, square.points, lengths) + static_cast<double>(count);
+    CHECK(static_cast<double>(mesh.result().points.cols()) < 3.0 * expected);  // six times without a limit
 }
 
 namespace {

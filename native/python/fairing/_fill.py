@@ -107,7 +107,8 @@ def fill(
     watch.lap("mesh")
     _loops.check_doubles(fine.triangles, around)
     coarser = count < 0.9 * LEAST_COUNT * (1 if bridge else len(outline.loops))
-    report = fine.faired(_start(first["start"], options), around, options, watch.part(0.4, 0.9 if coarser else 1.0))
+    chosen = options if first["converged"] else {**options, "otherwise": "stop"}  # it was sought in vain once
+    report = fine.faired(_start(first["start"], options), around, chosen, watch.part(0.4, 0.9 if coarser else 1.0))
     values = _report(report, len(points))
     if coarser:
         solved = _Patch(report.vertices, fine.triangles, outline.vertices, normals)

@@ -11,7 +11,7 @@ import held_scenes
 import numpy as np
 import scenes
 from driver import Story, in_view, middle, press, screenshot, tell
-from panel import open_redo_panel, report, set_options
+from panel import open_redo_panel, report, run_operator, set_options
 from verdict_chapters import framed, run_and_wait
 
 
@@ -23,6 +23,19 @@ def holds_sharp_edges() -> Story:
     sides = np.abs(np.abs(crease) - 1.0).min(axis=1)
     tell(f"corner: off the box by {sides.max():.1e}")
     assert sides.max() < 1e-4, "the sides of the box are not flat again"
+
+
+def misses_sharp_edges() -> Story:
+    """The same corner without pins: its marked edges are rounded off, the panel says so, and shows where."""
+    yield from framed(held_scenes.box_corner)
+    yield from run_and_wait()
+    assert (report().verdict, report().written) == ("LOOK", True), report().reason
+    assert report().reason.startswith("Edges marked sharp were rounded off"), report().reason
+    tell(f"sharp edges: {report().reason}")
+    screenshot("eaten")
+    run_operator("mesh.fair_spots")
+    yield 1.0
+    screenshot("eaten_spots")
 
 
 def runs_through_a_curve() -> Story:

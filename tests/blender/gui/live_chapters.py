@@ -80,6 +80,37 @@ def live_finds_no_surface() -> Story:
     yield from _switch(False)
 
 
+def live_is_left_while_it_searches() -> Story:
+    """Esc, another edit and undo while a lost region's surface is searched for: none waits, and all come back."""
+    yield from _make_live("live_left", scenes.bottle)
+    run_operator("mesh.fair_live_far_side")
+    yield 1.0
+    start = scenes.positions()
+    yield from drag(STEPS, DEEP, "Z")
+    press("LEFTMOUSE", *_target(DEEP))
+    yield from wait_until(_is_searching, 5.0)
+    press("ESC", *middle())
+    yield 0.3
+    assert _is_searching(), "Esc is no reason to stop"
+    lost = scenes.positions()
+    yield from drag(8, (40, 0))
+    press("LEFTMOUSE", *_target((40, 0)))
+    yield 0.5
+    assert np.abs(scenes.positions() - lost).max() > 0.05, "the drag during the search moved nothing"
+    yield from wait_until(_is_searching, 5.0)
+    for _ in range(2):  # the drag during the search, and the one before
+        press("Z", *middle(), ctrl=True)
+        yield 1.0
+    yield from wait_until(settled, 20.0)
+    np.testing.assert_allclose(scenes.positions(), start, atol=AGAIN)
+    screenshot("live_left_undone")
+    yield from _switch(False)
+
+
+def _is_searching() -> bool:
+    return bool(_live().message == module("follow.live").SEARCHING)
+
+
 def _searched() -> Story:
     """Wait for the search that follows the release, with a picture of it; Blender must never stand still meanwhile."""
     home, gaps = module("follow.live"), []

@@ -10,7 +10,7 @@ from panel import open_redo_panel, open_tab, redo_panel, report, run_operator, w
 from verdict_chapters import framed, run_and_wait
 
 NEW_SPACING = 186  # pixels from the redo panel's upper edge down to the field Spacing of Fair Region
-FILL_SPACING = 89  # and of Fair Fill
+FILL_SPACING = 112  # and of Fair Fill
 
 
 def gets_a_new_mesh() -> Story:

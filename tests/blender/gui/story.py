@@ -18,9 +18,16 @@ from held_chapters import (
     feathers,
     holds_sharp_edges,
     lifts_a_pin,
+    misses_sharp_edges,
     runs_through_a_curve,
 )
-from live_chapters import live_finds_no_surface, live_follows_a_drag, live_follows_a_pin, live_moves_the_far_side
+from live_chapters import (
+    live_finds_no_surface,
+    live_follows_a_drag,
+    live_follows_a_pin,
+    live_is_left_while_it_searches,
+    live_moves_the_far_side,
+)
 from long_run_chapters import (
     cancel_a_hopeless_run,
     cancel_a_long_run,
@@ -206,6 +213,7 @@ CHAPTERS = (
     fills_finer,
     gets_a_new_mesh,
     holds_sharp_edges,
+    misses_sharp_edges,
     runs_through_a_curve,
     lifts_a_pin,
     fairs_an_open_border,
@@ -217,6 +225,7 @@ CHAPTERS = (
     live_follows_a_pin,
     live_moves_the_far_side,
     live_finds_no_surface,
+    live_is_left_while_it_searches,
 )
 
 
