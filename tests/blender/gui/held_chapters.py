@@ -11,7 +11,7 @@ import held_scenes
 import numpy as np
 import scenes
 from driver import Story, in_view, middle, press, screenshot, tell
-from panel import open_redo_panel, report, run_operator, set_options
+from panel import open_redo_panel, report, run_operator, set_options, wait_until
 from verdict_chapters import framed, run_and_wait
 
 
@@ -32,10 +32,16 @@ def misses_sharp_edges() -> Story:
     assert (report().verdict, report().written) == ("LOOK", True), report().reason
     assert report().reason.startswith("Edges marked sharp were rounded off"), report().reason
     tell(f"sharp edges: {report().reason}")
+    yield 3.0  # panels glide to their places
     screenshot("eaten")
     run_operator("mesh.fair_spots")
+    yield from wait_until(_selects_vertices, 20.0)
     yield 1.0
     screenshot("eaten_spots")
+
+
+def _selects_vertices() -> bool:
+    return bool(bpy.context.tool_settings.mesh_select_mode[0])
 
 
 def runs_through_a_curve() -> Story:
