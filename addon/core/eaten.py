@@ -56,7 +56,9 @@ def _running_on(problem: Problem, after: Floats, moves: Mask) -> Ints:
     outside = ~inside & ~outline[old.edges].all(axis=1)  # a chain along the outline leads nowhere
     flatter = inside & (np.abs(old.degrees) - np.abs(bends(after, near).degrees) > ROUNDED)
     found = [nothing()]
-    for chain in _chains(problem.points, old):
+    held = np.zeros(len(moves), dtype=bool)
+    held[np.setdiff1d(problem.patch.fixed, problem.patch.outline)] = True  # pins stay: what ends at them is no chain
+    for chain in _chains(problem.points, old, ~held[old.edges].any(axis=1)):
         if min(np.count_nonzero(outside[chain]), np.count_nonzero(flatter[chain])) >= RUNS_ON:
             found.append(old.edges[chain[flatter[chain]]].ravel())
     ends = np.unique(np.concatenate(found))
@@ -64,10 +66,10 @@ def _running_on(problem: Problem, after: Floats, moves: Mask) -> Ints:
     return free
 
 
-def _chains(points: Floats, of: Bends) -> Iterator[Ints]:
-    """Yield which edges are connected hard edges, convex ones and concave ones each on their own."""
+def _chains(points: Floats, of: Bends, among: Mask) -> Iterator[Ints]:
+    """Yield which edges are connected hard edges among these, convex ones and concave ones each on their own."""
     for sign in (1.0, -1.0):
-        hard = np.flatnonzero(sign * of.degrees > SHARP)
+        hard = np.flatnonzero(among & (sign * of.degrees > SHARP))
         if len(hard) > MOST_SHARP * len(of.edges):
             continue
         for members in groups(len(hard), _touching(of.edges[hard])):
