@@ -6,23 +6,19 @@ surface as if it had been bitten off.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from .around import nearby
 from .arrays import Floats, Ints, Mask
-from .bends import Bends, bends
+from .bends import bends
 from .engine import Problem
-from .groups import groups
+from .hard_chains import SHARP, chains
 from .region import nothing
 
-SHARP = 35.0  # degrees by which a hard edge bends
 ROUNDED = 15.0  # by which one has become flatter that is rounded off
-CHAIN = 4  # connected hard edges at least, and as many of their lengths from end to end
 RUNS_ON = 2  # of them that stay, and that are rounded off, at least
-MOST_SHARP = 0.12  # of the edges around may be sharp: among more, as noise has them, none stands out
 MOST_MARKED = 0.25  # of the edges inside: importers mark nearly all of them, which sets none apart
 
 
@@ -58,36 +54,12 @@ def _running_on(problem: Problem, after: Floats, moves: Mask) -> Ints:
     found = [nothing()]
     held = np.zeros(len(moves), dtype=bool)
     held[np.setdiff1d(problem.patch.fixed, problem.patch.outline)] = True  # pins stay: what ends at them is no chain
-    for chain in _chains(problem.points, old, ~held[old.edges].any(axis=1)):
+    for chain in chains(problem.points, old, ~held[old.edges].any(axis=1)):
         if min(np.count_nonzero(outside[chain]), np.count_nonzero(flatter[chain])) >= RUNS_ON:
             found.append(old.edges[chain[flatter[chain]]].ravel())
     ends = np.unique(np.concatenate(found))
     free: Ints = ends[moves[ends]]
     return free
-
-
-def _chains(points: Floats, of: Bends, among: Mask) -> Iterator[Ints]:
-    """Yield which edges are connected hard edges among these, convex ones and concave ones each on their own."""
-    for sign in (1.0, -1.0):
-        hard = np.flatnonzero(among & (sign * of.degrees > SHARP))
-        if len(hard) > MOST_SHARP * len(of.edges):
-            continue
-        for members in groups(len(hard), _touching(of.edges[hard])):
-            chain: Ints = hard[members]
-            ends = points[of.edges[chain]]
-            length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).mean()
-            if len(chain) >= CHAIN and np.linalg.norm(np.ptp(ends, axis=(0, 1))) >= CHAIN * length:
-                yield chain
-
-
-def _touching(edges: Ints) -> Iterator[tuple[int, int]]:
-    """Yield pairs of the edges (e, 2) that share a vertex, as many as connect them."""
-    last: dict[int, int] = {}
-    for edge, ends in enumerate(edges.tolist()):
-        for vertex in ends:
-            if vertex in last:
-                yield edge, last[vertex]
-            last[vertex] = edge
 
 
 def _blunted(problem: Problem, after: Floats, sharp: Ints, moves: Mask) -> Ints:

@@ -8,9 +8,12 @@ import numpy as np
 
 import fairing
 
+from .around import nearby
 from .arrays import Floats, Ints
+from .bends import bends
+from .hard_chains import chains
 from .quality import Join
-from .region import MeshArrays
+from .region import MeshArrays, nothing
 from .verdict import GOOD, LOFT_REASON, LOOK, UNUSABLE, Verdict, kink_reason, slope_reason
 from .words import counted
 
@@ -42,11 +45,30 @@ def judge(world: MeshArrays, outline: Ints, surface: Surface) -> Verdict:
         return Verdict(UNUSABLE, text, np.unique(outline))
     if len(surface.join.seen):
         return Verdict(LOOK, kink_reason(surface.join), surface.join.seen)
+    ends = hard_ends(world, outline)
+    if len(ends):
+        text = counted(len(ends), "vertex", "vertices")
+        return Verdict(LOOK, f"Hard edges end at the hole, at {text}: the surface over it has none", ends)
     if result.equation == "loft":
         return Verdict(LOOK, LOFT_REASON, np.unique(outline))
     if len(surface.tangent_only):
         return Verdict(LOOK, slope_reason(surface.tangent_only), surface.tangent_only)
     return Verdict(GOOD)
+
+
+def hard_ends(world: MeshArrays, outline: Ints) -> Ints:
+    """Return the vertices of the outline at which hard edges of the mesh end, ascending."""
+    rim = np.zeros(len(world.positions), dtype=bool)
+    rim[outline] = True
+    triangles = nearby(world.triangles, rim)
+    with np.errstate(invalid="ignore", over="ignore"):
+        around = bends(world.positions, triangles)
+    found = [nothing()]
+    for chain in chains(world.positions, around):
+        ends = around.edges[chain]
+        found.append(ends[(rim[ends].sum(axis=1) == 1)[:, None] & rim[ends]])
+    vertices: Ints = np.unique(np.concatenate(found))
+    return vertices
 
 
 def _crossing(world: MeshArrays, outline: Ints, points: Floats, triangles: Ints) -> int:

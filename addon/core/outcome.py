@@ -13,6 +13,7 @@ from .arrays import Floats, Ints
 from .eaten import Eaten, eaten_edges
 from .engine import Problem, islands
 from .options import FairOptions
+from .piercing import pierced
 from .quality import Join, Quality
 from .region import MeshArrays, Patch, to_local
 from .rounded import rounded_edges
@@ -58,7 +59,10 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     quality_before, quality_after = quality.compare(patch, (before[:own], after[:own]), clear)
     join = quality.join(problem, after)
     odd = _rounded(problem, after, moving, options), _swollen(patch, before, after), _eaten(mesh, problem, after)
-    evidence = Evidence(problem, result, solved.failures, quality_before, quality_after, join, *odd, points=after)
+    through = pierced(mesh, matrix, problem, after)
+    evidence = Evidence(
+        problem, result, solved.failures, quality_before, quality_after, join, *odd, pierced=through, points=after
+    )
     verdict = judge(evidence, options.resolved(mesh.textured))
     order = np.argsort(problem.vertices[moving])
     return Fairing(

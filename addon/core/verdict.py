@@ -65,6 +65,7 @@ class Evidence:
     swollen: Ints = field(default_factory=nothing)  # mesh vertices at the tops of knobs
     eaten: Eaten = field(default_factory=Eaten)
     squeezed: Ints = field(default_factory=nothing)  # mesh vertices where lines that a new mesh keeps are a knot
+    pierced: Ints = field(default_factory=nothing)  # mesh vertices where the surface passes through faces outside
     points: Floats | None = None  # (q, 3) of problem.vertices after the run; None: problem.points
     origin: Origin | None = None  # what the engine's numbers stand for; None: problem.origin
 
@@ -213,11 +214,18 @@ def _crossing(evidence: Evidence, options: FairOptions) -> Found:
 
 
 def _visible(evidence: Evidence, options: FairOptions) -> Found:
-    for look in (_rounded, _eaten, _kinked, _pointed, _swollen, _substituted, _refused, _squeezed, _needles):
+    for look in (_pierced, _rounded, _eaten, _kinked, _pointed, _swollen, _substituted, _refused, _squeezed, _needles):
         told = look(evidence, options)
         if told[0]:
             return told
     return _NOTHING
+
+
+def _pierced(evidence: Evidence, _options: FairOptions) -> Found:
+    if not len(evidence.pierced):
+        return _NOTHING
+    text = counted(len(evidence.pierced), "vertex", "vertices")
+    return f"The surface passes through faces outside the selection at {text}: select or move these", evidence.pierced
 
 
 def _kinked(evidence: Evidence, options: FairOptions) -> Found:

@@ -186,9 +186,8 @@ Solution ComponentSolver::solve_by_paper(const Problem& problem, const Progress&
 // Conformal weights of the vertices given leave them where they are within the surface.
 std::optional<NearStart> ComponentSolver::given_start(const ComponentAnswer& answer, const ComponentData& data) const {
     const Start kind = options().start;
-    const Equation equation = options().solver.equation;
-    const bool of_fourth_order = equation != Equation::minimal && equation != Equation::least_variation;
-    if (kind != Start::least_variation && !(kind == Start::given && of_fourth_order)) return std::nullopt;
+    const bool meets_normals = options().solver.equation != Equation::minimal;
+    if (kind != Start::least_variation && !(kind == Start::given && meets_normals)) return std::nullopt;
     const Points start = answer.unit.to_unit(gather(data.vertices, patch_.to_input));
     return NearStart{start, options().inner_fairness == InnerFairness::conformal && reference_ == start};
 }

@@ -9,6 +9,7 @@
 
 #include "api/component.h"
 #include "base/text.h"
+#include "geometry/angle.h"
 #include "geometry/face_geometry.h"
 #include "geometry/flips.h"
 #include "geometry/outline_angles.h"

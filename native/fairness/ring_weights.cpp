@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "base/progress.h"
+#include "geometry/angle.h"
 #include "geometry/cotangent.h"
 
 namespace fairing {
@@ -23,14 +24,12 @@ void normalise_or_uniform(std::vector<double>& weights) {
     for (double& w : weights) w /= sum;
 }
 
-double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-
 // The ring in the plane around the origin: lengths kept, angles scaled to 2π.
 std::vector<Eigen::Vector2d> lay_out(const OneRing& ring) {
     const std::size_t m = ring.points.size();
     std::vector<double> turn(m + 1, 0.0);
     for (std::size_t k = 0; k < m; ++k) {
-        turn[k + 1] = turn[k] + angle_between(ring.points[k] - ring.centre, ring.points[(k + 1) % m] - ring.centre);
+        turn[k + 1] = turn[k] + radians_between(ring.points[k] - ring.centre, ring.points[(k + 1) % m] - ring.centre);
     }
     std::vector<Eigen::Vector2d> flat(m);
     for (std::size_t k = 0; k < m; ++k) {

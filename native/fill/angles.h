@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "geometry/outline_angles.h"
+#include "geometry/angle.h"
 
 namespace fairing {
 

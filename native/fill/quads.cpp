@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "geometry/angle.h"
 #include "mesh/edges.h"
 
 namespace fairing {
@@ -29,8 +30,6 @@ std::array<int, 4> quad_at(const Triangles& triangles, int first, int second) {
     return {apex(first), side_tail(triangles, first), apex(second), side_head(triangles, first)};
 }
 
-double angle(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-
 // How far the quad is from a flat rectangle, in radians; nothing where it is none to be had.
 std::optional<double> cost_of(const Points& points, const std::array<int, 4>& quad) {
     if (quad[0] == quad[2]) return std::nullopt;
@@ -40,10 +39,11 @@ std::optional<double> cost_of(const Points& points, const std::array<int, 4>& qu
     const Vector3 b = points.col(quad[3]);
     // Unfolded at the diagonal a b. Bending shrinks the halves evenly in the plane between them: what is convex
     // unfolded is convex there, too.
-    const std::array<double, 4> angles{angle(a - p, b - p), angle(p - a, b - a) + angle(q - a, b - a),
-                                       angle(b - q, a - q), angle(p - b, a - b) + angle(q - b, a - b)};
+    const std::array<double, 4> angles{
+        radians_between(a - p, b - p), radians_between(p - a, b - a) + radians_between(q - a, b - a),
+        radians_between(b - q, a - q), radians_between(p - b, a - b) + radians_between(q - b, a - b)};
     if (*std::max_element(angles.begin(), angles.end()) > widest) return std::nullopt;
-    const double bent = angle((a - p).cross(b - p), (b - q).cross(a - q));
+    const double bent = radians_between((a - p).cross(b - p), (b - q).cross(a - q));
     if (!(bent < most_bent)) return std::nullopt;
     double worst = 0.0;
     for (const double each : angles) worst = std::max(worst, std::abs(each - 0.5 * std::numbers::pi));

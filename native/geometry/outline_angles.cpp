@@ -1,10 +1,8 @@
 #include "geometry/outline_angles.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
-#include <Eigen/Geometry>
+#include "geometry/angle.h"
 
 namespace fairing {
 
@@ -16,10 +14,6 @@ bool touches_free(const Patch& patch, int vertex) {
 }
 
 }  // namespace
-
-double degrees_between(const Vector3& a, const Vector3& b) {
-    return std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / std::numbers::pi;
-}
 
 VectorX boundary_angles(const Patch& patch, const Points& actual, const Points& prescribed) {
     VectorX angles = VectorX::Zero(prescribed.cols());

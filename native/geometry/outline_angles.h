@@ -5,8 +5,6 @@
 
 namespace fairing {
 
-double degrees_between(const Vector3& a, const Vector3& b);
-
 // Degrees between the prescribed normals and the surface's own (3 × fixed count, local order); zero at pins and where
 // no free vertex is adjacent.
 VectorX boundary_angles(const Patch& patch, const Points& actual, const Points& prescribed);

@@ -1,19 +1,14 @@
 #include "geometry/spikes.h"
 
-#include <cmath>
 #include <numbers>
 
-#include <Eigen/Geometry>
+#include "geometry/angle.h"
 
 namespace fairing {
 
 namespace {
 
 constexpr double least_turn = 2.0 * std::numbers::pi * (1.0 - 1.0 / std::numbers::sqrt2);
-
-double angle_at(const Vector3& corner, const Vector3& a, const Vector3& b) {
-    return std::atan2((a - corner).cross(b - corner).norm(), (a - corner).dot(b - corner));
-}
 
 // 2π minus the angles around each free vertex; zero at the others.
 VectorX angle_defects(const Patch& patch, const Points& points) {
@@ -23,7 +18,9 @@ VectorX angle_defects(const Patch& patch, const Points& points) {
         for (int k = 0; k < 3; ++k) {
             const int v = corners[k];
             if (!patch.is_free(v)) continue;
-            defects[v] -= angle_at(points.col(v), points.col(corners[(k + 1) % 3]), points.col(corners[(k + 2) % 3]));
+            const Vector3 here = points.col(v);
+            defects[v] -=
+                radians_between(points.col(corners[(k + 1) % 3]) - here, points.col(corners[(k + 2) % 3]) - here);
         }
     }
     return defects;

@@ -8,6 +8,7 @@
 #include "iteration/continuation.h"
 #include "method/accept.h"
 #include "operators/workspace.h"
+#include "variation/least_variation.h"
 
 namespace fairing {
 
@@ -31,9 +32,32 @@ private:
     Points points_;  // 3 × free count
 };
 
+std::optional<Solution> accepted(const Problem& problem, Solution solution, const WayTaken& way) {
+    if (solution.termination != Termination::converged) return std::nullopt;
+    solution.flaw = flaw_of(problem, solution);
+    if (solution.flaw != Flaw::absent) return std::nullopt;
+    solution.ways = {way};
+    return solution;
+}
+
+// On a mesh of its own.
+std::optional<Solution> vary_least_near(const Problem& problem, const Points& points, const Progress& progress) {
+    const Stopwatch watch;
+    VariationLimits limits;
+    limits.near = NearVariation{points, false};
+    std::optional<Solution> solution;
+    try {
+        solution = solve_less_varying(problem, limits, progress);
+    } catch (const SolverError&) {
+        return std::nullopt;
+    }
+    return solution ? accepted(problem, std::move(*solution), {"variation", watch.seconds()}) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Solution> solve_near(const Problem& problem, const NearStart& start, const Progress& progress) {
+    if (problem.options.equation == Equation::least_variation) return vary_least_near(problem, start.points, progress);
     const Stopwatch watch;
     Problem attempt = problem;
     attempt.options.max_iterations = std::min(most_iterations, problem.options.max_iterations);
@@ -53,11 +77,8 @@ std::optional<Solution> solve_near(const Problem& problem, const NearStart& star
     }
     if (solution.termination != Termination::converged) return std::nullopt;
     solution.boundary_normals = one_sided_normals(problem.patch, solution.points);
-    solution.flaw = flaw_of(problem, solution);
-    if (solution.flaw != Flaw::absent) return std::nullopt;
     solution.seconds = {{"iteration", watch.seconds()}};
-    solution.ways = {{"near", watch.seconds()}};
-    return solution;
+    return accepted(problem, std::move(solution), {"near", watch.seconds()});
 }
 
 }  // namespace fairing

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "base/direction.h"
-#include "geometry/outline_angles.h"
+#include "geometry/angle.h"
 
 namespace fairing {
 

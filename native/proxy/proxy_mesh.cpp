@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "base/progress.h"
+#include "geometry/angle.h"
 #include "geometry/edge_flip.h"
 #include "geometry/face_geometry.h"
 #include "geometry/vertex_normal.h"
@@ -184,7 +185,7 @@ std::vector<double> ProxyMesh::lengths_by_turn(const Sizing& sizing) const {
         if (fixed(a) || fixed(b)) continue;
         const Vector3& n = normals[at(a.idx())];
         const Vector3& m = normals[at(b.idx())];
-        const double angle = std::atan2(n.cross(m).norm(), n.dot(m));
+        const double angle = radians_between(n, m);
         const double admitted = sizing.turn * mesh_.calc_edge_length(e) / std::max(angle, 1e-6);
         for (const Vertex v : {a, b}) target[at(v.idx())] = std::min(target[at(v.idx())], admitted);
     }

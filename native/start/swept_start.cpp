@@ -6,7 +6,6 @@
 
 #include "operators/laplace_operator.h"
 #include "start/clamped_fill.h"
-#include "start/swept_tube.h"
 
 namespace fairing {
 
@@ -117,15 +116,17 @@ std::optional<CylinderMap> map_to_cylinder(const Patch& patch, const SweptTube& 
 
 }  // namespace
 
-std::optional<Points> swept_start(const Problem& problem, const Progress& progress) {
+std::optional<SweptTube> tube_between(const Problem& problem) {
+    return SweptTube::between(outline_loops(problem.patch), problem.fixed_points, problem.fixed_normals);
+}
+
+std::optional<Points> swept_start(const Problem& problem, const SweptTube& tube, const Progress& progress) {
     const Patch& patch = problem.patch;
-    const auto tube = SweptTube::between(outline_loops(patch), problem.fixed_points, problem.fixed_normals);
-    if (!tube) return std::nullopt;
-    const auto map = map_to_cylinder(patch, *tube, progress);
+    const auto map = map_to_cylinder(patch, tube, progress);
     if (!map) return std::nullopt;
     Points points(3, patch.vertex_count());
     for (int v = 0; v < patch.free_count; ++v)
-        points.col(v) = tube->place((*map)(0, v), (*map)(1, v) - std::floor((*map)(1, v)));
+        points.col(v) = tube.place((*map)(0, v), (*map)(1, v) - std::floor((*map)(1, v)));
     points.rightCols(problem.fixed_points.cols()) = problem.fixed_points;
     return points;
 }

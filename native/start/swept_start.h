@@ -5,11 +5,15 @@
 
 #include "base/progress.h"
 #include "problem/problem.h"
+#include "start/swept_tube.h"
 
 namespace fairing {
 
-// 3 × local vertices on the tube swept between the outlines (start/swept_tube), laid there by a harmonic map of the
-// connectivity to a cylinder. Nothing where there is no such tube, or where the map tears.
-std::optional<Points> swept_start(const Problem& problem, const Progress& progress);
+// Nothing where the outlines don't face each other along one tube.
+std::optional<SweptTube> tube_between(const Problem& problem);
+
+// 3 × local vertices on that tube, laid there by a harmonic map of the connectivity to a cylinder. Nothing where there
+// is no such map.
+std::optional<Points> swept_start(const Problem& problem, const SweptTube& tube, const Progress& progress);
 
 }  // namespace fairing

@@ -41,6 +41,7 @@ public:
     [[nodiscard]] const TubeSection& first() const { return first_; }
     [[nodiscard]] const TubeSection& last() const { return last_; }
     [[nodiscard]] double length() const { return axis_.length(); }
+    [[nodiscard]] double turn() const { return axis_.turn(); }  // radians
 
 private:
     SweptTube(TubeAxis axis, TubeSection first, TubeSection last);

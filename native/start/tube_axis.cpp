@@ -16,9 +16,10 @@ Vector3 mirrored(const Vector3& v, const Vector3& n) { return v - 2.0 * n.dot(v)
 
 }  // namespace
 
-TubeAxis::TubeAxis(const TubeEnd& first, const TubeEnd& last) : begin_(first.middle), end_(last.middle) {
+TubeAxis::TubeAxis(const TubeEnd& first, const TubeEnd& last) : begin_(first.middle), end_(last.middle), turn_(0.0) {
     // The speed with which a cubic comes nearest to an arc.
     const double cosine = std::clamp(-first.into.dot(last.into), -1.0, 1.0);
+    turn_ = std::acos(cosine);
     const double speed = 2.0 * (end_ - begin_).norm() / (1.0 + std::sqrt(0.5 * (1.0 + cosine)));
     leaving_ = speed * first.into;
     arriving_ = -speed * last.into;

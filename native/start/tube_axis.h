@@ -23,6 +23,8 @@ public:
     // Columns: two across, then the tangent.
     [[nodiscard]] Eigen::Matrix3d frame(double s) const;
     [[nodiscard]] double length() const;
+    // Angle between its directions at the ends, radians.
+    [[nodiscard]] double turn() const { return turn_; }
 
 private:
     [[nodiscard]] Vector3 tangent(double s) const;
@@ -31,6 +33,7 @@ private:
 
     Vector3 begin_;
     Vector3 end_;
+    double turn_;
     Vector3 leaving_;   // derivative at s = 0
     Vector3 arriving_;  // at s = 1
     std::vector<Eigen::Matrix3d> frames_;

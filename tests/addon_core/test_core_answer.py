@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 import fairing
-from core import engine
+from core import engine, quality
 from core.arrays import Floats, Ints
 from core.engine import RepeatedSolve
 from core.memory import Memory
 from core.options import FairOptions
 from core.outcome import Fairing, outcome
-from core.region import MeshArrays
+from core.region import MeshArrays, Patch
 from core.solve import Kept, Solved, pose, solve
 from core.swelling import Disc
 from core.verdict import AS_SELECTED, GOOD, LOOK
@@ -164,11 +164,11 @@ def test_a_patch_that_may_cross_is_looked_at_and_a_clear_one_is_not(monkeypatch:
     solved = solve(mesh, EYE, FairOptions())
     asked: list[float] = []
 
-    def seven(positions: Floats, _triangles: Ints) -> Ints:
+    def seven(_patch: Patch, positions: Floats) -> Ints:
         asked.append(float(positions.sum()))
         return np.arange(7)
 
-    monkeypatch.setattr(fairing, "self_intersections", seven)
+    monkeypatch.setattr(quality, "crossing", seven)
     clear = outcome(mesh, EYE, FairOptions(), solved)
     assert clear.before.crossing is not None
     assert clear.after.crossing is not None

@@ -24,14 +24,15 @@ Vector3 half_torus(double s, double u) {
     return out + thin * (std::cos(angle) * out + std::sin(angle) * Vector3::UnitZ());
 }
 
-// Quads whose diagonals run at random; the first vertex of each row is `begin` turns from u = 0.
-test::Mesh half_ring(unsigned seed, double begin) {
+// Quads whose diagonals run at random. The first row begins `begin` turns from u = 0, the last one `twist` turns
+// further.
+test::Mesh half_ring(unsigned seed, double begin, double twist = 0.0) {
     std::mt19937 random(seed);
     test::Mesh mesh{Points(3, around * (rows + 1)), Triangles(3, 2 * around * rows)};
     for (int r = 0; r <= rows; ++r) {
+        const double s = static_cast<double>(r) / rows;
         for (int c = 0; c < around; ++c)
-            mesh.points.col(r * around + c) =
-                half_torus(static_cast<double>(r) / rows, begin + static_cast<double>(c) / around);
+            mesh.points.col(r * around + c) = half_torus(s, begin + twist * s + static_cast<double>(c) / around);
     }
     Eigen::Index t = 0;
     for (int r = 0; r < rows; ++r) {
@@ -58,11 +59,15 @@ Problem problem_of(const test::Single& single) {
 
 }  // namespace
 
-TEST_CASE("a mesh is laid on a bent tube one to one and untwisted, however long the tube and wherever its rows begin") {
+TEST_CASE("a mesh is laid on a bent tube one to one and untwisted, however long the tube and however its rows turn") {
     for (const unsigned seed : {1U, 2U, 3U, 4U}) {
-        for (const double begin : {0.0, 0.3, 0.7}) {
-            const test::Single single = test::single_patch(half_ring(seed, begin));
-            const auto start = swept_start(problem_of(single), Progress());
+        for (const double twist : {-0.4, 0.0, 0.4}) {
+            const test::Single single = test::single_patch(half_ring(seed, 0.2 * seed, twist));
+            const Problem problem = problem_of(single);
+            const auto tube = tube_between(problem);
+            REQUIRE(tube.has_value());
+            CHECK(tube->turn() == doctest::Approx(std::numbers::pi).epsilon(0.01));
+            const auto start = swept_start(problem, *tube, Progress());
             REQUIRE(start.has_value());
             // The tube of the cubic is 0.02 off the torus; random diagonals move vertices by a tenth of a turn.
             CHECK((*start - single.points).colwise().norm().maxCoeff() < 0.6 * thin);
@@ -79,5 +84,5 @@ TEST_CASE("nothing is laid between outlines that don't face along one tube") {
     const test::Single single = test::single_patch(half_ring(1, 0.0));
     Problem problem = problem_of(single);
     problem.fixed_normals.leftCols(around) *= -1.0;
-    CHECK_FALSE(swept_start(problem, Progress()).has_value());
+    CHECK_FALSE(tube_between(problem).has_value());
 }

@@ -159,8 +159,9 @@ def fair(
         vertices of ``outside`` have a weight.
     start : "outline" | "given" | "least_variation" | "loft" | "smoothed"
         "given": begin at the vertices given, which lie near the surface. Where the iteration does not find it from
-        there, within a few steps and without folds, the outline alone decides as always. For the harmonic equations
-        and "global"; where conformal weights are those of these same vertices, these move along the normals only.
+        there, within a few steps and without folds, the outline alone decides as always. For all equations but
+        "minimal", and "global"; where conformal weights are those of these same vertices, these move along the normals
+        only.
         "least_variation", "loft", "smoothed": begin with what is taken in place of the equation's surface, where
         another solve has shown that it has none, the first at the vertices given; where that is not accepted the
         outline alone decides.
