@@ -52,7 +52,9 @@ def _running_on(problem: Problem, after: Floats, moves: Mask) -> Ints:
     outside = ~inside & ~outline[old.edges].all(axis=1)  # a chain along the outline leads nowhere
     flatter = inside & (np.abs(old.degrees) - np.abs(bends(after, near).degrees) > ROUNDED)
     found = [nothing()]
-    for chain in chains(problem.points, old):
+    held = np.zeros(len(moves), dtype=bool)
+    held[np.setdiff1d(problem.patch.fixed, problem.patch.outline)] = True  # pins stay: what ends at them is no chain
+    for chain in chains(problem.points, old, ~held[old.edges].any(axis=1)):
         if min(np.count_nonzero(outside[chain]), np.count_nonzero(flatter[chain])) >= RUNS_ON:
             found.append(old.edges[chain[flatter[chain]]].ravel())
     ends = np.unique(np.concatenate(found))

@@ -124,6 +124,19 @@ def test_a_pinned_edge_is_not_missed() -> None:
     assert len(eaten_edges(problem, after, mesh.edges[along]).marked) == 0
 
 
+def test_noise_beside_a_pinned_edge_is_no_part_of_it() -> None:
+    """Hammered sides become flat again, the edge between them stays: nothing is missed."""
+    mesh = ridge(90.0)
+    crest = on_ridge(mesh)
+    rough = mesh.positions + np.random.default_rng(5).normal(scale=0.035, size=mesh.positions.shape)
+    inside = (np.abs(grid_points(SIZE)[:, :2]).max(axis=1) < 0.35) & ~crest
+    hammered = replace(mesh, positions=np.where(inside[:, None], rough, mesh.positions), pinned=crest)
+    problem, _ = pose(hammered, np.eye(4), FairOptions())
+    assert len(eaten_edges(problem, mesh.positions[problem.vertices], None).running_on) == 0
+    free = replace(problem, patch=replace(problem.patch, fixed=problem.patch.outline))
+    assert len(eaten_edges(free, mesh.positions[problem.vertices], None).running_on) > 0
+
+
 def moved_far(points: Floats) -> Floats:
     return points + np.array([100.0, -50.0, 3.0])
 
