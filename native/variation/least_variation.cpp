@@ -237,10 +237,10 @@ public:
     Search(const Problem& problem, const VariationLimits& limits)
         : problem_(problem), limits_(limits), tube_(limits.from_tube ? tube_between(problem) : std::nullopt) {}
 
-    // Of elbows of 120° and more coarse meshes don't settle, and where they don't, the fine one takes 5 to 20 s, mostly
-    // in vain. On a tube elbows end in one.
+    // Over a coarse mesh elbows of 120° and more don't settle, and dense ones of 90° take 5 to 10 s on the fine one;
+    // from the tube they end in one.
     std::optional<Attempt> run(const Progress& progress) {
-        constexpr double far = 1.75;  // radians
+        constexpr double far = 1.2;  // radians
         const bool is_tube = tube_.has_value();
         if (is_tube && tube_->turn() > far) try_tube(progress.range(0.0, 0.1));
         if (!has_ended()) try_membrane(is_tube, progress.range(0.1, 1.0));
