@@ -43,7 +43,7 @@ struct Problem {
     std::vector<char> free_edge = {};
     // H at the fixed vertices, in units of D⁻¹, NaN where it is not known; for Δ_B² H = 0. Empty: a tangent join.
     VectorX fixed_curvatures = {};
-    // The shape before (3 × local vertices), for what is taken where no surface is found (method/smoothed). Empty: none.
+    // The shape before (3 × local vertices), taken where no surface is found (method/smoothed). Empty: none.
     Points before = {};
 };
 
