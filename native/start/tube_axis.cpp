@@ -16,7 +16,7 @@ Vector3 mirrored(const Vector3& v, const Vector3& n) { return v - 2.0 * n.dot(v)
 
 }  // namespace
 
-TubeAxis::TubeAxis(const TubeEnd& first, const TubeEnd& last) : begin_(first.middle), end_(last.middle), turn_(0.0) {
+TubeAxis::TubeAxis(const TubeEnd& first, const TubeEnd& last) : begin_(first.middle), end_(last.middle) {
     // The speed with which a cubic comes nearest to an arc.
     const double cosine = std::clamp(-first.into.dot(last.into), -1.0, 1.0);
     turn_ = std::acos(cosine);

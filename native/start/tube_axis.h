@@ -33,7 +33,7 @@ private:
 
     Vector3 begin_;
     Vector3 end_;
-    double turn_;
+    double turn_ = 0.0;
     Vector3 leaving_;   // derivative at s = 0
     Vector3 arriving_;  // at s = 1
     std::vector<Eigen::Matrix3d> frames_;
