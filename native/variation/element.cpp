@@ -83,6 +83,11 @@ public:
         return result;
     }
 
+    [[nodiscard]] ElementVector acceleration(const Element& there, const ElementVector& motions, double share) const {
+        const Eigen::Matrix<double, 10, 18> J = jacobian(residual_by_derivative());
+        return 4.0 / (share * share) * (J.transpose() * (there.residual_ - residual_ - share * (J * motions)));
+    }
+
 private:
     void measure_triangle() {
         const Vector3 ab = x_.col(1) - x_.col(0);
@@ -260,6 +265,12 @@ ElementSums element_sums(const Sheet& sheet, const Stencil& stencil, double misf
 ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil, double misfit_weight,
                            const ElementSums& factors) {
     return Element(sheet, stencil, misfit_weight).terms(factors);
+}
+
+ElementVector element_acceleration(const Sheet& sheet, const Sheet& there, const Stencil& stencil, double misfit_weight,
+                                   const ElementVector& motions, double share) {
+    return Element(sheet, stencil, misfit_weight)
+        .acceleration(Element(there, stencil, misfit_weight), motions, share);
 }
 
 LocalCubic local_cubic(const Sheet& sheet, const Stencil& stencil) { return Element(sheet, stencil, 0.0).cubic(); }
