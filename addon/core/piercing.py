@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 import fairing
 
@@ -35,12 +36,23 @@ def pierced(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -
 
 def _near(points: Floats, own: Ints, others: Ints) -> Ints:
     """Return those of the other triangles that reach into the box around one's own."""
-    low, high = points[own].min(axis=(0, 1)), points[own].max(axis=(0, 1))
-    corners = points[others]
-    with np.errstate(invalid="ignore"):  # of vertices that are not finite, none is near
-        inside = ((corners.min(axis=1) <= high) & (corners.max(axis=1) >= low)).all(axis=1)
-    chosen: Ints = others[inside]
+    box = points[np.unique(own)]
+    beyond = _beyond(points, box.min(axis=0), box.max(axis=0))
+    a, b, c = others.T
+    near = beyond[a] & beyond[b] & beyond[c] == 0
+    finite = np.isfinite(points).all(axis=1)
+    chosen: Ints = others[near if finite.all() else near & finite[others].all(axis=1)]
     return chosen
+
+
+def _beyond(points: Floats, low: Floats, high: Floats) -> NDArray[np.uint8]:
+    """Return (n,) which sides of a box each point is beyond, a bit each."""
+    sides = np.zeros(len(points), dtype=np.uint8)
+    with np.errstate(invalid="ignore"):
+        for axis in range(3):
+            sides |= (points[:, axis] < low[axis]) * np.uint8(1 << axis)
+            sides |= (points[:, axis] > high[axis]) * np.uint8(8 << axis)
+    return sides
 
 
 def _crossing(points: Floats, own: Ints, others: Ints) -> Ints:
