@@ -13,7 +13,6 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints
-from .faces import edges_with_uses
 from .region import Patch, nothing
 
 LEAST = 0.25  # of 2π: by how much a knob bends like a ball, and its neck like a saddle; an elbow of 90° has as much
@@ -37,7 +36,7 @@ def discs(patch: Patch) -> tuple[Disc, ...]:
 
 def _disc(triangles: Ints) -> Disc | None:
     """Return connected triangles that have the Euler characteristic of a disc."""
-    edges, uses = edges_with_uses(triangles)
+    edges, uses = fairing.edges_with_uses(triangles)
     vertices = np.unique(triangles)
     if len(vertices) - len(edges) + len(triangles) != 1:
         return None

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/difference.h"
 #include "geometry/face_geometry.h"
 #include "geometry/flips.h"
 #include "geometry/outline_angles.h"
@@ -42,14 +43,7 @@ Indices inside(const Patch& patch, Indices triangles) {
     return triangles;
 }
 
-// Those that are not in a list; both are in ascending order. `known` is empty but for a smoothed shape, which may keep
-// what was there before.
-Indices without(const Indices& triangles, const Indices& known) {
-    Indices rest;
-    std::set_difference(triangles.begin(), triangles.end(), known.begin(), known.end(), std::back_inserter(rest));
-    return rest;
-}
-
+// Whether flaws of the shape before may stay.
 bool keeps_shape(const Problem& problem, const Solution& solution) {
     return solution.instead == Instead::smoothed && problem.before.cols() == problem.patch.vertex_count();
 }

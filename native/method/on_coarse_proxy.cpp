@@ -65,7 +65,8 @@ private:
         return result;
     }
 
-    // By springs where nothing folds then, otherwise from where the coarsest vertices lie without them.
+    // By springs where nothing folds then, otherwise from where the coarsest vertices lie without them, and at last
+    // from what both meshes share in the unit disc. The coarse levels are no help there: limbs are points on them.
     Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own) {
         const std::size_t coarsest = levels_.coarsest();
         const Problem& coarse = levels_.problem(coarsest);
@@ -76,9 +77,18 @@ private:
         Start& start = least_folded(starts, target);
         Placed best = spread(std::move(start.settled), target);
         if (best.folded.empty() || !proxy.converged()) return best;
-        Placed other = unfolded(std::move(start.raw), target);
+        keep_better(unfolded(std::move(start.raw), target), best);
+        if (best.folded.empty()) return best;
+        auto other = place_by_disc(problem_, *levels_.work(0).tangential, proxy.mesh.patch, target, progress_.here());
+        if (other) keep_better(std::move(*other), best);
+        return best;
+    }
+
+    // What the springs fold is what they folded at first.
+    static void keep_better(Placed other, Placed& best) {
+        if (other.folded.size() >= best.folded.size()) return;
         other.folded_by_springs = best.folded_by_springs;
-        return other.folded.size() < best.folded.size() ? std::move(other) : std::move(best);
+        best = std::move(other);
     }
 
     // The coarsest level's vertices.
