@@ -55,6 +55,46 @@ def live_moves_the_far_side() -> Story:
     yield from _follow("live_far", (90, 60))
 
 
+def live_begins_in_the_background() -> Story:
+    """The first surface of a large region takes a while: Blender goes on, Esc stops it, the second click brings it."""
+    faces = scenes.large()
+    set_options()
+    with in_view():
+        bpy.ops.view3d.view_all()
+    yield 1.0
+    before, progress = scenes.contents(), bpy.context.window_manager.fairing_progress
+    run_operator("mesh.fair_live_region")
+    yield from wait_until(_runs, 20.0)
+    press("ESC", *middle())
+    yield from wait_until(_rests, 5.0)
+    yield 2.0
+    assert scenes.contents() == before, "the cancelled run left a trace"
+    assert not _is_on()
+    begin, ticks = time.perf_counter(), 0
+    run_operator("mesh.fair_live_region")
+    yield from wait_until(_runs, 20.0)
+    while progress.running:
+        ticks += 1
+        if ticks == 4:
+            screenshot("live_begins")
+        yield 0.05
+    tell(f"live region of {faces} faces after {time.perf_counter() - begin:.2f} s, looked at {ticks} times meanwhile")
+    assert ticks > 5, "Blender did not stay responsive"
+    assert _is_on()
+    assert settled()
+    screenshot("live_began")
+    fair = scenes.positions()
+    press("Z", *middle(), ctrl=True)
+    yield 2.0
+    assert scenes.contents() == before, "one step back is the mesh as it was, without a region"
+    press("Z", *middle(), ctrl=True, shift=True)
+    yield 2.0
+    yield from wait_until(settled, 20.0)
+    np.testing.assert_allclose(scenes.positions(), fair, atol=AGAIN)
+    bpy.context.window_manager.fairing_live.on = False
+    yield 0.5
+
+
 def live_finds_no_surface() -> Story:
     """The neck is pulled through the body: the region goes along, says so, and mends when the drag is given up."""
     yield from _make_live("live_lost", scenes.bottle)
@@ -147,6 +187,15 @@ def _session() -> Any:
     return session
 
 
+def _runs() -> bool:
+    """Whether the operator is under way."""
+    return bool(bpy.context.window_manager.fairing_progress.running)
+
+
+def _rests() -> bool:
+    return not _runs()
+
+
 def settled() -> bool:
     """Whether no region is carried along any more."""
     return not len(_live().lost_points())
@@ -185,6 +234,7 @@ def _make_live(name: str, scene: Callable[[], int], pin_group: str = "") -> Stor
     assert not _is_on()
     yield from click(*BUTTON)
     yield 1.0
+    yield from wait_until(_rests, 20.0)
     assert _is_on(), "the button Live Region was not met"
     tell(f"live region: {len(_session().region.free)} free vertices")
 
