@@ -34,8 +34,8 @@ public:
     [[nodiscard]] double merit(const Sheet& sheet) const;
     // Into a model of the same energy, or an empty one.
     void update(const Sheet& sheet, QuadraticModel& model) const;
-    // By how much the residuals leave their tangent along motions (element.h), measured over a share of these: the right
-    // side of the geodesic acceleration (Transtrum & Sethna 2012).
+    // By how much the residuals leave their tangent along motions (element.h), measured over a share of these. What
+    // the geodesic acceleration makes up for (Transtrum & Sethna 2012).
     [[nodiscard]] VectorX acceleration_load(const Sheet& sheet, const VectorX& motions, double share) const;
     // The sheet with its vertices moved by `share` of the motions (unknowns in their order).
     [[nodiscard]] Sheet moved(const Sheet& sheet, const VectorX& motions, double share) const;
