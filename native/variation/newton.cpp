@@ -158,8 +158,8 @@ private:
         return factor * model_.area.dot(motions) * response;
     }
 
-    // Where the merit has a curved valley, as where an elbow moves sideways, a straight step leaves it at once: the path
-    // of the step is bent by the residuals' own second derivatives (geodesic acceleration, Transtrum & Sethna 2012).
+    // Where the merit has a curved valley, as where an elbow moves sideways, a straight step leaves it at once. The
+    // step becomes a parabola by the residuals' own second derivatives: geodesic acceleration (Transtrum, Sethna 2012).
     [[nodiscard]] VectorX acceleration(const VectorX& motions) const {
         constexpr double probe = 0.1;        // of the step
         constexpr double most = 0.75;        // of the step's length
