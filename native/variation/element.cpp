@@ -269,8 +269,7 @@ ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil, double mi
 
 ElementVector element_acceleration(const Sheet& sheet, const Sheet& there, const Stencil& stencil, double misfit_weight,
                                    const ElementVector& motions, double share) {
-    return Element(sheet, stencil, misfit_weight)
-        .acceleration(Element(there, stencil, misfit_weight), motions, share);
+    return Element(sheet, stencil, misfit_weight).acceleration(Element(there, stencil, misfit_weight), motions, share);
 }
 
 LocalCubic local_cubic(const Sheet& sheet, const Stencil& stencil) { return Element(sheet, stencil, 0.0).cubic(); }
