@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/difference.h"
 #include "geometry/flips.h"
 #include "geometry/self_intersection.h"
 #include "problem/surface_state.h"
@@ -12,12 +13,6 @@ namespace {
 
 constexpr double largest_bend = 2.0;  // of the largest |H| on the outline
 constexpr double least_girth = 0.5;   // of what it comes from
-
-Indices without(const Indices& all, const Indices& known) {
-    Indices rest;
-    std::set_difference(all.begin(), all.end(), known.begin(), known.end(), std::back_inserter(rest));
-    return rest;
-}
 
 Indices corners_of(const Patch& patch, const Indices& triangles) {
     Indices corners;

@@ -2,23 +2,15 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 from pathlib import Path
 
+import own_process
 import pytest
 
-TESTS = Path(__file__).parent
 USE = """
-import conftest  # before bpy: it sets Blender's scratch folder
 import addon_utils
-import bpy
 import meshes
 
-bpy.ops.extensions.package_install_files(
-    repo="user_default", filepath=str(conftest._zip()), enable_on_install=True, overwrite=True
-)
 manager = bpy.context.window_manager
 obj, faces = meshes.domed_grid()
 meshes.fair(obj, faces)
@@ -53,11 +45,5 @@ addon_utils.disable('bl_ext.user_default.intrinsic_fairing')
 
 @pytest.mark.parametrize("ending", ENDINGS)
 def test_blender_ends_well(ending: str, tmp_path: Path) -> None:
-    path = os.pathsep.join([str(TESTS), os.environ.get("PYTHONPATH", "")])  # bpy itself may be found by it
-    environment = {**os.environ, "PYTHONPATH": path, "TMPDIR": str(tmp_path)}
-    ended = subprocess.run(
-        [sys.executable, "-c", USE + ENDINGS[ending]], env=environment, capture_output=True, text=True, timeout=120.0
-    )
-    assert ended.returncode == 0, ended.stdout + ended.stderr
-    assert "Traceback" not in ended.stderr
+    ended = own_process.run(USE + ENDINGS[ending], tmp_path)
     assert "Error" not in ended.stderr

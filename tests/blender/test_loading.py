@@ -1,82 +1,62 @@
-"""What Blender shows where the native module doesn't load."""
+"""What Blender shows where the native module doesn't load: in a process of its own, as nobody can load it again."""
 
 from __future__ import annotations
 
-import importlib
 import platform
-import sys
-from collections.abc import Iterator
-from types import ModuleType
+from pathlib import Path
 
-import bpy
+import own_process
 import pytest
+
+DRAW = """
 from extension import ID, module
 from test_panel import Layout
 
-Modules = dict[str, ModuleType]
+assert ID in bpy.context.preferences.addons
+assert hasattr(bpy.types, "VIEW3D_PT_fairing_loading")
+assert not hasattr(bpy.types, "VIEW3D_PT_fairing")
 
 
-def take_out() -> Modules:
-    """Forget the extension's modules and the engine's, as a new Blender has none; return them."""
-    names = [name for name in sys.modules if name.split(".")[0] == "fairing" or f"{name}.".startswith(f"{ID}.")]
-    return {name: sys.modules.pop(name) for name in names}
+class Shown:
+    layout = Layout()
 
 
-@pytest.fixture
-def disabled() -> Iterator[None]:
-    """Disable the extension; enable it again, as it was, at the end."""
-    bpy.ops.preferences.addon_disable(module=ID)
-    taken = take_out()
-    yield
-    bpy.ops.preferences.addon_disable(module=ID)
-    take_out()
-    sys.modules.update(taken)
-    bpy.ops.preferences.addon_enable(module=ID)
-    assert bpy.ops.mesh.fair_region.get_rna_type().identifier == "MESH_OT_fair_region"
+shown = Shown()
+module("loading_panel").VIEW3D_PT_fairing_loading.draw(shown, bpy.context)
+print("DRAWN", *shown.layout.told)
+print("WHEEL", module("loading").manifest()["wheels"][0].removeprefix("./wheels/"))
+"""
 
 
-def drawn() -> str:
-    class Shown:
-        layout = Layout()
-
-    shown = Shown()
-    module("loading_panel").VIEW3D_PT_fairing_loading.draw(shown, bpy.context)
-    return " ".join(shown.layout.told)
+def printed(before: str, scratch: Path) -> tuple[str, str, str]:
+    """Enable the extension after these lines; return what the console, the panel and the manifest say."""
+    console, rest = own_process.run(DRAW, scratch, "import sys\n" + before).stdout.split("DRAWN ")
+    drawn, wheel = rest.split("WHEEL ")
+    return console, drawn, wheel.strip()
 
 
-def enable() -> None:
-    assert bpy.ops.preferences.addon_enable(module=ID) == {"FINISHED"}
-    assert ID in bpy.context.preferences.addons
-    assert hasattr(bpy.types, "VIEW3D_PT_fairing_loading")
-    assert not hasattr(bpy.types, "VIEW3D_PT_fairing")
-
-
-def test_module_is_missing(disabled: None, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> None:
+def test_module_is_missing(tmp_path: Path) -> None:
     """No traceback: a panel, and lines in the console, with platform, Python and wheel."""
-    monkeypatch.setitem(sys.modules, "fairing", None)
-    enable()
-    told = drawn()
-    wheel = importlib.import_module(f"{ID}.loading").manifest()["wheels"][0].removeprefix("./wheels/")
+    console, drawn, wheel = printed('sys.modules["fairing"] = None', tmp_path)
     for text in ("fairing", platform.machine(), platform.python_version(), "linux-x64", wheel):
-        assert text in told
-    printed, errors = capfd.readouterr()
-    assert "Traceback" not in printed + errors
-    assert wheel in printed
+        assert text in drawn
+    assert wheel in console
 
 
-def test_native_part_cannot_be_loaded(disabled: None, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_native_part_cannot_be_loaded(tmp_path: Path) -> None:
     """The package is there, its compiled part isn't: what a wheel for another system does."""
-    monkeypatch.setitem(sys.modules, "fairing._core", None)
-    enable()
-    assert "fairing._core" in drawn()
+    assert "fairing._core" in printed('sys.modules["fairing._core"] = None', tmp_path)[1]
 
 
-def test_module_of_another_version(disabled: None, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("version", ["0.0.9", "99.0"])
+def test_module_of_another_version(version: str, tmp_path: Path) -> None:
     """After an update without a restart Blender still holds the old module."""
-    held = ModuleType("fairing")
-    held.__version__ = "0.0.9"  # type: ignore[attr-defined]
-    monkeypatch.setitem(sys.modules, "fairing", held)
-    enable()
-    told = drawn()
-    assert "0.0.9" in told
-    assert "Restart Blender" in told
+    held = f"""
+from types import ModuleType
+
+sys.modules["fairing"] = ModuleType("fairing")
+sys.modules["fairing"].__version__ = "{version}"
+"""
+    drawn = printed(held, tmp_path)[1]
+    assert version in drawn
+    assert "Restart Blender" in drawn
