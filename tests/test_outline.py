@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ import bad_inputs
 import fairing
 import measures
 from curves import FloatArray
-from fairing import _mending
+from fairing import _growing, _mending
 from meshing import IntArray, edge_pairs, face_normals
 
 
@@ -347,3 +347,33 @@ def test_the_visible_join_of_an_edge_that_was_there_before() -> None:
     assert fairing.visible_join(across, inside, outside, [0, 1], before=flat) == pytest.approx([90, 90])
     assert fairing.visible_join(across, inside, outside, [0, 1], before=across) == pytest.approx([0, 0])
     assert fairing.visible_join(across, inside, outside, [2, 4]) == pytest.approx([0, 0])
+
+
+def round_of(angle: float, join: float, *, converged: bool = True, folds: bool = False) -> fairing.FairResult:
+    """A result with these largest angles at the outline, by which rounds are compared."""
+    case = ball(0.0, n_free=40)
+    fold = (fairing.Diagnostic("FLIPPED_TRIANGLES", "", np.zeros(1, dtype=np.int32), "triangle"),)
+    return replace(
+        fairing.fair(case.exact, case.inside, fixed=case.outline),
+        boundary_angle=np.array([angle]), join=np.array([join]), converged=converged, warnings=fold if folds else (),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("larger", "best"),
+    [
+        (round_of(20.0, 5.0), 1),
+        (round_of(20.0, 11.0), 1),  # nobody sees it
+        (round_of(20.0, 40.0), 0),  # a kink that was not there
+        (round_of(60.0, 0.0), 0),
+        (round_of(20.0, 5.0, converged=False), 0),
+        (round_of(20.0, 5.0, folds=True), 0),
+    ],
+)
+def test_growing_keeps_the_round_that_joins_best(larger: fairing.FairResult, best: int) -> None:
+    assert _growing.best_round([round_of(50.0, 6.0), larger]) == best
+
+
+def test_growing_may_leave_a_kink_as_it_was() -> None:
+    given = round_of(50.0, 30.0)
+    assert _growing.best_round([given, round_of(40.0, 29.0), round_of(30.0, 31.0)]) == 1

@@ -48,7 +48,7 @@ public:
         seconds["placement"] = watch_.lap();
         if (polish == Polish::wanted && solution.termination == Termination::converged &&
             best.folded_by_springs <= problem_.tolerated_folds)
-            solution = polished(std::move(solution), mean_edge(proxy.mesh.patch, proxy.mesh.points));
+            solution = polished(std::move(solution), surface_of(proxy, target, best.placement));
         seconds["polish"] = watch_.lap();
         solution.initial_residual = largest_residual(coarse, start, outer_residual(coarse, start));
         solution.levels = levels_.sizes();
@@ -164,14 +164,14 @@ private:
         return {std::move(where), std::move(points)};
     }
 
-    Solution polished(Solution placed, double proxy_edge) {
+    Solution polished(Solution placed, const SolvedSurface& surface) {
         Workspace& work = levels_.work(0);
         work.normal = make_normal_operator(problem_, placed.points.leftCols(problem_.patch.free_count));
         if (std::holds_alternative<RowWeights>(problem_.weights)) {
             work.tangential =
                 make_tangential_step(problem_.patch, problem_.weights, problem_.fixed_points, progress_.here());
         }
-        return polish(problem_, work, std::move(placed), proxy_edge, progress_.range(0.6, 1.0));
+        return polish(problem_, work, std::move(placed), surface, progress_.range(0.6, 1.0));
     }
 
     const Problem& problem_;

@@ -78,9 +78,9 @@ def fill(
     Raises
     ------
     MeshError
-        NOT_A_LOOP, NO_BOUNDARY, NONMANIFOLD_VERTEX (loops that touch), NONMANIFOLD_EDGE (also where the surface would
-        double back onto a triangle that sticks out into a loop), ZERO_NORMAL,
-        NORMALS_OPPOSE_WINDING, NONFINITE or INDEX_RANGE; ``elements`` are the vertices.
+        NOT_A_LOOP, NO_BOUNDARY, NONMANIFOLD_VERTEX (loops that touch, or vertices of one outline in one place),
+        NONMANIFOLD_EDGE (also where the surface would double back onto a triangle that sticks out into a loop),
+        ZERO_NORMAL, NORMALS_OPPOSE_WINDING, NONFINITE or INDEX_RANGE; ``elements`` are the vertices.
     ValueError, Cancelled, SolverError, MemoryError
         As for :func:`fairing.fair`.
     """
@@ -92,7 +92,7 @@ def fill(
     if not isinstance(bridge, (bool, np.bool_)):
         raise ValueError(f"bridge: True or False is needed, not {bridge!r}")
     outline = _loops.border_loops(around, limit) if loops is None else _loops.given_loops(loops, points, around)
-    _loops.check(outline, points)
+    _loops.check(outline, points, bool(bridge))
     normals = _loops.loop_normals(normals, outline, points, around)
     if fixed_curvatures is not None:
         options["fixed_curvatures"] = _loops.loop_curvatures(fixed_curvatures, outline, len(points))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,7 +12,7 @@ import numpy.typing as npt
 from fairing import _arguments
 from fairing._fair import fair
 from fairing._measure import boundary_loops
-from fairing._outline import bad_outline, surrounding_normals
+from fairing._outline import VISIBLE_KINK, bad_outline, surrounding_normals
 from fairing._types import FOLDS, FairResult, FloatArray, IntArray
 
 Mask = npt.NDArray[np.bool_]
@@ -29,6 +30,8 @@ class GrownOutline:
     """Which one was kept; 0: the selection as it was given."""
     angles: tuple[float, ...]
     """Largest ``boundary_angle`` of each round, degrees."""
+    joins: tuple[float, ...]
+    """Largest ``join`` of each round, degrees."""
 
 
 @dataclass(frozen=True)
@@ -79,8 +82,9 @@ def grown_outline(
     """Fair a selection, and larger ones that leave the bad vertices of its outline inside; keep the best.
 
     Each round adds the faces outside the vertices that :func:`bad_outline` names, as long as there are some and no new
-    outline comes of it. Kept is the round that
-    converges, has no folds, and has the smallest largest ``boundary_angle``, in this order.
+    outline comes of it. Kept is the round that converges, has no folds, shows no kink (``join`` of ``VISIBLE_KINK`` and
+    more) sharper than the worst of the selection as given, and has the smallest largest ``boundary_angle``, in this
+    order.
 
     triangles (m, 3): the whole mesh; selected (m,) bool; faces (m,): the polygon of each triangle, none of which is
     divided; rounds: three at most are useful; options: those of :func:`fairing.fair` that don't concern the outline.
@@ -98,11 +102,31 @@ def grown_outline(
         if larger is None:
             break
         tried.append((larger, mesh.faired(larger, options)))
-    angles = tuple(float(result.boundary_angle.max(initial=0.0)) for _, result in tried)
-    best = min(range(len(tried)), key=lambda k: (not tried[k][1].converged, _folded(tried[k][1]), angles[k]))
+    results = [result for _, result in tried]
+    best = best_round(results)
     kept = tried[best][0]
     kept.flags.writeable = False
-    return GrownOutline(kept, tried[best][1], best, angles)
+    angles, joins = (tuple(map(measure, results)) for measure in (_largest_angle, _largest_join))
+    return GrownOutline(kept, results[best], best, angles, joins)
+
+
+def best_round(results: Sequence[FairResult]) -> int:
+    """Which of the rounds is kept, the first being that of the selection as it was given."""
+    seen = max(_largest_join(results[0]), VISIBLE_KINK)
+
+    def rank(k: int) -> tuple[bool, bool, bool, float]:
+        result = results[k]
+        return not result.converged, _folded(result), _largest_join(result) > seen, _largest_angle(result)
+
+    return min(range(len(results)), key=rank)
+
+
+def _largest_angle(result: FairResult) -> float:
+    return float(result.boundary_angle.max(initial=0.0))
+
+
+def _largest_join(result: FairResult) -> float:
+    return float(result.join.max(initial=0.0))
 
 
 def _folded(result: FairResult) -> bool:
