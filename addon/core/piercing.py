@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 import fairing
 
@@ -43,13 +44,23 @@ def pierced(mesh: MeshArrays, before: Sheet, after: Sheet) -> Ints:
 
 def near(sheet: Sheet, others: Ints) -> Ints:
     """Return those of the other triangles that reach into the box around the sheet."""
-    own = sheet.points[sheet.triangles]
-    low, high = own.min(axis=(0, 1)), own.max(axis=(0, 1))
-    corners = sheet.points[others]
-    with np.errstate(invalid="ignore"):  # of vertices that are not finite, none is near
-        inside = ((corners.min(axis=1) <= high) & (corners.max(axis=1) >= low)).all(axis=1)
-    chosen: Ints = others[inside]
+    box = sheet.points[np.unique(sheet.triangles)]
+    beyond = _beyond(sheet.points, box.min(axis=0), box.max(axis=0))
+    a, b, c = others.T
+    inside = beyond[a] & beyond[b] & beyond[c] == 0
+    finite = np.isfinite(sheet.points).all(axis=1)
+    chosen: Ints = others[inside if finite.all() else inside & finite[others].all(axis=1)]
     return chosen
+
+
+def _beyond(points: Floats, low: Floats, high: Floats) -> NDArray[np.uint8]:
+    """Return (n,) which sides of a box each point is beyond, a bit each."""
+    sides = np.zeros(len(points), dtype=np.uint8)
+    with np.errstate(invalid="ignore"):
+        for axis in range(3):
+            sides |= (points[:, axis] < low[axis]) * np.uint8(1 << axis)
+            sides |= (points[:, axis] > high[axis]) * np.uint8(8 << axis)
+    return sides
 
 
 def crossing(sheet: Sheet, others: Ints) -> Ints:

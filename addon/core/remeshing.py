@@ -221,7 +221,7 @@ def _new_problem(problem: Problem, part: NewPart, result: fairing.RemeshResult, 
 
 def _origin(problem: Problem, result: fairing.RemeshResult) -> Origin:
     """Return what the engine's numbers in the warnings stand for: those of the mesh that was solved last."""
-    if not result.polished:
+    if result.cut:
         return problem.origin
     patch = problem.patch
     near = patch.triangles[result.origin[0]][np.arange(len(result.old)), result.origin[1].argmax(axis=1)]
