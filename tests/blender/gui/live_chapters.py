@@ -12,6 +12,7 @@ import numpy as np
 import scenes
 import spoilt_scenes
 from driver import Story, click, in_view, look_as_first, middle, press, screenshot, tell
+from long_run_chapters import seconds_of_redraw
 from panel import drag, module, open_tab, report, run_operator, set_options, wait_until
 
 STEPS = 40  # of the mouse in one drag
@@ -62,6 +63,7 @@ def live_begins_in_the_background() -> Story:
     with in_view():
         bpy.ops.view3d.view_all()
     yield 1.0
+    redraw = yield from seconds_of_redraw()
     before, progress = scenes.contents(), bpy.context.window_manager.fairing_progress
     run_operator("mesh.fair_live_region")
     yield from wait_until(_runs, 20.0)
@@ -70,29 +72,36 @@ def live_begins_in_the_background() -> Story:
     yield 2.0
     assert scenes.contents() == before, "the cancelled run left a trace"
     assert not _is_on()
-    begin, ticks = time.perf_counter(), 0
+    begin, looks = time.perf_counter(), [time.perf_counter()]
     run_operator("mesh.fair_live_region")
     yield from wait_until(_runs, 20.0)
     while progress.running:
-        ticks += 1
-        if ticks == 4:
+        if len(looks) == 3:
             screenshot("live_begins")
         yield 0.05
-    tell(f"live region of {faces} faces after {time.perf_counter() - begin:.2f} s, looked at {ticks} times meanwhile")
-    assert ticks > 5, "Blender did not stay responsive"
+        looks.append(time.perf_counter())
+    longest = max(np.diff(looks))
+    tell(f"live region of {faces} faces after {looks[-1] - begin:.2f} s; a redraw takes {redraw:.2f} s here")
+    tell(f"looked at {len(looks)} times meanwhile, {longest:.2f} s apart at most")
+    assert longest < 0.5 + 2.0 * redraw, "Blender did not stay responsive"
     assert _is_on()
     assert settled()
     screenshot("live_began")
-    fair = scenes.positions()
+    assert _off_sphere() < FAIR
     press("Z", *middle(), ctrl=True)
     yield 2.0
     assert scenes.contents() == before, "one step back is the mesh as it was, without a region"
     press("Z", *middle(), ctrl=True, shift=True)
     yield 2.0
     yield from wait_until(settled, 20.0)
-    np.testing.assert_allclose(scenes.positions(), fair, atol=AGAIN)
+    assert _off_sphere() < FAIR
     bpy.context.window_manager.fairing_live.on = False
     yield 0.5
+
+
+def _off_sphere() -> float:
+    """By how much a vertex is off the unit sphere at most."""
+    return float(np.abs(np.linalg.norm(scenes.positions(), axis=1) - 1.0).max())
 
 
 def live_finds_no_surface() -> Story:
