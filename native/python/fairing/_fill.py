@@ -113,7 +113,7 @@ def fill(
     if coarser:
         solved = _Patch(report.vertices, fine.triangles, outline.vertices, normals)
         coarse, origin = solved.remeshed(len(points), length, 0, options, watch.part(0.9, 1.0))
-        values.update(polished=False, **_placed(coarse, len(points)))
+        values.update(_cut(coarse, len(points)))
         values["mean_curvature"] = _carried(report.mean_curvature, fine.triangles, origin)
     else:
         values["triangles"] = fine.triangles
@@ -168,7 +168,7 @@ def remesh(
         values = _report(new.faired("given", outside, options, watch.part(0.6, 1.0)), len(points))
         values["triangles"] = new.triangles
     else:
-        values.update(polished=False, **_placed(new, len(points)))
+        values.update(_cut(new, len(points)))
         values["mean_curvature"] = _carried(report.mean_curvature, faces, origin)
     values["seconds"] = {**values["seconds"], **watch.seconds}
     return RemeshResult(**values, origin=origin, old=_read_only(old_vertex))
@@ -296,13 +296,18 @@ def _report(report: FairResult, old_count: int) -> dict[str, Any]:
     """The fields of a report on ``old_count`` old vertices and then new ones; `triangles` is missing."""
     own = {field.name for field in fields(NewMeshResult)}
     values = {field.name: getattr(report, field.name) for field in fields(report) if field.name in own}
+    values["cut"] = False
     for name in ("vertices", "mean_curvature"):
         values[name] = _read_only(values[name][old_count:])
     return values
 
 
-def _placed(patch: _Patch, old_count: int) -> dict[str, Any]:
-    return {"vertices": _read_only(patch.vertices[old_count:]), "triangles": patch.triangles}
+def _cut(patch: _Patch, old_count: int) -> dict[str, Any]:
+    """The fields of a mesh that was cut from another one's surface."""
+    return {
+        "vertices": _read_only(patch.vertices[old_count:]), "triangles": patch.triangles, "polished": False,
+        "cut": True,
+    }  # fmt: skip
 
 
 def _carried(values: FloatArray, triangles: IntArray, origin: Origin) -> FloatArray:
