@@ -12,9 +12,9 @@ from .follow.live_operators import (
     FairLive,
     MESH_OT_fair_live_far_side,
     MESH_OT_fair_live_forget,
-    MESH_OT_fair_live_region,
     MESH_OT_fair_live_select,
 )
+from .follow.taking import MESH_OT_fair_live_region
 from .host import handlers
 from .preferences import FairPreferences
 from .run import cli, compare, job, last_run, redo_panel

@@ -28,6 +28,19 @@ def test_loops_of_patches(name: str, count: int) -> None:
     check(getattr(shapes, name)(200).triangles, count)
 
 
+def test_edges_with_their_triangles() -> None:
+    edges, uses = fairing.edges_with_uses([[4, 2, 0], [0, 2, 7], [2, 0, 3]])
+    assert edges.tolist() == [[0, 2], [0, 3], [0, 4], [0, 7], [2, 3], [2, 4], [2, 7]]
+    assert uses.tolist() == [3, 1, 1, 1, 1, 1, 1]
+    triangles = bad_inputs.closed_ball()[1]
+    edges, uses = fairing.edges_with_uses(triangles)
+    assert len(np.unique(triangles)) - len(edges) + len(triangles) == 2  # Euler's characteristic of a sphere
+    assert (uses == 2).all()
+    assert [len(part) for part in fairing.edges_with_uses(np.empty((0, 3), int))] == [0, 0]
+    with pytest.raises(ValueError, match="triangles"):
+        fairing.edges_with_uses([0, 1, 2])
+
+
 def test_three_rims_of_the_blend() -> None:
     check(blend.cylinder_blend(820).triangles, 3)
 

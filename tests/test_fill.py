@@ -148,7 +148,7 @@ def test_a_coarse_mesh_is_cut_from_a_fine_surface() -> None:
     rim = vertices[loop]
     edge = np.linalg.norm(rim - np.roll(rim, 1, axis=0), axis=1).mean()
     result = fairing.fill(vertices, triangles, [loop], spacing=8 * edge)
-    assert not result.polished
+    assert (result.polished, result.cut) == (False, True)
     diameter = 2 * np.linalg.norm(rim - rim.mean(axis=0), axis=1).max()
     away = radius(result.vertices) - np.cosh(result.vertices[:, 2])
     assert abs(away).max() < 8e-6 * diameter
@@ -434,6 +434,25 @@ def test_bad_loops_are_refused_with_their_vertices() -> None:
     broken = free.copy()
     broken[3] = np.nan
     refused("NONFINITE", {3}, broken, EMPTY, [np.arange(12)], normals=np.tile([0, 0, 1.0], (12, 1)))
+
+
+def test_outlines_that_pass_a_place_twice_are_refused() -> None:
+    """A figure eight, and the two sides of a tear, by position alone. Loops that are filled apart may share places."""
+    turn = 2 * np.pi * np.arange(24) / 24
+    up = np.tile([0, 0, 1.0], (48, 1))
+    eight = np.column_stack([np.cos(turn), np.sin(turn) * np.cos(turn), 0 * turn])
+    eight[[6, 18]] = 0
+    refused("NONMANIFOLD_VERTEX", {6, 18}, eight, EMPTY, [np.arange(24)], normals=up[:24])
+    there = np.column_stack([np.linspace(0, 1, 8), np.zeros((8, 2))])
+    tear = np.concatenate([there, there[-2:0:-1]])
+    refused("NONMANIFOLD_VERTEX", {*range(1, 7), *range(8, 14)}, tear, EMPTY, [np.arange(14)], normals=up[:14])
+    circle = np.column_stack([np.cos(turn), np.sin(turn), 0 * turn])
+    shift = np.array([1.0, 0.0, 0.0])
+    both = np.concatenate([circle + shift, circle - shift])
+    both[24] = both[12]
+    loops = [np.arange(24), np.arange(24, 48)]
+    refused("NONMANIFOLD_VERTEX", {12, 24}, both, EMPTY, loops, normals=up, bridge=True)
+    assert fairing.fill(both, EMPTY, loops, normals=up).converged
 
 
 def test_bad_normals_are_refused_with_their_vertices() -> None:

@@ -223,9 +223,35 @@ def test_noise_is_not_followed() -> None:
     noise = np.random.default_rng(4).normal(0.0, 0.5, len(patch.fixed))
     rough = with_curvature(patch, patch.mean_curvature[patch.fixed] + noise)
     assert told(rough) == {"smooth_share", "vertices", "outline_vertices"}
-    assert rough.warnings[0].figures["smooth_share"] < 0.5
+    assert rough.warnings[0].figures["smooth_share"] < 1 / 3
     assert f"all {len(patch.fixed)} outline vertices" in str(rough.warnings[0])
     np.testing.assert_array_equal(rough.vertices, tangent.vertices)
+
+
+@pytest.mark.parametrize(("family", "size", "seed"), [("torus", 0.05, 1), ("ellipsoid", 0.05, 0), ("cubic", 0.3, 1)])
+def test_what_is_smooth_beside_noise_is_followed(family: str, size: float, seed: int) -> None:
+    """Long waves are 35 to 46 % of what the tangent surface lacks: with them it comes nearer to the exact one."""
+    patch, tangent, exact = joined(family, 1000)
+    noise = np.random.default_rng(seed).normal(0.0, size, len(patch.fixed))
+    rough = with_curvature(patch, patch.mean_curvature[patch.fixed] + noise)
+    assert (rough.continuity, codes(rough)) == ("G2", set())
+    assert largest(rough, exact) < 0.6 * largest(tangent, exact)
+
+
+def largest(result: fairing.FairResult, exact: fairing.FairResult) -> float:
+    """The largest distance between two surfaces' vertices."""
+    return float(np.linalg.norm(result.vertices - exact.vertices, axis=1).max())
+
+
+def test_roughness_alone_is_nothing_that_lacks() -> None:
+    """H that alternates from vertex to vertex, as it does on coarse outlines in steps: its mean is met."""
+    patch, tangent, _ = joined("hemisphere", 1000)
+    (loop,) = fairing.boundary_loops(patch.triangles)
+    curvatures = patch.mean_curvature.copy()
+    curvatures[loop] += np.where(np.arange(len(loop)) % 2, 0.1, -0.1)
+    result = with_curvature(patch, curvatures[patch.fixed])
+    assert (result.continuity, codes(result)) == ("G2", set())
+    np.testing.assert_array_equal(result.vertices, tangent.vertices)
 
 
 def test_unit_sign_and_place_do_not_matter() -> None:

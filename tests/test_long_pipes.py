@@ -39,7 +39,7 @@ def test_large_pipes_are_straight_where_a_coarse_level_has_no_surface(length: fl
 
 @pytest.mark.parametrize("length", [8.0, 9.0])
 def test_large_graded_pipes_are_straight(length: float) -> None:
-    """Edges of 40 : 1, 24 around the coarser rim: measured 4e-4 and 6e-4; bulbs of .06 and .09 fit them as well."""
+    """Edges of 40 : 1, 24 around the coarser rim: measured 1.0e-4 and 1.2e-3; bulbs of .06 and .09 fit them as well."""
     pipe = graded.regraded(even(length), int(500 * length))
     result = solved(pipe)
     assert result.converged

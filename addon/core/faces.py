@@ -52,14 +52,6 @@ def inner_edges(triangles: Ints) -> tuple[Ints, Ints]:
     return ordered[same], np.stack([of[same], of[same + 1]], axis=1)
 
 
-def edges_with_uses(triangles: Ints) -> tuple[Ints, Ints]:
-    """Return the edges (e, 2) and how many of the triangles each has."""
-    sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
-    count = int(triangles.max()) + 1
-    numbers, uses = np.unique(sides[:, 0].astype(np.int64) * count + sides[:, 1], return_counts=True)
-    return np.stack(np.divmod(numbers, count), axis=1), uses
-
-
 def _borders(triangles: Ints, kinds: Ints) -> Ints:
     """Return the (e, 2) edges on whose two sides the kinds differ."""
     edges, sides = inner_edges(triangles)

@@ -12,9 +12,10 @@ from .around import nearby
 from .arrays import Floats, Ints
 from .bends import bends
 from .hard_chains import chains
+from .piercing import Sheet, crossing, near
 from .quality import Join
 from .region import MeshArrays, nothing
-from .verdict import GOOD, LOFT_REASON, LOOK, UNUSABLE, Verdict, kink_reason, slope_reason
+from .verdict import GOOD, LOOK, SUBSTITUTES, UNUSABLE, Verdict, kink_reason, slope_reason
 from .words import counted
 
 
@@ -49,8 +50,8 @@ def judge(world: MeshArrays, outline: Ints, surface: Surface) -> Verdict:
     if len(ends):
         text = counted(len(ends), "vertex", "vertices")
         return Verdict(LOOK, f"Hard edges end at the hole, at {text}: the surface over it has none", ends)
-    if result.equation == "loft":
-        return Verdict(LOOK, LOFT_REASON, np.unique(outline))
+    if result.equation in SUBSTITUTES:
+        return Verdict(LOOK, SUBSTITUTES[result.equation], np.unique(outline))
     if len(surface.tangent_only):
         return Verdict(LOOK, slope_reason(surface.tangent_only), surface.tangent_only)
     return Verdict(GOOD)
@@ -73,15 +74,7 @@ def hard_ends(world: MeshArrays, outline: Ints) -> Ints:
 
 def _crossing(world: MeshArrays, outline: Ints, points: Floats, triangles: Ints) -> int:
     """Count the new triangles that pass through each other or through those of the mesh, wherever these are."""
-    low, high = points.min(axis=0), points.max(axis=0)
-    corners = world.positions[world.triangles]
-    with np.errstate(invalid="ignore"):
-        near = ((corners.min(axis=1) <= high) & (corners.max(axis=1) >= low)).all(axis=1)
-    old = world.triangles[near]
-    vertices = np.setdiff1d(old, outline)
-    number = np.zeros(len(world.positions), dtype=np.int64)
-    number[outline] = np.arange(len(outline))
-    number[vertices] = len(points) + np.arange(len(vertices))
-    everything = np.concatenate([points, world.positions[vertices]])
-    found = fairing.self_intersections(everything, np.concatenate([triangles, number[old]]))
-    return int(np.count_nonzero(found < len(triangles)))
+    count = len(world.positions)
+    number = np.concatenate([outline, count + np.arange(len(points) - len(outline))])
+    sheet = Sheet(np.concatenate([world.positions, points[len(outline) :]]), number[triangles])
+    return int(np.count_nonzero(crossing(sheet, near(sheet, world.triangles)) < len(triangles)))

@@ -181,7 +181,7 @@ def _piece(
         result=result,
         join=join,
         quads=options.quads,
-        notes=_notes(options, result) + sentences(slopes, origin),
+        notes=_notes(result, slopes, origin),
     )
 
 
@@ -203,12 +203,11 @@ def _spacing(world: MeshArrays, loops: list[Ints], options: FillOptions) -> floa
     return options.spacing * float(np.linalg.norm(np.concatenate(edges), axis=1).mean())
 
 
-def _notes(options: FillOptions, result: fairing.FillResult) -> tuple[str, ...]:
-    if result.equation == "least_variation" and options.equation != "LEAST_VARIATION":
-        return ("No surface of that shape fits these outlines: even curvature was used",)
-    if result.equation == "loft":
-        return ("No fair surface fits these outlines: they were joined by a loft",)
-    return ()
+def _notes(result: fairing.FillResult, slopes: tuple[fairing.Diagnostic, ...], origin: Origin) -> tuple[str, ...]:
+    """Tell what was taken in place of the surface asked for, and where its curvature is not continued."""
+    told = [warning for warning in result.warnings if warning.code == "NO_SOLUTION"]
+    known = [replace(each, elements=each.elements[each.elements < len(origin.vertices)]) for each in told]
+    return sentences((*known, *slopes), origin)
 
 
 def _advised(verdict: Verdict, options: FillOptions, loops: int) -> Verdict:

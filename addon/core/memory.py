@@ -63,7 +63,7 @@ def digest(*inputs: Any) -> str:
 def _feed(state: Any, given: Any) -> None:
     if isinstance(given, np.ndarray):
         state.update(f"{given.dtype}{given.shape}".encode())
-        state.update(np.ascontiguousarray(given).tobytes())
+        state.update(np.ascontiguousarray(given).reshape(-1).view(np.uint8))
     elif hasattr(given, "__dataclass_fields__"):
         for field in fields(given):
             state.update(field.name.encode())

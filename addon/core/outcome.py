@@ -13,7 +13,7 @@ from .arrays import Floats, Ints
 from .eaten import Eaten, eaten_edges
 from .engine import Problem, islands
 from .options import FairOptions
-from .piercing import pierced
+from .piercing import Sheet, pierced, places
 from .quality import Join, Quality
 from .region import MeshArrays, Patch, to_local
 from .rounded import rounded_edges
@@ -59,7 +59,7 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     quality_before, quality_after = quality.compare(patch, (before[:own], after[:own]), clear)
     join = quality.join(problem, after)
     odd = _rounded(problem, after, moving, options), _swollen(patch, before, after), _eaten(mesh, problem, after)
-    through = pierced(mesh, matrix, problem, after)
+    through = _pierced(mesh, matrix, problem, after)
     evidence = Evidence(
         problem, result, solved.failures, quality_before, quality_after, join, *odd, pierced=through, points=after
     )
@@ -78,6 +78,15 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
         verdict=verdict,
         free_count=len(patch.free),
     )
+
+
+def _pierced(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -> Ints:
+    """Return the mesh vertices of the patch's triangles that pass through unselected faces, and did not before."""
+    own = problem.patch.vertices[problem.patch.triangles]
+    before = places(mesh, matrix)
+    moved = before.copy()
+    moved[problem.vertices] = after
+    return pierced(mesh, Sheet(before, own), Sheet(moved, own))
 
 
 def _swollen(patch: Patch, before: Floats, after: Floats) -> Ints:

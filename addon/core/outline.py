@@ -111,9 +111,11 @@ def _folded_note(mesh: MeshArrays, outline: Mask) -> str:
 
 def _lone_face_note(mesh: MeshArrays, outline: Mask) -> str:
     """Tell of single unselected faces: an outline of one face has one face's normal all around."""
-    sizes = np.bincount(mesh.corner_faces, minlength=len(mesh.in_patch))
-    touching = np.bincount(mesh.corner_faces, outline[mesh.corner_edges], len(mesh.in_patch))
-    alone = int(np.count_nonzero((touching == sizes) & ~mesh.in_patch & (sizes > 0)))
+    outer = ~mesh.in_patch[mesh.corner_faces]
+    beside = np.zeros(len(mesh.in_patch), dtype=bool)
+    beside[mesh.corner_faces[outer]] = True
+    beside[mesh.corner_faces[outer & ~outline[mesh.corner_edges]]] = False
+    alone = int(np.count_nonzero(beside))
     if not alone:
         return ""
     return counted(
@@ -126,6 +128,8 @@ def _lone_face_note(mesh: MeshArrays, outline: Mask) -> str:
 def _seam_note(mesh: MeshArrays) -> str:
     """Tell of open borders inside the patch that lie on each other: the surface is held there."""
     single = np.bincount(mesh.corner_edges, minlength=len(mesh.edges)) == 1
+    if not single.any():
+        return ""
     border = np.zeros(len(mesh.positions), dtype=bool)
     border[mesh.edges[single]] = True
     places = mesh.positions[border & vertices_of(mesh, mesh.in_patch)]

@@ -2,48 +2,75 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
+from numpy.typing import NDArray
 
 import fairing
 
 from .arrays import Floats, Ints
-from .engine import Problem
 from .region import MeshArrays, nothing
 
 
-def pierced(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -> Ints:
-    """Return the mesh vertices of the patch's triangles that pass through unselected faces, and did not before.
+@dataclass(frozen=True)
+class Sheet:
+    """Triangles (m, 3) over a mesh's n vertices, in their places, and k more of their own."""
 
-    after: (q, 3) new positions of problem.vertices, in the space that the 4×4 `matrix` leads to.
-    """
+    points: Floats  # (n + k, 3) in world space
+    triangles: Ints
+
+
+def places(mesh: MeshArrays, matrix: Floats) -> Floats:
+    """Return the mesh's (n, 3) positions in the space that the 4×4 `matrix` leads to."""
     with np.errstate(invalid="ignore", over="ignore"):
-        before = mesh.positions @ matrix[:3, :3].T + matrix[:3, 3]
-    moved = before.copy()
-    moved[problem.vertices] = after
-    own = problem.patch.vertices[problem.patch.triangles]
-    others = _near(moved, own, mesh.triangles[~mesh.in_patch[mesh.triangle_faces]])
-    found = _crossing(moved, own, others)
-    if not (found >= len(own)).any():
-        return nothing()
-    new = np.setdiff1d(found, _crossing(before, own, others))
-    if not (new >= len(own)).any():
-        return nothing()
-    inside = own[new[new < len(own)]]
-    vertices: Ints = np.unique(inside if len(inside) else own[found[found < len(own)]])
-    return vertices
+        found: Floats = mesh.positions @ matrix[:3, :3].T + matrix[:3, 3]
+    return found
 
 
-def _near(points: Floats, own: Ints, others: Ints) -> Ints:
-    """Return those of the other triangles that reach into the box around one's own."""
-    low, high = points[own].min(axis=(0, 1)), points[own].max(axis=(0, 1))
-    corners = points[others]
-    with np.errstate(invalid="ignore"):  # of vertices that are not finite, none is near
-        inside = ((corners.min(axis=1) <= high) & (corners.max(axis=1) >= low)).all(axis=1)
-    chosen: Ints = others[inside]
+def pierced(mesh: MeshArrays, before: Sheet, after: Sheet) -> Ints:
+    """Return the numbers of the points of those triangles that pass through unselected faces `before` did not."""
+    others = near(after, mesh.triangles[~mesh.in_patch[mesh.triangle_faces]])
+    now = _crossed(after, others)
+    if not len(now):
+        return nothing()
+    others = others[np.setdiff1d(now, _crossed(before, others))]
+    if not len(others):
+        return nothing()
+    found = crossing(after, others)
+    numbers: Ints = np.unique(after.triangles[found[found < len(after.triangles)]])
+    return numbers
+
+
+def near(sheet: Sheet, others: Ints) -> Ints:
+    """Return those of the other triangles that reach into the box around the sheet."""
+    box = sheet.points[np.unique(sheet.triangles)]
+    beyond = _beyond(sheet.points, box.min(axis=0), box.max(axis=0))
+    a, b, c = others.T
+    inside = beyond[a] & beyond[b] & beyond[c] == 0
+    finite = np.isfinite(sheet.points).all(axis=1)
+    chosen: Ints = others[inside if finite.all() else inside & finite[others].all(axis=1)]
     return chosen
 
 
-def _crossing(points: Floats, own: Ints, others: Ints) -> Ints:
-    """Return which triangles pass through others: one's own are numbered first."""
-    used, numbers = np.unique(np.concatenate([own, others]), return_inverse=True)
-    return fairing.self_intersections(points[used], numbers.reshape(-1, 3)).astype(np.int64)
+def _beyond(points: Floats, low: Floats, high: Floats) -> NDArray[np.uint8]:
+    """Return (n,) which sides of a box each point is beyond, a bit each."""
+    sides = np.zeros(len(points), dtype=np.uint8)
+    with np.errstate(invalid="ignore"):
+        for axis in range(3):
+            sides |= (points[:, axis] < low[axis]) * np.uint8(1 << axis)
+            sides |= (points[:, axis] > high[axis]) * np.uint8(8 << axis)
+    return sides
+
+
+def crossing(sheet: Sheet, others: Ints) -> Ints:
+    """Return which of the triangles pass through others: the sheet's own are numbered first."""
+    used, numbers = np.unique(np.concatenate([sheet.triangles, others]), return_inverse=True)
+    return fairing.self_intersections(sheet.points[used], numbers.reshape(-1, 3)).astype(np.int64)
+
+
+def _crossed(sheet: Sheet, others: Ints) -> Ints:
+    """Return which of the others cross the sheet, or each other."""
+    found = crossing(sheet, others) - len(sheet.triangles)
+    numbers: Ints = found[found >= 0]
+    return numbers

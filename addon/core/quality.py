@@ -14,7 +14,6 @@ import fairing
 from .arrays import Floats, Ints, Mask
 from .bends import bends
 from .engine import Problem
-from .faces import edges_with_uses
 from .region import Patch
 from .vectors import area_vectors
 
@@ -134,7 +133,7 @@ def join(problem: Problem, points: Floats) -> Join:
 
 def _outline_edges(patch: Patch, rim: Ints) -> Ints:
     """Return the edges (e, 2) at the patch's border between vertices of the rim."""
-    edges, uses = edges_with_uses(patch.triangles)
+    edges, uses = fairing.edges_with_uses(patch.triangles)
     found: Ints = edges[(uses == 1) & np.isin(edges, rim).all(axis=1)]
     return found
 

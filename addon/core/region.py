@@ -119,6 +119,8 @@ def fins(mesh: MeshArrays) -> Mask:
     """
     many = _edge_uses(mesh, slice(None)) > 2
     hang = np.zeros(len(mesh.in_patch), dtype=bool)
+    if not many.any():
+        return hang
     hang[mesh.corner_faces[many[mesh.corner_edges]]] = True
     hang[mesh.corner_faces[free_vertices(mesh)[mesh.corner_vertices]]] = False
     return hang & mesh.in_patch

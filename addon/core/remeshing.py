@@ -17,6 +17,7 @@ from .lines import inner_lines
 from .new_part import NewPart, new_part
 from .options import FairOptions
 from .outcome import Fairing
+from .piercing import Sheet, pierced, places
 from .region import MeshArrays, Patch, to_local
 from .solve import pose, told_by
 from .swelling import discs, swellings, waviness
@@ -85,7 +86,7 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
     swollen = after.patch.vertices[swellings(discs(after.patch), points, was)]
     evidence = Evidence(
         after, result, failures, *measured, join, swollen=swollen, squeezed=_squeezed(problem, kept, result),
-        points=own.points, origin=origin,
+        pierced=_pierced(mesh, matrix, problem, part, points), points=own.points, origin=origin,
     )  # fmt: skip
     verdict = judge(evidence, options)
     local = to_local(points, matrix)
@@ -127,6 +128,23 @@ def _squeezed(problem: Problem, kept: Ints, result: fairing.RemeshResult) -> Int
     after[result.old[on_line]] = result.vertices[on_line]
     found: Ints = problem.patch.vertices[squeezed(problem.own_points, after, kept)]
     return found
+
+
+def _pierced(mesh: MeshArrays, matrix: Floats, problem: Problem, part: NewPart, points: Floats) -> Ints:
+    """Return the mesh vertices at new triangles, whose (r + k) points are given, that pass through unselected faces.
+
+    Only through such as the old triangles did not pass through. Of new vertices those next to them stand for them.
+    """
+    before = places(mesh, matrix)
+    stay, count = len(part.stay), len(before)
+    moved = before.copy()
+    moved[part.stay] = points[:stay]
+    number = np.concatenate([part.stay, count + np.arange(len(points) - stay)])
+    after = Sheet(np.concatenate([moved, points[stay:]]), number[part.triangles])
+    found = pierced(mesh, Sheet(before, problem.patch.vertices[problem.patch.triangles]), after)
+    beside = np.concatenate([np.arange(count), part.vertices.heaviest])
+    vertices: Ints = np.unique(beside[found])
+    return vertices
 
 
 def _solved(problem: Problem, kept: Ints, options: FairOptions, progress: Progress | None) -> fairing.RemeshResult:
@@ -203,7 +221,7 @@ def _new_problem(problem: Problem, part: NewPart, result: fairing.RemeshResult, 
 
 def _origin(problem: Problem, result: fairing.RemeshResult) -> Origin:
     """Return what the engine's numbers in the warnings stand for: those of the mesh that was solved last."""
-    if not result.polished:
+    if result.cut:
         return problem.origin
     patch = problem.patch
     near = patch.triangles[result.origin[0]][np.arange(len(result.old)), result.origin[1].argmax(axis=1)]

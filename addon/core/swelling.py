@@ -13,7 +13,6 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints
-from .faces import edges_with_uses
 from .region import Patch, nothing
 
 LEAST = 0.25  # of 2π: by how much a knob bends like a ball, and its neck like a saddle; an elbow of 90° has as much
@@ -37,7 +36,7 @@ def discs(patch: Patch) -> tuple[Disc, ...]:
 
 def _disc(triangles: Ints) -> Disc | None:
     """Return connected triangles that have the Euler characteristic of a disc."""
-    edges, uses = edges_with_uses(triangles)
+    edges, uses = fairing.edges_with_uses(triangles)
     vertices = np.unique(triangles)
     if len(vertices) - len(edges) + len(triangles) != 1:
         return None
@@ -75,10 +74,10 @@ def _tops(inner: Ints, turns: Floats) -> Ints:
 def _turns(points: Floats, triangles: Ints) -> Floats:
     """Return by how much the angles at each vertex fall short of a full turn, in radians."""
     turns = np.full(len(points), 2.0 * np.pi)
-    for first, second, third in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-        here = points[triangles[:, first]]
-        one, other = points[triangles[:, second]] - here, points[triangles[:, third]] - here
-        across = np.linalg.norm(np.cross(one, other), axis=1)
-        angles = np.arctan2(across, (one * other).sum(axis=1))
-        turns -= np.bincount(triangles[:, first], weights=angles, minlength=len(points))
+    corners = triangles.T
+    sides = [points[corners[(k + 1) % 3]] - points[corners[k]] for k in range(3)]
+    doubled = np.linalg.norm(np.cross(sides[0], sides[1]), axis=1)  # area: the same from each corner
+    for k in range(3):
+        angles = np.arctan2(doubled, -np.einsum("ij,ij->i", sides[k], sides[k - 1]))
+        turns -= np.bincount(corners[k], weights=angles, minlength=len(points))
     return turns

@@ -28,8 +28,11 @@ GROW, SMOOTH_OUTLINE, AS_SELECTED, HOLD_BORDER = "GROW", "SMOOTH_OUTLINE", "AS_S
 EVEN_CURVATURE, EVEN_SPREAD, WRITE = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE"
 
 _KNOT = "Seams and marks inside, which stay, are squeezed to a knot at {}"
-LOFT_REASON = "No fair surface fits these outlines: the loft that joins them is a substitute, so look at its shape"
-SMOOTHED_REASON = "No fair surface fits these outlines: the old shape was smoothed as far as it goes, so look at it"
+# What stands in for a surface that there is none of, by the engine's name for it.
+SUBSTITUTES = {
+    "loft": "No fair surface fits these outlines: the loft that joins them is a substitute, so look at its shape",
+    "smoothed": "No fair surface fits these outlines: the old shape was smoothed as far as it goes, so look at it",
+}
 
 
 @dataclass(frozen=True)
@@ -289,7 +292,7 @@ def _swollen(evidence: Evidence, options: FairOptions) -> Found:
 
 def _substituted(evidence: Evidence, _options: FairOptions) -> Found:
     """Tell of a loft, which may be as flat as a strap, and of the old shape smoothed, which may keep part of it."""
-    for figure, reason in (("loft", LOFT_REASON), ("smoothed", SMOOTHED_REASON)):
+    for figure, reason in SUBSTITUTES.items():
         if any(evidence.told("NO_SOLUTION", figure)):
             return reason, _most_bent(evidence)
     return _NOTHING

@@ -54,6 +54,11 @@ WORDS: dict[str, tuple[Words, ...]] = {
     ),
     "NONMANIFOLD_VERTEX": (
         Words(
+            "{n} vertices of the outline, {first} among them, share their place with another one: use Merge by "
+            "Distance where the mesh is torn, move them apart where the outline touches itself",
+            when="meeting",
+        ),
+        Words(
             "Free vertex {first} joins several fans of faces: split it, or pin it",
             "{n} free vertices, {first} among them, join several fans of faces: split them, or pin them",
         ),

@@ -24,13 +24,13 @@ import fairing
 from ..core import signals
 from ..core.arrays import Floats
 from ..core.engine import REFUSALS
-from ..core.live_region import LiveRegion
+from ..core.live_search import Found
 from ..core.options import FairOptions
 from ..host.handlers import call_later, call_off, listen, unlisten
 from ..host.status import redraw_sidebars, redraw_views
 from ..mesh import live_mesh, mesh_io
 from .search import Search
-from .session import Session, check_key, fits, matrix_of, read, session_of
+from .session import Session, check_key, fits, read, session_of, where
 
 PATIENCE = 0.15  # seconds for an answer in the middle of changes: with reading and writing a step stays below 0.3
 MOST_SKIPPED = 15  # changes in a row that are carried along without asking for an answer
@@ -52,18 +52,13 @@ class Live:
         self.changed_at = 0.0  # the last change, by time.monotonic
         self.on = False
 
-    def take(self, obj: bpy.types.Object, options: FairOptions) -> None:
-        """Make the selection the region of an object in edit mode, fair now.
-
-        Raises what engine.REFUSALS lists where it can't be; nothing has changed then.
-        """
-        region = read(obj, options, None)
-        matrix = matrix_of(obj)
-        answer = region.answer(live_mesh.positions(obj.data, region.vertices), matrix)
-        if answer is None:
-            raise fairing.SolverError("No fair surface was found for the region")
-        live_mesh.mark_faces(obj.data, region.faces, options, mesh_io.writable_key(obj))
-        self._write(obj, self._open(obj, region), answer)
+    def take(self, obj: bpy.types.Object, session: Session, options: FairOptions, found: Found) -> None:
+        """Make a candidate the region of its object in edit mode, with these options and its first surface."""
+        assert found.positions is not None
+        live_mesh.mark_faces(obj.data, session.faces, options, mesh_io.writable_key(obj))
+        self._open(obj.data.name, session)
+        self.message = STAND_IN if found.stands_in else ""
+        self._write(obj, session, found.positions)
 
     def follow(self, obj: bpy.types.Object) -> bool:
         """Make the region fair again where something has changed around it; tell whether it was written.
@@ -73,7 +68,7 @@ class Live:
         session = self._current(obj)
         if session is None:
             return False
-        if not session.moved(live_mesh.positions(obj.data, session.region.vertices), matrix_of(obj)):
+        if not session.moved(*where(obj, session.region)):
             return False
         answer = self._hurried(session)
         session.lost = answer is None
@@ -123,8 +118,7 @@ class Live:
 
     def _has_moved(self, obj: bpy.types.Object, session: Session) -> bool:
         """Tell whether the surroundings have moved since the last look; the handler of changes will take it up."""
-        now = live_mesh.positions(obj.data, session.region.vertices), matrix_of(obj)
-        return not (np.array_equal(now[0], session.positions) and np.array_equal(now[1], session.matrix))
+        return not session.is_at(*where(obj, session.region))
 
     def waits(self, obj: bpy.types.Object) -> bool:
         """Tell whether the region waits for a search, or for the end of one."""
@@ -152,13 +146,13 @@ class Live:
             raise
         session = self.sessions.get(mesh.name)
         if session is None or not fits(session, mesh):
-            session = self._open(obj, read(obj, live_mesh.region_options(mesh), mesh))
+            session = session_of(obj, read(obj, live_mesh.region_options(mesh), mesh))
+            self._open(mesh.name, session)
         return session
 
-    def _open(self, obj: bpy.types.Object, region: LiveRegion) -> Session:
-        self._close(obj.data.name)
-        session = self.sessions[obj.data.name] = session_of(obj, region)
-        return session
+    def _open(self, name: str, session: Session) -> None:
+        self._close(name)
+        self.sessions[name] = session
 
     def _close(self, name: str) -> None:
         session = self.sessions.pop(name, None)
@@ -167,7 +161,7 @@ class Live:
 
     def _write(self, obj: bpy.types.Object, session: Session, answer: Floats) -> None:
         mesh_io.write_edit_mesh(obj.data, session.region.free, answer)
-        session.positions, session.matrix = live_mesh.positions(obj.data, session.region.vertices), matrix_of(obj)
+        session.positions, session.matrix = where(obj, session.region)
         self.updates += 1
 
     def doubt(self) -> None:

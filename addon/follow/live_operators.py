@@ -1,5 +1,5 @@
 # mypy: disable-error-code="valid-type"
-"""Live for the user: the switch, and the operators that set and forget its region.
+"""Live for the user: the switch, and the operators that select and forget its region.
 
 No postponed annotations here: Blender reads them as property definitions.
 """
@@ -10,16 +10,12 @@ import bpy
 import numpy as np
 from bpy.props import BoolProperty
 
-from ..core.engine import REFUSALS
 from ..core.options import FairOptions
 from ..core.selection import far_sides
 from ..core.signals import live_changed
 from ..host.context import edited_objects
-from ..host.polling import NO_FACE, SELECT_FACES, require, require_edit_mode
+from ..host.polling import require, require_edit_mode
 from ..mesh import live_mesh, mesh_io, selecting
-from ..translations import translated
-from .inspection import last_options
-from .live import live
 
 
 class FairLive(bpy.types.PropertyGroup):
@@ -32,43 +28,6 @@ class FairLive(bpy.types.PropertyGroup):
         default=False,
         update=live_changed,
     )
-
-
-def enclosing(obj: bpy.types.Object) -> bool:
-    """Tell whether selected edges of an object in edit mode enclose faces."""
-    return bool(obj.data.total_edge_sel and mesh_io.read_edit_mesh(obj, FairOptions()).in_patch.any())
-
-
-class MESH_OT_fair_live_region(bpy.types.Operator):
-    """Make the selected faces the live region of their mesh, fair now and after every change around them.
-    The options are those of the last Fair Region; the region is saved with the mesh"""
-
-    bl_idname = "mesh.fair_live_region"
-    bl_label = "Live Region"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Edit mode has a selection."""
-        return require_edit_mode(cls, context, SELECT_FACES)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Take the selection of every object in edit mode that has one, and turn Live on."""
-        context.view_layer.update()
-        options = last_options(context)
-        edited = edited_objects(context)
-        chosen = [obj for obj in edited if obj.data.total_face_sel] or [obj for obj in edited if enclosing(obj)]
-        if not chosen:
-            self.report({"ERROR"}, translated(NO_FACE))
-            return {"CANCELLED"}
-        for obj in chosen:
-            try:
-                live.take(obj, options)
-            except REFUSALS as cause:
-                self.report({"ERROR"}, f"{obj.name}: {cause}")
-                return {"CANCELLED"}
-        context.window_manager.fairing_live.on = True
-        return {"FINISHED"}
 
 
 def _require_region(operator: Any, context: bpy.types.Context) -> bool:

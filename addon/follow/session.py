@@ -35,10 +35,15 @@ class Session:
     waited: int = 0  # changes that were skipped before the last try
     points: Floats = field(default_factory=lambda: np.empty((0, 3)))  # of the outline in world space, where lost
     checked: bool = True  # an undo may have brought back another region
+    key: str = ""  # of a candidate: the shape key that was read, as mesh_io.writable_key names it
+
+    def is_at(self, positions: Floats, matrix: Floats) -> bool:
+        """Tell whether everything is still there."""
+        return np.array_equal(positions, self.positions) and np.array_equal(matrix, self.matrix)
 
     def moved(self, positions: Floats, matrix: Floats) -> bool:
         """Take other positions, for which no search holds any more; tell whether they differ."""
-        if np.array_equal(positions, self.positions) and np.array_equal(matrix, self.matrix):
+        if self.is_at(positions, matrix):
             return False
         self.positions, self.matrix, self.given_up = positions, matrix, False
         self.call_off()
@@ -61,6 +66,11 @@ def matrix_of(obj: bpy.types.Object) -> Floats:
     """Return the (4, 4) map to world space."""
     matrix: Floats = np.array(obj.matrix_world, dtype=np.float64)
     return matrix
+
+
+def where(obj: bpy.types.Object, region: LiveRegion) -> tuple[Floats, Floats]:
+    """Return the positions (n, 3) of region.vertices now, and the object's (4, 4) matrix."""
+    return live_mesh.positions(obj.data, region.vertices), matrix_of(obj)
 
 
 def read(obj: bpy.types.Object, options: FairOptions, marked: bpy.types.Mesh | None) -> LiveRegion:
@@ -90,6 +100,23 @@ def session_of(obj: bpy.types.Object, region: LiveRegion) -> Session:
     faces = live_mesh.region_faces(obj.data)
     assert faces is not None
     return Session(faces, live_mesh.corners(obj.data, faces), live_mesh.counts(obj.data), region)
+
+
+def candidate(obj: bpy.types.Object, options: FairOptions) -> Session:
+    """Read the selection as a region to be: nothing is marked yet. Raises ValueError where it can't be one."""
+    region = read(obj, options, None)
+    corners, counts = live_mesh.corners(obj.data, region.faces), live_mesh.counts(obj.data)
+    key = mesh_io.writable_key(obj)
+    return Session(region.faces, corners, counts, region, *where(obj, region), key=key)
+
+
+def is_current(obj: bpy.types.Object, session: Session) -> bool:
+    """Tell whether an object in edit mode still is as its candidate was read, in that shape key."""
+    try:
+        same_key = mesh_io.writable_key(obj) == session.key
+    except ValueError:  # locked meanwhile
+        return False
+    return same_key and fits(session, obj.data) and session.is_at(*where(obj, session.region))
 
 
 def fits(session: Session, mesh: bpy.types.Mesh) -> bool:

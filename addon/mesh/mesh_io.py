@@ -17,7 +17,7 @@ from ..core.region import MeshArrays, free_vertices
 from ..core.selection import enclosed_faces
 from ..core.spiked import is_spiked
 from ..core.symmetry import with_image
-from .columns import column, indices, stored
+from .columns import column, flags, indices, stored
 from .marked_lines import lines
 from .weights import group_index, members, weighed
 
@@ -61,7 +61,7 @@ def read_edit_mesh(obj: bpy.types.Object, options: FairOptions, region: str = ""
 
 def _selected(mesh: bpy.types.Mesh, group: int | None, options: FairOptions) -> MeshArrays:
     """Read a mesh with its selected faces, or with those that its selected edges enclose where no vertex is free."""
-    arrays = _arrays(mesh, stored(mesh, ".select_poly", (mesh.polygons, "select")), group, options)
+    arrays = _arrays(mesh, flags(mesh, ".select_poly", mesh.polygons), group, options)
     if free_vertices(arrays).any():
         return arrays
     enclosed = enclosed_faces(arrays, column(mesh.edges, "select", 1, bool))
@@ -151,23 +151,23 @@ def user_of(mesh: bpy.types.Mesh) -> bpy.types.Object | None:
 
 
 def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: FairOptions) -> MeshArrays:
-    mesh.calc_loop_triangles()
     sizes = indices(mesh.polygons, "loop_total")
     corner_vertices = stored(mesh, ".corner_vert", (mesh.loops, "vertex_index"))
     corner_faces = np.repeat(np.arange(len(sizes)), sizes)
-    hidden = stored(mesh, ".hide_poly", (mesh.polygons, "hide"))
+    hidden = flags(mesh, ".hide_poly", mesh.polygons)
     in_patch = selected & ~hidden
     edges = stored(mesh, ".edge_verts", (mesh.edges, "vertices"), 2)
     custom = options.boundary_normals == "CUSTOM"
     sharp = _marked_edges(mesh, "SHARP")
+    triangles, triangle_faces = _triangles(mesh, sizes, corner_vertices)
     arrays = MeshArrays(
         positions=column(mesh.vertices, "co", 3, np.float32).astype(np.float64),
         edges=edges,
         corner_vertices=corner_vertices,
         corner_edges=stored(mesh, ".corner_edge", (mesh.loops, "edge_index")),
         corner_faces=corner_faces,
-        triangles=indices(mesh.loop_triangles, "vertices", 3),
-        triangle_faces=indices(mesh.loop_triangle_polygons, "value"),
+        triangles=triangles,
+        triangle_faces=triangle_faces,
         in_patch=in_patch,
         pinned=np.zeros(len(mesh.vertices), dtype=bool),
         corner_normals=_corner_normals(mesh) if custom else None,
@@ -180,6 +180,14 @@ def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: Fa
     if arrays.textured and is_spiked(arrays):
         arrays = replace(arrays, textured=False)
     return _pinned(arrays, mesh, group, options)
+
+
+def _triangles(mesh: bpy.types.Mesh, sizes: Ints, corner_vertices: Ints) -> tuple[Ints, Ints]:
+    """Return the triangles (t, 3) that Blender makes of the faces, and the faces (t,) they are of."""
+    if (sizes == 3).all():  # Blender's own list takes a while to read
+        return corner_vertices.reshape(-1, 3), np.arange(len(sizes))
+    mesh.calc_loop_triangles()
+    return indices(mesh.loop_triangles, "vertices", 3), indices(mesh.loop_triangle_polygons, "value")
 
 
 def _pinned(arrays: MeshArrays, mesh: bpy.types.Mesh, group: int | None, options: FairOptions) -> MeshArrays:
@@ -223,10 +231,11 @@ def _corner_normals(mesh: bpy.types.Mesh) -> Floats:
 
 def _marked_edges(mesh: bpy.types.Mesh, kind: str) -> Mask:
     """Return the (e,) mask of the edges that one of options.PIN_EDGES names."""
-    if kind in ("SHARP", "SEAM"):
-        name = "use_edge_sharp" if kind == "SHARP" else "use_seam"
-        marked: Mask = column(mesh.edges, name, 1, bool)
-        return marked
+    if kind == "SHARP":
+        return flags(mesh, "sharp_edge", mesh.edges)
+    if kind == "SEAM":
+        seams: Mask = column(mesh.edges, "use_seam", 1, bool)  # whose attribute has another name in some versions
+        return seams
     crease = mesh.attributes.get("crease_edge") if kind == "CREASE" else None
     if crease is None:
         return np.zeros(len(mesh.edges), dtype=bool)

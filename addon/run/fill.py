@@ -17,7 +17,7 @@ from ..core.options import FairOptions
 from ..core.region import MeshArrays
 from ..core.report import summary
 from ..host.context import edited_objects
-from ..host.polling import require, require_edit_mode
+from ..host.polling import require_edit_mode, require_idle
 from ..mesh import filled, mesh_io, selecting
 from ..preferences import background_from
 from ..translations import translated
@@ -89,10 +89,8 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Edit mode has borders; while a run is under way, the mesh is its own."""
-        return require_edit_mode(cls, context, "Select the outline of a hole in edit mode") and require(
-            cls,
-            not context.window_manager.fairing_progress.running,
-            "Fairing is under way: wait for it, or press Esc",
+        return require_edit_mode(cls, context, "Select the outline of a hole in edit mode") and require_idle(
+            cls, context
         )
 
     def draw(self, _context: bpy.types.Context) -> None:

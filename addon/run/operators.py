@@ -13,7 +13,7 @@ import numpy as np
 from ..core.options import FairOptions
 from ..core.outcome import Fairing
 from ..core.report import GRADE_NAMES, Report, make_report, summary
-from ..host.polling import NO_FACE, NO_FREE, SELECT_FACES, require, require_edit_mode
+from ..host.polling import NO_FACE, NO_FREE, SELECT_FACES, require_edit_mode, require_idle
 from ..host.status import redraw_sidebars
 from ..mesh import selecting
 from ..preferences import background_from
@@ -42,11 +42,7 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Cheap, as it is asked at every redraw; what takes a look at the mesh is answered by a report."""
-        return require_edit_mode(cls, context, SELECT_FACES) and require(
-            cls,
-            not context.window_manager.fairing_progress.running,
-            "Fairing is under way: wait for it, or press Esc",
-        )
+        return require_edit_mode(cls, context, SELECT_FACES) and require_idle(cls, context)
 
     def draw(self, context: bpy.types.Context) -> None:
         """Lay the options out in groups."""

@@ -11,9 +11,9 @@ from ..follow.live import live
 from ..follow.live_operators import (
     MESH_OT_fair_live_far_side,
     MESH_OT_fair_live_forget,
-    MESH_OT_fair_live_region,
     MESH_OT_fair_live_select,
 )
+from ..follow.taking import MESH_OT_fair_live_region
 from ..follow.watch import MESH_OT_fair_inspect, is_large, request, watch
 from ..host.text import draw_text
 from ..run.again import WAY_NAMES, MESH_OT_fair_again, MESH_OT_fair_reselect, MESH_OT_fair_spots

@@ -15,6 +15,7 @@
 #include "geometry/outline_angles.h"
 #include "geometry/self_intersection.h"
 #include "method/eased.h"
+#include "method/joined.h"
 #include "pins/sharp_pins.h"
 #include "pins/spread_pins.h"
 
@@ -116,8 +117,9 @@ Reason reason_of_join(const Solution& solution) {
                     {{"not_found", 1.0}}};
         case Join::too_rough:
             return {"what the tangent surface lacks looks like noise: waves of twelve vertices and more explain " +
-                        std::to_string(std::lround(100.0 * solution.smooth_share)) +
-                        " % of it, and 50 % are needed; smooth the surroundings",
+                        std::to_string(std::lround(100.0 * solution.smooth_share)) + " % of it, and " +
+                        std::to_string(std::lround(100.0 * least_smooth_share)) +
+                        " % are needed; smooth the surroundings",
                     {{"smooth_share", solution.smooth_share}}};
         default:
             return {"the surroundings say too little about it: leave three rings of even triangles around the patch",

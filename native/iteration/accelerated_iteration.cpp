@@ -27,6 +27,10 @@ constexpr double explosion_factor = 4.0;
 constexpr double explosion_rise = 60.0;
 constexpr double slow = 0.5;  // contraction over `refresh_after` iterations that asks for a new factor
 constexpr int refresh_after = 6;
+// The iteration ends with a step after which the next one would be this share of the tolerance, by the ratio of the
+// last two. They shrink by a third to a seventh each; a ratio that is less is luck.
+constexpr double least_share = 0.5;
+constexpr double fastest = 0.1;
 constexpr double share_of_factor = 0.2;  // of the time, in large problems
 
 class AcceleratedIteration {
@@ -52,6 +56,10 @@ public:
             report(k);
             if (!measure()) break;
             if (k == 0) solution_.initial_residual = residual_;
+            if (arrives_ && residual_ < residual_before_) {
+                end_here();
+                break;
+            }
             if (!refresh_operator(k)) {
                 solution_.termination = Termination::stalled;
                 break;
@@ -63,15 +71,17 @@ public:
             solution_.last_step = largest;
             solution_.least_step = k == 0 ? largest : std::min(solution_.least_step, largest);
             if (largest <= problem_.options.tolerance) {
-                solution_.termination = Termination::converged;
-                keep();
+                end_here();
+                if (problem_.options.start_only) solution_.points = moved(d);
                 break;
             }
+            arrives_ = next_step(largest) <= least_share * problem_.options.tolerance;
             if (hopeless(largest)) {
                 solution_.termination = Termination::stalled;
                 break;
             }
-            anderson_.move(state_.points, damping_ * d, largest_step);
+            residual_before_ = residual_;
+            state_.points = moved(d);
         }
         return std::move(solution_);
     }
@@ -90,6 +100,23 @@ private:
         const double done = last_step_ > 0.0 ? std::log10(std::max(1e-2 / last_step_, 1.0)) / decades : 0.0;
         const double share = std::max(done, static_cast<double>(k) / problem_.options.max_iterations);
         progress_.report(k == 0 ? 0.0 : share_of_factor + (1.0 - share_of_factor) * share, "iteration");
+    }
+
+    void end_here() {
+        solution_.termination = Termination::converged;
+        keep();
+    }
+
+    Points moved(const Points& d) {
+        Points points = state_.points;
+        anderson_.move(points, damping_ * d, largest_step);
+        return points;
+    }
+
+    // The largest move of the next iteration, from this one's and the last one's; infinite where they hardly shrink.
+    [[nodiscard]] double next_step(double largest) const {
+        const double ratio = std::max(largest / last_step_, fastest);
+        return ratio <= slow ? ratio * largest : std::numeric_limits<double>::infinity();
     }
 
     // False where the surface is no longer finite.
@@ -155,7 +182,9 @@ private:
     SurfaceState state_;
     VectorX outer_;
     double residual_ = 0.0;
-    double start_energy_ = -1.0;  // not known yet
+    double residual_before_ = 0.0;  // the last step
+    bool arrives_ = false;          // the next step would be within the tolerance
+    double start_energy_ = -1.0;    // not known yet
     double best_residual_ = std::numeric_limits<double>::infinity();
     double last_step_ = 0.0;
     double step_at_refresh_ = 0.0;

@@ -1,6 +1,7 @@
 #include "method/accept.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "base/difference.h"
@@ -55,6 +56,39 @@ Indices crossings_inside(const Patch& patch, const Points& points) {
     Indices crossing = crossing_triangles(patch.triangles(Eigen::all, kept), points);
     for (int& t : crossing) t = kept[at(t)];
     return crossing;
+}
+
+// Whether the edges of a mesh are shorter than this everywhere, which their mean tells of even meshes only: pipes and
+// catenoids graded by 40 : 1 have 2.7 to 3.1 means at the 99th percentile, regions of scans 1.2 to 1.4.
+bool is_finer(const Patch& patch, const Points& points, double edge) {
+    constexpr double most_of_even = 2.0;
+    std::vector<double> lengths;
+    lengths.reserve(patch.edge_ends.size());
+    for (const auto& [a, b] : patch.edge_ends) lengths.push_back((points.col(a) - points.col(b)).norm());
+    const auto high = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() * 99 / 100);
+    std::nth_element(lengths.begin(), high, lengths.end());
+    const double mean = mean_edge(patch, points);
+    return mean < edge && *high <= most_of_even * mean;
+}
+
+struct Difference {
+    double distance = 0.0;
+    double curvature = 0.0;
+};
+
+// The largest ones at the free vertices, between each and the nearest point of the surface.
+Difference difference_from(const SolvedSurface& surface, const Solution& own) {
+    Difference result;
+    for (std::size_t v = 0; v < surface.where.size(); ++v) {
+        const int column = static_cast<int>(v);
+        const SurfacePoint nearest = surface.target.project(own.points.col(column), surface.where[v].triangle);
+        const double distance = (surface.target.position(nearest) - own.points.col(column)).norm();
+        const double curvature =
+            std::abs(surface.target.interpolate(surface.mean_curvature, nearest) - own.mean_curvature[column]);
+        result.distance = std::max(result.distance, distance);
+        result.curvature = std::max(result.curvature, curvature);
+    }
+    return result;
 }
 
 }  // namespace
@@ -116,17 +150,14 @@ bool is_final(const Problem& problem, const Solution& solution) {
     return solution.reached_load > 0.0 && !has_poor_triangles(problem.patch, solution.points);
 }
 
-bool agree(const Problem& problem, const Solution& own, const Solution& placed, double proxy_edge) {
+bool agree(const Problem& problem, const Solution& own, const SolvedSurface& surface) {
     constexpr double farthest = 2e-4;        // units of D
     constexpr double edge_share = 1.0;       // of the proxy's edges
     constexpr double curvature_share = 0.1;  // of the largest |H|, or of 1/D where that is less
-    const double away = largest_length(own.points - placed.points);
-    if (away <= edge_share * proxy_edge && proxy_edge > mean_edge(problem.patch, own.points)) return true;
-    if (away > farthest) return false;
-    const Eigen::Index count = problem.patch.free_count;
-    const VectorX difference = own.mean_curvature.head(count) - placed.mean_curvature.head(count);
-    return difference.cwiseAbs().maxCoeff() <
-           curvature_share * std::max(1.0, placed.mean_curvature.cwiseAbs().maxCoeff());
+    const Difference found = difference_from(surface, own);
+    if (found.distance <= edge_share * surface.edge && is_finer(problem.patch, own.points, surface.edge)) return true;
+    if (found.distance > farthest) return false;
+    return found.curvature < curvature_share * std::max(1.0, surface.mean_curvature.cwiseAbs().maxCoeff());
 }
 
 double mean_edge(const Patch& patch, const Points& points) {

@@ -1,6 +1,7 @@
 // The one rule by which a solution is accepted.
 #pragma once
 
+#include "geometry/target_surface.h"
 #include "problem/problem.h"
 #include "problem/solution.h"
 
@@ -18,10 +19,18 @@ Termination end_of(const Solution& solution);
 // Whether no other way could do better: accepted, or solved for as much of the load as the surface carries.
 bool is_final(const Problem& problem, const Solution& solution);
 
-// Whether the discrete equation on the problem's mesh (`own`) and the surface of a proxy of mean edge `proxy_edge`
-// (`placed` on it) discretise one surface. A mesh that is finer than the proxy carries the equation better: there the
-// proxy's error decides, elsewhere the two have to be as close as both are to the surface on good meshes.
-bool agree(const Problem& problem, const Solution& own, const Solution& placed, double proxy_edge);
+// A surface that was solved on other vertices, and where the problem's own ones were placed on it.
+struct SolvedSurface {
+    const TargetSurface& target;
+    const VectorX& mean_curvature;           // at the target's vertices
+    double edge;                             // mean length of the target's edges
+    const std::vector<SurfacePoint>& where;  // free vertices of the problem's patch
+};
+
+// Whether the discrete equation on the problem's mesh (`own`) and a solved surface discretise one surface. A mesh that
+// is finer than that surface's carries the equation better: there the other's error decides, elsewhere the two have to
+// be as close as both are to the surface on good meshes. Vertices that slid within the surface don't count.
+bool agree(const Problem& problem, const Solution& own, const SolvedSurface& surface);
 
 // Whether more than a tenth of the triangles are so flat that the discrete equation on them can't be trusted even where
 // it converges. `points`: 3 × local vertices.

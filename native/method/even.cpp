@@ -33,14 +33,15 @@ std::optional<Solution> solve_evenly(const Problem& problem, const Progress& pro
     Workspace work{make_normal_operator(problem, state.points.leftCols(problem.patch.free_count)),
                    make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())};
     Placed placed = place_own(problem, *work.tangential, target, state.points, progress.here());
-    solution->mean_curvature = carried_over(placed.placement, target, solution->mean_curvature, problem);
+    const VectorX curvature = solution->mean_curvature;
+    solution->mean_curvature = carried_over(placed.placement, target, curvature, problem);
     solution->points = placed.placement.points;
     solution->crossings.reset();
     solution->polished = false;
     refuse_folds(problem, placed, *solution);
     if (solution->termination == Termination::folded) return solution;
-    return polish(problem, work, std::move(*solution), mean_edge(problem.patch, state.points),
-                  progress.range(0.5, 1.0));
+    const SolvedSurface surface{target, curvature, mean_edge(problem.patch, state.points), placed.placement.where};
+    return polish(problem, work, std::move(*solution), surface, progress.range(0.5, 1.0));
 }
 
 }  // namespace fairing

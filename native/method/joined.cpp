@@ -36,11 +36,11 @@ double relative_size(const KnownCurvature& known, const VectorX& missing) {
     return missing.norm() / (scale * std::sqrt(count));
 }
 
-// How much of it waves of twelve vertices and more explain. Of white noise they explain a sixth.
-double smooth_share(const Problem& problem, const KnownCurvature& known, const VectorX& missing) {
+// Its waves of twelve vertices and more. Of white noise they are a sixth.
+VectorX smooth_part(const Problem& problem, const KnownCurvature& known, const VectorX& missing) {
     constexpr int vertices_per_wave = 12;
     const OutlineModes modes(known.curves, problem.fixed_points, vertices_per_wave);
-    return modes.combined(modes.projected(missing)).squaredNorm() / missing.squaredNorm();
+    return modes.combined(modes.projected(missing));
 }
 
 Join kind_of(const KnownCurvature& known) { return known.unknown.empty() ? Join::curvature : Join::partly_curvature; }
@@ -83,11 +83,9 @@ void inherit(Solution& found, Solution tangent, const KnownCurvature& known) {
 }  // namespace
 
 Solution joined(const Problem& problem, Solution tangent, const Progress& progress) {
-    // Root mean square. Where what is lacking is rough, it comes from noise in the outline or its surroundings, and a
-    // surface that followed it would only be wavier: on surfaces with noise of 0.02 edges and more errors grew by a
-    // half.
+    // Root mean square.
     constexpr double negligible = 0.01;
-    constexpr double least_smooth_share = 0.5;
+    constexpr double negligible_beside_roughness = 0.02;
     if (tangent.flaw != Flaw::absent || tangent.even_weights || tangent.instead != Instead::nothing)
         return with_join(std::move(tangent), Join::no_tangent_join);
     if (!tangent.polished) return with_join(std::move(tangent), Join::other_mesh);
@@ -96,8 +94,12 @@ Solution joined(const Problem& problem, Solution tangent, const Progress& progre
     if (known.curves.empty()) return with_join(std::move(tangent), Join::curvature_unknown);
     const VectorX missing = known.missing(tangent.mean_curvature.tail(known.values.size()));
     if (relative_size(known, missing) <= negligible) return with_join(std::move(tangent), kind_of(known));
-    tangent.smooth_share = smooth_share(problem, known, missing);
-    if (tangent.smooth_share < least_smooth_share) return with_join(std::move(tangent), Join::too_rough);
+    const VectorX smooth = smooth_part(problem, known, missing);
+    tangent.smooth_share = smooth.squaredNorm() / missing.squaredNorm();
+    if (tangent.smooth_share < least_smooth_share) {
+        const bool is_met = relative_size(known, smooth) <= negligible_beside_roughness;
+        return with_join(std::move(tangent), is_met ? kind_of(known) : Join::too_rough);
+    }
     const Stopwatch watch;
     std::optional<Solution> found = with_curvature(problem, known, tangent, progress);
     const double seconds = watch.seconds();

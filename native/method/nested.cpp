@@ -45,7 +45,9 @@ public:
             SolverOptions& options = levels_.problem(k).options;
             options.max_iterations = std::min(k == 0 ? most_iterations : most_between, problem.options.max_iterations);
             options.patience = patience;
-            if (k > 0) options.tolerance = std::max(between_tolerance, problem.options.tolerance);
+            if (k == 0) continue;
+            options.tolerance = std::max(between_tolerance, problem.options.tolerance);
+            options.start_only = true;
         }
     }
 

@@ -48,7 +48,7 @@ public:
         seconds["placement"] = watch_.lap();
         if (polish == Polish::wanted && solution.termination == Termination::converged &&
             best.folded_by_springs <= problem_.tolerated_folds)
-            solution = polished(std::move(solution), mean_edge(proxy.mesh.patch, proxy.mesh.points));
+            solution = polished(std::move(solution), surface_of(proxy, target, best.placement));
         seconds["polish"] = watch_.lap();
         solution.initial_residual = largest_residual(coarse, start, outer_residual(coarse, start));
         solution.levels = levels_.sizes();
@@ -65,7 +65,8 @@ private:
         return result;
     }
 
-    // By springs where nothing folds then, otherwise from where the coarsest vertices lie without them.
+    // By springs where nothing folds then, otherwise from where the coarsest vertices lie without them, and at last
+    // from what both meshes share in the unit disc. The coarse levels are no help there: limbs are points on them.
     Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own) {
         const std::size_t coarsest = levels_.coarsest();
         const Problem& coarse = levels_.problem(coarsest);
@@ -76,9 +77,18 @@ private:
         Start& start = least_folded(starts, target);
         Placed best = spread(std::move(start.settled), target);
         if (best.folded.empty() || !proxy.converged()) return best;
-        Placed other = unfolded(std::move(start.raw), target);
+        keep_better(unfolded(std::move(start.raw), target), best);
+        if (best.folded.empty()) return best;
+        auto other = place_by_disc(problem_, *levels_.work(0).tangential, proxy.mesh.patch, target, progress_.here());
+        if (other) keep_better(std::move(*other), best);
+        return best;
+    }
+
+    // What the springs fold is what they folded at first.
+    static void keep_better(Placed other, Placed& best) {
+        if (other.folded.size() >= best.folded.size()) return;
         other.folded_by_springs = best.folded_by_springs;
-        return other.folded.size() < best.folded.size() ? std::move(other) : std::move(best);
+        best = std::move(other);
     }
 
     // The coarsest level's vertices.
@@ -154,14 +164,14 @@ private:
         return {std::move(where), std::move(points)};
     }
 
-    Solution polished(Solution placed, double proxy_edge) {
+    Solution polished(Solution placed, const SolvedSurface& surface) {
         Workspace& work = levels_.work(0);
         work.normal = make_normal_operator(problem_, placed.points.leftCols(problem_.patch.free_count));
         if (std::holds_alternative<RowWeights>(problem_.weights)) {
             work.tangential =
                 make_tangential_step(problem_.patch, problem_.weights, problem_.fixed_points, progress_.here());
         }
-        return polish(problem_, work, std::move(placed), proxy_edge, progress_.range(0.6, 1.0));
+        return polish(problem_, work, std::move(placed), surface, progress_.range(0.6, 1.0));
     }
 
     const Problem& problem_;

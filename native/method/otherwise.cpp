@@ -5,9 +5,9 @@
 
 #include "base/errors.h"
 #include "base/stopwatch.h"
-#include "geometry/face_geometry.h"
 #include "geometry/self_intersection.h"
 #include "method/accept.h"
+#include "method/bulb.h"
 #include "method/eased.h"
 #include "method/ladder.h"
 #include "method/lofted.h"
@@ -38,26 +38,6 @@ bool has_else(const Problem& problem) {
 }
 
 bool is_answer(const Solution& solution) { return end_of(solution) == Termination::converged; }
-
-// Whether it may be a bulb at all, which only the tubes between two outlines were seen to be. Where these are long for
-// the area between them, what they ask for reaches everywhere: rings and pipes shorter than two and a half radii are
-// none.
-bool has_room_for_bulb(const Problem& problem, const Solution& solution) {
-    constexpr double least_area = 0.2;  // of the sum of the outlines' squared lengths
-    const Patch& patch = problem.patch;
-    const std::vector<Indices> loops = patch.loops();
-    if (loops.size() != 2) return false;
-    double squares = 0.0;
-    for (const Indices& loop : loops) {
-        double length = 0.0;
-        for (std::size_t k = 0; k < loop.size(); ++k)
-            length += (solution.points.col(loop[k]) - solution.points.col(loop[(k + 1) % loop.size()])).norm();
-        squares += length * length;
-    }
-    FaceGeometry faces;
-    faces.update(solution.points, patch.triangles);
-    return faces.areas.sum() > least_area * squares;
-}
 
 // Over outlines as jagged as those of noisy scans no surface of least variation was found, in 25 to 160 times the time
 // of a clean patch.
@@ -192,10 +172,16 @@ Solution or_else(const Problem& problem, Solution solution, const Progress& prog
     if (!has_else(problem)) return solution;
     const Progress rest = progress.range(begin, 1.0);
     if (is_answer(solution)) {
+<<<<<<< HEAD
         if (has_room_for_bulb(problem, solution)) solution = instead_of_bulb(problem, std::move(solution), rest, near);
         solution = instead_of_crossing(problem, std::move(solution), rest);
         return solution.instead == Instead::smoothed ? solution
                                                      : instead_of_misshapen(problem, std::move(solution), rest);
+=======
+        if (may_be_bulb(problem, solution.points, rest))
+            solution = instead_of_bulb(problem, std::move(solution), rest, near);
+        return instead_of_crossing(problem, std::move(solution), rest);
+>>>>>>> main
     }
     if (lacks_surface(solution)) return instead_of_failure(problem, std::move(solution), rest);
     if (auto other = is_tried_enough(problem, solution) ? without_equation(problem, solution, rest) : std::nullopt)

@@ -25,4 +25,8 @@ Solution placed_solution(const Problem& problem, const SolvedProxy& proxy, const
     return result;
 }
 
+SolvedSurface surface_of(const SolvedProxy& proxy, const TargetSurface& target, const Placement& placement) {
+    return {target, proxy.solution.mean_curvature, mean_edge(proxy.mesh.patch, proxy.mesh.points), placement.where};
+}
+
 }  // namespace fairing

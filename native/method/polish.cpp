@@ -4,7 +4,6 @@
 
 #include "geometry/surface_fit.h"
 #include "iteration/accelerated_iteration.h"
-#include "method/accept.h"
 
 namespace fairing {
 
@@ -16,12 +15,13 @@ constexpr int patience = 4;
 
 }  // namespace
 
-Solution polish(const Problem& problem, Workspace& work, Solution placed, double proxy_edge, const Progress& progress) {
+Solution polish(const Problem& problem, Workspace& work, Solution placed, const SolvedSurface& surface,
+                const Progress& progress) {
     Problem polishing = problem;
     polishing.options.max_iterations = std::min(most_iterations, problem.options.max_iterations);
     polishing.options.patience = std::min(patience, problem.options.patience);
     Solution own = iterate(polishing, work, placed.points, progress);
-    if (own.termination != Termination::converged || !agree(problem, own, placed, proxy_edge)) return placed;
+    if (own.termination != Termination::converged || !agree(problem, own, surface)) return placed;
     own.boundary_normals = one_sided_normals(problem.patch, own.points);
     own.from_surface = true;
     own.crosses = placed.crosses;

@@ -2,14 +2,16 @@
 #pragma once
 
 #include "base/progress.h"
+#include "method/accept.h"
 #include "operators/workspace.h"
 #include "problem/solution.h"
 
 namespace fairing {
 
-// Solves the discrete equation on the problem's mesh from `placed`, whose vertices lie on the solved surface of a mesh
-// of mean edge `proxy_edge`. Gives that solution where it converges, agrees with that surface and is accepted, `placed`
-// itself otherwise. `work` belongs to the problem.
-Solution polish(const Problem& problem, Workspace& work, Solution placed, double proxy_edge, const Progress& progress);
+// Solves the discrete equation on the problem's mesh from `placed`, whose vertices lie on a solved surface. Gives that
+// solution where it converges, agrees with that surface and is accepted, `placed` itself otherwise. `work` belongs to
+// the problem.
+Solution polish(const Problem& problem, Workspace& work, Solution placed, const SolvedSurface& surface,
+                const Progress& progress);
 
 }  // namespace fairing

@@ -31,6 +31,10 @@ struct OwnMeshSurface {
 Placed place(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
              const std::optional<Points>& guess, const Progress& progress);
 
+// The last of these beginnings alone. Nothing where there is none.
+std::optional<Placed> place_by_disc(const Problem& problem, const TangentialStep& tangential, const Patch& proxy,
+                                    const TargetSurface& target, const Progress& progress);
+
 // The same without care for folds, for a surface that is no solution: the springs alone, from `guess` or by history.
 Placed place_roughly(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
                      const std::optional<Points>& guess, const Progress& progress);

@@ -24,8 +24,9 @@ struct SolverOptions {
     NormalKind normals = NormalKind::fitted;
     double tolerance = 1e-6;  // of the largest move in an iteration, in units of D
     int max_iterations = 200;
-    bool nested = true;  // large patches begin on coarser levels
-    int patience = 40;   // iterations without progress after which the solve is given up
+    bool nested = true;       // large patches begin on coarser levels
+    bool start_only = false;  // the surface is a start for another one: the last step is taken and not measured
+    int patience = 40;        // iterations without progress after which the solve is given up
 };
 
 // One component in units of D: translated and scaled so that D = 1.

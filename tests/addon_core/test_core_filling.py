@@ -82,6 +82,15 @@ def test_borders_without_a_shape_are_refused(value: float | None, text: str) -> 
         border_loops(replace(mesh, positions=points), only(mesh, vertex(3, 4)))
 
 
+def test_a_border_that_passes_a_place_twice_is_refused_in_words_for_a_person() -> None:
+    mesh = holed((4, 4), half=2)
+    points = mesh.positions.copy()
+    points[vertex(2, 4)] = points[vertex(6, 4)]
+    with pytest.raises(MeshRefusal, match=r"2 vertices of the outline, .* share their place") as error:
+        filled(replace(mesh, positions=points), vertex(2, 2))
+    assert error.value.elements.tolist() == [vertex(2, 4), vertex(6, 4)]
+
+
 def filled(mesh: MeshArrays, *seeds: int, matrix: Floats | None = None, **options: object) -> list[Piece]:
     matrix = np.eye(4) if matrix is None else matrix
     return fill(mesh, matrix, border_loops(mesh, only(mesh, *seeds)), FillOptions(**options))  # type: ignore[arg-type]
@@ -170,11 +179,13 @@ def joined(degrees: float = 0.0, limit: float = 12.0) -> Join:
     return Join(np.arange(4), np.where(np.arange(4) == 2, degrees, 1.0), limit)
 
 
-def test_a_fold_is_unusable_and_a_loft_worth_a_look() -> None:
+def test_a_fold_is_unusable_and_a_substitute_worth_a_look() -> None:
     points, _, _ = disc(3)
     assert judged(points, joined()).grade == GOOD
     verdict = judged(points, joined(), equation="loft")
     assert (verdict.grade, "the loft that joins them is a substitute" in verdict.reason) == (LOOK, True)
+    verdict = judged(points, joined(), equation="smoothed")
+    assert (verdict.grade, "the old shape was smoothed as far as it goes" in verdict.reason) == (LOOK, True)
     points[-1, 0] += 2.5  # the middle, far beyond its neighbours
     verdict = judged(points, joined())
     assert (verdict.grade, "folded over" in verdict.reason) == (UNUSABLE, True)

@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from core.options import FairOptions
 from core.outcome import outcome
 from core.region import MeshArrays
+from core.remeshing import remesh_arrays
 from core.solve import solve
 from core.verdict import LOOK
 from polygon_mesh import grid_points, grid_quads, polygon_mesh
@@ -27,8 +29,11 @@ def dent_below_a_plate(height: float, slope: float = 0.0) -> MeshArrays:
     return polygon_mesh(np.concatenate([points, plate]), quads, [*selected, False])
 
 
-def reason(mesh: MeshArrays) -> str:
-    verdict = outcome(mesh, np.eye(4), FairOptions(), solve(mesh, np.eye(4), FairOptions())).verdict
+def reason(mesh: MeshArrays, anew: bool = False) -> str:
+    if anew:
+        verdict = remesh_arrays(mesh, np.eye(4), FairOptions(mesh="NEW")).verdict
+    else:
+        verdict = outcome(mesh, np.eye(4), FairOptions(), solve(mesh, np.eye(4), FairOptions())).verdict
     if "passes through faces outside" not in verdict.reason:
         return ""
     assert verdict.grade == LOOK
@@ -41,15 +46,21 @@ def test_a_surface_that_rises_through_a_plate_is_worth_a_look() -> None:
     assert reason(dent_below_a_plate(0.01, slope=1.0))
 
 
-def test_a_plate_above_is_no_matter() -> None:
-    assert not reason(dent_below_a_plate(0.2))
+def test_a_new_mesh_that_rises_through_a_plate_is_worth_a_look() -> None:
+    assert reason(dent_below_a_plate(0.01, slope=1.0), anew=True)
 
 
-def test_what_passed_through_before_is_no_news() -> None:
+@pytest.mark.parametrize("anew", [False, True])
+def test_a_plate_above_is_no_matter(anew: bool) -> None:
+    assert not reason(dent_below_a_plate(0.2), anew)
+
+
+@pytest.mark.parametrize("anew", [False, True])
+def test_what_passed_through_before_is_no_news(anew: bool) -> None:
     mesh = dent_below_a_plate(0.0, slope=1.0)
     lower = mesh.positions.copy()
     lower[-4:, 2] = [-0.9, 0.1, 0.1, -0.9]  # through the dent's floor and through the plain
-    assert not reason(replace(mesh, positions=lower))
+    assert not reason(replace(mesh, positions=lower), anew)
 
 
 def test_places_that_are_not_finite_are_passed_over() -> None:

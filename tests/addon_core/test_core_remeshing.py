@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from test_core_answer import EYE, spoilt_sphere
 
+import fairing
+from core import remeshing
 from core.arrays import Floats, Mask
+from core.engine import Problem
 from core.lines import inner_lines, parting_edges
 from core.options import FairOptions
 from core.region import MeshArrays
@@ -164,3 +168,23 @@ def test_a_few_short_edges_are_no_knot() -> None:
         steps = np.where(np.arange(7) < count, 0.2, 1.0)
         after = np.column_stack([np.concatenate([[0.0], np.cumsum(steps)]), np.zeros((8, 2))])
         assert squeezed(before, after, lines).tolist() == ends
+
+
+@pytest.mark.parametrize("spacing", [1.0, 4.0])
+def test_warnings_name_the_mesh_that_was_solved(monkeypatch: pytest.MonkeyPatch, spacing: float) -> None:
+    """The new one, also where its surface was found on the engine's own mesh; the old one, if it was cut from it."""
+    mesh = spoilt_sphere()
+    solved = remeshing._solved
+
+    def with_warning(problem: Problem, *rest: Any) -> fairing.RemeshResult:
+        result = solved(problem, *rest)
+        assert result.cut == (spacing > 1.0)
+        count = len(problem.patch.vertices)
+        last = count - 1 if result.cut else count + len(result.vertices) - 1
+        told = fairing.Diagnostic("NO_SOLUTION", "", np.array([last], np.int32), "vertex", {"kinks": 1.0})
+        return replace(result, polished=False, warnings=(told,))
+
+    monkeypatch.setattr(remeshing, "_solved", with_warning)
+    verdict = remesh(mesh, spacing=spacing).verdict
+    assert verdict.grade == LOOK
+    assert np.isin(verdict.spots, mesh.corner_vertices[mesh.in_patch[mesh.corner_faces]]).all()

@@ -143,7 +143,8 @@ def test_folds_that_hang_on_a_jagged_outline_deserve_a_look(fine: Evidence) -> N
     assert (verdict.grade, verdict.reason) == (LOOK, "1 face of the result is folded over")
     assert WRITE not in verdict.remedies
     assert judged(replace(fine, before=rough, after=calm)).grade == UNUSABLE  # another surface
-    assert judged(replace(eased, before=calm, after=calm)).grade == UNUSABLE  # no better than before
+    as_folded = replace(rough, folded=calm.folded)
+    assert judged(replace(eased, before=as_folded, after=calm)).grade == UNUSABLE  # no better than before
     assert judged(replace(eased, before=rough, after=replace(calm, crossing=rough.crossing))).grade == UNUSABLE
     unknown = replace(rough, crossing=None)
     assert judged(replace(eased, before=unknown, after=calm)).grade == LOOK

@@ -8,6 +8,8 @@ import bmesh
 import bpy
 import meshes
 import numpy as np
+import pytest
+from extension import module
 from test_restoration import BOUND, join_some_quads, off_sphere, spoil
 
 
@@ -95,3 +97,31 @@ def test_selection_and_modes_stay() -> None:
     assert bpy.context.mode == "EDIT_MESH"
     meshes.leave()
     assert [p.select for p in obj.data.polygons] == faces.tolist()
+
+
+@pytest.mark.parametrize("triangles", [True, False])
+def test_triangles_are_those_that_blender_makes(triangles: bool) -> None:
+    """Read without Blender's own list where all faces are triangles."""
+    obj = meshes.sphere(16)
+    if triangles:
+        meshes.edit(obj)
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.quads_convert_to_tris()
+        meshes.leave()
+    mesh = obj.data
+    read = module("mesh.mesh_io").read_own_mesh(obj, module("core.options").FairOptions())
+    mesh.calc_loop_triangles()
+    assert read.triangles.tolist() == [list(triangle.vertices) for triangle in mesh.loop_triangles]
+    assert read.triangle_faces.tolist() == [triangle.polygon_index for triangle in mesh.loop_triangles]
+
+
+def test_flags_are_read_where_they_are_set_and_where_none_is() -> None:
+    """Hidden faces and sharp edges: Blender keeps no attribute for what is true nowhere."""
+    obj = meshes.grid(4)
+    columns = module("mesh.columns")
+    assert not columns.flags(obj.data, ".hide_poly", obj.data.polygons).any()
+    assert len(columns.flags(obj.data, "sharp_edge", obj.data.edges)) == len(obj.data.edges)
+    obj.data.polygons[3].hide = True
+    obj.data.edges[5].use_edge_sharp = True
+    assert np.flatnonzero(columns.flags(obj.data, ".hide_poly", obj.data.polygons)).tolist() == [3]
+    assert np.flatnonzero(columns.flags(obj.data, "sharp_edge", obj.data.edges)).tolist() == [5]

@@ -225,7 +225,10 @@ def test_options_are_those_of_the_last_run(live: Any) -> None:
     faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6)
     meshes.select(obj, faces)
     meshes.edit(obj)
-    module("follow.live").live.take(obj, module("core.options").FairOptions(equation="CONSTANT", bulge=0.4))
+    options = module("core.options").FairOptions(equation="CONSTANT", bulge=0.4)
+    session = module("follow.session").candidate(obj, options)
+    first = module("core.live_search").first(session.region, session.positions, session.matrix, lambda *_: True)
+    live.take(obj, session, options, first)
     switch(True)
     height = now()[:, 2].max()
     assert height > 0.02
@@ -301,7 +304,7 @@ def test_other_work_on_the_machine_is_no_reason_to_give_up_at_the_end(
     monkeypatch.setattr(home, "PATIENCE", -1.0)
     later = count(0.0, 100.0).__next__
     clocks = {"perf_counter": later, "process_time": later, "monotonic": later, "thread_time": time.thread_time}
-    monkeypatch.setattr(module("follow.search"), "time", SimpleNamespace(**clocks))
+    monkeypatch.setattr(module("core.live_search"), "time", SimpleNamespace(**clocks))
     drag(flank(now()), (0.0, 0.0, 0.05))
     assert len(live.lost_points()) > 0
     live.changed_at -= home.PAUSE
@@ -483,13 +486,13 @@ def test_what_cannot_be_live_is_refused() -> None:
     meshes.edit(obj)
     with pytest.raises(RuntimeError, match="No face is selected"):
         bpy.ops.mesh.fair_live_region()
-    live_module, options = module("follow.live"), module("core.options")
+    session, options = module("follow.session"), module("core.options")
     meshes.leave()
     meshes.select(obj, meshes.faces_where(obj, lambda c: abs(c.x) < 0.7 and abs(c.y) < 0.7))
     meshes.edit(obj)
     before = now()
     with pytest.raises(ValueError, match="can't be followed"):
-        live_module.live.take(obj, options.FairOptions(boundary_normals="CUSTOM"))
+        session.candidate(obj, options.FairOptions(boundary_normals="CUSTOM"))
     assert np.array_equal(now(), before)
     assert not module("mesh.live_mesh").has_region(obj.data)
 
@@ -523,25 +526,6 @@ def test_forgetting_leaves_no_trace(live: Any) -> None:
     meshes.edit(obj)
     assert not bpy.ops.mesh.fair_live_forget.poll()
     assert not bpy.ops.mesh.fair_live_select.poll()
-
-
-@pytest.mark.parametrize(("solvable", "asked"), [("answer", 1), ("afresh", 2), ("stand_in", 3), ("", 3)])
-def test_another_surface_stands_in_only_where_none_is_found_afresh(solvable: str, asked: int) -> None:
-    """After steps that were too long to follow, the last answer may be no start: the region is solved anew then."""
-    tried: list[str] = []
-
-    def way(name: str) -> Any:
-        def ask(*_arguments: Any) -> Any:
-            tried.append(name)
-            return np.zeros((1, 3)) if name == solvable else None
-
-        return ask
-
-    region = SimpleNamespace(**{name: way(name) for name in ("answer", "afresh", "stand_in")})
-    found = module("follow.search").sought(region, None, None, lambda *_: True)
-    assert (found.positions is None) == (not solvable)
-    assert found.stands_in == (solvable == "stand_in")
-    assert tried == ["answer", "afresh", "stand_in"][:asked]
 
 
 def test_live_follows_a_box_corner_with_creases(live: Any) -> None:

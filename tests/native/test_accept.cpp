@@ -4,6 +4,7 @@
 #include "method/accept.h"
 #include "method/otherwise.h"
 #include "method/ways.h"
+#include "placement/placement.h"
 #include "problem/solution.h"
 
 using namespace fairing;
@@ -151,21 +152,70 @@ TEST_CASE("triangles that can't carry the equation are a flaw of the user's mesh
     CHECK(flaw_of(solved.problem, solution) == Flaw::absent);
 }
 
+namespace {
+
+// The solved surface, as one of edges of that length.
+struct Placed {
+    const Solved& solved;
+    Solution solution = solved.solution();
+    TargetSurface target{solved.patch(), solution.points, solution.points};
+    std::vector<SurfacePoint> where = at_vertices(solved.problem, target, solution.points).where;
+    double mean = mean_edge(solved.patch(), solution.points);
+
+    [[nodiscard]] bool agrees(const Solution& own, double edge) const {
+        return agree(solved.problem, own, {target, solution.mean_curvature, edge, where});
+    }
+};
+
+}  // namespace
+
 TEST_CASE("two surfaces agree within their errors, or within the coarser one's edges") {
     const Solved solved;
-    const Solution placed = solved.solution();
-    Solution own = placed;
-    own.points.col(0) += Vector3(1e-4, 0.0, 0.0);
-    const double fine = 0.5 * mean_edge(solved.patch(), placed.points);
-    CHECK(agree(solved.problem, own, placed, fine));
-    own.points.col(0) += Vector3(1e-3, 0.0, 0.0);
-    CHECK(!agree(solved.problem, own, placed, fine));
-    CHECK(agree(solved.problem, own, placed, 4.0 * fine));
-    own.points.col(0) += Vector3(4.0 * fine, 0.0, 0.0);
-    CHECK(!agree(solved.problem, own, placed, 4.0 * fine));
-    own.points = placed.points;
+    const Placed placed{solved};
+    const double fine = 0.5 * placed.mean;
+    Solution own = placed.solution;
+    own.points.col(0) *= 1.0 + 1e-4;
+    CHECK(placed.agrees(own, fine));
+    own.points.col(0) *= 1.0 + 1e-3;
+    CHECK(!placed.agrees(own, fine));
+    CHECK(placed.agrees(own, 4.0 * fine));
+    own.points.col(0) *= 1.0 + 4.0 * fine;
+    CHECK(!placed.agrees(own, 4.0 * fine));
+    own.points = placed.solution.points;
     own.mean_curvature *= 1.3;
-    CHECK(!agree(solved.problem, own, placed, fine));
+    CHECK(!placed.agrees(own, fine));
+}
+
+TEST_CASE("vertices that slid along the surface agree with it") {
+    const Solved solved;
+    const Placed placed{solved};
+    Solution own = placed.solution;
+    for (int v = 0; v < solved.patch().free_count; ++v) {
+        const int other = solved.patch().ring(v).vertices.front();
+        const Vector3 between = placed.solution.points.col(v) + placed.solution.points.col(other);
+        own.points.col(v) = between.normalized();
+    }
+    CHECK((own.points - placed.solution.points).colwise().norm().maxCoeff() > 0.4 * placed.mean);
+    CHECK(placed.agrees(own, 0.5 * placed.mean));
+}
+
+TEST_CASE("a graded mesh is not finer than another one for its mean edge") {
+    const Solved solved;
+    const Placed placed{solved};
+    Solution own = placed.solution;
+    own.points.col(0) *= 1.0 + 1e-3;
+    CHECK(placed.agrees(own, 2.0 * placed.mean));
+    const Points even = own.points;
+    for (auto point : own.points.colwise()) point *= std::exp(4.0 * point[0]) / std::exp(4.0 * even.row(0).maxCoeff());
+    const Points graded = own.points;
+    const TargetSurface target(solved.patch(), graded, placed.solution.points);
+    const auto agrees = [&](double lifted) {
+        own.points.col(0) = graded.col(0) + Vector3(0.0, 0.0, lifted);
+        return agree(solved.problem, own,
+                     {target, placed.solution.mean_curvature, 2.0 * mean_edge(solved.patch(), graded), placed.where});
+    };
+    CHECK(agrees(0.0));
+    CHECK(!agrees(1e-3));
 }
 
 TEST_CASE("the first way that is accepted ends the ladder, and all that were tried are listed") {

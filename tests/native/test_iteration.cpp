@@ -92,3 +92,31 @@ TEST_CASE("an iteration whose steps no longer shrink is given up") {
     CHECK(solution.iterations < 150);
     CHECK(off_the_sphere(solution.points) < 1e-6);  // the best of all is kept
 }
+
+TEST_CASE("where steps shrink fast the iteration ends without a last one that is within the tolerance") {
+    Ball tight;
+    tight.problem.options.tolerance = 1e-11;
+    const Points exact = tight.solve(iterate).points;
+    int sooner = 0;
+    for (double tolerance = 1e-3; tolerance > 1e-9; tolerance *= 0.4) {
+        Ball ball;
+        ball.problem.options.tolerance = tolerance;
+        const Solution solution = ball.solve(iterate);
+        CHECK(solution.termination == Termination::converged);
+        CHECK(distance(solution.points, exact) < tolerance);
+        if (solution.last_step > tolerance) ++sooner;
+    }
+    CHECK(sooner > 0);
+}
+
+TEST_CASE("of a surface that is only a start the last step is taken, too") {
+    Ball ball;
+    ball.problem.options.tolerance = 0.05;  // more than the first step
+    CHECK(distance(ball.solve(iterate).points, ball.start) == 0.0);
+    ball.problem.options.start_only = true;
+    const Solution solution = ball.solve(iterate);
+    CHECK(solution.termination == Termination::converged);
+    Ball once;
+    once.problem.options.max_iterations = 2;  // the second one measures where the first has led
+    CHECK(distance(solution.points, once.solve(iterate).points) < 1e-12);
+}

@@ -104,7 +104,8 @@ def fair(
     levels : int
         "paper": levels of the hierarchy, 0: chosen, 1: none. "global": 0 or 1 likewise.
     tolerance : float
-        "global": stop when an iteration moves no vertex by more than ``tolerance`` × D. "paper": see
+        "global": stop when an iteration moves no vertex by more than ``tolerance`` × D, or when the next one would
+        not move any by half of it, by how the steps shrink. "paper": see
         ``epsilon`` of :class:`fairing.PaperOptions`.
     max_iterations : int
         "global": steps of each single iteration on one mesh. A solve consists of several: coarser levels, other

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core, _mending
+from fairing._measure import edges_with_uses
 from fairing._mending import Answer, Boundary, Surroundings
 from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
 
@@ -228,7 +229,7 @@ def _part(points: FloatArray, triangles: tuple[IntArray, IntArray], fixed: Marks
     if not len(stays):
         text = "feather: the band covers all that lies around the patch, so nothing stays: make it narrower"
         raise MeshError(Diagnostic("NO_BOUNDARY", text, np.unique(inside).astype(np.int32), "vertex", {}))
-    edges, uses = _edges(inside, len(points))
+    edges, uses = edges_with_uses(inside)
     in_band = _marked(outside, len(points))
     rim = edges[(uses == 1) & in_band[edges].all(axis=1)]
     length = np.linalg.norm(points[rim[:, 0]] - points[rim[:, 1]], axis=1).sum()
@@ -245,12 +246,5 @@ def _diameter(outline: FloatArray) -> float:
 
 def _at_odd_edges(triangles: IntArray, count: int) -> Marks:
     """Marks (n,) of the ends of edges that don't have two triangles."""
-    edges, uses = _edges(triangles, count)
+    edges, uses = edges_with_uses(triangles)
     return _marked(edges[uses != 2], count)
-
-
-def _edges(triangles: IntArray, count: int) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
-    """Edges (e, 2) of ``count`` vertices, the smaller index first, and (e,) how many triangles each has."""
-    sides = np.sort(np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)]).astype(np.int64), axis=1)
-    numbers, uses = np.unique(sides[:, 0] * count + sides[:, 1], return_counts=True)
-    return np.stack(np.divmod(numbers, count), axis=1), uses

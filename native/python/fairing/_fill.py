@@ -78,9 +78,9 @@ def fill(
     Raises
     ------
     MeshError
-        NOT_A_LOOP, NO_BOUNDARY, NONMANIFOLD_VERTEX (loops that touch), NONMANIFOLD_EDGE (also where the surface would
-        double back onto a triangle that sticks out into a loop), ZERO_NORMAL,
-        NORMALS_OPPOSE_WINDING, NONFINITE or INDEX_RANGE; ``elements`` are the vertices.
+        NOT_A_LOOP, NO_BOUNDARY, NONMANIFOLD_VERTEX (loops that touch, or vertices of one outline in one place),
+        NONMANIFOLD_EDGE (also where the surface would double back onto a triangle that sticks out into a loop),
+        ZERO_NORMAL, NORMALS_OPPOSE_WINDING, NONFINITE or INDEX_RANGE; ``elements`` are the vertices.
     ValueError, Cancelled, SolverError, MemoryError
         As for :func:`fairing.fair`.
     """
@@ -92,7 +92,7 @@ def fill(
     if not isinstance(bridge, (bool, np.bool_)):
         raise ValueError(f"bridge: True or False is needed, not {bridge!r}")
     outline = _loops.border_loops(around, limit) if loops is None else _loops.given_loops(loops, points, around)
-    _loops.check(outline, points)
+    _loops.check(outline, points, bool(bridge))
     normals = _loops.loop_normals(normals, outline, points, around)
     if fixed_curvatures is not None:
         options["fixed_curvatures"] = _loops.loop_curvatures(fixed_curvatures, outline, len(points))
@@ -113,7 +113,7 @@ def fill(
     if coarser:
         solved = _Patch(report.vertices, fine.triangles, outline.vertices, normals)
         coarse, origin = solved.remeshed(len(points), length, 0, options, watch.part(0.9, 1.0))
-        values.update(polished=False, **_placed(coarse, len(points)))
+        values.update(_cut(coarse, len(points)))
         values["mean_curvature"] = _carried(report.mean_curvature, fine.triangles, origin)
     else:
         values["triangles"] = fine.triangles
@@ -168,7 +168,7 @@ def remesh(
         values = _report(new.faired("given", outside, options, watch.part(0.6, 1.0)), len(points))
         values["triangles"] = new.triangles
     else:
-        values.update(polished=False, **_placed(new, len(points)))
+        values.update(_cut(new, len(points)))
         values["mean_curvature"] = _carried(report.mean_curvature, faces, origin)
     values["seconds"] = {**values["seconds"], **watch.seconds}
     return RemeshResult(**values, origin=origin, old=_read_only(old_vertex))
@@ -296,13 +296,18 @@ def _report(report: FairResult, old_count: int) -> dict[str, Any]:
     """The fields of a report on ``old_count`` old vertices and then new ones; `triangles` is missing."""
     own = {field.name for field in fields(NewMeshResult)}
     values = {field.name: getattr(report, field.name) for field in fields(report) if field.name in own}
+    values["cut"] = False
     for name in ("vertices", "mean_curvature"):
         values[name] = _read_only(values[name][old_count:])
     return values
 
 
-def _placed(patch: _Patch, old_count: int) -> dict[str, Any]:
-    return {"vertices": _read_only(patch.vertices[old_count:]), "triangles": patch.triangles}
+def _cut(patch: _Patch, old_count: int) -> dict[str, Any]:
+    """The fields of a mesh that was cut from another one's surface."""
+    return {
+        "vertices": _read_only(patch.vertices[old_count:]), "triangles": patch.triangles, "polished": False,
+        "cut": True,
+    }  # fmt: skip
 
 
 def _carried(values: FloatArray, triangles: IntArray, origin: Origin) -> FloatArray:

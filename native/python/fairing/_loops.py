@@ -76,8 +76,11 @@ def given_loops(loops: Any, vertices: FloatArray, triangles: IntArray) -> Outlin
     return Outline(tuple(oriented), turned, True)
 
 
-def check(outline: Outline, vertices: FloatArray) -> None:
-    """MeshError where a loop is too short, passes a vertex twice, touches another loop or is not finite."""
+def check(outline: Outline, vertices: FloatArray, joined: bool) -> None:
+    """MeshError where a loop is too short, passes a vertex or a place twice, touches another loop or is not finite.
+
+    joined: whether one surface is to join all loops. Then no two of them may pass the same place either.
+    """
     seen = outline.vertices
     for loop in outline.loops:
         if len(np.unique(loop)) < 3:
@@ -96,6 +99,19 @@ def check(outline: Outline, vertices: FloatArray) -> None:
         same = loop[(vertices[loop] == vertices[after]).all(axis=1)]
         if len(same):
             _refuse("NOT_A_LOOP", f"an edge of a loop has no length at {_listed(same)}: merge these vertices", same)
+    for loop in [seen] if joined else outline.loops:
+        _refuse_places_passed_twice(loop, vertices)
+
+
+def _refuse_places_passed_twice(outline: IntArray, vertices: FloatArray) -> None:
+    """MeshError where different vertices of one surface's outline lie in the same place: a figure eight, a slit."""
+    _, place, count = np.unique(vertices[outline], axis=0, return_inverse=True, return_counts=True)
+    meeting = outline[count[place.ravel()] > 1]
+    if len(meeting):
+        advice = "merge them where the mesh is torn, move them apart where the outline touches itself"
+        text = f"an outline passes through one place several times, with {_listed(meeting)}: {advice}"
+        figures = {"meeting": float(len(meeting))}
+        raise MeshError(Diagnostic("NONMANIFOLD_VERTEX", text, np.sort(meeting).astype(np.int32), "vertex", figures))
 
 
 def loop_normals(normals: Any, outline: Outline, vertices: FloatArray, triangles: IntArray) -> FloatArray:

@@ -52,6 +52,15 @@ def cotan_laplacian(vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> tuple[
     return _core.cotan_laplacian(points, faces)
 
 
+def edges_with_uses(triangles: npt.ArrayLike) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    """(e, 2) edges, ascending, the smaller index of each first; and (e,) how many triangles each has."""
+    faces = _arguments.triangles_within(triangles, np.iinfo(np.int32).max).astype(np.int64)
+    count = int(faces.max(initial=0)) + 1
+    sides = np.sort(np.concatenate([faces[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
+    numbers, uses = np.unique(sides @ [count, 1], return_counts=True)
+    return np.stack(np.divmod(numbers, count), axis=1), uses
+
+
 def boundary_loops(triangles: npt.ArrayLike) -> list[IntArray]:
     """Closed loops of border vertices, each with the mesh on its left, starting at its smallest vertex.
 

@@ -30,8 +30,11 @@ class NewMeshResult:
     continuity: Literal["G1", "G2"]
     converged: bool
     polished: bool
-    """Whether the discrete equation holds on the new mesh. False, with ``converged``: the surface was solved on a finer
+    """Whether the discrete equation holds on the new mesh. False, with ``converged``: the surface was solved on another
     mesh, and the new vertices lie on that surface."""
+    cut: bool
+    """Whether nothing was solved for this mesh: it was cut from the surface of another one, a finer new one
+    (:func:`fairing.fill`) or the old one (:func:`fairing.remesh`)."""
     termination: Literal["converged", "iteration_limit", "stalled", "folded"]
     equation: str
     """The equation that holds (see ``otherwise`` of :func:`fairing.fair`)."""
@@ -42,7 +45,7 @@ class NewMeshResult:
     seconds: dict[str, float]
     way: tuple[tuple[str, float], ...]
     warnings: tuple[Diagnostic, ...]
-    """Triangles and vertices that they name are those of the mesh that was solved; with ``polished`` it is this one."""
+    """Triangles and vertices that they name are those of the mesh that was solved: this one unless it was ``cut``."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,6 +12,7 @@ import numpy as np
 import scenes
 import spoilt_scenes
 from driver import Story, click, in_view, look_as_first, middle, press, screenshot, tell
+from long_run_chapters import seconds_of_redraw
 from panel import drag, module, open_tab, report, run_operator, set_options, wait_until
 
 STEPS = 40  # of the mouse in one drag
@@ -53,6 +54,54 @@ def live_moves_the_far_side() -> Story:
     tell(f"far side: {len(chosen)} vertices")
     assert height[chosen].min() > 0.59 - 1e-6, "the far side is not the neck"
     yield from _follow("live_far", (90, 60))
+
+
+def live_begins_in_the_background() -> Story:
+    """The first surface of a large region takes a while: Blender goes on, Esc stops it, the second click brings it."""
+    faces = scenes.large()
+    set_options()
+    with in_view():
+        bpy.ops.view3d.view_all()
+    yield 1.0
+    redraw = yield from seconds_of_redraw()
+    before, progress = scenes.contents(), bpy.context.window_manager.fairing_progress
+    run_operator("mesh.fair_live_region")
+    yield from wait_until(_runs, 20.0)
+    press("ESC", *middle())
+    yield from wait_until(_rests, 5.0)
+    yield 2.0
+    assert scenes.contents() == before, "the cancelled run left a trace"
+    assert not _is_on()
+    begin, looks = time.perf_counter(), [time.perf_counter()]
+    run_operator("mesh.fair_live_region")
+    yield from wait_until(_runs, 20.0)
+    while progress.running:
+        if len(looks) == 3:
+            screenshot("live_begins")
+        yield 0.05
+        looks.append(time.perf_counter())
+    longest = max(np.diff(looks))
+    tell(f"live region of {faces} faces after {looks[-1] - begin:.2f} s; a redraw takes {redraw:.2f} s here")
+    tell(f"looked at {len(looks)} times meanwhile, {longest:.2f} s apart at most")
+    assert longest < 0.5 + 2.0 * redraw, "Blender did not stay responsive"
+    assert _is_on()
+    assert settled()
+    screenshot("live_began")
+    assert _off_sphere() < FAIR
+    press("Z", *middle(), ctrl=True)
+    yield 2.0
+    assert scenes.contents() == before, "one step back is the mesh as it was, without a region"
+    press("Z", *middle(), ctrl=True, shift=True)
+    yield 2.0
+    yield from wait_until(settled, 20.0)
+    assert _off_sphere() < FAIR
+    bpy.context.window_manager.fairing_live.on = False
+    yield 0.5
+
+
+def _off_sphere() -> float:
+    """By how much a vertex is off the unit sphere at most."""
+    return float(np.abs(np.linalg.norm(scenes.positions(), axis=1) - 1.0).max())
 
 
 def live_finds_no_surface() -> Story:
@@ -147,6 +196,15 @@ def _session() -> Any:
     return session
 
 
+def _runs() -> bool:
+    """Whether the operator is under way."""
+    return bool(bpy.context.window_manager.fairing_progress.running)
+
+
+def _rests() -> bool:
+    return not _runs()
+
+
 def settled() -> bool:
     """Whether no region is carried along any more."""
     return not len(_live().lost_points())
@@ -185,6 +243,7 @@ def _make_live(name: str, scene: Callable[[], int], pin_group: str = "") -> Stor
     assert not _is_on()
     yield from click(*BUTTON)
     yield 1.0
+    yield from wait_until(_rests, 20.0)
     assert _is_on(), "the button Live Region was not met"
     tell(f"live region: {len(_session().region.free)} free vertices")
 

@@ -16,6 +16,7 @@ KEYS = {  # run operators, so that they are run by an event as from a menu
     "mesh.fair_fill": "F18",
     "mesh.fair_spots": "F16",
     "mesh.fair_live_far_side": "F15",
+    "mesh.fair_live_region": "F14",
 }
 
 

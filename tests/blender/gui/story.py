@@ -22,6 +22,7 @@ from held_chapters import (
     runs_through_a_curve,
 )
 from live_chapters import (
+    live_begins_in_the_background,
     live_finds_no_surface,
     live_follows_a_drag,
     live_follows_a_pin,
@@ -226,6 +227,7 @@ CHAPTERS = (
     live_moves_the_far_side,
     live_finds_no_surface,
     live_is_left_while_it_searches,
+    live_begins_in_the_background,
 )
 
 

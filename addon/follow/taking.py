@@ -1,0 +1,118 @@
+"""The operator that makes the selection the live region: its first answer goes the way of all long runs.
+
+Nothing is marked, and nothing moves, before the surface is there.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+import bpy
+
+from ..core.engine import REFUSALS, Progress, sub_range
+from ..core.live_search import Found, first
+from ..core.options import FairOptions
+from ..host.context import edited_objects
+from ..host.polling import NO_FACE, SELECT_FACES, require_edit_mode, require_idle
+from ..mesh import mesh_io
+from ..preferences import background_from
+from ..run.background import Watched, at_once
+from ..run.job import Refused, objects_in_mode
+from ..translations import translated
+from .inspection import last_options
+from .live import live
+from .session import Session, candidate, is_current
+
+
+def enclosing(obj: bpy.types.Object) -> bool:
+    """Tell whether selected edges of an object in edit mode enclose faces."""
+    return bool(obj.data.total_edge_sel and mesh_io.read_edit_mesh(obj, FairOptions()).in_patch.any())
+
+
+def read(context: bpy.types.Context, options: FairOptions) -> dict[str, Session]:
+    """Read every object in edit mode that has a selection, by name; raises Refused."""
+    edited = edited_objects(context)
+    chosen = [obj for obj in edited if obj.data.total_face_sel] or [obj for obj in edited if enclosing(obj)]
+    found = {}
+    for obj in chosen:
+        try:
+            found[obj.name] = candidate(obj, options)
+        except REFUSALS as cause:
+            raise Refused(obj.name, cause) from cause
+    return found
+
+
+def solve(candidates: dict[str, Session], progress: Progress) -> list[Found]:
+    """Find the first surface of each, on arrays alone; raises Refused and fairing.Cancelled."""
+    found = []
+    for k, (name, session) in enumerate(candidates.items()):
+        part = sub_range(progress, k / len(candidates), (k + 1) / len(candidates))
+        assert part is not None
+        try:
+            found.append(first(session.region, session.positions, session.matrix, part))
+        except REFUSALS as cause:
+            raise Refused(name, cause) from cause
+    return found
+
+
+class MESH_OT_fair_live_region(Watched, bpy.types.Operator):
+    """Make the selected faces the live region of their mesh, fair now and after every change around them.
+    The options are those of the last Fair Region; the region is saved with the mesh"""
+
+    bl_idname = "mesh.fair_live_region"
+    bl_label = "Live Region"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
+
+    _candidates: dict[str, Session]
+    _options: FairOptions
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Edit mode has a selection; while a run is under way, the mesh is its own."""
+        return require_edit_mode(cls, context, SELECT_FACES) and require_idle(cls, context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Take the selection of every object in edit mode that has one, and turn Live on; return when done."""
+        return self._begin_with(context, self._solve_at_once)
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        """Do so in the background where the first surface takes long enough to be noticed."""
+        return self._begin_with(context, self._solve_or_start)
+
+    def _begin_with(self, context: bpy.types.Context, go_on: Any) -> set[str]:
+        context.view_layer.update()  # a script may just have changed an object's matrix
+        try:
+            self._options = last_options(context)
+            self._candidates = read(context, self._options)
+            if not self._candidates:
+                self.report({"ERROR"}, translated(NO_FACE))
+                return {"CANCELLED"}
+            answer: set[str] = go_on(context)
+            return answer
+        except Refused as refusal:
+            return self._refuse(context, refusal)
+
+    def _solve_at_once(self, context: bpy.types.Context) -> set[str]:
+        return self._apply(context, at_once(context, partial(solve, self._candidates)))
+
+    def _solve_or_start(self, context: bpy.types.Context) -> set[str]:
+        size = sum(len(session.region.free) for session in self._candidates.values())
+        return self._start(context, partial(solve, self._candidates), size >= background_from(context))
+
+    def _is_current(self, context: bpy.types.Context) -> bool:
+        objects = objects_in_mode(context)
+        return context.mode == "EDIT_MESH" and all(
+            name in objects and is_current(objects[name], session) for name, session in self._candidates.items()
+        )
+
+    def _apply(self, context: bpy.types.Context, answers: list[Found]) -> set[str]:
+        objects = objects_in_mode(context)
+        for (name, session), found in zip(self._candidates.items(), answers, strict=True):
+            live.take(objects[name], session, self._options, found)
+        context.window_manager.fairing_live.on = True
+        return {"FINISHED"}
+
+    def _refuse(self, _context: bpy.types.Context, refusal: Refused) -> set[str]:
+        self.report({"ERROR"}, str(refusal))
+        return {"CANCELLED"}

@@ -1,0 +1,62 @@
+#include "method/bulb.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "geometry/face_geometry.h"
+#include "geometry/target_surface.h"
+#include "problem/surface_state.h"
+#include "start/swept_start.h"
+
+namespace fairing {
+
+namespace {
+
+// Only the tubes between two outlines were seen to be bulbs. Where these are long for the area between them, what they
+// ask for reaches everywhere: rings and pipes shorter than two and a half radii are none.
+bool has_room(const Patch& patch, const Points& points) {
+    constexpr double least_area = 0.2;  // of the sum of the outlines' squared lengths
+    const std::vector<Indices> loops = patch.loops();
+    if (loops.size() != 2) return false;
+    double squares = 0.0;
+    for (const Indices& loop : loops) {
+        double length = 0.0;
+        for (std::size_t k = 0; k < loop.size(); ++k)
+            length += (points.col(loop[k]) - points.col(loop[(k + 1) % loop.size()])).norm();
+        squares += length * length;
+    }
+    FaceGeometry faces;
+    faces.update(points, patch.triangles);
+    return faces.areas.sum() > least_area * squares;
+}
+
+double largest_distance(const Problem& problem, const Points& points, const Points& from) {
+    const SurfaceState state = measured_surface(problem, from);
+    const TargetSurface target(problem.patch, from, state.normals);
+    double largest = 0.0;
+    for (int v = 0; v < problem.patch.free_count; ++v) {
+        const SurfacePoint nearest = target.project(points.col(v), target.at_vertex(v).triangle);
+        largest = std::max(largest, (target.position(nearest) - points.col(v)).norm());
+    }
+    return largest;
+}
+
+// Bulbs and waists were off that tube by a sixth of the radius and more. On graded meshes measuring how their curvature
+// varies takes five times as long as their solution, and tells of the mesh.
+bool is_swept(const Problem& problem, const Points& points, const Progress& progress) {
+    constexpr double near = 0.05;  // of the tube's radius
+    const auto tube = tube_between(problem);
+    if (!tube) return false;
+    const auto swept = swept_start(problem, *tube, progress.here());
+    if (!swept) return false;
+    const double radius = std::min(tube->first().girth(), tube->last().girth()) / (2.0 * std::numbers::pi);
+    return largest_distance(problem, points, *swept) < near * radius;
+}
+
+}  // namespace
+
+bool may_be_bulb(const Problem& problem, const Points& points, const Progress& progress) {
+    return has_room(problem.patch, points) && !is_swept(problem, points, progress);
+}
+
+}  // namespace fairing

@@ -1,0 +1,177 @@
+"""*Live Region* while its first surface takes long: Blender goes on, and nothing changes before it is there."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Iterator
+from types import SimpleNamespace
+from typing import Any
+
+import bpy
+import meshes
+import numpy as np
+import pytest
+from extension import module
+from test_live import now, switch
+
+LONGEST = 0.3  # seconds that Blender may stand still
+
+
+class Gate:
+    """The engine's first answer, which takes until it is let go, and whoever waits for it."""
+
+    def __init__(self) -> None:
+        self.go, self.threads, self.stands_in = threading.Event(), list[threading.Thread](), False
+
+
+@pytest.fixture
+def gate(monkeypatch: pytest.MonkeyPatch) -> Iterator[Gate]:
+    kind, found = module("core.live_region").LiveRegion, Gate()
+    real = kind.answer
+
+    def slow(region: Any, *rest: Any) -> Any:
+        found.threads.append(threading.current_thread())
+        assert found.go.wait(10.0)
+        return None if found.stands_in else real(region, *rest)
+
+    monkeypatch.setattr(kind, "answer", slow)
+    monkeypatch.setattr(module("run.background"), "MOMENT", 0.01)
+    monkeypatch.setattr(module("run.background"), "has_events", lambda _context: True)
+    yield found
+    found.go.set()
+    switch(False)
+    assert module("core.runner").wait_for_all(10.0)
+
+
+def clicked() -> Any:
+    """A stand-in for the operator with its methods, called as a click would."""
+    original, told = module("follow.taking").MESH_OT_fair_live_region, []
+
+    class Stand:
+        def report(self, kinds: set[str], text: str) -> None:
+            told.append((kinds, text))
+
+        def _start_watching(self, _context: Any) -> None:
+            pass
+
+    Stand._timer = None
+    for name in ("invoke", "_begin_with", "_solve_or_start", "_start", "_is_current", "_apply", "_refuse"):
+        setattr(Stand, name, getattr(original, name))
+    for name in ("modal", "cancel", "_collect", "_stop_watching"):
+        setattr(Stand, name, getattr(original, name))
+    stand = Stand()
+    stand.told = told
+    return stand
+
+
+def mountain() -> bpy.types.Object:
+    """A bumpy grid in edit mode with its middle selected."""
+    obj = meshes.grid(16)
+    points = meshes.positions(obj)
+    points[:, 2] = 0.3 * np.cos(2.0 * points[:, 0]) * np.cos(1.5 * points[:, 1])
+    meshes.move(obj, points)
+    meshes.select(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6))
+    meshes.edit(obj)
+    return obj
+
+
+def begun() -> tuple[Any, Any]:
+    """Click, and have the answer take its time; returns the operator and where all vertices are."""
+    mountain()
+    before, begin = now(), time.perf_counter()
+    operator = clicked()
+    assert operator.invoke(bpy.context, SimpleNamespace(type="LEFTMOUSE", value="PRESS")) == {"RUNNING_MODAL"}
+    assert time.perf_counter() - begin < LONGEST
+    return operator, before
+
+
+def tick(operator: Any, kind: str = "TIMER") -> set[str]:
+    """Give the operator an event, which must not take long."""
+    begin = time.perf_counter()
+    status: set[str] = operator.modal(bpy.context, SimpleNamespace(type=kind, value="PRESS"))
+    assert time.perf_counter() - begin < LONGEST
+    return status
+
+
+def nothing_has_changed(before: Any) -> bool:
+    return (
+        np.array_equal(now(), before)
+        and not module("mesh.live_mesh").has_region(bpy.context.object.data)
+        and not bpy.context.window_manager.fairing_live.on
+    )
+
+
+def test_blender_goes_on_until_the_surface_is_there(gate: Gate) -> None:
+    operator, before = begun()
+    for _ in range(3):
+        assert tick(operator) == {"RUNNING_MODAL"}
+        assert bpy.context.window_manager.fairing_progress.running
+        assert not bpy.ops.mesh.fair_live_region.poll()
+        assert nothing_has_changed(before)
+    assert gate.threads
+    assert threading.main_thread() not in gate.threads
+    gate.go.set()
+    assert operator._run.wait(10.0)
+    assert tick(operator) == {"FINISHED"}
+    live = module("follow.live").live
+    assert (live.message, len(live.lost_points()), live.updates) == ("", 0, 0)
+    assert np.abs(now() - before).max() > 1e-3
+    assert bpy.context.window_manager.fairing_live.on
+    assert not bpy.context.window_manager.fairing_progress.running
+    in_window = now()
+    meshes.leave()
+    bpy.ops.wm.read_homefile(use_empty=True)
+    mountain()
+    assert bpy.ops.mesh.fair_live_region("EXEC_DEFAULT") == {"FINISHED"}  # as scripts do it: at once
+    assert np.array_equal(now(), in_window)
+
+
+def test_escape_leaves_all_as_it_was(gate: Gate) -> None:
+    operator, before = begun()
+    assert tick(operator, "ESC") == {"CANCELLED"}
+    gate.go.set()
+    assert operator._run.wait(10.0)
+    assert nothing_has_changed(before)
+
+
+@pytest.mark.parametrize("change", ["moved", "other faces", "object scaled", "left"])
+def test_a_mesh_that_changed_meanwhile_is_left_alone(gate: Gate, change: str) -> None:
+    operator, _ = begun()
+    if change == "moved":
+        bpy.ops.transform.translate(value=(0.0, 0.0, 0.5))
+    elif change == "other faces":
+        bpy.ops.mesh.delete(type="FACE")
+    elif change == "object scaled":
+        bpy.context.object.scale = (1.0, 1.0, 2.0)
+    else:
+        meshes.leave()
+    bpy.context.view_layer.update()
+    gate.go.set()
+    assert operator._run.wait(10.0)
+    after = None if change == "left" else now()
+    assert tick(operator) == {"CANCELLED"}
+    assert "changed meanwhile" in operator.told[-1][1]
+    if after is not None:
+        assert nothing_has_changed(after)
+
+
+def test_the_even_surface_stands_in_and_says_so(gate: Gate) -> None:
+    operator, before = begun()
+    gate.stands_in = True
+    gate.go.set()
+    assert operator._run.wait(30.0)
+    assert tick(operator) == {"FINISHED"}
+    assert module("follow.live").live.message == module("follow.live").STAND_IN
+    assert np.abs(now() - before).max() > 1e-3
+
+
+def test_without_a_surface_nothing_changes(gate: Gate, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module("core.live_region").LiveRegion, "stand_in", lambda *_: None)
+    operator, before = begun()
+    gate.stands_in = True
+    gate.go.set()
+    assert operator._run.wait(10.0)
+    assert tick(operator) == {"CANCELLED"}
+    assert operator.told == [({"ERROR"}, "Grid: No fair surface was found for the region")]
+    assert nothing_has_changed(before)
