@@ -172,16 +172,11 @@ Solution or_else(const Problem& problem, Solution solution, const Progress& prog
     if (!has_else(problem)) return solution;
     const Progress rest = progress.range(begin, 1.0);
     if (is_answer(solution)) {
-<<<<<<< HEAD
-        if (has_room_for_bulb(problem, solution)) solution = instead_of_bulb(problem, std::move(solution), rest, near);
+        if (may_be_bulb(problem, solution.points, rest))
+            solution = instead_of_bulb(problem, std::move(solution), rest, near);
         solution = instead_of_crossing(problem, std::move(solution), rest);
         return solution.instead == Instead::smoothed ? solution
                                                      : instead_of_misshapen(problem, std::move(solution), rest);
-=======
-        if (may_be_bulb(problem, solution.points, rest))
-            solution = instead_of_bulb(problem, std::move(solution), rest, near);
-        return instead_of_crossing(problem, std::move(solution), rest);
->>>>>>> main
     }
     if (lacks_surface(solution)) return instead_of_failure(problem, std::move(solution), rest);
     if (auto other = is_tried_enough(problem, solution) ? without_equation(problem, solution, rest) : std::nullopt)
