@@ -64,19 +64,12 @@ Indices BlemishFinder::torn(const Points& points) const {
 }
 
 Indices BlemishFinder::bent(const Points& points) const {
-    return bent_beyond(points, bent_before_.head(problem_.patch.free_count));
-}
-
-Indices BlemishFinder::sharp(const Points& points) const {
-    return bent_beyond(points, VectorX::Zero(problem_.patch.free_count));
-}
-
-Indices BlemishFinder::bent_beyond(const Points& points, const VectorX& usual) const {
+    const int count = problem_.patch.free_count;
     const VectorX bend = bend_of(problem_, points);
-    const double most = largest_bend * bend.tail(bend.size() - usual.size()).maxCoeff();
+    const double most = largest_bend * bend.tail(bend.size() - count).maxCoeff();
     Indices vertices;
-    for (int v = 0; v < usual.size(); ++v) {
-        if (bend[v] > std::max(most, usual[v])) vertices.push_back(v);
+    for (int v = 0; v < count; ++v) {
+        if (bend[v] > std::max(most, bent_before_[v])) vertices.push_back(v);
     }
     return vertices;
 }

@@ -27,14 +27,9 @@ public:
 
     [[nodiscard]] Blemishes in(const Points& points) const;
 
-    // Vertices where |H| is beyond twice the largest on the outline, whatever it was before.
-    [[nodiscard]] Indices sharp(const Points& points) const;
-
 private:
     [[nodiscard]] Indices torn(const Points& points) const;
     [[nodiscard]] Indices bent(const Points& points) const;
-    // Also beyond what is usual at the free vertices.
-    [[nodiscard]] Indices bent_beyond(const Points& points, const VectorX& usual) const;
 
     const Problem& problem_;
     Indices crossing_before_;  // triangles

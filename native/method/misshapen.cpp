@@ -17,14 +17,12 @@ constexpr double differing = 0.1;     // of 2π
 }  // namespace
 
 bool is_misshapen(const Problem& problem, const Points& points, const Progress& progress) {
-    if (!joins_outlines(problem) || !may_have_dents(problem.patch, points)) return false;
+    if (!joins_outlines(problem) || bent_both_ways(problem.patch, points) < least_waves) return false;
     const auto before = shape_before(problem, progress);
     if (!before) return false;
     const auto girths = Girths::of(problem.patch, *before, progress);
     return girths && !(girths->narrow(points, least_share).empty() && girths->wide(points, most_times).empty());
 }
-
-bool may_have_dents(const Patch& patch, const Points& points) { return bent_both_ways(patch, points) > least_waves; }
 
 bool is_wavier(const Patch& patch, const Points& points, const Points& other) {
     return bent_both_ways(patch, points) > bent_both_ways(patch, other) + differing;

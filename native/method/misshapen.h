@@ -11,9 +11,6 @@ namespace fairing {
 // no shape before is known.
 bool is_misshapen(const Problem& problem, const Points& points, const Progress& progress);
 
-// Whether a surface bends both ways at all, so that it is worth comparing with another one.
-bool may_have_dents(const Patch& patch, const Points& points);
-
 // Whether the first of two surfaces has waists, bulges or dents that the other has not.
 bool is_wavier(const Patch& patch, const Points& points, const Points& other);
 

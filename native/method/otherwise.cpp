@@ -121,10 +121,8 @@ bool is_tried_enough(const Problem& problem, const Solution& solution) {
 // A loft without blemishes, or the shape before as smooth as it can be, or any loft.
 std::optional<Solution> without_equation(const Problem& problem, const Solution& first, const Progress& progress) {
     auto loft = lofted(problem, first, progress);
-    const bool is_sound = loft && !is_blemished(problem, *loft, progress);
-    if (is_sound && !may_have_dents(problem.patch, loft->points)) return loft;
+    if (loft && !is_blemished(problem, *loft, progress)) return loft;
     auto shape = smoothed(problem, loft ? *loft : first, progress);
-    if (is_sound && shape && !is_wavier(problem.patch, loft->points, shape->points)) return loft;
     return shape ? std::move(shape) : std::move(loft);
 }
 

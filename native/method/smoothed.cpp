@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <queue>
-#include <set>
 
 #include "base/stopwatch.h"
 #include "geometry/self_intersection.h"
@@ -42,65 +41,21 @@ Indices all_of(const Blemishes& blemishes) {
     return all;
 }
 
-// Twice what it was, at some vertices and their neighbours.
-void lengthen(const Patch& patch, const Indices& vertices, VectorX& wavelengths) {
-    std::set<int> reached(vertices.begin(), vertices.end());
-    for (const int v : vertices) {
-        for (const int w : patch.ring(v).vertices) reached.insert(w);
+// The first without blemishes, or the last one that is not torn.
+std::optional<Points> smoothest(const Problem& problem, ShapeBefore& shape, const Progress& progress) {
+    const BlemishFinder finder(problem, shape.points(), progress);
+    VectorX wavelengths = VectorX::Constant(problem.patch.vertex_count(), std::numeric_limits<double>::infinity());
+    std::optional<Points> best;
+    for (int round = 0; round < most_rounds; ++round) {
+        const auto points = shape.smoothed(wavelengths, progress);
+        if (!points || !points->allFinite()) return best;
+        const Blemishes blemishes = finder.in(*points);
+        if (blemishes.torn.empty()) best = *points;
+        if (blemishes.absent()) return best;
+        shorten(problem.patch, shape.points(), all_of(blemishes), wavelengths);
     }
-    for (const int v : reached) wavelengths[v] *= 2.0;
+    return best;
 }
-
-// Looks for the smoothest surface without blemishes.
-class Search {
-public:
-    Search(const Problem& problem, ShapeBefore& shape, const Progress& progress)
-        : problem_(problem),
-          shape_(shape),
-          progress_(progress),
-          finder_(problem, shape.points(), progress),
-          wavelengths_(VectorX::Constant(problem.patch.vertex_count(), std::numeric_limits<double>::infinity())) {}
-
-    // The first without blemishes, its sharp places smoothed as far as that makes none; or the last that is not torn.
-    std::optional<Points> smoothest() {
-        std::optional<Points> best;
-        for (int round = 0; round < most_rounds; ++round) {
-            const auto points = smoothed();
-            if (!points) return best;
-            const Blemishes blemishes = finder_.in(*points);
-            if (blemishes.torn.empty()) best = points;
-            if (blemishes.absent()) return without_sharp_places(*points);
-            shorten(problem_.patch, shape_.points(), all_of(blemishes), wavelengths_);
-        }
-        return best;
-    }
-
-private:
-    std::optional<Points> smoothed() {
-        auto points = shape_.smoothed(wavelengths_, progress_);
-        return points && points->allFinite() ? std::move(points) : std::nullopt;
-    }
-
-    // What was sharp before is no blemish, but stays only where it has to.
-    Points without_sharp_places(Points points) {
-        constexpr int most_times = 5;
-        for (int round = 0; round < most_times; ++round) {
-            const Indices sharp = finder_.sharp(points);
-            if (sharp.empty()) break;
-            lengthen(problem_.patch, sharp, wavelengths_);
-            auto next = smoothed();
-            if (!next || !finder_.in(*next).absent()) break;
-            points = std::move(*next);
-        }
-        return points;
-    }
-
-    const Problem& problem_;
-    ShapeBefore& shape_;
-    const Progress& progress_;
-    BlemishFinder finder_;
-    VectorX wavelengths_;
-};
 
 Solution solution_at(const Problem& problem, const Points& points) {
     Solution solution;
@@ -121,7 +76,7 @@ std::optional<Solution> smoothed(const Problem& problem, const Solution& first, 
     if (!joins_outlines(problem)) return std::nullopt;
     auto shape = ShapeBefore::of(problem, progress);
     if (!shape) return std::nullopt;
-    const auto points = Search(problem, *shape, progress).smoothest();
+    const auto points = smoothest(problem, *shape, progress);
     if (!points) return std::nullopt;
     Solution solution = solution_at(problem, *points);
     if (end_of(solution) != Termination::converged) return std::nullopt;
