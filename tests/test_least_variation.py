@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 import fairing
+import joints
 import measures
 import profiles
 import shapes
 import tubes
+from joints import Arm, flat_arm
 from shapes import Patch, Style
 
 
@@ -79,6 +81,45 @@ def test_irregular_meshes_agree() -> None:
     away = measures.two_sided_distance((first.vertices, one.triangles), (second.vertices, other.triangles))
     sagitta = 1 - np.cos(np.pi / 24)  # of the rims' chords
     assert away < 0.003 * one.diameter + sagitta
+
+
+def test_elbows_of_irregular_meshes_agree() -> None:
+    """What the chords of the vertices' own triangles differ by is left out: up to 0.4 % of D."""
+    for bend, degrees in ((2.0, 90.0), (3.0, 120.0)):
+        made = [tubes.elbow(bend, degrees, seed=seed) for seed in (1, 2)]
+        first, second = (tube.faired().vertices for tube in made)
+        assert tubes.apart(made[0], first, second, bend) < 0.003 * made[0].diameter
+
+
+JOINTS = {
+    "unequal": [flat_arm(0), flat_arm(120, 0.7), flat_arm(240, 0.5)],
+    "T": [flat_arm(0), flat_arm(180), flat_arm(90, 0.5, 2.5)],
+    "Y": [flat_arm(180), flat_arm(35, 0.8, 4.0), flat_arm(-35, 0.5, 4.0)],
+    "corner": [Arm((1, 0, 0)), Arm((0, 1, 0), 0.7), Arm((0, 0, 1), 0.5)],
+    "leaning": [flat_arm(0, 1.0, 3.0, 8.0), flat_arm(120, 0.7, 3.0, -8.0), flat_arm(240, 0.5, 3.0, 5.0)],
+}
+
+
+@pytest.mark.parametrize("name", JOINTS)
+def test_tubes_of_unequal_radii_are_joined(name: str) -> None:
+    joint = joints.joint(JOINTS[name], seed=1)
+    result = joint.faired()
+    assert result.converged
+    assert {warning.code for warning in result.warnings} <= {"SHARP_BOUNDARY"}  # arms of twelve edges around
+    assert len(fairing.self_intersections(result.vertices, joint.triangles)) == 0
+
+
+def test_joints_of_irregular_meshes_agree() -> None:
+    made = [joints.joint(JOINTS["unequal"], around=36, seed=seed) for seed in (1, 2)]
+    first, second = ((tube.faired().vertices, tube.triangles) for tube in made)
+    assert measures.two_sided_distance(first, second) < 0.003 * made[0].diameter
+
+
+def test_two_arms_in_line_are_a_cylinder() -> None:
+    tube = joints.joint([flat_arm(0), flat_arm(180)], seed=1)
+    result = tube.faired()
+    assert result.converged
+    assert np.abs(np.hypot(result.vertices[:, 1], result.vertices[:, 2]) - 1).max() < 1e-6
 
 
 def test_the_interior_given_is_not_looked_at_and_threads_change_no_bit() -> None:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import CloughTocher2DInterpolator
 from scipy.spatial import Delaunay
 
 import fairing
@@ -116,3 +117,22 @@ def off_torus(vertices: FloatArray, bend: float) -> float:
     """Largest distance from the elbow's torus."""
     axis = np.hypot(vertices[:, 0] - bend, vertices[:, 2]) - bend
     return float(np.abs(np.hypot(axis, vertices[:, 1]) - 1).max())
+
+
+def _around_torus(vertices: FloatArray, bend: float) -> tuple[FloatArray, FloatArray]:
+    """(n, 2) lengths along and around an elbow's torus; (n,) distances from its circle."""
+    along = bend * np.arctan2(vertices[:, 2], bend - vertices[:, 0])
+    out = np.hypot(vertices[:, 0] - bend, vertices[:, 2]) - bend
+    return np.column_stack([along, np.arctan2(vertices[:, 1], out)]), np.hypot(out, vertices[:, 1])
+
+
+def apart(tube: Tube, first: FloatArray, second: FloatArray, bend: float) -> float:
+    """How far the first surface's free vertices are from the second one, along the torus' normals.
+
+    Between vertices the distance from the torus' circle is interpolated, so that chords don't count.
+    """
+    places, distances = _around_torus(second, bend)
+    turned = np.concatenate([places + np.array([0.0, 2 * np.pi * k]) for k in (-1, 0, 1)])
+    free = np.setdiff1d(np.arange(len(first)), tube.fixed)
+    at, expected = _around_torus(first[free], bend)
+    return float(np.nanmax(np.abs(CloughTocher2DInterpolator(turned, np.tile(distances, 3))(at) - expected)))

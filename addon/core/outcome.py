@@ -20,6 +20,7 @@ from .rounded import rounded_edges
 from .solve import Solved
 from .swelling import discs, swellings, waviness
 from .symmetry import mirror_map, symmetrised, with_band
+from .tunnels import tunnel_hint
 from .verdict import GOOD, Evidence, Verdict, judge
 
 
@@ -69,7 +70,7 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
         vertices=problem.vertices[moving][order],
         positions=positions[order],
         result=_of_patch(result, own),
-        warnings=solved.warnings + warnings + (() if verdict.grade == GOOD else solved.hints),
+        warnings=solved.warnings + warnings + (() if verdict.grade == GOOD else solved.hints + tunnel_hint(patch)),
         before=quality_before,
         after=quality_after,
         distortion=quality.texture_distortion(before, after, patch.triangles),

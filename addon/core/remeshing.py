@@ -21,6 +21,7 @@ from .piercing import Sheet, pierced, places
 from .region import MeshArrays, Patch, to_local
 from .solve import pose, told_by
 from .swelling import discs, swellings, waviness
+from .tunnels import tunnel_hint
 from .verdict import GOOD, Evidence, judge
 from .words import in_mesh_words
 
@@ -89,13 +90,14 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
         pierced=_pierced(mesh, matrix, problem, part, points), points=own.points, origin=origin,
     )  # fmt: skip
     verdict = judge(evidence, options)
+    odd = () if verdict.grade == GOOD else hints + tunnel_hint(problem.patch)
     local = to_local(points, matrix)
     stay = len(part.stay)
     return Remeshed(
         vertices=part.stay[part.fixed_count :],
         positions=local[part.fixed_count : stay],
         result=result,
-        warnings=warnings + told + _mirror_note(mesh) + (() if verdict.grade == GOOD else hints),
+        warnings=warnings + told + _mirror_note(mesh) + odd,
         before=measured[0],
         after=measured[1],
         distortion=quality.texture_distortion(before, points, part.triangles),

@@ -15,7 +15,7 @@ from ..core.arrays import Floats, Ints, Mask
 from ..core.options import FairOptions
 from ..core.region import MeshArrays, free_vertices
 from ..core.selection import enclosed_faces
-from ..core.spiked import is_spiked
+from ..core.spiked import is_spoilt
 from ..core.symmetry import with_image
 from .columns import column, flags, indices, stored
 from .marked_lines import lines
@@ -177,7 +177,7 @@ def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: Fa
     )
     if options.mesh == "NEW":
         arrays = replace(arrays, lines=lines(mesh, arrays))
-    if arrays.textured and is_spiked(arrays):
+    if arrays.textured and is_spoilt(arrays):
         arrays = replace(arrays, textured=False)
     return _pinned(arrays, mesh, group, options)
 

@@ -24,7 +24,7 @@ class FairCheck(bpy.types.PropertyGroup):
 class FairReport(bpy.types.PropertyGroup):
     """What the last run did."""
 
-    verdict: EnumProperty(items=_GRADES)
+    verdict: EnumProperty(items=_GRADES, default=UNUSABLE)  # nothing is good before it has been looked at
     reason: StringProperty()
     remedies: StringProperty()
     written: BoolProperty()

@@ -1,6 +1,6 @@
 #include "geometry/flips.h"
 
-#include "geometry/vertex_normal.h"
+#include "geometry/one_ring_buffer.h"
 
 namespace fairing {
 
@@ -22,6 +22,18 @@ Indices flipped_by_solution(const Patch& patch, const Points& points) {
     Indices flipped = flipped_triangles(patch, points);
     std::erase_if(flipped, [&](int t) { return patch.triangles.col(t).minCoeff() >= patch.free_count; });
     return flipped;
+}
+
+bool is_flipped(const Patch& patch, const Points& points, int triangle) {
+    const auto corners = patch.triangles.col(triangle);
+    Vector3 around = Vector3::Zero();
+    OneRingBuffer buffer;
+    for (const int v : corners) {
+        if (patch.is_free(v) || patch.pin[at(v)]) around += max_normal(buffer.gather(patch, points, v));
+    }
+    const Vector3 first = points.col(corners[1]) - points.col(corners[0]);
+    const Vector3 second = points.col(corners[2]) - points.col(corners[0]);
+    return around.dot(first.cross(second)) < 0.0;
 }
 
 }  // namespace fairing

@@ -12,4 +12,7 @@ Indices flipped_triangles(const Patch& patch, const Points& points);
 // The same without those that have no free corner: the outline alone turns them, no solution can turn them back.
 Indices flipped_by_solution(const Patch& patch, const Points& points);
 
+// Whether one triangle is.
+bool is_flipped(const Patch& patch, const Points& points, int triangle);
+
 }  // namespace fairing

@@ -7,6 +7,7 @@
 #include "placement/first_placement.h"
 #include "placement/folds.h"
 #include "placement/relax.h"
+#include "placement/turn_back.h"
 #include "placement/untangle.h"
 
 namespace fairing {
@@ -41,6 +42,8 @@ public:
 private:
     bool keep_untangled(Placement placement) {
         Indices folded = folds_of_placement(problem_, target_, placement);
+        // On a sharply curved part of the surface untangling may fold more than it turns back.
+        if (!folded.empty() && folded.size() <= few_folds && keep(placement)) return true;
         constexpr int most_rounds = 3;
         for (int round = 0; round < most_rounds && !folded.empty(); ++round) {
             const std::size_t before = folded.size();
@@ -49,6 +52,13 @@ private:
             if (folded.size() > few_folds ? 2 * folded.size() > before : folded.size() >= before) break;
             folded = relax_unfolded(placement, std::move(folded));
         }
+        return keep(std::move(placement));
+    }
+
+    // The least folded one, of those the evenest; true where nothing is folded.
+    bool keep(Placement placement) {
+        turn_back(problem_, target_, placement);
+        Indices folded = folds_of_placement(problem_, target_, placement);
         const bool done = folded.empty();
         const double merit = tangential_.merit(placement.points, normals_at(placement, target_));
         if (!best_ || folded.size() < best_->folded.size() ||

@@ -23,16 +23,15 @@ using Residual = Eigen::Matrix<double, 10, 1>;  // of the cubic's size, then of 
 constexpr double ridge = 1e-4;
 constexpr double flattest = 1e-6;  // sine of a triangle's angle, share of a pair's length within the plane
 
-// Lᵀ L = Q, cᵀ Q c the mean of C(t, t, t)² over all directions: ⟨cos⁶⟩ = 5/16, ⟨cos⁴ sin²⟩ = 1/16.
+// Lᵀ L = Q, cᵀ Q c the mean over all directions of C(t, t, t)² = (A cos θ + B sin θ + …cos 3θ + …sin 3θ)²; the rows
+// give A, B and the other two, by √½ each.
 CubicMatrix mean_square_root() {
-    const double large = std::sqrt(5.0) / 4.0;
-    const double mixed = 1.0 / (4.0 * std::sqrt(5.0));
-    const double small = std::sqrt(0.8) / 4.0;
-    CubicMatrix root = CubicMatrix::Zero();
-    root(0, 0) = root(3, 3) = large;
-    root(0, 2) = root(3, 1) = mixed;
-    root(1, 1) = root(2, 2) = small;
-    return root;
+    CubicMatrix root;
+    root << 3.0, 0.0, 1.0, 0.0,  //
+        0.0, 1.0, 0.0, 3.0,      //
+        1.0, 0.0, -1.0, 0.0,     //
+        0.0, 1.0, 0.0, -1.0;
+    return std::sqrt(0.5) / 4.0 * root;
 }
 
 const CubicMatrix& root_of_mean_square() {
@@ -52,7 +51,9 @@ struct Pair {
 
 class Element {
 public:
-    Element(const Sheet& sheet, const Stencil& stencil, double misfit_weight) : misfit_weight_(misfit_weight) {
+    Element(const Sheet& sheet, const Stencil& stencil, const ElementWeights& weights)
+        : root_(root_of_mean_square()), root_of_misfit_(std::sqrt(weights.misfit)) {
+        root_.topRows<2>() *= std::sqrt(weights.lean);
         for (std::size_t k = 0; k < stencil_size; ++k) {
             present_[k] = stencil[k] != none;
             if (!present_[k]) continue;
@@ -81,6 +82,11 @@ public:
         const PairVector g = 2.0 * factors.variation * (by_derivative.transpose() * residual_);
         for (int p = 0; p < count_; ++p) add_bending(pairs_[at(p)], g[p] * scale(pairs_[at(p)]), result.bending);
         return result;
+    }
+
+    [[nodiscard]] ElementVector acceleration(const Element& there, const ElementVector& motions, double share) const {
+        const Eigen::Matrix<double, 10, 18> J = jacobian(residual_by_derivative());
+        return 4.0 / (share * share) * (J.transpose() * (there.residual_ - residual_ - share * (J * motions)));
     }
 
 private:
@@ -121,7 +127,7 @@ private:
         inverse_ = G.llt().solve(CubicMatrix::Identity());
         cubic_ = inverse_ * (V_.transpose() * derivatives_);
         misfit_ = derivatives_ - V_ * cubic_;
-        residual_ << L * cubic_, std::sqrt(misfit_weight_) * misfit_;
+        residual_ << root_ * cubic_, root_of_misfit_ * misfit_;
         residual_ *= std::sqrt(area_);
     }
 
@@ -142,7 +148,7 @@ private:
     [[nodiscard]] Eigen::Matrix<double, 10, 6> stacked(const Eigen::Matrix<double, 4, 6>& cubic,
                                                        const Eigen::Matrix<double, 6, 6>& misfit) const {
         Eigen::Matrix<double, 10, 6> result;
-        result << root_of_mean_square() * cubic, std::sqrt(misfit_weight_) * misfit;
+        result << root_ * cubic, root_of_misfit_ * misfit;
         return std::sqrt(area_) * result;
     }
 
@@ -232,7 +238,8 @@ private:
         }
     }
 
-    double misfit_weight_;
+    CubicMatrix root_;  // of the mean square, with the weight of the lean
+    double root_of_misfit_;
     std::array<bool, stencil_size> present_{};
     Eigen::Matrix<double, 3, 6> x_ = Eigen::Matrix<double, 3, 6>::Zero();
     Eigen::Matrix<double, 3, 6> n_ = Eigen::Matrix<double, 3, 6>::Zero();
@@ -253,16 +260,21 @@ private:
 
 }  // namespace
 
-ElementSums element_sums(const Sheet& sheet, const Stencil& stencil, double misfit_weight) {
-    return Element(sheet, stencil, misfit_weight).sums();
+ElementSums element_sums(const Sheet& sheet, const Stencil& stencil, const ElementWeights& weights) {
+    return Element(sheet, stencil, weights).sums();
 }
 
-ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil, double misfit_weight,
+ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil, const ElementWeights& weights,
                            const ElementSums& factors) {
-    return Element(sheet, stencil, misfit_weight).terms(factors);
+    return Element(sheet, stencil, weights).terms(factors);
 }
 
-LocalCubic local_cubic(const Sheet& sheet, const Stencil& stencil) { return Element(sheet, stencil, 0.0).cubic(); }
+ElementVector element_acceleration(const Sheet& sheet, const Sheet& there, const Stencil& stencil,
+                                   const ElementWeights& weights, const ElementVector& motions, double share) {
+    return Element(sheet, stencil, weights).acceleration(Element(there, stencil, weights), motions, share);
+}
+
+LocalCubic local_cubic(const Sheet& sheet, const Stencil& stencil) { return Element(sheet, stencil, {}).cubic(); }
 
 double LocalCubic::along(const Vector3& chord) const {
     const Eigen::Vector2d direction = Eigen::Vector2d(chord.dot(e1), chord.dot(e2)).normalized();

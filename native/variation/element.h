@@ -18,10 +18,19 @@ struct ElementSums {
 
 // The derivative of the normal curvature along a pair of vertices is 6 ⟨n_i + n_j, x_j − x_i⟩ / |x_j − x_i|³ + O(h²):
 // zero on planes, spheres and circular cylinders for any pair. A cubic form C(t, t, t) is fitted to the pairs of the
-// stencil, and what doesn't fit counts `misfit_weight` times. That is O(h²), and it ties the normals to the surface:
-// normals that lean by −(h²/12) C cancel C along pairs of length h, but not along longer ones. Without it the normals
-// would lean.
-ElementSums element_sums(const Sheet& sheet, const Stencil& stencil, double misfit_weight);
+// stencil, and what doesn't fit counts `misfit` times. That is O(h²), and it ties the normals to the surface: normals
+// that lean by −(h²/12) C cancel C along pairs of length h, but not along longer ones. Without it the normals would
+// lean.
+//
+// They still lean a little. C's part A cos θ, the only one that a lean cancels, counts `lean` times. Equilateral
+// triangles are left with 3 w k / (3 w + 2 k) of it (w: misfit, k: lean), where the normals are free: all of it with
+// k = 3 w / (3 w − 2). Where all of C has to stand against w alone, w must be large, and what irregular meshes miss is
+// then as large.
+struct ElementWeights {
+    double misfit = 0.0;
+    double lean = 1.0;
+};
+ElementSums element_sums(const Sheet& sheet, const Stencil& stencil, const ElementWeights& weights);
 
 // Derivatives of factors.variation · variation + factors.area · area by the motions. The second ones are split:
 // `stretching` is positive semidefinite (Gauss–Newton), `bending` what the pairs' own second derivatives add; those of
@@ -32,8 +41,13 @@ struct ElementTerms {
     ElementMatrix stretching = ElementMatrix::Zero();
     ElementMatrix bending = ElementMatrix::Zero();
 };
-ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil, double misfit_weight,
+ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil, const ElementWeights& weights,
                            const ElementSums& factors);
+
+// 2 Jᵀ ∂²R/∂m², for the residuals R, whose squares `variation` adds up, and motions m: by how much the residuals leave
+// their tangent where the motions are taken. `there`: the sheet moved by a small share of them.
+ElementVector element_acceleration(const Sheet& sheet, const Sheet& there, const Stencil& stencil,
+                                   const ElementWeights& weights, const ElementVector& motions, double share);
 
 // The cubic form of a triangle in its plane.
 struct LocalCubic {

@@ -23,6 +23,12 @@ def details() -> dict[str, bool]:
     return {check.name: check.detail for check in meshes.report().checks}
 
 
+def test_nothing_is_good_before_it_has_been_looked_at() -> None:
+    report = meshes.report()
+    report.property_unset("verdict")
+    assert report.verdict == "UNUSABLE"
+
+
 def test_report_of_a_restored_hemisphere() -> None:
     obj = meshes.sphere(96)
     upper = upper_half(obj)

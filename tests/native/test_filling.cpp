@@ -259,6 +259,22 @@ TEST_CASE("a mesh over a crumpled surface does not grow without end") {
     CHECK(static_cast<double>(mesh.result().points.cols()) < 3.0 * expected);  // six times without a limit
 }
 
+TEST_CASE("chords at sharp corners stay but where their triangle is turned against the outline's normals") {
+    Stretched square = stretched_square(6);
+    square.points.row(0) -= 1.6 / 0.3 * square.points.row(1);  // sheared to the other side: chords at sharp corners
+    const auto count = square.points.cols();
+    const TargetSurface surface(square.patch, square.points, Points::Zero(3, count));
+    const VectorX lengths = VectorX::Ones(count);
+    const auto splits = [&](const Points& normals) {
+        EvenMesh mesh(square.patch, square.points, surface, lengths);
+        return mesh.split_chords(normals);
+    };
+    const Points up = Vector3::UnitZ().replicate(1, count - square.patch.free_count);
+    CHECK(splits(up) == 0);
+    CHECK(splits({}) == 0);
+    CHECK(splits(-up) == 2);
+}
+
 namespace {
 
 // A flat disc with its rim on a unit ball around the origin, at this angle from the direction of `side` · z.
