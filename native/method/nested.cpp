@@ -128,7 +128,7 @@ private:
         levels_.set_up_tangential(k, std::move(laplacian), progress_);
         slide(problem, *work.tangential, normals, most_slides, points);
         progress.report(share_of_start, "refinement");
-        work.normal = make_normal_operator(problem, points.leftCols(problem.patch.free_count));
+        work.normal = make_normal_operator(problem, points.leftCols(problem.patch.free_count), Solves::few);
         // λ that aren't symmetric need a factorisation of their own; so far their symmetric part was good enough.
         if (k == 0 && std::holds_alternative<RowWeights>(problem.weights)) {
             work.tangential =

@@ -20,8 +20,13 @@ public:
     [[nodiscard]] virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const = 0;
 };
 
+// What an operator is made for: a few solves with a factor that is needed once, or many more or new factors now and
+// then.
+enum class Solves { few, many };
+
 // The one of the problem's equation: Laplace for minimal surfaces, biharmonic for all others, split where the patch is
 // large. `layout`: about where the free vertices are (3 × free count), to order the factorisation by; or nothing.
-std::unique_ptr<NormalOperator> make_normal_operator(const Problem& problem, Points layout = {});
+std::unique_ptr<NormalOperator> make_normal_operator(const Problem& problem, Points layout = {},
+                                                     Solves solves = Solves::many);
 
 }  // namespace fairing
