@@ -25,11 +25,11 @@ namespace fairing {
 namespace {
 
 // Edges of the fine mesh and of the coarse one (Beginning) are as long as a share of the outline's mean edge where the
-// surface turns by more than `turn` radians along them (35 and 18 edges around a tube), up to `range_of_edges` times
+// surface turns by more than `turn` radians along them (24 and 18 edges around a tube), up to `range_of_edges` times
 // as long elsewhere, within bounds (units of D); `growth`: proxy/proxy_mesh.h.
 constexpr double fine_share = 1.0;
-constexpr double fine_turn = 0.18;
-constexpr double fine_growth = 0.15;
+constexpr double fine_turn = 0.26;
+constexpr double fine_growth = 0.3;
 constexpr double coarse_turn = 0.35;
 constexpr double coarse_growth = 0.3;
 constexpr double range_of_edges = 4.0;  // the proxy's own: edges that turn stop at a quarter of the longest ones
