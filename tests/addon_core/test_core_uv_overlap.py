@@ -32,6 +32,11 @@ def test_what_lies_over_an_island_is_told_whichever_is_finer() -> None:
         assert not found[(middles < 0.5).any(axis=1)].any()
 
 
+def test_a_small_island_under_a_large_face_is_told() -> None:
+    """The face's own middle lies beside it."""
+    assert covering(sheet(1), sheet(2, (0.9, 0.05), 0.08)).tolist() == [True, False]
+
+
 def test_the_winding_of_either_makes_no_difference() -> None:
     new, other = sheet(4), sheet(3, (0.3, 0.2), 0.4)
     for a, b in ((new[:, ::-1], other), (new, other[:, ::-1])):
