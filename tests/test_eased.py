@@ -36,7 +36,7 @@ def rows_from_outline(cap: shapes.Patch) -> np.ndarray:
     return np.asarray(sum(measures.beyond_rings(cap.triangles, cap.fixed, k).astype(int) for k in range(ROWS + 1)))
 
 
-@pytest.mark.parametrize("seed", [0, 2])
+@pytest.mark.parametrize("seed", [0, 2, 3])
 def test_noise_that_no_surface_meets_is_passed_by(seed: int) -> None:
     cap = rough_cap(0.8, 1.0, seed)
     result = faired(cap)
@@ -52,6 +52,7 @@ def test_noise_that_no_surface_meets_is_passed_by(seed: int) -> None:
     assert np.abs(np.linalg.norm(inside, axis=1) - 1).max() < 0.2  # normals are off by a radian
     flipped = fairing.flipped_triangles(result.vertices, cap.triangles, fixed=cap.fixed)
     assert (rows_from_outline(cap)[cap.triangles[flipped]].min(axis=1) == 0).all()
+    assert len(flipped) <= 3  # 7, 5 and 12 before their corners were tried elsewhere, then 1, 1 and 2
 
 
 def test_the_next_row_follows_half_as_far() -> None:

@@ -247,14 +247,20 @@ def test_a_thin_elbow_is_found(radius: float) -> None:
     assert len({*result.levels}) == 1  # the fine mesh begins at the first surface, without another coarse one
 
 
-@pytest.mark.parametrize(("radius", "bend"), [(0.4, 120.0), (0.25, 120.0), (0.4, 135.0)])
-def test_a_bridge_leads_around_a_wide_bend(radius: float, bend: float) -> None:
-    """Two of the three only by way of one more coarse mesh: the fine one stalls."""
+@pytest.mark.parametrize(
+    ("radius", "bend", "off"), [(0.4, 120.0, 0.1), (0.25, 120.0, 0.1), (0.25, 135.0, 0.1), (0.4, 180.0, 0.15)]
+)
+def test_a_bridge_leads_around_a_wide_bend(radius: float, bend: float, off: float) -> None:
+    """In straight steps the first took 52, the second found its surface by way of one more mesh, the others a loft.
+
+    The torus, from which it is so many radii off at most, does not have the least variation.
+    """
     vertices, triangles = elbow(radius, bend)
     result = fairing.fill(vertices, triangles, rims_of_elbow(vertices, triangles), bridge=True)
     away = np.hypot(np.hypot(result.vertices[:, 0], result.vertices[:, 1]) - 1, result.vertices[:, 2])
     assert (result.converged, result.equation) == (True, "least_variation")
-    assert np.abs(away - radius).max() < 0.1 * radius
+    assert np.abs(away - radius).max() < off * radius
+    assert result.iterations < 40
 
 
 @pytest.mark.parametrize("edges", [6, 24, 48, 96])

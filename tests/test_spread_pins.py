@@ -229,7 +229,7 @@ def test_the_tip_of_a_needle_is_told() -> None:
     for lift, sharp in ((0.1, False), (1.0, True)):
         for how in ({}, {"pin_radius": 0.0}, {"equation": "least_variation"}):
             result, _ = lifted(patch, pin, [lift], **how)  # type: ignore[arg-type]
-            assert result.converged
+            assert result.converged or sharp  # at a tip the variation is infinite: its descent may stall
             named = [list(told.elements) for told in result.warnings if "tips" in told.figures]
             assert named == ([[pin[0]]] if sharp else [])
 

@@ -18,6 +18,7 @@ from .hard_chains import SHARP, chains
 from .region import nothing
 
 ROUNDED = 15.0  # by which one has become flatter that is rounded off
+STANDS_OUT = 4.0  # times what four fifths of the edges around bend at most: curls and wrinkles bend everywhere
 RUNS_ON = 2  # of them that stay, and that are rounded off, at least
 MOST_MARKED = 0.25  # of the edges inside: importers mark nearly all of them, which sets none apart
 
@@ -50,12 +51,15 @@ def _running_on(problem: Problem, after: Floats, moves: Mask) -> Ints:
     old = bends(problem.points, near)
     inside = moves[old.edges].any(axis=1)
     outside = ~inside & ~outline[old.edges].all(axis=1)  # a chain along the outline leads nowhere
-    flatter = inside & (np.abs(old.degrees) - np.abs(bends(after, near).degrees) > ROUNDED)
+    sizes = np.abs(old.degrees)
+    flatter = inside & (sizes - np.abs(bends(after, near).degrees) > ROUNDED)
+    usual = np.percentile(sizes, 80.0) if len(sizes) else 0.0
     found = [nothing()]
     held = np.zeros(len(moves), dtype=bool)
     held[np.setdiff1d(problem.patch.fixed, problem.patch.outline)] = True  # pins stay: what ends at them is no chain
     for chain in chains(problem.points, old, ~held[old.edges].any(axis=1)):
-        if min(np.count_nonzero(outside[chain]), np.count_nonzero(flatter[chain])) >= RUNS_ON:
+        runs_on = min(np.count_nonzero(outside[chain]), np.count_nonzero(flatter[chain])) >= RUNS_ON
+        if runs_on and np.median(sizes[chain]) >= STANDS_OUT * usual:
             found.append(old.edges[chain[flatter[chain]]].ravel())
     ends = np.unique(np.concatenate(found))
     free: Ints = ends[moves[ends]]

@@ -21,6 +21,7 @@ class Added:
     mixed: int  # outline vertices where colours or other values of the two border faces differ: their mean counts
     seams: int  # new edges where UVs part
     distortion: float  # area-weighted mean of the conformal distortion − 1 on the active UV map; 0 without one
+    covering: int = 0  # new triangles that lie over other faces on that map
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -29,6 +30,9 @@ class Added:
         if self.seams:
             text = counted(self.seams, "new edge is a seam", "new edges are seams")
             notes.append(f"{text} of UVs: each island at the outline goes on by itself")
+        if self.covering:
+            text = counted(self.covering, "new triangle lies", "new triangles lie")
+            notes.append(f"{text} over other faces in the texture: move the islands apart before you paint")
         if self.mixed:
             text = counted(self.mixed, "vertex of the outline lies", "vertices of the outline lie")
             notes.append(f"{text} where colours of two faces differ: new faces begin with the mean there")

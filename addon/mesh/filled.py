@@ -16,6 +16,7 @@ from ..core.arrays import Floats, Mask
 from ..core.fill_report import Added
 from ..core.filling import Piece
 from ..core.unwrapping import SAME, RimUVs, Surface, unwrapped
+from ..core.uv_overlap import covering
 from .layers import OF_CORNERS, MeanLayers, Shapes, in_object_mode
 from .new_faces import FaceData, VertexData, kinds, make_faces, make_vertices, refuse_doubles
 from .selecting import select_new_faces
@@ -58,6 +59,7 @@ def _add(bm: Any, shapes: Shapes, pieces: list[Piece]) -> Added:
     new = [rim.data(bm) for rim in rims]
     for data in new:
         refuse_doubles(bm, data)
+    covered = _covering(bm, rims)
     faces = [face for rim, data in zip(rims, new, strict=True) for face in rim.fill(bm, shapes, data)]
     select_new_faces(bm, faces)
     bm.normal_update()
@@ -66,7 +68,19 @@ def _add(bm: Any, shapes: Shapes, pieces: list[Piece]) -> Added:
         mixed=sum(rim.mixed for rim in rims),
         seams=sum(rim.seams for rim in rims),
         distortion=max((rim.distortion for rim in rims), default=0.0),
+        covering=covered,
     )
+
+
+def _covering(bm: Any, rims: list[_Rim]) -> int:
+    """Count the new triangles that lie over others on the active UV map, before these are made."""
+    layer = bm.loops.layers.uv.active
+    if layer is None:
+        return 0
+    there = [[corner[layer].uv[:] for corner in triangle] for triangle in bm.calc_loop_triangles()]
+    others = np.array(there, dtype=np.float64).reshape(-1, 3, 2)
+    new = np.concatenate([rim.on_active_map for rim in rims])
+    return int(np.count_nonzero(covering(new, others)))
 
 
 class _Rim:
@@ -92,7 +106,13 @@ class _Rim:
         self._maps = [unwrapped(surface, rim) for rim in self._rims]
         self.seams = max((len(flat.seams) for flat in self._maps), default=0)
         active = bm.loops.layers.uv.active
-        self.distortion = 0.0 if active is None else self._maps[layers.uv_names.index(active.name)].distortion
+        self._active = None if active is None else self._maps[layers.uv_names.index(active.name)]
+        self.distortion = 0.0 if self._active is None else self._active.distortion
+
+    @property
+    def on_active_map(self) -> Floats:
+        """The new triangles there, (m, 3, 2); none without a map."""
+        return np.empty((0, 3, 2)) if self._active is None else self._active.corners.reshape(-1, 3, 2)
 
     def fill(self, bm: Any, shapes: Shapes, data: FaceData) -> list[Any]:
         """Make vertices, then faces; return the faces."""

@@ -2,29 +2,13 @@
 
 #include <numbers>
 
-#include "geometry/angle.h"
+#include "geometry/angle_defects.h"
 
 namespace fairing {
 
 namespace {
 
 constexpr double least_turn = 2.0 * std::numbers::pi * (1.0 - 1.0 / std::numbers::sqrt2);
-
-// 2π minus the angles around each free vertex; zero at the others.
-VectorX angle_defects(const Patch& patch, const Points& points) {
-    VectorX defects = VectorX::Zero(patch.vertex_count());
-    defects.head(patch.free_count).setConstant(2.0 * std::numbers::pi);
-    for (const auto corners : patch.triangles.colwise()) {
-        for (int k = 0; k < 3; ++k) {
-            const int v = corners[k];
-            if (!patch.is_free(v)) continue;
-            const Vector3 here = points.col(v);
-            defects[v] -=
-                radians_between(points.col(corners[(k + 1) % 3]) - here, points.col(corners[(k + 2) % 3]) - here);
-        }
-    }
-    return defects;
-}
 
 // Of the vertices that lie within the radius of one of them and are connected with it there.
 class Neighbourhood {

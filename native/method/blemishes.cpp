@@ -12,7 +12,8 @@ namespace fairing {
 namespace {
 
 constexpr double largest_bend = 2.0;  // of the largest |H| on the outline
-constexpr double least_girth = 0.5;   // of what it comes from
+constexpr double least_girth = 0.75;  // of what it comes from
+constexpr double most_girth = 4.0 / 3.0;
 
 Indices corners_of(const Patch& patch, const Indices& triangles) {
     Indices corners;
@@ -44,14 +45,15 @@ BlemishFinder::BlemishFinder(const Problem& problem, const Points& before, const
       crossing_before_(crossing_triangles(problem.patch.triangles, before)),
       turned_before_(flipped_by_solution(problem.patch, before)),
       bent_before_(largest_around(problem.patch, bend_of(problem, before))),
-      sections_(CrossSections::of(problem.patch, progress)) {
-    if (!sections_) return;
-    girth_before_.resize(sections_->outline_count());
-    for (int k = 0; k < sections_->outline_count(); ++k)
-        girth_before_[k] = std::min(sections_->lengths(k, before).minCoeff(), sections_->outline_length(k, before));
-}
+      girths_(Girths::of(problem.patch, before, progress)) {}
 
-Blemishes BlemishFinder::in(const Points& points) const { return {torn(points), bent(points), narrow(points)}; }
+Blemishes BlemishFinder::in(const Points& points) const {
+    Blemishes found{torn(points), bent(points), {}, {}};
+    if (!girths_) return found;
+    found.narrow = corners_of(problem_.patch, girths_->narrow(points, least_girth));
+    found.wide = corners_of(problem_.patch, girths_->wide(points, most_girth));
+    return found;
+}
 
 Indices BlemishFinder::torn(const Points& points) const {
     const Patch& patch = problem_.patch;
@@ -70,19 +72,6 @@ Indices BlemishFinder::bent(const Points& points) const {
         if (bend[v] > std::max(most, bent_before_[v])) vertices.push_back(v);
     }
     return vertices;
-}
-
-Indices BlemishFinder::narrow(const Points& points) const {
-    Indices triangles;
-    for (int k = 0; sections_ && k < sections_->outline_count(); ++k) {
-        const VectorX lengths = sections_->lengths(k, points);
-        for (int line = 0; line < lengths.size(); ++line) {
-            if (lengths[line] >= least_girth * girth_before_[k]) continue;
-            const Indices crossed = sections_->triangles(k, line);
-            triangles.insert(triangles.end(), crossed.begin(), crossed.end());
-        }
-    }
-    return corners_of(problem_.patch, triangles);
 }
 
 }  // namespace fairing

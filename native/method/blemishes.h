@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "base/progress.h"
+#include "method/girths.h"
 #include "problem/problem.h"
-#include "start/girth.h"
 
 namespace fairing {
 
@@ -13,9 +13,10 @@ namespace fairing {
 struct Blemishes {
     Indices torn;    // of triangles that cross others or are turned over
     Indices bent;    // where |H| is beyond twice the largest on the outline and the largest nearby before
-    Indices narrow;  // of waists and threads: less than half as long around as the shortest before and the outline
+    Indices narrow;  // of waists and threads: less than three quarters as long around (method/girths)
+    Indices wide;    // of bulges: more than four thirds as long
 
-    [[nodiscard]] bool absent() const { return torn.empty() && bent.empty() && narrow.empty(); }
+    [[nodiscard]] bool absent() const { return torn.empty() && bent.empty() && narrow.empty() && wide.empty(); }
 };
 
 // Finds them by comparison with one shape.
@@ -29,14 +30,12 @@ public:
 private:
     [[nodiscard]] Indices torn(const Points& points) const;
     [[nodiscard]] Indices bent(const Points& points) const;
-    [[nodiscard]] Indices narrow(const Points& points) const;
 
     const Problem& problem_;
     Indices crossing_before_;  // triangles
     Indices turned_before_;
     VectorX bent_before_;  // largest |H| around each vertex
-    std::optional<CrossSections> sections_;
-    VectorX girth_before_;  // shortest cross-section around each outline
+    std::optional<Girths> girths_;
 };
 
 }  // namespace fairing

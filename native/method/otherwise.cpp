@@ -11,6 +11,7 @@
 #include "method/eased.h"
 #include "method/ladder.h"
 #include "method/lofted.h"
+#include "method/misshapen.h"
 #include "method/sizes.h"
 #include "method/smoothed.h"
 #include "variation/least_variation.h"
@@ -125,6 +126,16 @@ std::optional<Solution> without_equation(const Problem& problem, const Solution&
     return shape ? std::move(shape) : std::move(loft);
 }
 
+// Where the equation's surface has a waist or a bulge that no load asks for, and there is another one without.
+Solution instead_of_misshapen(const Problem& problem, Solution solution, const Progress& progress) {
+    if (problem.options.equation == Equation::constant) return solution;
+    if (!is_misshapen(problem, solution.points, progress)) return solution;
+    auto other = without_equation(problem, solution, progress);
+    const bool is_better = other && !is_misshapen(problem, other->points, progress) &&
+                           is_wavier(problem.patch, solution.points, other->points);
+    return is_better ? std::move(*other) : std::move(solution);
+}
+
 // Over a jagged outline an eased surface may cross itself where the shape before did not.
 Solution instead_of_crossing(const Problem& problem, Solution solution, const Progress& progress) {
     if (!crosses_anew(problem, solution)) return solution;
@@ -135,7 +146,7 @@ Solution instead_of_crossing(const Problem& problem, Solution solution, const Pr
 Solution instead_of_failure(const Problem& problem, Solution solution, const Progress& progress) {
     const bool is_patient = problem.patch.loop_count() == 1 && problem.patch.free_count <= largest_patient;
     auto even = least_variation(problem, solution, limits_for(problem, is_patient ? HUGE_VAL : most_to_try), progress);
-    if (even && is_answer(*even)) return std::move(*even);
+    if (even && is_answer(*even)) return instead_of_misshapen(problem, std::move(*even), progress);
     if (even) solution.ways = even->ways;
     auto other = without_equation(problem, solution, progress);
     if (other && !(even && other->instead == Instead::loft && is_evener(problem, *even, *other)))
@@ -161,7 +172,9 @@ Solution or_else(const Problem& problem, Solution solution, const Progress& prog
     if (is_answer(solution)) {
         if (may_be_bulb(problem, solution.points, rest))
             solution = instead_of_bulb(problem, std::move(solution), rest, near);
-        return instead_of_crossing(problem, std::move(solution), rest);
+        solution = instead_of_crossing(problem, std::move(solution), rest);
+        return solution.instead == Instead::smoothed ? solution
+                                                     : instead_of_misshapen(problem, std::move(solution), rest);
     }
     if (lacks_surface(solution)) return instead_of_failure(problem, std::move(solution), rest);
     if (auto other = is_tried_enough(problem, solution) ? without_equation(problem, solution, rest) : std::nullopt)

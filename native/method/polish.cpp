@@ -12,6 +12,11 @@ namespace {
 // From the surface itself few iterations are needed; after many, it is another solution.
 constexpr int most_iterations = 40;
 constexpr int patience = 4;
+// The last digits come unevenly: on a graded hemisphere of 5,000 vertices no step from 1e-9 D on was the shortest for
+// more than four.
+constexpr int patience_for_digits = 8;
+
+int patience_to(double tolerance) { return tolerance < SolverOptions{}.tolerance ? patience_for_digits : patience; }
 
 }  // namespace
 
@@ -19,7 +24,7 @@ Solution polish(const Problem& problem, Workspace& work, Solution placed, const 
                 const Progress& progress) {
     Problem polishing = problem;
     polishing.options.max_iterations = std::min(most_iterations, problem.options.max_iterations);
-    polishing.options.patience = std::min(patience, problem.options.patience);
+    polishing.options.patience = std::min(patience_to(problem.options.tolerance), problem.options.patience);
     Solution own = iterate(polishing, work, placed.points, progress);
     if (own.termination != Termination::converged || !agree(problem, own, surface)) return placed;
     own.boundary_normals = one_sided_normals(problem.patch, own.points);

@@ -37,6 +37,7 @@ Indices all_of(const Blemishes& blemishes) {
     Indices all = blemishes.torn;
     all.insert(all.end(), blemishes.bent.begin(), blemishes.bent.end());
     all.insert(all.end(), blemishes.narrow.begin(), blemishes.narrow.end());
+    all.insert(all.end(), blemishes.wide.begin(), blemishes.wide.end());
     return all;
 }
 

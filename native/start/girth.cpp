@@ -33,11 +33,11 @@ double length_within(const Eigen::Vector3i& corners, const VectorX& values, doub
 
 std::optional<CrossSections> CrossSections::of(const Patch& patch, const Progress& progress) {
     CrossSections result(patch);
-    result.loops_ = patch.loops();
+    const std::vector<Indices> loops = patch.loops();
     const Stiffness even = uniform_stiffness(patch);
     LaplaceOperator laplace(patch);
-    if (result.loops_.size() < 2 || !laplace.update(even, progress)) return std::nullopt;
-    for (const Indices& loop : result.loops_) {
+    if (loops.size() < 2 || !laplace.update(even, progress)) return std::nullopt;
+    for (const Indices& loop : loops) {
         Eigen::RowVectorXd field = Eigen::RowVectorXd::Zero(patch.vertex_count());
         for (const int v : loop) field[v] = 1.0;
         const Eigen::RowVectorXd pull = even.apply(patch, field, patch.free_count);
@@ -63,14 +63,6 @@ Indices CrossSections::triangles(int outline, int line) const {
         if (values.minCoeff() < level_of(line) && values.maxCoeff() >= level_of(line)) found.push_back(t);
     }
     return found;
-}
-
-double CrossSections::outline_length(int outline, const Points& points) const {
-    const Indices& loop = loops_[at(outline)];
-    double sum = 0.0;
-    for (std::size_t k = 0; k < loop.size(); ++k)
-        sum += (points.col(loop[(k + 1) % loop.size()]) - points.col(loop[k])).norm();
-    return sum;
 }
 
 }  // namespace fairing

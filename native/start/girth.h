@@ -21,14 +21,11 @@ public:
     [[nodiscard]] VectorX lengths(int outline, const Points& points) const;
     // The triangles that a line around an outline runs through.
     [[nodiscard]] Indices triangles(int outline, int line) const;
-    // Length of an outline itself.
-    [[nodiscard]] double outline_length(int outline, const Points& points) const;
 
 private:
     explicit CrossSections(const Patch& patch) : patch_(patch) {}
 
     const Patch& patch_;
-    std::vector<Indices> loops_;
     std::vector<VectorX> levels_;  // of all vertices, for each outline
 };
 

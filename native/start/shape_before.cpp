@@ -67,9 +67,12 @@ Points pull_of(const Problem& problem, const Points& points, const Stiffness& st
 
 }  // namespace
 
+std::optional<Points> shape_before(const Problem& problem, const Progress& progress) {
+    return is_usable(problem) ? over_outline(problem, progress) : std::nullopt;
+}
+
 std::optional<ShapeBefore> ShapeBefore::of(const Problem& problem, const Progress& progress) {
-    if (!is_usable(problem)) return std::nullopt;
-    auto points = over_outline(problem, progress);
+    auto points = shape_before(problem, progress);
     if (!points) return std::nullopt;
     return ShapeBefore(problem, std::move(*points));
 }

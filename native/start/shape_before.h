@@ -9,11 +9,14 @@
 
 namespace fairing {
 
+// `problem.before` (3 × local vertices), moved with the outline where that has moved: the displacement is harmonic on
+// equilateral triangles. Nothing where no such shape is known, it has no area, or more than a twentieth of its
+// triangles are turned over.
+std::optional<Points> shape_before(const Problem& problem, const Progress& progress);
+
 class ShapeBefore {
 public:
-    // `problem.before`, moved with the outline where that has moved: the displacement is harmonic on equilateral
-    // triangles. Nothing where no such shape is known, it has no area, or more than a twentieth of its triangles are
-    // turned over.
+    // Nothing where there is no `shape_before`.
     static std::optional<ShapeBefore> of(const Problem& problem, const Progress& progress);
 
     // 3 × local vertices.

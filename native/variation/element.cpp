@@ -84,6 +84,11 @@ public:
         return result;
     }
 
+    [[nodiscard]] ElementVector acceleration(const Element& there, const ElementVector& motions, double share) const {
+        const Eigen::Matrix<double, 10, 18> J = jacobian(residual_by_derivative());
+        return 4.0 / (share * share) * (J.transpose() * (there.residual_ - residual_ - share * (J * motions)));
+    }
+
 private:
     void measure_triangle() {
         const Vector3 ab = x_.col(1) - x_.col(0);
@@ -262,6 +267,11 @@ ElementSums element_sums(const Sheet& sheet, const Stencil& stencil, const Eleme
 ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil, const ElementWeights& weights,
                            const ElementSums& factors) {
     return Element(sheet, stencil, weights).terms(factors);
+}
+
+ElementVector element_acceleration(const Sheet& sheet, const Sheet& there, const Stencil& stencil,
+                                   const ElementWeights& weights, const ElementVector& motions, double share) {
+    return Element(sheet, stencil, weights).acceleration(Element(there, stencil, weights), motions, share);
 }
 
 LocalCubic local_cubic(const Sheet& sheet, const Stencil& stencil) { return Element(sheet, stencil, {}).cubic(); }

@@ -37,7 +37,7 @@ constexpr double shortest = 0.05;       // of the longest edges
 constexpr double longest = 0.5;
 constexpr int most_coarse = 1200;  // free vertices
 constexpr int most_fine = 20000;
-constexpr int most_fine_steps = 60;  // those that converge take 30 at most
+constexpr int most_fine_steps = 100;  // most of those that converge take 30 at most, a thin U of 180° takes 85
 
 // From a rough start descent may end in a minimum with a fold; another mesh or more damping then leads elsewhere.
 struct Beginning {

@@ -164,6 +164,19 @@ private:
         return factor * model_.area.dot(motions) * response;
     }
 
+    // Where the merit has a curved valley, as where an elbow moves sideways, a straight step leaves it at once. The
+    // step becomes a parabola by the residuals' own second derivatives: geodesic acceleration (Transtrum, Sethna 2012).
+    [[nodiscard]] VectorX acceleration(const VectorX& motions) const {
+        constexpr double probe = 0.1;        // of the step
+        constexpr double most = 0.75;        // of the step's length
+        constexpr double least_rise = 1e-3;  // below, steps are straight enough
+        if (largest_rise_ < least_rise) return VectorX::Zero(motions.size());
+        VectorX bent = -factor_.solve_vector(energy_.acceleration_load(sheet_, motions, probe * share_));
+        const double length = share_ * bent.norm();
+        if (!std::isfinite(length)) return VectorX::Zero(motions.size());
+        return std::min(1.0, most * motions.norm() / (length + roundoff)) * bent;
+    }
+
     // The longest share of the step that lowers the merit and folds nothing.
     bool search(const VectorX& motions) {
         constexpr int most_halvings = 6;
@@ -174,8 +187,9 @@ private:
         const double slope = model_.gradient.dot(motions);
         if (!(slope <= 0.0)) return false;
         share_ = std::min({1.0, largest_turn / largest_turn_, largest_rise / largest_rise_});
+        const VectorX bent = acceleration(motions);
         for (int k = 0; k <= most_halvings; ++k, share_ *= 0.5) {
-            Sheet tried = energy_.moved(sheet_, motions, share_);
+            Sheet tried = energy_.moved(sheet_, motions + 0.5 * share_ * bent, share_);
             if (!(energy_.merit(tried) <= model_.merit + armijo * share_ * slope + noise * model_.merit + nothing))
                 continue;
             if (folds(energy_.patch(), sheet_, tried)) continue;

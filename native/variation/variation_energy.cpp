@@ -52,6 +52,15 @@ VariationEnergy::VariationEnergy(const Problem& problem, Moving moving, Measure 
     }
 }
 
+VariationEnergy::ElementUnknowns VariationEnergy::unknowns_of(int element) const {
+    ElementUnknowns unknown{};
+    for (int k = 0; k < 3 * stencil_size; ++k) {
+        const int vertex = stencils_[at(element)][at(k / 3)];
+        unknown[at(k)] = vertex == none ? none : unknowns_.of(vertex, k % 3);
+    }
+    return unknown;
+}
+
 ElementSums VariationEnergy::sums(const Sheet& sheet) const {
     std::vector<ElementSums> parts(stencils_.size());
     for_ranges(static_cast<int>(stencils_.size()), fine_grain, [&](int begin, int end) {
@@ -103,11 +112,8 @@ void VariationEnergy::add_elements(const Sheet& sheet, const ElementSums& factor
 }
 
 void VariationEnergy::add(const ElementTerms& terms, int element, QuadraticModel& model) const {
-    const Stencil& stencil = stencils_[at(element)];
-    std::array<int, 3UL * stencil_size> unknown{};
+    const ElementUnknowns unknown = unknowns_of(element);
     for (int k = 0; k < 3 * stencil_size; ++k) {
-        const int vertex = stencil[at(k / 3)];
-        unknown[at(k)] = vertex == none ? none : unknowns_.of(vertex, k % 3);
         if (unknown[at(k)] == none) continue;
         model.gradient[unknown[at(k)]] += terms.gradient[k];
         model.area[unknown[at(k)]] += terms.area_gradient[k];
@@ -154,6 +160,31 @@ void VariationEnergy::add_outline(const Sheet& sheet, QuadraticModel& model) con
             model.stretching[unknowns_.slot(unknown, unknown, 0)] += 2.0 * weight * std::max(normal.dot(wanted), 0.0);
         }
     }
+}
+
+VectorX VariationEnergy::acceleration_load(const Sheet& sheet, const VectorX& motions, double share) const {
+    const Sheet there = moved(sheet, motions, share);
+    const double factor = measure_ == Measure::plain ? 1.0 : sums(sheet).area;
+    const int count = static_cast<int>(stencils_.size());
+    std::vector<ElementVector> loads(stencils_.size());
+    for_ranges(count, fine_grain, [&](int begin, int end) {
+        for (int e = begin; e < end; ++e) {
+            const ElementUnknowns unknown = unknowns_of(e);
+            ElementVector own = ElementVector::Zero();
+            for (int k = 0; k < 3 * stencil_size; ++k) {
+                if (unknown[at(k)] != none) own[k] = motions[unknown[at(k)]];
+            }
+            loads[at(e)] = element_acceleration(sheet, there, stencils_[at(e)], element_weights(measure_), own, share);
+        }
+    });
+    VectorX result = VectorX::Zero(unknowns_.count());
+    for (int e = 0; e < count; ++e) {
+        const ElementUnknowns unknown = unknowns_of(e);
+        for (int k = 0; k < 3 * stencil_size; ++k) {
+            if (unknown[at(k)] != none) result[unknown[at(k)]] += factor * loads[at(e)][k];
+        }
+    }
+    return result;
 }
 
 Sheet VariationEnergy::moved(const Sheet& sheet, const VectorX& motions, double share) const {

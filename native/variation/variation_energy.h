@@ -34,6 +34,9 @@ public:
     [[nodiscard]] double merit(const Sheet& sheet) const;
     // Into a model of the same energy, or an empty one.
     void update(const Sheet& sheet, QuadraticModel& model) const;
+    // By how much the residuals leave their tangent along motions (element.h), measured over a share of these. What
+    // the geodesic acceleration makes up for (Transtrum & Sethna 2012).
+    [[nodiscard]] VectorX acceleration_load(const Sheet& sheet, const VectorX& motions, double share) const;
     // The sheet with its vertices moved by `share` of the motions (unknowns in their order).
     [[nodiscard]] Sheet moved(const Sheet& sheet, const VectorX& motions, double share) const;
 
@@ -42,7 +45,9 @@ public:
 
 private:
     using Blocks = std::array<int, std::size_t{stencil_size} * stencil_size>;
+    using ElementUnknowns = std::array<int, 3UL * stencil_size>;  // `none` where a motion is not sought
 
+    [[nodiscard]] ElementUnknowns unknowns_of(int element) const;
     [[nodiscard]] ElementSums sums(const Sheet& sheet) const;
     [[nodiscard]] double merit_of(const ElementSums& sums, const Sheet& sheet) const;
     void add_elements(const Sheet& sheet, const ElementSums& factors, QuadraticModel& model) const;

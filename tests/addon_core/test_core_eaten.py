@@ -64,6 +64,16 @@ def test_a_ridge_that_runs_on_outside_is_missed(degrees: float) -> None:
     assert len(found.marked) == 0
 
 
+@pytest.mark.parametrize(("degrees", "stands_out"), [(100.0, True), (40.0, False)])
+def test_among_wrinkles_a_ridge_must_stand_out(degrees: float, stands_out: bool) -> None:
+    """Every row of faces bends by 18° against the next, up and down by turns."""
+    mesh = ridge(degrees)
+    rows = np.round((mesh.positions[:, 1] + 1.0) * SIZE / 2).astype(np.int64)
+    wrinkled = mesh.positions.copy()
+    wrinkled[:, 2] += np.tan(np.radians(9.0)) / SIZE * np.where(rows % 2, -1.0, 1.0) / np.cos(np.radians(degrees / 2))
+    assert (len(eaten(replace(mesh, positions=wrinkled))[0].running_on) > 0) == stands_out
+
+
 def test_a_ridge_within_the_selection_is_what_fairing_removes() -> None:
     found, _ = eaten(ridge(90.0, ends=0.4))
     assert (len(found.running_on), len(found.marked)) == (0, 0)

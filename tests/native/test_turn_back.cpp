@@ -82,6 +82,26 @@ TEST_CASE("one vertex across its neighbour is brought back, and no other moves")
     CHECK(moved <= 3);
 }
 
+TEST_CASE("a vertex across a sharp ridge is brought back where untangling folds more") {
+    const auto ridge = [](double u, double w) { return Vector3(u, w, -8.0 * std::abs(u - 0.5)); };
+    const test::Single single = test::single_patch(test::grid(14, 0.0, ridge));
+    const Patch& patch = single.patch();
+    const Points ends = single.points.rightCols(patch.vertex_count() - patch.free_count);
+    const Points normals = max_normals(patch, single.points, Points::Zero(3, ends.cols()));
+    const TargetSurface target(patch, single.points, normals);
+    const Problem problem{patch, ends, normals.rightCols(ends.cols()), uniform_weights(patch), {}};
+    const auto springs = make_tangential_step(patch, problem.weights, ends, {});
+    for (const int pick : {0, 1, 3, 4, 5}) {
+        Placement start = at_vertices(problem, target, single.points);
+        const int vertex = patch.free_count / 3 + 7 * pick;
+        const int other = patch.ring(vertex).vertices[at(pick % 4)];
+        const Vector3 there = start.points.col(vertex) + 1.7 * (start.points.col(other) - start.points.col(vertex));
+        put(start, vertex, target, target.project(there, start.where[at(vertex)].triangle));
+        REQUIRE(folds_of_placement(problem, target, start).size() > 10);
+        CHECK(place_settled(problem, *springs, target, start, {}).folded.empty());
+    }
+}
+
 TEST_CASE("nothing is tried where nothing is folded, or a whole sheet") {
     const Square square;
     Placement even = square.start();

@@ -123,6 +123,20 @@ TEST_CASE("derivatives are those of differences") {
     }
 }
 
+TEST_CASE("the load of the acceleration is what bends the residuals away from their tangent") {
+    // On a sphere they vanish, so that V(t) = t² |R'|² + t³ ⟨R', R''⟩ + O(t⁴) along motions, and the load is 2 Jᵀ R''.
+    const Exact ball(test::grid(9, 0.35, test::sphere), [](const Vector3& p) { return p; });
+    const VariationEnergy energy(ball.problem, Moving::points_and_normals, Measure::plain);
+    VectorX motions(energy.unknowns().count());
+    for (Eigen::Index k = 0; k < motions.size(); ++k) motions[k] = std::sin(1.7 * static_cast<double>(k * k));
+    const auto merit = [&](double t) { return energy.merit(energy.moved(ball.sheet, motions, t)); };
+    constexpr double t = 1e-4;
+    const double cubic = (merit(t) - merit(-t)) / (t * t * t);
+    const double found = energy.acceleration_load(ball.sheet, motions, 1e-6).dot(motions);
+    CHECK(found == doctest::Approx(cubic).epsilon(0.01));
+    CHECK(std::abs(cubic) > 1.0);
+}
+
 TEST_CASE("the product of variation and area has no unit, the variation that of length to the power of minus two") {
     Exact exact = torus_patch(6);
     const double product = exact.merit(Measure::scale_free);
