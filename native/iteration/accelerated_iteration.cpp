@@ -27,8 +27,9 @@ constexpr double explosion_factor = 4.0;
 constexpr double explosion_rise = 60.0;
 constexpr double slow = 0.5;  // contraction over `refresh_after` iterations that asks for a new factor
 constexpr int refresh_after = 6;
-// The iteration ends with a step after which the next one would be this share of the tolerance, by the ratio of the
-// last two. They shrink by a third to a seventh each; a ratio that is less is luck.
+// The iteration ends before a step of this share of the tolerance, which is not taken: up to three times as much may be
+// left. It ends with a step after which the next one would be as short, by the ratio of the last two. They shrink by a
+// third to a seventh each; a ratio that is less is luck.
 constexpr double least_share = 0.5;
 constexpr double fastest = 0.1;
 constexpr double share_of_factor = 0.2;  // of the time, in large problems
@@ -56,7 +57,7 @@ public:
             report(k);
             if (!measure()) break;
             if (k == 0) solution_.initial_residual = residual_;
-            if (arrives_ && residual_ < residual_before_) {
+            if (arrived_ || (arrives_ && residual_ < residual_before_)) {
                 end_here();
                 break;
             }
@@ -70,13 +71,18 @@ public:
             if (k == 0) solution_.first_step = largest;
             solution_.last_step = largest;
             solution_.least_step = k == 0 ? largest : std::min(solution_.least_step, largest);
-            if (largest <= problem_.options.tolerance) {
+            arrived_ = largest <= problem_.options.tolerance;
+            if (arrived_ && problem_.options.start_only) {
                 end_here();
-                if (problem_.options.start_only) solution_.points = moved(d);
+                solution_.points = moved(d);
+                break;
+            }
+            if (largest <= least_share * problem_.options.tolerance || (arrived_ && k + 1 == most)) {
+                end_here();
                 break;
             }
             arrives_ = next_step(largest) <= least_share * problem_.options.tolerance;
-            if (hopeless(largest)) {
+            if (hopeless(largest) && !arrived_) {
                 solution_.termination = Termination::stalled;
                 break;
             }
@@ -183,7 +189,8 @@ private:
     VectorX outer_;
     double residual_ = 0.0;
     double residual_before_ = 0.0;  // the last step
-    bool arrives_ = false;          // the next step would be within the tolerance
+    bool arrived_ = false;          // the last step was within the tolerance
+    bool arrives_ = false;          // the next step would be
     double start_energy_ = -1.0;    // not known yet
     double best_residual_ = std::numeric_limits<double>::infinity();
     double last_step_ = 0.0;
