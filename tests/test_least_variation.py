@@ -46,9 +46,15 @@ def test_pipes_with_leaning_ends_keep_their_radius(length: float, lean: float) -
 
 def test_the_error_against_the_profile_of_one_dimension_falls_with_the_mesh() -> None:
     exact = profiles.least(profiles.Ends(1.0, 1.0, 5.0, 10.0)).r.min()
-    errors = [abs(radii(tubes.pipe(5.0, 10.0, around=n, seed=1).faired()).min() - exact) for n in (16, 32)]
-    assert errors[1] < 0.006
-    assert errors[1] < 0.5 * errors[0]
+
+    def error(around: int) -> float:
+        """The mean of three meshes."""
+        pipes = [tubes.pipe(5.0, 10.0, around=around, seed=seed).faired() for seed in (1, 2, 3)]
+        return float(np.mean([abs(radii(result).min() - exact) for result in pipes]))
+
+    coarse, fine = error(12), error(32)  # 4.0e-3 and 4e-4; inside, fine ones are solved on 24 edges around
+    assert fine < 2e-3
+    assert fine < 0.5 * coarse
 
 
 def test_elbows_are_almost_tori() -> None:

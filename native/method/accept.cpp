@@ -20,10 +20,10 @@ namespace {
 // are none of the surface's: 1e-3 D off a sphere after 100 iterations, 2e-3 D off a cylinder after 29.
 constexpr int most_iterations = 20;
 
-// More than a line has that is as broad as the iteration is accurate.
+// More than a line has that is as broad as the iteration is accurate, both sides of it covered twice: folds do so.
 bool has_area(const Problem& problem, const Points& points) {
     constexpr double usual_tolerance = 1e-6;  // looser ones are no reason to refuse narrow patches
-    const double least_area = 2.0 * std::min(problem.options.tolerance, usual_tolerance);  // D²
+    const double least_area = 4.0 * std::min(problem.options.tolerance, usual_tolerance);  // D²
     FaceGeometry faces;
     faces.update(points, problem.patch.triangles);
     return faces.areas.sum() > std::max(least_area, 1e-9);
