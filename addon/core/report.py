@@ -162,7 +162,7 @@ def _details(outcomes: list[Fairing]) -> tuple[Check, ...]:
         ("Usual kink", angle_text(_worst_join(outcomes)[0])),
         ("Angle to the slope asked for", angle_text(max(_widest(result) for result in results))),
         ("Curvature inside", f"{inside:.3g} {'≤' if inside <= outline else '>'} {outline:.3g}"),
-        ("Ways tried", ", ".join(name for result in results for name, _ in result.way)),
+        ("Ways tried", ", ".join(f"{name} {seconds:.2f} s" for result in results for name, seconds in result.way)),
         ("Codes", ", ".join(codes)),
     )
     return tuple(Check(name, value, detail=True) for name, value in lines if value)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -85,6 +86,8 @@ def test_nothing_in_the_details_is_green_or_red(sphere: Fairing) -> None:
     details = [check for check in report(replace(sphere, result=lost)).checks if check.detail]
     assert {check.state for check in details} == {TOLD}
     assert {"Equation solved", "Residual", "Ways tried"} <= {check.name for check in details}
+    (ways,) = (check.value for check in details if check.name == "Ways tried")
+    assert re.fullmatch(r"direct \d+\.\d\d s", ways)
     assert values(report(replace(sphere, result=lost)))["Equation solved"] == "found, but with folds"
     # The surface exists: less of a bulge is no remedy.
     assert report(replace(sphere, result=lost), equation="CONSTANT", bulge=0.3).warnings == ()
