@@ -263,7 +263,8 @@ TEST_CASE("chords at sharp corners stay but where their triangle is turned again
     Stretched square = stretched_square(6);
     square.points.row(0) -= 1.6 / 0.3 * square.points.row(1);  // sheared to the other side: chords at sharp corners
     const auto count = square.points.cols();
-    const TargetSurface surface(square.patch, square.points, Points::Zero(3, count));
+    const Points flat = Points::Zero(3, count);
+    const TargetSurface surface(square.patch, square.points, flat);
     const VectorX lengths = VectorX::Ones(count);
     const auto splits = [&](const Points& normals) {
         EvenMesh mesh(square.patch, square.points, surface, lengths);
