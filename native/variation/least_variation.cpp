@@ -48,7 +48,7 @@ constexpr std::array beginnings{Beginning{1.4, 1e-3}, Beginning{1.0, 1e-3}, Begi
 
 // From a surface that is near: elbows take half the steps that they take with the first beginning, or undamped.
 constexpr Beginning near_beginning{1.4, 1e-2};
-constexpr double near_damping = 1e-6;  // on the fine mesh
+constexpr double near_damping = 1e-6;  // on the next mesh
 
 Workspace make_workspace(const Problem& problem, const Progress& progress) {
     return {std::make_unique<BiharmonicOperator>(problem.patch),
@@ -82,18 +82,23 @@ SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginnin
     constexpr int most_rounds = 8;
     constexpr double tolerance = 1e-3;
     constexpr double settled = 0.02;  // relative change of the merit from one mesh to the next
+    constexpr double enough = 1e-3;   // from one step to the next
+    constexpr double enough_for_fine = 0.01;
     const Sizing sizing = sizing_of(problem, {beginning.share, coarse_turn, coarse_growth}, most_coarse);
     std::optional<SolvedSheet> last;
     double merit = 0.0;  // of the last mesh
     for (int k = 0; k < most_rounds; ++k) {
         mesh.adapt(sizing);
-        const NewtonLimits limits{tolerance, k == 0 ? 30 : 15, k == 0 ? beginning.damping : 1e-5, 0.05};
+        NewtonLimits limits{tolerance, k == 0 ? 30 : 15, k == 0 ? beginning.damping : near_damping, 0.05};
+        limits.settled = enough;
         last.emplace(solve_on(mesh, problem, last, Measure::plain, limits, progress.range(0.1 * k, 0.1 * (k + 1))));
         if (std::abs(last->result.merit - merit) <= settled * merit || last->result.merit < tolerance) break;
         merit = last->result.merit;
     }
     mesh.adapt(sizing);
-    return solve_on(mesh, problem, last, Measure::scale_free, {tolerance, 30, 1e-4}, progress.range(0.8, 1.0));
+    NewtonLimits limits{tolerance, 30, near_damping};
+    limits.settled = enough_for_fine;
+    return solve_on(mesh, problem, last, Measure::scale_free, limits, progress.range(0.8, 1.0));
 }
 
 struct FineStart {

@@ -90,6 +90,7 @@ private:
     // The first step, from another mesh's surface, may leave more than it takes away.
     [[nodiscard]] bool has_converged(int steps) const {
         const double share = steps > 1 ? 1.0 : 0.01;
+        if (steps > 1 && share_ == 1.0 && fall_ < limits_.settled * model_.merit) return true;
         return share_ == 1.0 && used_damping_ <= least_damping && largest_height_ < share * limits_.tolerance &&
                largest_turn_ < limits_.turns;
     }
@@ -190,10 +191,11 @@ private:
         const VectorX bent = acceleration(motions);
         for (int k = 0; k <= most_halvings; ++k, share_ *= 0.5) {
             Sheet tried = energy_.moved(sheet_, motions + 0.5 * share_ * bent, share_);
-            if (!(energy_.merit(tried) <= model_.merit + armijo * share_ * slope + noise * model_.merit + nothing))
-                continue;
+            const double merit = energy_.merit(tried);
+            if (!(merit <= model_.merit + armijo * share_ * slope + noise * model_.merit + nothing)) continue;
             if (folds(energy_.patch(), sheet_, tried)) continue;
             sheet_ = std::move(tried);
+            fall_ = model_.merit - merit;
             return true;
         }
         return false;
@@ -233,6 +235,7 @@ private:
     double bending_ = 1.0;  // share of the indefinite part
     int rest_ = 0;          // steps before more of it is tried
     double share_ = 0.0;
+    double fall_ = 0.0;  // of the merit
     double largest_height_ = 0.0;
     double largest_rise_ = 0.0;  // in edges
     double largest_turn_ = 0.0;
