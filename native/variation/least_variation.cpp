@@ -104,15 +104,18 @@ SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginnin
 struct FineStart {
     double damping = 0.0;
     double most_merit = HUGE_VAL;  // given up where it stays above
+    bool flattest = false;         // variation/newton.h
 };
 
 SolvedSheet solve_fine(ProxyMesh& mesh, const Problem& problem, const SolvedSheet& coarse, const FineStart& begin,
                        const Progress& progress) {
     const int limit = std::clamp(3 * problem.patch.free_count, 3000, most_fine);
     mesh.adapt(sizing_of(problem, {fine_share, fine_turn, fine_growth}, limit));
-    const int most_steps = std::min(problem.options.max_iterations, most_fine_steps);
-    return solve_on(mesh, problem, coarse, Measure::scale_free,
-                    {problem.options.tolerance, most_steps, begin.damping, 0.0, begin.most_merit}, progress);
+    NewtonLimits limits{problem.options.tolerance, std::min(problem.options.max_iterations, most_fine_steps)};
+    limits.damping = begin.damping;
+    limits.most_merit = begin.most_merit;
+    limits.flattest = begin.flattest;
+    return solve_on(mesh, problem, coarse, Measure::scale_free, limits, progress);
 }
 
 Termination ending(const NewtonResult& result, const Problem& problem) {
@@ -206,7 +209,7 @@ std::optional<Attempt> attempted_on_tube(const Problem& problem, const Points& t
                                          const Progress& progress) {
     constexpr double damping = 1e-3;
     ProxyMesh mesh(problem.patch, tube);
-    SolvedSheet fine = solve_fine(mesh, problem, unsolved(mesh, problem, progress), {damping, most}, progress);
+    SolvedSheet fine = solve_fine(mesh, problem, unsolved(mesh, problem, progress), {damping, most, true}, progress);
     if (std::isfinite(most) && !(fine.result.merit <= most)) return std::nullopt;
     const double gradient = fine.result.gradient;
     const int count = fine.mesh.patch.vertex_count();
@@ -248,13 +251,17 @@ public:
         constexpr double far = 1.2;  // radians
         const bool is_tube = tube_.has_value();
         if (is_tube && tube_->turn() > far) try_tube(progress.range(0.0, 0.1));
-        if (!has_ended()) try_membrane(is_tube, progress.range(0.1, 1.0));
+        if (!has_ended() && !is_in_valley()) try_membrane(is_tube, progress.range(0.1, 1.0));
         return std::move(best_);
     }
     [[nodiscard]] double start_seconds() const { return start_seconds_; }
 
 private:
     [[nodiscard]] bool has_ended() const { return best_ && best_->fine.result.converged; }
+
+    // A descent that took all its steps: along wide bends the product falls to loops many radii off, which is where
+    // other beginnings end, too.
+    [[nodiscard]] bool is_in_valley() const { return best_ && best_->fine.result.steps >= most_fine_steps; }
 
     // Whether there was anything to take.
     bool takes(std::optional<Attempt> attempt) {
