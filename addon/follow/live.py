@@ -38,6 +38,7 @@ PAUSE = 0.3  # seconds without a change that count as their end
 TICK = 0.05  # seconds between two looks at a search
 STAND_IN = "No fair surface leads here: Even Curvature stands in for it"
 SEARCHING = "Looking for a fair surface: the region is carried along meanwhile"
+BEHIND = "The region is carried along: its fair surface comes when you pause"  # in the middle of changes
 CARRIED = "No fair surface leads here: the region is carried along, and mends when it is dragged back"
 NO_REGION = "No live region: select faces, then Live Region"
 
