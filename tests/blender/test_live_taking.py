@@ -54,7 +54,7 @@ def clicked() -> Any:
             pass
 
     Stand._timer = None
-    for name in ("invoke", "_begin_with", "_solve_or_start", "_start", "_is_current", "_apply", "_refuse"):
+    for name in ("invoke", "_begin_with", "_read", "_solve_or_start", "_start", "_is_current", "_apply", "_refuse"):
         setattr(Stand, name, getattr(original, name))
     for name in ("modal", "cancel", "_collect", "_stop_watching"):
         setattr(Stand, name, getattr(original, name))
