@@ -130,9 +130,10 @@ def kink_checks(joins: Sequence[Join]) -> tuple[Check, ...]:
     """Return the lines on how the surfaces join what is around; none where nothing is."""
     if not any(len(join.vertices) for join in joins):
         return ()
-    worst = max(joins, key=lambda join: join.worst)
+    worst, seen = max(joins, key=lambda join: join.worst), any(len(join.seen) for join in joins)
+    short = ", short" if worst.worst > worst.limit and not seen else ""
     return (
-        Check("Kink at the outline", f"≤ {angle_text(worst.worst)}", _state(not any(len(join.seen) for join in joins))),
+        Check("Kink at the outline", f"≤ {angle_text(worst.worst)}{short}", _state(not seen)),
         Check("Kinks show from", f"{worst.limit:.0f}°"),
     )
 

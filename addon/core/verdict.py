@@ -153,9 +153,10 @@ def _ending(evidence: Evidence) -> str:
     """Return how the search ended, where the engine does not tell why, and what there is instead."""
     if any(evidence.told("NOT_CONVERGED", "load_share", "area", "from_behind")):
         return ""
-    steps = counted(evidence.result.iterations, "step", "steps")
-    stalled = evidence.result.termination == "stalled"
-    text = f": it got no further after {steps}" if stalled else f": it was not there after all {steps} allowed"
+    count = evidence.result.iterations
+    text = ": the search came to a halt" if count else ": the search found no way to begin"
+    if evidence.result.termination != "stalled":
+        text = f": it was not there after the {counted(count, 'step', 'steps')} that Iterations allows"
     after = evidence.after
     if len(after.folded) or (after.crossing is not None and len(after.crossing)) or len(evidence.join.seen):
         return text
@@ -247,7 +248,7 @@ def _kinked(evidence: Evidence, options: FairOptions) -> Found:
 def kink_reason(join: Join) -> str:
     """Return the sentence for a join that is seen."""
     text = counted(len(join.seen), "vertex", "vertices")
-    return f"A kink shows at {text} of the outline, of {join.worst:.0f}° at worst"
+    return f"A kink shows at {text} of the outline, of {join.worst_seen:.0f}° at worst"
 
 
 def slope_reason(vertices: Ints) -> str:

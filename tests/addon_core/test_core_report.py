@@ -64,6 +64,8 @@ def test_of_several_objects_the_worst_counts(sphere: Fairing) -> None:
     assert values(both)["Kinks show from"] == "12°"
     assert values(report(replace(sphere, join=replace(seen, limit=25.0))))["Kinks show from"] == "25°"
     assert states(both)["Kink at the outline"] == MISSED
+    alone = report(replace(sphere, join=replace(seen, edges=np.array([[0, 1], [1, 2]]))))
+    assert (values(alone)["Kink at the outline"], states(alone)["Kink at the outline"]) == ("≤ 30°, short", MET)
     assert values(both)["Equation solved"] == "no further progress, yes"
     assert (both.verdict.grade, both.verdict.reason) == (UNUSABLE, f"Object 0: {BAD.reason}")
     assert both.verdict.spots.tolist() == [3, 4]
