@@ -27,6 +27,7 @@ MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
 GROW, SMOOTH_OUTLINE, AS_SELECTED, HOLD_BORDER = "GROW", "SMOOTH_OUTLINE", "AS_SELECTED", "HOLD_BORDER"
 EVEN_CURVATURE, EVEN_SPREAD, WRITE = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE"
 
+_ROUGH_BORDER = ": a fair border may not exist where it is rough beside the selection; Open Border: Held needs none"
 _KNOT = "Seams and marks inside, which stay, are squeezed to a knot at {}"
 # What stands in for a surface that there is none of, by the engine's name for it.
 SUBSTITUTES = {
@@ -140,12 +141,12 @@ def _is_folded(evidence: Evidence) -> bool:
     return evidence.result.termination == "folded" or len(evidence.after.folded) > 0
 
 
-def _no_answer(evidence: Evidence, _options: FairOptions) -> Found:
+def _no_answer(evidence: Evidence, options: FairOptions) -> Found:
     result, patch = evidence.result, evidence.problem.patch
     if result.converged or result.termination == "folded":
         return _NOTHING
     reason = evidence.failures[0] if evidence.failures else "No fair surface was found"
-    reason += _ending(evidence)
+    reason += _ROUGH_BORDER if options.fairs_border else _ending(evidence)
     return reason, _troubled(evidence.problem) if len(evidence.problem.outside) else patch.vertices[patch.outline]
 
 

@@ -98,7 +98,9 @@ def test_no_answer_is_not_usable(fine: Evidence, termination: Any) -> None:
     assert len(verdict.spots)
     assert verdict.remedies == (GROW, SMOOTH_OUTLINE, EVEN_CURVATURE, WRITE)
     assert judged(lost, equation="LEAST_VARIATION", outline="MENDED").remedies == (GROW, WRITE)
-    assert HOLD_BORDER in judged(lost, open_border="FAIRED").remedies
+    border = judged(lost, open_border="FAIRED")
+    assert HOLD_BORDER in border.remedies
+    assert border.reason.startswith("Why: a fair border may not exist where it is rough beside the selection")
     assert HOLD_BORDER not in judged(fine, open_border="FAIRED").remedies
     tried = replace(lost, result=replace(lost.result, way=(("direct", 0.1), ("variation", 0.4))))
     assert judged(tried).remedies == (GROW, SMOOTH_OUTLINE, WRITE)
