@@ -16,6 +16,19 @@ from .words import refusal
 
 
 @dataclass(frozen=True)
+class Reflection:
+    """A plane across which a Mirror modifier shows the mesh once more, joined with it."""
+
+    matrix: Floats  # (4, 4) affine, its own inverse, in the mesh's own coordinates
+    reach: float  # as far from its image a vertex may be to be one with it
+
+    def of(self, positions: Floats) -> Floats:
+        """Return the images of positions (k, 3)."""
+        images: Floats = positions @ self.matrix[:3, :3].T + self.matrix[:3, 3]
+        return images
+
+
+@dataclass(frozen=True)
 class MeshArrays:
     """A polygon mesh: n vertices, e edges, f faces, c corners, t triangles of Blender's own."""
 
@@ -41,6 +54,7 @@ class MeshArrays:
     # (e,) edges that a new mesh keeps, by the attribute that says so; none where that is not asked for
     lines: Mapping[str, Mask] = field(default_factory=dict)
     sample: Mask | None = None  # (f,) visible faces whose skin is copied; None: not asked for
+    reflections: tuple[Reflection, ...] = ()  # that make it whole; see reflected.py
     parts: Floats | None = None  # (n,) how much of the way each vertex may go, 0 … 1; None: all of it, inside alone
 
     def transformed(self, matrix: Floats) -> MeshArrays:

@@ -18,6 +18,7 @@ from .new_part import NewPart, new_part
 from .options import FairOptions
 from .outcome import Fairing
 from .piercing import Sheet, pierced, places
+from .reflected import whole_of
 from .region import MeshArrays, Patch, to_local
 from .solve import pose, told_by
 from .swelling import discs, swellings, waviness
@@ -237,7 +238,9 @@ def _largest_curvatures(result: fairing.RemeshResult) -> tuple[float, float]:
 
 
 def _mirror_note(mesh: MeshArrays) -> tuple[str, ...]:
-    return ("X mirror is on, but a new mesh is not symmetric",) if mesh.mirror_x else ()
+    at_plane = ("A new mesh stops at the Mirror modifier's plane: it may have an edge there",)
+    not_symmetric = ("X mirror is on, but a new mesh is not symmetric",)
+    return not_symmetric * mesh.mirror_x + at_plane * (whole_of(mesh) is not None)
 
 
 def _wound_back(part: NewPart) -> NewPart:
