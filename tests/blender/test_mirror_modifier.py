@@ -83,6 +83,15 @@ def test_a_new_mesh_tells_of_the_plane() -> None:
     obj, faces = half_dome()
     assert meshes.fair(obj, faces, mesh="NEW") == {"FINISHED"}
     assert "Mirror modifier" in meshes.report().warnings
+    assert "open borders" not in meshes.report().warnings
+
+
+def test_a_new_mesh_tells_that_it_holds_open_borders() -> None:
+    obj, faces = half_dome()
+    obj.modifiers.clear()
+    assert meshes.fair(obj, faces, mesh="NEW", open_border="FAIRED") == {"FINISHED"}
+    assert "A new mesh holds open borders" in meshes.report().warnings
+    assert "Mirror modifier" not in meshes.report().warnings
 
 
 def test_what_is_said_before_the_run_is_about_the_whole() -> None:
