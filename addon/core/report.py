@@ -133,7 +133,7 @@ def kink_checks(joins: Sequence[Join]) -> tuple[Check, ...]:
     worst = max(joins, key=lambda join: join.worst)
     return (
         Check("Kink at the outline", f"≤ {angle_text(worst.worst)}", _state(not any(len(join.seen) for join in joins))),
-        Check("Kinks show here from", f"{worst.limit:.0f}°"),
+        Check("Kinks show from", f"{worst.limit:.0f}°"),
     )
 
 

@@ -61,8 +61,8 @@ def test_of_several_objects_the_worst_counts(sphere: Fairing) -> None:
     assert both.free_vertices == 2 * len(sphere.vertices)
     assert both.join == (4.0, 30.0)
     assert values(both)["Kink at the outline"] == "≤ 30°"
-    assert values(both)["Kinks show here from"] == "12°"
-    assert values(report(replace(sphere, join=replace(seen, limit=25.0))))["Kinks show here from"] == "25°"
+    assert values(both)["Kinks show from"] == "12°"
+    assert values(report(replace(sphere, join=replace(seen, limit=25.0))))["Kinks show from"] == "25°"
     assert states(both)["Kink at the outline"] == MISSED
     assert values(both)["Equation solved"] == "no further progress, yes"
     assert (both.verdict.grade, both.verdict.reason) == (UNUSABLE, f"Object 0: {BAD.reason}")

@@ -18,7 +18,7 @@ def told(*objects: bpy.types.Object, **properties: Any) -> list[str]:
 
     class Stand:
         execute, _begin_with, _solve_at_once = original.execute, original._begin_with, original._solve_at_once
-        _apply, _refuse, _leave = original._apply, original._refuse, original._leave
+        _read, _apply, _refuse, _leave = original._read, original._apply, original._refuse, original._leave
         _way, _tasks = "", ()
 
         def report(self, _kinds: set[str], text: str) -> None:
