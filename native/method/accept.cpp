@@ -130,7 +130,7 @@ Flaw flaw_of(const Problem& problem, Solution& solution) {
         solution.bad_triangles = std::move(flipped);
         return Flaw::folded;
     }
-    if (!solution.crosses) {
+    if (!solution.crosses || solution.instead != Instead::nothing) {
         if (!solution.crossings) solution.crossings = crossing_triangles(problem.patch.triangles, solution.points);
         solution.bad_triangles = eased ? crossings_inside(problem.patch, solution.points) : *solution.crossings;
         if (keeps)

@@ -149,6 +149,8 @@ TEST_CASE("crossings are a flaw where the surface itself has none") {
     CHECK(!solution.bad_triangles.empty());
     solution.crosses = true;
     CHECK(flaw_of(lenient, solution) == Flaw::absent);
+    solution.instead = Instead::least_variation;  // of what was asked for: no reason to pass through itself
+    CHECK(flaw_of(lenient, solution) == Flaw::crossing);
 }
 
 TEST_CASE("a surface without area and one that meets its outline from behind are no answers") {
