@@ -12,7 +12,7 @@ import fairing
 from .arrays import Floats, Ints, Mask
 from .outcome import Fairing, leading_part
 from .quality import Join, Quality
-from .region import MeshArrays, Reflection, free_vertices, vertices_of
+from .region import MeshArrays, Reflection, free_vertices, reversed_corners, vertices_of
 from .verdict import Verdict
 
 
@@ -109,7 +109,7 @@ def _with_image(mesh: MeshArrays, reflection: Reflection, seam: Mask) -> tuple[M
     """Return the mesh with its image after it, and (n,) the image of each vertex."""
     off, apart = ~seam, ~seam[mesh.edges].all(axis=1)
     image, edge_image = _numbers_after(off), _numbers_after(apart)
-    turned, along = _the_other_way_round(mesh.corner_faces)
+    turned, along = reversed_corners(mesh.corner_faces)
     faces, normals = len(mesh.in_patch), mesh.corner_normals
     if normals is not None:
         normals = np.concatenate([normals, normals[turned] @ reflection.matrix[:3, :3].T])
@@ -140,14 +140,6 @@ def _numbers_after(doubled: Mask) -> Ints:
     numbers = np.arange(len(doubled))
     numbers[doubled] = len(doubled) + np.arange(np.count_nonzero(doubled))
     return numbers
-
-
-def _the_other_way_round(corner_faces: Ints) -> tuple[Ints, Ints]:
-    """Return (c,) the corners of each face in the opposite order, and those whose edges lead from each to the next."""
-    _, starts, sizes = np.unique(corner_faces, return_index=True, return_counts=True)
-    start, size = np.repeat(starts, sizes), np.repeat(sizes, sizes)
-    place = np.arange(len(corner_faces)) - start
-    return start + size - 1 - place, start + (2 * size - 2 - place) % size
 
 
 Values = TypeVar("Values", Floats, Mask)

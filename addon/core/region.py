@@ -108,6 +108,14 @@ def vertices_of(mesh: MeshArrays, faces: Mask) -> Mask:
     return touched
 
 
+def reversed_corners(corner_faces: Ints) -> tuple[Ints, Ints]:
+    """Return (c,) the corners of each face in the opposite order, and those whose edges lead from each to the next."""
+    _, starts, sizes = np.unique(corner_faces, return_index=True, return_counts=True)
+    start, size = np.repeat(starts, sizes), np.repeat(sizes, sizes)
+    place = np.arange(len(corner_faces)) - start
+    return start + size - 1 - place, start + (2 * size - 2 - place) % size
+
+
 def _ends(mesh: MeshArrays, edges: Mask) -> Mask:
     ends = np.zeros(len(mesh.positions), dtype=bool)
     ends[mesh.edges[edges]] = True
