@@ -79,8 +79,8 @@ bool improve(const Patch& patch, int v, Points& points) {
     Vector3 best = centre;
     for (const double radius : radii) {
         for (int k = 0; k < 27 && least > 0; ++k) {  // of a cube's surface
-            const Vector3 direction(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
-            points.col(v) = centre + radius * reach * direction.normalized();
+            const Eigen::Vector3i corner(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+            points.col(v) = centre + radius * reach * corner.cast<double>().normalized();
             const std::ptrdiff_t torn = around.torn(points);
             if (torn >= least) continue;
             least = torn;
