@@ -80,20 +80,12 @@ def whole_of(mesh: MeshArrays) -> Whole | None:
     whole = mesh
     copies = [Copy(np.arange(len(mesh.positions)), np.eye(4))]
     for reflection in mesh.reflections:
-        seam = _seam(whole, reflection)
+        seam = reflection.on_plane(whole.positions)
         if not _is_cut_there(whole, seam):
             continue
         whole, image = _with_image(whole, reflection, seam)
         copies += [Copy(image[copy.vertices], copy.back @ reflection.matrix) for copy in copies]
     return Whole(mesh, whole, tuple(copies)) if len(copies) > 1 else None
-
-
-def _seam(mesh: MeshArrays, reflection: Reflection) -> Mask:
-    """Return the (n,) mask of the vertices that are one with their image."""
-    with np.errstate(invalid="ignore", over="ignore"):
-        ways = reflection.of(mesh.positions) - mesh.positions
-        seam: Mask = np.linalg.norm(ways, axis=1) <= reflection.reach
-    return seam
 
 
 def _is_cut_there(mesh: MeshArrays, seam: Mask) -> bool:

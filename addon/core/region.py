@@ -27,6 +27,12 @@ class Reflection:
         images: Floats = positions @ self.matrix[:3, :3].T + self.matrix[:3, 3]
         return images
 
+    def on_plane(self, positions: Floats) -> Mask:
+        """Tell which of the positions (k, 3) are one with their image."""
+        with np.errstate(invalid="ignore", over="ignore"):
+            there: Mask = np.linalg.norm(self.of(positions) - positions, axis=1) <= self.reach
+        return there
+
 
 @dataclass(frozen=True)
 class MeshArrays:

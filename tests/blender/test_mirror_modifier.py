@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import bmesh
 import bpy
 import meshes
 import numpy as np
@@ -101,3 +102,25 @@ def test_what_is_said_before_the_run_is_about_the_whole() -> None:
     assert (found.refusal, found.loops, found.free_vertices, found.notes) == ("", 1, 4 * 7, ())
     obj.modifiers.clear()
     assert inspect(obj, faces).free_vertices == 3 * 7
+
+
+def test_a_hole_that_the_plane_cuts_is_no_hole_of_the_half() -> None:
+    """Its border goes on along the plane and around the whole half."""
+    obj, faces = half_dome()
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    bm.faces.ensure_lookup_table()
+    bmesh.ops.delete(bm, geom=[bm.faces[k] for k in np.flatnonzero(faces)], context="FACES")
+    bm.to_mesh(obj.data)
+    bm.free()
+    before = meshes.contents(obj)
+    meshes.edit(obj)
+    bpy.ops.mesh.select_all(action="SELECT")
+    with pytest.raises(RuntimeError, match="follows a Mirror modifier's plane"):
+        bpy.ops.mesh.fair_fill()
+    meshes.leave()
+    assert meshes.contents(obj)["POINT position"] == before["POINT position"]
+    obj.modifiers.clear()
+    meshes.edit(obj)
+    assert bpy.ops.mesh.fair_fill(accept="ALL") == {"FINISHED"}
+    meshes.leave()
