@@ -301,8 +301,18 @@ def _eaten(evidence: Evidence, options: FairOptions) -> Found:
         return f"Edges marked sharp were rounded off at {text}: undo, and Pin Edges: Sharp keeps them", marked
     if len(running):
         text = counted(len(running), "vertex", "vertices")
-        return f"A hard edge runs on outside, but was rounded off at {text}: mark it sharp and pin it to keep", running
+        reason = f"A hard edge runs on outside, but was rounded off at {text}: mark it sharp and pin it to keep it"
+        return _with_kinks(evidence, reason, running)
     return _NOTHING
+
+
+def _with_kinks(evidence: Evidence, reason: str, spots: Ints) -> Found:
+    """Add the kinks at the outline: where these are, another selection may be what helps."""
+    seen = evidence.join.seen
+    if not len(seen):
+        return reason, spots
+    kink = f"a kink of {evidence.join.worst_seen:.0f}° shows at the outline"
+    return f"{reason}, or grow the selection: {kink}", np.concatenate([spots, seen])
 
 
 def _swollen(evidence: Evidence, options: FairOptions) -> Found:
