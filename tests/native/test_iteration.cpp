@@ -93,6 +93,26 @@ TEST_CASE("an iteration whose steps no longer shrink is given up") {
     CHECK(off_the_sphere(solution.points) < 1e-6);  // the best of all is kept
 }
 
+TEST_CASE("an iteration that has to contract ends where its steps shrink too slowly") {
+    Ball far;
+    for (int v = 0; v < far.patch().free_count; ++v) {
+        const Vector3 p = far.single.points.col(v);
+        const double x = 2.0 * p.x() / p.z();  // −1 … 1
+        const double y = 2.0 * p.y() / p.z();
+        far.start.col(v) = (1.0 + 0.4 * (1.0 - x * x) * (1.0 - y * y)) * p;
+    }
+    const Solution patient = far.solve(iterate);
+    CHECK(patient.termination == Termination::stalled);
+    far.problem.options.contracts = true;
+    const Solution given_up = far.solve(iterate);
+    CHECK(given_up.termination == Termination::stalled);
+    CHECK(given_up.iterations < 10);
+    CHECK(patient.iterations > 2 * given_up.iterations);
+    Ball near;
+    near.problem.options.contracts = true;
+    CHECK(near.solve(iterate).termination == Termination::converged);
+}
+
 TEST_CASE("where steps shrink fast the iteration ends without a last one that is within the tolerance") {
     Ball tight;
     tight.problem.options.tolerance = 1e-11;
