@@ -90,6 +90,19 @@ def test_a_large_patch_with_a_jagged_outline_is_not_tried_for_long() -> None:
     assert "least variation" not in tried[0.1]
 
 
+@pytest.mark.parametrize("seed", [0, 1])
+def test_a_small_patch_with_a_hopeless_outline_is_given_up_at_the_first_coarse_mesh(seed: int) -> None:
+    """Four beginnings took as long again as all that was tried before, and none ended."""
+    cap = shapes.cap(300)
+    rng, count = np.random.default_rng(seed), len(cap.fixed)
+    vertices, normals = cap.vertices.copy(), cap.fixed_normals + 2.0 * rng.normal(size=(count, 3)) / np.sqrt(3)
+    vertices[cap.fixed] += 1.5 * (2 * np.pi / count) * rng.normal(size=(count, 3)) / np.sqrt(3)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    result = fairing.fair(vertices, cap.triangles, fixed=cap.fixed, fixed_normals=normals, threads=1)
+    assert not result.converged
+    assert "variation" not in dict(result.way)
+
+
 def test_running_out_of_iterations_is_no_lack_of_a_surface() -> None:
     patch = shapes.catenoid(300)
     result = fairing.fair(
