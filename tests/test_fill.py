@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
 import fairing
@@ -231,6 +232,23 @@ def test_an_elbow_keeps_its_width(otherwise: str) -> None:
     assert (result.equation, [way for way, _ in result.way]) == ("least_variation", ["variation"])
     assert [warning.code for warning in result.warnings] == ["NO_SOLUTION"]
     assert np.abs(away - 0.4).max() < 0.02
+
+
+def test_a_hole_around_a_limb_does_not_close_it() -> None:
+    """All of a cylinder but a strip along it. The triangulation of least area cuts across: no harmonic surface grew."""
+
+    def cylinder(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        return np.cos(2 * np.pi * u), np.sin(2 * np.pi * u), 4 * v
+
+    def hole(u: FloatArray, v: FloatArray) -> NDArray[np.bool_]:
+        return np.abs(v - 0.5) < 0.42 * np.sqrt(np.clip(np.sin(np.pi * u) - 0.25, 0, 1))
+
+    vertices, triangles = holes.sheet(cylinder, (64, 64), hole, closed=True)
+    loops = [loop for loop in fairing.boundary_loops(triangles) if np.ptp(vertices[loop, 2]) > 0.1]
+    result = fairing.fill(vertices, triangles, loops)
+    assert len(loops) == 1
+    assert (result.converged, result.equation) == (True, "harmonic")
+    assert np.abs(np.hypot(result.vertices[:, 0], result.vertices[:, 1]) - 1).max() < 1e-4
 
 
 @pytest.mark.parametrize("radius", [0.3, 0.25, 0.2, 0.15])

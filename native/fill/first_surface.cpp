@@ -33,9 +33,35 @@ Patch made_patch(int free_count, Triangles triangles, Eigen::Index vertex_count)
     return Patch(std::move(members));
 }
 
+// Mean cosine between the triangles and the normals at their corners, by area.
+double agreement(const OpenOutline& outline, const Triangles& triangles) {
+    double along = 0.0;
+    double whole = 0.0;
+    for (const auto corners : triangles.colwise()) {
+        const Vector3 a = outline.points.col(corners[0]);
+        const Vector3 b = outline.points.col(corners[1]);
+        const Vector3 c = outline.points.col(corners[2]);
+        const Vector3 area = (b - a).cross(c - a);
+        for (const int v : corners) along += area.dot(outline.normals.col(v)) / 3.0;
+        whole += area.norm();
+    }
+    return whole > 0.0 ? along / whole : 1.0;
+}
+
+// Of least area. Where that closes a limb instead of going around it: the one that follows the normals.
+Triangles triangulated(const OpenOutline& outline) {
+    constexpr double crosswise = 0.8;  // mean cosine
+    constexpr double better = 0.25;
+    const Triangles least = joined_loops(outline.points, outline.loops);
+    const double before = agreement(outline, least);
+    if (before > crosswise) return least;
+    const Triangles along = joined_loops(outline.points, outline.loops, &outline.normals);
+    return agreement(outline, along) > before + better ? along : least;
+}
+
 // The triangulation. A lone triangle has no chord to split: it gets a vertex in its middle.
 ProxyMesh outline_mesh(const OpenOutline& outline) {
-    const Triangles triangles = joined_loops(outline.points, outline.loops);
+    const Triangles triangles = triangulated(outline);
     if (triangles.cols() > 1) return {made_patch(0, triangles, outline.points.cols()), outline.points};
     const Eigen::Vector3i corners = triangles.col(0) + Eigen::Vector3i::Ones();
     Triangles fan(3, 3);
