@@ -14,6 +14,8 @@ namespace {
 constexpr double largest_bend = 2.0;  // of the largest |H| on the outline
 constexpr double least_girth = 0.75;  // of what it comes from
 constexpr double most_girth = 4.0 / 3.0;
+constexpr double least_bluntness = 0.7;
+constexpr double least_area = 0.04;  // of what sticks out, of what it was; less is as good as gone
 
 Indices corners_of(const Patch& patch, const Indices& triangles) {
     Indices corners;
@@ -38,6 +40,10 @@ VectorX bend_of(const Problem& problem, const Points& points) {
     return measured_surface(problem, points).curvature.mean.cwiseAbs();
 }
 
+double most_usual(const Patch& patch, const VectorX& bend) {
+    return largest_bend * bend.tail(bend.size() - patch.free_count).maxCoeff();
+}
+
 }  // namespace
 
 BlemishFinder::BlemishFinder(const Problem& problem, const Points& before, const Progress& progress)
@@ -45,10 +51,21 @@ BlemishFinder::BlemishFinder(const Problem& problem, const Points& before, const
       crossing_before_(crossing_triangles(problem.patch.triangles, before)),
       turned_before_(flipped_by_solution(problem.patch, before)),
       bent_before_(largest_around(problem.patch, bend_of(problem, before))),
-      girths_(Girths::of(problem.patch, before, progress)) {}
+      girths_(Girths::of(problem.patch, before, progress)),
+      protrusions_(Protrusions::of(problem.patch, progress)) {
+    if (!protrusions_) return;
+    areas_before_ = protrusions_->areas(before);
+    blunt_before_ = protrusions_->bluntness(before);
+}
+
+Indices Blemishes::all() const {
+    Indices result = torn;
+    for (const Indices* more : {&bent, &narrow, &wide, &thin}) result.insert(result.end(), more->begin(), more->end());
+    return result;
+}
 
 Blemishes BlemishFinder::in(const Points& points) const {
-    Blemishes found{torn(points), bent(points), {}, {}};
+    Blemishes found{torn(points), bent(points), {}, {}, thin(points)};
     if (!girths_) return found;
     found.narrow = corners_of(problem_.patch, girths_->narrow(points, least_girth));
     found.wide = corners_of(problem_.patch, girths_->wide(points, most_girth));
@@ -66,12 +83,30 @@ Indices BlemishFinder::torn(const Points& points) const {
 Indices BlemishFinder::bent(const Points& points) const {
     const int count = problem_.patch.free_count;
     const VectorX bend = bend_of(problem_, points);
-    const double most = largest_bend * bend.tail(bend.size() - count).maxCoeff();
+    const double most = most_usual(problem_.patch, bend);
     Indices vertices;
     for (int v = 0; v < count; ++v) {
         if (bend[v] > std::max(most, bent_before_[v])) vertices.push_back(v);
     }
     return vertices;
+}
+
+Indices BlemishFinder::thin(const Points& points) const {
+    if (!protrusions_) return {};
+    const VectorX areas = protrusions_->areas(points);
+    const VectorX blunt = protrusions_->bluntness(points);
+    Indices triangles;
+    for (int k = 0; k < protrusions_->count(); ++k) {
+        if (blunt[k] >= least_bluntness * blunt_before_[k] || areas[k] < least_area * areas_before_[k]) continue;
+        const Indices& cap = protrusions_->triangles(k);
+        triangles.insert(triangles.end(), cap.begin(), cap.end());
+    }
+    return corners_of(problem_.patch, triangles);
+}
+
+bool is_creased(const Problem& problem, const Points& points) {
+    const VectorX bend = bend_of(problem, points);
+    return bend.head(problem.patch.free_count).maxCoeff() > most_usual(problem.patch, bend);
 }
 
 }  // namespace fairing

@@ -6,6 +6,7 @@
 #include "base/progress.h"
 #include "method/girths.h"
 #include "problem/problem.h"
+#include "start/protrusions.h"
 
 namespace fairing {
 
@@ -15,8 +16,11 @@ struct Blemishes {
     Indices bent;    // where |H| is beyond twice the largest on the outline and the largest nearby before
     Indices narrow;  // of waists and threads: less than three quarters as long around (method/girths)
     Indices wide;    // of bulges: more than four thirds as long
+    Indices thin;  // of what ends within the patch, where it is there still: less than 0.7 as blunt (start/protrusions)
 
-    [[nodiscard]] bool absent() const { return torn.empty() && bent.empty() && narrow.empty() && wide.empty(); }
+    [[nodiscard]] bool absent() const { return all().empty(); }
+    // One after the other; a vertex may be there more than once.
+    [[nodiscard]] Indices all() const;
 };
 
 // Finds them by comparison with one shape.
@@ -30,12 +34,19 @@ public:
 private:
     [[nodiscard]] Indices torn(const Points& points) const;
     [[nodiscard]] Indices bent(const Points& points) const;
+    [[nodiscard]] Indices thin(const Points& points) const;
 
     const Problem& problem_;
     Indices crossing_before_;  // triangles
     Indices turned_before_;
     VectorX bent_before_;  // largest |H| around each vertex
     std::optional<Girths> girths_;
+    std::optional<Protrusions> protrusions_;
+    VectorX areas_before_;
+    VectorX blunt_before_;
 };
+
+// Whether |H| is somewhere inside beyond twice the largest on the outline. `points`: 3 × local vertices.
+bool is_creased(const Problem& problem, const Points& points);
 
 }  // namespace fairing

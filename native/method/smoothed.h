@@ -1,4 +1,4 @@
-// The shape before, as smooth as it can be: where no equation joins several outlines, and no loft does well.
+// The shape before, as smooth as it can be: where no equation joins several outlines, and no loft does better.
 #pragma once
 
 #include <optional>
