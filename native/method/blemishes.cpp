@@ -14,6 +14,7 @@ namespace {
 constexpr double largest_bend = 2.0;  // of the largest |H| on the outline
 constexpr double least_girth = 0.75;  // of what it comes from
 constexpr double most_girth = 4.0 / 3.0;
+constexpr double most_aside = 0.5;  // of a radius: lofts that an artist keeps had .15 to .40, webs and dents .51 to 2.3
 constexpr double least_bluntness = 0.7;
 constexpr double least_area = 0.04;  // of what sticks out, of what it was; less is as good as gone
 
@@ -38,10 +39,6 @@ VectorX largest_around(const Patch& patch, const VectorX& values) {
 
 VectorX bend_of(const Problem& problem, const Points& points) {
     return measured_surface(problem, points).curvature.mean.cwiseAbs();
-}
-
-double most_usual(const Patch& patch, const VectorX& bend) {
-    return largest_bend * bend.tail(bend.size() - patch.free_count).maxCoeff();
 }
 
 }  // namespace
@@ -72,6 +69,8 @@ Blemishes BlemishFinder::in(const Points& points) const {
     return found;
 }
 
+bool BlemishFinder::lies_aside(const Points& points) const { return girths_ && girths_->aside(points) > most_aside; }
+
 Indices BlemishFinder::torn(const Points& points) const {
     const Patch& patch = problem_.patch;
     Indices triangles = without(crossing_triangles(patch.triangles, points), crossing_before_);
@@ -83,7 +82,7 @@ Indices BlemishFinder::torn(const Points& points) const {
 Indices BlemishFinder::bent(const Points& points) const {
     const int count = problem_.patch.free_count;
     const VectorX bend = bend_of(problem_, points);
-    const double most = most_usual(problem_.patch, bend);
+    const double most = largest_bend * bend.tail(bend.size() - count).maxCoeff();
     Indices vertices;
     for (int v = 0; v < count; ++v) {
         if (bend[v] > std::max(most, bent_before_[v])) vertices.push_back(v);
@@ -102,11 +101,6 @@ Indices BlemishFinder::thin(const Points& points) const {
         triangles.insert(triangles.end(), cap.begin(), cap.end());
     }
     return corners_of(problem_.patch, triangles);
-}
-
-bool is_creased(const Problem& problem, const Points& points) {
-    const VectorX bend = bend_of(problem, points);
-    return bend.head(problem.patch.free_count).maxCoeff() > most_usual(problem.patch, bend);
 }
 
 }  // namespace fairing

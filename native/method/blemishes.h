@@ -30,6 +30,9 @@ public:
     BlemishFinder(const Problem& problem, const Points& before, const Progress& progress);
 
     [[nodiscard]] Blemishes in(const Points& points) const;
+    // Whether a cross-section's middle is farther from where it was than half its radius: webs between limbs, dents.
+    // Smoothing may move it so, a surface that knows nothing of the shape before should not.
+    [[nodiscard]] bool lies_aside(const Points& points) const;
 
 private:
     [[nodiscard]] Indices torn(const Points& points) const;
@@ -45,8 +48,5 @@ private:
     VectorX areas_before_;
     VectorX blunt_before_;
 };
-
-// Whether |H| is somewhere inside beyond twice the largest on the outline. `points`: 3 × local vertices.
-bool is_creased(const Problem& problem, const Points& points);
 
 }  // namespace fairing

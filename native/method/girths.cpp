@@ -1,5 +1,7 @@
 #include "method/girths.h"
 
+#include <algorithm>
+#include <numbers>
 #include <utility>
 
 namespace fairing {
@@ -37,6 +39,8 @@ std::optional<Girths> Girths::of(const Patch& patch, const Points& before, const
         const VectorX expected = between_ends(own);
         result.lesser_.emplace_back(own.cwiseMin(expected));
         result.larger_.emplace_back(own.cwiseMax(expected));
+        result.radii_.emplace_back(own / (2.0 * std::numbers::pi));
+        result.middles_.push_back(result.sections_.middles(k, before));
     }
     return result;
 }
@@ -49,6 +53,15 @@ Indices Girths::narrow(const Points& points, double share) const {
 Indices Girths::wide(const Points& points, double times) const {
     return triangles_where(sections_, points, larger_,
                            [&](double found, double larger) { return found > times * larger; });
+}
+
+double Girths::aside(const Points& points) const {
+    double farthest = 0.0;
+    for (int k = 0; k < sections_.outline_count(); ++k) {
+        const VectorX away = (sections_.middles(k, points) - middles_[at(k)]).colwise().norm().transpose();
+        farthest = std::max(farthest, away.cwiseQuotient(radii_[at(k)]).maxCoeff());
+    }
+    return farthest;
 }
 
 }  // namespace fairing

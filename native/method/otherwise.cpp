@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "base/errors.h"
 #include "base/stopwatch.h"
 #include "geometry/self_intersection.h"
 #include "method/accept.h"
-#include "method/blemishes.h"
 #include "method/bulb.h"
 #include "method/eased.h"
 #include "method/ladder.h"
@@ -16,7 +14,6 @@
 #include "method/misshapen.h"
 #include "method/sizes.h"
 #include "method/smoothed.h"
-#include "problem/surface_state.h"
 #include "variation/least_variation.h"
 
 namespace fairing {
@@ -122,25 +119,12 @@ bool is_tried_enough(const Problem& problem, const Solution& solution) {
     return solution.termination != Termination::iteration_limit || problem.options.max_iterations >= usual_iterations;
 }
 
-// Whether a loft does better than the shape before smoothed, which is rounder at joints and keeps what ends within the
-// patch, but has slight waists and may keep creases.
-bool is_better_loft(const Problem& problem, const Solution& loft, const Solution& shape, const Progress& progress) {
-    constexpr double as_bent = 1.05;  // the same to the eye; of 13 pairs looked at two are between 0.9 and this
-    if (is_blemished(problem, loft, progress)) return false;
-    if (is_blemished(problem, shape, progress)) return true;
-    if (is_creased(problem, shape.points) && !is_creased(problem, loft.points)) return true;
-    return willmore_energy(problem, loft.points) <= as_bent * willmore_energy(problem, shape.points);
-}
-
-// A loft, or the shape before as smooth as it can be.
+// A loft without blemishes, or the shape before as smooth as it can be, or any loft.
 std::optional<Solution> without_equation(const Problem& problem, const Solution& first, const Progress& progress) {
     auto loft = lofted(problem, first, progress);
+    if (loft && !is_blemished(problem, *loft, progress)) return loft;
     auto shape = smoothed(problem, loft ? *loft : first, progress);
-    if (!loft || !shape) return loft ? std::move(loft) : std::move(shape);
-    if (!is_better_loft(problem, *loft, *shape, progress)) return shape;
-    loft->ways = std::move(shape->ways);
-    std::iter_swap(loft->ways.rbegin(), std::next(loft->ways.rbegin()));  // the one that is taken is named last
-    return loft;
+    return shape ? std::move(shape) : std::move(loft);
 }
 
 // Where the equation's surface has a waist or a bulge that no load asks for, and there is another one without.

@@ -12,11 +12,11 @@ namespace fairing {
 // Solves as solve_global does (method/ladder). Between G1 outlines the surface of least variation is taken instead
 // where no way was accepted, and where several outlines are joined by a bulb: a surface whose curvatures vary more than
 // twice as much (variation_energy) as they need. Where that is not accepted either, several outlines are joined by a
-// loft (method/lofted) or by the shape before as smooth as it can be (method/smoothed), whichever has no blemishes, is
-// not creased and bends less. That shape also replaces an accepted surface that crosses itself where the shape before
-// did not. Not so with Otherwise::stop, where the iterations allowed ran out, and where part of a load was solved.
-// Where nothing is accepted, the better of the first two comes back with its flaw: fewer crossings first, then less
-// variation. `Solution::instead` tells which it is. Throws SolverError, Cancelled.
+// loft (method/lofted) or, where the loft has blemishes, by the shape before as smooth as it can be (method/smoothed).
+// That shape also replaces an accepted surface that crosses itself where the shape before did not. Not so with
+// Otherwise::stop, where the iterations allowed ran out, and where part of a load was solved. Where nothing is
+// accepted, the better of the first two comes back with its flaw: fewer crossings first, then less variation.
+// `Solution::instead` tells which it is. Throws SolverError, Cancelled.
 Solution solve_or_else(const Problem& problem, const Progress& progress);
 
 // The same after a solution of solve_global. With `near`, 3 × local vertices, the surface of least variation is sought

@@ -79,8 +79,10 @@ std::optional<Solution> smoothed(const Problem& problem, const Solution& first, 
 
 bool is_blemished(const Problem& problem, const Solution& solution, const Progress& progress) {
     if (!joins_outlines(problem)) return false;
-    const auto shape = ShapeBefore::of(problem, progress);
-    return shape && !BlemishFinder(problem, shape->points(), progress).in(solution.points).absent();
+    const auto before = shape_before(problem, progress);
+    if (!before) return false;
+    const BlemishFinder finder(problem, *before, progress);
+    return !finder.in(solution.points).absent() || finder.lies_aside(solution.points);
 }
 
 bool crosses_anew(const Problem& problem, const Solution& solution) {

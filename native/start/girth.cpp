@@ -35,7 +35,21 @@ VectorX CrossSections::lengths(int outline, const Points& points) const {
     VectorX result = VectorX::Zero(line_count);
     for (int line = 0; line < line_count; ++line) {
         for (const auto triangle : patch_.triangles.colwise())
-            result[line] += length_within(triangle, levels_[at(outline)], level_of(line), points);
+            result[line] += level_within(triangle, levels_[at(outline)], level_of(line), points).length;
+    }
+    return result;
+}
+
+Points CrossSections::middles(int outline, const Points& points) const {
+    Points result = Points::Zero(3, line_count);
+    for (int line = 0; line < line_count; ++line) {
+        double length = 0.0;
+        for (const auto triangle : patch_.triangles.colwise()) {
+            const LevelPiece piece = level_within(triangle, levels_[at(outline)], level_of(line), points);
+            result.col(line) += piece.length * piece.middle;
+            length += piece.length;
+        }
+        if (length > 0.0) result.col(line) /= length;
     }
     return result;
 }

@@ -4,7 +4,7 @@
 
 namespace fairing {
 
-double length_within(const Eigen::Vector3i& corners, const VectorX& values, double level, const Points& points) {
+LevelPiece level_within(const Eigen::Vector3i& corners, const VectorX& values, double level, const Points& points) {
     std::array<Vector3, 2> ends;
     std::size_t count = 0;
     for (int k = 0; k < 3; ++k) {
@@ -14,7 +14,8 @@ double length_within(const Eigen::Vector3i& corners, const VectorX& values, doub
         const double share = (level - values[a]) / (values[b] - values[a]);
         ends[count++] = (1.0 - share) * points.col(a) + share * points.col(b);
     }
-    return count == 2 ? (ends[1] - ends[0]).norm() : 0.0;
+    if (count < 2) return {};
+    return {(ends[1] - ends[0]).norm(), 0.5 * (ends[0] + ends[1])};
 }
 
 }  // namespace fairing

@@ -5,8 +5,13 @@
 
 namespace fairing {
 
-// Length of the part of a level line within one triangle; 0 elsewhere. `values`: of all vertices; `points`: 3 × the
-// same.
-double length_within(const Eigen::Vector3i& corners, const VectorX& values, double level, const Points& points);
+// The part of a level line within one triangle; without length elsewhere.
+struct LevelPiece {
+    double length = 0.0;
+    Vector3 middle = Vector3::Zero();
+};
+
+// `values`: of all vertices; `points`: 3 × the same.
+LevelPiece level_within(const Eigen::Vector3i& corners, const VectorX& values, double level, const Points& points);
 
 }  // namespace fairing

@@ -95,7 +95,8 @@ VectorX Protrusions::bluntness(const Points& points) const {
     for (int k = 0; k < count(); ++k) {
         const Cap& cap = caps_[at(k)];
         double rim = 0.0;
-        for (const int t : cap.triangles) rim += length_within(patch_.triangles.col(t), levels_, cap.level, points);
+        for (const int t : cap.triangles)
+            rim += level_within(patch_.triangles.col(t), levels_, cap.level, points).length;
         if (area[k] > 0.0) result[k] = rim * rim / (4.0 * std::numbers::pi * area[k]);
     }
     return result;

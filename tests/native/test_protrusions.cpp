@@ -107,13 +107,3 @@ TEST_CASE("a finger that is thinner is a blemish, one that is smaller or gone is
     CHECK(patch.changed(before, finger(0.015, 0.12)).thin.empty());
     CHECK(patch.changed(before, cone(0.5 * std::numbers::pi)).thin.empty());
 }
-
-TEST_CASE("a surface is creased where it bends more than twice as much as its outline") {
-    const test::Pipe pipe(20);
-    CHECK_FALSE(is_creased(pipe.problem, pipe.single.points));
-    Points knob = pipe.single.points;
-    int middle = 0;
-    (knob.row(2).array() - 0.5 * knob.row(2).maxCoeff()).abs().minCoeff(&middle);
-    knob.col(middle).head<2>() *= 1.15;
-    CHECK(is_creased(pipe.problem, knob));
-}
