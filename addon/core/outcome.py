@@ -69,7 +69,7 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     return Fairing(
         vertices=problem.vertices[moving][order],
         positions=positions[order],
-        result=_of_patch(result, own),
+        result=leading_part(result, own),
         warnings=solved.warnings + warnings + (() if verdict.grade == GOOD else solved.hints + tunnel_hint(patch)),
         before=quality_before,
         after=quality_after,
@@ -112,8 +112,8 @@ def _rounded(problem: Problem, after: Floats, moving: Ints, options: FairOptions
     return rounded
 
 
-def _of_patch(result: fairing.FairResult, own: int) -> fairing.FairResult:
-    """Leave out the vertices of the faces around the patch."""
+def leading_part(result: fairing.FairResult, own: int) -> fairing.FairResult:
+    """Leave out all but the first `own` vertices: those of the faces around the patch, say."""
     return replace(
         result,
         vertices=result.vertices[:own],

@@ -27,6 +27,7 @@ MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
 GROW, SMOOTH_OUTLINE, AS_SELECTED, HOLD_BORDER = "GROW", "SMOOTH_OUTLINE", "AS_SELECTED", "HOLD_BORDER"
 EVEN_CURVATURE, EVEN_SPREAD, WRITE = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE"
 
+_ROUGH_BORDER = ": a fair border may not exist where it is rough beside the selection; Open Border: Held needs none"
 _KNOT = "Seams and marks inside, which stay, are squeezed to a knot at {}"
 # What stands in for a surface that there is none of, by the engine's name for it.
 SUBSTITUTES = {
@@ -140,12 +141,12 @@ def _is_folded(evidence: Evidence) -> bool:
     return evidence.result.termination == "folded" or len(evidence.after.folded) > 0
 
 
-def _no_answer(evidence: Evidence, _options: FairOptions) -> Found:
+def _no_answer(evidence: Evidence, options: FairOptions) -> Found:
     result, patch = evidence.result, evidence.problem.patch
     if result.converged or result.termination == "folded":
         return _NOTHING
     reason = evidence.failures[0] if evidence.failures else "No fair surface was found"
-    reason += _ending(evidence)
+    reason += _ROUGH_BORDER if options.fairs_border else _ending(evidence)
     return reason, _troubled(evidence.problem) if len(evidence.problem.outside) else patch.vertices[patch.outline]
 
 
@@ -153,9 +154,10 @@ def _ending(evidence: Evidence) -> str:
     """Return how the search ended, where the engine does not tell why, and what there is instead."""
     if any(evidence.told("NOT_CONVERGED", "load_share", "area", "from_behind")):
         return ""
-    steps = counted(evidence.result.iterations, "step", "steps")
-    stalled = evidence.result.termination == "stalled"
-    text = f": it got no further after {steps}" if stalled else f": it was not there after all {steps} allowed"
+    count = evidence.result.iterations
+    text = ": the search came to a halt" if count else ": the search found no way to begin"
+    if evidence.result.termination != "stalled":
+        text = f": it was not there after the {counted(count, 'step', 'steps')} that Iterations allows"
     after = evidence.after
     if len(after.folded) or (after.crossing is not None and len(after.crossing)) or len(evidence.join.seen):
         return text
@@ -247,7 +249,7 @@ def _kinked(evidence: Evidence, options: FairOptions) -> Found:
 def kink_reason(join: Join) -> str:
     """Return the sentence for a join that is seen."""
     text = counted(len(join.seen), "vertex", "vertices")
-    return f"A kink shows at {text} of the outline, of {join.worst:.0f}° at worst"
+    return f"A kink shows at {text} of the outline, of {join.worst_seen:.0f}° at worst"
 
 
 def slope_reason(vertices: Ints) -> str:

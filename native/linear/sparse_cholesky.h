@@ -40,7 +40,11 @@ public:
 
 private:
     void set_up(const SparseMatrix& lower);
-    void find_slots(const SparseMatrix& lower);
+    // visit(k, place in the panels) for all entries k.
+    template <typename Visit>
+    void find_slots(const SparseMatrix& lower, const Visit& visit) const;
+    // The place of an entry in two rows of the matrix, in either order.
+    [[nodiscard]] std::size_t slot_of(int row, int column) const;
     void scatter(const SparseMatrix& lower);
     void add_child(int child, int parent, Front& front, Eigen::MatrixXd& parent_update);
     bool eliminate(int supernode, const WorkDone& work_done);
@@ -52,7 +56,7 @@ private:
     template <typename Stored>
     [[nodiscard]] auto panel(Stored* panels, int supernode) const;
 
-    Points layout_;     // empty: not known
+    Points layout_;     // empty: not known, or not needed any more
     Indices order_;     // position in the factor → row of the matrix
     Indices position_;  // its inverse
     FrontTree tree_;
@@ -60,7 +64,7 @@ private:
     Kept kept_ = Kept::doubles;
     VectorX panels_;  // one of these two is empty
     Eigen::VectorXf singles_;
-    std::vector<std::size_t> entry_slot_;   // entry of the matrix → place in panels_
+    std::vector<std::size_t> entry_slot_;   // entry of the matrix → place in panels_; a factor of singles keeps none
     std::vector<Eigen::MatrixXd> updates_;  // Schur complement that a supernode passes on, freed when taken
     bool analysed_ = false;
 };

@@ -35,7 +35,7 @@ public:
 private:
     struct Level {
         Problem problem;
-        InnerWeights weights;
+        Shared<Lambda> weights;  // symmetric
         Workspace work;
         const LaplaceCycle* tangential_cycle = nullptr;  // in `work`
     };

@@ -158,7 +158,7 @@ bool CollapseMesh::try_collapse(int v, Star& star, Removals& removals) {
         removals.vertex.push_back(v);
         for (std::size_t k = 0; k < star.size(); ++k) {
             removals.neighbours.push_back(star.vertices[k]);
-            removals.weights.push_back(star.weights[k] / sum);
+            removals.weights.push_back(static_cast<float>(star.weights[k] / sum));
         }
         removals.begin.push_back(static_cast<int>(removals.neighbours.size()));
         pass_weights_on(star, best);

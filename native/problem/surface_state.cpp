@@ -19,6 +19,7 @@ void SurfaceState::measure_curvature(const Problem& problem) {
                                                                           : problem.fixed_normals;
     normals = vertex_normals(problem.patch, points, faces, boundary, problem.options.normals);
     curvature = patch_curvature(problem.patch, points, faces, normals, problem.options.normals);
+    faces = {};
 }
 
 SurfaceState measured_surface(const Problem& problem, const Points& points) {

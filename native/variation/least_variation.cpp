@@ -48,7 +48,7 @@ constexpr std::array beginnings{Beginning{1.4, 1e-3}, Beginning{1.0, 1e-3}, Begi
 
 // From a surface that is near: elbows take half the steps that they take with the first beginning, or undamped.
 constexpr Beginning near_beginning{1.4, 1e-2};
-constexpr double near_damping = 1e-6;  // on the fine mesh
+constexpr double near_damping = 1e-6;  // on the next mesh
 
 Workspace make_workspace(const Problem& problem, const Progress& progress) {
     return {std::make_unique<BiharmonicOperator>(problem.patch),
@@ -82,32 +82,40 @@ SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginnin
     constexpr int most_rounds = 8;
     constexpr double tolerance = 1e-3;
     constexpr double settled = 0.02;  // relative change of the merit from one mesh to the next
+    constexpr double enough = 1e-3;   // from one step to the next
+    constexpr double enough_for_fine = 0.01;
     const Sizing sizing = sizing_of(problem, {beginning.share, coarse_turn, coarse_growth}, most_coarse);
     std::optional<SolvedSheet> last;
     double merit = 0.0;  // of the last mesh
     for (int k = 0; k < most_rounds; ++k) {
         mesh.adapt(sizing);
-        const NewtonLimits limits{tolerance, k == 0 ? 30 : 15, k == 0 ? beginning.damping : 1e-5, 0.05};
+        NewtonLimits limits{tolerance, k == 0 ? 30 : 15, k == 0 ? beginning.damping : near_damping, 0.05};
+        limits.settled = enough;
         last.emplace(solve_on(mesh, problem, last, Measure::plain, limits, progress.range(0.1 * k, 0.1 * (k + 1))));
         if (std::abs(last->result.merit - merit) <= settled * merit || last->result.merit < tolerance) break;
         merit = last->result.merit;
     }
     mesh.adapt(sizing);
-    return solve_on(mesh, problem, last, Measure::scale_free, {tolerance, 30, 1e-4}, progress.range(0.8, 1.0));
+    NewtonLimits limits{tolerance, 30, near_damping};
+    limits.settled = enough_for_fine;
+    return solve_on(mesh, problem, last, Measure::scale_free, limits, progress.range(0.8, 1.0));
 }
 
 struct FineStart {
     double damping = 0.0;
     double most_merit = HUGE_VAL;  // given up where it stays above
+    bool flattest = false;         // variation/newton.h
 };
 
 SolvedSheet solve_fine(ProxyMesh& mesh, const Problem& problem, const SolvedSheet& coarse, const FineStart& begin,
                        const Progress& progress) {
     const int limit = std::clamp(3 * problem.patch.free_count, 3000, most_fine);
     mesh.adapt(sizing_of(problem, {fine_share, fine_turn, fine_growth}, limit));
-    const int most_steps = std::min(problem.options.max_iterations, most_fine_steps);
-    return solve_on(mesh, problem, coarse, Measure::scale_free,
-                    {problem.options.tolerance, most_steps, begin.damping, 0.0, begin.most_merit}, progress);
+    NewtonLimits limits{problem.options.tolerance, std::min(problem.options.max_iterations, most_fine_steps)};
+    limits.damping = begin.damping;
+    limits.most_merit = begin.most_merit;
+    limits.flattest = begin.flattest;
+    return solve_on(mesh, problem, coarse, Measure::scale_free, limits, progress);
 }
 
 Termination ending(const NewtonResult& result, const Problem& problem) {
@@ -201,7 +209,7 @@ std::optional<Attempt> attempted_on_tube(const Problem& problem, const Points& t
                                          const Progress& progress) {
     constexpr double damping = 1e-3;
     ProxyMesh mesh(problem.patch, tube);
-    SolvedSheet fine = solve_fine(mesh, problem, unsolved(mesh, problem, progress), {damping, most}, progress);
+    SolvedSheet fine = solve_fine(mesh, problem, unsolved(mesh, problem, progress), {damping, most, true}, progress);
     if (std::isfinite(most) && !(fine.result.merit <= most)) return std::nullopt;
     const double gradient = fine.result.gradient;
     const int count = fine.mesh.patch.vertex_count();
@@ -243,13 +251,17 @@ public:
         constexpr double far = 1.2;  // radians
         const bool is_tube = tube_.has_value();
         if (is_tube && tube_->turn() > far) try_tube(progress.range(0.0, 0.1));
-        if (!has_ended()) try_membrane(is_tube, progress.range(0.1, 1.0));
+        if (!has_ended() && !is_in_valley()) try_membrane(is_tube, progress.range(0.1, 1.0));
         return std::move(best_);
     }
     [[nodiscard]] double start_seconds() const { return start_seconds_; }
 
 private:
     [[nodiscard]] bool has_ended() const { return best_ && best_->fine.result.converged; }
+
+    // A descent that took all its steps: along wide bends the product falls to loops many radii off, which is where
+    // other beginnings end, too.
+    [[nodiscard]] bool is_in_valley() const { return best_ && best_->fine.result.steps >= most_fine_steps; }
 
     // Whether there was anything to take.
     bool takes(std::optional<Attempt> attempt) {

@@ -215,7 +215,7 @@ def test_kinks_show_from_the_same_limit_as_in_a_faired_region() -> None:
     assert set(piece.join.vertices.tolist()) == set(piece.outline.tolist())
     report = make_fill_report([("Cage", [piece])], FillOptions(), 1.0)
     values = {check.name: check.value for check in report.checks}
-    assert values["Kinks show here from"] == f"{piece.join.limit:.0f}°"
+    assert values["Kinks show from"] == f"{piece.join.limit:.0f}°"
     assert values["Kink at the outline"] == f"≤ {angle_text(piece.join.worst)}"
 
 

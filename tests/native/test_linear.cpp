@@ -214,7 +214,7 @@ TEST_CASE("differences of one iteration serve the next one of the same matrix") 
         x += anderson.step(x, other - diagonal.cwiseProduct(x));
         return (diagonal.cwiseProduct(x) - other).norm();
     };
-    CHECK(left_after_one_step([](Anderson& anderson) { anderson.begin_again(); }) < 1e-8);
+    CHECK(left_after_one_step([](Anderson& anderson) { anderson.begin_again(); }) < 1e-5);  // they are singles
     CHECK(left_after_one_step([](Anderson& anderson) { anderson.reset(); }) > 0.1);
 }
 
