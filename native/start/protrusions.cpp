@@ -5,6 +5,8 @@
 #include <numbers>
 #include <set>
 
+#include <Eigen/Geometry>
+
 #include "geometry/face_geometry.h"
 #include "mesh/union_find.h"
 #include "operators/laplace_operator.h"
@@ -49,6 +51,7 @@ std::vector<Indices> pieces_beyond(const Patch& patch, const VectorX& values, do
         if (reaches(t)) found[pieces.root(t)].push_back(t);
     }
     std::vector<Indices> result;
+    result.reserve(found.size());
     for (auto& [root, triangles] : found) result.push_back(std::move(triangles));
     return result;
 }
@@ -81,23 +84,29 @@ void Protrusions::append_caps(double level) {
     }
 }
 
-VectorX Protrusions::areas(const Points& points) const {
-    FaceGeometry faces;
-    faces.update(points, patch_.triangles);
+VectorX Protrusions::extents(const Points& points) const {
     VectorX result(count());
-    for (int k = 0; k < count(); ++k) result[k] = faces.areas(triangles(k)).sum();
+    for (int k = 0; k < count(); ++k) {
+        Eigen::AlignedBox3d box;
+        for (const int t : triangles(k)) {
+            for (const int v : patch_.triangles.col(t)) box.extend(Vector3(points.col(v)));
+        }
+        result[k] = box.diagonal().norm();
+    }
     return result;
 }
 
 VectorX Protrusions::bluntness(const Points& points) const {
-    const VectorX area = areas(points);
+    FaceGeometry faces;
+    faces.update(points, patch_.triangles);
     VectorX result = VectorX::Zero(count());
     for (int k = 0; k < count(); ++k) {
         const Cap& cap = caps_[at(k)];
+        const double area = faces.areas(cap.triangles).sum();
         double rim = 0.0;
         for (const int t : cap.triangles)
             rim += level_within(patch_.triangles.col(t), levels_, cap.level, points).length;
-        if (area[k] > 0.0) result[k] = rim * rim / (4.0 * std::numbers::pi * area[k]);
+        if (area > 0.0) result[k] = rim * rim / (4.0 * std::numbers::pi * area);
     }
     return result;
 }

@@ -19,8 +19,8 @@ public:
     [[nodiscard]] int count() const { return static_cast<int>(caps_.size()); }
     // Triangles of a cap, those that its rim runs through included.
     [[nodiscard]] const Indices& triangles(int cap) const { return caps_[at(cap)].triangles; }
-    // Area of each cap on a surface (3 × local vertices).
-    [[nodiscard]] VectorX areas(const Points& points) const;
+    // Diagonal of the box around each cap on a surface (3 × local vertices).
+    [[nodiscard]] VectorX extents(const Points& points) const;
     // L² / 4πA of each cap with rim L and area A: 1 for flat discs, ½ for hemispheres, sin α for cones of half-angle α,
     // radius over twice the length for long fingers. 0 without area.
     [[nodiscard]] VectorX bluntness(const Points& points) const;
