@@ -48,7 +48,7 @@ def graded(size: int) -> Input:
 
 def quads(size: int) -> Input:
     """A grid of quads on a hemisphere, each cut in two."""
-    made = cube_cap(2 * round(0.5 * (size / 1.5) ** 0.5))
+    made = cube_cap(2 * round(0.5 * (size / 3.0) ** 0.5))  # 3 quads² vertices
     return made.vertices, made.triangles, {"fixed": made.fixed, "fixed_normals": made.vertices[made.fixed]}
 
 
