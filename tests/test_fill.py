@@ -578,6 +578,32 @@ def icosphere(times: int) -> tuple[FloatArray, IntArray]:
     return points / np.linalg.norm(points, axis=1)[:, None], triangles
 
 
+def ball_and_limb() -> tuple[FloatArray, IntArray]:
+    """A unit sphere with a hole of radius 1/2 towards x, and a thin tube before it, off the middle."""
+    vertices, triangles = icosphere(4)
+    near = np.linalg.norm(vertices[triangles].mean(axis=1) - (1.0, 0.0, 0.0), axis=1) < 0.5
+    angle, along = np.meshgrid(2.0 * np.pi * np.arange(24) / 24, np.linspace(2.0, 3.0, 7))
+    limb = np.stack([along, 0.25 * np.sin(angle), 0.25 * np.cos(angle) + 0.1], axis=-1).reshape(-1, 3)
+    row, column = (index.ravel() for index in np.mgrid[:6, :24])
+    a, b = 24 * row + column, 24 * row + (column + 1) % 24
+    faces = np.concatenate([np.column_stack([a, a + 24, b + 24]), np.column_stack([a, b + 24, b])])
+    return np.concatenate([vertices, limb]), np.concatenate([triangles[~near], faces + len(vertices)])
+
+
+def test_a_bridge_without_a_harmonic_surface_is_one_of_least_variation() -> None:
+    """As good as if it had been asked for; what the solve in vain leaves is no start for it."""
+    vertices, triangles = ball_and_limb()
+    loops = [loop for loop in fairing.boundary_loops(triangles) if vertices[loop, 0].max() < 2.5]
+    assert len(loops) == 2
+    found = fairing.fill(vertices, triangles, loops, bridge=True)
+    assert (found.converged, found.equation) == (True, "least_variation")
+    assert [warning.code for warning in found.warnings] == ["NO_SOLUTION"]
+    asked = fairing.fill(vertices, triangles, loops, bridge=True, equation="least_variation")
+    widths = [np.abs(result.vertices[:, 1]).max() for result in (found, asked)]
+    assert widths[0] == pytest.approx(widths[1], abs=1e-2)
+    assert not fairing.fill(vertices, triangles, loops, bridge=True, otherwise="stop").converged
+
+
 @pytest.mark.parametrize("height", [0.3, 0.31])
 def test_teeth_around_a_hole_get_no_second_wall(height: float) -> None:
     """Single triangles stick out into it: the surface runs around their tips, to the sphere, not back over them."""

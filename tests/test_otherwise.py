@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 import fairing
+import joints
 import shapes
 import tubes
+from joints import flat_arm
 
 
 def codes(result: fairing.FairResult) -> set[str]:
@@ -41,6 +43,21 @@ def test_pipes_without_a_harmonic_surface_have_even_curvature(length: float, lea
     assert [name for name, _ in result.way][-1] == "variation"
     # The very surface that this equation gives when it is asked for.
     assert (result.vertices == tube.faired().vertices).all()
+
+
+def test_a_joint_that_is_a_bulb_has_even_curvature() -> None:
+    """A Y of 70°: its harmonic surface swells to twice its girth. Three equal arms are no bulb."""
+    arms = [flat_arm(180), flat_arm(35, 0.8, 4.0), flat_arm(-35, 0.5, 4.0)]
+    made = joints.joint(arms, seed=71)
+    result = made.faired(equation="harmonic")
+    assert result.converged
+    assert result.equation == "least_variation"
+    (warning,) = [warning for warning in result.warnings if warning.code == "NO_SOLUTION"]
+    assert warning.figures["variation"] > 3
+    star = joints.joint([flat_arm(0), flat_arm(120), flat_arm(240)], seed=71)
+    sound = star.faired(equation="harmonic")
+    assert sound.equation == "harmonic"
+    assert (sound.vertices == star.faired(equation="harmonic", otherwise="stop").vertices).all()
 
 
 def test_stop_keeps_the_best_of_the_equation_asked_for() -> None:

@@ -111,6 +111,8 @@ VectorX even_lengths(const Patch& patch, const Points& points) {
                         {std::sqrt(square_per_vertex * faces.areas.sum() / even_count), 0, Spread::even});
 }
 
+bool has_converged(const FirstSurface& surface) { return end_of(surface.solution) == Termination::converged; }
+
 // Whether the mesh suits its surface: a dome that has grown from a flat mesh, or a tube that has opened, is stretched.
 bool is_even(const FirstSurface& surface) {
     constexpr double longest = 3.0;  // of the wanted length; 2.4 on a hemisphere
@@ -156,7 +158,7 @@ FirstSurface on_even_mesh(const OpenOutline& outline, const FirstSurface& last, 
     if (found) return std::move(*found);
     Problem problem = problem_on(outline, even.patch, options);
     // What was sought in vain once, in 1 to 5 s, is not found on another mesh either.
-    if (end_of(last.solution) != Termination::converged) problem.options.otherwise = Otherwise::stop;
+    if (!has_converged(last)) problem.options.otherwise = Otherwise::stop;
     Solution solution = solve_or_else(problem, progress.range(0.3, 1.0));
     return {std::move(even.patch), std::move(solution)};
 }
@@ -201,9 +203,7 @@ FirstSurface from_flat(const OpenOutline& outline, const SolverOptions& options,
     return {std::move(flat.patch), std::move(solution)};
 }
 
-}  // namespace
-
-FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
+FirstSurface sought(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
     constexpr int most_rounds = 4;
     std::optional<FirstSurface> begun = from_tube(outline, options, progress.range(0.0, 0.1));
     FirstSurface result = begun ? std::move(*begun) : from_flat(outline, options, progress.range(0.1, 0.4));
@@ -218,6 +218,22 @@ FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& opti
         result = std::move(next);
     }
     return result;
+}
+
+}  // namespace
+
+FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
+    constexpr double usual = 0.6;  // share of the progress
+    FirstSurface result = sought(outline, options, progress.range(0.0, usual));
+    const bool asked = options.equation == Equation::least_variation || options.otherwise == Otherwise::stop;
+    if (has_converged(result) || asked || outline.loops.size() < 2) return result;
+    // What a solve in vain leaves is no start for the surface of least variation, whose own descents may be.
+    SolverOptions other = options;
+    other.equation = Equation::least_variation;
+    FirstSurface even = sought(outline, other, progress.range(usual, 1.0));
+    if (!has_converged(even)) return result;
+    even.solution.instead = Instead::least_variation;
+    return even;
 }
 
 }  // namespace fairing
