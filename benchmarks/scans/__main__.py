@@ -2,10 +2,11 @@
 
     python benchmarks/scans                    # writes scans.csv; prints the table
     python benchmarks/scans --sizes 3000 10000
+    python benchmarks/scans --at ict_head:700 demosthenes-low-res:2700 --calls 1 --page docs/performance.md
 
 A head and a bust of shared/data, their triangles cut in four two and three times, noise of 0, 0.1 and ¼ of an edge on
 all vertices; discs grown round a seed vertex. The clean patch is a jittered half sphere. Both run in turns, one
-thread, processor time; the ratio is that of the medians.
+thread, processor time; the ratio is that of the medians. `--page` writes the summary between two marks of a page.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import statistics
 import sys
 import time
 from dataclasses import asdict, dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -36,7 +38,8 @@ from tetrathing import subdivided
 
 ROOT = Path(__file__).resolve().parents[2]
 GOAL = 2.0  # times a clean patch
-MESHES = {"ict_head": 2752, "demosthenes-low-res": 3323}  # seed vertices of the regions, kept by subdivision
+REGIONS = ["ict_head:2752", "demosthenes-low-res:3323"]  # meshes and seed vertices, which subdivision keeps
+BEGIN, END = "<!-- scans: begin -->", "<!-- scans: end -->"  # of the summary in a page
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
@@ -45,8 +48,9 @@ IntArray = NDArray[np.int64]
 class Row:
     """One region; cpu in seconds, ratio to the clean patch of the same size."""
 
-    mesh: str
+    region: str
     noise: float
+    wanted: int
     free: int
     way: str
     converged: bool
@@ -66,11 +70,12 @@ class Region:
     normals: FloatArray
 
 
-def scan(name: str, wanted: int) -> tuple[FloatArray, IntArray]:
-    """The mesh, subdivided two times or three, whichever has regions of that size."""
+@lru_cache(maxsize=2)
+def scan(name: str, times: int) -> tuple[FloatArray, IntArray]:
+    """The mesh, subdivided so many times."""
     vertices, polygons = read_polygons(DATA / f"{name}.obj")
     triangles = np.asarray(triangles_of(polygons), dtype=np.int64)
-    for _ in range(2 if wanted <= 10000 else 3):
+    for _ in range(times):
         triangles, ends = subdivided(triangles, len(vertices))
         vertices = np.vstack([vertices, 0.5 * (vertices[ends[:, 0]] + vertices[ends[:, 1]])])
     return vertices, triangles
@@ -122,10 +127,11 @@ def timed(vertices: FloatArray, triangles: IntArray, options: dict[str, Any]) ->
     return result, time.process_time() - start
 
 
-def measured(name: str, noise: float, wanted: int, calls: int) -> Row:
+def measured(place: str, noise: float, wanted: int, calls: int) -> Row:
     """One row: scan and clean patch in turns."""
-    vertices, triangles = scan(name, wanted)
-    patch = region(shaken(vertices, triangles, noise), triangles, MESHES[name], wanted)
+    name, seed = place.split(":")
+    vertices, triangles = scan(name, 2 if wanted <= 10000 else 3)  # whichever has regions of that size
+    patch = region(shaken(vertices, triangles, noise), triangles, int(seed), wanted)
     free = len(patch.vertices) - len(patch.fixed)
     clean = shapes.cap(free)
     pairs = [
@@ -135,8 +141,37 @@ def measured(name: str, noise: float, wanted: int, calls: int) -> Row:
     ]  # fmt: skip
     result = pairs[0][0][0]
     cpu, cpu_clean = (statistics.median(pair[k][1] for pair in pairs) for k in (0, 1))
-    return Row(name, noise, free, "+".join(way for way, _ in result.way), result.converged, result.polished,
+    return Row(place, noise, wanted, free, "+".join(way for way, _ in result.way), result.converged, result.polished,
                cpu, cpu / cpu_clean, float(np.median(result.boundary_angle)))  # fmt: skip
+
+
+def summary(rows: list[Row]) -> str:
+    """Sizes by noise: median and worst ratio, and how many are within the goal, polished, converged."""
+    noises = sorted({row.noise for row in rows})
+    lines = [f"| free | {' | '.join(f'noise {noise:g}' for noise in noises)} |", "| --: " * (len(noises) + 1) + "|"]
+    for wanted in sorted({row.wanted for row in rows}):
+        cells = [cell([row for row in rows if (row.wanted, row.noise) == (wanted, noise)]) for noise in noises]
+        lines.append(f"| {wanted} | {' | '.join(cells)} |")
+    places = ", ".join(dict.fromkeys(row.region for row in rows))
+    return "\n".join(
+        [*lines, "", f"Median (worst) × clean; within {GOAL:g} ×, polished, converged of all. Regions:", f"{places}."]
+    )
+
+
+def cell(rows: list[Row]) -> str:
+    """Of one size and noise."""
+    if not rows:
+        return "not run"
+    ratios = [row.ratio for row in rows]
+    counts = [sum(ratio <= GOAL for ratio in ratios), sum(r.polished for r in rows), sum(r.converged for r in rows)]
+    return f"{statistics.median(ratios):.1f} ({max(ratios):.1f}); {', '.join(map(str, counts))} of {len(rows)}"
+
+
+def written(page: Path, text: str) -> None:
+    """The summary in its place in a page."""
+    before, rest = page.read_text(encoding="utf-8").split(BEGIN)
+    after = rest.split(END)[1]
+    page.write_text(f"{before}{BEGIN}\n\n{text}\n\n{END}{after}", encoding="utf-8")
 
 
 def main() -> int:
@@ -144,21 +179,23 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("--sizes", type=int, nargs="+", default=[3000, 10000, 30000, 60000])
     parser.add_argument("--noise", type=float, nargs="+", default=[0.0, 0.1, 0.25], help="in edges")
+    parser.add_argument("--at", nargs="+", default=REGIONS, help="mesh:vertex")
+    parser.add_argument("--page", type=Path, help="a page that holds the two marks")
     parser.add_argument("--calls", type=int, default=3)
     parser.add_argument("--out", type=Path, default=ROOT / "build" / "scans", help="folder for the CSV")
     options = parser.parse_args()
     if not DATA.exists():
         print("the meshes of shared/data are missing", file=sys.stderr)
         return 2
-    print("| mesh | noise | free | way | ended | polished | CPU s | ÷ clean | angle, median ° |")
+    print("| region | noise | free | way | ended | polished | CPU s | ÷ clean | angle, median ° |")
     print("| --- | --: | --: | --- | --- | --- | --: | --: | --: |")
     rows = []
-    for name in MESHES:
-        for wanted in options.sizes:
+    for wanted in options.sizes:
+        for place in options.at:
             for noise in options.noise:
-                row = measured(name, noise, wanted, options.calls)
+                row = measured(place, noise, wanted, options.calls)
                 rows.append(row)
-                print(f"| {name} | {noise:g} | {row.free} | {row.way} | {'yes' if row.converged else 'no'} | "
+                print(f"| {place} | {noise:g} | {row.free} | {row.way} | {'yes' if row.converged else 'no'} | "
                       f"{'yes' if row.polished else 'no'} | {row.cpu:.2f} | {row.ratio:.2f} | {row.angle:.1f} |",
                       flush=True)  # fmt: skip
     options.out.mkdir(parents=True, exist_ok=True)
@@ -166,6 +203,9 @@ def main() -> int:
         writer = csv.DictWriter(file, fieldnames=list(asdict(rows[0])))
         writer.writeheader()
         writer.writerows(asdict(row) for row in rows)
+    print(f"\n{summary(rows)}")
+    if options.page:
+        written(options.page, summary(rows))
     return int(any(row.ratio > GOAL or not row.polished for row in rows))
 
 
