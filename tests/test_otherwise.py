@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 import fairing
+import joints
 import shapes
 import tubes
+from joints import flat_arm
 
 
 def codes(result: fairing.FairResult) -> set[str]:
@@ -41,6 +43,21 @@ def test_pipes_without_a_harmonic_surface_have_even_curvature(length: float, lea
     assert [name for name, _ in result.way][-1] == "variation"
     # The very surface that this equation gives when it is asked for.
     assert (result.vertices == tube.faired().vertices).all()
+
+
+def test_a_joint_that_is_a_bulb_has_even_curvature() -> None:
+    """A Y of 70°: its harmonic surface swells to twice its girth. Three equal arms are no bulb."""
+    arms = [flat_arm(180), flat_arm(35, 0.8, 4.0), flat_arm(-35, 0.5, 4.0)]
+    made = joints.joint(arms, seed=71)
+    result = made.faired(equation="harmonic")
+    assert result.converged
+    assert result.equation == "least_variation"
+    (warning,) = [warning for warning in result.warnings if warning.code == "NO_SOLUTION"]
+    assert warning.figures["variation"] > 3
+    star = joints.joint([flat_arm(0), flat_arm(120), flat_arm(240)], seed=71)
+    sound = star.faired(equation="harmonic")
+    assert sound.equation == "harmonic"
+    assert (sound.vertices == star.faired(equation="harmonic", otherwise="stop").vertices).all()
 
 
 def test_stop_keeps_the_best_of_the_equation_asked_for() -> None:
@@ -88,6 +105,19 @@ def test_a_large_patch_with_a_jagged_outline_is_not_tried_for_long() -> None:
             assert result.equation == "least_variation"
     assert "least variation" in tried[0.0]
     assert "least variation" not in tried[0.1]
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_a_small_patch_with_a_hopeless_outline_is_given_up_at_the_first_coarse_mesh(seed: int) -> None:
+    """Four beginnings took as long again as all that was tried before, and none ended."""
+    cap = shapes.cap(300)
+    rng, count = np.random.default_rng(seed), len(cap.fixed)
+    vertices, normals = cap.vertices.copy(), cap.fixed_normals + 2.0 * rng.normal(size=(count, 3)) / np.sqrt(3)
+    vertices[cap.fixed] += 1.5 * (2 * np.pi / count) * rng.normal(size=(count, 3)) / np.sqrt(3)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    result = fairing.fair(vertices, cap.triangles, fixed=cap.fixed, fixed_normals=normals, threads=1)
+    assert not result.converged
+    assert "variation" not in dict(result.way)
 
 
 def test_running_out_of_iterations_is_no_lack_of_a_surface() -> None:
@@ -162,14 +192,14 @@ def test_an_elbow_of_150_degrees_is_no_loft() -> None:
 
 
 def test_a_descent_that_nearly_ended_is_better_than_a_loft() -> None:
-    """Elbows, to more digits than there are: some stall beside the torus. The loft would be one radius off."""
-    stalled = 0
-    for degrees, seed in ((160.0, 2), (165.0, 1), (170.0, 3)):
-        result = tubes.elbow(3.0, degrees, seed=seed).faired(equation="harmonic", tolerance=1e-18)
+    """A wide bend of 180°: the product falls along a valley to loops 1.2 to 4 radii off, in 300 steps or more.
+
+    What comes back is the flattest place of the way there. A loft would be one radius off.
+    """
+    for seed in (91, 92):
+        result = tubes.elbow(4.0, 180.0, seed=seed).faired(equation="harmonic")
         assert result.equation == "least_variation"
-        assert tubes.off_torus(result.vertices, 3.0) < 0.2
-        stalled += not result.converged
-    assert stalled
+        assert result.converged or tubes.off_torus(result.vertices, 4.0) < 0.3
 
 
 @pytest.mark.parametrize(("bend", "degrees", "seed"), [(1.7, 180.0, 4), (2.5, 180.0, 2), (3.0, 160.0, 4)])

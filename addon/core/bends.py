@@ -17,6 +17,7 @@ class Bends:
 
     edges: Ints  # (k, 2) vertices, the smaller number first; ordered
     degrees: Floats  # (k,) between the two normals, convex above 0; 0 where a triangle has no area
+    sides: Ints  # (k, 2) the two triangles
 
 
 def bends(points: Floats, triangles: Ints) -> Bends:
@@ -31,4 +32,4 @@ def bends(points: Floats, triangles: Ints) -> Bends:
     above = ((opposite - points[edges[:, 0]]) * left).sum(axis=1) > 0.0
     angles = np.degrees(np.arccos(np.clip((left * right).sum(axis=1), -1.0, 1.0)))
     known = (left != 0.0).any(axis=1) & (right != 0.0).any(axis=1)
-    return Bends(edges, np.where(known, np.where(above, -angles, angles), 0.0))
+    return Bends(edges, np.where(known, np.where(above, -angles, angles), 0.0), sides)

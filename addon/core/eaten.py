@@ -12,13 +12,13 @@ import numpy as np
 
 from .around import nearby
 from .arrays import Floats, Ints, Mask
-from .bends import bends
+from .bends import Bends, bends
 from .engine import Problem
 from .hard_chains import SHARP, chains
 from .region import nothing
 
 ROUNDED = 15.0  # by which one has become flatter that is rounded off
-STANDS_OUT = 4.0  # times what four fifths of the edges around bend at most: curls and wrinkles bend everywhere
+BESIDE = 0.12  # of a hard edge's bend: what edges of the same triangles bend at most. Fins and folds of skin are round
 RUNS_ON = 2  # of them that stay, and that are rounded off, at least
 MOST_MARKED = 0.25  # of the edges inside: importers mark nearly all of them, which sets none apart
 
@@ -53,17 +53,26 @@ def _running_on(problem: Problem, after: Floats, moves: Mask) -> Ints:
     outside = ~inside & ~outline[old.edges].all(axis=1)  # a chain along the outline leads nowhere
     sizes = np.abs(old.degrees)
     flatter = inside & (sizes - np.abs(bends(after, near).degrees) > ROUNDED)
-    usual = np.percentile(sizes, 80.0) if len(sizes) else 0.0
     found = [nothing()]
-    held = np.zeros(len(moves), dtype=bool)
-    held[np.setdiff1d(problem.patch.fixed, problem.patch.outline)] = True  # pins stay: what ends at them is no chain
-    for chain in chains(problem.points, old, ~held[old.edges].any(axis=1)):
-        runs_on = min(np.count_nonzero(outside[chain]), np.count_nonzero(flatter[chain])) >= RUNS_ON
-        if runs_on and np.median(sizes[chain]) >= STANDS_OUT * usual:
-            found.append(old.edges[chain[flatter[chain]]].ravel())
+    for chain in chains(problem.points, old):
+        parts = chain[outside[chain]], chain[flatter[chain]]
+        beside = _beside(old, chain)
+        if all(len(part) >= RUNS_ON and np.median(beside[part] / sizes[part]) <= BESIDE for part in parts):
+            found.append(old.edges[parts[1]].ravel())
     ends = np.unique(np.concatenate(found))
     free: Ints = ends[moves[ends]]
     return free
+
+
+def _beside(of: Bends, chain: Ints) -> Floats:
+    """Return (e,) how much other edges than the chain's bend at most in the two triangles of each edge."""
+    others = np.ones(len(of.edges), dtype=bool)
+    others[chain] = False
+    most = np.zeros(int(of.sides.max(initial=-1)) + 1)
+    for side in of.sides[others].T:
+        np.maximum.at(most, side, np.abs(of.degrees[others]))
+    bent: Floats = most[of.sides].max(axis=1)
+    return bent
 
 
 def _blunted(problem: Problem, after: Floats, sharp: Ints, moves: Mask) -> Ints:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from .arrays import Floats, Ints, Mask
+from .arrays import Floats, Ints
 from .bends import Bends
 from .groups import groups
 
@@ -15,14 +15,10 @@ CHAIN = 4  # connected hard edges at least, and as many of their lengths from en
 MOST_SHARP = 0.12  # of the edges around may be sharp: among more, as noise has them, none stands out
 
 
-def chains(points: Floats, of: Bends, among: Mask | None = None) -> Iterator[Ints]:
-    """Yield which edges are connected hard edges, convex ones and concave ones each on their own.
-
-    among: (e,) mask of those that may be; None: all.
-    """
-    allowed = np.ones(len(of.edges), dtype=bool) if among is None else among
+def chains(points: Floats, of: Bends) -> Iterator[Ints]:
+    """Yield which edges are connected hard edges, convex ones and concave ones each on their own."""
     for sign in (1.0, -1.0):
-        hard = np.flatnonzero(allowed & (sign * of.degrees > SHARP))
+        hard = np.flatnonzero(sign * of.degrees > SHARP)
         if len(hard) > MOST_SHARP * len(of.edges):
             continue
         for members in groups(len(hard), _touching(of.edges[hard])):

@@ -84,6 +84,7 @@ class LiveRegion:
 
     def __init__(self, mesh: MeshArrays, matrix: Floats, options: FairOptions) -> None:
         """Prepare for the patch of `mesh`; raises ValueError where it can't be faired."""
+        self.options = options
         options = options.resolved(mesh.textured)
         world = mesh.transformed(matrix)
         patch = make_patch(world, even=not options.keeps_triangles)

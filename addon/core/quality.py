@@ -14,6 +14,7 @@ import fairing
 from .arrays import Floats, Ints, Mask
 from .bends import bends
 from .engine import Problem
+from .groups import groups
 from .region import Patch
 from .vectors import area_vectors
 
@@ -21,7 +22,7 @@ LARGE = 50_000  # triangles
 VISIBLE = fairing.VISIBLE_KINK  # degrees of Join from which the eye finds a kink among faces that bend as most do
 FINE = 5.0  # and from which it finds one among faces that hardly bend
 COARSE = 30.0  # and from which it finds one whatever the faces around bend
-ALONE = 1.5  # of these degrees, for a kink at one vertex of the outline: it is short
+LONG = 5.0  # times these degrees: what neighbouring vertices of a kink add up to at least. A short one must be steep
 FLATTEST = 1e-3  # height over longest side, below which a triangle is a needle
 
 
@@ -54,6 +55,11 @@ class Join:
         return float(self.degrees.max(initial=0.0))
 
     @property
+    def worst_seen(self) -> float:
+        """The largest of those that are seen, degrees; 0 where none is."""
+        return float(self.degrees[self._is_seen()].max(initial=0.0))
+
+    @property
     def seen(self) -> Ints:
         """The mesh vertices where it is more visible than the limit, the worst first."""
         order = np.argsort(-self.degrees, kind="stable")
@@ -61,13 +67,13 @@ class Join:
         return found
 
     def _is_seen(self) -> Mask:
-        """Tell where it is above the limit at two neighbours, or well above it at one."""
+        """Tell where it is above the limit, along so many neighbours that these add up."""
         above = self.degrees > self.limit
         if self.edges is None:
             return above
-        long = np.zeros(len(above), dtype=bool)
-        long[self.edges[above[self.edges].all(axis=1)]] = True
-        seen: Mask = long | (self.degrees > ALONE * self.limit)
+        seen = np.zeros(len(above), dtype=bool)
+        for run in groups(len(above), self.edges[above[self.edges].all(axis=1)].tolist()):
+            seen[run] = above[run].all() and self.degrees[run].sum() >= LONG * self.limit
         return seen
 
 

@@ -110,9 +110,13 @@ def _bulge_note(named: list[Named], options: FairOptions) -> tuple[str, ...]:
     found = all(result.converged or result.termination == "folded" for result in results)
     if options.equation != "CONSTANT" or options.bulge == 0.0 or found:
         return ()
+    shares = [
+        warning.figures["load_share"] for r in results for warning in r.warnings if "load_share" in warning.figures
+    ]
+    most = f"The largest that was found is {min(shares) * options.bulge:.2g}" if shares else "Try less"
     return (
         f"There may be no surface with a bulge of {options.bulge:g} on this outline: half a sphere has none "
-        "above 0.06, a flat disc none above 1.15. Try less",
+        f"above 0.06, a flat disc none above 1.15. {most}",
     )
 
 
@@ -130,10 +134,11 @@ def kink_checks(joins: Sequence[Join]) -> tuple[Check, ...]:
     """Return the lines on how the surfaces join what is around; none where nothing is."""
     if not any(len(join.vertices) for join in joins):
         return ()
-    worst = max(joins, key=lambda join: join.worst)
+    worst, seen = max(joins, key=lambda join: join.worst), any(len(join.seen) for join in joins)
+    short = ", short" if worst.worst > worst.limit and not seen else ""
     return (
-        Check("Kink at the outline", f"≤ {angle_text(worst.worst)}", _state(not any(len(join.seen) for join in joins))),
-        Check("Kinks show here from", f"{worst.limit:.0f}°"),
+        Check("Kink at the outline", f"≤ {angle_text(worst.worst)}{short}", _state(not seen)),
+        Check("Kinks show from", f"{worst.limit:.0f}°"),
     )
 
 

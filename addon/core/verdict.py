@@ -27,6 +27,7 @@ MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
 GROW, SMOOTH_OUTLINE, AS_SELECTED, HOLD_BORDER = "GROW", "SMOOTH_OUTLINE", "AS_SELECTED", "HOLD_BORDER"
 EVEN_CURVATURE, EVEN_SPREAD, WRITE = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE"
 
+_ROUGH_BORDER = ": a fair border may not exist where it is rough beside the selection; Open Border: Held needs none"
 _KNOT = "Seams and marks inside, which stay, are squeezed to a knot at {}"
 # What stands in for a surface that there is none of, by the engine's name for it.
 SUBSTITUTES = {
@@ -69,6 +70,7 @@ class Evidence:
     eaten: Eaten = field(default_factory=Eaten)
     squeezed: Ints = field(default_factory=nothing)  # mesh vertices where lines that a new mesh keeps are a knot
     pierced: Ints = field(default_factory=nothing)  # mesh vertices where the surface passes through faces outside
+    seams: Ints = field(default_factory=nothing)  # mesh vertices of held seams of doubled vertices that show as crests
     points: Floats | None = None  # (q, 3) of problem.vertices after the run; None: problem.points
     origin: Origin | None = None  # what the engine's numbers stand for; None: problem.origin
 
@@ -140,12 +142,12 @@ def _is_folded(evidence: Evidence) -> bool:
     return evidence.result.termination == "folded" or len(evidence.after.folded) > 0
 
 
-def _no_answer(evidence: Evidence, _options: FairOptions) -> Found:
+def _no_answer(evidence: Evidence, options: FairOptions) -> Found:
     result, patch = evidence.result, evidence.problem.patch
     if result.converged or result.termination == "folded":
         return _NOTHING
     reason = evidence.failures[0] if evidence.failures else "No fair surface was found"
-    reason += _ending(evidence)
+    reason += _ROUGH_BORDER if options.fairs_border else _ending(evidence)
     return reason, _troubled(evidence.problem) if len(evidence.problem.outside) else patch.vertices[patch.outline]
 
 
@@ -153,9 +155,10 @@ def _ending(evidence: Evidence) -> str:
     """Return how the search ended, where the engine does not tell why, and what there is instead."""
     if any(evidence.told("NOT_CONVERGED", "load_share", "area", "from_behind")):
         return ""
-    steps = counted(evidence.result.iterations, "step", "steps")
-    stalled = evidence.result.termination == "stalled"
-    text = f": it got no further after {steps}" if stalled else f": it was not there after all {steps} allowed"
+    count = evidence.result.iterations
+    text = ": the search came to a halt" if count else ": the search found no way to begin"
+    if evidence.result.termination != "stalled":
+        text = f": it was not there after the {counted(count, 'step', 'steps')} that Iterations allows"
     after = evidence.after
     if len(after.folded) or (after.crossing is not None and len(after.crossing)) or len(evidence.join.seen):
         return text
@@ -217,7 +220,19 @@ def _crossing(evidence: Evidence, options: FairOptions) -> Found:
 
 
 def _visible(evidence: Evidence, options: FairOptions) -> Found:
-    for look in (_pierced, _rounded, _eaten, _kinked, _pointed, _swollen, _substituted, _refused, _squeezed, _needles):
+    for look in (
+        _pierced,
+        _seamed,
+        _rounded,
+        _eaten,
+        _kinked,
+        _pointed,
+        _swollen,
+        _substituted,
+        _refused,
+        _squeezed,
+        _needles,
+    ):
         told = look(evidence, options)
         if told[0]:
             return told
@@ -229,6 +244,13 @@ def _pierced(evidence: Evidence, _options: FairOptions) -> Found:
         return _NOTHING
     text = counted(len(evidence.pierced), "vertex", "vertices")
     return f"The surface passes through faces outside the selection at {text}: select or move these", evidence.pierced
+
+
+def _seamed(evidence: Evidence, _options: FairOptions) -> Found:
+    if not len(evidence.seams):
+        return _NOTHING
+    text = counted(len(evidence.seams), "vertex", "vertices")
+    return f"A seam of doubled vertices holds the surface at {text}: undo, and use Merge by Distance", evidence.seams
 
 
 def _kinked(evidence: Evidence, options: FairOptions) -> Found:
@@ -247,7 +269,7 @@ def _kinked(evidence: Evidence, options: FairOptions) -> Found:
 def kink_reason(join: Join) -> str:
     """Return the sentence for a join that is seen."""
     text = counted(len(join.seen), "vertex", "vertices")
-    return f"A kink shows at {text} of the outline, of {join.worst:.0f}° at worst"
+    return f"A kink shows at {text} of the outline, of {join.worst_seen:.0f}° at worst"
 
 
 def slope_reason(vertices: Ints) -> str:
@@ -279,8 +301,18 @@ def _eaten(evidence: Evidence, options: FairOptions) -> Found:
         return f"Edges marked sharp were rounded off at {text}: undo, and Pin Edges: Sharp keeps them", marked
     if len(running):
         text = counted(len(running), "vertex", "vertices")
-        return f"A hard edge runs on outside, but was rounded off at {text}: mark it sharp and pin it to keep", running
+        reason = f"A hard edge runs on outside, but was rounded off at {text}: mark it sharp and pin it to keep it"
+        return _with_kinks(evidence, reason, running)
     return _NOTHING
+
+
+def _with_kinks(evidence: Evidence, reason: str, spots: Ints) -> Found:
+    """Add the kinks at the outline: where these are, another selection may be what helps."""
+    seen = evidence.join.seen
+    if not len(seen):
+        return reason, spots
+    kink = f"a kink of {evidence.join.worst_seen:.0f}° shows at the outline"
+    return f"{reason}, or grow the selection: {kink}", np.concatenate([spots, seen])
 
 
 def _swollen(evidence: Evidence, options: FairOptions) -> Found:
@@ -334,6 +366,13 @@ def _needles(evidence: Evidence, _options: FairOptions) -> Found:
     if not len(needles):
         return _NOTHING
     return counted(len(needles), "face is a needle", "faces are needles"), _corners(evidence.problem, needles)
+
+
+# The first that finds something gives the reason.
+_LOOKS = (
+    *(_pierced, _seamed, _rounded, _eaten, _kinked, _pointed, _swollen),
+    *(_substituted, _refused, _squeezed, _needles),
+)
 
 
 def _is_meant_to_swell(options: FairOptions) -> bool:

@@ -30,6 +30,7 @@ class Words:
 
 
 _DOUBLED = "The new surface doubles back onto faces that stick out into the outline: delete these first, or select them"
+SPREAD_EVENLY = "The way to spread vertices turns faces over here: they were spread evenly instead"
 _SLOPE_ONLY = (
     "{vertices:.0f} of the outline's {outline_vertices:.0f} vertices are met in slope only, not in curvature. "
 )
@@ -136,7 +137,7 @@ WORDS: dict[str, tuple[Words, ...]] = {
     ),
     "FLIPPED_TRIANGLES": (
         Words("{n} face of the result is turned over", "{n} faces of the result are turned over", when="triangles"),
-        Words("The inner fairness chosen turns faces over; even spacing was used"),
+        Words(SPREAD_EVENLY),
     ),
     "FOLDED": (
         Words(

@@ -30,7 +30,7 @@ from ..host.handlers import call_later, call_off, listen, unlisten
 from ..host.status import redraw_sidebars, redraw_views
 from ..mesh import live_mesh, mesh_io
 from .search import Search
-from .session import Session, check_key, fits, read, session_of, where
+from .session import Session, check_key, fits, is_of, read, session_of, where
 
 PATIENCE = 0.15  # seconds for an answer in the middle of changes: with reading and writing a step stays below 0.3
 MOST_SKIPPED = 15  # changes in a row that are carried along without asking for an answer
@@ -38,6 +38,7 @@ PAUSE = 0.3  # seconds without a change that count as their end
 TICK = 0.05  # seconds between two looks at a search
 STAND_IN = "No fair surface leads here: Even Curvature stands in for it"
 SEARCHING = "Looking for a fair surface: the region is carried along meanwhile"
+BEHIND = "The region is carried along: its fair surface comes when you pause"  # in the middle of changes
 CARRIED = "No fair surface leads here: the region is carried along, and mends when it is dragged back"
 NO_REGION = "No live region: select faces, then Live Region"
 
@@ -47,6 +48,7 @@ class Live:
 
     def __init__(self) -> None:
         self.sessions: dict[str, Session] = {}
+        self._aside: dict[str, Session] = {}  # the last of each mesh that was closed: a redo brings it back
         self.message = ""
         self.updates = 0  # answers written since the switch was turned on
         self.changed_at = 0.0  # the last change, by time.monotonic
@@ -146,9 +148,14 @@ class Live:
             raise
         session = self.sessions.get(mesh.name)
         if session is None or not fits(session, mesh):
-            session = session_of(obj, read(obj, live_mesh.region_options(mesh), mesh))
+            session = self._woken(mesh) or session_of(obj, read(obj, live_mesh.region_options(mesh), mesh))
             self._open(mesh.name, session)
         return session
+
+    def _woken(self, mesh: bpy.types.Mesh) -> Session | None:
+        """Return the session that was put aside where its region is back: it knows the spacing before the fairing."""
+        session = self._aside.get(mesh.name)
+        return session if session is not None and is_of(session, mesh) else None
 
     def _open(self, name: str, session: Session) -> None:
         self._close(name)
@@ -158,6 +165,7 @@ class Live:
         session = self.sessions.pop(name, None)
         if session is not None:
             session.call_off()
+            self._aside[name] = session
 
     def _write(self, obj: bpy.types.Object, session: Session, answer: Floats) -> None:
         mesh_io.write_edit_mesh(obj.data, session.region.free, answer)
@@ -179,6 +187,7 @@ class Live:
         """Drop everything that was kept; regions stay in their meshes."""
         self.rest(set())
         self.sessions.clear()
+        self._aside.clear()
         self.message = ""
 
 

@@ -35,7 +35,7 @@ class Session:
     waited: int = 0  # changes that were skipped before the last try
     points: Floats = field(default_factory=lambda: np.empty((0, 3)))  # of the outline in world space, where lost
     checked: bool = True  # an undo may have brought back another region
-    key: str = ""  # of a candidate: the shape key that was read, as mesh_io.writable_key names it
+    key: str = ""  # the shape key that the region is in, as mesh_io.writable_key names it
 
     def is_at(self, positions: Floats, matrix: Floats) -> bool:
         """Tell whether everything is still there."""
@@ -99,7 +99,8 @@ def session_of(obj: bpy.types.Object, region: LiveRegion) -> Session:
     """Open a session with a region of the object that is marked in its mesh."""
     faces = live_mesh.region_faces(obj.data)
     assert faces is not None
-    return Session(faces, live_mesh.corners(obj.data, faces), live_mesh.counts(obj.data), region)
+    corners, counts = live_mesh.corners(obj.data, faces), live_mesh.counts(obj.data)
+    return Session(faces, corners, counts, region, key=live_mesh.region_key(obj.data))
 
 
 def candidate(obj: bpy.types.Object, options: FairOptions) -> Session:
@@ -117,6 +118,13 @@ def is_current(obj: bpy.types.Object, session: Session) -> bool:
     except ValueError:  # locked meanwhile
         return False
     return same_key and fits(session, obj.data) and session.is_at(*where(obj, session.region))
+
+
+def is_of(session: Session, mesh: bpy.types.Mesh) -> bool:
+    """Tell whether a session put aside is that of the mesh's region as it is now."""
+    session.checked = False
+    same = session.region.options == live_mesh.region_options(mesh) and session.key == live_mesh.region_key(mesh)
+    return same and fits(session, mesh)
 
 
 def fits(session: Session, mesh: bpy.types.Mesh) -> bool:

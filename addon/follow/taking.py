@@ -6,7 +6,6 @@ Nothing is marked, and nothing moves, before the surface is there.
 from __future__ import annotations
 
 from functools import partial
-from typing import Any
 
 import bpy
 
@@ -80,18 +79,12 @@ class MESH_OT_fair_live_region(Watched, bpy.types.Operator):
         """Do so in the background where the first surface takes long enough to be noticed."""
         return self._begin_with(context, self._solve_or_start)
 
-    def _begin_with(self, context: bpy.types.Context, go_on: Any) -> set[str]:
-        context.view_layer.update()  # a script may just have changed an object's matrix
-        try:
-            self._options = last_options(context)
-            self._candidates = read(context, self._options)
-            if not self._candidates:
-                self.report({"ERROR"}, translated(NO_FACE))
-                return {"CANCELLED"}
-            answer: set[str] = go_on(context)
-            return answer
-        except Refused as refusal:
-            return self._refuse(context, refusal)
+    def _read(self, context: bpy.types.Context) -> bool:
+        self._options = last_options(context)
+        self._candidates = read(context, self._options)
+        if not self._candidates:
+            self.report({"ERROR"}, translated(NO_FACE))
+        return bool(self._candidates)
 
     def _solve_at_once(self, context: bpy.types.Context) -> set[str]:
         return self._apply(context, at_once(context, partial(solve, self._candidates)))

@@ -43,16 +43,28 @@ def at_once(context: bpy.types.Context, work: Work) -> Any:
 
 
 class Watched:
-    """What an operator needs besides `_apply`, `_refuse` and `_is_current` to watch a run."""
+    """What an operator needs besides `_read`, `_apply`, `_refuse` and `_is_current` to begin and watch a run.
+
+    `_read` takes what the run is to work on; False, after a word on it, where there is nothing to do.
+    """
 
     if TYPE_CHECKING:
         report: Callable[[set[str], str], None]
+        _read: Callable[[bpy.types.Context], bool]
         _apply: Callable[[bpy.types.Context, Any], set[str]]
         _refuse: Callable[[bpy.types.Context, job.Refused], set[str]]
         _is_current: Callable[[bpy.types.Context], bool]
 
     _run: Run[Any] | None = None
     _timer: Any = None
+
+    def _begin_with(self, context: bpy.types.Context, go_on: Callable[[bpy.types.Context], set[str]]) -> set[str]:
+        """Read, and go on at once or in the background."""
+        context.view_layer.update()  # a script may just have changed an object's matrix
+        try:
+            return go_on(context) if self._read(context) else {"CANCELLED"}
+        except job.Refused as refusal:
+            return self._refuse(context, refusal)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Watch the thread; Esc leaves the mesh as it is."""

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ..core.arrays import Floats
 from ..core.engine import Progress
 from ..core.options import FairOptions
 from ..core.outcome import Fairing, outcome
+from ..core.reflected import whole_of
 from ..core.region import MeshArrays
 from ..core.remeshing import remesh_arrays
 from ..core.solve import Kept, solve
+from ..core.verdict import UNUSABLE
+from ..core.words import SPREAD_EVENLY
 
 
 def fair_arrays(
@@ -24,5 +29,29 @@ def fair_arrays(
     """
     if options.mesh == "NEW":
         return remesh_arrays(mesh, matrix, options, progress)
-    solved = solve(mesh, matrix, options, progress, kept)
-    return outcome(mesh, matrix, options, solved)
+    whole = whole_of(mesh)
+    if whole is not None:
+        return whole.half_of(_on_old_mesh(whole.mesh, matrix, options, progress, kept))
+    return _on_old_mesh(mesh, matrix, options, progress, kept)
+
+
+def _on_old_mesh(
+    mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None, kept: Kept | None
+) -> Fairing:
+    found = outcome(mesh, matrix, options, solve(mesh, matrix, options, progress, kept))
+    return _evenly(mesh, matrix, options, progress, kept) or found if _texture_folds(mesh, options, found) else found
+
+
+def _texture_folds(mesh: MeshArrays, options: FairOptions, found: Fairing) -> bool:
+    """Tell whether faces are folded over where the texture is kept without being asked for."""
+    unasked = options.inner_fairness == "AUTOMATIC" and options.resolved(mesh.textured).inner_fairness != "UNIFORM"
+    return unasked and found.verdict.grade == UNUSABLE and len(found.after.folded) > 0
+
+
+def _evenly(
+    mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None, kept: Kept | None
+) -> Fairing | None:
+    """Fair with vertices spread evenly; None where that isn't usable either."""
+    even = replace(options, inner_fairness="UNIFORM")
+    found = outcome(mesh, matrix, even, solve(mesh, matrix, even, progress, kept))
+    return None if found.verdict.grade == UNUSABLE else replace(found, warnings=(SPREAD_EVENLY, *found.warnings))

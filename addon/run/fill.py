@@ -3,7 +3,6 @@
 import time
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import bpy
 import numpy as np
@@ -109,19 +108,15 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
         """Fill in the background where that takes long enough to be noticed."""
         return self._begin_with(context, self._solve_or_start)
 
-    def _begin_with(self, context: bpy.types.Context, go_on: Any) -> set[str]:
+    def _read(self, context: bpy.types.Context) -> bool:
         self._begin = time.perf_counter()
-        context.view_layer.update()  # a script may just have changed an object's matrix
-        try:
-            self._options = FillOptions.of(self)
-            self._tasks = read(context)
-            if not self._tasks:
-                self.report({"ERROR"}, translated(NO_BORDER))
-                return {"CANCELLED"}
-            answer: set[str] = go_on(context)
-            return answer
-        except Refused as refusal:
-            return self._refuse(context, refusal)
+        self._options = FillOptions.of(self)
+        self._tasks = read(context)
+        if not self._tasks:
+            store_refusal(context.window_manager.fairing_report, "", NO_BORDER)
+            last_run.forget()
+            self.report({"ERROR"}, translated(NO_BORDER))
+        return bool(self._tasks)
 
     def _solve_at_once(self, context: bpy.types.Context) -> set[str]:
         return self._apply(context, at_once(context, partial(solve, self._tasks, self._options)))

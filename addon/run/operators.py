@@ -5,7 +5,6 @@ What it does is in job.py and fair_arrays.py, the thread in core's runner.py.
 
 import time
 from functools import partial
-from typing import Any
 
 import bpy
 import numpy as np
@@ -56,25 +55,22 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
         """Fair in the background where that takes long enough to be noticed: by the size, or as it turns out."""
         return self._begin_with(context, self._solve_or_start)
 
-    def _begin_with(self, context: bpy.types.Context, go_on: Any) -> set[str]:
+    def _read(self, context: bpy.types.Context) -> bool:
         self._begin, self._way = time.perf_counter(), last_run.way_to_try()
-        context.view_layer.update()  # a script may just have changed an object's matrix
-        try:
-            self._options = FairOptions.of(self)
-            selected = job.read(context, self._options)
-            self._tasks = [task for task in selected if task.free_count]
-            if not self._tasks:
-                self.report({"INFO"}, translated(NO_FREE if selected else NO_FACE))
-                return {"CANCELLED"}
-            self._notes = tuple(
-                f"{task.object_name} was left as it is: no vertex inside its selection is free to move"
-                for task in selected
-                if not task.free_count
-            )
-            answer: set[str] = go_on(context)
-            return answer
-        except job.Refused as refusal:
-            return self._refuse(context, refusal)
+        self._options = FairOptions.of(self)
+        selected = job.read(context, self._options)
+        self._tasks = [task for task in selected if task.free_count]
+        if not self._tasks:
+            reason = NO_FREE if selected else NO_FACE
+            store_refusal(context.window_manager.fairing_report, "", reason)
+            last_run.forget()
+            self.report({"INFO"}, translated(reason))
+        self._notes = tuple(
+            f"{task.object_name} was left as it is: no vertex inside its selection is free to move"
+            for task in selected
+            if not task.free_count
+        )
+        return bool(self._tasks)
 
     def _solve_or_start(self, context: bpy.types.Context) -> set[str]:
         # The size tells the least time only: a selection without a fair surface may be searched for minutes.

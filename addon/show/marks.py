@@ -11,7 +11,7 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 
 from ..core.arrays import Floats
-from ..follow.live import CARRIED, live
+from ..follow.live import BEHIND, live
 from ..follow.watch import watch
 from ..translations import translated
 
@@ -58,14 +58,14 @@ def draw(context: bpy.types.Context) -> None:
 
 
 def draw_message(context: bpy.types.Context) -> None:
-    """Write what is wrong with a live region into the 3D view, whichever panels are open."""
+    """Write what is wrong with a live region into the 3D view, whichever panels are open; none lies over its top."""
     if context.mode != "EDIT_MESH" or not (live.message or len(live.lost_points())):
         return
     scale = context.preferences.system.ui_scale
     blf.size(0, 13.0 * scale)
     blf.color(0, *LOST)
-    blf.position(0, 70.0 * scale, 40.0 * scale, 0.0)
-    blf.draw(0, translated(live.message or CARRIED))
+    blf.position(0, 70.0 * scale, context.region.height - 150.0 * scale, 0.0)  # below the name of the view
+    blf.draw(0, translated(live.message or BEHIND))
 
 
 def _draw() -> None:

@@ -132,8 +132,9 @@ ComponentAnswer ComponentSolver::solve_between(const ComponentData& data, const 
     }
     hold_border(data.faired, answer.problem);
     warn_of_precision(patch_, data.vertices, {unit.diameter, solver.tolerance}, answer.warnings);
-    read_reference(gather(data.reference, patch_.to_input), unit);
-    answer.problem.before = unit.to_unit(gather(data.reference, patch_.to_input));
+    answer.problem.before = gather(data.reference, patch_.to_input);
+    read_reference(answer.problem.before, unit);
+    answer.problem.before = unit.to_unit(answer.problem.before);
     answer.warnings.insert(answer.warnings.end(), reference_warnings_.begin(), reference_warnings_.end());
     answer.solution = options().method == Method::paper ? solve_by_paper(answer.problem, progress)
                                                         : solve_globally(answer, data, progress);
@@ -142,16 +143,17 @@ ComponentAnswer ComponentSolver::solve_between(const ComponentData& data, const 
 
 // λ stays as long as what it is read off does.
 void ComponentSolver::read_reference(const Points& reference, const Normalisation& unit) {
-    const bool read = given_reference_.cols() > 0;
     const InnerFairness kind = options_.asked.inner_fairness;
-    if (read && (!reads_reference(kind) || reference == given_reference_)) return;
-    given_reference_.resize(3, 0);
-    reference_ = unit.to_unit(reference);
+    const bool reads = reads_reference(kind);
+    if (read_ && (!reads || reference == given_reference_)) return;
+    read_ = false;
+    if (reads || options_.asked.method == Method::paper) reference_ = unit.to_unit(reference);
     reference_warnings_.clear();
-    usable_ = !reads_reference(kind) || is_usable_reference(patch_, reference_, reference_warnings_);
+    usable_ = !reads || is_usable_reference(patch_, reference_, reference_warnings_);
     if (options().method == Method::global) lambda_ = make_lambda(patch_, reference_, options());
     warm_.new_weights();
-    given_reference_ = reference;
+    if (reads) given_reference_ = reference;
+    read_ = true;
 }
 
 ComponentAnswer ComponentSolver::dressed(ComponentAnswer answer, const ComponentData& data, const BaseOutline& outline,

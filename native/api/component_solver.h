@@ -37,7 +37,7 @@ public:
 
     // λ is read off the reference again, and the equation tried again.
     void options_changed() {
-        given_reference_.resize(3, 0);
+        read_ = false;
         replaced_.reset();
         skin_.forget();
     }
@@ -68,12 +68,13 @@ private:
 
     const Patch& patch_;
     const CallOptions& options_;
-    Points given_reference_;  // 3 × local vertices, as the caller gave it
-    Points reference_;        // in units of D
+    bool read_ = false;       // the reference
+    Points given_reference_;  // 3 × local vertices, as the caller gave it; empty where λ is not read off it
+    Points reference_;        // in units of D; likewise, but the paper's method reads it, too
     KeptSkin skin_;
     bool usable_ = true;
     Diagnostics reference_warnings_;
-    Lambda lambda_;
+    Shared<Lambda> lambda_;
     WarmStart warm_;
     std::optional<Replaced> replaced_;  // of the last answer, where another surface was taken instead
 };

@@ -199,7 +199,7 @@ FairResult run_call(const MeshInput& input, const std::optional<Points>& referen
     progress.report(0.0, "topology");
     prepare_for(input, options, prepared);
     check_memory(largest_free_count(prepared->patches));
-    Call call(*prepared, input, options.asked);
+    std::optional<Call> call;  // made after the first solve, which needs the room
     const double topology_seconds = watch.seconds();
     const ComponentData data{input.vertices,
                              prepared->mesh.normals,
@@ -215,10 +215,12 @@ FairResult run_call(const MeshInput& input, const std::optional<Points>& referen
     for (std::size_t k = 0; k < prepared->patches.size(); ++k) {
         const Patch& patch = prepared->patches[k];
         const double share = (end - begin) * patch.vertex_count() / total;
-        call.record(patch, prepared->solvers[k].solve(data, progress.range(done, done + share)));
+        const ComponentAnswer answer = prepared->solvers[k].solve(data, progress.range(done, done + share));
+        if (!call) call.emplace(*prepared, input, options.asked);
+        call->record(patch, answer);
         done += share;
     }
-    FairResult result = call.finish();
+    FairResult result = call->finish();
     result.seconds["topology"] = topology_seconds;
     result.seconds["total"] = watch.seconds();
     progress.report(1.0, "done");

@@ -1,7 +1,5 @@
 #include "api/memory.h"
 
-#include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -20,14 +18,11 @@ std::string gigabytes(double bytes) {
 
 }  // namespace
 
-// Measured on caps of 100k and 1M free vertices with uniform weights: 2.57 and 2.66 kB for each. λ that aren't
+// Measured on hemispheres of 100k and 1M free vertices with uniform weights: 1.57 and 1.35 kB for each. λ that aren't
 // symmetric take up to one and a half times that.
 double memory_estimate(int free_count) {
-    constexpr double reference = 100000.0;
-    constexpr double bytes_at_reference = 2570.0;  // for each free vertex
-    constexpr double bytes_per_doubling = 30.0;
-    const double doublings = std::log2(std::max(free_count, 1) / reference);
-    return free_count * (bytes_at_reference + bytes_per_doubling * doublings);
+    constexpr double bytes = 1570.0;  // for each free vertex
+    return bytes * free_count;
 }
 
 std::optional<double> available_memory() {

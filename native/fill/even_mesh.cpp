@@ -143,20 +143,30 @@ int EvenMesh::split_long() {
     return static_cast<int>(long_edges.size());
 }
 
-// Whether the vertex at the start of h may move into its end.
+// Whether the edges that a collapse of h makes are longer than any should be.
+bool EvenMesh::makes_long_edges(Halfedge h) const {
+    const Vertex kept = mesh_.to_vertex_handle(h);
+    const Vector3 place = point(kept);
+    for (const Vertex other : mesh_.vv_range(mesh_.from_vertex_handle(h))) {
+        const double longest = longest_after * 0.5 * (wanted_[at(other.idx())] + wanted_[at(kept.idx())]);
+        if (other != kept && (place - point(other)).squaredNorm() > longest * longest) return true;
+    }
+    return false;
+}
+
+// Whether the vertex at the start of h may move into its end. What stops most is asked first.
 bool EvenMesh::may_collapse(Halfedge h) {
     const Vertex gone = mesh_.from_vertex_handle(h);
     const Vertex kept = mesh_.to_vertex_handle(h);
-    if (fixed(gone) || !mesh_.is_collapse_ok(h)) return false;
+    if (fixed(gone) || makes_long_edges(h)) return false;
+    if (static_cast<int>(mesh_.valence(gone) + mesh_.valence(kept)) - 4 > highest_valence) return false;
+    if (!mesh_.is_collapse_ok(h)) return false;
     const Vector3 place = point(kept);
     const Vector3 normal = surface_->normal(where_[at(kept.idx())]);
-    if (static_cast<int>(mesh_.valence(gone) + mesh_.valence(kept)) - 4 > highest_valence) return false;
     for (const Halfedge spoke : mesh_.voh_range(gone)) {
         const Vertex other = mesh_.to_vertex_handle(spoke);
         const Vertex next = apex(spoke);
         if (other == kept) continue;
-        const double wanted = 0.5 * (wanted_[at(other.idx())] + wanted_[at(kept.idx())]);
-        if ((place - point(other)).norm() > longest_after * wanted) return false;
         if (fixed(kept) && fixed(other) && !mesh_.find_halfedge(kept, other).is_valid()) return false;
         if (next == kept) continue;
         if (!(cross_product(place, point(other), point(next)).dot(normal) > 0.0)) return false;
@@ -167,11 +177,15 @@ bool EvenMesh::may_collapse(Halfedge h) {
 // Shortest first.
 int EvenMesh::collapse_short() {
     ShortestFirst queue;
-    const auto push = [&](Halfedge h) {
-        const double length = relative_length(mesh_.edge_handle(h));
-        if (!fixed(mesh_.from_vertex_handle(h)) && length < collapse_below) queue.emplace(length, h.idx());
+    const auto push = [&](Edge e) {
+        const double length = relative_length(e);
+        if (!(length < collapse_below)) return;
+        for (const unsigned side : {0U, 1U}) {
+            const Halfedge h = mesh_.halfedge_handle(e, side);
+            if (!fixed(mesh_.from_vertex_handle(h))) queue.emplace(length, h.idx());
+        }
     };
-    for (const Halfedge h : mesh_.halfedges()) push(h);
+    for (const Edge e : mesh_.edges()) push(e);
     int collapses = 0;
     for (; !queue.empty() && free_count_ > 1; queue.pop()) {
         checkpoint();
@@ -182,10 +196,7 @@ int EvenMesh::collapse_short() {
         mesh_.collapse(h);
         --free_count_;
         ++collapses;
-        for (const Halfedge spoke : mesh_.voh_range(kept)) {
-            push(spoke);
-            push(mesh_.opposite_halfedge_handle(spoke));
-        }
+        for (const Edge spoke : mesh_.ve_range(kept)) push(spoke);
     }
     return collapses;
 }
@@ -281,6 +292,7 @@ void EvenMesh::smooth(int sweeps) {
 void EvenMesh::make_even() {
     constexpr int most_rounds = 20;
     constexpr int settling_rounds = 4;
+    constexpr int large = 10'000;
     int settled = 0;
     const double most = most_per_expected * (expected_count(*patch_, *points_, *lengths_) + patch_->vertex_count());
     split_chords();
@@ -288,6 +300,7 @@ void EvenMesh::make_even() {
         const int before = static_cast<int>(mesh_.n_vertices());
         if (before > most) break;
         int changes = split_long();
+        if (before >= large && changes > before / 4) sort();
         changes += collapse_short();
         flip_edges();
         changes += split_chords();

@@ -53,7 +53,9 @@ private:
     [[nodiscard]] int triangle_beside(Edge e) const;
     Vertex split(Edge e);
     int split_long();
+    void sort();
     int collapse_short();
+    [[nodiscard]] bool makes_long_edges(Halfedge h) const;
     [[nodiscard]] bool may_collapse(Halfedge h);
     [[nodiscard]] bool may_flip(Edge e) const;
     [[nodiscard]] Diagonal diagonal(Edge e) const;

@@ -1,5 +1,7 @@
 #include "geometry/flips.h"
 
+#include <Eigen/Geometry>
+
 #include "geometry/one_ring_buffer.h"
 
 namespace fairing {

@@ -47,8 +47,8 @@ public:
           own_history_(work.keeps_factor ? 0 : 3L * problem.patch.free_count, history_depth),
           anderson_(work.keeps_factor ? kept_history() : own_history_) {}
 
-    Solution run(const Points& start) {
-        state_.points = start;
+    Solution run(Points start) {
+        state_.points = std::move(start);
         const int most = problem_.options.max_iterations;
         solution_.termination = Termination::iteration_limit;
         solution_.points = state_.points;
@@ -205,12 +205,12 @@ private:
 
 }  // namespace
 
-Solution iterate(const Problem& problem, Workspace& work, const Points& start, const Progress& progress) {
-    return AcceleratedIteration(problem, work, undamped, progress).run(start);
+Solution iterate(const Problem& problem, Workspace& work, Points start, const Progress& progress) {
+    return AcceleratedIteration(problem, work, undamped, progress).run(std::move(start));
 }
 
-Solution iterate_damped(const Problem& problem, Workspace& work, const Points& start, const Progress& progress) {
-    return AcceleratedIteration(problem, work, damped, progress).run(start);
+Solution iterate_damped(const Problem& problem, Workspace& work, Points start, const Progress& progress) {
+    return AcceleratedIteration(problem, work, damped, progress).run(std::move(start));
 }
 
 }  // namespace fairing

@@ -21,14 +21,14 @@ Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b
 }
 
 // The same of the first columns of a tall A by factors of its parts (Golub, Plemmons & Sameh 1988).
-Eigen::VectorXd least_squares_by_parts(const Eigen::MatrixXd& A, int columns, const Eigen::VectorXd& b) {
+Eigen::VectorXd least_squares_by_parts(const Eigen::MatrixXf& A, int columns, const Eigen::VectorXd& b) {
     const int rows = static_cast<int>(A.rows());
     const int parts = (rows + rows_at_once - 1) / rows_at_once;
-    if (parts == 1) return least_squares(A.leftCols(columns), b);
+    if (parts == 1) return least_squares(A.leftCols(columns).cast<double>(), b);
     Eigen::MatrixXd factors = Eigen::MatrixXd::Zero(Eigen::Index(parts) * columns, columns);
     Eigen::VectorXd values = Eigen::VectorXd::Zero(factors.rows());
     for_ranges(rows, rows_at_once, [&](int begin, int end) {
-        const Eigen::HouseholderQR<Eigen::MatrixXd> qr(A.block(begin, 0, end - begin, columns));
+        const Eigen::HouseholderQR<Eigen::MatrixXd> qr(A.block(begin, 0, end - begin, columns).cast<double>());
         const Eigen::VectorXd rotated = qr.householderQ().adjoint() * b.segment(begin, end - begin);
         const Eigen::Index first = Eigen::Index(begin / rows_at_once) * columns;
         const int kept = std::min(columns, end - begin);
@@ -40,23 +40,23 @@ Eigen::VectorXd least_squares_by_parts(const Eigen::MatrixXd& A, int columns, co
 
 }  // namespace
 
-Anderson::Anderson(Eigen::Index size, int depth) : depth_(depth), dx_(size, depth), df_(size, depth) {}
+Anderson::Anderson(Eigen::Index size, int depth) : depth_(depth), df_(size, depth), sums_(size, depth) {}
 
 Eigen::VectorXd Anderson::step(const Eigen::VectorXd& x, const Eigen::VectorXd& f) {
     if (last_x_.size() > 0) {
         const int slot = count_++ % depth_;
-        dx_.col(slot) = x - last_x_;
-        df_.col(slot) = f - last_f_;
+        df_.col(slot) = (f - last_f_.cast<double>()).cast<float>();
+        sums_.col(slot) = (x - last_x_ + f - last_f_.cast<double>()).cast<float>();
     }
     last_x_ = x;
-    last_f_ = f;
+    last_f_ = f.cast<float>();
     const int used = std::min(count_, depth_);
     if (used == 0) return f;
     const Eigen::VectorXd gamma = least_squares_by_parts(df_, used, f);
     Eigen::VectorXd step = f;
     for_ranges(static_cast<int>(step.size()), rows_at_once, [&](int begin, int end) {
         const int size = end - begin;
-        step.segment(begin, size) -= (dx_.block(begin, 0, size, used) + df_.block(begin, 0, size, used)) * gamma;
+        step.segment(begin, size) -= sums_.block(begin, 0, size, used).cast<double>() * gamma;
     });
     return step;
 }

@@ -22,10 +22,11 @@ public:
 private:
     int depth_;
     int count_ = 0;  // differences since the last reset
-    Eigen::MatrixXd dx_;
-    Eigen::MatrixXd df_;
+    // In single precision: they turn a plain step into a better one, where that is 0 the iteration ends.
+    Eigen::MatrixXf df_;
+    Eigen::MatrixXf sums_;    // dx + df
     Eigen::VectorXd last_x_;  // empty at the beginning
-    Eigen::VectorXd last_f_;
+    Eigen::VectorXf last_f_;
 };
 
 }  // namespace fairing

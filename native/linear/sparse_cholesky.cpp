@@ -52,6 +52,7 @@ auto SparseCholesky::panel(Stored* panels, int s) const {
 void SparseCholesky::set_up(const SparseMatrix& lower) {
     const bool dissect = layout_.cols() == lower.cols() && lower.cols() >= least_dissected;
     Elimination elimination = analyse(lower, dissect ? nested_dissection(lower, layout_) : minimum_degree(lower));
+    layout_.resize(3, 0);
     order_ = std::move(elimination.order);
     position_ = std::move(elimination.position);
     tree_ = FrontTree(std::move(elimination.supernodes));
@@ -63,42 +64,49 @@ void SparseCholesky::set_up(const SparseMatrix& lower) {
     const auto size = static_cast<Eigen::Index>(panel_begin_.back());
     kept_ == Kept::doubles ? panels_.resize(size) : singles_.resize(size);
     updates_.resize(at(nodes.size()));
-    find_slots(lower);
+    if (kept_ == Kept::doubles) {
+        entry_slot_.resize(static_cast<std::size_t>(lower.nonZeros()));
+        find_slots(lower, [&](int k, std::size_t slot) { entry_slot_[at(k)] = slot; });
+    }
     analysed_ = true;
 }
 
-void SparseCholesky::find_slots(const SparseMatrix& lower) {
+std::size_t SparseCholesky::slot_of(int row, int column) const {
     const Supernodes& nodes = tree_.nodes();
-    entry_slot_.resize(static_cast<std::size_t>(lower.nonZeros()));
+    const auto [first, last] = std::minmax(position_[at(row)], position_[at(column)]);
+    const int s = nodes.column_to_supernode[at(first)];
+    const int* rows = nodes.row_list(s);
+    const auto place = std::lower_bound(rows, rows + nodes.row_count(s), last) - rows;
+    return panel_begin_[at(s)] + at(first - nodes.first[at(s)]) * at(nodes.row_count(s)) +
+           static_cast<std::size_t>(place);
+}
+
+template <typename Visit>
+void SparseCholesky::find_slots(const SparseMatrix& lower, const Visit& visit) const {
     for_ranges(static_cast<int>(lower.cols()), coarse_grain, [&](int first, int last) {
-        auto slot = entry_slot_.begin() + lower.outerIndexPtr()[first];
         for (int j = first; j < last; ++j) {
-            for (SparseMatrix::InnerIterator entry(lower, j); entry; ++entry) {
-                const int a = position_[at(static_cast<int>(entry.row()))];
-                const int b = position_[at(j)];
-                const int column = std::min(a, b);
-                const int s = nodes.column_to_supernode[at(column)];
-                const int* rows = nodes.row_list(s);
-                const auto row = std::lower_bound(rows, rows + nodes.row_count(s), std::max(a, b)) - rows;
-                const auto local_column = static_cast<std::size_t>(column - nodes.first[at(s)]);
-                *slot++ = panel_begin_[at(s)] + local_column * at(nodes.row_count(s)) + static_cast<std::size_t>(row);
-            }
+            for (int k = lower.outerIndexPtr()[j]; k < lower.outerIndexPtr()[j + 1]; ++k)
+                visit(k, slot_of(lower.innerIndexPtr()[k], j));
         }
     });
 }
 
 void SparseCholesky::scatter(const SparseMatrix& lower) {
-    const auto into = [&](auto* panels) {
+    const double* values = lower.valuePtr();
+    const auto clear = [&](auto* panels) {
         for_ranges(tree_.nodes().size(), fine_grain, [&](int first, int last) {
             for (int s = first; s < last; ++s) panel(panels, s).setZero();
         });
-        const double* values = lower.valuePtr();
-        for_ranges(static_cast<int>(lower.nonZeros()), 8 * coarse_grain, [&](int first, int last) {
-            for (int k = first; k < last; ++k)
-                panels[entry_slot_[at(k)]] = static_cast<std::remove_pointer_t<decltype(panels)>>(values[k]);
-        });
     };
-    kept_ == Kept::doubles ? into(panels_.data()) : into(singles_.data());
+    if (kept_ == Kept::singles) {
+        clear(singles_.data());
+        find_slots(lower, [&](int k, std::size_t slot) { singles_.data()[slot] = static_cast<float>(values[k]); });
+        return;
+    }
+    clear(panels_.data());
+    for_ranges(static_cast<int>(lower.nonZeros()), 8 * coarse_grain, [&](int first, int last) {
+        for (int k = first; k < last; ++k) panels_.data()[entry_slot_[at(k)]] = values[k];
+    });
 }
 
 // Adds what a child passes on to the panel of its parent and to what the parent passes on itself (lower triangles).
@@ -180,17 +188,31 @@ Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& rhs) const {
     return x;
 }
 
-Points SparseCholesky::solve_points(const Points& rhs) const {
-    using Field = Eigen::Matrix<double, Eigen::Dynamic, lanes, Eigen::RowMajor>;
+template <typename Stored>
+Points SparseCholesky::solve_side_by_side(const Stored* panels, const Points& rhs) const {
+    using Field = Eigen::Matrix<Stored, Eigen::Dynamic, lanes, Eigen::RowMajor>;
     using Rows = Eigen::Map<Field>;
-    Field padded = Field::Zero(rhs.cols(), lanes);
-    padded.leftCols<3>() = rhs.transpose();
-    const Field x = with_panels([&](const auto* panels) {
-        const auto up = [&](int s, Rows& b) { eliminate_lanes(panel(panels, s), b.data()); };
-        const auto down = [&](int s, Rows& b) { substitute_lanes(panel(panels, s), b.data()); };
-        return solve_by_fronts(tree_, order_, padded, FrontSweeps{up, down});
+    const int count = static_cast<int>(rhs.cols());
+    Field x(count, lanes);
+    for_ranges(count, coarse_grain, [&](int begin, int end) {
+        for (int k = begin; k < end; ++k) x.row(k) << rhs.col(order_[at(k)]).cast<Stored>().transpose(), Stored(0);
     });
-    return x.leftCols<3>().transpose();
+    const auto up = [&](int s, Rows& b) { eliminate_lanes(panel(panels, s), b.data()); };
+    const auto down = [&](int s, Rows& b) { substitute_lanes(panel(panels, s), b.data()); };
+    const FrontSweeps sweeps{up, down};
+    TreeSolve<Field, decltype(sweeps)> solve(tree_, sweeps, x);
+    solve.up(FrontReach());
+    solve.down(FrontReach());
+    Points result(3, count);
+    for_ranges(count, coarse_grain, [&](int begin, int end) {
+        for (int k = begin; k < end; ++k)
+            result.col(order_[at(k)]) = x.row(k).template head<3>().transpose().template cast<double>();
+    });
+    return result;
+}
+
+Points SparseCholesky::solve_points(const Points& rhs) const {
+    return with_panels([&](const auto* panels) { return solve_side_by_side(panels, rhs); });
 }
 
 }  // namespace fairing

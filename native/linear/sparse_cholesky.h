@@ -27,7 +27,8 @@ public:
 
     // Solves for one or several right-hand sides (n × k).
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
-    // For three at once, one point (a column) of each unknown: a third of the time where fronts are small.
+    // For three at once, one point (a column) of each unknown: a third of the time where fronts are small. With a
+    // factor of singles all sums are singles, which takes half of that.
     [[nodiscard]] Points solve_points(const Points& rhs) const;
 
     // For one, in part. `from`: reach of the entries of `rhs` that aren't zero; `to`: where x is wanted, elsewhere
@@ -40,7 +41,11 @@ public:
 
 private:
     void set_up(const SparseMatrix& lower);
-    void find_slots(const SparseMatrix& lower);
+    // visit(k, place in the panels) for all entries k.
+    template <typename Visit>
+    void find_slots(const SparseMatrix& lower, const Visit& visit) const;
+    // The place of an entry in two rows of the matrix, in either order.
+    [[nodiscard]] std::size_t slot_of(int row, int column) const;
     void scatter(const SparseMatrix& lower);
     void add_child(int child, int parent, Front& front, Eigen::MatrixXd& parent_update);
     bool eliminate(int supernode, const WorkDone& work_done);
@@ -48,11 +53,13 @@ private:
     // visit(panels_ or singles_).
     template <typename Visit>
     [[nodiscard]] auto with_panels(const Visit& visit) const;
+    template <typename Stored>
+    [[nodiscard]] Points solve_side_by_side(const Stored* panels, const Points& rhs) const;
     // A supernode's part of panels_ or singles_.
     template <typename Stored>
     [[nodiscard]] auto panel(Stored* panels, int supernode) const;
 
-    Points layout_;     // empty: not known
+    Points layout_;     // empty: not known, or not needed any more
     Indices order_;     // position in the factor → row of the matrix
     Indices position_;  // its inverse
     FrontTree tree_;
@@ -60,7 +67,7 @@ private:
     Kept kept_ = Kept::doubles;
     VectorX panels_;  // one of these two is empty
     Eigen::VectorXf singles_;
-    std::vector<std::size_t> entry_slot_;   // entry of the matrix → place in panels_
+    std::vector<std::size_t> entry_slot_;   // entry of the matrix → place in panels_; a factor of singles keeps none
     std::vector<Eigen::MatrixXd> updates_;  // Schur complement that a supernode passes on, freed when taken
     bool analysed_ = false;
 };

@@ -8,9 +8,16 @@ constexpr int coarsest_size = 600;  // free vertices
 // Up to so many free vertices the tangential step is factorised; beyond, multigrid is faster.
 constexpr int largest_factorised = 7000;
 
-InnerWeights symmetric_weights(const Lambda& weights) {
-    if (const auto* rows = std::get_if<RowWeights>(&weights)) return symmetrised(*rows);
-    return std::get<InnerWeights>(weights);
+Shared<Lambda> symmetric_weights(const Shared<Lambda>& weights) {
+    if (const auto* rows = std::get_if<RowWeights>(&*weights)) return symmetrised(*rows);
+    return weights;
+}
+
+// A level needs no shape before.
+Problem finest(const Problem& problem) {
+    return {problem.patch,          problem.fixed_points, problem.fixed_normals,
+            problem.weights,        problem.options,      problem.tolerated_folds,
+            problem.normal_weights, problem.free_edge,    problem.fixed_curvatures};
 }
 
 // Columns of the vertices of a coarse level, in its order.
@@ -32,21 +39,37 @@ Levels::Levels(const Problem& problem, Outlines outlines) {
     const Points points = with_fixed(problem.patch, problem.fixed_points);
     const Points normals = with_fixed(problem.patch, problem.fixed_normals);
     const Points unknown = Points::Zero(3, points.cols());  // keeps an outline as it is
-    InnerWeights weights = symmetric_weights(problem.weights);
-    coarse_ =
-        coarsen(problem.patch, weights, {points, outlines == Outlines::thinned ? normals : unknown}, coarsest_size);
+    const Shared<Lambda> weights = symmetric_weights(problem.weights);
+    coarse_ = coarsen(problem.patch, std::get<InnerWeights>(*weights),
+                      {points, outlines == Outlines::thinned ? normals : unknown}, coarsest_size);
+    left_.resize(coarse_.size());
     levels_.reserve(coarse_.size() + 1);
-    levels_.push_back({problem, std::move(weights), {}});
+    levels_.push_back({finest(problem), weights, {}});
     for (CoarseLevel& coarse : coarse_) {
         const Patch& patch = coarse.patch;
         Problem level{patch, pick(points, patch.to_input, patch.free_count),
-                      pick(normals, patch.to_input, patch.free_count), coarse.weights, problem.options};
-        levels_.push_back({std::move(level), std::move(coarse.weights), {}});
+                      pick(normals, patch.to_input, patch.free_count), std::move(coarse.weights), problem.options};
+        const Shared<Lambda> own = level.weights;
+        levels_.push_back({std::move(level), own, {}});
     }
 }
 
 RingMatrix Levels::laplacian(std::size_t k) const {
-    return {levels_[k].problem.patch.vertex_count(), levels_[k].weights};
+    return {levels_[k].problem.patch.vertex_count(), std::get<InnerWeights>(*levels_[k].weights)};
+}
+
+void Levels::leave(std::size_t k) {
+    Patch& patch = coarse_[k - 1].patch;
+    PatchMembers& members = left_[k - 1];
+    members = std::move(patch);
+    patch = Patch({members.free_count, members.to_input, {}, {}, Triangles(3, 0)});
+}
+
+void Levels::come_back(std::size_t k) {
+    PatchMembers& members = left_[k - 1];
+    if (members.to_input.empty()) return;
+    coarse_[k - 1].patch = Patch(std::move(members));
+    members = {};
 }
 
 std::vector<int> Levels::sizes() const {
@@ -63,8 +86,8 @@ void Levels::set_up_tangential(std::size_t k, RingMatrix laplacian, const Progre
         level.work.tangential = std::move(step);
     };
     if (k == coarsest() || problem.patch.free_count <= largest_factorised) {
-        adopt(
-            std::make_unique<FactorisedLaplacian>(problem.patch, level.weights, problem.fixed_points, progress.here()));
+        adopt(std::make_unique<FactorisedLaplacian>(problem.patch, std::get<InnerWeights>(*level.weights),
+                                                    problem.fixed_points, progress.here()));
     } else {
         adopt(std::make_unique<MultigridStep>(problem.patch, std::move(laplacian), problem.fixed_points,
                                               coarse_[k].transfer, *levels_[k + 1].tangential_cycle));

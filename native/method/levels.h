@@ -32,15 +32,20 @@ public:
     void set_up_tangential(std::size_t k, RingMatrix laplacian, const Progress& progress);
     void set_up_tangential(std::size_t k, const Progress& progress) { set_up_tangential(k, laplacian(k), progress); }
 
+    // Lets go of the edges and rings of a coarse level that is left, or brings them back.
+    void leave(std::size_t k);
+    void come_back(std::size_t k);
+
 private:
     struct Level {
         Problem problem;
-        InnerWeights weights;
+        Shared<Lambda> weights;  // symmetric
         Workspace work;
         const LaplaceCycle* tangential_cycle = nullptr;  // in `work`
     };
 
     std::vector<CoarseLevel> coarse_;  // coarse_[k] lies below levels_[k]
+    std::vector<PatchMembers> left_;   // of coarse_[k], whose patch has its vertices only; empty where it is whole
     std::vector<Level> levels_;
 };
 

@@ -114,10 +114,13 @@ private:
     }
 
     // The surface of level k on the finest one, not measured there.
-    [[nodiscard]] Solution given_up(std::size_t k, const Points& points) const {
+    [[nodiscard]] Solution given_up(std::size_t k, const Points& points) {
         Solution solution;
         solution.points = points;
-        while (k-- > 0) solution.points = interpolated(k, solution.points, levels_.laplacian(k)).points;
+        while (k-- > 0) {
+            levels_.come_back(k + 1);
+            solution.points = interpolated(k, solution.points, levels_.laplacian(k)).points;
+        }
         return solution;
     }
 
@@ -127,20 +130,22 @@ private:
         Workspace& work = levels_.work(k);
         RingMatrix laplacian = levels_.laplacian(k);
         auto [points, normals] = interpolated(k, coarse, laplacian);
+        levels_.leave(k + 1);
         progress.report(share_of_start / 3, "refinement");
         levels_.set_up_tangential(k, std::move(laplacian), progress_);
         slide(problem, *work.tangential, normals, most_slides, points);
+        normals.resize(3, 0);  // the iteration needs the room
         progress.report(share_of_start, "refinement");
         work.normal = make_normal_operator(problem, points.leftCols(problem.patch.free_count), Solves::few);
         // λ that aren't symmetric need a factorisation of their own; so far their symmetric part was good enough.
-        if (k == 0 && std::holds_alternative<RowWeights>(problem.weights)) {
+        if (k == 0 && std::holds_alternative<RowWeights>(*problem.weights)) {
             work.tangential =
                 make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here());
             slide(problem, *work.tangential, max_normals(problem.patch, points, problem.fixed_normals), most_slides,
                   points);
         }
         if (flipped_by_solution(problem.patch, points).size() > tolerated_folds(problem)) return {};
-        Solution solution = iterate(problem, work, points, progress.range(share_of_start, 1.0));
+        Solution solution = iterate(problem, work, std::move(points), progress.range(share_of_start, 1.0));
         work.normal.reset();  // the tangential step serves the finer levels
         return solution;
     }

@@ -156,7 +156,7 @@ private:
             Vector3 mean = Vector3::Zero();
             int nearest = removals.neighbours[at(removals.begin[at(r)])];
             for (int j = removals.begin[at(r)]; j < removals.begin[at(r) + 1]; ++j)
-                mean += removals.weights[at(j)] * points.col(removals.neighbours[at(j)]);
+                mean += double{removals.weights[at(j)]} * points.col(removals.neighbours[at(j)]);
             for (int j = removals.begin[at(r)]; j < removals.begin[at(r) + 1]; ++j) {
                 const int other = removals.neighbours[at(j)];
                 if ((points.col(other) - mean).squaredNorm() < (points.col(nearest) - mean).squaredNorm())
@@ -173,7 +173,7 @@ private:
     Solution polished(Solution placed, const SolvedSurface& surface) {
         Workspace& work = levels_.work(0);
         work.normal = make_normal_operator(problem_, placed.points.leftCols(problem_.patch.free_count));
-        if (std::holds_alternative<RowWeights>(problem_.weights)) {
+        if (std::holds_alternative<RowWeights>(*problem_.weights)) {
             work.tangential =
                 make_tangential_step(problem_.patch, problem_.weights, problem_.fixed_points, progress_.here());
         }

@@ -158,7 +158,7 @@ bool CollapseMesh::try_collapse(int v, Star& star, Removals& removals) {
         removals.vertex.push_back(v);
         for (std::size_t k = 0; k < star.size(); ++k) {
             removals.neighbours.push_back(star.vertices[k]);
-            removals.weights.push_back(star.weights[k] / sum);
+            removals.weights.push_back(static_cast<float>(star.weights[k] / sum));
         }
         removals.begin.push_back(static_cast<int>(removals.neighbours.size()));
         pass_weights_on(star, best);
@@ -290,6 +290,7 @@ InnerWeights CollapseMesh::weights() const {
         if (dead_triangle_[at(s / 3)] || (twin_[at(s)] != none && twin_[at(s)] < s)) continue;
         result.push_back({corner_[at(s)], corner_[at(next_side(s))], weight_[at(s)]});
     }
+    result.shrink_to_fit();
     return result;
 }
 

@@ -11,7 +11,7 @@ struct Removals {
     Indices vertex;
     Indices begin{0};
     Indices neighbours;
-    std::vector<double> weights;  // sum 1 for each vertex
+    std::vector<float> weights;  // sum 1 for each vertex
 
     [[nodiscard]] int size() const { return static_cast<int>(vertex.size()); }
 };

@@ -20,9 +20,9 @@ void project_across(SingleField& field, const SingleField& normals) {
     });
 }
 
-SingleField to_single(const Points& field, Eigen::Index count) {
+SingleField to_single(const Points& field, Eigen::Index count, double unit = 1.0) {
     SingleField result = SingleField::Zero(4, count);
-    result.topRows<3>() = field.leftCols(count).cast<float>();
+    result.topRows<3>() = (field.leftCols(count) / unit).cast<float>();
     return result;
 }
 
@@ -47,16 +47,15 @@ MultigridStep::MultigridStep(const Patch& patch, RingMatrix laplacian, const Poi
       transfer_(transfer),
       coarser_(coarser),
       laplacian_(std::move(laplacian)),
-      single_(laplacian_),
       inverse_diagonal_(Eigen::VectorXf::Zero(patch.vertex_count())),
       fine_(4, patch.vertex_count()),
       coarse_r_(4, transfer.coarse_count()),
       coarse_x_(4, transfer.coarse_count()) {
     inverse_diagonal_.head(patch.free_count) =
-        single_.diagonal().head(patch.free_count).cwiseMax(1e-30F).cwiseInverse();
+        laplacian_.diagonal.head(patch.free_count).cwiseMax(1e-30F).cwiseInverse();
 }
 
-// −L x at all vertices, 0 at fixed ones.
+// −L x over the scale at all vertices, 0 at fixed ones.
 Points MultigridStep::pull(const Points& points) const {
     Points result = Points::Zero(3, points.cols());
     laplacian_.apply(points, patch_.free_count, [&](int i, const Vector3& product) { result.col(i) = -product; });
@@ -64,7 +63,7 @@ Points MultigridStep::pull(const Points& points) const {
 }
 
 void MultigridStep::subtract_product(const SingleField& x, SingleField& r) const {
-    single_.apply(x, patch_.free_count, [&](int i, const Eigen::Vector4f& product) { r.col(i) -= product; });
+    laplacian_.apply(x, patch_.free_count, [&](int i, const Eigen::Vector4f& product) { r.col(i) -= product; });
 }
 
 // Steps of the Chebyshev iteration of the fourth kind (Lottes 2022), which needs no lower bound of the spectrum:
@@ -99,14 +98,16 @@ void MultigridStep::cycle(SingleField& r, SingleField& x) const {
     smooth(x, r, Residual::left);
 }
 
-// d with L d = pull; across the normals if there are any, as `pull` is then. In units of its own, far from the limits
-// of single precision.
-Points MultigridStep::solve(const Points& pull, const SingleField* normals, double tolerance, int most_cycles) const {
+// d with L d = scale · pull; across the normals if there are any, as `pull` is then. In units of its own, far from the
+// limits of single precision.
+Points MultigridStep::solve(Points pull, const SingleField* normals, double tolerance, int most_cycles) const {
     const double unit = pull.cwiseAbs().maxCoeff();
     if (!(unit > 0.0)) return Points::Zero(3, patch_.free_count);
+    SingleField r = to_single(pull, pull.cols(), unit);
+    pull.resize(3, 0);
     SingleField residual;
     const auto apply = [&](const SingleField& p, SingleField& product) {
-        single_.apply(p, patch_.free_count, [&](int i, const Eigen::Vector4f& value) { product.col(i) = value; });
+        laplacian_.apply(p, patch_.free_count, [&](int i, const Eigen::Vector4f& value) { product.col(i) = value; });
         product.rightCols(fixed_points_.cols()).setZero();
         if (normals) project_across(product, *normals);
     };
@@ -115,9 +116,8 @@ Points MultigridStep::solve(const Points& pull, const SingleField* normals, doub
         cycle(residual, z);
         if (normals) project_across(z, *normals);
     };
-    const SingleField d =
-        conjugate_gradients(to_single(pull / unit, pull.cols()), tolerance, most_cycles, apply, precondition);
-    return unit / scale() * d.topLeftCorner(3, patch_.free_count).cast<double>();
+    const SingleField d = conjugate_gradients(std::move(r), tolerance, most_cycles, apply, precondition);
+    return unit * d.topLeftCorner(3, patch_.free_count).cast<double>();
 }
 
 // What single precision leaves is solved for again.
@@ -138,7 +138,7 @@ Points MultigridStep::harmonic_positions() const {
 }
 
 double MultigridStep::merit(const Points& points, const Points& /*normals*/) const {
-    return -0.5 * inner_product<Points>(points, pull(points));
+    return -0.5 * scale() * inner_product<Points>(points, pull(points));
 }
 
 Points MultigridStep::displacement(const Points& points, const Points& normals, int max_cycles) const {
@@ -147,7 +147,7 @@ Points MultigridStep::displacement(const Points& points, const Points& normals, 
     Points across = pull(points);
     project_across(across.leftCols(patch_.free_count), normals);
     const SingleField single_normals = to_single(normals, patch_.free_count);
-    return solve(across, &single_normals, relative_tolerance, max_cycles);
+    return solve(std::move(across), &single_normals, relative_tolerance, max_cycles);
 }
 
 }  // namespace fairing

@@ -42,14 +42,15 @@ public:
     [[nodiscard]] Points harmonic_positions() const override;
     [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
     [[nodiscard]] Points displacement(const Points& points, const Points& normals, int max_cycles = 10) const override;
-    [[nodiscard]] double scale() const override { return single_.largest_weight(); }
+    [[nodiscard]] double scale() const override { return laplacian_.largest; }
     void cycle(SingleField& r, SingleField& x) const override;
 
 private:
     enum class Residual { kept, left };
 
+    // All of these in units of the scale.
     [[nodiscard]] Points pull(const Points& points) const;
-    [[nodiscard]] Points solve(const Points& pull, const SingleField* normals, double tolerance, int most_cycles) const;
+    [[nodiscard]] Points solve(Points pull, const SingleField* normals, double tolerance, int most_cycles) const;
     void subtract_product(const SingleField& x, SingleField& r) const;
     void smooth(SingleField& x, SingleField& r, Residual last) const;
 
@@ -58,7 +59,6 @@ private:
     const Transfer& transfer_;
     const LaplaceCycle& coarser_;
     RingMatrix laplacian_;
-    SingleRingMatrix single_;
     Eigen::VectorXf inverse_diagonal_;  // 0 at fixed vertices
     // Scratch: fields of this level and of the coarser one.
     mutable SingleField fine_;

@@ -8,7 +8,7 @@ void Transfer::prolong(const SingleField& coarse, SingleField& fine) const {
     for (int k = removals.size(); k-- > 0;) {
         Eigen::Vector4f sum = Eigen::Vector4f::Zero();
         for (int j = removals.begin[at(k)]; j < removals.begin[at(k) + 1]; ++j)
-            sum += static_cast<float>(removals.weights[at(j)]) * fine.col(removals.neighbours[at(j)]);
+            sum += removals.weights[at(j)] * fine.col(removals.neighbours[at(j)]);
         fine.col(removals.vertex[at(k)]) = sum;
     }
 }
@@ -17,25 +17,24 @@ void Transfer::restrict(SingleField& fine, SingleField& coarse) const {
     for (int k = 0; k < removals.size(); ++k) {
         const Eigen::Vector4f value = fine.col(removals.vertex[at(k)]);
         for (int j = removals.begin[at(k)]; j < removals.begin[at(k) + 1]; ++j)
-            fine.col(removals.neighbours[at(j)]) += static_cast<float>(removals.weights[at(j)]) * value;
+            fine.col(removals.neighbours[at(j)]) += removals.weights[at(j)] * value;
     }
     for (int c = 0; c < coarse_free_count; ++c) coarse.col(c) = fine.col(coarse_in_fine[at(c)]);
     coarse.rightCols(coarse.cols() - coarse_free_count).setZero();
 }
 
-Vector3 lifted_mean(const Points& points, const Points& normals, const int* vertices, const double* weights,
-                    int count) {
+Vector3 lifted_mean(const Points& points, const Points& normals, const int* vertices, const float* weights, int count) {
     Vector3 mean = Vector3::Zero();
     double sum = 0.0;
     for (int k = 0; k < count; ++k) {
-        mean += weights[k] * points.col(vertices[k]);
+        mean += double{weights[k]} * points.col(vertices[k]);
         sum += weights[k];
     }
     mean /= sum;
     Vector3 lift = Vector3::Zero();
     for (int k = 0; k < count; ++k) {
         const auto n = normals.col(vertices[k]);
-        lift += weights[k] * n.dot(points.col(vertices[k]) - mean) * n;
+        lift += double{weights[k]} * n.dot(points.col(vertices[k]) - mean) * n;
     }
     return mean + 0.5 / sum * lift;
 }
@@ -56,7 +55,7 @@ void Transfer::prolong_surface(const Points& coarse, const Points& coarse_normal
             lifted_mean(fine, fine_normals, &removals.neighbours[at(first)], &removals.weights[at(first)], count);
         Vector3 normal = Vector3::Zero();
         for (int j = first; j < first + count; ++j)
-            normal += removals.weights[at(j)] * fine_normals.col(removals.neighbours[at(j)]);
+            normal += double{removals.weights[at(j)]} * fine_normals.col(removals.neighbours[at(j)]);
         fine_normals.col(v) = normal.normalized();
     }
 }

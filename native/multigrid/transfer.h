@@ -30,6 +30,6 @@ struct Transfer {
 };
 
 // The weighted mean of points, lifted half-way to their tangent planes, which is exact on parabolas.
-Vector3 lifted_mean(const Points& points, const Points& normals, const int* vertices, const double* weights, int count);
+Vector3 lifted_mean(const Points& points, const Points& normals, const int* vertices, const float* weights, int count);
 
 }  // namespace fairing

@@ -18,10 +18,11 @@ public:
     [[nodiscard]] const SparseCholesky& factor() const { return factor_; }
 
 private:
+    // Its lower triangle, made anew for each factorisation: a large patch has no room for it meanwhile.
+    [[nodiscard]] SparseMatrix lower(const Stiffness& stiffness) const;
+
     const Patch& patch_;
     SparseCholesky factor_;
-    SparseMatrix matrix_;
-    Indices edge_;  // of each entry, `none` on the diagonal
 };
 
 }  // namespace fairing

@@ -115,7 +115,7 @@ double relax(const Problem& problem, const TangentialStep& tangential, const Tar
 
 double settle(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
               Placement& placement, const Progress& progress) {
-    if (const auto* rows = std::get_if<RowWeights>(&problem.weights)) {
+    if (const auto* rows = std::get_if<RowWeights>(&*problem.weights)) {
         const auto symmetric = make_tangential_step(problem.patch, symmetrised(*rows), problem.fixed_points, progress);
         relax(problem, *symmetric, target, placement);
     }

@@ -1,6 +1,7 @@
 // What a solver is given for one component.
 #pragma once
 
+#include "base/shared.h"
 #include "fairness/row_weights.h"
 #include "geometry/vertex_normal.h"
 
@@ -35,7 +36,7 @@ struct Problem {
     const Patch& patch;
     Points fixed_points;   // 3 × fixed count
     Points fixed_normals;  // 3 × fixed count, unit; ignored at pins
-    Lambda weights;
+    Shared<Lambda> weights;
     SolverOptions options;
     std::size_t tolerated_folds = 0;  // as many triangles are turned over where the weights come from
     // Of least_variation: the outline's normals cost Σ w_i |n_i − n̂_i|²; fixed count. ∞: met exactly, 0: the slope is

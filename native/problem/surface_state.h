@@ -15,7 +15,8 @@ struct SurfaceState {
 
     // Faces and stiffness of the present points.
     void measure_faces(const Patch& patch);
-    // Fitted (or averaged) normals and the curvature (paper §6) on top of them.
+    // Fitted (or averaged) normals and the curvature (paper §6) on top of them. The faces serve that and are then let
+    // go.
     void measure_curvature(const Problem& problem);
     // Moves of the first vertices (3 × n): within the surface by `within`, whose curvature a long way there follows,
     // and by `heights` (n) along the normals.

@@ -18,6 +18,8 @@ using CubicMatrix = Eigen::Matrix4d;
 using PairVector = Eigen::Matrix<double, 6, 1>;
 using PairMatrix = Eigen::Matrix<double, 6, 4>;
 using Residual = Eigen::Matrix<double, 10, 1>;  // of the cubic's size, then of its fit
+using ByPair = Eigen::Matrix<double, 10, 6>;    // derivatives of the residual by what each pair has
+using Jacobian = Eigen::Matrix<double, 10, 18>;
 
 // Of the cubic's size in the fit, for stencils at the border with too few pairs (six pairs weigh about 6).
 constexpr double ridge = 1e-4;
@@ -49,6 +51,11 @@ struct Pair {
     double derivative;  // of the normal curvature
 };
 
+// Two unit vectors across the normal of each vertex (geometry/frame.h).
+struct Frames {
+    Eigen::Matrix<double, 3, 6> u, v;
+};
+
 class Element {
 public:
     Element(const Sheet& sheet, const Stencil& stencil, const ElementWeights& weights)
@@ -73,19 +80,21 @@ public:
 
     [[nodiscard]] ElementTerms terms(const ElementSums& factors) const {
         ElementTerms result;
-        const Eigen::Matrix<double, 10, 6> by_derivative = residual_by_derivative();
-        const Eigen::Matrix<double, 10, 18> J = jacobian(by_derivative);
+        const ByPair by_derivative = residual_by_derivative();
+        const Frames frames = own_frames();
+        const Jacobian J = jacobian(by_derivative, frames);
         result.area_gradient = area_by_motion();
         result.gradient = 2.0 * factors.variation * (J.transpose() * residual_) + factors.area * result.area_gradient;
-        result.stretching = 2.0 * factors.variation * (J.transpose() * J);
+        result.stretching = 2.0 * factors.variation * J.transpose().lazyProduct(J);
         add_area(factors.area, result.stretching);
         const PairVector g = 2.0 * factors.variation * (by_derivative.transpose() * residual_);
-        for (int p = 0; p < count_; ++p) add_bending(pairs_[at(p)], g[p] * scale(pairs_[at(p)]), result.bending);
+        for (int p = 0; p < count_; ++p)
+            add_bending(pairs_[at(p)], g[p] * scale(pairs_[at(p)]), frames, result.bending);
         return result;
     }
 
     [[nodiscard]] ElementVector acceleration(const Element& there, const ElementVector& motions, double share) const {
-        const Eigen::Matrix<double, 10, 18> J = jacobian(residual_by_derivative());
+        const Jacobian J = jacobian(residual_by_derivative(), own_frames());
         return 4.0 / (share * share) * (J.transpose() * (there.residual_ - residual_ - share * (J * motions)));
     }
 
@@ -119,6 +128,16 @@ private:
         ++count_;
     }
 
+    [[nodiscard]] Frames own_frames() const {
+        Frames frames;
+        for (int k = 0; k < stencil_size; ++k) {
+            const Frame frame(Vector3(n_.col(k)));
+            frames.u.col(k) = frame.u;
+            frames.v.col(k) = frame.v;
+        }
+        return frames;
+    }
+
     static double scale(const Pair& pair) { return 6.0 / (pair.length * pair.length * pair.length); }
 
     void fit() {
@@ -132,62 +151,58 @@ private:
     }
 
     // ∂R / ∂(derivatives along the pairs)
-    [[nodiscard]] Eigen::Matrix<double, 10, 6> residual_by_derivative() const {
+    [[nodiscard]] ByPair residual_by_derivative() const {
         const Eigen::Matrix<double, 4, 6> dC = inverse_ * V_.transpose();
         return stacked(dC, Eigen::Matrix<double, 6, 6>::Identity() - V_ * dC);
     }
 
     // ∂R / ∂(angles of the pairs)
-    [[nodiscard]] Eigen::Matrix<double, 10, 6> residual_by_angle() const {
+    [[nodiscard]] ByPair residual_by_angle() const {
         const PairVector turn = turned_ * cubic_;
         const Eigen::Matrix<double, 4, 6> dC =
             inverse_ * (turned_.transpose() * misfit_.asDiagonal() - V_.transpose() * turn.asDiagonal());
         return stacked(dC, -V_ * dC - Eigen::Matrix<double, 6, 6>(turn.asDiagonal()));
     }
 
-    [[nodiscard]] Eigen::Matrix<double, 10, 6> stacked(const Eigen::Matrix<double, 4, 6>& cubic,
-                                                       const Eigen::Matrix<double, 6, 6>& misfit) const {
-        Eigen::Matrix<double, 10, 6> result;
+    [[nodiscard]] ByPair stacked(const Eigen::Matrix<double, 4, 6>& cubic,
+                                 const Eigen::Matrix<double, 6, 6>& misfit) const {
+        ByPair result;
         result << root_ * cubic, root_of_misfit_ * misfit;
         return std::sqrt(area_) * result;
     }
 
-    [[nodiscard]] Eigen::Matrix<double, 10, 18> jacobian(const Eigen::Matrix<double, 10, 6>& by_derivative) const {
-        Eigen::Matrix<double, 6, 18> derivative = Eigen::Matrix<double, 6, 18>::Zero();
-        Eigen::Matrix<double, 6, 18> angle = Eigen::Matrix<double, 6, 18>::Zero();
+    // Pair by pair: each knows few of the motions.
+    [[nodiscard]] Jacobian jacobian(const ByPair& by_derivative, const Frames& frames) const {
+        const ByPair by_angle = residual_by_angle();
+        Jacobian J = residual_ * (area_by_motion() / (2.0 * area_)).transpose();
         for (int p = 0; p < count_; ++p) {
-            derivative.row(p) = derivative_by_motion(pairs_[at(p)]);
-            angle.row(p) = angle_by_motion(pairs_[at(p)]);
+            add_derivative(pairs_[at(p)], by_derivative.col(p), frames, J);
+            add_angle(pairs_[at(p)], by_angle.col(p), J);
         }
-        return by_derivative * derivative + residual_by_angle() * angle +
-               residual_ * (area_by_motion() / (2.0 * area_)).transpose();
+        return J;
     }
 
-    [[nodiscard]] Eigen::Matrix<double, 1, 18> derivative_by_motion(const Pair& pair) const {
-        Eigen::Matrix<double, 1, 18> row = Eigen::Matrix<double, 1, 18>::Zero();
+    void add_derivative(const Pair& pair, const Residual& by_derivative, const Frames& frames, Jacobian& J) const {
         const Vector3 sum = n_.col(pair.i) + n_.col(pair.j);
         const double per_length = -3.0 * pair.derivative / (pair.length * pair.length);
         for (const auto& [k, sign] : {std::pair(pair.i, -1.0), std::pair(pair.j, 1.0)}) {
             const Vector3 n = n_.col(k);
-            const Frame frame(n);
-            row[3L * k] = sign * (scale(pair) * sum.dot(n) + per_length * pair.along.dot(n));
-            row[3 * k + 1] = scale(pair) * pair.along.dot(frame.u);
-            row[3 * k + 2] = scale(pair) * pair.along.dot(frame.v);
+            J.col(3L * k) += sign * (scale(pair) * sum.dot(n) + per_length * pair.along.dot(n)) * by_derivative;
+            J.col(3 * k + 1) += scale(pair) * pair.along.dot(frames.u.col(k)) * by_derivative;
+            J.col(3 * k + 2) += scale(pair) * pair.along.dot(frames.v.col(k)) * by_derivative;
         }
-        return row;
     }
 
     // Where the plane tilts, what stands across it moves within it; a turn of all angles alike changes nothing.
-    [[nodiscard]] Eigen::Matrix<double, 1, 18> angle_by_motion(const Pair& pair) const {
-        Eigen::Matrix<double, 1, 18> row = Eigen::Matrix<double, 1, 18>::Zero();
+    void add_angle(const Pair& pair, const Residual& by_angle, Jacobian& J) const {
         const double square = std::max(pair.in_plane.squaredNorm(), flattest * flattest * pair.length * pair.length);
         const Eigen::Vector2d turn = Eigen::Vector2d(-pair.in_plane[1], pair.in_plane[0]) / square;
-        for (const auto& [k, sign] : {std::pair(pair.i, -1.0), std::pair(pair.j, 1.0)}) {
-            row[3L * k] = sign * (turn[0] * e1_.dot(n_.col(k)) + turn[1] * e2_.dot(n_.col(k)));
-        }
-        if (pair.across == 0.0) return row;
-        for (int k = 0; k < 3; ++k) row[3L * k] -= pair.across * turn.dot(tilt_by_height(k)) * normal_.dot(n_.col(k));
-        return row;
+        const Vector3 way = turn[0] * e1_ + turn[1] * e2_;
+        J.col(3L * pair.i) -= way.dot(n_.col(pair.i)) * by_angle;
+        J.col(3L * pair.j) += way.dot(n_.col(pair.j)) * by_angle;
+        if (pair.across == 0.0) return;
+        for (int k = 0; k < 3; ++k)
+            J.col(3L * k) -= pair.across * turn.dot(tilt_by_height(k)) * normal_.dot(n_.col(k)) * by_angle;
     }
 
     // Change of the triangle's normal, by its components along e1 and e2, where corner k rises by 1.
@@ -222,12 +237,11 @@ private:
     }
 
     // Second derivatives of ⟨n_i + n_j, x_j − x_i⟩, times `factor`.
-    void add_bending(const Pair& pair, double factor, ElementMatrix& hessian) const {
+    void add_bending(const Pair& pair, double factor, const Frames& frames, ElementMatrix& hessian) const {
         for (const auto& [k, other, sign] : {std::tuple(pair.i, pair.j, 1.0), std::tuple(pair.j, pair.i, -1.0)}) {
-            const Frame frame(Vector3(n_.col(k)));
             const Vector3 n = n_.col(other);
-            const double u = sign * factor * frame.u.dot(n);
-            const double v = sign * factor * frame.v.dot(n);
+            const double u = sign * factor * frames.u.col(k).dot(n);
+            const double v = sign * factor * frames.v.col(k).dot(n);
             hessian(3L * k + 1, 3L * other) += u;
             hessian(3L * other, 3L * k + 1) += u;
             hessian(3L * k + 2, 3L * other) += v;

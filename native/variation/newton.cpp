@@ -75,11 +75,13 @@ public:
         while (result.steps < limits_.most_steps && !result.converged) {
             progress_.report(static_cast<double>(result.steps) / limits_.most_steps, "least variation");
             energy_.update(sheet_, model_);
+            if (limits_.flattest) note_gradient();
             if (!step()) break;
             ++result.steps;
             result.converged = has_converged(result.steps);
             if (share_ < limits_.shortest_share || is_hopeless(result.steps)) break;
         }
+        if (!result.converged && flattest_) sheet_ = std::move(*flattest_);
         energy_.update(sheet_, model_);
         result.merit = model_.merit;
         result.gradient = largest_gradient();
@@ -90,8 +92,16 @@ private:
     // The first step, from another mesh's surface, may leave more than it takes away.
     [[nodiscard]] bool has_converged(int steps) const {
         const double share = steps > 1 ? 1.0 : 0.01;
+        if (steps > 1 && share_ == 1.0 && fall_ < limits_.settled * model_.merit) return true;
         return share_ == 1.0 && used_damping_ <= least_damping && largest_height_ < share * limits_.tolerance &&
                largest_turn_ < limits_.turns;
+    }
+
+    void note_gradient() {
+        const double gradient = largest_gradient();
+        if (!(gradient < least_gradient_)) return;
+        least_gradient_ = gradient;
+        flattest_ = sheet_;
     }
 
     [[nodiscard]] bool is_hopeless(int steps) const {
@@ -190,10 +200,11 @@ private:
         const VectorX bent = acceleration(motions);
         for (int k = 0; k <= most_halvings; ++k, share_ *= 0.5) {
             Sheet tried = energy_.moved(sheet_, motions + 0.5 * share_ * bent, share_);
-            if (!(energy_.merit(tried) <= model_.merit + armijo * share_ * slope + noise * model_.merit + nothing))
-                continue;
+            const double merit = energy_.merit(tried);
+            if (!(merit <= model_.merit + armijo * share_ * slope + noise * model_.merit + nothing)) continue;
             if (folds(energy_.patch(), sheet_, tried)) continue;
             sheet_ = std::move(tried);
+            fall_ = model_.merit - merit;
             return true;
         }
         return false;
@@ -233,6 +244,9 @@ private:
     double bending_ = 1.0;  // share of the indefinite part
     int rest_ = 0;          // steps before more of it is tried
     double share_ = 0.0;
+    double fall_ = 0.0;  // of the merit
+    double least_gradient_ = HUGE_VAL;
+    std::optional<Sheet> flattest_;  // the sheet there
     double largest_height_ = 0.0;
     double largest_rise_ = 0.0;  // in edges
     double largest_turn_ = 0.0;

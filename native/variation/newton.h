@@ -15,6 +15,8 @@ struct NewtonLimits {
     double shortest_share = 0.0;   // of a step; where less of it can be taken, the mesh is in the way
     double most_merit = HUGE_VAL;  // given up where it is more after ten steps
     double turns = HUGE_VAL;       // tolerance of the largest turn of a full step, radians
+    bool flattest = false;         // a descent that doesn't end gives the sheet of the least gradient that it met
+    double settled = 0.0;          // fall of the merit in a full step, relative to it, that is enough as well
 };
 
 struct NewtonResult {

@@ -39,16 +39,25 @@ VariationEnergy::VariationEnergy(const Problem& problem, Moving moving, Measure 
       measure_(measure),
       stencils_(stencils(problem.patch)),
       unknowns_(freedom_of(problem, moving), stencils_) {
-    blocks_.reserve(stencils_.size());
-    for (const Stencil& stencil : stencils_) {
-        Blocks blocks{};
-        for (std::size_t p = 0; p < stencil_size; ++p) {
-            for (std::size_t q = 0; q < stencil_size; ++q) {
-                if (stencil[p] == none || stencil[q] == none) continue;
-                blocks[stencil_size * p + q] = unknowns_.block_of(stencil[p], stencil[q]);
-            }
+    for (int e = 0; e < static_cast<int>(stencils_.size()); ++e) {
+        entries_begin_.push_back(entries_.size());
+        find_entries(e);
+    }
+    entries_begin_.push_back(entries_.size());
+}
+
+// Looked up once: each step adds to all of them.
+void VariationEnergy::find_entries(int element) {
+    const Stencil& stencil = stencils_[at(element)];
+    const ElementUnknowns unknown = unknowns_of(element);
+    for (int c = 0; c < 3 * stencil_size; ++c) {
+        for (int r = 0; r < 3 * stencil_size; ++r) {
+            const int row = unknown[at(r)];
+            const int column = unknown[at(c)];
+            if (column == none || row < column) continue;
+            const int block = unknowns_.block_of(stencil[at(r / 3)], stencil[at(c / 3)]);
+            entries_.push_back({unknowns_.slot(row, column, block), 3 * stencil_size * c + r});
         }
-        blocks_.push_back(blocks);
     }
 }
 
@@ -118,18 +127,12 @@ void VariationEnergy::add(const ElementTerms& terms, int element, QuadraticModel
         model.gradient[unknown[at(k)]] += terms.gradient[k];
         model.area[unknown[at(k)]] += terms.area_gradient[k];
     }
-    double* values = model.bending.valuePtr();
-    for (int c = 0; c < 3 * stencil_size; ++c) {
-        const int column = unknown[at(c)];
-        if (column == none) continue;
-        for (int r = 0; r < 3 * stencil_size; ++r) {
-            const int row = unknown[at(r)];
-            if (row < column) continue;
-            const int block = blocks_[at(element)][at(stencil_size * (r / 3) + c / 3)];
-            const int slot = unknowns_.slot(row, column, block);
-            values[slot] += terms.bending(r, c);
-            model.stretching[slot] += terms.stretching(r, c);
-        }
+    double* bending = model.bending.valuePtr();
+    double* stretching = model.stretching.data();
+    for (std::size_t k = entries_begin_[at(element)]; k < entries_begin_[at(element) + 1]; ++k) {
+        const auto [slot, place] = entries_[k];
+        bending[slot] += terms.bending.data()[place];
+        stretching[slot] += terms.stretching.data()[place];
     }
 }
 

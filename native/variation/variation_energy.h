@@ -44,9 +44,13 @@ public:
     [[nodiscard]] const Patch& patch() const { return problem_.patch; }
 
 private:
-    using Blocks = std::array<int, std::size_t{stencil_size} * stencil_size>;
+    struct Entry {
+        int slot;   // among the matrix's values
+        int place;  // among an ElementMatrix's
+    };
     using ElementUnknowns = std::array<int, 3UL * stencil_size>;  // `none` where a motion is not sought
 
+    void find_entries(int element);
     [[nodiscard]] ElementUnknowns unknowns_of(int element) const;
     [[nodiscard]] ElementSums sums(const Sheet& sheet) const;
     [[nodiscard]] double merit_of(const ElementSums& sums, const Sheet& sheet) const;
@@ -59,7 +63,8 @@ private:
     Measure measure_;
     std::vector<Stencil> stencils_;
     Unknowns unknowns_;
-    std::vector<Blocks> blocks_;  // of the pairs of vertices of each stencil
+    std::vector<Entry> entries_;              // of the matrix's lower triangle, element by element
+    std::vector<std::size_t> entries_begin_;  // of each element; one more at the end
 };
 
 }  // namespace fairing

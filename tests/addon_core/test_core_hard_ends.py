@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -55,3 +57,18 @@ def test_the_surface_over_it_is_worth_a_look_though_no_kink_is_seen() -> None:
 def test_soft_ridges_and_those_beside_the_hole_don_t_count(degrees: float, hole_at: float) -> None:
     mesh = roof(degrees, hole_at)
     assert len(hard_ends(mesh, rim(mesh, hole_at))) == 0
+
+
+@pytest.mark.parametrize("noise", [0.02, 0.04])
+def test_noise_around_a_hole_has_no_hard_edges(noise: float) -> None:
+    mesh = roof(0.0, 0.0)
+    rough = mesh.positions + np.random.default_rng(3).normal(scale=noise, size=mesh.positions.shape)
+    assert len(hard_ends(replace(mesh, positions=rough), rim(mesh, 0.0))) == 0
+
+
+def test_a_knob_at_a_hole_is_no_hard_edge() -> None:
+    """Edges that meet in one lifted vertex reach no farther than two of their lengths."""
+    mesh = roof(0.0, 0.0)
+    lifted = mesh.positions.copy()
+    lifted[np.argmin(np.linalg.norm(lifted - [0.25 + 2.0 / SIZE, 0.0, 0.0], axis=1)), 2] = 0.3
+    assert len(hard_ends(replace(mesh, positions=lifted), rim(mesh, 0.0))) == 0

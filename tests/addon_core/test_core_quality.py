@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -139,9 +140,11 @@ def test_figures_of_a_join() -> None:
     join = quality.Join(np.array([4, 7, 9]), np.array([13.0, 1.0, 20.0]))
     assert (join.typical, join.worst, join.seen.tolist()) == (13.0, 20.0, [9, 4])
     ends = np.array([[0, 1], [2, 3], [3, 4]])
-    short = quality.Join(np.arange(5), np.array([13.0, 1.0, 13.0, 14.0, 20.0]), 12.0, ends)
-    assert short.seen.tolist() == [4, 3, 2]  # at one vertex alone 13° are not seen
-    alone = quality.Join(np.arange(3), np.array([17.0, 1.0, 19.0]), 12.0, ends[:1])
+    long = quality.Join(np.arange(5), np.array([50.0, 1.0, 13.0, 14.0, 34.0]), 12.0, ends)
+    assert (long.seen.tolist(), long.worst_seen, long.worst) == ([4, 3, 2], 34.0, 50.0)
+    short = replace(long, degrees=np.array([50.0, 1.0, 13.0, 14.0, 32.0]))
+    assert (short.seen.tolist(), short.worst_seen) == ([], 0.0)  # 59° in all, and 60° are needed
+    alone = quality.Join(np.arange(3), np.array([59.0, 1.0, 61.0]), 12.0, ends[:1])
     assert alone.seen.tolist() == [2]
     none = quality.Join(np.empty(0, dtype=np.int64), np.empty(0))
     assert (none.typical, none.worst) == (0.0, 0.0)

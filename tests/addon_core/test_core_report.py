@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import fairing
 from core.arrays import Ints
 from core.options import FairOptions
 from core.outcome import Fairing, outcome
@@ -61,9 +62,11 @@ def test_of_several_objects_the_worst_counts(sphere: Fairing) -> None:
     assert both.free_vertices == 2 * len(sphere.vertices)
     assert both.join == (4.0, 30.0)
     assert values(both)["Kink at the outline"] == "≤ 30°"
-    assert values(both)["Kinks show here from"] == "12°"
-    assert values(report(replace(sphere, join=replace(seen, limit=25.0))))["Kinks show here from"] == "25°"
+    assert values(both)["Kinks show from"] == "12°"
+    assert values(report(replace(sphere, join=replace(seen, limit=25.0))))["Kinks show from"] == "25°"
     assert states(both)["Kink at the outline"] == MISSED
+    alone = report(replace(sphere, join=replace(seen, edges=np.array([[0, 1], [1, 2]]))))
+    assert (values(alone)["Kink at the outline"], states(alone)["Kink at the outline"]) == ("≤ 30°, short", MET)
     assert values(both)["Equation solved"] == "no further progress, yes"
     assert (both.verdict.grade, both.verdict.reason) == (UNUSABLE, f"Object 0: {BAD.reason}")
     assert both.verdict.spots.tolist() == [3, 4]
@@ -136,6 +139,19 @@ def test_a_bulge_that_is_not_found_is_explained(sphere: Fairing, converged: bool
     lost = replace(sphere, warnings=(), result=replace(sphere.result, converged=converged))
     notes = report(lost, equation="CONSTANT", bulge=bulge).warnings
     assert ["no surface with a bulge of 2" in note for note in notes] == [True] * told
+
+
+def test_the_largest_bulge_of_all_objects_is_told(sphere: Fairing) -> None:
+    def lost(share: float) -> Fairing:
+        told = fairing.Diagnostic("NOT_CONVERGED", "", np.empty(0, np.int32), "vertex", {"load_share": share})
+        return replace(sphere, warnings=(), result=replace(sphere.result, converged=False, warnings=(told,)))
+
+    (note,) = report(lost(0.59), lost(0.8), equation="CONSTANT", bulge=0.6).warnings
+    assert note.endswith("The largest that was found is 0.35")
+    (note,) = report(
+        replace(lost(0.5), result=replace(sphere.result, converged=False)), equation="CONSTANT", bulge=0.6
+    ).warnings
+    assert note.endswith("Try less")
 
 
 def test_distortion_is_weighted_by_size(sphere: Fairing) -> None:

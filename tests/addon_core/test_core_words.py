@@ -133,7 +133,7 @@ def test_cases_of_one_code_are_told_apart_by_their_figures() -> None:
         "2 islands, of 131 free vertices in all, have surfaces with 75% of their bulge at most; "
         "there may be none with more",
         "No fair surface was found for an island of 3 free vertices",
-        "The inner fairness chosen turns faces over; even spacing was used",
+        "The way to spread vertices turns faces over here: they were spread evenly instead",
     )
 
 

@@ -445,7 +445,7 @@ def test_the_report_tells_of_a_fill() -> None:
     checks = {check.name: check.value for check in report.checks}
     assert int(checks["New faces"]) > 0
     assert "Surfaces" not in checks  # there is one
-    assert checks["Kinks show here from"] == "11°"  # as far as the faces of the sphere around bend
+    assert checks["Kinks show from"] == "11°"  # as far as the faces of the sphere around bend
     assert checks["Kink at the outline"].startswith("≤ ")
     assert 0.0 < report.distortion < 0.5
     assert checks["Texture distortion"] == f"{report.distortion:.1%}"

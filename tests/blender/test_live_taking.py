@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from clocks import assert_was_quick, clocks
 from extension import module
-from test_live import now, switch
+from test_live import drag, now, switch
 
 
 class Gate:
@@ -54,7 +54,7 @@ def clicked() -> Any:
             pass
 
     Stand._timer = None
-    for name in ("invoke", "_begin_with", "_solve_or_start", "_start", "_is_current", "_apply", "_refuse"):
+    for name in ("invoke", "_begin_with", "_read", "_solve_or_start", "_start", "_is_current", "_apply", "_refuse"):
         setattr(Stand, name, getattr(original, name))
     for name in ("modal", "cancel", "_collect", "_stop_watching"):
         setattr(Stand, name, getattr(original, name))
@@ -72,6 +72,26 @@ def mountain() -> bpy.types.Object:
     meshes.select(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6))
     meshes.edit(obj)
     return obj
+
+
+def dented_ball() -> bpy.types.Object:
+    """A ball with a texture, its upper half flattened and selected, in edit mode: its faces slide where they spread."""
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4)
+    obj = bpy.context.object
+    assert obj.data.uv_layers
+    points = meshes.positions(obj)
+    points[points[:, 2] > 0.3, 2] *= 0.6
+    meshes.move(obj, points)
+    meshes.select(obj, meshes.faces_where(obj, lambda centre: centre.z > 0.05))
+    meshes.edit(obj)
+    return obj
+
+
+def step(way: Any) -> Any:
+    """Undo or redo, and let Live look; returns where all vertices are then."""
+    way()
+    bpy.context.view_layer.update()
+    return now(bpy.context.object.name)
 
 
 def begun() -> tuple[Any, Any]:
@@ -173,3 +193,64 @@ def test_without_a_surface_nothing_changes(gate: Gate, monkeypatch: pytest.Monke
     assert tick(operator) == {"CANCELLED"}
     assert operator.told == [({"ERROR"}, "Grid: No fair surface was found for the region")]
     assert nothing_has_changed(before)
+
+
+@pytest.fixture
+def live(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
+    found = module("follow.live")
+    monkeypatch.setattr(found, "PATIENCE", 60.0)
+    yield found.live
+    switch(False)
+
+
+def test_a_redo_brings_the_region_back_to_the_bit(live: Any) -> None:
+    """The texture keeps the spacing from before the region was fair, which the redone mesh has no more."""
+    name = dented_ball().name
+    bpy.ops.ed.undo_push(message="start")
+    before = now(name)
+    bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True)
+    fair = now(name)
+    assert np.abs(fair - before).max() > 0.1
+    for _ in range(2):
+        assert np.array_equal(step(bpy.ops.ed.undo), before)
+        assert np.array_equal(step(bpy.ops.ed.redo), fair)
+    assert (live.updates, live.message) == (0, "")
+    drag(np.flatnonzero(fair[:, 2] < -0.9), (0.0, 0.0, 0.05), name)  # and it is followed again
+    assert live.updates == 0, "what lies far away doesn't count"
+    drag(np.flatnonzero(np.abs(fair[:, 2]) < 0.1), (0.0, 0.0, 0.05), name)
+    assert live.updates == 1
+
+
+def test_an_undo_goes_back_to_the_region_before(live: Any) -> None:
+    """Each has its own spacing: the second region was taken when the first was fair."""
+    name = dented_ball().name
+    bpy.ops.ed.undo_push(message="start")
+    bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True)
+    first = now(name)
+    bpy.ops.mesh.select_less()
+    bpy.ops.ed.undo_push(message="selection")
+    bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True)
+    second, count = now(name), live.updates
+    faces = len(live.sessions[bpy.data.objects[name].data.name].faces)
+    for _ in range(2):
+        assert np.array_equal(step(bpy.ops.ed.undo), first)
+        drag([0], (0.0, 0.0, 0.0), name)
+        assert len(live.sessions[bpy.data.objects[name].data.name].faces) > faces
+        assert np.array_equal(step(bpy.ops.ed.redo), second)
+    assert live.updates == count
+
+
+def test_a_session_put_aside_is_not_taken_for_another(live: Any) -> None:
+    """The same faces with other options are another region."""
+    name = dented_ball().name
+    bpy.ops.ed.undo_push(message="start")
+    bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True)
+    mesh, home = bpy.data.objects[name].data, module("follow.session")
+    session = live.sessions[mesh.name]
+    assert home.is_of(session, mesh)
+    kept = mesh["fair_live_options"]
+    mesh["fair_live_options"] = kept.replace("HARMONIC", "MINIMAL_ENERGY")
+    assert not home.is_of(session, mesh)
+    mesh["fair_live_options"] = kept
+    mesh["fair_live_key"] = "Smile"
+    assert not home.is_of(session, mesh)

@@ -92,7 +92,7 @@ def test_few_vertices_go_to_the_background_when_they_take_long(
         invoke, _begin_with, _solve_or_start = original.invoke, original._begin_with, original._solve_or_start
         modal, cancel, _collect, _apply = original.modal, original.cancel, original._collect, original._apply
         _stop_watching, _refuse, _timer = original._stop_watching, original._refuse, None
-        _start, _is_current, _way = original._start, original._is_current, ""
+        _start, _read, _is_current, _way = original._start, original._read, original._is_current, ""
 
         def _start_watching(self, _context: Any) -> None:
             watched.append(self)

@@ -38,7 +38,7 @@ def test_report_of_a_restored_hemisphere() -> None:
     assert meshes.report().verdict == "GOOD"
     assert [name for name in found if not details()[name]] == [
         "Kink at the outline",
-        "Kinks show here from",
+        "Kinks show from",
         "Folded faces",
         "Faces that cross",
         "Needles",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -117,17 +118,64 @@ def test_again_with_even_curvature() -> None:
     meshes.leave()
 
 
-def test_a_pin_pulled_aside_offers_to_spread_vertices_evenly() -> None:
-    """The old mesh folds at the pin, and so does what keeps its texture; evenly spread vertices don't."""
+def pulled_pin(aside: float = 0.25) -> bpy.types.Object:
+    """A plain with a texture, in edit mode: the mesh folds at a pin that was pulled aside, and is selected there."""
     obj = meshes.grid(24)
     points = meshes.positions(obj)
+    layer = obj.data.uv_layers.new()
+    for corner, place in zip(obj.data.loops, layer.uv, strict=True):
+        place.vector = points[corner.vertex_index, :2]
     pin = np.linalg.norm(points[:, :2], axis=1).argmin()
-    points[pin] += [0.25, 0.06, 0.0]
+    points[pin] += [aside, 0.24 * aside, 0.0]
     meshes.move(obj, points)
-    obj.data.uv_layers.new()
     obj.vertex_groups.new(name="Pin").add([int(pin)], 1.0, "REPLACE")
     meshes.select(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7))
     meshes.edit(obj)
+    return obj
+
+
+@pytest.fixture
+def takes_any_texture(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Automatic looks at no spike beforehand: a fold may come of other shapes, too."""
+    monkeypatch.setattr(module("mesh.mesh_io"), "is_spoilt", lambda _mesh: False)
+
+
+@pytest.mark.usefixtures("takes_any_texture")
+@pytest.mark.parametrize("aside", [0.01, 0.25])
+def test_automatic_keeps_no_texture_that_folds(aside: float) -> None:
+    results = {}
+    for choice in ("UNIFORM", "AUTOMATIC"):
+        obj = pulled_pin(aside)
+        meshes.run(pin_group="Pin", inner_fairness=choice)
+        assert meshes.report().verdict == "GOOD"
+        meshes.leave()
+        results[choice] = meshes.positions(obj).tobytes()
+    folds = aside > 0.1
+    assert ("spread evenly instead" in meshes.report().warnings) == folds
+    assert (results["AUTOMATIC"] == results["UNIFORM"]) == folds
+
+
+@pytest.mark.usefixtures("takes_any_texture")
+def test_automatic_refuses_where_even_vertices_are_not_usable_either(monkeypatch: pytest.MonkeyPatch) -> None:
+    pulled_pin()
+    home, tried = module("run.fair_arrays"), []
+
+    def unusable(mesh: Any, matrix: Any, options: Any, solved: Any) -> Any:
+        tried.append(options.inner_fairness)
+        found = module("core.outcome").outcome(mesh, matrix, options, solved)
+        return replace(found, verdict=replace(found.verdict, grade="UNUSABLE"))
+
+    monkeypatch.setattr(home, "outcome", unusable)
+    with pytest.raises(RuntimeError, match="folded over, at 1 pinned vertex"):
+        meshes.run(pin_group="Pin")
+    assert tried == ["AUTOMATIC", "UNIFORM"]
+    assert "spread evenly instead" not in meshes.report().warnings
+    meshes.leave()
+
+
+def test_a_pin_pulled_aside_offers_to_spread_vertices_evenly() -> None:
+    """The old mesh folds at the pin, and so does what keeps its texture; evenly spread vertices don't."""
+    pulled_pin()
     with pytest.raises(RuntimeError, match="folded over, at 1 pinned vertex"):
         meshes.run(pin_group="Pin", inner_fairness="CONFORMAL")
     assert "EVEN_SPREAD" in meshes.report().remedies.split(",")

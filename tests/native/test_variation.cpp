@@ -159,6 +159,24 @@ TEST_CASE("a sphere comes back from its outline's points alone where the slope i
     CHECK((sheet.normals - sheet.points).cwiseAbs().maxCoeff() < 1e-7);
 }
 
+TEST_CASE("a descent that need not be exact ends where the merit no longer falls") {
+    const Exact exact = torus_patch(9);
+    const VariationEnergy energy(exact.problem, Moving::points_and_normals, Measure::plain);
+    const VectorX bump = 2e-2 * (0.3 * VectorX::LinSpaced(energy.unknowns().count(), 0.0, 99.0)).array().sin();
+    const auto descended = [&](double settled) {
+        Sheet sheet = energy.moved(exact.sheet, bump, 1.0);
+        NewtonLimits limits{1e-10, 30};
+        limits.settled = settled;
+        return minimise(energy, sheet, limits, Progress());
+    };
+    const NewtonResult whole = descended(0.0);
+    const NewtonResult part = descended(0.01);
+    CHECK(whole.converged);
+    CHECK(part.converged);
+    CHECK(part.steps < whole.steps);
+    CHECK(part.merit < 1.01 * whole.merit);
+}
+
 TEST_CASE("normals of small weight give way to the surface, those of large weight hold") {
     Exact exact(test::grid(8, 0.3, test::sphere), [](const Vector3& p) { return p; });
     exact.problem.fixed_normals.col(3) = (exact.problem.fixed_normals.col(3) + Vector3(0.1, 0.0, 0.0)).normalized();
