@@ -16,7 +16,7 @@ constexpr double least_girth = 0.75;  // of what it comes from
 constexpr double most_girth = 4.0 / 3.0;
 constexpr double most_aside = 0.5;  // of a radius: lofts that an artist keeps had .15 to .40, webs and dents .51 to 2.3
 constexpr double least_bluntness = 0.7;
-constexpr double least_extent = 0.2;  // of what sticks out, of what it was; less is as good as gone
+constexpr double least_reach = 0.2;  // of what sticks out, of what it was; less is as good as gone
 
 Indices corners_of(const Patch& patch, const Indices& triangles) {
     Indices corners;
@@ -51,7 +51,7 @@ BlemishFinder::BlemishFinder(const Problem& problem, const Points& before, const
       girths_(Girths::of(problem.patch, before, progress)),
       protrusions_(Protrusions::of(problem.patch, progress)) {
     if (!protrusions_) return;
-    extents_before_ = protrusions_->extents(before);
+    reaches_before_ = protrusions_->reaches(before);
     blunt_before_ = protrusions_->bluntness(before);
 }
 
@@ -92,11 +92,11 @@ Indices BlemishFinder::bent(const Points& points) const {
 
 Indices BlemishFinder::thin(const Points& points) const {
     if (!protrusions_) return {};
-    const VectorX extents = protrusions_->extents(points);
+    const VectorX reaches = protrusions_->reaches(points);
     const VectorX blunt = protrusions_->bluntness(points);
     Indices triangles;
     for (int k = 0; k < protrusions_->count(); ++k) {
-        if (blunt[k] >= least_bluntness * blunt_before_[k] || extents[k] < least_extent * extents_before_[k]) continue;
+        if (blunt[k] >= least_bluntness * blunt_before_[k] || reaches[k] < least_reach * reaches_before_[k]) continue;
         const Indices& cap = protrusions_->triangles(k);
         triangles.insert(triangles.end(), cap.begin(), cap.end());
     }

@@ -45,7 +45,7 @@ private:
     VectorX bent_before_;  // largest |H| around each vertex
     std::optional<Girths> girths_;
     std::optional<Protrusions> protrusions_;
-    VectorX extents_before_;
+    VectorX reaches_before_;
     VectorX blunt_before_;
 };
 

@@ -5,9 +5,6 @@
 #include <numbers>
 #include <set>
 
-#include <Eigen/Geometry>
-
-#include "geometry/face_geometry.h"
 #include "mesh/union_find.h"
 #include "operators/laplace_operator.h"
 #include "start/clamped_fill.h"
@@ -84,29 +81,35 @@ void Protrusions::append_caps(double level) {
     }
 }
 
-VectorX Protrusions::extents(const Points& points) const {
-    VectorX result(count());
-    for (int k = 0; k < count(); ++k) {
-        Eigen::AlignedBox3d box;
-        for (const int t : triangles(k)) {
-            for (const int v : patch_.triangles.col(t)) box.extend(Vector3(points.col(v)));
-        }
-        result[k] = box.diagonal().norm();
+Protrusions::Size Protrusions::size_of(const Cap& cap, const Points& points) const {
+    Size size;
+    Vector3 moment = Vector3::Zero();
+    for (const int t : cap.triangles) {
+        const LevelPiece piece = level_within(patch_.triangles.col(t), levels_, cap.level, points);
+        size.rim += piece.length;
+        moment += piece.length * piece.middle;
     }
+    if (!(size.rim > 0.0)) return size;
+    for (const int t : cap.triangles) {
+        for (const int v : patch_.triangles.col(t)) {
+            if (levels_[v] < cap.level) continue;
+            size.reach = std::max(size.reach, (points.col(v) - moment / size.rim).norm());
+        }
+    }
+    return size;
+}
+
+VectorX Protrusions::reaches(const Points& points) const {
+    VectorX result(count());
+    for (int k = 0; k < count(); ++k) result[k] = size_of(caps_[at(k)], points).reach;
     return result;
 }
 
 VectorX Protrusions::bluntness(const Points& points) const {
-    FaceGeometry faces;
-    faces.update(points, patch_.triangles);
     VectorX result = VectorX::Zero(count());
     for (int k = 0; k < count(); ++k) {
-        const Cap& cap = caps_[at(k)];
-        const double area = faces.areas(cap.triangles).sum();
-        double rim = 0.0;
-        for (const int t : cap.triangles)
-            rim += level_within(patch_.triangles.col(t), levels_, cap.level, points).length;
-        if (area > 0.0) result[k] = rim * rim / (4.0 * std::numbers::pi * area);
+        const Size size = size_of(caps_[at(k)], points);
+        if (size.reach > 0.0) result[k] = size.rim / (2.0 * std::numbers::pi * size.reach);
     }
     return result;
 }

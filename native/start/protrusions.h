@@ -19,10 +19,10 @@ public:
     [[nodiscard]] int count() const { return static_cast<int>(caps_.size()); }
     // Triangles of a cap, those that its rim runs through included.
     [[nodiscard]] const Indices& triangles(int cap) const { return caps_[at(cap)].triangles; }
-    // Diagonal of the box around each cap on a surface (3 × local vertices).
-    [[nodiscard]] VectorX extents(const Points& points) const;
-    // L² / 4πA of each cap with rim L and area A: 1 for flat discs, ½ for hemispheres, sin α for cones of half-angle α,
-    // radius over twice the length for long fingers. 0 without area.
+    // How far each cap reaches from the middle of its rim on a surface (3 × local vertices).
+    [[nodiscard]] VectorX reaches(const Points& points) const;
+    // L / 2πR of each cap with rim L and reach R: 1 for flat discs and half balls, tan α for cones of half-angle α
+    // below 45°, radius over length for fingers. 0 without reach.
     [[nodiscard]] VectorX bluntness(const Points& points) const;
 
 private:
@@ -31,8 +31,14 @@ private:
         double level;  // of the function at the rim
     };
 
+    struct Size {
+        double rim = 0.0;
+        double reach = 0.0;
+    };
+
     explicit Protrusions(const Patch& patch) : patch_(patch) {}
     void append_caps(double level);
+    [[nodiscard]] Size size_of(const Cap& cap, const Points& points) const;
 
     const Patch& patch_;
     VectorX levels_;  // of all vertices
