@@ -28,9 +28,9 @@ private:
     [[nodiscard]] Points precondition(const Points& field, const Points& normals) const;
 
     int free_count_;
-    SparseMatrix laplacian_;                              // both triangles
-    SparseMatrix coupling_;                               // λ_ij of free i and fixed j
-    Points pull_;                                         // Σ λ_ij x_j over fixed neighbours j
+    SparseMatrix laplacian_;  // both triangles
+    SparseMatrix coupling_;   // λ_ij of free i and fixed j
+    Points pull_;             // Σ λ_ij x_j over fixed neighbours j
     SparseCholesky factor_;
 };
 
