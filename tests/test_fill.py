@@ -265,6 +265,27 @@ def test_a_thin_elbow_is_found(radius: float) -> None:
     assert len({*result.levels}) == 1  # the fine mesh begins at the first surface, without another coarse one
 
 
+def standing_tube(radius: float, base: tuple[float, float, float]) -> tuple[FloatArray, IntArray]:
+    """Of height 1 and 32 edges around; its first rows of vertices are the lower ones."""
+
+    def place(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        turn = 2 * np.pi * u
+        return base[0] + radius * np.cos(turn), base[1] + radius * np.sin(turn), base[2] + v
+
+    return holes.sheet(place, (32, 8), lambda u, _: u < 0, closed=True)
+
+
+def test_an_s_bend_is_solved_from_its_first_surface() -> None:
+    """Tubes of different radii whose axes are apart; begun anew, the fine mesh takes another coarse one first."""
+    lower, upper = standing_tube(0.5, (0.0, 0.0, -1.0)), standing_tube(0.3, (0.9, 0.0, 1.0))
+    vertices = np.concatenate([lower[0], upper[0]])
+    triangles = np.concatenate([lower[1], upper[1] + len(lower[0])])
+    loops = [loop for loop in fairing.boundary_loops(triangles) if np.abs(vertices[loop, 2] - 0.5).max() < 0.6]
+    result = fairing.fill(vertices, triangles, loops, bridge=True)
+    assert (result.converged, result.equation) == (True, "least_variation")
+    assert len({*result.levels}) == 1
+
+
 @pytest.mark.parametrize(
     ("radius", "bend", "off"), [(0.4, 120.0, 0.1), (0.25, 120.0, 0.1), (0.25, 135.0, 0.1), (0.4, 180.0, 0.15)]
 )

@@ -114,10 +114,13 @@ private:
     }
 
     // The surface of level k on the finest one, not measured there.
-    [[nodiscard]] Solution given_up(std::size_t k, const Points& points) const {
+    [[nodiscard]] Solution given_up(std::size_t k, const Points& points) {
         Solution solution;
         solution.points = points;
-        while (k-- > 0) solution.points = interpolated(k, solution.points, levels_.laplacian(k)).points;
+        while (k-- > 0) {
+            levels_.come_back(k + 1);
+            solution.points = interpolated(k, solution.points, levels_.laplacian(k)).points;
+        }
         return solution;
     }
 
@@ -127,6 +130,7 @@ private:
         Workspace& work = levels_.work(k);
         RingMatrix laplacian = levels_.laplacian(k);
         auto [points, normals] = interpolated(k, coarse, laplacian);
+        levels_.leave(k + 1);
         progress.report(share_of_start / 3, "refinement");
         levels_.set_up_tangential(k, std::move(laplacian), progress_);
         slide(problem, *work.tangential, normals, most_slides, points);

@@ -96,7 +96,8 @@ TEST_CASE("points are solved for side by side as they are one coordinate after t
             REQUIRE(factor.factorise(random_matrix(n, 1, 9), "test", {}));
             const Points rhs = Points::Random(3, n);
             const Points apart = factor.solve(rhs.transpose()).transpose();
-            CHECK((factor.solve_points(rhs) - apart).norm() < 1e-12 * apart.norm());
+            const double rounding = kept == Kept::doubles ? 1e-12 : 1e-4;
+            CHECK((factor.solve_points(rhs) - apart).norm() < rounding * apart.norm());
         }
     }
 }
