@@ -15,9 +15,9 @@ from solving import codes
 ROWS = 3  # of free vertices that follow the outline
 
 
-def rough_cap(edges: float, radians: float, seed: int) -> shapes.Patch:
+def rough_cap(edges: float, radians: float, seed: int, free: int = 2500) -> shapes.Patch:
     """A half sphere whose outline is moved by so many edges at random and whose normals turn."""
-    cap = shapes.cap(2500)
+    cap = shapes.cap(free)
     rng = np.random.default_rng(seed)
     vertices, count = cap.vertices.copy(), len(cap.fixed)
     edge = 2 * np.pi / count
@@ -34,6 +34,17 @@ def faired(cap: shapes.Patch) -> fairing.FairResult:
 def rows_from_outline(cap: shapes.Patch) -> np.ndarray:
     """Edges to the next fixed vertex, at most ROWS + 1."""
     return np.asarray(sum(measures.beyond_rings(cap.triangles, cap.fixed, k).astype(int) for k in range(ROWS + 1)))
+
+
+def test_where_noise_stops_coarse_levels_the_finest_one_tells() -> None:
+    """No level between converges over it. Of three seeds all are solved on the finest one now, before none was."""
+    ways = []
+    for seed in range(3):
+        result = faired(rough_cap(0.25, 0.3, seed, free=8000))
+        assert result.converged
+        assert result.polished
+        ways.append([name for name, _ in result.way])
+    assert ["nested"] in ways
 
 
 @pytest.mark.parametrize("seed", [0, 2, 3])
@@ -53,6 +64,18 @@ def test_noise_that_no_surface_meets_is_passed_by(seed: int) -> None:
     flipped = fairing.flipped_triangles(result.vertices, cap.triangles, fixed=cap.fixed)
     assert (rows_from_outline(cap)[cap.triangles[flipped]].min(axis=1) == 0).all()
     assert len(flipped) <= 3  # 7, 5 and 12 before their corners were tried elsewhere, then 1, 1 and 2
+
+
+def test_what_folds_beside_a_rough_outline_is_put_right() -> None:
+    """Triangles with a free corner that are turned over or pass through others: 21, 6 and 14 before, of 2,500."""
+    left = 0
+    for seed in (0, 3, 2):
+        cap = rough_cap(1.0, 0.6, seed)
+        result = faired(cap)
+        assert result.converged
+        flipped = fairing.flipped_triangles(result.vertices, cap.triangles, fixed=cap.fixed)
+        left += len(flipped) + len(fairing.self_intersections(result.vertices, cap.triangles))
+    assert left <= 5
 
 
 def test_the_next_row_follows_half_as_far() -> None:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
 import fairing
@@ -233,6 +234,23 @@ def test_an_elbow_keeps_its_width(otherwise: str) -> None:
     assert np.abs(away - 0.4).max() < 0.02
 
 
+def test_a_hole_around_a_limb_does_not_close_it() -> None:
+    """All of a cylinder but a strip along it. The triangulation of least area cuts across: no harmonic surface grew."""
+
+    def cylinder(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        return np.cos(2 * np.pi * u), np.sin(2 * np.pi * u), 4 * v
+
+    def hole(u: FloatArray, v: FloatArray) -> NDArray[np.bool_]:
+        return np.abs(v - 0.5) < 0.42 * np.sqrt(np.clip(np.sin(np.pi * u) - 0.25, 0, 1))
+
+    vertices, triangles = holes.sheet(cylinder, (64, 64), hole, closed=True)
+    loops = [loop for loop in fairing.boundary_loops(triangles) if np.ptp(vertices[loop, 2]) > 0.1]
+    result = fairing.fill(vertices, triangles, loops)
+    assert len(loops) == 1
+    assert (result.converged, result.equation) == (True, "harmonic")
+    assert np.abs(np.hypot(result.vertices[:, 0], result.vertices[:, 1]) - 1).max() < 1e-4
+
+
 @pytest.mark.parametrize("radius", [0.3, 0.25, 0.2, 0.15])
 def test_a_thin_elbow_is_found(radius: float) -> None:
     """From a tube swept around the bend; the flat start led nowhere, in up to two minutes."""
@@ -245,6 +263,27 @@ def test_a_thin_elbow_is_found(radius: float) -> None:
     assert (result.converged, result.equation) == (True, "least_variation")
     assert np.abs(away - radius).max() < 0.02
     assert len({*result.levels}) == 1  # the fine mesh begins at the first surface, without another coarse one
+
+
+def standing_tube(radius: float, base: tuple[float, float, float]) -> tuple[FloatArray, IntArray]:
+    """Of height 1 and 32 edges around; its first rows of vertices are the lower ones."""
+
+    def place(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        turn = 2 * np.pi * u
+        return base[0] + radius * np.cos(turn), base[1] + radius * np.sin(turn), base[2] + v
+
+    return holes.sheet(place, (32, 8), lambda u, _: u < 0, closed=True)
+
+
+def test_an_s_bend_is_solved_from_its_first_surface() -> None:
+    """Tubes of different radii whose axes are apart; begun anew, the fine mesh takes another coarse one first."""
+    lower, upper = standing_tube(0.5, (0.0, 0.0, -1.0)), standing_tube(0.3, (0.9, 0.0, 1.0))
+    vertices = np.concatenate([lower[0], upper[0]])
+    triangles = np.concatenate([lower[1], upper[1] + len(lower[0])])
+    loops = [loop for loop in fairing.boundary_loops(triangles) if np.abs(vertices[loop, 2] - 0.5).max() < 0.6]
+    result = fairing.fill(vertices, triangles, loops, bridge=True)
+    assert (result.converged, result.equation) == (True, "least_variation")
+    assert len({*result.levels}) == 1
 
 
 @pytest.mark.parametrize(
@@ -537,6 +576,32 @@ def icosphere(times: int) -> tuple[FloatArray, IntArray]:
         triangles, ends = subdivided(triangles, len(points))
         points = np.vstack([points, points[ends].sum(axis=1)])
     return points / np.linalg.norm(points, axis=1)[:, None], triangles
+
+
+def ball_and_limb() -> tuple[FloatArray, IntArray]:
+    """A unit sphere with a hole of radius 1/2 towards x, and a thin tube before it, off the middle."""
+    vertices, triangles = icosphere(4)
+    near = np.linalg.norm(vertices[triangles].mean(axis=1) - (1.0, 0.0, 0.0), axis=1) < 0.5
+    angle, along = np.meshgrid(2.0 * np.pi * np.arange(24) / 24, np.linspace(2.0, 3.0, 7))
+    limb = np.stack([along, 0.25 * np.sin(angle), 0.25 * np.cos(angle) + 0.1], axis=-1).reshape(-1, 3)
+    row, column = (index.ravel() for index in np.mgrid[:6, :24])
+    a, b = 24 * row + column, 24 * row + (column + 1) % 24
+    faces = np.concatenate([np.column_stack([a, a + 24, b + 24]), np.column_stack([a, b + 24, b])])
+    return np.concatenate([vertices, limb]), np.concatenate([triangles[~near], faces + len(vertices)])
+
+
+def test_a_bridge_without_a_harmonic_surface_is_one_of_least_variation() -> None:
+    """As good as if it had been asked for; what the solve in vain leaves is no start for it."""
+    vertices, triangles = ball_and_limb()
+    loops = [loop for loop in fairing.boundary_loops(triangles) if vertices[loop, 0].max() < 2.5]
+    assert len(loops) == 2
+    found = fairing.fill(vertices, triangles, loops, bridge=True)
+    assert (found.converged, found.equation) == (True, "least_variation")
+    assert [warning.code for warning in found.warnings] == ["NO_SOLUTION"]
+    asked = fairing.fill(vertices, triangles, loops, bridge=True, equation="least_variation")
+    widths = [np.abs(result.vertices[:, 1]).max() for result in (found, asked)]
+    assert widths[0] == pytest.approx(widths[1], abs=1e-2)
+    assert not fairing.fill(vertices, triangles, loops, bridge=True, otherwise="stop").converged
 
 
 @pytest.mark.parametrize("height", [0.3, 0.31])

@@ -22,7 +22,8 @@ def border_loops(mesh: MeshArrays, seeds: Mask) -> list[Ints]:
     """Return the whole border loops through the vertices of the (n,) mask, each with the hole on its left.
 
     In the order of their lowest vertices; empty where no seed is on a border. Raises BorderRefusal where a loop touches
-    itself or another one, where faces are wound against each other along it, or where it has no area.
+    itself or another one, where faces are wound against each other along it, where it has no area, and where it follows
+    the plane of a Mirror modifier, beyond which it goes on.
     """
     tails, heads = _border_edges(mesh)
     following = dict(zip(tails.tolist(), heads.tolist(), strict=True))
@@ -72,3 +73,8 @@ def _check(mesh: MeshArrays, loop: Ints) -> None:
         raise BorderRefusal(f"The border has an edge without length at vertex {same[0]}: merge by distance", same)
     if len(loop) < 3:
         raise BorderRefusal("A border of two edges bounds nothing: merge by distance", loop)
+    for reflection in mesh.reflections:
+        there = reflection.on_plane(points)
+        if (there & np.roll(there, -1)).any():
+            text = "The border follows a Mirror modifier's plane, which closes it there: apply the modifier first"
+            raise BorderRefusal(text, loop[there])

@@ -33,12 +33,12 @@ class Surface:
 def judge(world: MeshArrays, outline: Ints, surface: Surface) -> Verdict:
     """Return the verdict on a surface; world: the mesh around, outline: (r,) its vertices."""
     points, triangles, result = surface.points, surface.triangles, surface.result
-    edges = counted(len(outline), "edge", "edges")
+    over = _outlines(len(result.loops), counted(len(outline), "edge", "edges"))
     if not result.converged and result.termination != "folded":
-        return Verdict(UNUSABLE, f"No fair surface was found for an outline of {edges}", np.unique(outline))
+        return Verdict(UNUSABLE, f"No fair surface was found for {over}", np.unique(outline))
     folds = fairing.flipped_triangles(points, triangles, fixed=np.arange(len(outline)))
     if len(folds) or result.termination == "folded":
-        text = f"The surface over an outline of {edges} is folded over"
+        text = f"The surface over {over} is folded over"
         return Verdict(UNUSABLE, text, np.unique(outline))
     crossing = _crossing(world, outline, points, triangles)
     if crossing:
@@ -55,6 +55,10 @@ def judge(world: MeshArrays, outline: Ints, surface: Surface) -> Verdict:
     if len(surface.tangent_only):
         return Verdict(LOOK, slope_reason(surface.tangent_only), surface.tangent_only)
     return Verdict(GOOD)
+
+
+def _outlines(count: int, edges: str) -> str:
+    return f"an outline of {edges}" if count == 1 else f"{count} outlines of {edges} in all"
 
 
 def hard_ends(world: MeshArrays, outline: Ints) -> Ints:

@@ -184,6 +184,7 @@ class FairOptions:
             "detail_from": self.detail > 0.0,
             "detail_face_set": self.detail > 0.0,
             "pin_slope": self.pin_edges != "NONE",
+            "open_border": self.mesh == "KEEP",
         }
         default = FairOptions()
         return tuple(name for name, read in only.items() if not read and getattr(self, name) != getattr(default, name))

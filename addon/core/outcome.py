@@ -17,6 +17,7 @@ from .piercing import Sheet, pierced, places
 from .quality import Join, Quality
 from .region import MeshArrays, Patch, to_local
 from .rounded import rounded_edges
+from .seams import seam_kinks
 from .solve import Solved
 from .swelling import discs, swellings, waviness
 from .symmetry import mirror_map, symmetrised, with_band
@@ -61,15 +62,17 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     join = quality.join(problem, after)
     odd = _rounded(problem, after, moving, options), _swollen(patch, before, after), _eaten(mesh, problem, after)
     through = _pierced(mesh, matrix, problem, after)
+    seams = seam_kinks(patch, after[:own], join.limit)
     evidence = Evidence(
-        problem, result, solved.failures, quality_before, quality_after, join, *odd, pierced=through, points=after
-    )
+        problem, result, solved.failures, quality_before, quality_after, join, *odd, pierced=through, points=after,
+        seams=seams,
+    )  # fmt: skip
     verdict = judge(evidence, options.resolved(mesh.textured))
     order = np.argsort(problem.vertices[moving])
     return Fairing(
         vertices=problem.vertices[moving][order],
         positions=positions[order],
-        result=_of_patch(result, own),
+        result=leading_part(result, own),
         warnings=solved.warnings + warnings + (() if verdict.grade == GOOD else solved.hints + tunnel_hint(patch)),
         before=quality_before,
         after=quality_after,
@@ -112,8 +115,8 @@ def _rounded(problem: Problem, after: Floats, moving: Ints, options: FairOptions
     return rounded
 
 
-def _of_patch(result: fairing.FairResult, own: int) -> fairing.FairResult:
-    """Leave out the vertices of the faces around the patch."""
+def leading_part(result: fairing.FairResult, own: int) -> fairing.FairResult:
+    """Leave out all but the first `own` vertices: those of the faces around the patch, say."""
     return replace(
         result,
         vertices=result.vertices[:own],

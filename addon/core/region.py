@@ -16,6 +16,25 @@ from .words import refusal
 
 
 @dataclass(frozen=True)
+class Reflection:
+    """A plane across which a Mirror modifier shows the mesh once more, joined with it."""
+
+    matrix: Floats  # (4, 4) affine, its own inverse, in the mesh's own coordinates
+    reach: float  # as far from its image a vertex may be to be one with it
+
+    def of(self, positions: Floats) -> Floats:
+        """Return the images of positions (k, 3)."""
+        images: Floats = positions @ self.matrix[:3, :3].T + self.matrix[:3, 3]
+        return images
+
+    def on_plane(self, positions: Floats) -> Mask:
+        """Tell which of the positions (k, 3) are one with their image."""
+        with np.errstate(invalid="ignore", over="ignore"):
+            there: Mask = np.linalg.norm(self.of(positions) - positions, axis=1) <= self.reach
+        return there
+
+
+@dataclass(frozen=True)
 class MeshArrays:
     """A polygon mesh: n vertices, e edges, f faces, c corners, t triangles of Blender's own."""
 
@@ -41,6 +60,7 @@ class MeshArrays:
     # (e,) edges that a new mesh keeps, by the attribute that says so; none where that is not asked for
     lines: Mapping[str, Mask] = field(default_factory=dict)
     sample: Mask | None = None  # (f,) visible faces whose skin is copied; None: not asked for
+    reflections: tuple[Reflection, ...] = ()  # that make it whole; see reflected.py
     parts: Floats | None = None  # (n,) how much of the way each vertex may go, 0 … 1; None: all of it, inside alone
 
     def transformed(self, matrix: Floats) -> MeshArrays:
@@ -92,6 +112,14 @@ def vertices_of(mesh: MeshArrays, faces: Mask) -> Mask:
     touched = np.zeros(len(mesh.positions), dtype=bool)
     touched[mesh.corner_vertices[faces[mesh.corner_faces]]] = True
     return touched
+
+
+def reversed_corners(corner_faces: Ints) -> tuple[Ints, Ints]:
+    """Return (c,) the corners of each face in the opposite order, and those whose edges lead from each to the next."""
+    _, starts, sizes = np.unique(corner_faces, return_index=True, return_counts=True)
+    start, size = np.repeat(starts, sizes), np.repeat(sizes, sizes)
+    place = np.arange(len(corner_faces)) - start
+    return start + size - 1 - place, start + (2 * size - 2 - place) % size
 
 
 def _ends(mesh: MeshArrays, edges: Mask) -> Mask:

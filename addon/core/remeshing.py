@@ -18,6 +18,7 @@ from .new_part import NewPart, new_part
 from .options import FairOptions
 from .outcome import Fairing
 from .piercing import Sheet, pierced, places
+from .reflected import whole_of
 from .region import MeshArrays, Patch, to_local
 from .solve import pose, told_by
 from .swelling import discs, swellings, waviness
@@ -97,7 +98,7 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
         vertices=part.stay[part.fixed_count :],
         positions=local[part.fixed_count : stay],
         result=result,
-        warnings=warnings + told + _mirror_note(mesh) + odd,
+        warnings=warnings + told + _limits(mesh) + odd,
         before=measured[0],
         after=measured[1],
         distortion=quality.texture_distortion(before, points, part.triangles),
@@ -236,8 +237,14 @@ def _largest_curvatures(result: fairing.RemeshResult) -> tuple[float, float]:
     return largest, largest
 
 
-def _mirror_note(mesh: MeshArrays) -> tuple[str, ...]:
-    return ("X mirror is on, but a new mesh is not symmetric",) if mesh.mirror_x else ()
+def _limits(mesh: MeshArrays) -> tuple[str, ...]:
+    """Return what was asked for and a new mesh does not do."""
+    said = {
+        "X mirror is on, but a new mesh is not symmetric": mesh.mirror_x,
+        "A new mesh stops at the Mirror modifier's plane: it may have an edge there": whole_of(mesh) is not None,
+        "A new mesh holds open borders: Open Border: Faired was not looked at": mesh.fair_border,
+    }
+    return tuple(text for text, applies in said.items() if applies)
 
 
 def _wound_back(part: NewPart) -> NewPart:

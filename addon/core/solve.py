@@ -19,6 +19,7 @@ from .memory import Memory, digest
 from .options import FairOptions
 from .outline import outline_notes, precision_note
 from .region import MeshArrays, make_patch
+from .winding import winding_note, with_one_winding
 from .words import sentences
 
 NO_ANSWER = ("FOLDED", "NOT_CONVERGED")  # codes that are reasons of a verdict
@@ -90,7 +91,7 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
     refuse_options(options)
     # What is not finite outside the patch is none of our business, and the engine looks inside.
     with np.errstate(invalid="ignore", over="ignore"):
-        world = mesh.transformed(matrix)
+        world, turned = with_one_winding(mesh.transformed(matrix))
         patch = make_patch(world, even=not options.keeps_triangles)
         wide = options.takes_base
         outside = wide_outside(world, patch, options.feather) if wide else outside_triangles(world, patch)
@@ -100,7 +101,7 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
         vertices, around, sample = numbered(patch, *parts)
         weights = band_weights(world, patch, vertices, around, options.feather) if options.moves_band else None
         precision = precision_note(mesh)
-        notes = outline_notes(world) + ((precision,) if precision else ()) + mesh.notes
+        notes = winding_note(turned) + outline_notes(world) + ((precision,) if precision else ()) + mesh.notes
     problem = engine.Problem(patch, world.positions[vertices], normals, vertices, around, curvatures, weights, sample)
     return problem, warnings + notes
 

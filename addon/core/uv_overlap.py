@@ -68,3 +68,17 @@ def _counted_up(count: Ints) -> Ints:
     """Return 0 … c − 1 for each of the counts, one after the other."""
     numbers: Ints = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
     return numbers
+
+
+def meeting(places: Floats, starts: Ints, box: Floats) -> Mask:
+    """Return the (f,) mask of faces whose boxes meet this one: (2, 2), its lowest and its highest corner.
+
+    places: (c, 2) of the faces' corners, face by face; starts: (f,) of each face's first, ascending. Faces with places
+    that are no numbers meet nothing.
+    """
+    if not len(starts):
+        return np.zeros(0, dtype=bool)
+    low, high = box
+    least, most = (ends.reduceat(places, starts, axis=0) for ends in (np.minimum, np.maximum))
+    found: Mask = ((least <= high) & (most >= low)).all(axis=1)
+    return found

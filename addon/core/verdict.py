@@ -70,6 +70,7 @@ class Evidence:
     eaten: Eaten = field(default_factory=Eaten)
     squeezed: Ints = field(default_factory=nothing)  # mesh vertices where lines that a new mesh keeps are a knot
     pierced: Ints = field(default_factory=nothing)  # mesh vertices where the surface passes through faces outside
+    seams: Ints = field(default_factory=nothing)  # mesh vertices of held seams of doubled vertices that show as crests
     points: Floats | None = None  # (q, 3) of problem.vertices after the run; None: problem.points
     origin: Origin | None = None  # what the engine's numbers stand for; None: problem.origin
 
@@ -219,7 +220,19 @@ def _crossing(evidence: Evidence, options: FairOptions) -> Found:
 
 
 def _visible(evidence: Evidence, options: FairOptions) -> Found:
-    for look in (_pierced, _rounded, _eaten, _kinked, _pointed, _swollen, _substituted, _refused, _squeezed, _needles):
+    for look in (
+        _pierced,
+        _seamed,
+        _rounded,
+        _eaten,
+        _kinked,
+        _pointed,
+        _swollen,
+        _substituted,
+        _refused,
+        _squeezed,
+        _needles,
+    ):
         told = look(evidence, options)
         if told[0]:
             return told
@@ -231,6 +244,13 @@ def _pierced(evidence: Evidence, _options: FairOptions) -> Found:
         return _NOTHING
     text = counted(len(evidence.pierced), "vertex", "vertices")
     return f"The surface passes through faces outside the selection at {text}: select or move these", evidence.pierced
+
+
+def _seamed(evidence: Evidence, _options: FairOptions) -> Found:
+    if not len(evidence.seams):
+        return _NOTHING
+    text = counted(len(evidence.seams), "vertex", "vertices")
+    return f"A seam of doubled vertices holds the surface at {text}: undo, and use Merge by Distance", evidence.seams
 
 
 def _kinked(evidence: Evidence, options: FairOptions) -> Found:
@@ -281,8 +301,18 @@ def _eaten(evidence: Evidence, options: FairOptions) -> Found:
         return f"Edges marked sharp were rounded off at {text}: undo, and Pin Edges: Sharp keeps them", marked
     if len(running):
         text = counted(len(running), "vertex", "vertices")
-        return f"A hard edge runs on outside, but was rounded off at {text}: mark it sharp and pin it to keep", running
+        reason = f"A hard edge runs on outside, but was rounded off at {text}: mark it sharp and pin it to keep it"
+        return _with_kinks(evidence, reason, running)
     return _NOTHING
+
+
+def _with_kinks(evidence: Evidence, reason: str, spots: Ints) -> Found:
+    """Add the kinks at the outline: where these are, another selection may be what helps."""
+    seen = evidence.join.seen
+    if not len(seen):
+        return reason, spots
+    kink = f"a kink of {evidence.join.worst_seen:.0f}° shows at the outline"
+    return f"{reason}, or grow the selection: {kink}", np.concatenate([spots, seen])
 
 
 def _swollen(evidence: Evidence, options: FairOptions) -> Found:
@@ -336,6 +366,13 @@ def _needles(evidence: Evidence, _options: FairOptions) -> Found:
     if not len(needles):
         return _NOTHING
     return counted(len(needles), "face is a needle", "faces are needles"), _corners(evidence.problem, needles)
+
+
+# The first that finds something gives the reason.
+_LOOKS = (
+    *(_pierced, _seamed, _rounded, _eaten, _kinked, _pointed, _swollen),
+    *(_substituted, _refused, _squeezed, _needles),
+)
 
 
 def _is_meant_to_swell(options: FairOptions) -> bool:

@@ -60,13 +60,15 @@ def _inspect_task(task: job.Task, options: FairOptions) -> Inspection:
     if not task.free_count:
         return Inspection(task.object_name, faces, refusal=NO_FREE)
     try:
-        problem, notes = pose(task.mesh, task.matrix, options)
+        problem, notes = pose(task.faired_mesh, task.matrix, options)
         engine.check(problem, options.resolved(task.mesh.textured))
         islands = engine.islands(problem.patch)
     except engine.REFUSALS as cause:
         return Inspection(task.object_name, faces, task.free_count, refusal=str(cause))
     loops = fairing.boundary_loops(problem.patch.triangles)
-    bad = task.mesh.positions[engine.bad_outline(problem)] @ task.matrix[:3, :3].T + task.matrix[:3, 3]
+    marked = engine.bad_outline(problem)
+    marked = marked[marked < len(task.mesh.positions)]
+    bad = task.mesh.positions[marked] @ task.matrix[:3, :3].T + task.matrix[:3, 3]
     left_out = int(np.count_nonzero(left_out_faces(task.mesh)))
     return Inspection(
         task.object_name, faces, task.free_count, len(loops), islands, notes=notes, bad=bad, left_out=left_out

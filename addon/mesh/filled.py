@@ -20,6 +20,7 @@ from ..core.uv_overlap import covering
 from .layers import OF_CORNERS, MeanLayers, Shapes, in_object_mode
 from .new_faces import FaceData, VertexData, kinds, make_faces, make_vertices, refuse_doubles
 from .selecting import select_new_faces
+from .texture import triangles_near
 
 
 def border_seeds(mesh: bpy.types.Mesh) -> Mask:
@@ -77,10 +78,13 @@ def _covering(bm: Any, rims: list[_Rim]) -> int:
     layer = bm.loops.layers.uv.active
     if layer is None:
         return 0
-    there = [[corner[layer].uv[:] for corner in triangle] for triangle in bm.calc_loop_triangles()]
-    others = np.array(there, dtype=np.float64).reshape(-1, 3, 2)
     new = np.concatenate([rim.on_active_map for rim in rims])
-    return int(np.count_nonzero(covering(new, others)))
+    corners = new.reshape(-1, 2)
+    corners = corners[np.isfinite(corners).all(axis=1)]
+    if not len(corners):
+        return 0
+    box = np.stack([corners.min(axis=0), corners.max(axis=0)])
+    return int(np.count_nonzero(covering(new, triangles_near(bm, layer.name, box))))
 
 
 class _Rim:

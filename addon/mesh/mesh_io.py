@@ -19,6 +19,7 @@ from ..core.spiked import is_spoilt
 from ..core.symmetry import with_image
 from .columns import column, flags, indices, stored
 from .marked_lines import lines
+from .mirrored import reflections
 from .weights import group_index, members, weighed
 
 FEW = 8  # times as many vertices as were moved: normals of the whole mesh take longer than theirs, one by one
@@ -56,6 +57,7 @@ def read_edit_mesh(obj: bpy.types.Object, options: FairOptions, region: str = ""
         else:
             arrays = _selected(mesh, group, options)
         arrays = replace(weighed(arrays, mesh, obj, options), mirror_x=obj.data.use_mirror_x)
+        arrays = replace(arrays, reflections=reflections(obj))
         return arrays if region else with_image(arrays)
 
 
@@ -142,7 +144,8 @@ def read_mesh(mesh: bpy.types.Mesh, faces: Ints, options: FairOptions) -> MeshAr
     selected[faces] = True
     user = user_of(mesh)
     arrays = _arrays(mesh, selected, group_index(user, options.pin_group, "pin_group"), options)
-    return replace(weighed(arrays, mesh, user, options), mirror_x=mesh.use_mirror_x)
+    arrays = replace(weighed(arrays, mesh, user, options), mirror_x=mesh.use_mirror_x)
+    return replace(arrays, reflections=reflections(user))
 
 
 def user_of(mesh: bpy.types.Mesh) -> bpy.types.Object | None:

@@ -8,6 +8,7 @@ from ..core.arrays import Floats
 from ..core.engine import Progress
 from ..core.options import FairOptions
 from ..core.outcome import Fairing, outcome
+from ..core.reflected import whole_of
 from ..core.region import MeshArrays
 from ..core.remeshing import remesh_arrays
 from ..core.solve import Kept, solve
@@ -28,6 +29,15 @@ def fair_arrays(
     """
     if options.mesh == "NEW":
         return remesh_arrays(mesh, matrix, options, progress)
+    whole = whole_of(mesh)
+    if whole is not None:
+        return whole.half_of(_on_old_mesh(whole.mesh, matrix, options, progress, kept))
+    return _on_old_mesh(mesh, matrix, options, progress, kept)
+
+
+def _on_old_mesh(
+    mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None, kept: Kept | None
+) -> Fairing:
     found = outcome(mesh, matrix, options, solve(mesh, matrix, options, progress, kept))
     return _evenly(mesh, matrix, options, progress, kept) or found if _texture_folds(mesh, options, found) else found
 

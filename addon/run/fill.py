@@ -113,6 +113,8 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
         self._options = FillOptions.of(self)
         self._tasks = read(context)
         if not self._tasks:
+            store_refusal(context.window_manager.fairing_report, "", NO_BORDER)
+            last_run.forget()
             self.report({"ERROR"}, translated(NO_BORDER))
         return bool(self._tasks)
 

@@ -15,6 +15,7 @@ from ..core.engine import REFUSALS, Progress, RepeatedSolve, sub_range
 from ..core.memory import Memory
 from ..core.options import FairOptions
 from ..core.outcome import Fairing
+from ..core.reflected import Whole, whole_of
 from ..core.region import MeshArrays, free_vertices
 from ..core.remeshing import Remeshed
 from ..core.solve import Kept, Solved
@@ -44,6 +45,12 @@ class Task:
     matrix: Floats  # (4, 4) to world space
     free_count: int
     key: str = ""  # the shape key that was read, as mesh_io.writable_key names it
+    whole: Whole | None = None  # where the mesh is half of what is faired
+
+    @property
+    def faired_mesh(self) -> MeshArrays:
+        """The mesh with its images; its own vertices come first."""
+        return self.mesh if self.whole is None else self.whole.mesh
 
 
 def read(context: bpy.types.Context, options: FairOptions) -> list[Task]:
@@ -66,7 +73,9 @@ def read_object(obj: bpy.types.Object, options: FairOptions) -> Task:
         mesh_io.check_new_faces(obj)
     mesh = mesh_io.read_edit_mesh(obj, options)
     matrix = np.array(obj.matrix_world, dtype=np.float64)
-    return Task(obj.name, mesh, matrix, int(np.count_nonzero(free_vertices(mesh))), key)
+    whole = whole_of(mesh)
+    free = whole.free_count if whole is not None else int(np.count_nonzero(free_vertices(mesh)))
+    return Task(obj.name, mesh, matrix, free, key, whole)
 
 
 def size(tasks: list[Task]) -> int:

@@ -61,7 +61,10 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
         selected = job.read(context, self._options)
         self._tasks = [task for task in selected if task.free_count]
         if not self._tasks:
-            self.report({"INFO"}, translated(NO_FREE if selected else NO_FACE))
+            reason = NO_FREE if selected else NO_FACE
+            store_refusal(context.window_manager.fairing_report, "", reason)
+            last_run.forget()
+            self.report({"INFO"}, translated(reason))
         self._notes = tuple(
             f"{task.object_name} was left as it is: no vertex inside its selection is free to move"
             for task in selected

@@ -78,7 +78,9 @@ def _draw_held(group: Any, options: Any, obj: bpy.types.Object) -> None:
     group.prop(options, "pin_edges")
     if options.pin_edges != "NONE":
         group.prop(options, "pin_slope")
-    group.prop(options, "open_border")
+    row = group.row()
+    row.active = options.mesh == "KEEP"
+    row.prop(options, "open_border")
 
 
 def _draw_parts(group: Any, options: Any, obj: bpy.types.Object) -> None:

@@ -132,7 +132,7 @@ def remade() -> Iterator[str]:
 def unseen() -> Iterator[str]:
     """Random patches of a seed that nothing was tuned on, deleted and filled."""
     yield "| hole | rim | new | converged | angle, median | join > 12° | warnings | least angle | valence | s |"
-    for patch in real_meshes.random_patches(36, 102):
+    for patch in real_meshes.random_patches(36, 103):
         loops = [patch.vertices_in_mesh[loop] for loop in fairing.boundary_loops(patch.triangles)]
         yield row(patch.name, patch.whole, patch.outside, loops, len(loops) > 1)
 

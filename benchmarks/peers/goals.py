@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from statistics import median
 
 from measured import Measured, Row
+from real import GOAL
 from tools import BY_NAME, CHOLMOD, LDLT, OURS
 
 
@@ -38,7 +39,9 @@ class Goal:
 
 def goals(done: Measured) -> list[Goal]:
     """In the order of the plan."""
-    return [*_ratios(done), *_steps(done), *_growth(done), *_memory(done), *_repeated(done), *_graded(done)]
+    return [
+        *_ratios(done), *_steps(done), *_growth(done), *_memory(done), *_repeated(done), *_graded(done), *_real(done),
+    ]  # fmt: skip
 
 
 def table(done: Measured) -> str:
@@ -138,3 +141,11 @@ def _graded(done: Measured) -> Iterator[Goal]:
     walls = {row["kind"]: row["wall"] / row["free"] for row in done.graded if "wall" in row}
     ratio = walls["graded irregular"] / walls["regular"] if len(walls) == 2 else None
     yield Goal(text, 2, ratio, "per vertex")
+
+
+def _real(done: Measured) -> Iterator[Goal]:
+    for name in dict.fromkeys(row["mesh"] for row in done.real):
+        ratios = {_thousands(row["size"]): row["cpu"] / row["clean"] for row in done.real if row["mesh"] == name}
+        worst = max(ratios, key=lambda size: ratios[size])
+        note = ", ".join(f"{size} {ratio:.2g}" for size, ratio in ratios.items())
+        yield Goal(f"{name} ÷ a clean patch of its size", GOAL, ratios[worst], note)

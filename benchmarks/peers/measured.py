@@ -15,6 +15,7 @@ import clock
 import fairing
 import memory
 import quality
+import real
 import repeated
 from problems import BLEND, OTHER, PATCHES, REGULAR, problem
 from tools import BY_NAME, OURS, TOOLS, Tool
@@ -22,6 +23,7 @@ from tools import BY_NAME, OURS, TOOLS, Tool
 SHAPES = [name for name in PATCHES if name != "graded hemisphere"] + [BLEND]
 SECOND = 0.8  # share of the vertices of the other mesh of a patch
 GRADED = 100_000
+REAL = (10_000, 30_000, 100_000)
 Row = dict[str, Any]
 
 
@@ -35,6 +37,7 @@ class Measured:
     quality: list[Row] = field(default_factory=list)
     repeated: list[Row] = field(default_factory=list)
     graded: list[Row] = field(default_factory=list)
+    real: list[Row] = field(default_factory=list)
 
     def save(self, path: Path) -> None:
         """As JSON."""
@@ -139,6 +142,13 @@ def _graded(plan: Plan, _done: Measured) -> Iterator[Row]:
         yield {"kind": kind, "free": len(mesh.free), **_clocked(mesh, clocked)}
 
 
+def _real(plan: Plan, _done: Measured) -> Iterator[Row]:
+    """Up to the largest size of the run."""
+    for size in (size for size in REAL if size <= max(plan.sizes)):
+        for name in filter(real.available, real.MESHES):
+            yield {"mesh": name, "size": size, **asdict(real.timed(name, size, min(plan.calls, 3)))}
+
+
 def _repeated(plan: Plan, _done: Measured) -> Iterator[Row]:
     for size in (2_000, 10_000):
         for shape in ("hemisphere", "catenoid"):
@@ -170,6 +180,7 @@ def _quality(plan: Plan, _done: Measured) -> Iterator[Row]:
 PARTS: dict[str, Callable[[Plan, Measured], Iterator[Row]]] = {
     "times": _times,
     "graded": _graded,
+    "real": _real,
     "repeated": _repeated,
     "memory": _memory,
     "quality": _quality,

@@ -2,10 +2,12 @@
 
     python benchmarks/scans                    # writes scans.csv; prints the table
     python benchmarks/scans --sizes 3000 10000
+    python benchmarks/scans --at ict_head:700 demosthenes-low-res:2700 --calls 1 \
+        --page docs/performance.md benchmarks/peers/page.md
 
 A head and a bust of shared/data, their triangles cut in four two and three times, noise of 0, 0.1 and ¼ of an edge on
 all vertices; discs grown round a seed vertex. The clean patch is a jittered half sphere. Both run in turns, one
-thread, processor time; the ratio is that of the medians.
+thread, processor time; the ratio is that of the medians. `--page` writes the summary between two marks of a page.
 """
 
 from __future__ import annotations
@@ -21,22 +23,19 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import dijkstra
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import fairing
-import measures
 import shapes
-from polygons import read_polygons, triangles_of
 from real_meshes import DATA
-from tetrathing import subdivided
+from scan_regions import MESHES, scan_region
 
 ROOT = Path(__file__).resolve().parents[2]
 GOAL = 2.0  # times a clean patch
-MESHES = {"ict_head": 2752, "demosthenes-low-res": 3323}  # seed vertices of the regions, kept by subdivision
+REGIONS = [f"{name}:{seed}" for name, seed in MESHES.items()]
+BEGIN, END = "<!-- scans: begin -->", "<!-- scans: end -->"  # of the summary in a page
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
@@ -45,8 +44,9 @@ IntArray = NDArray[np.int64]
 class Row:
     """One region; cpu in seconds, ratio to the clean patch of the same size."""
 
-    mesh: str
+    region: str
     noise: float
+    wanted: int
     free: int
     way: str
     converged: bool
@@ -56,65 +56,6 @@ class Row:
     angle: float
 
 
-@dataclass(frozen=True)
-class Region:
-    """vertices (n, 3), triangles (m, 3), fixed (k,) and their normals (k, 3), fitted to the faces outside."""
-
-    vertices: FloatArray
-    triangles: IntArray
-    fixed: IntArray
-    normals: FloatArray
-
-
-def scan(name: str, wanted: int) -> tuple[FloatArray, IntArray]:
-    """The mesh, subdivided two times or three, whichever has regions of that size."""
-    vertices, polygons = read_polygons(DATA / f"{name}.obj")
-    triangles = np.asarray(triangles_of(polygons), dtype=np.int64)
-    for _ in range(2 if wanted <= 10000 else 3):
-        triangles, ends = subdivided(triangles, len(vertices))
-        vertices = np.vstack([vertices, 0.5 * (vertices[ends[:, 0]] + vertices[ends[:, 1]])])
-    return vertices, triangles
-
-
-def shaken(vertices: FloatArray, triangles: IntArray, noise: float) -> FloatArray:
-    """All vertices moved at random, by `noise` mean edges (standard deviation of each coordinate)."""
-    ends = measures.edges(triangles)
-    edge = np.linalg.norm(vertices[ends[:, 0]] - vertices[ends[:, 1]], axis=1).mean()
-    return np.asarray(vertices + noise * edge * np.random.default_rng(7).normal(size=vertices.shape) / np.sqrt(3))
-
-
-def region(vertices: FloatArray, triangles: IntArray, seed: int, wanted: int) -> Region:
-    """The triangles whose corners are the `wanted` vertices nearest to the seed along edges."""
-    ends = measures.edges(triangles)
-    lengths = np.linalg.norm(vertices[ends[:, 0]] - vertices[ends[:, 1]], axis=1)
-    graph = coo_array((lengths, (ends[:, 0], ends[:, 1])), shape=(len(vertices),) * 2).tocsr()
-    away = dijkstra(graph, directed=False, indices=seed)
-    chosen = (away <= np.sort(away)[wanted])[triangles].all(axis=1)
-    chosen = _without_pinches(triangles, chosen)
-    inside, outside = triangles[chosen], triangles[~chosen]
-    used = np.unique(inside)
-    number = np.full(len(vertices), -1)
-    number[used] = np.arange(len(used))
-    held = np.zeros(len(vertices), dtype=bool)
-    held[outside] = True
-    held[measures.border_edges(triangles)] = True
-    fixed = used[held[used]]
-    normals = np.array(fairing.surrounding_normals(vertices, outside, fixed).normals)
-    missing = np.linalg.norm(normals, axis=1) < 0.5
-    normals[missing] = fairing.vertex_normals(vertices, triangles)[fixed[missing]]
-    return Region(vertices[used], number[inside], number[fixed], normals)
-
-
-def _without_pinches(triangles: IntArray, chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Drops triangles at vertices where the region meets itself in a point."""
-    while True:
-        border = measures.border_edges(triangles[chosen])
-        often = np.flatnonzero(np.bincount(np.ravel(border)) > 2)
-        if not len(often):
-            return chosen
-        chosen = chosen & ~np.isin(triangles, often).any(axis=1)
-
-
 def timed(vertices: FloatArray, triangles: IntArray, options: dict[str, Any]) -> tuple[fairing.FairResult, float]:
     """The result and its processor time."""
     start = time.process_time()
@@ -122,10 +63,10 @@ def timed(vertices: FloatArray, triangles: IntArray, options: dict[str, Any]) ->
     return result, time.process_time() - start
 
 
-def measured(name: str, noise: float, wanted: int, calls: int) -> Row:
+def measured(place: str, noise: float, wanted: int, calls: int) -> Row:
     """One row: scan and clean patch in turns."""
-    vertices, triangles = scan(name, wanted)
-    patch = region(shaken(vertices, triangles, noise), triangles, MESHES[name], wanted)
+    name, seed = place.split(":")
+    patch = scan_region(name, noise, wanted, int(seed))
     free = len(patch.vertices) - len(patch.fixed)
     clean = shapes.cap(free)
     pairs = [
@@ -135,8 +76,37 @@ def measured(name: str, noise: float, wanted: int, calls: int) -> Row:
     ]  # fmt: skip
     result = pairs[0][0][0]
     cpu, cpu_clean = (statistics.median(pair[k][1] for pair in pairs) for k in (0, 1))
-    return Row(name, noise, free, "+".join(way for way, _ in result.way), result.converged, result.polished,
+    return Row(place, noise, wanted, free, "+".join(way for way, _ in result.way), result.converged, result.polished,
                cpu, cpu / cpu_clean, float(np.median(result.boundary_angle)))  # fmt: skip
+
+
+def summary(rows: list[Row]) -> str:
+    """Sizes by noise: median and worst ratio, and how many are within the goal, polished, converged."""
+    noises = sorted({row.noise for row in rows})
+    lines = [f"| free | {' | '.join(f'noise {noise:g}' for noise in noises)} |", "| --: " * (len(noises) + 1) + "|"]
+    for wanted in sorted({row.wanted for row in rows}):
+        cells = [cell([row for row in rows if (row.wanted, row.noise) == (wanted, noise)]) for noise in noises]
+        lines.append(f"| {wanted} | {' | '.join(cells)} |")
+    places = ", ".join(dict.fromkeys(row.region for row in rows))
+    return "\n".join(
+        [*lines, "", f"Median (worst) × clean; within {GOAL:g} ×, polished, converged of all. Regions:", f"{places}."]
+    )
+
+
+def cell(rows: list[Row]) -> str:
+    """Of one size and noise."""
+    if not rows:
+        return "not run"
+    ratios = [row.ratio for row in rows]
+    counts = [sum(ratio <= GOAL for ratio in ratios), sum(r.polished for r in rows), sum(r.converged for r in rows)]
+    return f"{statistics.median(ratios):.1f} ({max(ratios):.1f}); {', '.join(map(str, counts))} of {len(rows)}"
+
+
+def written(page: Path, text: str) -> None:
+    """The summary in its place in a page."""
+    before, rest = page.read_text(encoding="utf-8").split(BEGIN)
+    after = rest.split(END)[1]
+    page.write_text(f"{before}{BEGIN}\n\n{text}\n\n{END}{after}", encoding="utf-8")
 
 
 def main() -> int:
@@ -144,21 +114,23 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("--sizes", type=int, nargs="+", default=[3000, 10000, 30000, 60000])
     parser.add_argument("--noise", type=float, nargs="+", default=[0.0, 0.1, 0.25], help="in edges")
+    parser.add_argument("--at", nargs="+", default=REGIONS, help="mesh:vertex")
+    parser.add_argument("--page", type=Path, nargs="+", default=[], help="pages that hold the two marks")
     parser.add_argument("--calls", type=int, default=3)
     parser.add_argument("--out", type=Path, default=ROOT / "build" / "scans", help="folder for the CSV")
     options = parser.parse_args()
     if not DATA.exists():
         print("the meshes of shared/data are missing", file=sys.stderr)
         return 2
-    print("| mesh | noise | free | way | ended | polished | CPU s | ÷ clean | angle, median ° |")
+    print("| region | noise | free | way | ended | polished | CPU s | ÷ clean | angle, median ° |")
     print("| --- | --: | --: | --- | --- | --- | --: | --: | --: |")
     rows = []
-    for name in MESHES:
-        for wanted in options.sizes:
+    for wanted in options.sizes:
+        for place in options.at:
             for noise in options.noise:
-                row = measured(name, noise, wanted, options.calls)
+                row = measured(place, noise, wanted, options.calls)
                 rows.append(row)
-                print(f"| {name} | {noise:g} | {row.free} | {row.way} | {'yes' if row.converged else 'no'} | "
+                print(f"| {place} | {noise:g} | {row.free} | {row.way} | {'yes' if row.converged else 'no'} | "
                       f"{'yes' if row.polished else 'no'} | {row.cpu:.2f} | {row.ratio:.2f} | {row.angle:.1f} |",
                       flush=True)  # fmt: skip
     options.out.mkdir(parents=True, exist_ok=True)
@@ -166,6 +138,9 @@ def main() -> int:
         writer = csv.DictWriter(file, fieldnames=list(asdict(rows[0])))
         writer.writeheader()
         writer.writerows(asdict(row) for row in rows)
+    print(f"\n{summary(rows)}")
+    for page in options.page:
+        written(page, summary(rows))
     return int(any(row.ratio > GOAL or not row.polished for row in rows))
 
 

@@ -33,9 +33,35 @@ Patch made_patch(int free_count, Triangles triangles, Eigen::Index vertex_count)
     return Patch(std::move(members));
 }
 
+// Mean cosine between the triangles and the normals at their corners, by area.
+double agreement(const OpenOutline& outline, const Triangles& triangles) {
+    double along = 0.0;
+    double whole = 0.0;
+    for (const auto corners : triangles.colwise()) {
+        const Vector3 a = outline.points.col(corners[0]);
+        const Vector3 b = outline.points.col(corners[1]);
+        const Vector3 c = outline.points.col(corners[2]);
+        const Vector3 area = (b - a).cross(c - a);
+        for (const int v : corners) along += area.dot(outline.normals.col(v)) / 3.0;
+        whole += area.norm();
+    }
+    return whole > 0.0 ? along / whole : 1.0;
+}
+
+// Of least area. Where that closes a limb instead of going around it: the one that follows the normals.
+Triangles triangulated(const OpenOutline& outline) {
+    constexpr double crosswise = 0.8;  // mean cosine
+    constexpr double better = 0.25;
+    const Triangles least = joined_loops(outline.points, outline.loops);
+    const double before = agreement(outline, least);
+    if (before > crosswise) return least;
+    const Triangles along = joined_loops(outline.points, outline.loops, &outline.normals);
+    return agreement(outline, along) > before + better ? along : least;
+}
+
 // The triangulation. A lone triangle has no chord to split: it gets a vertex in its middle.
 ProxyMesh outline_mesh(const OpenOutline& outline) {
-    const Triangles triangles = joined_loops(outline.points, outline.loops);
+    const Triangles triangles = triangulated(outline);
     if (triangles.cols() > 1) return {made_patch(0, triangles, outline.points.cols()), outline.points};
     const Eigen::Vector3i corners = triangles.col(0) + Eigen::Vector3i::Ones();
     Triangles fan(3, 3);
@@ -85,6 +111,8 @@ VectorX even_lengths(const Patch& patch, const Points& points) {
                         {std::sqrt(square_per_vertex * faces.areas.sum() / even_count), 0, Spread::even});
 }
 
+bool has_converged(const FirstSurface& surface) { return end_of(surface.solution) == Termination::converged; }
+
 // Whether the mesh suits its surface: a dome that has grown from a flat mesh, or a tube that has opened, is stretched.
 bool is_even(const FirstSurface& surface) {
     constexpr double longest = 3.0;  // of the wanted length; 2.4 on a hemisphere
@@ -130,7 +158,7 @@ FirstSurface on_even_mesh(const OpenOutline& outline, const FirstSurface& last, 
     if (found) return std::move(*found);
     Problem problem = problem_on(outline, even.patch, options);
     // What was sought in vain once, in 1 to 5 s, is not found on another mesh either.
-    if (end_of(last.solution) != Termination::converged) problem.options.otherwise = Otherwise::stop;
+    if (!has_converged(last)) problem.options.otherwise = Otherwise::stop;
     Solution solution = solve_or_else(problem, progress.range(0.3, 1.0));
     return {std::move(even.patch), std::move(solution)};
 }
@@ -175,9 +203,7 @@ FirstSurface from_flat(const OpenOutline& outline, const SolverOptions& options,
     return {std::move(flat.patch), std::move(solution)};
 }
 
-}  // namespace
-
-FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
+FirstSurface sought(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
     constexpr int most_rounds = 4;
     std::optional<FirstSurface> begun = from_tube(outline, options, progress.range(0.0, 0.1));
     FirstSurface result = begun ? std::move(*begun) : from_flat(outline, options, progress.range(0.1, 0.4));
@@ -192,6 +218,22 @@ FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& opti
         result = std::move(next);
     }
     return result;
+}
+
+}  // namespace
+
+FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
+    constexpr double usual = 0.6;  // share of the progress
+    FirstSurface result = sought(outline, options, progress.range(0.0, usual));
+    const bool asked = options.equation == Equation::least_variation || options.otherwise == Otherwise::stop;
+    if (has_converged(result) || asked || outline.loops.size() < 2) return result;
+    // What a solve in vain leaves is no start for the surface of least variation, whose own descents may be.
+    SolverOptions other = options;
+    other.equation = Equation::least_variation;
+    FirstSurface even = sought(outline, other, progress.range(usual, 1.0));
+    if (!has_converged(even)) return result;
+    even.solution.instead = Instead::least_variation;
+    return even;
 }
 
 }  // namespace fairing

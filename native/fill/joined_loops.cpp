@@ -84,10 +84,11 @@ TriangleCost cost_around(const Points& points, const std::vector<Indices>& loops
 
 }  // namespace
 
-Triangles joined_loops(const Points& points, const std::vector<Indices>& loops) {
-    const auto triangles = loops.size() == 1
-                               ? cheapest_triangulation(loops.front(), TriangleCost(points))
-                               : cheapest_triangulation(linked(points, loops), cost_around(points, loops));
+Triangles joined_loops(const Points& points, const std::vector<Indices>& loops, const Points* normals) {
+    const TriangleCost cost =
+        loops.size() == 1 || normals != nullptr ? TriangleCost(points) : cost_around(points, loops);
+    const Indices polygon = loops.size() == 1 ? loops.front() : linked(points, loops);
+    const auto triangles = cheapest_triangulation(polygon, normals == nullptr ? cost : cost.along(*normals));
     Triangles result(3, static_cast<Eigen::Index>(triangles.size()));
     for (Eigen::Index t = 0; t < result.cols(); ++t) result.col(t) = triangles[static_cast<std::size_t>(t)];
     return result;

@@ -100,11 +100,26 @@ TriangleCost::TriangleCost(const Points& points, Points directions, double outwa
     dear_ = static_cast<double>(points.cols() + 8) * size.squaredNorm();
 }
 
+TriangleCost TriangleCost::along(const Points& normals) const {
+    TriangleCost result(*this);
+    result.normals_ = &normals;
+    return result;
+}
+
+// How much a triangle's area counts more than where it faces as its corners do.
+double TriangleCost::lean(const Vector3& area, int a, int b, int c) const {
+    if (normals_ == nullptr) return 0.0;
+    constexpr double weight = 10.0;
+    const Vector3 sum = normals_->col(a) + normals_->col(b) + normals_->col(c);
+    return weight * (area.norm() - area.dot(sum) / 3.0);
+}
+
 double TriangleCost::operator()(int a, int b, int c) const {
     const Vector3 ab = points_.col(b) - points_.col(a);
     const Vector3 ac = points_.col(c) - points_.col(a);
     const double edges = ab.squaredNorm() + ac.squaredNorm() + (ac - ab).squaredNorm();
-    double cost = 0.5 * ab.cross(ac).norm() + share_of_edges * edges;
+    const Vector3 area = 0.5 * ab.cross(ac);
+    double cost = area.norm() + lean(area, a, b, c) + share_of_edges * edges;
     if (directions_.cols() == 0) return cost;
     if (a == b || b == c || c == a) return cost + 2.0 * dear_;
     const double volume = directions_.col(a).dot(directions_.col(b).cross(directions_.col(c)));

@@ -16,10 +16,17 @@ public:
     // `outward`: −1 where counter-clockwise is meant as seen from the centre, 1 as seen from outside.
     TriangleCost(const Points& points, Points directions, double outward);
 
+    // The same with a triangle's area dearer as it leans away from these normals at its corners, which are kept by
+    // reference.
+    [[nodiscard]] TriangleCost along(const Points& normals) const;
+
     [[nodiscard]] double operator()(int a, int b, int c) const;
 
 private:
+    [[nodiscard]] double lean(const Vector3& area, int a, int b, int c) const;
+
     const Points& points_;
+    const Points* normals_ = nullptr;
     Points directions_;  // no columns: not asked
     double outward_ = 1.0;
     double dear_ = 0.0;

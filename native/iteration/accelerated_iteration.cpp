@@ -21,7 +21,8 @@ constexpr double damped = 0.4;
 // map. Far above the best it is hopeless, unless the steps still shrink now and then: in clusters of a large mesh
 // triangles are so small that the residual there is noise.
 constexpr double hopeless_growth = 1e4;
-constexpr int growth_patience = 2;  // iterations without a shorter step
+constexpr int growth_patience = 2;    // iterations without a shorter step
+constexpr double last_digits = 1e-5;  // units of D; shorter steps shrink unevenly where a surface is found, too
 // Of the Willmore energy; a whole sphere has 16 π.
 constexpr double explosion_factor = 4.0;
 constexpr double explosion_rise = 60.0;
@@ -174,7 +175,8 @@ private:
         last_step_ = largest;
         const int in_vain = steps_.in_vain(largest);
         const bool grown = in_vain > growth_patience && residual_ > hopeless_growth * best_residual_;
-        return !std::isfinite(largest) || grown || in_vain > problem_.options.patience;
+        const bool creeps = contraction_.is_slow(largest) && problem_.options.contracts && largest > last_digits;
+        return !std::isfinite(largest) || grown || creeps || in_vain > problem_.options.patience;
     }
 
     const Problem& problem_;
@@ -197,6 +199,7 @@ private:
     double step_at_refresh_ = 0.0;
     int refreshed_at_ = 0;
     ShrinkingSteps steps_{0.9};
+    Contraction contraction_;
     Solution solution_;
 };
 

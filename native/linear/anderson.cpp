@@ -45,11 +45,11 @@ Anderson::Anderson(Eigen::Index size, int depth) : depth_(depth), df_(size, dept
 Eigen::VectorXd Anderson::step(const Eigen::VectorXd& x, const Eigen::VectorXd& f) {
     if (last_x_.size() > 0) {
         const int slot = count_++ % depth_;
-        df_.col(slot) = (f - last_f_).cast<float>();
-        sums_.col(slot) = (x - last_x_ + f - last_f_).cast<float>();
+        df_.col(slot) = (f - last_f_.cast<double>()).cast<float>();
+        sums_.col(slot) = (x - last_x_ + f - last_f_.cast<double>()).cast<float>();
     }
     last_x_ = x;
-    last_f_ = f;
+    last_f_ = f.cast<float>();
     const int used = std::min(count_, depth_);
     if (used == 0) return f;
     const Eigen::VectorXd gamma = least_squares_by_parts(df_, used, f);

@@ -26,7 +26,7 @@ private:
     Eigen::MatrixXf df_;
     Eigen::MatrixXf sums_;    // dx + df
     Eigen::VectorXd last_x_;  // empty at the beginning
-    Eigen::VectorXd last_f_;
+    Eigen::VectorXf last_f_;
 };
 
 }  // namespace fairing

@@ -123,7 +123,7 @@ struct Group {
 bool worth_merging(long columns, long zeros, long entries) {
     if (columns <= 4) return true;
     const double share = static_cast<double>(zeros) / static_cast<double>(entries);
-    if (columns <= 16) return share < 0.6;
+    if (columns <= 16) return share < 0.3;
     if (columns <= 48) return share < 0.12;
     return share < 0.05;
 }

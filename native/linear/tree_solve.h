@@ -73,7 +73,7 @@ public:
     }
 
 private:
-    using Buffer = std::vector<double>;  // grows to the largest front that a thread meets
+    using Buffer = std::vector<typename Field::Scalar>;  // grows to the largest front that a thread meets
     using Rows = Eigen::Map<Field>;
 
     auto own_rows(int s) { return x_.middleRows(tree_.nodes().first[at(s)], tree_.nodes().column_count(s)); }

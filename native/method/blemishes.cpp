@@ -14,6 +14,9 @@ namespace {
 constexpr double largest_bend = 2.0;  // of the largest |H| on the outline
 constexpr double least_girth = 0.75;  // of what it comes from
 constexpr double most_girth = 4.0 / 3.0;
+constexpr double most_aside = 0.5;  // of a radius: lofts that an artist keeps had .15 to .40, webs and dents .51 to 2.3
+constexpr double least_bluntness = 0.7;
+constexpr double least_reach = 0.2;  // of what sticks out, of what it was; less is as good as gone
 
 Indices corners_of(const Patch& patch, const Indices& triangles) {
     Indices corners;
@@ -45,15 +48,28 @@ BlemishFinder::BlemishFinder(const Problem& problem, const Points& before, const
       crossing_before_(crossing_triangles(problem.patch.triangles, before)),
       turned_before_(flipped_by_solution(problem.patch, before)),
       bent_before_(largest_around(problem.patch, bend_of(problem, before))),
-      girths_(Girths::of(problem.patch, before, progress)) {}
+      girths_(Girths::of(problem.patch, before, progress)),
+      protrusions_(Protrusions::of(problem.patch, progress)) {
+    if (!protrusions_) return;
+    reaches_before_ = protrusions_->reaches(before);
+    blunt_before_ = protrusions_->bluntness(before);
+}
+
+Indices Blemishes::all() const {
+    Indices result = torn;
+    for (const Indices* more : {&bent, &narrow, &wide, &thin}) result.insert(result.end(), more->begin(), more->end());
+    return result;
+}
 
 Blemishes BlemishFinder::in(const Points& points) const {
-    Blemishes found{torn(points), bent(points), {}, {}};
+    Blemishes found{torn(points), bent(points), {}, {}, thin(points)};
     if (!girths_) return found;
     found.narrow = corners_of(problem_.patch, girths_->narrow(points, least_girth));
     found.wide = corners_of(problem_.patch, girths_->wide(points, most_girth));
     return found;
 }
+
+bool BlemishFinder::lies_aside(const Points& points) const { return girths_ && girths_->aside(points) > most_aside; }
 
 Indices BlemishFinder::torn(const Points& points) const {
     const Patch& patch = problem_.patch;
@@ -72,6 +88,19 @@ Indices BlemishFinder::bent(const Points& points) const {
         if (bend[v] > std::max(most, bent_before_[v])) vertices.push_back(v);
     }
     return vertices;
+}
+
+Indices BlemishFinder::thin(const Points& points) const {
+    if (!protrusions_) return {};
+    const VectorX reaches = protrusions_->reaches(points);
+    const VectorX blunt = protrusions_->bluntness(points);
+    Indices triangles;
+    for (int k = 0; k < protrusions_->count(); ++k) {
+        if (blunt[k] >= least_bluntness * blunt_before_[k] || reaches[k] < least_reach * reaches_before_[k]) continue;
+        const Indices& cap = protrusions_->triangles(k);
+        triangles.insert(triangles.end(), cap.begin(), cap.end());
+    }
+    return corners_of(problem_.patch, triangles);
 }
 
 }  // namespace fairing

@@ -6,6 +6,7 @@
 #include "base/progress.h"
 #include "method/girths.h"
 #include "problem/problem.h"
+#include "start/protrusions.h"
 
 namespace fairing {
 
@@ -15,8 +16,11 @@ struct Blemishes {
     Indices bent;    // where |H| is beyond twice the largest on the outline and the largest nearby before
     Indices narrow;  // of waists and threads: less than three quarters as long around (method/girths)
     Indices wide;    // of bulges: more than four thirds as long
+    Indices thin;  // of what ends within the patch, where it is there still: less than 0.7 as blunt (start/protrusions)
 
-    [[nodiscard]] bool absent() const { return torn.empty() && bent.empty() && narrow.empty() && wide.empty(); }
+    [[nodiscard]] bool absent() const { return all().empty(); }
+    // One after the other; a vertex may be there more than once.
+    [[nodiscard]] Indices all() const;
 };
 
 // Finds them by comparison with one shape.
@@ -26,16 +30,23 @@ public:
     BlemishFinder(const Problem& problem, const Points& before, const Progress& progress);
 
     [[nodiscard]] Blemishes in(const Points& points) const;
+    // Whether a cross-section's middle is farther from where it was than half its radius: webs between limbs, dents.
+    // Smoothing may move it so, a surface that knows nothing of the shape before should not.
+    [[nodiscard]] bool lies_aside(const Points& points) const;
 
 private:
     [[nodiscard]] Indices torn(const Points& points) const;
     [[nodiscard]] Indices bent(const Points& points) const;
+    [[nodiscard]] Indices thin(const Points& points) const;
 
     const Problem& problem_;
     Indices crossing_before_;  // triangles
     Indices turned_before_;
     VectorX bent_before_;  // largest |H| around each vertex
     std::optional<Girths> girths_;
+    std::optional<Protrusions> protrusions_;
+    VectorX reaches_before_;
+    VectorX blunt_before_;
 };
 
 }  // namespace fairing

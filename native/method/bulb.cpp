@@ -12,12 +12,13 @@ namespace fairing {
 
 namespace {
 
-// Only the tubes between two outlines were seen to be bulbs. Where these are long for the area between them, what they
-// ask for reaches everywhere: rings and pipes shorter than two and a half radii are none.
+// Where tubes are long for the area between them, what their outlines ask for reaches everywhere: rings, pipes shorter
+// than two and a half radii and joints with arms of less are none. Of blends that are none 0.24 to 0.37 was measured.
 bool has_room(const Patch& patch, const Points& points) {
-    constexpr double least_area = 0.2;  // of the sum of the outlines' squared lengths
+    constexpr double of_tubes = 0.2;  // least area, of the sum of the outlines' squared lengths
+    constexpr double of_joints = 0.4;
     const std::vector<Indices> loops = patch.loops();
-    if (loops.size() != 2) return false;
+    if (loops.size() < 2) return false;
     double squares = 0.0;
     for (const Indices& loop : loops) {
         double length = 0.0;
@@ -27,7 +28,7 @@ bool has_room(const Patch& patch, const Points& points) {
     }
     FaceGeometry faces;
     faces.update(points, patch.triangles);
-    return faces.areas.sum() > least_area * squares;
+    return faces.areas.sum() > (loops.size() == 2 ? of_tubes : of_joints) * squares;
 }
 
 double largest_distance(const Problem& problem, const Points& points, const Points& from) {

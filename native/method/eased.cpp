@@ -3,7 +3,7 @@
 #include "method/on_coarse_proxy.h"
 #include "outline/eased_outline.h"
 #include "placement/follow_outline.h"
-#include "placement/turn_back.h"
+#include "placement/untear.h"
 #include "problem/surface_state.h"
 
 namespace fairing {
@@ -13,15 +13,6 @@ namespace {
 constexpr double wave = 16.0;  // vertices; 8 left regions of an ear and a cheek with turned triangles, 32 moved more
 
 OutlineData outline_of(const Problem& problem) { return {problem.fixed_points, problem.fixed_normals}; }
-
-// Triangles beside the outline that followed it too far, on the surface that is there by now.
-Points turned_back(const Problem& problem, const Points& points) {
-    const Points normals = max_normals(problem.patch, points, problem.fixed_normals);
-    const TargetSurface target(problem.patch, points, normals);
-    Placement placement = at_vertices(problem, target, points);
-    turn_back(problem, target, placement);
-    return placement.points;
-}
 
 }  // namespace
 
@@ -45,7 +36,7 @@ std::optional<Solution> solve_eased(const Problem& problem, const Progress& prog
     auto solution = place_on_coarse_proxy(smooth, progress);
     if (!solution) return std::nullopt;
     follow_outline(problem.patch, problem.fixed_points - smooth.fixed_points, solution->points);
-    solution->points = turned_back(problem, solution->points);
+    solution->points = untorn(problem.patch, std::move(solution->points));
     return solution;
 }
 

@@ -22,6 +22,8 @@ public:
     [[nodiscard]] Indices narrow(const Points& points, double share) const;
     // Those of the cross-sections that are longer than both `times` over.
     [[nodiscard]] Indices wide(const Points& points, double times) const;
+    // How far the middle of a cross-section lies at most from where it was, over the radius that it had: L / 2π.
+    [[nodiscard]] double aside(const Points& points) const;
 
 private:
     explicit Girths(CrossSections sections) : sections_(std::move(sections)) {}
@@ -29,6 +31,8 @@ private:
     CrossSections sections_;
     std::vector<VectorX> lesser_;  // of the two lengths, for each outline
     std::vector<VectorX> larger_;
+    std::vector<VectorX> radii_;
+    std::vector<Points> middles_;
 };
 
 }  // namespace fairing

@@ -42,6 +42,7 @@ Levels::Levels(const Problem& problem, Outlines outlines) {
     const Shared<Lambda> weights = symmetric_weights(problem.weights);
     coarse_ = coarsen(problem.patch, std::get<InnerWeights>(*weights),
                       {points, outlines == Outlines::thinned ? normals : unknown}, coarsest_size);
+    left_.resize(coarse_.size());
     levels_.reserve(coarse_.size() + 1);
     levels_.push_back({finest(problem), weights, {}});
     for (CoarseLevel& coarse : coarse_) {
@@ -55,6 +56,20 @@ Levels::Levels(const Problem& problem, Outlines outlines) {
 
 RingMatrix Levels::laplacian(std::size_t k) const {
     return {levels_[k].problem.patch.vertex_count(), std::get<InnerWeights>(*levels_[k].weights)};
+}
+
+void Levels::leave(std::size_t k) {
+    Patch& patch = coarse_[k - 1].patch;
+    PatchMembers& members = left_[k - 1];
+    members = std::move(patch);
+    patch = Patch({members.free_count, members.to_input, {}, {}, Triangles(3, 0)});
+}
+
+void Levels::come_back(std::size_t k) {
+    PatchMembers& members = left_[k - 1];
+    if (members.to_input.empty()) return;
+    coarse_[k - 1].patch = Patch(std::move(members));
+    members = {};
 }
 
 std::vector<int> Levels::sizes() const {

@@ -32,6 +32,10 @@ public:
     void set_up_tangential(std::size_t k, RingMatrix laplacian, const Progress& progress);
     void set_up_tangential(std::size_t k, const Progress& progress) { set_up_tangential(k, laplacian(k), progress); }
 
+    // Lets go of the edges and rings of a coarse level that is left, or brings them back.
+    void leave(std::size_t k);
+    void come_back(std::size_t k);
+
 private:
     struct Level {
         Problem problem;
@@ -41,6 +45,7 @@ private:
     };
 
     std::vector<CoarseLevel> coarse_;  // coarse_[k] lies below levels_[k]
+    std::vector<PatchMembers> left_;   // of coarse_[k], whose patch has its vertices only; empty where it is whole
     std::vector<Level> levels_;
 };
 

@@ -4,16 +4,19 @@
 #include <array>
 
 #include "base/stopwatch.h"
+#include "geometry/flips.h"
 #include "geometry/outline_angles.h"
 #include "geometry/spikes.h"
 #include "geometry/surface_fit.h"
 #include "method/accept.h"
 #include "method/eased.h"
+#include "method/smoothed.h"
 #include "placement/follow_outline.h"
 #include "placement/refill.h"
 #include "problem/surface_state.h"
 #include "proxy/proxy_solver.h"
 #include "start/loft.h"
+#include "start/swept_start.h"
 
 namespace fairing {
 
@@ -141,8 +144,37 @@ std::optional<Solution> best_over(const Problem& problem, const Problem& outline
     return std::nullopt;
 }
 
+// Whether triangles are turned over elsewhere than beside creases: a wedge of 16° counts as a fold.
+bool folds_beside(const Patch& patch, const CreasedStart& start) {
+    const Indices flipped = flipped_by_solution(patch, start.points);
+    return std::any_of(flipped.begin(), flipped.end(), [&](int t) {
+        const auto corners = patch.triangles.col(t);
+        return std::none_of(corners.begin(), corners.end(), [&](int v) { return start.on_crease[at(v)] != 0; });
+    });
+}
+
+// Where both outlines cross the same creases, these run along, as the edges of a wing, and the sections with them.
+std::optional<Solution> along_creases(const Problem& problem, const Progress& progress) {
+    const auto start = creased_start(problem, progress);
+    if (!start || folds_beside(problem.patch, *start)) return std::nullopt;
+    Solution solution;
+    solution.points = start->points;
+    solution.mean_curvature = measured_surface(problem, start->points).curvature.mean;
+    solution.boundary_normals = one_sided_normals(problem.patch, start->points);
+    solution.termination = Termination::converged;
+    solution.iterations = 1;
+    solution.instead = Instead::loft;
+    solution.ways = {{"creased loft", 0.0}};
+    solution.polished = false;  // its folds are the creases'
+    solution.flaw = flaw_of(problem, solution);
+    solution.polished = true;
+    const bool is_good = is_accepted(problem, solution) && !is_blemished(problem, solution, progress);
+    return is_good ? std::optional(std::move(solution)) : std::nullopt;
+}
+
 // The outline as it is comes first.
 std::optional<Solution> best_of(const Problem& problem, const Progress& progress) {
+    if (auto creased = along_creases(problem, progress)) return creased;
     const Lofts lofts = lofts_of(problem, progress);
     auto solution = best_over(problem, problem, lofts);
     return solution ? std::move(solution) : best_over(problem, eased(problem), lofts);

@@ -7,6 +7,7 @@
 #include "geometry/flips.h"
 #include "geometry/surface_fit.h"
 #include "iteration/accelerated_iteration.h"
+#include "method/eased.h"
 #include "method/levels.h"
 #include "method/one_level.h"
 #include "problem/surface_state.h"
@@ -40,11 +41,12 @@ double done_after(std::size_t k) { return begin + (1.0 - begin) * std::pow(0.25,
 class NestedSolve {
 public:
     NestedSolve(const Problem& problem, const Progress& progress)
-        : problem_(problem), progress_(progress), levels_(problem, Outlines::thinned) {
+        : problem_(problem), progress_(progress), is_rough_(is_jagged(problem)), levels_(problem, Outlines::thinned) {
         for (std::size_t k = 0; k <= levels_.coarsest(); ++k) {
             SolverOptions& options = levels_.problem(k).options;
             options.max_iterations = std::min(k == 0 ? most_iterations : most_between, problem.options.max_iterations);
             options.patience = patience;
+            options.contracts = is_rough_;
             if (k == 0) continue;
             options.tolerance = std::max(between_tolerance, problem.options.tolerance);
             options.start_only = true;
@@ -97,24 +99,28 @@ private:
     }
 
     // Levels between are good enough as starts where their steps shrink, even if single poor triangles keep them from
-    // converging.
-    [[nodiscard]] static bool is_good(std::size_t k, const Solution& solution) {
+    // converging. Over jagged outlines no steps need to shrink there: the finest level tells after four to six. Of 24
+    // regions of scans with 10,000 vertices, none of whose levels between converged, 11 were solved from there, all but
+    // one with last steps below the larger limit; 4 others were not.
+    [[nodiscard]] bool is_good(std::size_t k, const Solution& solution) const {
         constexpr double shrinks = 1.0 / 3.0;
         constexpr double small_step = 1e-3;  // units of D
+        constexpr double rough_step = 0.03;
         if (solution.termination == Termination::converged) return true;
-        return k > 0 && solution.termination == Termination::iteration_limit &&
+        if (k == 0 || solution.iterations == 0) return false;
+        if (is_rough_) return solution.last_step <= rough_step;
+        return solution.termination == Termination::iteration_limit &&
                solution.last_step <= std::min(small_step, shrinks * solution.first_step);
     }
 
-    // The surface of level k on the finest one.
-    [[nodiscard]] Solution given_up(std::size_t k, const Points& points) const {
+    // The surface of level k on the finest one, not measured there.
+    [[nodiscard]] Solution given_up(std::size_t k, const Points& points) {
         Solution solution;
         solution.points = points;
-        while (k-- > 0) solution.points = interpolated(k, solution.points, levels_.laplacian(k)).points;
-        const SurfaceState state = measured_surface(problem_, solution.points);
-        solution.mean_curvature = state.curvature.mean;
-        solution.residual = largest_residual(problem_, state, outer_residual(problem_, state));
-        solution.boundary_normals = one_sided_normals(problem_.patch, solution.points);
+        while (k-- > 0) {
+            levels_.come_back(k + 1);
+            solution.points = interpolated(k, solution.points, levels_.laplacian(k)).points;
+        }
         return solution;
     }
 
@@ -124,6 +130,7 @@ private:
         Workspace& work = levels_.work(k);
         RingMatrix laplacian = levels_.laplacian(k);
         auto [points, normals] = interpolated(k, coarse, laplacian);
+        levels_.leave(k + 1);
         progress.report(share_of_start / 3, "refinement");
         levels_.set_up_tangential(k, std::move(laplacian), progress_);
         slide(problem, *work.tangential, normals, most_slides, points);
@@ -160,6 +167,7 @@ private:
 
     const Problem& problem_;
     const Progress& progress_;
+    const bool is_rough_;
     Stopwatch watch_;
     Levels levels_;
 };

@@ -75,8 +75,10 @@ private:
         if (own) starts.push_back(start_from(by_surface(coarse, *own, proxy.mesh.patch, target), target));
         starts.push_back(start_from(by_history(coarse, proxy.history, proxy.mesh, target), target));
         Start& start = least_folded(starts, target);
-        Placed best = spread(std::move(start.settled), target);
-        if (best.folded.empty() || !proxy.converged()) return best;
+        Placement settled = spread(std::move(start.settled), target);
+        if (!proxy.converged()) return {std::move(settled), {}, 0};  // no solution: its folds don't matter
+        Placed best = without_folds(std::move(settled), target);
+        if (best.folded.empty()) return best;
         keep_better(unfolded(std::move(start.raw), target), best);
         if (best.folded.empty()) return best;
         auto other = place_by_disc(problem_, *levels_.work(0).tangential, proxy.mesh.patch, target, progress_.here());
@@ -111,11 +113,15 @@ private:
         return folds(starts[0]) <= folds(starts[1]) ? starts[0] : starts[1];
     }
 
-    Placed spread(Placement placement, const TargetSurface& target) {
+    Placement spread(Placement placement, const TargetSurface& target) {
         for (std::size_t k = levels_.coarsest(); k-- > 0;) {
             placement = on_finer_level(k, placement, target);
             slide(k, target, placement);
         }
+        return placement;
+    }
+
+    Placed without_folds(Placement placement, const TargetSurface& target) {
         return place_settled(problem_, *levels_.work(0).tangential, target, std::move(placement), progress_.here());
     }
 
@@ -124,7 +130,7 @@ private:
             untangle(levels_.problem(k + 1), target, placement);
             placement = on_finer_level(k, placement, target);
         }
-        return place_settled(problem_, *levels_.work(0).tangential, target, std::move(placement), progress_.here());
+        return without_folds(std::move(placement), target);
     }
 
     void slide(std::size_t k, const TargetSurface& target, Placement& placement) {

@@ -10,10 +10,10 @@
 namespace fairing {
 
 // Solves as solve_global does (method/ladder). Between G1 outlines the surface of least variation is taken instead
-// where no way was accepted, and where two outlines are joined by a bulb: a surface whose curvatures vary more than
+// where no way was accepted, and where several outlines are joined by a bulb: a surface whose curvatures vary more than
 // twice as much (variation_energy) as they need. Where that is not accepted either, several outlines are joined by a
-// loft (method/lofted) or, where the loft has blemishes, by the shape before as smooth as it can be (method/smoothed),
-// which also replaces an accepted surface that crosses itself where the shape before did not. Not so with
+// loft (method/lofted) or, where the loft has blemishes, by the shape before as smooth as it can be (method/smoothed).
+// That shape also replaces an accepted surface that crosses itself where the shape before did not. Not so with
 // Otherwise::stop, where the iterations allowed ran out, and where part of a load was solved. Where nothing is
 // accepted, the better of the first two comes back with its flaw: fewer crossings first, then less variation.
 // `Solution::instead` tells which it is. Throws SolverError, Cancelled.

@@ -33,14 +33,6 @@ void shorten(const Patch& patch, const Points& before, const Indices& vertices, 
     }
 }
 
-Indices all_of(const Blemishes& blemishes) {
-    Indices all = blemishes.torn;
-    all.insert(all.end(), blemishes.bent.begin(), blemishes.bent.end());
-    all.insert(all.end(), blemishes.narrow.begin(), blemishes.narrow.end());
-    all.insert(all.end(), blemishes.wide.begin(), blemishes.wide.end());
-    return all;
-}
-
 // The first without blemishes, or the last one that is not torn.
 std::optional<Points> smoothest(const Problem& problem, ShapeBefore& shape, const Progress& progress) {
     const BlemishFinder finder(problem, shape.points(), progress);
@@ -52,7 +44,7 @@ std::optional<Points> smoothest(const Problem& problem, ShapeBefore& shape, cons
         const Blemishes blemishes = finder.in(*points);
         if (blemishes.torn.empty()) best = *points;
         if (blemishes.absent()) return best;
-        shorten(problem.patch, shape.points(), all_of(blemishes), wavelengths);
+        shorten(problem.patch, shape.points(), blemishes.all(), wavelengths);
     }
     return best;
 }
@@ -87,8 +79,10 @@ std::optional<Solution> smoothed(const Problem& problem, const Solution& first, 
 
 bool is_blemished(const Problem& problem, const Solution& solution, const Progress& progress) {
     if (!joins_outlines(problem)) return false;
-    const auto shape = ShapeBefore::of(problem, progress);
-    return shape && !BlemishFinder(problem, shape->points(), progress).in(solution.points).absent();
+    const auto before = shape_before(problem, progress);
+    if (!before) return false;
+    const BlemishFinder finder(problem, *before, progress);
+    return !finder.in(solution.points).absent() || finder.lies_aside(solution.points);
 }
 
 bool crosses_anew(const Problem& problem, const Solution& solution) {

@@ -1,4 +1,4 @@
-// The shape before, as smooth as it can be: where no equation joins several outlines, and no loft does well.
+// The shape before, as smooth as it can be: where no equation joins several outlines, and no loft does better.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ namespace fairing {
 // until there are none. Nothing for one outline, where no shape before is known, or none is accepted.
 std::optional<Solution> smoothed(const Problem& problem, const Solution& first, const Progress& progress);
 
-// Whether a surface has blemishes, so that smoothing the shape before is worth trying.
+// Whether a surface has blemishes, or lies aside of the shape before, so that smoothing that is worth trying.
 bool is_blemished(const Problem& problem, const Solution& solution, const Progress& progress);
 
 // Whether triangles between several outlines pass through each other that did not before.

@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "base/stopwatch.h"
+#include "geometry/surface_fit.h"
 #include "method/accept.h"
 #include "method/least_bent.h"
+#include "problem/surface_state.h"
 
 namespace fairing {
 
@@ -17,6 +19,14 @@ Solution best_of(const Problem& problem, std::vector<Solution> found) {
         return a.flaw == Flaw::not_converged && less_bent(problem, a, b);
     });
     return std::move(*best);
+}
+
+// What a way that gave up early has left open.
+void measure(const Problem& problem, Solution& solution) {
+    const SurfaceState state = measured_surface(problem, solution.points);
+    solution.mean_curvature = state.curvature.mean;
+    solution.residual = largest_residual(problem, state, outer_residual(problem, state));
+    solution.boundary_normals = one_sided_normals(problem.patch, solution.points);
 }
 
 }  // namespace
@@ -45,6 +55,7 @@ Solution run_ways(std::span<const Way> ways, const Problem& problem, const Progr
         situation.found.push_back(std::move(*solution));
     }
     Solution best = best_of(problem, std::move(situation.found));
+    if (best.mean_curvature.size() == 0) measure(problem, best);
     best.ways = std::move(taken);
     return best;
 }

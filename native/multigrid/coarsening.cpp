@@ -18,6 +18,14 @@ void append(Removals& all, const Removals& more) {
     for (std::size_t k = 1; k < more.begin.size(); ++k) all.begin.push_back(offset + more.begin[k]);
 }
 
+// What the vectors have in reserve a large mesh has no room for.
+void give_back_room(Removals& removals) {
+    removals.vertex.shrink_to_fit();
+    removals.begin.shrink_to_fit();
+    removals.neighbours.shrink_to_fit();
+    removals.weights.shrink_to_fit();
+}
+
 // Collapses down to a quarter.
 Removals collapse_level(CollapseMesh& mesh, int target) {
     Removals removals;
@@ -27,6 +35,7 @@ Removals collapse_level(CollapseMesh& mesh, int target) {
         append(removals, mesh.pass());
         if (before - mesh.free_count() < least_progress * before) break;
     }
+    give_back_room(removals);
     return removals;
 }
 

@@ -290,6 +290,7 @@ InnerWeights CollapseMesh::weights() const {
         if (dead_triangle_[at(s / 3)] || (twin_[at(s)] != none && twin_[at(s)] < s)) continue;
         result.push_back({corner_[at(s)], corner_[at(next_side(s))], weight_[at(s)]});
     }
+    result.shrink_to_fit();
     return result;
 }
 

@@ -20,9 +20,9 @@ void project_across(SingleField& field, const SingleField& normals) {
     });
 }
 
-SingleField to_single(const Points& field, Eigen::Index count) {
+SingleField to_single(const Points& field, Eigen::Index count, double unit = 1.0) {
     SingleField result = SingleField::Zero(4, count);
-    result.topRows<3>() = field.leftCols(count).cast<float>();
+    result.topRows<3>() = (field.leftCols(count) / unit).cast<float>();
     return result;
 }
 
@@ -100,9 +100,11 @@ void MultigridStep::cycle(SingleField& r, SingleField& x) const {
 
 // d with L d = scale · pull; across the normals if there are any, as `pull` is then. In units of its own, far from the
 // limits of single precision.
-Points MultigridStep::solve(const Points& pull, const SingleField* normals, double tolerance, int most_cycles) const {
+Points MultigridStep::solve(Points pull, const SingleField* normals, double tolerance, int most_cycles) const {
     const double unit = pull.cwiseAbs().maxCoeff();
     if (!(unit > 0.0)) return Points::Zero(3, patch_.free_count);
+    SingleField r = to_single(pull, pull.cols(), unit);
+    pull.resize(3, 0);
     SingleField residual;
     const auto apply = [&](const SingleField& p, SingleField& product) {
         laplacian_.apply(p, patch_.free_count, [&](int i, const Eigen::Vector4f& value) { product.col(i) = value; });
@@ -114,8 +116,7 @@ Points MultigridStep::solve(const Points& pull, const SingleField* normals, doub
         cycle(residual, z);
         if (normals) project_across(z, *normals);
     };
-    const SingleField d =
-        conjugate_gradients(to_single(pull / unit, pull.cols()), tolerance, most_cycles, apply, precondition);
+    const SingleField d = conjugate_gradients(std::move(r), tolerance, most_cycles, apply, precondition);
     return unit * d.topLeftCorner(3, patch_.free_count).cast<double>();
 }
 
@@ -146,7 +147,7 @@ Points MultigridStep::displacement(const Points& points, const Points& normals, 
     Points across = pull(points);
     project_across(across.leftCols(patch_.free_count), normals);
     const SingleField single_normals = to_single(normals, patch_.free_count);
-    return solve(across, &single_normals, relative_tolerance, max_cycles);
+    return solve(std::move(across), &single_normals, relative_tolerance, max_cycles);
 }
 
 }  // namespace fairing

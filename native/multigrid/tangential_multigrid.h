@@ -50,7 +50,7 @@ private:
 
     // All of these in units of the scale.
     [[nodiscard]] Points pull(const Points& points) const;
-    [[nodiscard]] Points solve(const Points& pull, const SingleField* normals, double tolerance, int most_cycles) const;
+    [[nodiscard]] Points solve(Points pull, const SingleField* normals, double tolerance, int most_cycles) const;
     void subtract_product(const SingleField& x, SingleField& r) const;
     void smooth(SingleField& x, SingleField& r, Residual last) const;
 

@@ -26,6 +26,7 @@ struct SolverOptions {
     double tolerance = 1e-6;  // of the largest move in an iteration, in units of D
     int max_iterations = 200;
     bool nested = true;       // large patches begin on coarser levels
+    bool contracts = false;   // ends stalled where the steps shrink slower than near a surface
     bool start_only = false;  // the surface is a start for another one: the last step is taken and not measured
     int patience = 40;        // iterations without progress after which the solve is given up
 };

@@ -1,10 +1,8 @@
 #include "start/girth.h"
 
-#include <algorithm>
-#include <array>
-
 #include "operators/laplace_operator.h"
 #include "start/clamped_fill.h"
+#include "start/level_lines.h"
 
 namespace fairing {
 
@@ -14,20 +12,6 @@ constexpr int line_count = 17;
 constexpr double first_level = 0.1;  // the last one as far from the other end
 
 double level_of(int line) { return first_level + (1.0 - 2.0 * first_level) * line / (line_count - 1); }
-
-// The part of a level line within a triangle; nothing elsewhere.
-double length_within(const Eigen::Vector3i& corners, const VectorX& values, double level, const Points& points) {
-    std::array<Vector3, 2> ends;
-    std::size_t count = 0;
-    for (int k = 0; k < 3; ++k) {
-        const int a = corners[k];
-        const int b = corners[(k + 1) % 3];
-        if ((values[a] < level) == (values[b] < level)) continue;
-        const double share = (level - values[a]) / (values[b] - values[a]);
-        ends[count++] = (1.0 - share) * points.col(a) + share * points.col(b);
-    }
-    return count == 2 ? (ends[1] - ends[0]).norm() : 0.0;
-}
 
 }  // namespace
 
@@ -51,7 +35,21 @@ VectorX CrossSections::lengths(int outline, const Points& points) const {
     VectorX result = VectorX::Zero(line_count);
     for (int line = 0; line < line_count; ++line) {
         for (const auto triangle : patch_.triangles.colwise())
-            result[line] += length_within(triangle, levels_[at(outline)], level_of(line), points);
+            result[line] += level_within(triangle, levels_[at(outline)], level_of(line), points).length;
+    }
+    return result;
+}
+
+Points CrossSections::middles(int outline, const Points& points) const {
+    Points result = Points::Zero(3, line_count);
+    for (int line = 0; line < line_count; ++line) {
+        double length = 0.0;
+        for (const auto triangle : patch_.triangles.colwise()) {
+            const LevelPiece piece = level_within(triangle, levels_[at(outline)], level_of(line), points);
+            result.col(line) += piece.length * piece.middle;
+            length += piece.length;
+        }
+        if (length > 0.0) result.col(line) /= length;
     }
     return result;
 }

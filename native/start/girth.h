@@ -19,6 +19,8 @@ public:
     [[nodiscard]] int outline_count() const { return static_cast<int>(levels_.size()); }
     // Lengths of the lines around one outline on a surface (3 × local vertices), from the others towards it.
     [[nodiscard]] VectorX lengths(int outline, const Points& points) const;
+    // The lines' centroids, 3 × as many.
+    [[nodiscard]] Points middles(int outline, const Points& points) const;
     // The triangles that a line around an outline runs through.
     [[nodiscard]] Indices triangles(int outline, int line) const;
 

@@ -37,7 +37,18 @@ SymmetricStep::SymmetricStep(const Patch& patch, const InnerWeights& weights, co
 
 void SymmetricStep::hold(const Points& fixed_points) { pull_ = (coupling_ * fixed_points.transpose()).transpose(); }
 
-Points SymmetricStep::harmonic_positions() const { return factor_.solve_points(pull_); }
+// What single precision leaves is solved for again.
+Points SymmetricStep::harmonic_positions() const {
+    constexpr double tolerance = 1e-13;
+    constexpr int most_times = 8;
+    Points points = inverse(pull_);
+    for (int k = 0; k < most_times; ++k) {
+        const Points r = -gradient(points);
+        if (!(r.norm() > tolerance * pull_.norm())) break;
+        points += inverse(r);
+    }
+    return points;
+}
 
 double SymmetricStep::merit(const Points& points, const Points& /*normals*/) const {
     const auto free = points.leftCols(free_count_);

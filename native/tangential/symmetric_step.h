@@ -18,7 +18,7 @@ public:
     [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
     [[nodiscard]] Points displacement(const Points& points, const Points& normals, int max_cycles) const override;
 
-    // L⁻¹ of a field over the free vertices.
+    // L⁻¹ of a field over the free vertices, to single precision.
     [[nodiscard]] Points inverse(const Points& field) const;
     [[nodiscard]] int free_count() const { return free_count_; }
 
@@ -28,10 +28,10 @@ private:
     [[nodiscard]] Points precondition(const Points& field, const Points& normals) const;
 
     int free_count_;
-    SparseMatrix laplacian_;  // both triangles
-    SparseMatrix coupling_;   // λ_ij of free i and fixed j
-    Points pull_;             // Σ λ_ij x_j over fixed neighbours j
-    SparseCholesky factor_;
+    SparseMatrix laplacian_;                              // both triangles
+    SparseMatrix coupling_;                               // λ_ij of free i and fixed j
+    Points pull_;                                         // Σ λ_ij x_j over fixed neighbours j
+    SparseCholesky factor_{Points(3, 0), Kept::singles};  // serves conjugate gradients
 };
 
 }  // namespace fairing

@@ -7,6 +7,7 @@
 #include "base/stopwatch.h"
 #include "geometry/self_intersection.h"
 #include "geometry/surface_fit.h"
+#include "geometry/vertex_normal.h"
 #include "operators/biharmonic_operator.h"
 #include "operators/workspace.h"
 #include "placement/place.h"
@@ -41,13 +42,15 @@ constexpr int most_fine_steps = 100;  // most of those that converge take 30 at 
 
 // From a rough start descent may end in a minimum with a fold; another mesh or more damping then leads elsewhere.
 struct Beginning {
-    double share;    // of the outline's mean edge
-    double damping;  // at first
+    double share;           // of the outline's mean edge
+    double damping;         // at first
+    double settled = 0.02;  // relative change of the merit from one mesh to the next
 };
 constexpr std::array beginnings{Beginning{1.4, 1e-3}, Beginning{1.0, 1e-3}, Beginning{1.8, 1e-2}, Beginning{1.0, 0.1}};
 
 // From a surface that is near: elbows take half the steps that they take with the first beginning, or undamped.
-constexpr Beginning near_beginning{1.4, 1e-2};
+// The fine mesh mends what a rough end leaves: finer and sharper ones cost a third more.
+constexpr Beginning near_beginning{1.8, 1e-2, 0.05};
 constexpr double near_damping = 1e-6;  // on the next mesh
 
 Workspace make_workspace(const Problem& problem, const Progress& progress) {
@@ -76,14 +79,15 @@ Sizing sizing_of(const Problem& problem, const Fineness& fineness, int most) {
     return {fineness.growth, std::clamp(range_of_edges * edge, shortest, longest), most, fineness.turn};
 }
 
-// On a coarse mesh from a rough start; the mesh is made anew in between, for vertices move along normals only.
-SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginning& beginning,
-                         const Progress& progress) {
+// On a coarse mesh from a rough start; the mesh is made anew in between, for vertices move along normals only. Given up
+// where the merit is far above `most`.
+SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginning& beginning, const Progress& progress,
+                         double most = HUGE_VAL) {
     constexpr int most_rounds = 8;
     constexpr double tolerance = 1e-3;
-    constexpr double settled = 0.02;  // relative change of the merit from one mesh to the next
-    constexpr double enough = 1e-3;   // from one step to the next
+    constexpr double enough = 1e-3;  // from one step to the next
     constexpr double enough_for_fine = 0.01;
+    constexpr double hopeless = 1000.0;  // times what is too much: two meshes have shown it
     const Sizing sizing = sizing_of(problem, {beginning.share, coarse_turn, coarse_growth}, most_coarse);
     std::optional<SolvedSheet> last;
     double merit = 0.0;  // of the last mesh
@@ -92,7 +96,8 @@ SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginnin
         NewtonLimits limits{tolerance, k == 0 ? 30 : 15, k == 0 ? beginning.damping : near_damping, 0.05};
         limits.settled = enough;
         last.emplace(solve_on(mesh, problem, last, Measure::plain, limits, progress.range(0.1 * k, 0.1 * (k + 1))));
-        if (std::abs(last->result.merit - merit) <= settled * merit || last->result.merit < tolerance) break;
+        if (std::abs(last->result.merit - merit) <= beginning.settled * merit || last->result.merit < tolerance) break;
+        if (k > 0 && !(last->result.merit <= hopeless * most)) return std::move(*last);
         merit = last->result.merit;
     }
     mesh.adapt(sizing);
@@ -196,8 +201,15 @@ Solution solution_of(const Problem& problem, const Attempt& attempt, const Progr
     return solution;
 }
 
+// A surface as it is. Near ones have Max's normals: those that suit them better take as long as six steps.
+SolvedSheet unsolved(const ProxyMesh& mesh, const Problem& problem) {
+    ProxyMesh::Snapshot snapshot = mesh.snapshot();
+    Sheet sheet{snapshot.points, max_normals(snapshot.patch, snapshot.points, problem.fixed_normals)};
+    return {std::move(snapshot), std::move(sheet), {}};
+}
+
 // A surface as it is, with the normals that suit it.
-SolvedSheet unsolved(const ProxyMesh& mesh, const Problem& problem, const Progress& progress) {
+SolvedSheet well_suited(const ProxyMesh& mesh, const Problem& problem, const Progress& progress) {
     ProxyMesh::Snapshot snapshot = mesh.snapshot();
     const Problem here = on_patch(problem, snapshot.patch);
     Sheet sheet{snapshot.points, fitted_normals(here, snapshot.points, Measure::scale_free, progress.here())};
@@ -209,7 +221,7 @@ std::optional<Attempt> attempted_on_tube(const Problem& problem, const Points& t
                                          const Progress& progress) {
     constexpr double damping = 1e-3;
     ProxyMesh mesh(problem.patch, tube);
-    SolvedSheet fine = solve_fine(mesh, problem, unsolved(mesh, problem, progress), {damping, most, true}, progress);
+    SolvedSheet fine = solve_fine(mesh, problem, well_suited(mesh, problem, progress), {damping, most, true}, progress);
     if (std::isfinite(most) && !(fine.result.merit <= most)) return std::nullopt;
     const double gradient = fine.result.gradient;
     const int count = fine.mesh.patch.vertex_count();
@@ -221,9 +233,9 @@ std::optional<Solution> solve_nearby(const Problem& problem, const NearVariation
                                      const Progress& progress) {
     Stopwatch watch;
     ProxyMesh mesh(problem.patch, near.points);
-    SolvedSheet solved = near.roughly ? solve_coarse(mesh, problem, near_beginning, progress.range(0.0, 0.9))
-                                      : solve_fine(mesh, problem, unsolved(mesh, problem, progress), {near_damping},
-                                                   progress.range(0.0, 0.5));
+    SolvedSheet solved =
+        near.roughly ? solve_coarse(mesh, problem, near_beginning, progress.range(0.0, 0.9), most)
+                     : solve_fine(mesh, problem, unsolved(mesh, problem), {near_damping}, progress.range(0.0, 0.5));
     if (!near.roughly && !solved.result.converged) {  // too far from it: over a coarse mesh
         const auto anew = attempted(problem, near.points, near_beginning, most, progress.range(0.5, 0.9));
         if (anew) return solution_of(problem, *anew, progress.range(0.9, 1.0));

@@ -15,7 +15,7 @@ from core.fill_verdict import Surface, judge
 from core.filling import FillOptions, Piece, fill, joining_advice
 from core.harmonic import harmonic, nearest
 from core.quality import Join
-from core.region import MeshArrays
+from core.region import MeshArrays, nothing
 from core.report import angle_text
 from core.verdict import GOOD, LOOK, UNUSABLE, Verdict
 from core.words import MeshRefusal
@@ -169,9 +169,17 @@ def judged(points: Floats, join: Join, *tangent_only: int, **of_result: object) 
     flat, triangles, rim = disc(3)
     sheet = polygon_mesh(flat, triangles.tolist(), np.zeros(len(triangles), dtype=bool))
     empty = replace(sheet, triangles=sheet.triangles[:0])
-    result = SimpleNamespace(**{"converged": True, "termination": "converged", "equation": "harmonic", **of_result})
+    usual = {"converged": True, "termination": "converged", "equation": "harmonic", "loops": (np.arange(rim),)}
+    result = SimpleNamespace(**{**usual, **of_result})
     only_tangent = np.array(tangent_only, dtype=np.int64)
     return judge(empty, np.arange(rim), Surface(points, triangles, result, join, only_tangent))  # type: ignore[arg-type]
+
+
+def test_outlines_that_are_joined_are_told_as_several() -> None:
+    points, _, rim = disc(3)
+    join = Join(nothing(), np.empty(0))
+    told = judged(points, join, converged=False, termination="stalled", loops=np.split(np.arange(rim), [3]))
+    assert told.reason == f"No fair surface was found for 2 outlines of {rim} edges in all"
 
 
 def joined(degrees: float = 0.0, limit: float = 12.0) -> Join:

@@ -83,6 +83,11 @@ def test_what_nothing_looks_at_is_told(given: dict[str, Any], beside: dict[str, 
     assert FairOptions(**beside).idle == ()
 
 
+def test_a_new_mesh_looks_at_no_open_border() -> None:
+    assert FairOptions(open_border="FAIRED").idle == ()
+    assert FairOptions(open_border="FAIRED", mesh="NEW").idle == ("open_border",)
+
+
 def test_every_argument_for_the_engine_is_one_that_it_knows() -> None:
     known = inspect.signature(fairing.fair).parameters
     given = FairOptions().resolved(False).engine_arguments()

@@ -249,6 +249,10 @@ def test_a_hard_edge_that_was_eaten_deserves_a_look(fine: Evidence) -> None:
     assert judged(running).grade == LOOK
     assert judged(running).spots.tolist() == [3, 8]
     assert judged(running).reason.startswith("A hard edge runs on outside, but was rounded off at 2 vertices")
+    assert judged(running).reason.endswith("to keep it")
+    kinked = replace(running, join=Join(ints(7, 8, 9), np.array([12.5, 3.0, 31.0])))
+    assert judged(kinked).reason.endswith("or grow the selection: a kink of 31° shows at the outline")
+    assert judged(kinked).spots.tolist() == [3, 8, 9, 7]
     marked = replace(fine, eaten=Eaten(running_on=ints(3, 8), marked=ints(4)))
     assert judged(marked).spots.tolist() == [4]
     assert judged(marked).reason.startswith("Edges marked sharp were rounded off at 1 vertex")

@@ -100,3 +100,22 @@ def test_islands_of_a_run_are_told_once() -> None:
     said = [text for text in told(obj, accept="ALL") if text.startswith("The normals along the outline turn")]
     assert len(said) == 1
     assert said[0].endswith("(4 islands)")
+
+
+@pytest.mark.parametrize("nothing", ["no face", "no free vertex", "no border"])
+def test_where_there_is_nothing_to_do_the_report_is_not_that_of_the_run_before(nothing: str) -> None:
+    obj, faces = meshes.domed_grid()
+    assert meshes.fair(obj, faces) == {"FINISHED"}
+    assert (meshes.report().verdict, meshes.report().written) == ("GOOD", True)
+    alone = np.zeros_like(faces)
+    alone[np.flatnonzero(faces)[0]] = nothing == "no free vertex"
+    if nothing == "no border":
+        meshes.select(obj, np.zeros_like(faces))
+        meshes.edit(obj)
+        with pytest.raises(RuntimeError, match="No border is selected"):
+            bpy.ops.mesh.fair_fill()
+        meshes.leave()
+    else:
+        assert meshes.fair(obj, alone) == {"CANCELLED"}
+    assert (meshes.report().verdict, meshes.report().written) == ("UNUSABLE", False)
+    assert meshes.report().reason.startswith("No ")

@@ -72,6 +72,22 @@ Single single_patch(const Mesh& mesh, std::vector<char> given) {
     return single;
 }
 
+void push_beyond_outline(const Patch& patch, int count, Points& points) {
+    std::vector<char> taken(static_cast<std::size_t>(patch.vertex_count()), 0);
+    for (const auto corners : patch.triangles.colwise()) {
+        const int first = corners.minCoeff();
+        const bool beside = std::count_if(corners.begin(), corners.end(), [&](int v) { return patch.is_free(v); }) == 1;
+        if (count == 0 || !beside || taken[static_cast<std::size_t>(first)]) continue;
+        Vector3 middle = -0.5 * points.col(first);
+        for (const int v : corners) middle += 0.5 * points.col(v);
+        points.col(first) += 1.5 * (middle - points.col(first));
+        for (const int w : patch.ring(first).vertices) {
+            for (const int u : patch.ring(w).vertices) taken[static_cast<std::size_t>(u)] = 1;
+        }
+        --count;
+    }
+}
+
 Stiffness stiffness_of(const Single& single) {
     FaceGeometry faces;
     faces.update(single.points, single.patch().triangles);

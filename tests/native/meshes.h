@@ -33,6 +33,9 @@ struct Single {
 };
 Single single_patch(const Mesh& mesh, std::vector<char> given = {});
 
+// Moves so many free vertices, apart from each other, through an edge of the outline and half as far beyond.
+void push_beyond_outline(const Patch& patch, int count, Points& points);
+
 Stiffness stiffness_of(const Single& single);
 // S, all vertices.
 Eigen::MatrixXd dense(const Patch& patch, const Stiffness& stiffness);

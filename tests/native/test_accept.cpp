@@ -5,6 +5,7 @@
 #include "method/otherwise.h"
 #include "method/ways.h"
 #include "placement/placement.h"
+#include "placement/untear.h"
 #include "problem/solution.h"
 
 using namespace fairing;
@@ -88,6 +89,26 @@ TEST_CASE("folds are a flaw and are named, unless the weights come from as many"
     CHECK(flaw_of(solved.problem, solution) == Flaw::absent);
 }
 
+TEST_CASE("few triangles beside an eased outline may be the outline's own folds, many are a flaw") {
+    const test::Single single = test::single_patch(test::grid(80, 0.0, test::sphere));
+    const Patch& patch = single.patch();
+    const Points fixed = single.points.rightCols(patch.vertex_count() - patch.free_count);
+    const Problem problem{patch, fixed, fixed, uniform_weights(patch), {}};
+    for (const int folds : {1, 12}) {
+        Solution solution;
+        solution.points = single.points;
+        test::push_beyond_outline(patch, folds, solution.points);
+        solution.boundary_normals = fixed;
+        solution.mean_curvature = VectorX::Constant(patch.vertex_count(), -1.0);
+        solution.termination = Termination::converged;
+        solution.polished = false;
+        solution.ways = {{"eased", 0.0}};
+        CHECK(torn_triangles(patch, solution.points).size() >= static_cast<std::size_t>(folds));
+        CHECK(flaw_of(problem, solution) == (folds == 1 ? Flaw::absent : Flaw::folded));
+        CHECK(solution.bad_triangles.empty() == (folds == 1));
+    }
+}
+
 TEST_CASE("an equation lacks a surface where none was found, not where vertices fold on it") {
     const Solved solved;
     Solution solution = solved.solution();
@@ -128,6 +149,8 @@ TEST_CASE("crossings are a flaw where the surface itself has none") {
     CHECK(!solution.bad_triangles.empty());
     solution.crosses = true;
     CHECK(flaw_of(lenient, solution) == Flaw::absent);
+    solution.instead = Instead::least_variation;  // of what was asked for: no reason to pass through itself
+    CHECK(flaw_of(lenient, solution) == Flaw::crossing);
 }
 
 TEST_CASE("a surface without area and one that meets its outline from behind are no answers") {

@@ -45,6 +45,16 @@ double off_the_sphere(const Points& points) { return (points.colwise().norm().ar
 
 double distance(const Points& a, const Points& b) { return (a - b).colwise().norm().maxCoeff(); }
 
+// Starts far off: four tenths of the radius in the middle.
+void blow_up(Ball& ball) {
+    for (int v = 0; v < ball.patch().free_count; ++v) {
+        const Vector3 p = ball.single.points.col(v);
+        const double x = 2.0 * p.x() / p.z();  // −1 … 1
+        const double y = 2.0 * p.y() / p.z();
+        ball.start.col(v) = (1.0 + 0.4 * (1.0 - x * x) * (1.0 - y * y)) * p;
+    }
+}
+
 }  // namespace
 
 TEST_CASE("the iteration finds the sphere that its border belongs to") {
@@ -72,12 +82,7 @@ TEST_CASE("damped, it finds the same surface by shorter steps") {
 
 TEST_CASE("however far off the surface is, no step is longer than a tenth of the diameter") {
     Ball far;
-    for (int v = 0; v < far.patch().free_count; ++v) {
-        const Vector3 p = far.single.points.col(v);
-        const double x = 2.0 * p.x() / p.z();  // −1 … 1
-        const double y = 2.0 * p.y() / p.z();
-        far.start.col(v) = (1.0 + 0.4 * (1.0 - x * x) * (1.0 - y * y)) * p;
-    }
+    blow_up(far);
     far.problem.options.max_iterations = 2;  // the second one measures where the first has led
     const Points step = far.solve(iterate).points - far.start;
     CHECK(step.colwise().norm().maxCoeff() == doctest::Approx(0.1));
@@ -91,6 +96,21 @@ TEST_CASE("an iteration whose steps no longer shrink is given up") {
     CHECK(solution.termination == Termination::stalled);
     CHECK(solution.iterations < 150);
     CHECK(off_the_sphere(solution.points) < 1e-6);  // the best of all is kept
+}
+
+TEST_CASE("an iteration that has to contract ends where its steps shrink too slowly") {
+    Ball far;
+    blow_up(far);
+    const Solution patient = far.solve(iterate);
+    CHECK(patient.termination == Termination::stalled);
+    far.problem.options.contracts = true;
+    const Solution given_up = far.solve(iterate);
+    CHECK(given_up.termination == Termination::stalled);
+    CHECK(given_up.iterations < 10);
+    CHECK(patient.iterations > 2 * given_up.iterations);
+    Ball near;
+    near.problem.options.contracts = true;
+    CHECK(near.solve(iterate).termination == Termination::converged);
 }
 
 TEST_CASE("where steps shrink fast the iteration ends without a last one that is within the tolerance") {

@@ -1,10 +1,12 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "linear/nested_dissection.h"
 #include "linear/sparse_cholesky.h"
 #include "meshes.h"
+#include "method/levels.h"
 #include "multigrid/coarsening.h"
 #include "multigrid/tangential_multigrid.h"
 #include "operators/normal_operator.h"
@@ -40,6 +42,27 @@ Points of_level(const CoarseLevel& level, const Points& finest) {
 }
 
 }  // namespace
+
+TEST_CASE("a level that was left has its edges and rings again when it comes back") {
+    const Ball ball(60);
+    const Points fixed = ball.fixed_points();
+    const Problem problem{ball.patch(), fixed, fixed, ball.weights, {}};
+    Levels levels(problem, Outlines::kept);
+    REQUIRE(levels.coarsest() >= 1);
+    const Patch& patch = levels.problem(1).patch;
+    const Patch before = patch;
+    levels.leave(1);
+    CHECK(patch.vertex_count() == before.vertex_count());
+    CHECK(patch.free_count == before.free_count);
+    CHECK(patch.edge_count() == 0);
+    for (int times = 0; times < 2; ++times) {  // once more changes nothing
+        levels.come_back(1);
+        CHECK(patch.edge_ends == before.edge_ends);
+        CHECK(patch.triangles == before.triangles);
+        for (int v = 0; v < patch.vertex_count(); ++v)
+            CHECK(std::ranges::equal(patch.ring(v).vertices, before.ring(v).vertices));
+    }
+}
 
 TEST_CASE("outlines without normals stay whole on all levels") {
     const Ball ball(60);
@@ -172,6 +195,18 @@ TEST_CASE("multigrid and a factorisation give the same tangential steps") {
     CHECK((step - other).norm() < 0.15 * step.norm());
     CHECK(multigrid.merit(ball.single.points, ball.single.points) >
           0.0);  // and both measure the energy that steps lower
+}
+
+TEST_CASE("harmonic positions are balanced to double precision, whatever the factor is kept in") {
+    const Ball ball(30);
+    const int free = ball.patch().free_count;
+    const SymmetricStep step(ball.patch(), ball.weights, ball.fixed_points(), Progress());
+    Points points = ball.single.points;
+    points.leftCols(free) = step.harmonic_positions();
+    const RingMatrix laplacian(ball.patch().vertex_count(), ball.weights);
+    Points pull(3, free);
+    laplacian.apply(points, free, [&](int i, const Vector3& product) { pull.col(i) = product; });
+    CHECK(pull.cwiseAbs().maxCoeff() < 1e-11);
 }
 
 TEST_CASE("nested dissection is an order of elimination with less fill than the natural one") {

@@ -10,6 +10,7 @@
 #include "geometry/self_intersection.h"
 #include "method/accept.h"
 #include "method/blemishes.h"
+#include "method/girths.h"
 #include "method/misshapen.h"
 #include "method/otherwise.h"
 #include "method/smoothed.h"
@@ -279,6 +280,28 @@ TEST_CASE("a loft with a waist gives way to the shape before") {
     pipe.problem.before.resize(3, 0);
     const Solution alone = or_else(pipe.problem, failed, Progress());
     CHECK(alone.instead == Instead::loft);
+}
+
+TEST_CASE("a loft beside the shape before gives way where it is off by half a radius") {
+    const Known pipe(40);
+    const auto moved = [&](double way) {
+        Points points = pipe.single.points;
+        for (auto point : points.colwise())
+            point[0] += 0.5 * way * (1.0 - std::cos(2.0 * std::numbers::pi * point[2] / pipe.length()));
+        return points;
+    };
+    const auto girths = Girths::of(pipe.single.patch(), pipe.problem.before, Progress());
+    REQUIRE(girths);
+    CHECK(girths->aside(pipe.single.points) < 1e-12);
+    CHECK(girths->aside(moved(0.3)) == doctest::Approx(0.3).epsilon(0.01));
+    for (const double way : {0.4, 0.6}) {
+        const Solution loft = taken(moved(way), Instead::loft);
+        CHECK(finder(pipe).in(loft.points).absent());
+        CHECK(is_blemished(pipe.problem, loft, Progress()) == (way > 0.5));
+    }
+    Known bent = pipe;
+    bent.problem.before = moved(0.6);
+    CHECK_FALSE(is_blemished(bent.problem, taken(moved(0.6), Instead::loft), Progress()));
 }
 
 TEST_CASE("a surface that crosses itself where the shape before did not gives way to that") {

@@ -1,0 +1,17 @@
+// What is turned over or passes through others beside an outline that lies off the surface.
+#pragma once
+
+#include "mesh/patch.h"
+
+namespace fairing {
+
+// Local numbers, ascending, of the triangles with a free corner that are turned over, and of all that pass through
+// others.
+Indices torn_triangles(const Patch& patch, const Points& points);
+
+// `points` (3 × local vertices) with fewer torn triangles, or as they are: what lies around these is filled anew, then
+// their free corners are tried elsewhere, on the surface and off it. The fixed vertices stay, and what lies farther
+// than six rings from torn triangles.
+Points untorn(const Patch& patch, Points points);
+
+}  // namespace fairing

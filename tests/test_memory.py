@@ -1,0 +1,44 @@
+"""The memory that a call takes at its peak."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import shapes
+
+# Of 2.4 that one with all fields in double precision and a copy of everything for each level takes.
+MOST = 1.7  # kB for each free vertex, above the input
+CALL = """
+import sys
+from pathlib import Path
+import numpy as np
+import fairing
+
+def kilobytes(name):
+    lines = Path("/proc/self/status").read_text().splitlines()
+    return next(int(line.split()[1]) for line in lines if line.startswith(name))
+
+made = {key: value for key, value in np.load(sys.argv[1]).items()}
+vertices, triangles, fixed, normals = (made[key] for key in ("vertices", "triangles", "fixed", "normals"))
+before = kilobytes("VmRSS")
+Path("/proc/self/clear_refs").write_text("5")  # the peak starts anew
+result = fairing.fair(vertices, triangles, fixed=fixed, fixed_normals=normals, threads=1)
+assert result.converged
+print(kilobytes("VmHWM") - before)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the peak is read from Linux's /proc")
+def test_a_large_patch_takes_less_than_two_kilobytes_a_vertex(tmp_path: Path) -> None:
+    patch = shapes.cap(40_000)
+    path = tmp_path / "patch.npz"
+    np.savez(
+        path, vertices=patch.vertices, triangles=patch.triangles, fixed=patch.fixed, normals=patch.fixed_normals
+    )  # fmt: skip
+    done = subprocess.run([sys.executable, "-c", CALL, str(path)], capture_output=True, text=True, check=True)
+    assert float(done.stdout) <= MOST * len(patch.free)
