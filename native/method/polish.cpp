@@ -11,11 +11,13 @@ namespace {
 
 // From the surface itself few iterations are needed; after many, it is another solution.
 constexpr int most_iterations = 40;
+constexpr int most_for_digits = 80;
 constexpr int patience = 4;
 // The last digits come unevenly: on a graded hemisphere of 5,000 vertices no step from 1e-9 D on was the shortest for
-// more than four.
-constexpr int patience_for_digits = 8;
+// more than four. On a cap of 140° roundoff decides between 31 steps and 45, and the shortest may be nine back.
+constexpr int patience_for_digits = 16;
 
+int most_to(double tolerance) { return tolerance < SolverOptions{}.tolerance ? most_for_digits : most_iterations; }
 int patience_to(double tolerance) { return tolerance < SolverOptions{}.tolerance ? patience_for_digits : patience; }
 
 }  // namespace
@@ -23,7 +25,7 @@ int patience_to(double tolerance) { return tolerance < SolverOptions{}.tolerance
 Solution polish(const Problem& problem, Workspace& work, Solution placed, const SolvedSurface& surface,
                 const Progress& progress) {
     Problem polishing = problem;
-    polishing.options.max_iterations = std::min(most_iterations, problem.options.max_iterations);
+    polishing.options.max_iterations = std::min(most_to(problem.options.tolerance), problem.options.max_iterations);
     polishing.options.patience = std::min(patience_to(problem.options.tolerance), problem.options.patience);
     Solution own = iterate(polishing, work, placed.points, progress);
     if (own.termination != Termination::converged || !agree(problem, own, surface)) return placed;
