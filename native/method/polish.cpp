@@ -14,7 +14,7 @@ constexpr int most_iterations = 40;
 constexpr int most_for_digits = 80;
 constexpr int patience = 4;
 // The last digits come unevenly: on a graded hemisphere of 5,000 vertices no step from 1e-9 D on was the shortest for
-// more than four. On a cap of 140° roundoff decides between 31 steps and 45, and the shortest may be nine back.
+// more than four. A cap of 140° ended in vain after 31 steps with half of this patience, and is solved in 45 with it.
 constexpr int patience_for_digits = 16;
 
 int most_to(double tolerance) { return tolerance < SolverOptions{}.tolerance ? most_for_digits : most_iterations; }
