@@ -80,7 +80,7 @@ def _without_pinches(triangles: IntArray, chosen: NDArray[np.bool_]) -> NDArray[
         chosen = chosen & ~np.isin(triangles, often).any(axis=1)
 
 
-def scan_region(name: str, noise: float, wanted: int) -> Region:
-    """A disc of about that many vertices round the mesh's seed, with noise in edges."""
+def scan_region(name: str, noise: float, wanted: int, seed: int | None = None) -> Region:
+    """A disc of about that many vertices round a seed vertex (by default the mesh's), with noise in edges."""
     vertices, triangles = scan(name, wanted)
-    return region(shaken(vertices, triangles, noise), triangles, MESHES[name], wanted)
+    return region(shaken(vertices, triangles, noise), triangles, MESHES[name] if seed is None else seed, wanted)

@@ -2,10 +2,12 @@
 
     python benchmarks/scans                    # writes scans.csv; prints the table
     python benchmarks/scans --sizes 3000 10000
+    python benchmarks/scans --at ict_head:700 demosthenes-low-res:2700 --calls 1 \
+        --page docs/performance.md benchmarks/peers/page.md
 
 A head and a bust of shared/data, their triangles cut in four two and three times, noise of 0, 0.1 and ¼ of an edge on
 all vertices; discs grown round a seed vertex. The clean patch is a jittered half sphere. Both run in turns, one
-thread, processor time; the ratio is that of the medians.
+thread, processor time; the ratio is that of the medians. `--page` writes the summary between two marks of a page.
 """
 
 from __future__ import annotations
@@ -32,6 +34,8 @@ from scan_regions import MESHES, scan_region
 
 ROOT = Path(__file__).resolve().parents[2]
 GOAL = 2.0  # times a clean patch
+REGIONS = [f"{name}:{seed}" for name, seed in MESHES.items()]
+BEGIN, END = "<!-- scans: begin -->", "<!-- scans: end -->"  # of the summary in a page
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
@@ -40,8 +44,9 @@ IntArray = NDArray[np.int64]
 class Row:
     """One region; cpu in seconds, ratio to the clean patch of the same size."""
 
-    mesh: str
+    region: str
     noise: float
+    wanted: int
     free: int
     way: str
     converged: bool
@@ -58,9 +63,10 @@ def timed(vertices: FloatArray, triangles: IntArray, options: dict[str, Any]) ->
     return result, time.process_time() - start
 
 
-def measured(name: str, noise: float, wanted: int, calls: int) -> Row:
+def measured(place: str, noise: float, wanted: int, calls: int) -> Row:
     """One row: scan and clean patch in turns."""
-    patch = scan_region(name, noise, wanted)
+    name, seed = place.split(":")
+    patch = scan_region(name, noise, wanted, int(seed))
     free = len(patch.vertices) - len(patch.fixed)
     clean = shapes.cap(free)
     pairs = [
@@ -70,8 +76,37 @@ def measured(name: str, noise: float, wanted: int, calls: int) -> Row:
     ]  # fmt: skip
     result = pairs[0][0][0]
     cpu, cpu_clean = (statistics.median(pair[k][1] for pair in pairs) for k in (0, 1))
-    return Row(name, noise, free, "+".join(way for way, _ in result.way), result.converged, result.polished,
+    return Row(place, noise, wanted, free, "+".join(way for way, _ in result.way), result.converged, result.polished,
                cpu, cpu / cpu_clean, float(np.median(result.boundary_angle)))  # fmt: skip
+
+
+def summary(rows: list[Row]) -> str:
+    """Sizes by noise: median and worst ratio, and how many are within the goal, polished, converged."""
+    noises = sorted({row.noise for row in rows})
+    lines = [f"| free | {' | '.join(f'noise {noise:g}' for noise in noises)} |", "| --: " * (len(noises) + 1) + "|"]
+    for wanted in sorted({row.wanted for row in rows}):
+        cells = [cell([row for row in rows if (row.wanted, row.noise) == (wanted, noise)]) for noise in noises]
+        lines.append(f"| {wanted} | {' | '.join(cells)} |")
+    places = ", ".join(dict.fromkeys(row.region for row in rows))
+    return "\n".join(
+        [*lines, "", f"Median (worst) × clean; within {GOAL:g} ×, polished, converged of all. Regions:", f"{places}."]
+    )
+
+
+def cell(rows: list[Row]) -> str:
+    """Of one size and noise."""
+    if not rows:
+        return "not run"
+    ratios = [row.ratio for row in rows]
+    counts = [sum(ratio <= GOAL for ratio in ratios), sum(r.polished for r in rows), sum(r.converged for r in rows)]
+    return f"{statistics.median(ratios):.1f} ({max(ratios):.1f}); {', '.join(map(str, counts))} of {len(rows)}"
+
+
+def written(page: Path, text: str) -> None:
+    """The summary in its place in a page."""
+    before, rest = page.read_text(encoding="utf-8").split(BEGIN)
+    after = rest.split(END)[1]
+    page.write_text(f"{before}{BEGIN}\n\n{text}\n\n{END}{after}", encoding="utf-8")
 
 
 def main() -> int:
@@ -79,21 +114,23 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("--sizes", type=int, nargs="+", default=[3000, 10000, 30000, 60000])
     parser.add_argument("--noise", type=float, nargs="+", default=[0.0, 0.1, 0.25], help="in edges")
+    parser.add_argument("--at", nargs="+", default=REGIONS, help="mesh:vertex")
+    parser.add_argument("--page", type=Path, nargs="+", default=[], help="pages that hold the two marks")
     parser.add_argument("--calls", type=int, default=3)
     parser.add_argument("--out", type=Path, default=ROOT / "build" / "scans", help="folder for the CSV")
     options = parser.parse_args()
     if not DATA.exists():
         print("the meshes of shared/data are missing", file=sys.stderr)
         return 2
-    print("| mesh | noise | free | way | ended | polished | CPU s | ÷ clean | angle, median ° |")
+    print("| region | noise | free | way | ended | polished | CPU s | ÷ clean | angle, median ° |")
     print("| --- | --: | --: | --- | --- | --- | --: | --: | --: |")
     rows = []
-    for name in MESHES:
-        for wanted in options.sizes:
+    for wanted in options.sizes:
+        for place in options.at:
             for noise in options.noise:
-                row = measured(name, noise, wanted, options.calls)
+                row = measured(place, noise, wanted, options.calls)
                 rows.append(row)
-                print(f"| {name} | {noise:g} | {row.free} | {row.way} | {'yes' if row.converged else 'no'} | "
+                print(f"| {place} | {noise:g} | {row.free} | {row.way} | {'yes' if row.converged else 'no'} | "
                       f"{'yes' if row.polished else 'no'} | {row.cpu:.2f} | {row.ratio:.2f} | {row.angle:.1f} |",
                       flush=True)  # fmt: skip
     options.out.mkdir(parents=True, exist_ok=True)
@@ -101,6 +138,9 @@ def main() -> int:
         writer = csv.DictWriter(file, fieldnames=list(asdict(rows[0])))
         writer.writeheader()
         writer.writerows(asdict(row) for row in rows)
+    print(f"\n{summary(rows)}")
+    for page in options.page:
+        written(page, summary(rows))
     return int(any(row.ratio > GOAL or not row.polished for row in rows))
 
 

@@ -4,8 +4,6 @@
 
 #include "geometry/surface_fit.h"
 #include "iteration/accelerated_iteration.h"
-#include "method/eased.h"
-#include "method/sizes.h"
 
 namespace fairing {
 
@@ -26,7 +24,6 @@ Solution polish(const Problem& problem, Workspace& work, Solution placed, const 
                 const Progress& progress) {
     Problem polishing = problem;
     polishing.options.max_iterations = std::min(most_iterations, problem.options.max_iterations);
-    polishing.options.contracts = is_large(problem) && is_jagged(problem);
     polishing.options.patience = std::min(patience_to(problem.options.tolerance), problem.options.patience);
     Solution own = iterate(polishing, work, placed.points, progress);
     if (own.termination != Termination::converged || !agree(problem, own, surface)) return placed;

@@ -118,9 +118,16 @@ Vector2 lower(const LocalEnergy& f) {
 }
 
 class Untangling {
+    static constexpr double still = 0.02;                 // of an edge
+    static constexpr std::size_t widest_of_small = 1000;  // vertices
+
 public:
     Untangling(const Problem& problem, const TargetSurface& target, Placement& placement)
-        : problem_(problem), patch_(problem.patch), target_(target), placement_(placement) {}
+        : problem_(problem),
+          patch_(problem.patch),
+          target_(target),
+          placement_(placement),
+          awake_(at(patch_.vertex_count()), 1) {}
 
     void run() {
         constexpr int fewest_rings = 3;
@@ -198,10 +205,28 @@ private:
     void sweep_once(const Region& where) {
         const double area = mean_area(where);
         const double epsilon = smoothing(where, area);
+        if (is_wide(where)) wake_folded(where);
         for (const int v : where.vertices) {
             checkpoint(v);
-            move(v, area, epsilon);
+            if (is_wide(where) && !awake_[at(v)]) continue;
+            awake_[at(v)] = 0;
+            if (move(v, area, epsilon) > still) wake_around(v);
         }
+    }
+
+    // In wide regions most vertices have come to rest after some sweeps.
+    [[nodiscard]] static bool is_wide(const Region& where) { return where.vertices.size() > widest_of_small; }
+
+    void wake_folded(const Region& where) {
+        for (const int t : where.triangles) {
+            if (!is_folded(problem_, target_, placement_, t)) continue;
+            for (const int v : patch_.triangles.col(t)) wake_around(v);
+        }
+    }
+
+    void wake_around(int v) {
+        awake_[at(v)] = 1;
+        for (const int w : patch_.ring(v).vertices) awake_[at(w)] = 1;
     }
 
     [[nodiscard]] double count_folded(const Region& where) const {
@@ -226,7 +251,8 @@ private:
         return std::hypot(least, share * most_negative);
     }
 
-    void move(int v, double area, double epsilon) {
+    // How far, in edges.
+    double move(int v, double area, double epsilon) {
         const SurfacePoint old = placement_.where[at(v)];
         const Vector3 centre = placement_.points.col(v);
         LocalEnergy energy(Frame(target_.normal(old)), area, epsilon);
@@ -238,9 +264,10 @@ private:
             energy.add(placement_.points.col(a) - centre, placement_.points.col(b) - centre, up.normalized());
         }
         const Vector2 step = lower(energy);
-        if (step.isZero()) return;
+        if (step.isZero()) return 0.0;
         const Vector3 wanted = centre + energy.in_space(step);
         put(placement_, v, target_, target_.project(wanted, old.triangle));
+        return step.norm() / energy.edge();
     }
 
     // As is_folded measures it.
@@ -252,6 +279,7 @@ private:
     const Patch& patch_;
     const TargetSurface& target_;
     Placement& placement_;
+    std::vector<char> awake_;  // local vertices: moved lately, or a neighbour has
 };
 
 }  // namespace

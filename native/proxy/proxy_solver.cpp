@@ -15,12 +15,9 @@ namespace fairing {
 
 namespace {
 
-// Of the coarse proxy, units of D. On large patches with one outline the first step of the fine one was 0.005 to 0.014
-// from solved coarse proxies, so the rough one does there. Between outlines it has to tell one surface from another.
-constexpr double coarse_tolerance = 1e-6;
-constexpr double rough_tolerance = 1e-3;
-constexpr double finest_growth = 0.15;   // of edge lengths per distance from the outline
-constexpr double longest_coarse = 0.15;  // units of D
+constexpr double coarse_tolerance = 1e-6;  // units of D
+constexpr double finest_growth = 0.15;     // of edge lengths per distance from the outline
+constexpr double longest_coarse = 0.15;    // units of D
 constexpr double longest_fine = 0.03;
 // More vertices than these of the proxy would resolve what the user's mesh can't show.
 constexpr int least_free_limit = 3000;
@@ -43,10 +40,7 @@ struct Patience {
     int in_vain;
 };
 
-Patience patience_for(const Problem& problem, int shown) {
-    if (is_small(shown)) return {100, 30};
-    return {40, problem.patch.loop_count() == 1 ? 8 : 12};
-}
+Patience patience_for(int shown) { return is_small(shown) ? Patience{100, 30} : Patience{40, 12}; }
 
 // These were counted at the default tolerance, and steps shrink geometrically: tighter ones take as many again.
 int most_iterations_to(double tolerance, int usual) {
@@ -73,7 +67,7 @@ CoarseEnd end_of(const Solution& solution, const Problem& problem, int shown) {
 Problem proxy_problem(const Problem& problem, int shown, const Patch& patch) {
     Problem result{patch, problem.fixed_points, problem.fixed_normals, uniform_weights(patch), problem.options};
     if (pays_patience(problem, shown)) return result;
-    const Patience patience = patience_for(problem, shown);
+    const Patience patience = patience_for(shown);
     const int most = most_iterations_to(problem.options.tolerance, patience.most_iterations);
     result.options.max_iterations = std::min(most, problem.options.max_iterations);
     result.options.patience = std::min(patience.in_vain, problem.options.patience);
@@ -84,8 +78,7 @@ Problem proxy_problem(const Problem& problem, int shown, const Patch& patch) {
 Problem coarse_problem(const Problem& problem, int shown, const Patch& patch) {
     Problem result = proxy_problem(problem, shown, patch);
     result.options.equation = Equation::harmonic;
-    const bool is_rough_enough = !is_small(shown) && problem.patch.loop_count() == 1;
-    result.options.tolerance = is_rough_enough ? rough_tolerance : coarse_tolerance;
+    result.options.tolerance = coarse_tolerance;
     return result;
 }
 
