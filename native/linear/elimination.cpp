@@ -120,10 +120,12 @@ struct Group {
 };
 
 // Whether a supernode may take in the one just before it, its last child, at the price of explicit zeros.
-bool worth_merging(long columns, long zeros, long entries) {
+// Large factors have no room for many.
+bool worth_merging(long columns, long zeros, long entries, int order) {
+    constexpr int large = 5000;
     if (columns <= 4) return true;
     const double share = static_cast<double>(zeros) / static_cast<double>(entries);
-    if (columns <= 16) return share < 0.3;
+    if (columns <= 16) return share < (order < large ? 0.6 : 0.3);
     if (columns <= 48) return share < 0.12;
     return share < 0.05;
 }
@@ -146,7 +148,7 @@ Indices supernode_starts(const Indices& parent, const Indices& counts) {
             const long columns = lower.columns + upper.columns;
             const long own = panel(lower.columns, lower_last) - lower.zeros + panel(upper.columns, j) - upper.zeros;
             const long zeros = panel(columns, j) - own;
-            if (zeros > 0 && !worth_merging(columns, zeros, panel(columns, j))) break;
+            if (zeros > 0 && !worth_merging(columns, zeros, panel(columns, j), n)) break;
             groups[groups.size() - 2] = {lower.first, static_cast<int>(columns), zeros};
             groups.pop_back();
         }

@@ -119,25 +119,14 @@ void eliminate_lanes(const PanelOf<Stored>& panel, Stored* b) {
     }
 }
 
-// Four sums: each waits for its own last addition only.
 template <typename Stored>
 void substitute_lanes(const PanelOf<Stored>& panel, Stored* b) {
     const int rows = static_cast<int>(panel.rows());
     for (int j = static_cast<int>(panel.cols()); j-- > 0;) {
         const Stored* const column = panel.data() + std::ptrdiff_t(j) * rows;
         Lane<Stored> sum = row_of(b, j);
-        Lane<Stored> second = Lane<Stored>::Zero();
-        Lane<Stored> third = Lane<Stored>::Zero();
-        Lane<Stored> fourth = Lane<Stored>::Zero();
-        int i = j + 1;
-        for (; i + 4 <= rows; i += 4) {
-            sum -= column[i] * row_of(b, i);
-            second -= column[i + 1] * row_of(b, i + 1);
-            third -= column[i + 2] * row_of(b, i + 2);
-            fourth -= column[i + 3] * row_of(b, i + 3);
-        }
-        for (; i < rows; ++i) sum -= column[i] * row_of(b, i);
-        row_of(b, j) = ((sum + second) + (third + fourth)) / column[j];
+        for (int i = j + 1; i < rows; ++i) sum -= column[i] * row_of(b, i);
+        row_of(b, j) = sum / column[j];
     }
 }
 
