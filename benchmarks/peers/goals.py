@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from statistics import median
 
 from measured import Measured, Row
-from real import GOAL
+from real_rows import GOAL
 from tools import BY_NAME, CHOLMOD, LDLT, OURS
 
 

@@ -15,7 +15,7 @@ import clock
 import fairing
 import memory
 import quality
-import real
+import real_rows
 import repeated
 from problems import BLEND, OTHER, PATCHES, REGULAR, problem
 from tools import BY_NAME, OURS, TOOLS, Tool
@@ -145,8 +145,8 @@ def _graded(plan: Plan, _done: Measured) -> Iterator[Row]:
 def _real(plan: Plan, _done: Measured) -> Iterator[Row]:
     """Up to the largest size of the run."""
     for size in (size for size in REAL if size <= max(plan.sizes)):
-        for name in filter(real.available, real.MESHES):
-            yield {"mesh": name, "size": size, **asdict(real.timed(name, size, min(plan.calls, 3)))}
+        for name in filter(real_rows.available, real.MESHES):
+            yield {"mesh": name, "size": size, **asdict(real_rows.timed(name, size, min(plan.calls, 3)))}
 
 
 def _repeated(plan: Plan, _done: Measured) -> Iterator[Row]:
