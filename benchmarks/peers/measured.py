@@ -145,7 +145,7 @@ def _graded(plan: Plan, _done: Measured) -> Iterator[Row]:
 def _real(plan: Plan, _done: Measured) -> Iterator[Row]:
     """Up to the largest size of the run."""
     for size in (size for size in REAL if size <= max(plan.sizes)):
-        for name in filter(real_rows.available, real.MESHES):
+        for name in filter(real_rows.available, real_rows.MESHES):
             yield {"mesh": name, "size": size, **asdict(real_rows.timed(name, size, min(plan.calls, 3)))}
 
 
