@@ -155,13 +155,12 @@ def test_a_surface_through_the_mesh_is_unusable() -> None:
     assert piece.verdict.grade != UNUSABLE
 
 
-def test_what_has_not_converged_is_unusable() -> None:
-    """The outer border of a flat sheet: its surface would be the other side of a pillow without any height."""
+def test_the_outside_of_a_sheet_is_refused() -> None:
+    """Its surface would be the other side of a pillow without any height."""
     flat = polygon_mesh(grid_points(SIZE), grid_quads(SIZE), np.zeros(SIZE * SIZE, dtype=bool))
-    (piece,) = filled(flat, 0)
-    assert piece.verdict.grade == UNUSABLE
-    assert "No fair surface was found for an outline of 32 edges" in piece.verdict.reason
-    assert set(piece.verdict.spots.tolist()) == set(piece.outline.tolist())
+    with pytest.raises(MeshRefusal, match="border of 32 edges through vertex 0 goes around the outside") as error:
+        filled(flat, 0)
+    assert len(error.value.elements) == 32
 
 
 def judged(points: Floats, join: Join, *tangent_only: int, **of_result: object) -> Verdict:
@@ -173,6 +172,14 @@ def judged(points: Floats, join: Join, *tangent_only: int, **of_result: object) 
     result = SimpleNamespace(**{**usual, **of_result})
     only_tangent = np.array(tangent_only, dtype=np.int64)
     return judge(empty, np.arange(rim), Surface(points, triangles, result, join, only_tangent))  # type: ignore[arg-type]
+
+
+def test_what_has_not_converged_is_unusable() -> None:
+    points, _, rim = disc(3)
+    told = judged(points, Join(nothing(), np.empty(0)), converged=False, termination="stalled")
+    assert told.grade == UNUSABLE
+    assert told.reason == f"No fair surface was found for an outline of {rim} edges"
+    assert set(told.spots.tolist()) == set(range(rim))
 
 
 def test_outlines_that_are_joined_are_told_as_several() -> None:
