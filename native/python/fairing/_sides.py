@@ -89,8 +89,9 @@ def _check_sides(outline: Outline, vertices: FloatArray, normals: FloatArray) ->
 
 def _refused(outline: Outline, k: int, what: str, advice: str) -> MeshError:
     loop = outline.loops[k]
-    chosen = advice if outline.bare[k] else "flip the triangles around it"
-    text = f"loops: no surface joins loop {k} ({listed(loop)}) with the others, {what}: {chosen}"
+    if not outline.bare[k]:
+        advice = "flip the triangles around it" + (", or leave it out" if len(outline.loops) > 2 else "")
+    text = f"loops: no surface joins loop {k} ({listed(loop)}) with the others, {what}: {advice}"
     return _refusal("LOOPS_NOT_JOINED", text, loop, {"turned": float(len(loop))})
 
 
