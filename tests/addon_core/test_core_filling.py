@@ -142,10 +142,10 @@ def test_each_loop_for_itself_or_all_joined() -> None:
 
 
 def test_a_tube_turned_over_is_told_and_four_outlines_are_too_many() -> None:
-    with pytest.raises(MeshRefusal, match="faces around the outline through vertex .* are turned over") as error:
+    with pytest.raises(MeshRefusal, match=r"faces around the outline through vertex .* are turned over") as error:
         filled(two_tubes(turned_over=True), 48, 72, bridge=True)
     assert set(error.value.elements.tolist()) == set(range(72, 96))
-    with pytest.raises(BorderRefusal, match="all 4 selected outlines.*belong together") as too_many:
+    with pytest.raises(BorderRefusal, match=r"all 4 selected outlines.*belong together") as too_many:
         filled(two_tubes(), 0, 48, 72, 120, bridge=True)
     assert len(too_many.value.elements) == 96
 
