@@ -369,17 +369,20 @@ def test_a_corner_between_a_short_and_a_long_edge_forces_small_angles(corner: fl
         assert holes.angles(np.concatenate([points[:1], others]), faces).min() <= forced.fan_angle(corner, ratio) + 1e-9
 
 
-@pytest.mark.parametrize("ratio", [8.8, 12.0])
-def test_at_a_sharp_corner_the_smallest_angle_is_the_largest_that_fits(ratio: float) -> None:
-    """One of 60° between edges of that ratio. Squares of what is lacking leave half of it and less."""
+def cornered(ratio: float) -> FloatArray:
+    """A flat outline with a corner of 60° between edges of that ratio, the others of equal lengths."""
     short, rest = 0.067, 0.3 * np.arange(5)
     turn = np.radians(np.linspace(0, 60, 7)[1:-1])
-    arc = np.linspace(short + rest[4], ratio * short + rest[3], 7)[1:-1, None] * np.column_stack(
-        [np.cos(turn), np.sin(turn)]
-    )
+    reach = np.linspace(short + rest[4], ratio * short + rest[3], 7)[1:-1, None]
     along, back = np.outer(short + rest, [1, 0]), np.outer(ratio * short + rest[3::-1], [0.5, np.sqrt(0.75)])
-    flat = np.concatenate([[[0.0, 0.0]], along, arc, back])
-    outline = np.column_stack([flat, 0 * flat[:, 0]])
+    flat = np.concatenate([[[0.0, 0.0]], along, reach * np.column_stack([np.cos(turn), np.sin(turn)]), back])
+    return np.column_stack([flat, 0 * flat[:, 0]])
+
+
+@pytest.mark.parametrize("ratio", [8.8, 12.0])
+def test_at_a_sharp_corner_the_smallest_angle_is_the_largest_that_fits(ratio: float) -> None:
+    """Squares of what is lacking leave half of it and less."""
+    outline = cornered(ratio)
     count = len(outline)
     result = fairing.fill(outline, EMPTY, [np.arange(count)], normals=np.tile([0.0, 0.0, 1.0], (count, 1)))
     least = holes.angles(np.concatenate([outline, result.vertices]), result.triangles).min()
