@@ -36,36 +36,18 @@ bool takes_patience(const Problem& problem, const Situation& situation) {
     return is_fourth_order(problem) && problem.patch.free_count > largest_direct && !situation.tried("nested");
 }
 
-// Of small patches only those whose outlines are smooth but for noise: of eight whose outlines cut limbs across none was
-// found, in half as much time again.
-constexpr double most_noise_left = 2;
-// Nor has a mesh of the engine's own ever met the steps of a voxel mesh, in 2 to 3 s.
-constexpr double most_steps_left = 1e-5;
-
 // Where the noise of the outline may be what stands in the way; vertices that fold because of their weights need
-// others.
-bool is_hindered(const Problem& problem, const Situation& situation) {
+// others. Between several outlines of small patches only where next to nothing is left without that noise: of eight
+// that cut limbs across none was found, in half as much time again.
+bool takes_eased(const Problem& problem, const Situation& situation) {
+    constexpr double most_left = 1e-3;
     if (!is_fourth_order(problem)) return false;
     const bool hindered = std::all_of(situation.found.begin(), situation.found.end(), [&](const Solution& s) {
         if (s.flaw == Flaw::folded || s.flaw == Flaw::crossing) return is_uniform(problem.weights);
         return s.termination == Termination::stalled && s.reached_load == 0.0;
     });
-    return hindered && is_jagged(problem);
-}
-
-bool takes_eased_early(const Problem& problem, const Situation& situation) {
-    return !is_large(problem) && is_hindered(problem, situation) && roughness_left(problem) < most_steps_left;
-}
-
-bool takes_eased(const Problem& problem, const Situation& situation) {
-    if (!is_hindered(problem, situation)) return false;
-    if (is_large(problem)) return true;
-    const double left = roughness_left(problem);
-    return left >= most_steps_left && left < most_noise_left;
-}
-
-Found on_eased_outline(const Problem& problem, const Situation& /*situation*/, const Progress& progress) {
-    return solve_eased(problem, progress);
+    if (!hindered || !is_jagged(problem)) return false;
+    return is_large(problem) || problem.patch.loop_count() == 1 || roughness_left(problem) < most_left;
 }
 
 bool takes_even(const Problem& problem, const Situation& situation) {
@@ -96,7 +78,7 @@ bool is_folded(const Situation& situation) {
 Solution solve_global(const Problem& problem, const Progress& progress) {
     const Way direct = directly();
     const Way proxy = on_proxy();
-    const std::array<Way, 11> ways{{
+    const std::array<Way, 10> ways{{
         {"minimal", [](const Problem& p, const Situation&) { return is_minimal(p); },
          [](const Problem& p, const Situation&, const Progress& part) { return Found(solve_directly(p, part)); }, 0.0,
          1.0},
@@ -108,10 +90,10 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
         {"even", [](const Problem& p, const Situation& s) { return takes_even(p, s) && is_large(p); }, evenly, 0.0,
          0.3},
         {direct.name, takes_direct, direct.solve, direct.begin, direct.end},
-        {eased_way, takes_eased_early, on_eased_outline, 0.4, 0.5},
         {proxy.name, [](const Problem& p, const Situation&) { return is_fourth_order(p); }, proxy.solve, proxy.begin,
          proxy.end},
-        {eased_way, takes_eased, on_eased_outline, 0.9, 1.0},
+        {eased_way, takes_eased,
+         [](const Problem& p, const Situation&, const Progress& part) { return solve_eased(p, part); }, 0.9, 1.0},
         {"patient", takes_patience,
          [](const Problem& p, const Situation&, const Progress& part) { return Found(solve_directly(p, part)); }, 0.8,
          0.9},
