@@ -59,12 +59,13 @@ double wedge(const Patch& patch, const Points& points, const Points& normals, in
 // rows all weights of a wedge are positive (they would be from weights of ½ on). Along smooth outlines they would only
 // add their own error.
 void add_outline_normals(const Patch& patch, const Points& points, const Points& normals, int vertex,
-                         CurvatureLeastSquares& fit) {
+                         double least, CurvatureLeastSquares& fit) {
     const double s = std::clamp((wide - wedge(patch, points, normals, vertex)) / (wide - narrow), 0.0, 1.0);
     if (!(s > 0.0)) return;
     const double weight = s * s * (3.0 - 2.0 * s);
     for (int v : patch.ring(vertex).vertices) {
-        if (!patch.is_free(v)) fit.add_twist(points.col(v), normals.col(v), weight);
+        const bool is_told = !patch.is_free(v) && (points.col(v) - points.col(vertex)).squaredNorm() >= least;
+        if (is_told) fit.add_twist(points.col(v), normals.col(v), weight);
     }
 }
 
@@ -125,7 +126,7 @@ PatchCurvature patch_curvature(const Patch& patch, const Points& points, const F
                 if ((p - points.col(i)).squaredNorm() >= least) rows.add_point(p);
             }
             if (kind == NormalKind::fitted && !patch.is_free(i) && !patch.ring(i).closed())
-                add_outline_normals(patch, points, normals, i, rows);
+                add_outline_normals(patch, points, normals, i, least, rows);
             const CurvatureFit fit = rows.solve();
             curvature.mean[i] = fit.mean();
             curvature.form.col(i) << fit.x0, fit.x1, fit.x2;
