@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import fairing
+
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 AXES = np.eye(3, dtype=np.int64)

@@ -58,8 +58,8 @@ double wedge(const Patch& patch, const Points& points, const Points& normals, in
 // from the solution there. The normals of the outline are data too: how they turn along it is II(t, t⊥). With these
 // rows all weights of a wedge are positive (they would be from weights of ½ on). Along smooth outlines they would only
 // add their own error.
-void add_outline_normals(const Patch& patch, const Points& points, const Points& normals, int vertex,
-                         double least, CurvatureLeastSquares& fit) {
+void add_outline_normals(const Patch& patch, const Points& points, const Points& normals, int vertex, double least,
+                         CurvatureLeastSquares& fit) {
     const double s = std::clamp((wide - wedge(patch, points, normals, vertex)) / (wide - narrow), 0.0, 1.0);
     if (!(s > 0.0)) return;
     const double weight = s * s * (3.0 - 2.0 * s);
