@@ -247,8 +247,8 @@ def test_a_wing_is_a_loft_that_keeps_its_section() -> None:
 
 
 def test_an_outline_that_folds_is_followed_by_a_loft_of_the_smoothed_one() -> None:
-    """Every other vertex lies behind the one before it."""
-    pipe = tubes.pipe(2.0)
+    """Every other vertex lies behind the one before it, and five radii are too long for a harmonic surface."""
+    pipe = tubes.pipe(5.0, 5.0)
     vertices = pipe.vertices.copy()
     angle = 1.6 * 2 * np.pi / 24
     turned = vertices[pipe.fixed[1::2]] @ np.array(
@@ -263,8 +263,8 @@ def test_an_outline_that_folds_is_followed_by_a_loft_of_the_smoothed_one() -> No
     (warning,) = [warning for warning in result.warnings if warning.code == "NO_SOLUTION"]
     assert warning.figures["loft"] == 1
     assert 0.3 * angle < warning.figures["distance"] * pipe.diameter < angle
-    middle = np.abs(pipe.vertices[:, 2] - 1.0) < 0.5
-    assert 0.75 < radii(result)[middle].min() <= radii(result)[middle].max() < 1.02
+    middle = np.abs(pipe.vertices[:, 2] - 2.5) < 1.25
+    assert 0.7 < radii(result)[middle].min() <= radii(result)[middle].max() < 1.02
 
 
 def test_stop_makes_no_loft() -> None:
