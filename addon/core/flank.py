@@ -87,7 +87,9 @@ def _flank(problem: Problem, disc: Disc, surroundings: tuple[Floats, Ints], edge
     edges, opposite = _border(disc)
     frames = _frames(own, _normals(problem), edges, opposite)
     inside = _places(frames.leans(own, disc.triangles, -1.0), INSIDE, radius)
-    sign = float(np.sign(inside.mean())) if len(inside) else 0.0
+    if not len(inside):
+        return None
+    sign = float(np.sign(inside.mean()))
     if sign * inside.sum() < BENDS_OVER * len(inside) or np.mean(sign * inside > SEEN) < MOST_OVER or not sign:
         return None
     outside = frames.leans(*surroundings, 1.0)

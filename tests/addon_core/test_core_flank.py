@@ -86,6 +86,10 @@ def test_what_bends_on_outside_is_no_flank(ground: Ground) -> None:
     assert found(scene(0.3, ground)) is None
 
 
+def test_a_single_vertex_is_no_flank() -> None:
+    assert found(scene(0.05, bumped(0.2, plane))) is None
+
+
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
 def test_the_floor_of_a_bowl_is_no_flank(sign: float) -> None:
     def bowl(points: Floats) -> Floats:
