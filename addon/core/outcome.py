@@ -12,6 +12,7 @@ from . import quality
 from .arrays import Floats, Ints
 from .eaten import Eaten, eaten_edges
 from .engine import Problem, islands
+from .flank import Flank, flank
 from .options import FairOptions
 from .piercing import Sheet, pierced, places
 from .quality import Join, Quality
@@ -65,7 +66,7 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     seams = seam_kinks(patch, after[:own], join.limit)
     evidence = Evidence(
         problem, result, solved.failures, quality_before, quality_after, join, *odd, pierced=through, points=after,
-        seams=seams,
+        flank=_flank(mesh, matrix, problem, after), seams=seams,
     )  # fmt: skip
     verdict = judge(evidence, options.resolved(mesh.textured))
     order = np.argsort(problem.vertices[moving])
@@ -98,6 +99,11 @@ def _swollen(patch: Patch, before: Floats, after: Floats) -> Ints:
     pieces, own = discs(patch), len(patch.vertices)
     vertices: Ints = patch.vertices[swellings(pieces, after[:own], waviness(pieces, before[:own]))]
     return vertices
+
+
+def _flank(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -> Flank | None:
+    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite outside the patch
+        return flank(mesh.transformed(matrix), problem, after)
 
 
 def _eaten(mesh: MeshArrays, problem: Problem, after: Floats) -> Eaten:
