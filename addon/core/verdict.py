@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -106,6 +106,11 @@ def judge(evidence: Evidence, options: FairOptions) -> Verdict:
     if reason:
         return Verdict(LOOK, reason, _once(spots), _remedies(evidence, options, bad=False), rings)
     return Verdict(GOOD)
+
+
+def because_of(verdict: Verdict, causes: tuple[str, ...]) -> Verdict:
+    """Return the verdict, where nothing usable came out with the first of what must be the cause for its reason."""
+    return replace(verdict, reason=causes[0]) if causes and verdict.grade == UNUSABLE else verdict
 
 
 def _calms(evidence: Evidence) -> bool:
