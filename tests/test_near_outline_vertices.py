@@ -41,7 +41,7 @@ def half_ball(share: float, degrees: float) -> Region:
     return with_twins(cap.vertices, cap.triangles, np.column_stack([loop, np.roll(loop, -1)])[::6], share, degrees)
 
 
-def square(share: float) -> Region:
+def square(share: float, degrees: float) -> Region:
     """A square part with a twin beside each corner, 12 × 12."""
     n = 12
     x, y = (axis.ravel() for axis in np.meshgrid(*[np.linspace(-0.4, 0.4, n + 1)] * 2))
@@ -50,7 +50,7 @@ def square(share: float) -> Region:
     triangles = np.concatenate([np.column_stack([a, a + 1, a + n + 2]), np.column_stack([a, a + n + 2, a + n + 1])])
     last = n * (n + 1)
     ends = np.array([[0, 1], [n, 2 * n + 1], [last + n, last + n - 1], [last, last - n - 1]])
-    return with_twins(np.column_stack([x, y, np.sqrt(1 - x * x - y * y)]), triangles, ends, share, 0.0)
+    return with_twins(np.column_stack([x, y, np.sqrt(1 - x * x - y * y)]), triangles, ends, share, degrees)
 
 
 def faired(region: Region) -> fairing.FairResult:
@@ -84,11 +84,11 @@ def test_nor_do_their_normals() -> None:
 
 def test_nor_do_twins_at_corners() -> None:
     """There the turn of the normals along the outline counts as well. At the corner itself nothing tells H."""
-    region = square(1e-5)
+    region = square(1e-5, 1.0)
     result = faired(region)
     assert result.converged
     assert result.polished
-    assert off_ball(region, result) < 1e-4
+    assert off_ball(region, result) < 2e-3
 
 
 @pytest.mark.parametrize(

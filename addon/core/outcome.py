@@ -23,7 +23,7 @@ from .solve import Solved
 from .swelling import discs, swellings, waviness
 from .symmetry import mirror_map, symmetrised, with_band
 from .tunnels import tunnel_hint
-from .verdict import GOOD, Evidence, Verdict, judge
+from .verdict import GOOD, LOOK, Evidence, Verdict, because_of, judge
 
 
 @dataclass(frozen=True)
@@ -69,12 +69,17 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
         flank=_flank(mesh, matrix, problem, after), seams=seams,
     )  # fmt: skip
     verdict = judge(evidence, options.resolved(mesh.textured))
+    tunnels = () if verdict.grade == GOOD else tunnel_hint(patch)
+    verdict = because_of(verdict, tunnels)
     order = np.argsort(problem.vertices[moving])
     return Fairing(
         vertices=problem.vertices[moving][order],
         positions=positions[order],
         result=leading_part(result, own),
-        warnings=solved.warnings + warnings + (() if verdict.grade == GOOD else solved.hints + tunnel_hint(patch)),
+        warnings=solved.warnings
+        + warnings
+        + (() if verdict.grade == GOOD else solved.hints)
+        + (tunnels if verdict.grade == LOOK else ()),
         before=quality_before,
         after=quality_after,
         distortion=quality.texture_distortion(before, after, patch.triangles),

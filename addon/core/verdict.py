@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -18,12 +18,14 @@ from .flank import Flank
 from .options import FairOptions
 from .quality import Join, Quality
 from .region import nothing
+from .vectors import area_vectors, unit
 from .words import counted
 
 GOOD, LOOK, UNUSABLE = "GOOD", "LOOK", "UNUSABLE"
 GRADES = (GOOD, LOOK, UNUSABLE)
 STEEP = 40.0  # degrees from which a kink at the outline is worse than a hard edge that was rounded off
 TURNED = 90.0  # and from which it is no kink any more
+FLAT = 1.0  # degrees between the neighbours of a needle, below which it is not seen
 MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
 
 # What may help, each a way to run once more.
@@ -106,6 +108,11 @@ def judge(evidence: Evidence, options: FairOptions) -> Verdict:
     if reason:
         return Verdict(LOOK, reason, _once(spots), _remedies(evidence, options, bad=False), rings)
     return Verdict(GOOD)
+
+
+def because_of(verdict: Verdict, causes: tuple[str, ...]) -> Verdict:
+    """Return the verdict, where nothing usable came out with the first of what must be the cause for its reason."""
+    return replace(verdict, reason=causes[0]) if causes and verdict.grade == UNUSABLE else verdict
 
 
 def _calms(evidence: Evidence) -> bool:
@@ -350,15 +357,21 @@ def _substituted(evidence: Evidence, _options: FairOptions) -> Found:
 
 def _most_bent(evidence: Evidence) -> Ints:
     """Return the mesh vertices of the free ones where edges bend most, the worst first."""
-    problem = evidence.problem
-    patch, points = problem.patch, problem.points if evidence.points is None else evidence.points
-    edges = bends(points[: len(patch.vertices)], patch.triangles)
+    patch = evidence.problem.patch
+    edges = bends(_points(evidence), patch.triangles)
     sharpest = np.zeros(len(patch.vertices))
     for end in edges.edges.T:
         np.maximum.at(sharpest, end, np.abs(edges.degrees))
     order = patch.free[np.argsort(-sharpest[patch.free], kind="stable")]
     worst: Ints = patch.vertices[order[: int(np.ceil(MOST_BENT * len(order)))]]
     return worst
+
+
+def _points(evidence: Evidence) -> Floats:
+    """Return the places of the patch's vertices after the run."""
+    points = evidence.problem.points if evidence.points is None else evidence.points
+    own: Floats = points[: len(evidence.problem.patch.vertices)]
+    return own
 
 
 def _refused(evidence: Evidence, _options: FairOptions) -> Found:
@@ -380,10 +393,24 @@ def _squeezed(evidence: Evidence, _options: FairOptions) -> Found:
 
 
 def _needles(evidence: Evidence, _options: FairOptions) -> Found:
-    needles = np.setdiff1d(evidence.after.needles, evidence.before.needles)
+    needles = _that_show(evidence, np.setdiff1d(evidence.after.needles, evidence.before.needles))
     if not len(needles):
         return _NOTHING
     return counted(len(needles), "face is a needle", "faces are needles"), _corners(evidence.problem, needles)
+
+
+def _that_show(evidence: Evidence, needles: Ints) -> Ints:
+    """Return those of the needles whose neighbours bend: on a plane no one sees them."""
+    patch, points = evidence.problem.patch, _points(evidence)
+    sides = bends(points, patch.triangles).sides
+    normals = unit(area_vectors(points, patch.triangles))
+    shown = []
+    for row in np.flatnonzero(np.isin(patch.faces, needles)):
+        beside = normals[np.setdiff1d(sides[(sides == row).any(axis=1)], row)]
+        if len(beside) and (beside @ beside.T).min() < np.cos(np.radians(FLAT)):
+            shown.append(patch.faces[row])
+    found: Ints = np.unique(np.array(shown, dtype=np.int64))
+    return found
 
 
 # The first that finds something gives the reason.

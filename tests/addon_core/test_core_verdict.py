@@ -308,6 +308,12 @@ def test_new_needles_deserve_a_look(fine: Evidence) -> None:
     assert judged(replace(fine, before=needle, after=needle)).grade == GOOD
 
 
+def test_needles_in_a_plane_are_not_seen(fine: Evidence) -> None:
+    points = fine.problem.points.copy()
+    points[:, 2] = 0.0
+    assert judged(replace(fine, after=replace(CLEAN, needles=ints(FACE)), points=points)).grade == GOOD
+
+
 @pytest.mark.parametrize(
     ("ending", "steps", "told"),
     [
