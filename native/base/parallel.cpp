@@ -1,11 +1,16 @@
 #include "base/parallel.h"
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <system_error>
 #include <thread>
+
+#if defined(__x86_64__) || defined(_M_X64)
+#include <immintrin.h>
+#endif
 
 #include "base/progress.h"
 
@@ -54,6 +59,36 @@ private:
 
 }  // namespace
 
+// A solve enters some thousand loops of a hundredth to a tenth of a millisecond, one soon after the other, and waking a
+// thread takes as long as such a loop. So who has nothing to do looks on for a while before it sleeps.
+class LookOut {
+public:
+    template <typename Condition>
+    static bool until(const Condition& condition) {
+        const auto end = Clock::now() + longest;
+        do {
+            for (int k = 0; k < looks; ++k) {
+                if (condition()) return true;
+                pause();
+            }
+        } while (Clock::now() < end);
+        return condition();
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::chrono::microseconds longest{50};
+    static constexpr int looks = 32;  // between two readings of the clock
+
+    static void pause() {
+#if defined(__x86_64__) || defined(_M_X64)
+        _mm_pause();
+#else
+        std::this_thread::yield();
+#endif
+    }
+};
+
 class ThreadTeam {
 public:
     explicit ThreadTeam(int count) : helpers_wanted_(count - 1) {}
@@ -63,6 +98,7 @@ public:
             const std::scoped_lock lock(mutex_);
             ends_ = true;
         }
+        ++posted_;
         wake_.notify_all();
         for (std::thread& helper : helpers_) helper.join();
     }
@@ -74,16 +110,12 @@ public:
     void run(int pieces, const std::function<void(int)>& piece) {
         Job job(pieces, piece);
         start_helpers();
-        {
-            const std::scoped_lock lock(mutex_);
-            job_ = &job;
-            ++generation_;
-        }
-        wake_.notify_all();
+        const bool asleep = post(&job);
+        if (asleep) wake_.notify_all();
         job.work();
-        {
+        post(nullptr);
+        if (!LookOut::until([&] { return working_ == 0; })) {
             std::unique_lock lock(mutex_);
-            job_ = nullptr;
             idle_.wait(lock, [&] { return working_ == 0; });
         }
         job.rethrow();
@@ -101,11 +133,30 @@ private:
         }
     }
 
+    // Whether helpers sleep.
+    bool post(Job* job) {
+        bool asleep = false;
+        {
+            const std::scoped_lock lock(mutex_);
+            job_ = job;
+            if (job) ++generation_;
+            asleep = asleep_ > 0;
+        }
+        if (job) ++posted_;  // without the lock: who looks on takes it next
+        return asleep;
+    }
+
     void help() {
         unsigned seen = 0;
-        std::unique_lock lock(mutex_);
         while (true) {
-            wake_.wait(lock, [&] { return ends_ || (job_ && generation_ != seen); });
+            LookOut::until([&] { return posted_ != seen; });
+            std::unique_lock lock(mutex_);
+            const auto wanted = [&] { return ends_ || (job_ && generation_ != seen); };
+            if (!wanted()) {
+                ++asleep_;
+                wake_.wait(lock, wanted);
+                --asleep_;
+            }
             if (ends_) return;
             seen = generation_;
             Job& job = *job_;
@@ -123,8 +174,10 @@ private:
     std::condition_variable wake_;
     std::condition_variable idle_;
     Job* job_ = nullptr;
-    unsigned generation_ = 0;
-    int working_ = 0;
+    unsigned generation_ = 0;  // of jobs
+    std::atomic<unsigned> posted_ = 0;  // generations that may be looked at
+    std::atomic<int> working_ = 0;
+    int asleep_ = 0;
     bool ends_ = false;
 };
 
