@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <deque>
 #include <exception>
 #include <mutex>
 #include <system_error>
@@ -12,6 +13,7 @@
 #include <immintrin.h>
 #endif
 
+#include "base/beside.h"
 #include "base/progress.h"
 
 namespace fairing {
@@ -57,8 +59,6 @@ private:
     std::exception_ptr error_;
 };
 
-}  // namespace
-
 // A solve enters some thousand loops of a hundredth to a tenth of a millisecond, one soon after the other, and waking a
 // thread takes as long as such a loop. So who has nothing to do looks on for a while before it sleeps.
 class LookOut {
@@ -89,6 +89,62 @@ private:
     }
 };
 
+}  // namespace
+
+// Work beside a thread, done by whoever takes it first.
+class Errand {
+public:
+    explicit Errand(std::function<void()> work) : work_(std::move(work)) {}
+
+    // False where another thread has.
+    bool take() { return !taken_.exchange(true); }
+
+    // On a helper's thread.
+    void run() {
+        const Progress progress([this](double, std::string_view) { return !dropped_; });
+        const Checkpoints checkpoints(progress);
+        try {
+            work_();
+        } catch (...) {
+            error_ = std::current_exception();
+        }
+        const std::scoped_lock lock(mutex_);
+        done_ = true;
+        ended_.notify_all();
+    }
+
+    void run_here() {
+        work_();
+        done_ = true;
+    }
+
+    void wait() {
+        constexpr std::chrono::milliseconds between{50};
+        if (!LookOut::until([this] { return done_.load(); })) {
+            std::unique_lock lock(mutex_);
+            while (!ended_.wait_for(lock, between, [this] { return done_.load(); })) checkpoint();
+        }
+        const std::scoped_lock lock(mutex_);  // run() has let go of it
+        if (error_) std::rethrow_exception(error_);
+    }
+
+    void drop() {
+        dropped_ = true;
+        if (take()) return;
+        std::unique_lock lock(mutex_);
+        ended_.wait(lock, [this] { return done_.load(); });
+    }
+
+private:
+    const std::function<void()> work_;
+    std::atomic<bool> taken_ = false;
+    std::atomic<bool> dropped_ = false;
+    std::atomic<bool> done_ = false;
+    std::exception_ptr error_;
+    std::mutex mutex_;
+    std::condition_variable ended_;
+};
+
 class ThreadTeam {
 public:
     explicit ThreadTeam(int count) : helpers_wanted_(count - 1) {}
@@ -110,15 +166,25 @@ public:
     void run(int pieces, const std::function<void(int)>& piece) {
         Job job(pieces, piece);
         start_helpers();
-        const bool asleep = post(&job);
-        if (asleep) wake_.notify_all();
+        post([&] {
+            job_ = &job;
+            ++generation_;
+        });
         job.work();
-        post(nullptr);
+        {
+            const std::scoped_lock lock(mutex_);
+            job_ = nullptr;
+        }
         if (!LookOut::until([&] { return working_ == 0; })) {
             std::unique_lock lock(mutex_);
             idle_.wait(lock, [&] { return working_ == 0; });
         }
         job.rethrow();
+    }
+
+    void send(std::shared_ptr<Errand> errand) {
+        start_helpers();
+        post([&] { errands_.push_back(std::move(errand)); });
     }
 
 private:
@@ -133,39 +199,53 @@ private:
         }
     }
 
-    // Whether helpers sleep.
-    bool post(Job* job) {
+    // change(): of what helpers find to do.
+    template <typename Change>
+    void post(const Change& change) {
         bool asleep = false;
         {
             const std::scoped_lock lock(mutex_);
-            job_ = job;
-            if (job) ++generation_;
+            change();
             asleep = asleep_ > 0;
         }
-        if (job) ++posted_;  // without the lock: who looks on takes it next
-        return asleep;
+        ++posted_;  // without the lock, which who looks on takes next
+        if (asleep) wake_.notify_all();
     }
 
     void help() {
         unsigned seen = 0;
+        unsigned looked = 0;
         while (true) {
-            LookOut::until([&] { return posted_ != seen; });
+            const bool news = LookOut::until([&] { return posted_ != looked; });
             std::unique_lock lock(mutex_);
-            const auto wanted = [&] { return ends_ || (job_ && generation_ != seen); };
-            if (!wanted()) {
+            looked = posted_;
+            const auto is_wanted = [&] { return ends_ || !errands_.empty() || (job_ && generation_ != seen); };
+            if (!is_wanted()) {
+                if (news) continue;
                 ++asleep_;
-                wake_.wait(lock, wanted);
+                wake_.wait(lock, is_wanted);
                 --asleep_;
             }
             if (ends_) return;
-            seen = generation_;
-            Job& job = *job_;
-            ++working_;
-            lock.unlock();
-            job.work();
-            lock.lock();
-            if (--working_ == 0) idle_.notify_all();
+            errands_.empty() ? help_with_job(lock, seen) : run_errand(lock);
         }
+    }
+
+    void help_with_job(std::unique_lock<std::mutex>& lock, unsigned& seen) {
+        seen = generation_;
+        Job& job = *job_;
+        ++working_;
+        lock.unlock();
+        job.work();
+        lock.lock();
+        if (--working_ == 0) idle_.notify_all();
+    }
+
+    void run_errand(std::unique_lock<std::mutex>& lock) {
+        const std::shared_ptr<Errand> errand = std::move(errands_.front());
+        errands_.pop_front();
+        lock.unlock();
+        if (errand->take()) errand->run();
     }
 
     int helpers_wanted_;
@@ -174,8 +254,9 @@ private:
     std::condition_variable wake_;
     std::condition_variable idle_;
     Job* job_ = nullptr;
-    unsigned generation_ = 0;  // of jobs
-    std::atomic<unsigned> posted_ = 0;  // generations that may be looked at
+    std::deque<std::shared_ptr<Errand>> errands_;
+    unsigned generation_ = 0;           // of jobs
+    std::atomic<unsigned> posted_ = 0;  // jobs, errands
     std::atomic<int> working_ = 0;
     int asleep_ = 0;
     bool ends_ = false;
@@ -203,6 +284,20 @@ Threads::Threads(int count) : team_(std::make_unique<ThreadTeam>(wanted_threads(
 }
 
 Threads::~Threads() { current_team = previous_; }
+
+Beside::Beside(std::function<void()> work) : errand_(std::make_shared<Errand>(std::move(work))) {
+    if (current_team) current_team->send(errand_);
+}
+
+Beside::~Beside() {
+    if (errand_) errand_->drop();
+}
+
+void Beside::finish() {
+    if (!errand_) return;
+    const std::shared_ptr<Errand> errand = std::move(errand_);
+    errand->take() ? errand->run_here() : errand->wait();
+}
 
 void run_pieces(int pieces, const std::function<void(int)>& piece) {
     const Taken taken;

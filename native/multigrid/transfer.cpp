@@ -23,6 +23,18 @@ void Transfer::restrict(SingleField& fine, SingleField& coarse) const {
     coarse.rightCols(coarse.cols() - coarse_free_count).setZero();
 }
 
+void Transfer::prolong_means(const Points& coarse, int fine_free_count, Points& fine) const {
+    for (std::size_t c = 0; c < coarse_in_fine.size(); ++c) {
+        if (coarse_in_fine[c] < fine_free_count) fine.col(coarse_in_fine[c]) = coarse.col(static_cast<Eigen::Index>(c));
+    }
+    for (int k = removals.size(); k-- > 0;) {
+        Vector3 sum = Vector3::Zero();
+        for (int j = removals.begin[at(k)]; j < removals.begin[at(k) + 1]; ++j)
+            sum += double{removals.weights[at(j)]} * fine.col(removals.neighbours[at(j)]);
+        fine.col(removals.vertex[at(k)]) = sum;
+    }
+}
+
 Vector3 lifted_mean(const Points& points, const Points& normals, const int* vertices, const float* weights, int count) {
     Vector3 mean = Vector3::Zero();
     double sum = 0.0;
