@@ -26,6 +26,8 @@ constexpr int most_between = 6;
 constexpr int patience = 4;
 constexpr int evening_sweeps = 3;
 constexpr int most_slides = 8;
+// Free vertices of a level whose ordering is kept while coarser ones are solved; larger ones have no room for it.
+constexpr int largest_prepared = 200'000;
 // Shares of the time, measured at 100k and 256k.
 constexpr double begin = 0.06;  // the hierarchy
 constexpr double share_of_start = 0.3;
@@ -92,9 +94,11 @@ private:
         }
     }
 
-    [[nodiscard]] std::unique_ptr<NormalOperator> prepared(std::size_t k) {
+    [[nodiscard]] std::unique_ptr<NormalOperator> normal_operator(std::size_t k, const Points& points) {
         operators_[k].preparing.finish();
-        return std::move(operators_[k].made);
+        if (operators_[k].made) return std::move(operators_[k].made);
+        const Problem& problem = levels_.problem(k);
+        return make_normal_operator(problem, points.leftCols(problem.patch.free_count), Solves::few);
     }
 
     // All levels from the coarsest one's solution.
@@ -157,7 +161,7 @@ private:
         slide(problem, *work.tangential, normals, most_slides, points);
         normals.resize(3, 0);  // the iteration needs the room
         progress.report(share_of_start, "refinement");
-        work.normal = prepared(k);
+        work.normal = normal_operator(k, points);
         // λ that aren't symmetric need a factorisation of their own; so far their symmetric part was good enough.
         if (k == 0 && std::holds_alternative<RowWeights>(*problem.weights)) {
             work.tangential =
