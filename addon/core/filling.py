@@ -228,6 +228,6 @@ def _joining(options: FillOptions, outline: Ints, loops: int) -> Iterator[None]:
     try:
         yield
     except fairing.MeshError as error:
-        if not options.bridge or error.code != "NONMANIFOLD_EDGE" or "doubles" in error.diagnostic.figures:
+        if error.code != "LOOPS_NOT_JOINED" or (loops == 2 and "turned" in error.diagnostic.figures):
             raise
         raise BorderRefusal(f"No surface joins these outlines. {joining_advice(loops)}", outline) from error

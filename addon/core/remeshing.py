@@ -23,7 +23,7 @@ from .region import MeshArrays, Patch, to_local
 from .solve import pose, told_by
 from .swelling import discs, swellings, waviness
 from .tunnels import tunnel_hint
-from .verdict import GOOD, Evidence, judge
+from .verdict import GOOD, LOOK, Evidence, because_of, judge
 from .words import in_mesh_words
 
 MOST_SQUEEZED = 0.25  # of the old length of an edge that stays: below, it counts as squeezed,
@@ -91,7 +91,9 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
         pierced=_pierced(mesh, matrix, problem, part, points), points=own.points, origin=origin,
     )  # fmt: skip
     verdict = judge(evidence, options)
-    odd = () if verdict.grade == GOOD else hints + tunnel_hint(problem.patch)
+    tunnels = () if verdict.grade == GOOD else tunnel_hint(problem.patch)
+    verdict = because_of(verdict, tunnels)
+    odd = (() if verdict.grade == GOOD else hints) + (tunnels if verdict.grade == LOOK else ())
     local = to_local(points, matrix)
     stay = len(part.stay)
     return Remeshed(

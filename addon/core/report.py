@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -96,7 +96,7 @@ def _worst_verdict(named: list[Named]) -> Verdict:
     verdict = outcome.verdict
     if len(named) == 1 or not verdict.reason:
         return verdict
-    return Verdict(verdict.grade, f"{name}: {verdict.reason}", verdict.spots, verdict.remedies)
+    return replace(verdict, reason=f"{name}: {verdict.reason}")
 
 
 def _warnings(named: list[Named]) -> tuple[str, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -14,18 +14,23 @@ from .bends import bends
 from .eaten import Eaten
 from .engine import Problem, Result, bad_outline
 from .findings import Finding, Origin, found
+from .flank import Flank
 from .options import FairOptions
 from .quality import Join, Quality
 from .region import nothing
+from .vectors import area_vectors, unit
 from .words import counted
 
 GOOD, LOOK, UNUSABLE = "GOOD", "LOOK", "UNUSABLE"
 GRADES = (GOOD, LOOK, UNUSABLE)
+STEEP = 40.0  # degrees from which a kink at the outline is worse than a hard edge that was rounded off
+TURNED = 90.0  # and from which it is no kink any more
+FLAT = 1.0  # degrees between the neighbours of a needle, below which it is not seen
 MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
 
 # What may help, each a way to run once more.
 GROW, SMOOTH_OUTLINE, AS_SELECTED, HOLD_BORDER = "GROW", "SMOOTH_OUTLINE", "AS_SELECTED", "HOLD_BORDER"
-EVEN_CURVATURE, EVEN_SPREAD, WRITE = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE"
+EVEN_CURVATURE, EVEN_SPREAD, WRITE, GROW_OVER = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE", "GROW_OVER"
 
 _ROUGH_BORDER = ": a fair border may not exist where it is rough beside the selection; Open Border: Held needs none"
 _KNOT = "Seams and marks inside, which stay, are squeezed to a knot at {}"
@@ -44,6 +49,7 @@ class Verdict:
     reason: str = ""
     spots: Ints = field(default_factory=nothing)
     remedies: tuple[str, ...] = ()
+    rings: int = 1  # of faces by which GROW_OVER grows the selection
 
 
 class NotUsable(fairing.SolverError):
@@ -70,6 +76,7 @@ class Evidence:
     eaten: Eaten = field(default_factory=Eaten)
     squeezed: Ints = field(default_factory=nothing)  # mesh vertices where lines that a new mesh keeps are a knot
     pierced: Ints = field(default_factory=nothing)  # mesh vertices where the surface passes through faces outside
+    flank: Flank | None = None
     seams: Ints = field(default_factory=nothing)  # mesh vertices of held seams of doubled vertices that show as crests
     points: Floats | None = None  # (q, 3) of problem.vertices after the run; None: problem.points
     origin: Origin | None = None  # what the engine's numbers stand for; None: problem.origin
@@ -90,15 +97,22 @@ class Evidence:
 
 def judge(evidence: Evidence, options: FairOptions) -> Verdict:
     """Return the verdict on what would be written."""
+    rings = evidence.flank.rings if evidence.flank is not None else 1
     for look in (_no_answer, _folded, _crossing):
         reason, spots = look(evidence, options)
         if reason:
             bad = not _calms(evidence)
-            return Verdict(UNUSABLE if bad else LOOK, reason, np.unique(spots), _remedies(evidence, options, bad))
+            remedies = _remedies(evidence, options, bad)
+            return Verdict(UNUSABLE if bad else LOOK, reason, np.unique(spots), remedies, rings)
     reason, spots = _visible(evidence, options)
     if reason:
-        return Verdict(LOOK, reason, _once(spots), _remedies(evidence, options, bad=False))
+        return Verdict(LOOK, reason, _once(spots), _remedies(evidence, options, bad=False), rings)
     return Verdict(GOOD)
+
+
+def because_of(verdict: Verdict, causes: tuple[str, ...]) -> Verdict:
+    """Return the verdict, where nothing usable came out with the first of what must be the cause for its reason."""
+    return replace(verdict, reason=causes[0]) if causes and verdict.grade == UNUSABLE else verdict
 
 
 def _calms(evidence: Evidence) -> bool:
@@ -127,6 +141,7 @@ def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str,
     has_outside = len(evidence.problem.outside) > 0
     was_tried = any(name == "variation" for name, _ in evidence.result.way)
     offered = {
+        GROW_OVER: not bad and evidence.flank is not None and judges_join(options),
         GROW: has_outside,
         SMOOTH_OUTLINE: has_outside and options.outline == "GIVEN" and options.mesh == "KEEP",
         EVEN_SPREAD: bad and _is_folded(evidence) and options.mesh == "KEEP" and options.inner_fairness != "UNIFORM",
@@ -220,19 +235,7 @@ def _crossing(evidence: Evidence, options: FairOptions) -> Found:
 
 
 def _visible(evidence: Evidence, options: FairOptions) -> Found:
-    for look in (
-        _pierced,
-        _seamed,
-        _rounded,
-        _eaten,
-        _kinked,
-        _pointed,
-        _swollen,
-        _substituted,
-        _refused,
-        _squeezed,
-        _needles,
-    ):
+    for look in _LOOKS:
         told = look(evidence, options)
         if told[0]:
             return told
@@ -269,6 +272,8 @@ def _kinked(evidence: Evidence, options: FairOptions) -> Found:
 def kink_reason(join: Join) -> str:
     """Return the sentence for a join that is seen."""
     text = counted(len(join.seen), "vertex", "vertices")
+    if join.worst_seen >= TURNED:
+        return f"The surface turns back from the slope around it at {text} of the outline, by {join.worst_seen:.0f}°"
     return f"A kink shows at {text} of the outline, of {join.worst_seen:.0f}° at worst"
 
 
@@ -298,7 +303,8 @@ def _eaten(evidence: Evidence, options: FairOptions) -> Found:
     marked, running = evidence.eaten.marked, evidence.eaten.running_on
     if len(marked):
         text = counted(len(marked), "vertex", "vertices")
-        return f"Edges marked sharp were rounded off at {text}: undo, and Pin Edges: Sharp keeps them", marked
+        reason = f"Edges marked sharp were rounded off at {text}: undo, and Pin Edges: Sharp keeps them"
+        return _with_kinks(evidence, reason, marked) if evidence.join.worst_seen >= STEEP else (reason, marked)
     if len(running):
         text = counted(len(running), "vertex", "vertices")
         reason = f"A hard edge runs on outside, but was rounded off at {text}: mark it sharp and pin it to keep it"
@@ -307,12 +313,23 @@ def _eaten(evidence: Evidence, options: FairOptions) -> Found:
 
 
 def _with_kinks(evidence: Evidence, reason: str, spots: Ints) -> Found:
-    """Add the kinks at the outline: where these are, another selection may be what helps."""
+    """Add the kinks at the outline, or begin with them where these are the worse of both.
+
+    Another selection may be what helps then.
+    """
     seen = evidence.join.seen
     if not len(seen):
         return reason, spots
+    if evidence.join.worst_seen >= STEEP:
+        edge = counted(len(spots), "vertex", "vertices")
+        return f"{kink_reason(evidence.join)}, and hard edges were rounded off at {edge}", _both(seen, spots)
     kink = f"a kink of {evidence.join.worst_seen:.0f}° shows at the outline"
-    return f"{reason}, or grow the selection: {kink}", np.concatenate([spots, seen])
+    return f"{reason}, or grow the selection: {kink}", _both(spots, seen)
+
+
+def _both(spots: Ints, others: Ints) -> Ints:
+    joined: Ints = np.concatenate([spots, others])
+    return joined
 
 
 def _swollen(evidence: Evidence, options: FairOptions) -> Found:
@@ -320,6 +337,14 @@ def _swollen(evidence: Evidence, options: FairOptions) -> Found:
         return _NOTHING
     text = counted(len(evidence.swollen), "vertex", "vertices")
     return f"The surface swells to a knob around {text}: another outline may avoid it", evidence.swollen
+
+
+def _flanked(evidence: Evidence, options: FairOptions) -> Found:
+    if evidence.flank is None or not judges_join(options) or _is_meant_to_swell(options):
+        return _NOTHING
+    kind = "bump" if evidence.flank.is_bump else "dent"
+    reason = f"The outline is on the slope of a {kind}, so that the {kind} stays: grow the selection over it"
+    return reason, evidence.problem.patch.vertices[evidence.flank.outline]
 
 
 def _substituted(evidence: Evidence, _options: FairOptions) -> Found:
@@ -332,15 +357,21 @@ def _substituted(evidence: Evidence, _options: FairOptions) -> Found:
 
 def _most_bent(evidence: Evidence) -> Ints:
     """Return the mesh vertices of the free ones where edges bend most, the worst first."""
-    problem = evidence.problem
-    patch, points = problem.patch, problem.points if evidence.points is None else evidence.points
-    edges = bends(points[: len(patch.vertices)], patch.triangles)
+    patch = evidence.problem.patch
+    edges = bends(_points(evidence), patch.triangles)
     sharpest = np.zeros(len(patch.vertices))
     for end in edges.edges.T:
         np.maximum.at(sharpest, end, np.abs(edges.degrees))
     order = patch.free[np.argsort(-sharpest[patch.free], kind="stable")]
     worst: Ints = patch.vertices[order[: int(np.ceil(MOST_BENT * len(order)))]]
     return worst
+
+
+def _points(evidence: Evidence) -> Floats:
+    """Return the places of the patch's vertices after the run."""
+    points = evidence.problem.points if evidence.points is None else evidence.points
+    own: Floats = points[: len(evidence.problem.patch.vertices)]
+    return own
 
 
 def _refused(evidence: Evidence, _options: FairOptions) -> Found:
@@ -362,15 +393,29 @@ def _squeezed(evidence: Evidence, _options: FairOptions) -> Found:
 
 
 def _needles(evidence: Evidence, _options: FairOptions) -> Found:
-    needles = np.setdiff1d(evidence.after.needles, evidence.before.needles)
+    needles = _that_show(evidence, np.setdiff1d(evidence.after.needles, evidence.before.needles))
     if not len(needles):
         return _NOTHING
     return counted(len(needles), "face is a needle", "faces are needles"), _corners(evidence.problem, needles)
 
 
+def _that_show(evidence: Evidence, needles: Ints) -> Ints:
+    """Return those of the needles whose neighbours bend: on a plane no one sees them."""
+    patch, points = evidence.problem.patch, _points(evidence)
+    sides = bends(points, patch.triangles).sides
+    normals = unit(area_vectors(points, patch.triangles))
+    shown = []
+    for row in np.flatnonzero(np.isin(patch.faces, needles)):
+        beside = normals[np.setdiff1d(sides[(sides == row).any(axis=1)], row)]
+        if len(beside) and (beside @ beside.T).min() < np.cos(np.radians(FLAT)):
+            shown.append(patch.faces[row])
+    found: Ints = np.unique(np.array(shown, dtype=np.int64))
+    return found
+
+
 # The first that finds something gives the reason.
 _LOOKS = (
-    *(_pierced, _seamed, _rounded, _eaten, _kinked, _pointed, _swollen),
+    *(_pierced, _seamed, _rounded, _eaten, _kinked, _pointed, _swollen, _flanked),
     *(_substituted, _refused, _squeezed, _needles),
 )
 

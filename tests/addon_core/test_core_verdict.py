@@ -13,6 +13,7 @@ import fairing
 from core.arrays import Ints
 from core.eaten import Eaten
 from core.findings import Origin
+from core.flank import Flank
 from core.options import FairOptions
 from core.quality import Join, Quality
 from core.solve import pose, solve
@@ -22,6 +23,7 @@ from core.verdict import (
     EVEN_SPREAD,
     GOOD,
     GROW,
+    GROW_OVER,
     HOLD_BORDER,
     LOOK,
     SMOOTH_OUTLINE,
@@ -75,6 +77,20 @@ def test_a_knob_deserves_a_look(fine: Evidence) -> None:
     assert verdict.reason == "The surface swells to a knob around 2 vertices: another outline may avoid it"
     for meant in ({"detail": 0.5}, {"equation": "CONSTANT", "bulge": 1.0}, {"factor": 0.5}):
         assert judged(knob, **meant).grade == GOOD, meant
+
+
+def test_an_outline_on_a_slope_deserves_a_look_and_offers_the_way_over_it(fine: Evidence) -> None:
+    outline = fine.problem.patch.outline[:3]
+    for is_bump, kind in ((True, "bump"), (False, "dent")):
+        sloped = replace(fine, flank=Flank(outline, is_bump, 4))
+        verdict = judged(sloped)
+        spots = fine.problem.patch.vertices[outline].tolist()
+        assert (verdict.grade, verdict.spots.tolist(), verdict.rings) == (LOOK, spots, 4)
+        assert verdict.remedies == (GROW_OVER, GROW, SMOOTH_OUTLINE)
+        assert verdict.reason.startswith(f"The outline is on the slope of a {kind}, so that the {kind} stays")
+        for meant in ({"detail": 0.5}, {"equation": "CONSTANT", "bulge": 1.0}, {"factor": 0.5}):
+            assert judged(sloped, **meant).grade == GOOD, meant
+    assert judged(fine).rings == 1
 
 
 @pytest.mark.parametrize("termination", ["stalled", "iteration_limit"])
@@ -253,7 +269,14 @@ def test_a_hard_edge_that_was_eaten_deserves_a_look(fine: Evidence) -> None:
     kinked = replace(running, join=Join(ints(7, 8, 9), np.array([12.5, 3.0, 31.0])))
     assert judged(kinked).reason.endswith("or grow the selection: a kink of 31° shows at the outline")
     assert judged(kinked).spots.tolist() == [3, 8, 9, 7]
+    steep = replace(running, join=Join(ints(7, 8, 9), np.array([12.5, 3.0, 41.0])))
+    assert judged(steep).reason == (
+        "A kink shows at 2 vertices of the outline, of 41° at worst, and hard edges were rounded off at 2 vertices"
+    )
+    assert judged(steep).spots.tolist() == [9, 7, 3, 8]
     marked = replace(fine, eaten=Eaten(running_on=ints(3, 8), marked=ints(4)))
+    assert judged(replace(marked, join=steep.join)).reason.startswith("A kink shows")
+    assert judged(replace(marked, join=kinked.join)).reason.startswith("Edges marked sharp")
     assert judged(marked).spots.tolist() == [4]
     assert judged(marked).reason.startswith("Edges marked sharp were rounded off at 1 vertex")
     for options in ({"factor": 0.5}, {"equation": "MINIMAL"}):
@@ -266,6 +289,10 @@ def test_a_kink_deserves_a_look_at_its_vertices(fine: Evidence) -> None:
     assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [9, 7])
     assert verdict.reason == "A kink shows at 2 vertices of the outline, of 31° at worst"
     assert verdict.remedies == (GROW, SMOOTH_OUTLINE)
+    turned = replace(fine, join=Join(ints(7, 8), np.array([12.5, 105.9])))
+    assert judged(turned).reason == (
+        "The surface turns back from the slope around it at 2 vertices of the outline, by 106°"
+    )
     assert judged(kinked, equation="MINIMAL").grade == GOOD
     assert judged(kinked, factor=0.5).grade == GOOD
 
@@ -279,6 +306,12 @@ def test_new_needles_deserve_a_look(fine: Evidence) -> None:
     needle = replace(CLEAN, needles=ints(FACE))
     assert judged(replace(fine, after=needle)).spots.tolist() == CORNERS
     assert judged(replace(fine, before=needle, after=needle)).grade == GOOD
+
+
+def test_needles_in_a_plane_are_not_seen(fine: Evidence) -> None:
+    points = fine.problem.points.copy()
+    points[:, 2] = 0.0
+    assert judged(replace(fine, after=replace(CLEAN, needles=ints(FACE)), points=points)).grade == GOOD
 
 
 @pytest.mark.parametrize(

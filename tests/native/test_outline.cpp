@@ -299,6 +299,10 @@ TEST_CASE("eased: curvature does not vary along a circle of a sphere or a cone; 
     const double ratio =
         outline_variation(fine.patch(), zigzag(fine)) / outline_variation(coarse.patch(), zigzag(coarse));
     CHECK(ratio == doctest::Approx(8.0).epsilon(0.02));
+    OutlineData twins = circle;
+    twins.points.col(1) = twins.points.col(0);
+    twins.points(2, 1) += 1e-6;
+    CHECK(outline_variation(coarse.patch(), twins) < 10.0);  // 36 / 1e-6² with what is between them
     OutlineData scaled = zigzag(coarse);
     scaled.points *= 2.0;
     CHECK(outline_variation(coarse.patch(), scaled) ==
