@@ -19,6 +19,7 @@ from .quality import Join, Quality
 from .region import MeshArrays, Patch, to_local
 from .rounded import rounded_edges
 from .seams import seam_kinks
+from .selection import left_out
 from .solve import Solved
 from .swelling import discs, swellings, waviness
 from .symmetry import mirror_map, symmetrised, with_band
@@ -66,7 +67,7 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     seams = seam_kinks(patch, after[:own], join.limit)
     evidence = Evidence(
         problem, result, solved.failures, quality_before, quality_after, join, *odd, pierced=through, points=after,
-        flank=_flank(mesh, matrix, problem, after), seams=seams,
+        flank=_flank(mesh, matrix, problem, after), left_out=left_out(mesh), seams=seams,
     )  # fmt: skip
     verdict = judge(evidence, options.resolved(mesh.textured))
     tunnels = () if verdict.grade == GOOD else tunnel_hint(patch)

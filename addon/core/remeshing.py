@@ -20,6 +20,7 @@ from .outcome import Fairing
 from .piercing import Sheet, pierced, places
 from .reflected import whole_of
 from .region import MeshArrays, Patch, to_local
+from .selection import left_out
 from .solve import pose, told_by
 from .swelling import discs, swellings, waviness
 from .tunnels import tunnel_hint
@@ -89,6 +90,7 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
     evidence = Evidence(
         after, result, failures, *measured, join, swollen=swollen, squeezed=_squeezed(problem, kept, result),
         pierced=_pierced(mesh, matrix, problem, part, points), points=own.points, origin=origin,
+        left_out=left_out(mesh),
     )  # fmt: skip
     verdict = judge(evidence, options)
     tunnels = () if verdict.grade == GOOD else tunnel_hint(problem.patch)

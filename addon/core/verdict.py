@@ -18,6 +18,7 @@ from .flank import Flank
 from .options import FairOptions
 from .quality import Join, Quality
 from .region import nothing
+from .selection import LeftOut
 from .vectors import area_vectors, unit
 from .words import counted
 
@@ -26,11 +27,13 @@ GRADES = (GOOD, LOOK, UNUSABLE)
 STEEP = 40.0  # degrees from which a kink at the outline is worse than a hard edge that was rounded off
 TURNED = 90.0  # and from which it is no kink any more
 FLAT = 1.0  # degrees between the neighbours of a needle, below which it is not seen
+MANY_LEFT_OUT = 3  # faces that a careless lasso leaves out; one or two may be meant
 MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
 
 # What may help, each a way to run once more.
 GROW, SMOOTH_OUTLINE, AS_SELECTED, HOLD_BORDER = "GROW", "SMOOTH_OUTLINE", "AS_SELECTED", "HOLD_BORDER"
 EVEN_CURVATURE, EVEN_SPREAD, WRITE, GROW_OVER = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE", "GROW_OVER"
+ADD_LEFT_OUT = "ADD_LEFT_OUT"
 
 _ROUGH_BORDER = ": a fair border may not exist where it is rough beside the selection; Open Border: Held needs none"
 _KNOT = "Seams and marks inside, which stay, are squeezed to a knot at {}"
@@ -77,6 +80,7 @@ class Evidence:
     squeezed: Ints = field(default_factory=nothing)  # mesh vertices where lines that a new mesh keeps are a knot
     pierced: Ints = field(default_factory=nothing)  # mesh vertices where the surface passes through faces outside
     flank: Flank | None = None
+    left_out: LeftOut = field(default_factory=LeftOut)
     seams: Ints = field(default_factory=nothing)  # mesh vertices of held seams of doubled vertices that show as crests
     points: Floats | None = None  # (q, 3) of problem.vertices after the run; None: problem.points
     origin: Origin | None = None  # what the engine's numbers stand for; None: problem.origin
@@ -142,6 +146,7 @@ def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str,
     was_tried = any(name == "variation" for name, _ in evidence.result.way)
     offered = {
         GROW_OVER: not bad and evidence.flank is not None and judges_join(options),
+        ADD_LEFT_OUT: _are_many(evidence.left_out),
         GROW: has_outside,
         SMOOTH_OUTLINE: has_outside and options.outline == "GIVEN" and options.mesh == "KEEP",
         EVEN_SPREAD: bad and _is_folded(evidence) and options.mesh == "KEEP" and options.inner_fairness != "UNIFORM",
@@ -240,6 +245,19 @@ def _visible(evidence: Evidence, options: FairOptions) -> Found:
         if told[0]:
             return told
     return _NOTHING
+
+
+def _are_many(left_out: LeftOut) -> bool:
+    return left_out.count >= MANY_LEFT_OUT
+
+
+def _holed(evidence: Evidence, _options: FairOptions) -> Found:
+    if not _are_many(evidence.left_out):
+        return _NOTHING
+    reason = (
+        f"{evidence.left_out.count} faces inside are left out of the selection, so that their places stay: add them"
+    )
+    return reason, evidence.left_out.vertices
 
 
 def _pierced(evidence: Evidence, _options: FairOptions) -> Found:
@@ -415,7 +433,7 @@ def _that_show(evidence: Evidence, needles: Ints) -> Ints:
 
 # The first that finds something gives the reason.
 _LOOKS = (
-    *(_pierced, _seamed, _rounded, _eaten, _kinked, _pointed, _swollen, _flanked),
+    *(_holed, _pierced, _seamed, _rounded, _eaten, _kinked, _pointed, _swollen, _flanked),
     *(_substituted, _refused, _squeezed, _needles),
 )
 
