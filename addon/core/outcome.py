@@ -12,6 +12,7 @@ from . import quality
 from .arrays import Floats, Ints
 from .eaten import Eaten, eaten_edges
 from .engine import Problem, islands
+from .evidence import Evidence
 from .flank import Flank, flank
 from .options import FairOptions
 from .piercing import Sheet, pierced, places
@@ -24,7 +25,7 @@ from .solve import Solved
 from .swelling import discs, swellings, waviness
 from .symmetry import mirror_map, symmetrised, with_band
 from .tunnels import tunnel_hint
-from .verdict import GOOD, LOOK, Evidence, Verdict, because_of, judge
+from .verdict import GOOD, LOOK, Verdict, because_of, judge
 
 
 @dataclass(frozen=True)

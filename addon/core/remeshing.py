@@ -11,6 +11,7 @@ import fairing
 from . import quality
 from .arrays import Floats, Ints
 from .engine import Problem, Progress
+from .evidence import Evidence
 from .faces import Faces, faces_of, paired_faces
 from .findings import Origin
 from .lines import inner_lines
@@ -24,7 +25,7 @@ from .selection import left_out
 from .solve import pose, told_by
 from .swelling import discs, swellings, waviness
 from .tunnels import tunnel_hint
-from .verdict import GOOD, LOOK, Evidence, because_of, judge
+from .verdict import GOOD, LOOK, because_of, judge
 from .words import in_mesh_words
 
 MOST_SQUEEZED = 0.25  # of the old length of an edge that stays: below, it counts as squeezed,

@@ -12,6 +12,7 @@ import pytest
 import fairing
 from core.arrays import Ints
 from core.eaten import Eaten
+from core.evidence import Evidence
 from core.findings import Origin
 from core.flank import Flank
 from core.options import FairOptions
@@ -32,7 +33,6 @@ from core.verdict import (
     SMOOTH_OUTLINE,
     UNUSABLE,
     WRITE,
-    Evidence,
     Verdict,
     judge,
 )
