@@ -44,13 +44,13 @@ Levels::Levels(const Problem& problem, Outlines outlines) {
                       {points, outlines == Outlines::thinned ? normals : unknown}, coarsest_size);
     left_.resize(coarse_.size());
     levels_.reserve(coarse_.size() + 1);
-    levels_.push_back({finest(problem), weights, {}});
+    levels_.push_back({finest(problem), weights, problem.patch.free_count});
     for (CoarseLevel& coarse : coarse_) {
         const Patch& patch = coarse.patch;
         Problem level{patch, pick(points, patch.to_input, patch.free_count),
                       pick(normals, patch.to_input, patch.free_count), std::move(coarse.weights), problem.options};
         const Shared<Lambda> own = level.weights;
-        levels_.push_back({std::move(level), own, {}});
+        levels_.push_back({std::move(level), own, patch.free_count});
     }
 }
 
@@ -61,12 +61,13 @@ RingMatrix Levels::laplacian(std::size_t k) const {
 Points Levels::layout(std::size_t k, const Points& coarsest) const {
     Points points = coarsest;
     for (std::size_t level = this->coarsest(); level-- > k;) {
-        const Problem& problem = levels_[level].problem;
-        Points finer = with_fixed(problem.patch, problem.fixed_points);
-        transfer(level).prolong_means(points, problem.patch.free_count, finer);
+        const Points& fixed = levels_[level].problem.fixed_points;
+        Points finer = Points::Zero(3, levels_[level].free_count + fixed.cols());
+        finer.rightCols(fixed.cols()) = fixed;
+        transfer(level).prolong_means(points, levels_[level].free_count, finer);
         points = std::move(finer);
     }
-    points.conservativeResize(3, levels_[k].problem.patch.free_count);
+    points.conservativeResize(3, levels_[k].free_count);
     return points;
 }
 
