@@ -12,6 +12,7 @@ from . import quality
 from .arrays import Floats, Ints
 from .eaten import Eaten, eaten_edges
 from .engine import Problem, islands
+from .evidence import Evidence
 from .flank import Flank, flank
 from .options import FairOptions
 from .piercing import Sheet, pierced, places
@@ -19,11 +20,12 @@ from .quality import Join, Quality
 from .region import MeshArrays, Patch, to_local
 from .rounded import rounded_edges
 from .seams import seam_kinks
+from .selection import left_out
 from .solve import Solved
 from .swelling import discs, swellings, waviness
 from .symmetry import mirror_map, symmetrised, with_band
 from .tunnels import tunnel_hint
-from .verdict import GOOD, LOOK, Evidence, Verdict, because_of, judge
+from .verdict import GOOD, LOOK, Verdict, because_of, judge
 
 
 @dataclass(frozen=True)
@@ -66,7 +68,7 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     seams = seam_kinks(patch, after[:own], join.limit)
     evidence = Evidence(
         problem, result, solved.failures, quality_before, quality_after, join, *odd, pierced=through, points=after,
-        flank=_flank(mesh, matrix, problem, after), seams=seams,
+        flank=_flank(mesh, matrix, problem, after), left_out=left_out(mesh), seams=seams,
     )  # fmt: skip
     verdict = judge(evidence, options.resolved(mesh.textured))
     tunnels = () if verdict.grade == GOOD else tunnel_hint(patch)

@@ -9,10 +9,11 @@ import numpy as np
 
 from .arrays import Ints
 from .engine import Result
+from .looks import judges_join
 from .options import FairOptions
 from .outcome import Fairing
 from .quality import VISIBLE, Join, Quality
-from .verdict import GOOD, GRADES, LOOK, UNUSABLE, Verdict, judges_join
+from .verdict import GOOD, GRADES, LOOK, UNUSABLE, Verdict
 from .words import counted
 
 MET, MISSED, TOLD = "MET", "MISSED", "TOLD"

@@ -11,6 +11,7 @@ import bpy
 from bpy.props import EnumProperty
 
 from ..core.verdict import (
+    ADD_LEFT_OUT,
     AS_SELECTED,
     EVEN_CURVATURE,
     EVEN_SPREAD,
@@ -68,6 +69,7 @@ class MESH_OT_fair_reselect(bpy.types.Operator):
 
 # What each way of trying once more changes in the options.
 CHANGES: dict[str, dict[str, Any]] = {
+    ADD_LEFT_OUT: {},
     GROW: {},
     GROW_OVER: {},
     SMOOTH_OUTLINE: {"outline": "MENDED"},
@@ -78,6 +80,7 @@ CHANGES: dict[str, dict[str, Any]] = {
     WRITE: {"accept": "ALL"},
 }
 _WAYS = (
+    (ADD_LEFT_OUT, "Add Left-Out Faces", "Select the faces as well that were left out within, and fair again"),
     (GROW, "Grow by a Ring", "Select one ring of faces more and fair again"),
     (GROW_OVER, "Grow over It", "Select as many rings of faces more as the slope is wide, and fair again"),
     (SMOOTH_OUTLINE, "Smooth Outline", "Smooth the outline and the two rings around it, and fair again"),
@@ -114,6 +117,8 @@ class MESH_OT_fair_again(bpy.types.Operator):
         options = replace(last_run.options(), **{"accept": "USABLE", **CHANGES[self.way]})
         try:
             last_run.select_region(context)
+            if self.way == ADD_LEFT_OUT:
+                bpy.ops.mesh.fair_add_left_out()
             for _ in range({GROW: 1, GROW_OVER: last_run.rings()}.get(self.way, 0)):
                 bpy.ops.mesh.select_more()
             bpy.ops.ed.undo_push(message="Select Region")  # what the redo panel goes back to

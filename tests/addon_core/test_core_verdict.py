@@ -12,12 +12,16 @@ import pytest
 import fairing
 from core.arrays import Ints
 from core.eaten import Eaten
+from core.evidence import Evidence
 from core.findings import Origin
 from core.flank import Flank
 from core.options import FairOptions
+from core.outcome import outcome
 from core.quality import Join, Quality
+from core.region import MeshArrays
 from core.solve import pose, solve
 from core.verdict import (
+    ADD_LEFT_OUT,
     AS_SELECTED,
     EVEN_CURVATURE,
     EVEN_SPREAD,
@@ -29,7 +33,6 @@ from core.verdict import (
     SMOOTH_OUTLINE,
     UNUSABLE,
     WRITE,
-    Evidence,
     Verdict,
     judge,
 )
@@ -337,3 +340,30 @@ def test_without_anything_outside_there_is_nothing_to_grow_into(fine: Evidence) 
     assert verdict.remedies == (EVEN_CURVATURE, WRITE)
     assert verdict.reason.startswith("No fair surface was found: the search came to a halt")
     assert verdict.spots.tolist() == problem.patch.vertices[problem.patch.outline].tolist()
+
+
+@pytest.mark.parametrize(("count", "grade"), [(1, GOOD), (2, GOOD), (3, LOOK)])
+def test_several_faces_left_out_within_deserve_a_look(count: int, grade: str) -> None:
+    whole = grid(24, 0.6, on_sphere)
+    mesh = without_faces(whole, count)
+    found = outcome(mesh, np.eye(4), FairOptions(), solve(mesh, np.eye(4), FairOptions())).verdict
+    assert (ADD_LEFT_OUT in found.remedies) == (grade == LOOK)
+    if grade == LOOK:
+        assert found.reason.startswith(f"{count} faces inside are left out of the selection")
+        corners = mesh.corner_vertices[(whole.in_patch & ~mesh.in_patch)[mesh.corner_faces]]
+        assert found.spots.tolist() == np.unique(corners).tolist()
+    else:
+        assert "left out of the selection" not in found.reason
+
+
+def without_faces(mesh: MeshArrays, count: int) -> MeshArrays:
+    """As if a lasso had missed some, none beside another or the outline."""
+    chosen = mesh.in_patch.copy()
+    ring = np.isin(mesh.corner_vertices, mesh.corner_vertices[~chosen[mesh.corner_faces]])
+    inner = np.setdiff1d(np.flatnonzero(chosen), mesh.corner_faces[ring])
+    for _ in range(count):
+        face = inner[0]
+        chosen[face] = False
+        touched = np.isin(mesh.corner_vertices, mesh.corner_vertices[mesh.corner_faces == face])
+        inner = np.setdiff1d(inner, mesh.corner_faces[touched])
+    return replace(mesh, in_patch=chosen)
