@@ -175,6 +175,26 @@ TEST_CASE("coarse curved surfaces have no visible join, but a kink the other way
     CHECK(joined(dented).minCoeff() > 15.0);
 }
 
+TEST_CASE("a one-sided join looks at three rings beside the outline, however much lies behind them") {
+    const auto join_of = [](int n) {
+        const test::Mesh mesh = test::grid(n, 0.2, test::sphere);
+        const test::Single single = test::single_patch(mesh);
+        const Patch& patch = single.patch();
+        Points prescribed = single.points.rightCols(patch.vertex_count() - patch.free_count);
+        prescribed.row(2).array() += 0.4;  // leaning normals: a join that shows
+        prescribed.colwise().normalize();
+        Points dented = single.points;
+        for (int v = 0; v < patch.free_count; ++v) {
+            const bool is_far = single.points.col(v).head<2>().cwiseAbs().maxCoeff() < 0.1;
+            if (is_far) dented(2, v) += 0.3;
+        }
+        return std::pair(one_sided_join(patch, single.points, prescribed), one_sided_join(patch, dented, prescribed));
+    };
+    const auto [join, behind] = join_of(24);
+    CHECK(join.maxCoeff() > 1.0);
+    CHECK(join == behind);
+}
+
 TEST_CASE("mended: noise is moved out of the outline and two rings, by a quarter of an edge at most") {
     const Points noisy = rough_plane(3, 0.15);
     const Triangles outside = grid_triangles(columns, rows, seam, columns - 1);
