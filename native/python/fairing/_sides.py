@@ -68,10 +68,8 @@ def not_joined(outline: Outline, vertices: FloatArray, normals: FloatArray) -> M
     ways = [rim.way_to_others for rim in _rims(outline, vertices, normals)]
     worst = int(np.argmin(ways))
     if ways[worst] > _ACROSS:
-        text = (
-            "loops: no surface joins them; they cross or are linked, face away from each other, or are too many: join fewer"
-        )
-        return _refusal("LOOPS_NOT_JOINED", text, outline.vertices, {})
+        text = "loops: no surface joins them; they cross or are linked, face away from each other, or are too many"
+        return _refusal("LOOPS_NOT_JOINED", f"{text}: join fewer", outline.vertices, {})
     what = "the surface would lead away from the others there"
     return _refused(outline, worst, what, "turn its normals or its direction")
 
