@@ -543,6 +543,9 @@ def test_bad_normals_are_refused_with_their_vertices() -> None:
     vertices, triangles = holes.bowl(24)
     exact = vertices / np.linalg.norm(vertices, axis=1)[:, None]
     refused("NORMALS_OPPOSE_WINDING", {*range(24)}, vertices, triangles, normals=-exact)
+    few = exact.copy()
+    few[[2, 5, 9]] *= -3
+    refused("NORMALS_OPPOSE_WINDING", {2, 5, 9}, vertices, triangles, normals=few)
     some = exact.copy()
     some[[3, 7]] = 0
     refused("ZERO_NORMAL", {3, 7}, vertices, triangles, normals=some)

@@ -132,8 +132,11 @@ def loop_normals(normals: Any, outline: Outline, vertices: FloatArray, triangles
     bad = where[~(np.isfinite(size) & (size > 0))]
     if len(bad):
         _refuse("ZERO_NORMAL", f"normals: zero or not finite at {listed(bad)}", bad)
-    against = where[(rows * around).sum(axis=1) < 0]
-    if 2 * len(against) > len(where):
+    cosine = (rows * around).sum(axis=1) / size
+    against = where[cosine < 0]
+    if 2 * len(against) <= len(where):
+        against = where[cosine < -0.5]  # a few: not at a mere crease
+    if len(against):
         text = f"normals: {len(against)} of {len(where)} point against the triangles around: turn them"
         _refuse("NORMALS_OPPOSE_WINDING", text, against)
     unit: FloatArray = rows / size[:, None]
