@@ -138,6 +138,17 @@ double ProxyMesh::relative_length(Halfedge h, const std::vector<double>& target)
     return mesh_.calc_edge_length(h) / wanted;
 }
 
+// Whether an edge would have to be split again.
+bool ProxyMesh::makes_long(Halfedge h, const std::vector<double>& target) const {
+    const Vertex kept = mesh_.to_vertex_handle(h);
+    for (const Vertex other : mesh_.vv_range(mesh_.from_vertex_handle(h))) {
+        if (other == kept) continue;
+        const double wanted = 0.5 * (target[at(kept.idx())] + target[at(other.idx())]);
+        if ((point(other) - point(kept)).norm() > split_above * wanted) return true;
+    }
+    return false;
+}
+
 void ProxyMesh::collapse(Halfedge h) {
     RemovedVertex entry{mesh_.from_vertex_handle(h).idx(), {}};
     for (const Vertex other : mesh_.vv_range(mesh_.from_vertex_handle(h))) entry.ring.push_back(other.idx());
@@ -147,7 +158,7 @@ void ProxyMesh::collapse(Halfedge h) {
 }
 
 // Shortest first.
-int ProxyMesh::collapse_short(const std::vector<double>& target, bool keep_shapes) {
+int ProxyMesh::collapse_short(const std::vector<double>& target, const Care& care) {
     ShortestFirst queue;
     const auto push = [&](Halfedge h) {
         const double length = relative_length(h, target);
@@ -159,7 +170,7 @@ int ProxyMesh::collapse_short(const std::vector<double>& target, bool keep_shape
         checkpoint();
         const Halfedge h(queue.top().halfedge);
         if (mesh_.status(h).deleted() || relative_length(h, target) != queue.top().length || !may_collapse(h)) continue;
-        if (keep_shapes && !keeps_shape(h)) continue;
+        if ((care.for_shapes && !keeps_shape(h)) || (care.for_lengths && makes_long(h, target))) continue;
         const Vertex kept = mesh_.to_vertex_handle(h);
         collapse(h);
         ++collapses;
@@ -248,14 +259,18 @@ int ProxyMesh::split_long(const std::vector<double>& target, int free_limit) {
 void ProxyMesh::adapt(const Sizing& sizing) {
     constexpr int most_rounds = 12;
     constexpr int shapeless_rounds = 2;  // a crumpled start has no shapes worth keeping
+    const int vertices_per_change = sizing.settles ? 50 : 100;
     for (int round = 0; round < most_rounds; ++round) {
         const std::vector<double> target = target_lengths(sizing);
-        int changes = collapse_short(target, round >= shapeless_rounds || removed_.empty());
-        if (round < shapeless_rounds) changes += collapse_short(target, false);
+        const bool is_crumpled = round < shapeless_rounds;
+        const bool is_careful = !is_crumpled || removed_.empty();
+        int changes = collapse_short(target, {is_careful, is_careful && sizing.settles});
+        if (is_crumpled) changes += collapse_short(target, {});
         changes += split_long(target_lengths(sizing), sizing.free_limit);
         remesh(5, 3);
-        if (changes <= free_count_ / 100) return;
+        if (changes <= free_count_ / vertices_per_change) break;
     }
+    if (sizing.settles) remesh(5, 3);
 }
 
 ProxyMesh::Snapshot ProxyMesh::snapshot() const {

@@ -21,6 +21,9 @@ struct Sizing {
     double longest;
     int free_limit;
     double turn = std::numeric_limits<double>::infinity();
+    // No collapse makes an edge that would be split again (Botsch & Kobbelt 2004): four rounds do where twelve don't
+    // end. Proxies of harmonic surfaces do without: over what is mixed less, deep caps lose their surface.
+    bool settles = false;
 };
 
 // Vertices keep their number through all changes: those of the patch it was made from first, then vertices that were
@@ -59,15 +62,22 @@ private:
     using Halfedge = SurfaceMesh::HalfedgeHandle;
     using Edge = SurfaceMesh::EdgeHandle;
 
+    // What collapses must not do: make poor triangles, or edges that would be split again.
+    struct Care {
+        bool for_shapes = false;
+        bool for_lengths = false;
+    };
+
     [[nodiscard]] bool fixed(Vertex v) const { return fixed_[static_cast<std::size_t>(v.idx())] != 0; }
     [[nodiscard]] Vector3 point(Vertex v) const { return mesh_.point(v); }
     [[nodiscard]] bool should_flip(Edge e) const;
     int flip_round();
     void smooth();
-    int collapse_short(const std::vector<double>& target, bool keep_shapes);
+    int collapse_short(const std::vector<double>& target, const Care& care);
     int split_long(const std::vector<double>& target, int free_limit);
     [[nodiscard]] double relative_length(Halfedge h, const std::vector<double>& target) const;
     [[nodiscard]] bool may_collapse(Halfedge h);
+    [[nodiscard]] bool makes_long(Halfedge h, const std::vector<double>& target) const;
     void collapse(Halfedge h);
     [[nodiscard]] bool keeps_shape(Halfedge h) const;
     [[nodiscard]] Vector3 normal(Vertex v) const;

@@ -76,7 +76,7 @@ struct Fineness {
 // The interior needs the outline's resolution only where it bends.
 Sizing sizing_of(const Problem& problem, const Fineness& fineness, int most) {
     const double edge = fineness.share * mean_outline_edge(problem);
-    return {fineness.growth, std::clamp(range_of_edges * edge, shortest, longest), most, fineness.turn};
+    return {fineness.growth, std::clamp(range_of_edges * edge, shortest, longest), most, fineness.turn, true};
 }
 
 // On a coarse mesh from a rough start; the mesh is made anew in between, for vertices move along normals only. Given up

@@ -16,6 +16,7 @@
 #include "geometry/self_intersection.h"
 #include "linear/sparse_cholesky.h"
 #include "meshes.h"
+#include "method/nested.h"
 
 using namespace fairing;
 
@@ -213,4 +214,20 @@ TEST_CASE("threads: work beside a thread that no one asks for stops at its next 
         while (!begun) std::this_thread::yield();
     }
     CHECK(!ended);
+}
+
+TEST_CASE("threads: a solve on levels has the same bits with and without work beside it") {
+    const test::Single single = test::single_patch(test::grid(60, 0.2, test::sphere));
+    const Patch& patch = single.patch();
+    const Points fixed = single.points.rightCols(patch.vertex_count() - patch.free_count);
+    const Problem problem{patch, fixed, fixed, uniform_weights(patch), {}};
+    Points points[2];
+    for (const int threads : {1, 3}) {
+        const Threads team(threads);
+        const auto solution = solve_nested(problem, Progress());
+        REQUIRE(solution);
+        CHECK(solution->termination == Termination::converged);
+        points[threads / 2] = solution->points;
+    }
+    CHECK((points[0].array() == points[1].array()).all());
 }
