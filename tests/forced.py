@@ -17,7 +17,8 @@ def unforced_angles(points: FloatArray, triangles: IntArray) -> FloatArray:
 
     These are the angle between two outline edges itself, and those of triangles at a corner or over an outline edge
     where no triangle with angles from 25° on would find room: at a corner below 50° whose own triangle has a smaller
-    angle, and over an edge before which other edges of the outline lie too near.
+    angle, at one between a short and a long edge (`fan_angle`), and over an edge before which other edges of the
+    outline lie too near.
     """
     border = {tuple(sorted(edge)) for edge in measures.border_edges(triangles).tolist()}
     angles = holes.angles(points, triangles)
@@ -35,6 +36,23 @@ def unforced_angles(points: FloatArray, triangles: IntArray) -> FloatArray:
     return result
 
 
+def fan_angle(corner: float, ratio: float) -> float:
+    """The largest least angle (degrees) of flat triangles around a corner whose edges' lengths have this ratio ≥ 1.
+
+    A triangle of angle φ there, and of m and more at its other corners, has sides of a ratio up to
+    sin(m + φ) / sin m; of k triangles those of equal angles reach most, as log sin is concave.
+    """
+    best = 0.0
+    for count in range(1, 9):
+        phi, low, high = corner / count, 0.0, min(corner / count, 90.0 - corner / count / 2)
+        for _ in range(40):
+            m = 0.5 * (low + high)
+            reached = (np.sin(np.radians(m + phi)) / np.sin(np.radians(m))) ** count
+            low, high = (m, high) if reached >= ratio else (low, m)
+        best = max(best, low)
+    return best
+
+
 class _Room:
     """What an outline leaves for triangles. `border`: its edges."""
 
@@ -45,12 +63,16 @@ class _Room:
         self._angles = holes.angles(points, triangles)
 
     def is_tight_corner(self, v: int) -> bool:
-        """Whether a corner below 50° can't be cut off by one good triangle."""
+        """Whether a corner below 50° can't be cut off by one good triangle, or another one be filled with good ones."""
         ends = self._edges[(self._edges == v).any(axis=1)]
-        if len(ends) != 2 or self._angles[self._triangles == v].sum() >= 2 * SMALL:
+        if len(ends) != 2:
             return False
         a, b = ends[ends != v]
-        return bool(holes.angles(self._points, np.array([[v, a, b]])).min() < SMALL)
+        corner = self._angles[self._triangles == v].sum()
+        if corner < 2 * SMALL:
+            return bool(holes.angles(self._points, np.array([[v, a, b]])).min() < SMALL)
+        lengths = np.linalg.norm(self._points[[a, b]] - self._points[v], axis=1)
+        return fan_angle(corner, lengths.max() / lengths.min()) < SMALL
 
     def is_tight_edge(self, a: int, b: int) -> bool:
         """Whether each good triangle over the edge from a to b, in the mesh's plane there, meets the outline."""

@@ -360,6 +360,45 @@ def test_what_an_outline_forces() -> None:
     assert forced.unforced_angles(slot, np.array([[0, 1, 2], [0, 2, 3]])).size == 0
 
 
+@pytest.mark.parametrize(("corner", "count"), [(60.0, 3), (110.0, 4)])
+def test_a_corner_between_a_short_and_a_long_edge_forces_small_angles(corner: float, count: int) -> None:
+    """Triangles whose sides grow evenly reach the bound, and no others around the corner do better."""
+    growth, ratio = 2.0, 2.0**count
+    turn = np.radians(np.linspace(0, corner, count + 1))
+    ends = growth ** np.arange(count + 1)[:, None] * np.column_stack([np.cos(turn), np.sin(turn), 0 * turn])
+    points = np.concatenate([np.zeros((1, 3)), ends])
+    fan = np.array([[0, k, k + 1] for k in range(1, count + 1)])
+    assert holes.angles(points, fan).min() == pytest.approx(forced.fan_angle(corner, ratio), abs=1e-6)
+    rng = np.random.default_rng(0)
+    for _ in range(300):
+        k = rng.integers(1, 7)
+        turn = np.radians(np.concatenate([[0], np.sort(rng.uniform(0, corner, k - 1)), [corner]]))
+        lengths = np.concatenate([[1.0], ratio ** rng.uniform(0, 1, k - 1), [ratio]])
+        others = lengths[:, None] * np.column_stack([np.cos(turn), np.sin(turn), 0 * turn])
+        faces = np.array([[0, j, j + 1] for j in range(1, k + 1)])
+        assert holes.angles(np.concatenate([points[:1], others]), faces).min() <= forced.fan_angle(corner, ratio) + 1e-9
+
+
+def cornered(ratio: float) -> FloatArray:
+    """A flat outline with a corner of 60° between edges of that ratio, the others of equal lengths."""
+    short, rest = 0.067, 0.3 * np.arange(5)
+    turn = np.radians(np.linspace(0, 60, 7)[1:-1])
+    reach = np.linspace(short + rest[4], ratio * short + rest[3], 7)[1:-1, None]
+    along, back = np.outer(short + rest, [1, 0]), np.outer(ratio * short + rest[3::-1], [0.5, np.sqrt(0.75)])
+    flat = np.concatenate([[[0.0, 0.0]], along, reach * np.column_stack([np.cos(turn), np.sin(turn)]), back])
+    return np.column_stack([flat, 0 * flat[:, 0]])
+
+
+@pytest.mark.parametrize("ratio", [8.8, 12.0])
+def test_at_a_sharp_corner_the_smallest_angle_is_the_largest_that_fits(ratio: float) -> None:
+    """Squares of what is lacking leave half of it and less."""
+    outline = cornered(ratio)
+    count = len(outline)
+    result = fairing.fill(outline, EMPTY, [np.arange(count)], normals=np.tile([0.0, 0.0, 1.0], (count, 1)))
+    least = holes.angles(np.concatenate([outline, result.vertices]), result.triangles).min()
+    assert 0.7 < least / forced.fan_angle(60.0, ratio) <= 1.0
+
+
 def test_the_new_part_closes_the_mesh_and_leaves_the_rest() -> None:
     vertices, triangles = holes.bowl(48)
     before = vertices.copy(), triangles.copy()

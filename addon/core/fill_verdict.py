@@ -12,10 +12,11 @@ from .around import nearby
 from .arrays import Floats, Ints
 from .bends import bends
 from .hard_chains import chains
+from .looks import SUBSTITUTES, kink_reason, slope_reason
 from .piercing import Sheet, crossing, near
 from .quality import Join
 from .region import MeshArrays, nothing
-from .verdict import GOOD, LOOK, SUBSTITUTES, UNUSABLE, Verdict, kink_reason, slope_reason
+from .verdict import GOOD, LOOK, UNUSABLE, Verdict
 from .words import counted
 
 

@@ -20,6 +20,7 @@ from .faces import Faces, faces_of, paired_faces
 from .fill_verdict import Surface, judge
 from .findings import Origin
 from .harmonic import harmonic, nearest
+from .key_surface import NewSurface, Surroundings, key_surfaces
 from .options import ACCEPT, CONTINUITIES, INNER, LEAST_SPACING
 from .quality import Join, visible_from
 from .region import MeshArrays, nothing, to_local
@@ -87,6 +88,7 @@ class Piece:
     verdict: Verdict
     result: fairing.FillResult
     join: Join
+    around: Surroundings
     quads: bool = False  # whether triangles are written in pairs
     notes: tuple[str, ...] = field(default=())
 
@@ -117,6 +119,12 @@ class Piece:
     def carried(self, values: Floats) -> Floats:
         """Return (k, c): values (r, c) of the outline at the new vertices."""
         return harmonic(self.points, self.triangles, values)
+
+    def keyed(self, places: list[Floats], carried: list[Floats]) -> list[Floats | None]:
+        """Return (k, 3) for each shape key: where it has the new vertices, see core.key_surface."""
+        mirrored = np.linalg.det(self.around.matrix[:3, :3]) < 0.0
+        triangles = self.triangles[:, ::-1] if mirrored else self.triangles
+        return key_surfaces(NewSurface(self.points, triangles, self.result.equation), self.around, places, carried)
 
     def examples(self) -> tuple[Ints, Ints]:
         """Return (k,) and (m,): the outline vertex whose data a new vertex takes, and a new face, for what has no mean.
@@ -180,6 +188,7 @@ def _piece(
         verdict=_advised(verdict, options, len(loops)),
         result=result,
         join=join,
+        around=_keyed_from(vertices, around, outline, matrix),
         quads=options.quads,
         notes=_notes(result, slopes, origin),
     )
@@ -193,6 +202,15 @@ def _surroundings(world: MeshArrays, outline: Ints) -> tuple[Ints, Ints]:
     around = nearby(world.triangles[finite[world.triangles].all(axis=1)], start)
     vertices = np.union1d(outline, around)
     return vertices, np.searchsorted(vertices, around)
+
+
+def _keyed_from(vertices: Ints, around: Ints, outline: Ints, matrix: Floats) -> Surroundings:
+    """Return the surroundings with the outline first; around: triangles in numbers of `vertices`."""
+    others = np.setdiff1d(vertices, outline)
+    order = np.concatenate([outline, others])
+    number = np.empty(len(vertices), dtype=np.int64)
+    number[np.searchsorted(vertices, order)] = np.arange(len(order))
+    return Surroundings(order, number[around], matrix)
 
 
 def _spacing(world: MeshArrays, loops: list[Ints], options: FillOptions) -> float:
@@ -228,6 +246,6 @@ def _joining(options: FillOptions, outline: Ints, loops: int) -> Iterator[None]:
     try:
         yield
     except fairing.MeshError as error:
-        if not options.bridge or error.code != "NONMANIFOLD_EDGE" or "doubles" in error.diagnostic.figures:
+        if error.code != "LOOPS_NOT_JOINED" or (loops == 2 and "turned" in error.diagnostic.figures):
             raise
         raise BorderRefusal(f"No surface joins these outlines. {joining_advice(loops)}", outline) from error

@@ -177,6 +177,9 @@ class FairOptions:
         """The names of options that are set, but that nothing looks at beside the others."""
         only = {
             "bulge": self.equation == "CONSTANT",
+            "continuity": self.equation == "HARMONIC" and self.method == "GLOBAL",
+            "boundary_normals": self.equation != "MINIMAL",
+            "levels": self.method == "PAPER",
             "spacing": self.mesh == "NEW",
             "inner": self.mesh == "NEW",
             "quads": self.mesh == "NEW",

@@ -12,17 +12,20 @@ from . import quality
 from .arrays import Floats, Ints
 from .eaten import Eaten, eaten_edges
 from .engine import Problem, islands
+from .evidence import Evidence
+from .flank import Flank, flank
 from .options import FairOptions
 from .piercing import Sheet, pierced, places
 from .quality import Join, Quality
 from .region import MeshArrays, Patch, to_local
 from .rounded import rounded_edges
 from .seams import seam_kinks
+from .selection import left_out
 from .solve import Solved
 from .swelling import discs, swellings, waviness
 from .symmetry import mirror_map, symmetrised, with_band
 from .tunnels import tunnel_hint
-from .verdict import GOOD, Evidence, Verdict, judge
+from .verdict import GOOD, LOOK, Verdict, because_of, judge
 
 
 @dataclass(frozen=True)
@@ -65,15 +68,20 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     seams = seam_kinks(patch, after[:own], join.limit)
     evidence = Evidence(
         problem, result, solved.failures, quality_before, quality_after, join, *odd, pierced=through, points=after,
-        seams=seams,
+        flank=_flank(mesh, matrix, problem, after), left_out=left_out(mesh), seams=seams,
     )  # fmt: skip
     verdict = judge(evidence, options.resolved(mesh.textured))
+    tunnels = () if verdict.grade == GOOD else tunnel_hint(patch)
+    verdict = because_of(verdict, tunnels)
     order = np.argsort(problem.vertices[moving])
     return Fairing(
         vertices=problem.vertices[moving][order],
         positions=positions[order],
         result=leading_part(result, own),
-        warnings=solved.warnings + warnings + (() if verdict.grade == GOOD else solved.hints + tunnel_hint(patch)),
+        warnings=solved.warnings
+        + warnings
+        + (() if verdict.grade == GOOD else solved.hints)
+        + (tunnels if verdict.grade == LOOK else ()),
         before=quality_before,
         after=quality_after,
         distortion=quality.texture_distortion(before, after, patch.triangles),
@@ -98,6 +106,11 @@ def _swollen(patch: Patch, before: Floats, after: Floats) -> Ints:
     pieces, own = discs(patch), len(patch.vertices)
     vertices: Ints = patch.vertices[swellings(pieces, after[:own], waviness(pieces, before[:own]))]
     return vertices
+
+
+def _flank(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -> Flank | None:
+    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite outside the patch
+        return flank(mesh.transformed(matrix), problem, after)
 
 
 def _eaten(mesh: MeshArrays, problem: Problem, after: Floats) -> Eaten:

@@ -11,6 +11,7 @@ import fairing
 from . import quality
 from .arrays import Floats, Ints
 from .engine import Problem, Progress
+from .evidence import Evidence
 from .faces import Faces, faces_of, paired_faces
 from .findings import Origin
 from .lines import inner_lines
@@ -20,10 +21,11 @@ from .outcome import Fairing
 from .piercing import Sheet, pierced, places
 from .reflected import whole_of
 from .region import MeshArrays, Patch, to_local
+from .selection import left_out
 from .solve import pose, told_by
 from .swelling import discs, swellings, waviness
 from .tunnels import tunnel_hint
-from .verdict import GOOD, Evidence, judge
+from .verdict import GOOD, LOOK, because_of, judge
 from .words import in_mesh_words
 
 MOST_SQUEEZED = 0.25  # of the old length of an edge that stays: below, it counts as squeezed,
@@ -89,9 +91,12 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
     evidence = Evidence(
         after, result, failures, *measured, join, swollen=swollen, squeezed=_squeezed(problem, kept, result),
         pierced=_pierced(mesh, matrix, problem, part, points), points=own.points, origin=origin,
+        left_out=left_out(mesh),
     )  # fmt: skip
     verdict = judge(evidence, options)
-    odd = () if verdict.grade == GOOD else hints + tunnel_hint(problem.patch)
+    tunnels = () if verdict.grade == GOOD else tunnel_hint(problem.patch)
+    verdict = because_of(verdict, tunnels)
+    odd = (() if verdict.grade == GOOD else hints) + (tunnels if verdict.grade == LOOK else ())
     local = to_local(points, matrix)
     stay = len(part.stay)
     return Remeshed(

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from .arrays import Ints
 from .engine import Result
+from .looks import judges_join
 from .options import FairOptions
 from .outcome import Fairing
 from .quality import VISIBLE, Join, Quality
-from .verdict import GOOD, GRADES, LOOK, UNUSABLE, Verdict, judges_join
+from .verdict import GOOD, GRADES, LOOK, UNUSABLE, Verdict
 from .words import counted
 
 MET, MISSED, TOLD = "MET", "MISSED", "TOLD"
@@ -96,7 +97,7 @@ def _worst_verdict(named: list[Named]) -> Verdict:
     verdict = outcome.verdict
     if len(named) == 1 or not verdict.reason:
         return verdict
-    return Verdict(verdict.grade, f"{name}: {verdict.reason}", verdict.spots, verdict.remedies)
+    return replace(verdict, reason=f"{name}: {verdict.reason}")
 
 
 def _warnings(named: list[Named]) -> tuple[str, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from .around import numbered, outside_triangles, wound_alike
 from .arrays import Floats, Ints, Mask
 from .engine import Problem, bad_outline
 from .outline import outline_edges, two_sided_edges
-from .region import MeshArrays, free_vertices, make_patch
+from .region import MeshArrays, free_vertices, make_patch, nothing
 
 LEFT_OUT = 4  # faces at most of a hole in a selection that is taken for an oversight
 ROUNDS = 5  # of growing
@@ -72,6 +72,20 @@ def _inside(cut: Ints, sides: Ints, open_pieces: Ints) -> Ints:
     is_middle = len(order) > 2 and is_open[:-1].all() and not is_open[-1]
     between = [piece for piece in (order if is_middle else order[:-1]) if (sides == piece).any(axis=1).all()]
     return np.array(between[:1]) if between else order[:-1]
+
+
+@dataclass(frozen=True)
+class LeftOut:
+    """Faces that a selection has left out within it."""
+
+    count: int = 0
+    vertices: Ints = field(default_factory=nothing)  # their corners
+
+
+def left_out(mesh: MeshArrays) -> LeftOut:
+    """Return what left_out_faces finds."""
+    faces = left_out_faces(mesh)
+    return LeftOut(int(np.count_nonzero(faces)), np.unique(mesh.corner_vertices[faces[mesh.corner_faces]]))
 
 
 def left_out_faces(mesh: MeshArrays) -> Mask:

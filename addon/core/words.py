@@ -87,6 +87,19 @@ WORDS: dict[str, tuple[Words, ...]] = {
         ),
     ),
     "NOT_A_LOOP": (Words("The outline to be filled is no loop of border edges: look at vertex {first}"),),
+    "NOT_A_HOLE": (
+        Words(
+            "The border of {n} edges through vertex {first} goes around the outside of a sheet of faces: "
+            "select holes only"
+        ),
+    ),
+    "LOOPS_NOT_JOINED": (
+        Words(
+            "The faces around the outline through vertex {first} are turned over, seen from the others: flip them",
+            when="turned",
+        ),
+        Words("No surface joins these outlines"),
+    ),
     "DEGENERATE_FACE": (
         Words(
             "{n} face has a corner twice and was left out",

@@ -15,7 +15,7 @@ from ..core.options import FairOptions, option_names
 from ..core.selection import left_out_faces
 from ..core.solve import pose
 from ..host.polling import NO_FACE, NO_FREE
-from ..run import job
+from ..run import job, labels
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ def inspect(obj: bpy.types.Object, options: FairOptions) -> Inspection:
     try:
         return _inspect_task(job.read_object(obj, options), options)
     except ValueError as cause:
-        return Inspection(obj.name, faces, refusal=str(cause))
+        return Inspection(obj.name, faces, refusal=labels.told(cause))
 
 
 def _inspect_task(task: job.Task, options: FairOptions) -> Inspection:
@@ -64,7 +64,7 @@ def _inspect_task(task: job.Task, options: FairOptions) -> Inspection:
         engine.check(problem, options.resolved(task.mesh.textured))
         islands = engine.islands(problem.patch)
     except engine.REFUSALS as cause:
-        return Inspection(task.object_name, faces, task.free_count, refusal=str(cause))
+        return Inspection(task.object_name, faces, task.free_count, refusal=labels.told(cause))
     loops = fairing.boundary_loops(problem.patch.triangles)
     marked = engine.bad_outline(problem)
     marked = marked[marked < len(task.mesh.positions)]

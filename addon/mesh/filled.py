@@ -93,6 +93,7 @@ class _Rim:
     def __init__(self, bm: Any, piece: Piece) -> None:
         self._piece = piece
         self._vertices = [bm.verts[vertex] for vertex in piece.outline.tolist()]
+        self._around = [bm.verts[vertex] for vertex in piece.around.vertices.tolist()]
         following = piece.following.tolist()
         self._faces = [_border_face(self._vertices[i], self._vertices[j]) for i, j in enumerate(following)]
         before = np.argsort(piece.following).tolist()
@@ -123,7 +124,8 @@ class _Rim:
         piece = self._piece
         near, _ = piece.examples()
         examples = [self._vertices[number] for number in near.tolist()]
-        vertices = make_vertices(bm, shapes, VertexData(piece.positions, self._vertices, piece.carried, examples))
+        new = VertexData(piece.positions, self._vertices, piece.carried, examples, keyed=self._keyed)
+        vertices = make_vertices(bm, shapes, new)
         made = make_faces(bm, vertices, data)
         table = [*self._vertices, *vertices]
         for rim, flat in zip(self._rims, self._maps, strict=True):
@@ -147,6 +149,20 @@ class _Rim:
             corner_examples=[self._after[number] for number in of_face[faces.corners // 3].tolist()],
             examples=[self._faces[number] for number in of_face[faces.triangles].tolist()],
         )
+
+    def _keyed(self, shapes: Shapes, starts: Floats, offsets: Floats) -> Floats:
+        """Return (k, 3 keys): offsets of the keys' own surfaces from the starts (k, 3) of the new vertices."""
+        if not shapes.width:
+            return offsets
+        here = np.array([vertex.co[:] for vertex in self._around])
+        keys = [slice(3 * k, 3 * k + 3) for k in range(shapes.width // 3)]
+        there = shapes.offsets(self._around)
+        found = self._piece.keyed([here + there[:, key] for key in keys], [starts + offsets[:, key] for key in keys])
+        moved = offsets.copy()
+        for key, places in zip(keys, found, strict=True):
+            if places is not None:
+                moved[:, key] = places - starts
+        return moved
 
     def _mirrored(self, layer: Any) -> Mask:
         """Return the (r,) mask of border faces that are turned over in a UV map."""

@@ -25,6 +25,7 @@ class VertexData:
     carry: Carrier  # to (k, w)
     examples: Sequence[Any]  # (k,) vertices
     before: Floats | None = None  # (k, 3) where they were on an old surface, which other shape keys than a Basis keep
+    keyed: Callable[[Shapes, Floats, Floats], Floats] | None = None  # better offsets than those carried, from starts
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,8 @@ def make_vertices(bm: Any, shapes: Shapes, data: VertexData) -> list[Any]:
     starts: Floats = data.positions.astype(np.float32).astype(np.float64)
     if data.before is not None and not shapes.follow:
         starts = data.before
+    if data.keyed is not None:
+        offsets = data.keyed(shapes, starts, offsets)
     shapes.write(made, offsets, starts)
     return made
 

@@ -11,10 +11,12 @@ import bpy
 from bpy.props import EnumProperty
 
 from ..core.verdict import (
+    ADD_LEFT_OUT,
     AS_SELECTED,
     EVEN_CURVATURE,
     EVEN_SPREAD,
     GROW,
+    GROW_OVER,
     HOLD_BORDER,
     SMOOTH_OUTLINE,
     WRITE,
@@ -67,7 +69,9 @@ class MESH_OT_fair_reselect(bpy.types.Operator):
 
 # What each way of trying once more changes in the options.
 CHANGES: dict[str, dict[str, Any]] = {
+    ADD_LEFT_OUT: {},
     GROW: {},
+    GROW_OVER: {},
     SMOOTH_OUTLINE: {"outline": "MENDED"},
     AS_SELECTED: {"outline": "GIVEN"},
     HOLD_BORDER: {"open_border": "HELD"},
@@ -76,7 +80,9 @@ CHANGES: dict[str, dict[str, Any]] = {
     WRITE: {"accept": "ALL"},
 }
 _WAYS = (
+    (ADD_LEFT_OUT, "Add Left-Out Faces", "Select the faces as well that were left out within, and fair again"),
     (GROW, "Grow by a Ring", "Select one ring of faces more and fair again"),
+    (GROW_OVER, "Grow over It", "Select as many rings of faces more as the slope is wide, and fair again"),
     (SMOOTH_OUTLINE, "Smooth Outline", "Smooth the outline and the two rings around it, and fair again"),
     (AS_SELECTED, "Outline As Selected", "Leave the outline and what is around it where it is, and fair again"),
     (HOLD_BORDER, "Hold Open Border", "Leave open borders where they are, and fair again"),
@@ -111,7 +117,9 @@ class MESH_OT_fair_again(bpy.types.Operator):
         options = replace(last_run.options(), **{"accept": "USABLE", **CHANGES[self.way]})
         try:
             last_run.select_region(context)
-            if self.way == GROW:
+            if self.way == ADD_LEFT_OUT:
+                bpy.ops.mesh.fair_add_left_out()
+            for _ in range({GROW: 1, GROW_OVER: last_run.rings()}.get(self.way, 0)):
                 bpy.ops.mesh.select_more()
             bpy.ops.ed.undo_push(message="Select Region")  # what the redo panel goes back to
             last_run.try_way("" if self.way == WRITE else self.way)

@@ -12,8 +12,10 @@ import fairing
 from ..core.engine import Progress
 from ..core.runner import Run
 from ..host.status import hide_progress, show_progress
+from ..translations import translated
 from . import job
 
+CANCELLED = "Fairing was cancelled; nothing has changed"
 TICK = 0.05  # seconds between two looks at the thread
 MOMENT = 0.3  # seconds that Blender may stand still for an answer
 
@@ -71,7 +73,7 @@ class Watched:
         assert self._run is not None
         if event.type == "ESC" and event.value == "PRESS":
             self.cancel(context)
-            self.report({"INFO"}, "Fairing was cancelled; nothing has changed")
+            self.report({"INFO"}, translated(CANCELLED))
             return {"CANCELLED"}
         if event.type == "TIMER":
             if self._run.finished:

@@ -14,6 +14,7 @@ import fairing
 from ..core.engine import Progress
 from ..core.options import FairOptions
 from ..core.outcome import Fairing
+from ..core.places import as_indices
 from ..core.remeshing import Remeshed
 from ..core.report import is_written
 from ..core.verdict import NotUsable
@@ -26,6 +27,7 @@ def fair_mesh(
 ) -> fairing.FairResult | fairing.RemeshResult:
     """Make the polygons `faces` of `mesh` the fair surface of their surroundings.
 
+    faces: their numbers, or a mask of all polygons.
     matrix: 4×4, to the space in which the surface is fair; default: the mesh's own.
     properties: those of `mesh.fair_region`, with the same names and defaults. With mesh="NEW" the faces are replaced
     by others, which come last in the mesh.
@@ -55,7 +57,8 @@ def fair_faces(
     """Do the work of `fair_mesh`, with all its errors but NotUsable; what is not usable is not written."""
     if options.mesh == "NEW":
         mesh_io.check_new_faces(mesh_io.user_of(mesh))
-    arrays = mesh_io.read_mesh(mesh, np.asarray(faces, dtype=np.int64), options)
+    chosen = as_indices("faces", faces, len(mesh.polygons))
+    arrays = mesh_io.read_mesh(mesh, chosen, options)
     world = np.eye(4) if matrix is None else np.array(matrix, dtype=np.float64)
     if world.shape != (4, 4):
         raise ValueError(f"matrix: expected 4×4 numbers, got shape {world.shape}")

@@ -162,7 +162,7 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
 
     def _refuse(self, context: bpy.types.Context, refusal: Refused) -> set[str]:
         self._show(context, refusal.object_name, np.asarray(getattr(refusal.cause, "elements", ()), dtype=np.int64))
-        store_refusal(context.window_manager.fairing_report, refusal.object_name, str(refusal.cause))
+        store_refusal(context.window_manager.fairing_report, refusal.object_name, refusal.reason)
         last_run.forget()
         self.report({"ERROR"}, str(refusal))
         return {"CANCELLED"}

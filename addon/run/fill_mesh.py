@@ -16,6 +16,7 @@ from ..core.engine import Progress
 from ..core.fill_report import Added, is_written, refuse_unusable
 from ..core.filling import FillOptions, Piece, fill
 from ..core.options import FairOptions
+from ..core.places import as_indices
 from ..mesh import filled, mesh_io
 
 
@@ -32,7 +33,7 @@ def fill_mesh(
 ) -> list[fairing.FillResult]:
     """Fill the holes of `mesh`, or join their outlines, with the fair surface that continues their surroundings.
 
-    vertices: one or more of each border that is meant; default: all borders.
+    vertices: one or more of each border that is meant, or a mask of all vertices; default: all borders.
     matrix: 4×4, to the space in which the surface is fair; default: the mesh's own.
     properties: those of `mesh.fair_fill`, with the same names and defaults.
     Returns the `fairing` result for each surface, in the space of `matrix`; the new faces come last in the mesh.
@@ -58,10 +59,7 @@ def fill_borders(
     arrays = mesh_io.read_mesh(mesh, np.empty(0, dtype=np.int64), FairOptions())
     seeds = np.full(len(arrays.positions), vertices is None)
     if vertices is not None:
-        chosen = np.asarray(vertices, dtype=np.int64)
-        if chosen.size and not 0 <= chosen.min() <= chosen.max() < len(seeds):
-            raise IndexError(f"vertices: expected vertex indices below {len(seeds)}")
-        seeds[chosen] = True
+        seeds[as_indices("vertices", vertices, len(seeds))] = True
     loops = border_loops(arrays, seeds)
     if not loops:
         raise ValueError("There is no border to fill" if vertices is None else "None of the vertices is on a border")

@@ -22,6 +22,7 @@ from ..core.solve import Kept, Solved
 from ..host.context import edited_objects
 from ..mesh import mesh_io, remeshed
 from .fair_arrays import fair_arrays
+from .labels import told
 
 memory: Memory[Solved] = Memory(4)  # enough for the objects of one redo panel; forgotten at unregistering
 solvers: Memory[RepeatedSolve | None] = Memory(2)  # likewise; larger, as they hold factorisations
@@ -31,7 +32,8 @@ class Refused(Exception):
     """One object can't be faired; nothing has been written yet."""
 
     def __init__(self, name: str, cause: Exception) -> None:
-        super().__init__(f"{name}: {cause}")
+        self.reason = told(cause)
+        super().__init__(f"{name}: {self.reason}")
         self.object_name = name
         self.cause = cause
 

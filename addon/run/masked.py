@@ -21,6 +21,7 @@ from ..host.polling import require
 from ..mesh import painted
 from . import compare, last_run
 from .fair_mesh import fair_faces
+from .labels import told, with_idle
 from .properties import FairProperties
 from .redo_panel import draw_options
 from .report_properties import store, store_refusal
@@ -109,9 +110,9 @@ class MESH_OT_fair_masked(FairProperties, bpy.types.Operator):
         try:
             return self._fair(context, obj)
         except REFUSALS as cause:
-            store_refusal(context.window_manager.fairing_report, obj.name, str(cause))
+            store_refusal(context.window_manager.fairing_report, obj.name, told(cause))
             last_run.forget()
-            self.report({"ERROR"}, f"{obj.name}: {cause}")
+            self.report({"ERROR"}, f"{obj.name}: {told(cause)}")
             return {"CANCELLED"}
         finally:
             if mode != "OBJECT":
@@ -125,7 +126,7 @@ class MESH_OT_fair_masked(FairProperties, bpy.types.Operator):
             raise ValueError(_nothing(self.source, self.face_set))
         options, before = FairOptions.of(self), painted.positions(obj.data)
         outcome = fair_faces(obj.data, faces.tolist(), np.array(obj.matrix_world, dtype=np.float64), options)
-        report = make_report([(obj.name, outcome)], options, time.perf_counter() - begin)
+        report = with_idle(make_report([(obj.name, outcome)], options, time.perf_counter() - begin), options)
         store(context.window_manager.fairing_report, report)
         last_run.forget()  # buttons for the next run belong to edit mode
         if not report.written:

@@ -17,7 +17,7 @@ from ..host.status import redraw_sidebars
 from ..mesh import selecting
 from ..preferences import background_from
 from ..translations import translated
-from . import compare, job, last_run
+from . import compare, job, labels, last_run
 from .background import Watched, at_once
 from .properties import FairProperties
 from .redo_panel import draw_options
@@ -86,6 +86,7 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
     def _apply(self, context: bpy.types.Context, outcomes: list[Fairing]) -> set[str]:
         named = [(task.object_name, outcome) for task, outcome in zip(self._tasks, outcomes, strict=True)]
         report = make_report(named, self._options, time.perf_counter() - self._begin, self._notes)
+        report = labels.with_idle(report, self._options)
         if self._way and not last_run.is_improved_by(report):
             return self._keep(context, report)
         store(context.window_manager.fairing_report, report)
@@ -96,6 +97,10 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
         compare.remember(self._tasks, outcomes)
         for warning in report.warnings:
             self.report({"WARNING"}, warning)
+        for idle in labels.idle_in(report):
+            self.report({"INFO"}, f"{labels.IDLE} with these options: {idle}")
+        for idle in labels.idle_in(report):
+            self.report({"INFO"}, f"{labels.IDLE} with these options: {idle}")
         self.report({"INFO"}, summary(report))
         return {"FINISHED"}
 
@@ -120,7 +125,7 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
         if elements.size:
             context.tool_settings.mesh_select_mode = (True, False, False)
             selecting.select_vertices(job.objects_in_mode(context)[refusal.object_name].data, elements)
-        store_refusal(context.window_manager.fairing_report, refusal.object_name, str(refusal.cause))
+        store_refusal(context.window_manager.fairing_report, refusal.object_name, refusal.reason)
         last_run.refused(self._tasks)
         self.report({"ERROR"}, str(refusal))
         return {"CANCELLED"}

@@ -1,11 +1,11 @@
 """Holes and bridges: exact surfaces, independence of the spacing, real meshes, pictures.
 
-    python benchmarks/fill [hemisphere | spacing | caps | limits | size | bridges | real | remade | unseen | peers |
-                            pictures …]
+    python benchmarks/fill [hemisphere | peers | spacing | caps | shapes | limits | curvature | size | bridges |
+                            elbows | corners | real | remade | unseen | pictures …]
 
-Prints the tables of docs/fill.md; `pictures` writes docs/pictures/fill_holes.png, fill_bridges.png and
-fill_meshes.png. Processor time, one thread. `real` and `pictures` need shared/data beside the checkout, `peers` takes
-what is installed of pymeshfix, PyMeshLab and MeshLib.
+Prints all tables of docs/fill.md, in one run where none is named; `pictures` writes docs/pictures/fill_holes.png,
+fill_bridges.png and fill_meshes.png. Processor time, one thread. `real` and `pictures` need shared/data beside the
+checkout, `peers` takes what is installed of pymeshfix, PyMeshLab and MeshLib.
 """
 
 from __future__ import annotations
@@ -23,15 +23,18 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import bridges
 import hole_fillers
-import limits
+import known_surfaces
+import sheet
 
 import fairing
 import forced
 import holes
 import real_meshes
+import test_fill
 from holes import FloatArray, IntArray
 
 ROOT = Path(__file__).resolve().parents[2]
+SEED = 104  # of random patches that nothing was tuned on
 
 
 def timed(vertices: FloatArray, triangles: IntArray, *loops: Any, **options: Any) -> tuple[fairing.FillResult, float]:
@@ -83,7 +86,17 @@ def caps() -> Iterator[str]:
 
 def accuracy() -> Iterator[str]:
     """What limits the error: the equation over a torus, the fitted normals at a catenoid."""
-    yield from limits.table()
+    yield from known_surfaces.limits()
+
+
+def shapes() -> Iterator[str]:
+    """Holes in other surfaces that are known, rims of different fineness."""
+    yield from known_surfaces.shapes()
+
+
+def curvature() -> Iterator[str]:
+    """Where the curvature around is continued, fitted or exact."""
+    yield from known_surfaces.curvature()
 
 
 def size() -> Iterator[str]:
@@ -98,12 +111,36 @@ def size() -> Iterator[str]:
 def joined() -> Iterator[str]:
     """Bridges between tubes."""
     yield "| bridge | new vertices | converged | angle | least angle | valence | equation | s |"
-    for name, (vertices, triangles, loops) in (bridges.all_of_them() | bridges.thin_ones()).items():
+    for name, (vertices, triangles, loops) in bridges.all_of_them().items():
         result, seconds = timed(vertices, triangles, loops, bridge=True)
         yield (
             f"| {name} | {len(result.vertices)} | {result.converged} | {result.boundary_angle.max():.1f}° | "
             f"{shape_of(vertices, result)} | {result.equation} | {seconds:.2f} |"
         )
+
+
+def elbows() -> Iterator[str]:
+    """Bridges around bends of radius 1, and by how much they miss the torus."""
+    yield "| bend | radius | new vertices | converged | angle | least angle | valence | equation | off the torus | s |"
+    for (bend, radius), (vertices, triangles, loops) in bridges.elbows().items():
+        result, seconds = timed(vertices, triangles, loops, bridge=True)
+        yield (
+            f"| {bend:g}° | {radius:g} | {len(result.vertices)} | {result.converged} | "
+            f"{result.boundary_angle.max():.1f}° | {shape_of(vertices, result)} | {result.equation} | "
+            f"{bridges.off_torus(result.vertices, radius):.3f} | {seconds:.2f} |"
+        )
+
+
+def corners() -> Iterator[str]:
+    """Flat outlines with a corner of 60° between a short edge and a long one: the least angle, and what they force."""
+    yield "| ratio of the edges | least angle | no more than |"
+    for ratio in (2.0, 4.0, 6.0, 8.8, 12.0):
+        outline = test_fill.cornered(ratio)
+        count = len(outline)
+        up = np.tile([0.0, 0.0, 1.0], (count, 1))
+        result, _ = timed(outline, test_fill.EMPTY, [np.arange(count)], normals=up)
+        least = holes.angles(np.concatenate([outline, result.vertices]), result.triangles).min()
+        yield f"| {ratio:g} | {least:.1f}° | {forced.fan_angle(60.0, ratio):.1f}° |"
 
 
 def real() -> Iterator[str]:
@@ -132,7 +169,7 @@ def remade() -> Iterator[str]:
 def unseen() -> Iterator[str]:
     """Random patches of a seed that nothing was tuned on, deleted and filled."""
     yield "| hole | rim | new | converged | angle, median | join > 12° | warnings | least angle | valence | s |"
-    for patch in real_meshes.random_patches(36, 103):
+    for patch in real_meshes.random_patches(36, SEED):
         loops = [patch.vertices_in_mesh[loop] for loop in fairing.boundary_loops(patch.triangles)]
         yield row(patch.name, patch.whole, patch.outside, loops, len(loops) > 1)
 
@@ -169,14 +206,13 @@ def peers() -> Iterator[str]:
 
 def pictures() -> Iterator[str]:
     """Real holes and bridges, before and after, with stripes."""
-    import sheet
-
     yield from sheet.write_all(ROOT / "docs/pictures")
 
 
 TABLES: dict[str, Callable[[], Iterator[str]]] = {
-    "hemisphere": hemisphere, "spacing": spacing, "caps": caps, "limits": accuracy, "size": size, "bridges": joined,
-    "real": real, "remade": remade, "unseen": unseen, "peers": peers, "pictures": pictures,
+    "hemisphere": hemisphere, "peers": peers, "spacing": spacing, "caps": caps, "shapes": shapes, "limits": accuracy,
+    "curvature": curvature, "size": size, "bridges": joined, "elbows": elbows, "corners": corners, "real": real,
+    "remade": remade, "unseen": unseen, "pictures": pictures,
 }  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""Open tubes to be bridged: an S-bend, a taper, an elbow, three and four arms."""
+"""Open tubes to be bridged: an S-bend, elbows, three and four arms."""
 
 from __future__ import annotations
 
@@ -44,14 +44,21 @@ def arms(count: int, distance: float = 1.0, radius: float = 0.45) -> Gap:
     return joined(*(tube(distance * axis, axis, radius) for axis in axes))
 
 
-def elbow(radius: float) -> Gap:
-    """Two tubes at a right angle; the bend's radius is 1."""
-    return joined(tube([1, 0, 0], [1, 0, 0], radius), tube([0, 1, 0], [0, 1, 0], radius))
+def elbow(radius: float, bend: float = 90.0) -> Gap:
+    """Two tubes where a part of a torus of radius 1 around the origin is missing, of so many degrees."""
+    c, s = np.cos(np.radians(bend)), np.sin(np.radians(bend))
+    return joined(tube([1, 0, 0], [0, -1, 0], radius), tube([c, s, 0], [-s, c, 0], radius))
 
 
-def thin_ones() -> dict[str, Gap]:
-    """Of the tables only."""
-    return {f"elbow of 90°, tubes of {share:g} of the bend": elbow(share) for share in (0.25, 0.2, 0.15)}
+def off_torus(points: FloatArray, radius: float) -> float:
+    """By how much an elbow misses the torus."""
+    return float(np.abs(np.hypot(np.hypot(points[:, 0], points[:, 1]) - 1, points[:, 2]) - radius).max())
+
+
+def elbows() -> dict[tuple[float, float], Gap]:
+    """By degrees and radius, of the tables only."""
+    bends = [(90.0, 0.4), (90.0, 0.25), (90.0, 0.2), (90.0, 0.15), (120.0, 0.4), (120.0, 0.25), (150.0, 0.4)]
+    return {(bend, radius): elbow(radius, bend) for bend, radius in [*bends, (180.0, 0.4), (60.0, 0.3)]}
 
 
 def all_of_them() -> dict[str, Gap]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from sheet import AROUND, NEW, TILE, eye_of, reach_of
+from looks import AROUND, NEW, TILE, eye_of, reach_of
 
 import fairing
 import real_meshes

@@ -10,6 +10,8 @@ from typing import Any
 import bridges
 import matplotlib.pyplot as plt
 import numpy as np
+import quad_sheet
+from looks import AROUND, NEW, TILE, eye_of, reach_of
 from PIL import Image
 
 import fairing
@@ -17,8 +19,7 @@ import real_meshes
 from holes import FloatArray, IntArray
 from stripes import Layer, facing, render
 
-TILE, COLOURS = 240, 48
-AROUND, NEW = (0.9, 0.9, 0.9), (0.5, 0.75, 1.0)
+COLOURS = 48
 HOLES = (
     "ict_head:nose", "ict_head:scalp", "mh_body:ear_left", "mh_body:nose", "demosthenes-low-res:chest",
     "wingnut:wing_root_blend", "skull_low_resolution:cranium", "hammer:handle_end", "hand_lowres:palm",
@@ -58,19 +59,6 @@ def real_holes() -> Iterator[Shown]:
         yield Shown(patch.name, patch.whole, patch.outside, loops, eye_of(patch), reach_of(patch))
 
 
-def eye_of(patch: Any) -> FloatArray:
-    """Aslant over the outline."""
-    mean = patch.normals.mean(axis=0) + 1e-3
-    across = np.cross(mean, [0.3, 0.5, 0.8])
-    return np.asarray(mean / np.linalg.norm(mean) + 0.8 * across / np.linalg.norm(across))
-
-
-def reach_of(patch: Any) -> float:
-    """Half-width of a window that shows the outline."""
-    rim = patch.vertices[patch.fixed]
-    return 1.2 * float(np.linalg.norm(rim - rim.mean(axis=0), axis=1).max())
-
-
 def gaps() -> Iterator[Shown]:
     for name, (vertices, triangles, loops) in bridges.all_of_them().items():
         yield Shown(name, vertices, triangles, loops, np.array([0.5, -1.0, 0.7]), 1.9)
@@ -96,8 +84,6 @@ def save(shown: list[Any], path: Path) -> None:
 
 def write_all(folder: Path) -> Iterator[str]:
     """All pictures; the names of the files."""
-    import quad_sheet
-
     sheets = ("fill_holes.png", real_holes), ("fill_bridges.png", gaps), ("fill_meshes.png", quad_sheet.new_meshes)
     for name, kind in sheets:
         shown = list(kind())

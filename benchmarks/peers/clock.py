@@ -11,7 +11,7 @@ from problems import Problem
 from tools import Answer, Tool
 
 AT_LEAST = 3  # calls, however long they take together, up to
-ENOUGH = 120.0  # seconds after which a tool isn't called again; a sixth of that after AT_LEAST calls
+ENOUGH = 60.0  # seconds after which a tool isn't called again; a sixth of that after AT_LEAST calls
 
 
 @dataclass

@@ -13,6 +13,7 @@ from typing import Any
 
 import clock
 import fairing
+import live_rows
 import memory
 import quality
 import real_rows
@@ -24,6 +25,7 @@ SHAPES = [name for name in PATCHES if name != "graded hemisphere"] + [BLEND]
 SECOND = 0.8  # share of the vertices of the other mesh of a patch
 GRADED = 100_000
 REAL = (10_000, 30_000, 100_000)
+LARGEST_FOR_ALL = 256_000  # beyond, ours and the peers alone: others take hours
 Row = dict[str, Any]
 
 
@@ -33,6 +35,7 @@ class Measured:
 
     machine: Row = field(default_factory=dict)
     times: list[Row] = field(default_factory=list)
+    live: list[Row] = field(default_factory=list)
     memory: list[Row] = field(default_factory=list)
     quality: list[Row] = field(default_factory=list)
     repeated: list[Row] = field(default_factory=list)
@@ -102,9 +105,10 @@ def _times(plan: Plan, _done: Measured) -> Iterator[Row]:
         for shape in shapes_at(size):
             made = problem(plan.folder, shape, size)
             free = len(made.free)
-            possible = [tool for tool in TOOLS if _expected(tool, free, known) < plan.limit]
+            wanted = [tool for tool in TOOLS if size <= LARGEST_FOR_ALL or tool.kind == "peer" or tool.name == OURS]
+            possible = [tool for tool in wanted if _expected(tool, free, known) < plan.limit]
             clocked = clock.interleaved(made, possible, plan.calls)
-            for tool in TOOLS:
+            for tool in wanted:
                 row = {"shape": shape, "size": size, "free": free, "tool": tool.name}
                 if tool not in possible:
                     yield {**row, "failure": f"not run: {_expected(tool, free, known):.0f} s expected"}
@@ -126,6 +130,13 @@ def _clocked(made: Any, found: clock.Clocked) -> Row:
         "wall": min(found.wall), "cpu": min(found.cpu), "calls": len(found.wall),
         "error": clock.error(made, found.answer), "steps": found.answer.steps, "state": found.answer.state,
     }  # fmt: skip
+
+
+def _live(plan: Plan, _done: Measured) -> Iterator[Row]:
+    """Ours on the sizes of an edit."""
+    for size in live_rows.SIZES:
+        for shape in live_rows.SHAPES:
+            yield {"shape": shape, "size": size, **asdict(live_rows.timed(problem(plan.folder, shape, size)))}
 
 
 def _graded(plan: Plan, _done: Measured) -> Iterator[Row]:
@@ -158,11 +169,11 @@ def _repeated(plan: Plan, _done: Measured) -> Iterator[Row]:
 
 
 def _memory(plan: Plan, done: Measured) -> Iterator[Row]:
-    """Of every tool that was timed, at 100k and at the largest size."""
+    """Of every tool that was timed at 100k; of ours at the largest size."""
     for size in sorted({100_000, max(plan.sizes)} & set(plan.sizes)):
         timed = {row["tool"] for row in done.times if row["size"] == size and "wall" in row}
         for tool in TOOLS:
-            if tool.name in timed:
+            if tool.name in timed and (size <= LARGEST_FOR_ALL or tool.name == OURS):
                 used = memory.above_input(plan.folder, "hemisphere", size, tool.name)
                 yield {"size": size, "tool": tool.name, "megabytes": used}
 
@@ -179,6 +190,7 @@ def _quality(plan: Plan, _done: Measured) -> Iterator[Row]:
 
 PARTS: dict[str, Callable[[Plan, Measured], Iterator[Row]]] = {
     "times": _times,
+    "live": _live,
     "graded": _graded,
     "real": _real,
     "repeated": _repeated,

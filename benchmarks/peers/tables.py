@@ -65,6 +65,15 @@ def small(done: Measured) -> str:
     return _table(["shape", "free", "ours, s", "outer steps", "ended", "fastest peer, s"], rows)
 
 
+def live(done: Measured) -> str:
+    """Ours on small patches."""
+    rows = [
+        [row["shape"], f"{row['free']:,}", f"{1000 * row['wall']:.1f} ({1000 * row['cpu']:.1f})", str(row["steps"])]
+        for row in done.live
+    ]  # fmt: skip
+    return _table(["shape", "free", "milliseconds by the wall (of the processor)", "outer steps"], rows)
+
+
 def memory(done: Measured) -> str:
     """MB above the input."""
     sizes = sorted({row["size"] for row in done.memory})
@@ -142,7 +151,7 @@ def quality_size(done: Measured) -> str:
 
 
 BY_NAME: dict[str, Callable[[Measured], str]] = {
-    "machine": machine, "times": times, "small": small, "graded": graded, "real": real, "memory": memory,
+    "machine": machine, "times": times, "small": small, "live": live, "graded": graded, "real": real, "memory": memory,
     "repeated": repeated,
     "quality": quality, "quality_size": quality_size, "steps": steps,
 }  # fmt: skip

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/beside.h"
 #include "base/errors.h"
 #include "mesh/pieces.h"
 
@@ -39,9 +40,12 @@ std::vector<Patch> solvable_patches(const CheckedMesh& mesh, Diagnostics& warnin
 
 std::unique_ptr<PreparedMesh> prepare(const MeshInput& input, const CallOptions& options) {
     auto prepared = std::make_unique<PreparedMesh>();
-    prepared->mesh = check_mesh(input);
+    prepared->mesh = {check_topology(input), {}, {}, {}};
+    // Neither looks at what the other makes. Coordinates are complained about first.
+    Beside patching([&] { prepared->patches = solvable_patches(prepared->mesh, prepared->closed_components); });
+    check_geometry(input, prepared->mesh);
     prepared->finite = input.vertices.allFinite();
-    prepared->patches = solvable_patches(prepared->mesh, prepared->closed_components);
+    patching.finish();
     prepared->solvers.reserve(prepared->patches.size());
     for (const Patch& patch : prepared->patches) prepared->solvers.emplace_back(patch, options);
     return prepared;

@@ -1,12 +1,19 @@
 #include "base/parallel.h"
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
+#include <deque>
 #include <exception>
 #include <mutex>
 #include <system_error>
 #include <thread>
 
+#if defined(__x86_64__) || defined(_M_X64)
+#include <immintrin.h>
+#endif
+
+#include "base/beside.h"
 #include "base/progress.h"
 
 namespace fairing {
@@ -52,7 +59,91 @@ private:
     std::exception_ptr error_;
 };
 
+// A solve enters some thousand loops of a hundredth to a tenth of a millisecond, one soon after the other, and waking a
+// thread takes as long as such a loop. So who has nothing to do looks on for a while before it sleeps.
+class LookOut {
+public:
+    template <typename Condition>
+    static bool until(const Condition& condition) {
+        const auto end = Clock::now() + longest;
+        do {
+            for (int k = 0; k < looks; ++k) {
+                if (condition()) return true;
+                pause();
+            }
+        } while (Clock::now() < end);
+        return condition();
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::chrono::microseconds longest{50};
+    static constexpr int looks = 32;  // between two readings of the clock
+
+    static void pause() {
+#if defined(__x86_64__) || defined(_M_X64)
+        _mm_pause();
+#else
+        std::this_thread::yield();
+#endif
+    }
+};
+
 }  // namespace
+
+// Work beside a thread, done by whoever takes it first.
+class Errand {
+public:
+    explicit Errand(std::function<void()> work) : work_(std::move(work)) {}
+
+    // False where another thread has.
+    bool take() { return !taken_.exchange(true); }
+
+    // On a helper's thread.
+    void run() {
+        const Progress progress([this](double, std::string_view) { return !dropped_; });
+        const Checkpoints checkpoints(progress);
+        try {
+            work_();
+        } catch (...) {
+            error_ = std::current_exception();
+        }
+        const std::scoped_lock lock(mutex_);
+        done_ = true;
+        ended_.notify_all();
+    }
+
+    void run_here() {
+        work_();
+        done_ = true;
+    }
+
+    void wait() {
+        constexpr std::chrono::milliseconds between{50};
+        if (!LookOut::until([this] { return done_.load(); })) {
+            std::unique_lock lock(mutex_);
+            while (!ended_.wait_for(lock, between, [this] { return done_.load(); })) checkpoint();
+        }
+        const std::scoped_lock lock(mutex_);  // run() has let go of it
+        if (error_) std::rethrow_exception(error_);
+    }
+
+    void drop() {
+        dropped_ = true;
+        if (take()) return;
+        std::unique_lock lock(mutex_);
+        ended_.wait(lock, [this] { return done_.load(); });
+    }
+
+private:
+    const std::function<void()> work_;
+    std::atomic<bool> taken_ = false;
+    std::atomic<bool> dropped_ = false;
+    std::atomic<bool> done_ = false;
+    std::exception_ptr error_;
+    std::mutex mutex_;
+    std::condition_variable ended_;
+};
 
 class ThreadTeam {
 public:
@@ -63,6 +154,7 @@ public:
             const std::scoped_lock lock(mutex_);
             ends_ = true;
         }
+        ++posted_;
         wake_.notify_all();
         for (std::thread& helper : helpers_) helper.join();
     }
@@ -74,19 +166,25 @@ public:
     void run(int pieces, const std::function<void(int)>& piece) {
         Job job(pieces, piece);
         start_helpers();
-        {
-            const std::scoped_lock lock(mutex_);
+        post([&] {
             job_ = &job;
             ++generation_;
-        }
-        wake_.notify_all();
+        });
         job.work();
         {
-            std::unique_lock lock(mutex_);
+            const std::scoped_lock lock(mutex_);
             job_ = nullptr;
+        }
+        if (!LookOut::until([&] { return working_ == 0; })) {
+            std::unique_lock lock(mutex_);
             idle_.wait(lock, [&] { return working_ == 0; });
         }
         job.rethrow();
+    }
+
+    void send(std::shared_ptr<Errand> errand) {
+        start_helpers();
+        post([&] { errands_.push_back(std::move(errand)); });
     }
 
 private:
@@ -101,20 +199,53 @@ private:
         }
     }
 
+    // change(): of what helpers find to do.
+    template <typename Change>
+    void post(const Change& change) {
+        bool asleep = false;
+        {
+            const std::scoped_lock lock(mutex_);
+            change();
+            asleep = asleep_ > 0;
+        }
+        ++posted_;  // without the lock, which who looks on takes next
+        if (asleep) wake_.notify_all();
+    }
+
     void help() {
         unsigned seen = 0;
-        std::unique_lock lock(mutex_);
+        unsigned looked = 0;
         while (true) {
-            wake_.wait(lock, [&] { return ends_ || (job_ && generation_ != seen); });
+            const bool news = LookOut::until([&] { return posted_ != looked; });
+            std::unique_lock lock(mutex_);
+            looked = posted_;
+            const auto is_wanted = [&] { return ends_ || !errands_.empty() || (job_ && generation_ != seen); };
+            if (!is_wanted()) {
+                if (news) continue;
+                ++asleep_;
+                wake_.wait(lock, is_wanted);
+                --asleep_;
+            }
             if (ends_) return;
-            seen = generation_;
-            Job& job = *job_;
-            ++working_;
-            lock.unlock();
-            job.work();
-            lock.lock();
-            if (--working_ == 0) idle_.notify_all();
+            errands_.empty() ? help_with_job(lock, seen) : run_errand(lock);
         }
+    }
+
+    void help_with_job(std::unique_lock<std::mutex>& lock, unsigned& seen) {
+        seen = generation_;
+        Job& job = *job_;
+        ++working_;
+        lock.unlock();
+        job.work();
+        lock.lock();
+        if (--working_ == 0) idle_.notify_all();
+    }
+
+    void run_errand(std::unique_lock<std::mutex>& lock) {
+        const std::shared_ptr<Errand> errand = std::move(errands_.front());
+        errands_.pop_front();
+        lock.unlock();
+        if (errand->take()) errand->run();
     }
 
     int helpers_wanted_;
@@ -123,8 +254,11 @@ private:
     std::condition_variable wake_;
     std::condition_variable idle_;
     Job* job_ = nullptr;
-    unsigned generation_ = 0;
-    int working_ = 0;
+    std::deque<std::shared_ptr<Errand>> errands_;
+    unsigned generation_ = 0;           // of jobs
+    std::atomic<unsigned> posted_ = 0;  // jobs, errands
+    std::atomic<int> working_ = 0;
+    int asleep_ = 0;
     bool ends_ = false;
 };
 
@@ -150,6 +284,20 @@ Threads::Threads(int count) : team_(std::make_unique<ThreadTeam>(wanted_threads(
 }
 
 Threads::~Threads() { current_team = previous_; }
+
+Beside::Beside(std::function<void()> work) : errand_(std::make_shared<Errand>(std::move(work))) {
+    if (current_team) current_team->send(errand_);
+}
+
+Beside::~Beside() {
+    if (errand_) errand_->drop();
+}
+
+void Beside::finish() {
+    if (!errand_) return;
+    const std::shared_ptr<Errand> errand = std::move(errand_);
+    errand->take() ? errand->run_here() : errand->wait();
+}
 
 void run_pieces(int pieces, const std::function<void(int)>& piece) {
     const Taken taken;

@@ -17,9 +17,10 @@ namespace {
 constexpr double wanted_angle = 30.0;  // degrees; promised are 25
 constexpr double settled = 0.999;      // of the penalty before, for a move
 
-double squared_lack(double angle) {
+// Squared, or to the fourth power, where the smallest angle is to count alone.
+double powered_lack(double angle, bool worst_counts) {
     const double lack = std::max(0.0, wanted_angle - angle);
-    return lack * lack;
+    return worst_counts ? lack * lack * lack * lack : lack * lack;
 }
 
 double cosine_at(const Vector3& corner, const Vector3& a, const Vector3& b) {
@@ -68,7 +69,7 @@ double EvenMesh::penalty(const Indices& vertices) const {
             int inside = 0;
             for (const Halfedge h : sides(f))
                 inside += std::binary_search(vertices.begin(), vertices.end(), mesh_.to_vertex_handle(h).idx()) ? 1 : 0;
-            sum += squared_lack(free_angle(f)) / inside;  // each triangle once
+            sum += powered_lack(free_angle(f), worst_counts_) / inside;  // each triangle once
         }
     }
     return sum;
@@ -87,7 +88,7 @@ int EvenMesh::settle_place(Vertex v) {
     const std::vector<Side> around = star(v);
     const auto penalty_at = [&](const Vector3& place) {
         double sum = 0.0;
-        for (const Side& side : around) sum += squared_lack(side.free_angle(place));
+        for (const Side& side : around) sum += powered_lack(side.free_angle(place), worst_counts_);
         return sum;
     };
     double best = penalty_at(point(v));

@@ -30,6 +30,18 @@ constexpr double no_direction = 1e-24;
 constexpr double wide = 2.0 * std::numbers::pi / 3.0;
 constexpr double narrow = std::numbers::pi / 2.0;
 
+// Of the farthest point around a vertex of the outline. Fixed vertices stay as near to each other as they were given,
+// down to 3e-5 of an edge on voxel meshes and beside booleans, and a normal's error is divided by that distance.
+constexpr double least_distance = 0.05;
+
+// Squared distance from which on points around a vertex tell its curvature.
+double least_squared(const Patch& patch, const Points& points, int vertex, std::span<const Vector3> around) {
+    if (patch.is_free(vertex)) return 0.0;
+    double most = 0.0;
+    for (const Vector3& p : around) most = std::max(most, (p - points.col(vertex)).squaredNorm());
+    return least_distance * least_distance * most;
+}
+
 // The angle that the patch fills around a vertex of its outline, in the tangent plane there. A constant of the problem
 // where the vertex's neighbours on the outline and its normal are.
 double wedge(const Patch& patch, const Points& points, const Points& normals, int vertex) {
@@ -46,13 +58,14 @@ double wedge(const Patch& patch, const Points& points, const Points& normals, in
 // from the solution there. The normals of the outline are data too: how they turn along it is II(t, t⊥). With these
 // rows all weights of a wedge are positive (they would be from weights of ½ on). Along smooth outlines they would only
 // add their own error.
-void add_outline_normals(const Patch& patch, const Points& points, const Points& normals, int vertex,
+void add_outline_normals(const Patch& patch, const Points& points, const Points& normals, int vertex, double least,
                          CurvatureLeastSquares& fit) {
     const double s = std::clamp((wide - wedge(patch, points, normals, vertex)) / (wide - narrow), 0.0, 1.0);
     if (!(s > 0.0)) return;
     const double weight = s * s * (3.0 - 2.0 * s);
     for (int v : patch.ring(vertex).vertices) {
-        if (!patch.is_free(v)) fit.add_twist(points.col(v), normals.col(v), weight);
+        const bool is_told = !patch.is_free(v) && (points.col(v) - points.col(vertex)).squaredNorm() >= least;
+        if (is_told) fit.add_twist(points.col(v), normals.col(v), weight);
     }
 }
 
@@ -107,9 +120,13 @@ PatchCurvature patch_curvature(const Patch& patch, const Points& points, const F
         for (int i = begin; i < end; ++i) {
             CurvatureLeastSquares rows(points.col(i), normals.col(i));
             buffer.gather(patch, points, i);
-            for (const Vector3& p : buffer.with_virtual(patch, i, virtual_point)) rows.add_point(p);
+            const auto around = buffer.with_virtual(patch, i, virtual_point);
+            const double least = least_squared(patch, points, i, around);
+            for (const Vector3& p : around) {
+                if ((p - points.col(i)).squaredNorm() >= least) rows.add_point(p);
+            }
             if (kind == NormalKind::fitted && !patch.is_free(i) && !patch.ring(i).closed())
-                add_outline_normals(patch, points, normals, i, rows);
+                add_outline_normals(patch, points, normals, i, least, rows);
             const CurvatureFit fit = rows.solve();
             curvature.mean[i] = fit.mean();
             curvature.form.col(i) << fit.x0, fit.x1, fit.x2;

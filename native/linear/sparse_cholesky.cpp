@@ -49,7 +49,7 @@ auto SparseCholesky::panel(Stored* panels, int s) const {
     return Panel(panels + panel_begin_[at(s)], nodes.row_count(s), nodes.column_count(s));
 }
 
-void SparseCholesky::set_up(const SparseMatrix& lower) {
+void SparseCholesky::analyse_pattern(const SparseMatrix& lower) {
     const bool dissect = layout_.cols() == lower.cols() && lower.cols() >= least_dissected;
     Elimination elimination = analyse(lower, dissect ? nested_dissection(lower, layout_) : minimum_degree(lower));
     layout_.resize(3, 0);
@@ -147,7 +147,7 @@ bool SparseCholesky::eliminate(int s, Front front, const WorkDone& work_done) {
 
 bool SparseCholesky::factorise(const SparseMatrix& lower, const char* what, const Progress& progress) {
     progress.report(0.0, what);
-    if (!analysed_) set_up(lower);
+    if (!analysed_) analyse_pattern(lower);
     scatter(lower);
     SharedProgress shared(progress, what, tree_.total_work());
     const WorkDone work_done = [&](double operations) { shared.add(operations); };

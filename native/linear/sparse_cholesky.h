@@ -20,9 +20,13 @@ public:
     // Places of the unknowns (3 × n), by which a large matrix is ordered.
     explicit SparseCholesky(Points layout, Kept kept = Kept::doubles) : layout_(std::move(layout)), kept_(kept) {}
 
+    // Finds the ordering of matrices with the pattern of `lower`, a lower triangle (diagonal included); values count
+    // for nothing.
+    void analyse_pattern(const SparseMatrix& lower);
+
     // Factorises a symmetric matrix given by its lower triangle (diagonal included). The ordering is found at the first
-    // call and kept: the pattern must stay the same. False where the matrix is not positive definite; the factor is
-    // then unusable until the next call, as it is after Cancelled. `what` names the stage for `progress`.
+    // call, or before, and kept: the pattern must stay the same. False where the matrix is not positive definite; the
+    // factor is then unusable until the next call, as it is after Cancelled. `what` names the stage for `progress`.
     [[nodiscard]] bool factorise(const SparseMatrix& lower, const char* what, const Progress& progress);
 
     // Solves for one or several right-hand sides (n × k).
@@ -40,7 +44,6 @@ public:
     [[nodiscard]] const FrontTree& tree() const { return tree_; }
 
 private:
-    void set_up(const SparseMatrix& lower);
     // visit(k, place in the panels) for all entries k.
     template <typename Visit>
     void find_slots(const SparseMatrix& lower, const Visit& visit) const;

@@ -17,7 +17,7 @@ constexpr double least_width = 0.94;  // of flat sections: the edges of wings we
 constexpr double most_girth = 4.0 / 3.0;
 constexpr double most_aside = 0.5;  // of a radius: lofts that an artist keeps had .15 to .40, webs and dents .51 to 2.3
 constexpr double least_bluntness = 0.7;
-constexpr double most_blunt = 0.6;   // of what sticks out; pieces of a wall have 2 / π where they are narrow, and more
+constexpr double most_blunt = 0.6;   // what is blunter counts as that: pieces of a wall have 2 / π and more, by width
 constexpr double least_reach = 0.2;  // of what sticks out, of what it was; less is as good as gone
 
 Indices corners_of(const Patch& patch, const Indices& triangles) {
@@ -101,7 +101,7 @@ Indices BlemishFinder::thin(const Points& points) const {
     const VectorX blunt = protrusions_->bluntness(points);
     Indices triangles;
     for (int k = 0; k < protrusions_->count(); ++k) {
-        if (blunt_before_[k] > most_blunt || blunt[k] >= least_bluntness * blunt_before_[k]) continue;
+        if (blunt[k] >= least_bluntness * std::min(blunt_before_[k], most_blunt)) continue;
         if (reaches[k] < least_reach * reaches_before_[k]) continue;
         const Indices& cap = protrusions_->triangles(k);
         triangles.insert(triangles.end(), cap.begin(), cap.end());

@@ -1,6 +1,8 @@
 #include "method/eased.h"
 
 #include "method/on_coarse_proxy.h"
+#include "method/on_proxy.h"
+#include "method/sizes.h"
 #include "outline/eased_outline.h"
 #include "placement/follow_outline.h"
 #include "placement/untear.h"
@@ -14,14 +16,18 @@ constexpr double wave = 16.0;  // vertices; 8 left regions of an ear and a cheek
 
 OutlineData outline_of(const Problem& problem) { return {problem.fixed_points, problem.fixed_normals}; }
 
+double variation_along(const Problem& problem) { return outline_variation(problem.patch, outline_of(problem)); }
+
 }  // namespace
 
 bool is_jagged(const Problem& problem) {
     // Least variation was found over outlines of pipes up to 6e3 and never from 4e4 on. Regions of scans with noise of
     // a quarter edge have 4e6 to 2e9.
     constexpr double most = 3e4;
-    return outline_variation(problem.patch, outline_of(problem)) > most;
+    return variation_along(problem) > most;
 }
+
+double roughness_left(const Problem& problem) { return variation_along(eased(problem)) / variation_along(problem); }
 
 Problem eased(const Problem& problem) {
     const OutlineData outline = eased_outline(problem.patch, outline_of(problem), wave);
@@ -33,7 +39,7 @@ Problem eased(const Problem& problem) {
 
 std::optional<Solution> solve_eased(const Problem& problem, const Progress& progress) {
     const Problem smooth = eased(problem);
-    auto solution = place_on_coarse_proxy(smooth, progress);
+    auto solution = is_large(problem) ? place_on_coarse_proxy(smooth, progress) : place_on_proxy(smooth, progress);
     if (!solution) return std::nullopt;
     follow_outline(problem.patch, problem.fixed_points - smooth.fixed_points, solution->points);
     solution->points = untorn(problem.patch, std::move(solution->points));

@@ -44,18 +44,31 @@ Levels::Levels(const Problem& problem, Outlines outlines) {
                       {points, outlines == Outlines::thinned ? normals : unknown}, coarsest_size);
     left_.resize(coarse_.size());
     levels_.reserve(coarse_.size() + 1);
-    levels_.push_back({finest(problem), weights, {}});
+    levels_.push_back({finest(problem), weights, problem.patch.free_count});
     for (CoarseLevel& coarse : coarse_) {
         const Patch& patch = coarse.patch;
         Problem level{patch, pick(points, patch.to_input, patch.free_count),
                       pick(normals, patch.to_input, patch.free_count), std::move(coarse.weights), problem.options};
         const Shared<Lambda> own = level.weights;
-        levels_.push_back({std::move(level), own, {}});
+        levels_.push_back({std::move(level), own, patch.free_count});
     }
 }
 
 RingMatrix Levels::laplacian(std::size_t k) const {
     return {levels_[k].problem.patch.vertex_count(), std::get<InnerWeights>(*levels_[k].weights)};
+}
+
+Points Levels::layout(std::size_t k, const Points& coarsest) const {
+    Points points = coarsest;
+    for (std::size_t level = this->coarsest(); level-- > k;) {
+        const Points& fixed = levels_[level].problem.fixed_points;
+        Points finer = Points::Zero(3, levels_[level].free_count + fixed.cols());
+        finer.rightCols(fixed.cols()) = fixed;
+        transfer(level).prolong_means(points, levels_[level].free_count, finer);
+        points = std::move(finer);
+    }
+    points.conservativeResize(3, levels_[k].free_count);
+    return points;
 }
 
 void Levels::leave(std::size_t k) {
@@ -78,6 +91,24 @@ std::vector<int> Levels::sizes() const {
     return result;
 }
 
+bool Levels::is_factorised(std::size_t k) const {
+    return k == coarsest() || levels_[k].problem.patch.free_count <= largest_factorised;
+}
+
+std::unique_ptr<FactorisedLaplacian> Levels::factorised(std::size_t k, const Progress& progress) const {
+    const Level& level = levels_[k];
+    return std::make_unique<FactorisedLaplacian>(level.problem.patch, std::get<InnerWeights>(*level.weights),
+                                                 level.problem.fixed_points, progress.here());
+}
+
+void Levels::factorise_beside() {
+    for (std::size_t k = coarsest() + 1; k-- > 0;) {
+        if (is_factorised(k)) {
+            levels_[k].factorising = Beside([this, k] { levels_[k].factor = factorised(k, Progress()); });
+        }
+    }
+}
+
 void Levels::set_up_tangential(std::size_t k, RingMatrix laplacian, const Progress& progress) {
     Level& level = levels_[k];
     const Problem& problem = level.problem;
@@ -85,9 +116,9 @@ void Levels::set_up_tangential(std::size_t k, RingMatrix laplacian, const Progre
         level.tangential_cycle = step.get();
         level.work.tangential = std::move(step);
     };
-    if (k == coarsest() || problem.patch.free_count <= largest_factorised) {
-        adopt(std::make_unique<FactorisedLaplacian>(problem.patch, std::get<InnerWeights>(*level.weights),
-                                                    problem.fixed_points, progress.here()));
+    if (is_factorised(k)) {
+        level.factorising.finish();
+        adopt(level.factor ? std::move(level.factor) : factorised(k, progress));
     } else {
         adopt(std::make_unique<MultigridStep>(problem.patch, std::move(laplacian), problem.fixed_points,
                                               coarse_[k].transfer, *levels_[k + 1].tangential_cycle));

@@ -1,6 +1,7 @@
 // The user's own connectivity, ever coarser, with what is solved on each level.
 #pragma once
 
+#include "base/beside.h"
 #include "base/progress.h"
 #include "multigrid/coarsening.h"
 #include "multigrid/tangential_multigrid.h"
@@ -16,6 +17,9 @@ enum class Outlines { thinned, kept };
 class Levels {
 public:
     Levels(const Problem& problem, Outlines outlines);
+    Levels(const Levels&) = delete;
+    Levels& operator=(const Levels&) = delete;
+    ~Levels() = default;
 
     [[nodiscard]] std::size_t coarsest() const { return coarse_.size(); }
     [[nodiscard]] Problem& problem(std::size_t k) { return levels_[k].problem; }
@@ -27,10 +31,17 @@ public:
     // Vertices of each level, coarse to fine.
     [[nodiscard]] std::vector<int> sizes() const;
 
+    // Has the tangential factors made beside other work: no surface is needed for them.
+    void factorise_beside();
+
     // Makes the tangential step of a level; that of the next coarser one comes first. λ that aren't symmetric count by
     // their symmetric part.
     void set_up_tangential(std::size_t k, RingMatrix laplacian, const Progress& progress);
     void set_up_tangential(std::size_t k, const Progress& progress) { set_up_tangential(k, laplacian(k), progress); }
+
+    // About where the free vertices of level k are, from a surface of the coarsest level. Other threads may leave levels
+    // meanwhile.
+    [[nodiscard]] Points layout(std::size_t k, const Points& coarsest) const;
 
     // Lets go of the edges and rings of a coarse level that is left, or brings them back.
     void leave(std::size_t k);
@@ -40,9 +51,15 @@ private:
     struct Level {
         Problem problem;
         Shared<Lambda> weights;  // symmetric
-        Workspace work;
+        int free_count;  // also while the patch is left
+        Workspace work = {};
         const LaplaceCycle* tangential_cycle = nullptr;  // in `work`
+        std::unique_ptr<FactorisedLaplacian> factor = {};
+        Beside factorising = {};
     };
+
+    [[nodiscard]] bool is_factorised(std::size_t k) const;
+    [[nodiscard]] std::unique_ptr<FactorisedLaplacian> factorised(std::size_t k, const Progress& progress) const;
 
     std::vector<CoarseLevel> coarse_;  // coarse_[k] lies below levels_[k]
     std::vector<PatchMembers> left_;   // of coarse_[k], whose patch has its vertices only; empty where it is whole

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/beside.h"
 #include "base/stopwatch.h"
 #include "geometry/flips.h"
 #include "geometry/surface_fit.h"
@@ -25,6 +26,8 @@ constexpr int most_between = 6;
 constexpr int patience = 4;
 constexpr int evening_sweeps = 3;
 constexpr int most_slides = 8;
+// Free vertices of a level whose ordering is kept while coarser ones are solved; larger ones have no room for it.
+constexpr int largest_prepared = 200'000;
 // Shares of the time, measured at 100k and 256k.
 constexpr double begin = 0.06;  // the hierarchy
 constexpr double share_of_start = 0.3;
@@ -58,6 +61,7 @@ public:
         if (coarsest == 0) return std::nullopt;
         std::map<std::string, double> seconds{{"hierarchy", watch_.lap()}};
         progress_.report(begin, "hierarchy");
+        levels_.factorise_beside();
         Solution solution = solve_on_own_mesh(coarsest_problem(), progress_.range(begin, done_after(coarsest)));
         seconds["coarsest"] = watch_.lap();
         const double initial_residual = solution.initial_residual;
@@ -77,8 +81,29 @@ private:
         return problem;
     }
 
+    // Analyses the operators of all finer levels beside other work: the coarsest surface tells about where vertices
+    // are.
+    void prepare_beside(const Points& coarsest) {
+        operators_.resize(levels_.coarsest());
+        for (std::size_t k = operators_.size(); k-- > 0;) {
+            operators_[k].preparing = Beside([this, k, coarsest] {
+                const Problem& problem = levels_.problem(k);
+                operators_[k].made = make_normal_operator(problem, levels_.layout(k, coarsest), Solves::few);
+                operators_[k].made->prepare();
+            });
+        }
+    }
+
+    [[nodiscard]] std::unique_ptr<NormalOperator> normal_operator(std::size_t k, const Points& points) {
+        operators_[k].preparing.finish();
+        if (operators_[k].made) return std::move(operators_[k].made);
+        const Problem& problem = levels_.problem(k);
+        return make_normal_operator(problem, points.leftCols(problem.patch.free_count), Solves::few);
+    }
+
     // All levels from the coarsest one's solution.
     Solution refined(Solution solution) {
+        prepare_beside(solution.points);
         levels_.set_up_tangential(levels_.coarsest(), progress_);
         for (std::size_t k = levels_.coarsest(); k-- > 0;) {
             const Points coarser = solution.points;
@@ -136,7 +161,7 @@ private:
         slide(problem, *work.tangential, normals, most_slides, points);
         normals.resize(3, 0);  // the iteration needs the room
         progress.report(share_of_start, "refinement");
-        work.normal = make_normal_operator(problem, points.leftCols(problem.patch.free_count), Solves::few);
+        work.normal = normal_operator(k, points);
         // λ that aren't symmetric need a factorisation of their own; so far their symmetric part was good enough.
         if (k == 0 && std::holds_alternative<RowWeights>(*problem.weights)) {
             work.tangential =
@@ -170,6 +195,11 @@ private:
     const bool is_rough_;
     Stopwatch watch_;
     Levels levels_;
+    struct Operator {
+        std::unique_ptr<NormalOperator> made;
+        Beside preparing;
+    };
+    std::vector<Operator> operators_;  // of levels to come
 };
 
 }  // namespace

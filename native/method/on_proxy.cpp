@@ -39,4 +39,19 @@ Solution solve_on_proxy(const Problem& problem, const std::optional<OwnSurface>&
     return solution;
 }
 
+std::optional<Solution> place_on_proxy(const Problem& problem, const Progress& progress) {
+    const Points membrane = proxy_membrane(problem, progress);
+    const SurfaceState start = measured_surface(problem, membrane);
+    const SolvedProxy proxy =
+        solve_proxy(problem, std::nullopt, membrane, problem.patch.free_count, progress.range(0.0, 0.8));
+    if (!proxy.converged()) return std::nullopt;
+    const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
+    const auto tangential = make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here());
+    const Placed placed =
+        place(problem, *tangential, {proxy.history, proxy.mesh, target}, std::nullopt, progress.range(0.8, 1.0));
+    Solution solution = placed_solution(problem, proxy, target, placed);
+    solution.initial_residual = largest_residual(problem, start, outer_residual(problem, start));
+    return solution;
+}
+
 }  // namespace fairing

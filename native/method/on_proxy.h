@@ -21,4 +21,8 @@ struct OwnSurface {
 // surface does not. Where no proxy converges, the least bent of their surfaces comes back, not converged.
 Solution solve_on_proxy(const Problem& problem, const std::optional<OwnSurface>& guess, const Progress& progress);
 
+// From nothing and without the polish: not for a surface that the problem's own mesh has no equal of. Nothing where no
+// proxy converges.
+std::optional<Solution> place_on_proxy(const Problem& problem, const Progress& progress);
+
 }  // namespace fairing

@@ -112,8 +112,7 @@ Solution handed_out(const Problem& problem, Solution first, std::optional<Soluti
 Solution instead_of_bulb(const Problem& problem, Solution solution, const Progress& progress, const Points* near) {
     const double energy = variation_energy(problem, solution.points);
     if (!(energy > least_energy)) return solution;
-    // A coarse mesh of a joint tells nothing: that of a Y of 70° varies more than its bulb, the fine one a sixth of it.
-    const double most = problem.patch.loop_count() == 2 ? energy / bulb : HUGE_VAL;
+    const double most = energy / bulb;
     VariationLimits limits = near ? limits_near(*near, most, true) : limits_for(problem, most);
     limits.from_tube = false;  // where the membrane's bulge leads to no better surface, the bulb may be none
     auto even = least_variation(problem, solution, limits, progress);

@@ -11,6 +11,7 @@ constexpr double least_progress = 0.03;
 constexpr int most_passes = 12;
 
 void append(Removals& all, const Removals& more) {
+    for (std::size_t k = 1; k < more.pass_begin.size(); ++k) all.pass_begin.push_back(all.size() + more.pass_begin[k]);
     const int offset = all.begin.back();
     all.vertex.insert(all.vertex.end(), more.vertex.begin(), more.vertex.end());
     all.neighbours.insert(all.neighbours.end(), more.neighbours.begin(), more.neighbours.end());

@@ -135,6 +135,7 @@ Removals CollapseMesh::pass() {
         if (!try_collapse(v, star, removals)) continue;
         for (int u : star.vertices) blocked_[at(u)] = 1;
     }
+    removals.pass_begin.push_back(removals.size());
     return removals;
 }
 

@@ -12,6 +12,7 @@ struct Removals {
     Indices begin{0};
     Indices neighbours;
     std::vector<float> weights;  // sum 1 for each vertex
+    Indices pass_begin{0};       // no two of a pass are neighbours
 
     [[nodiscard]] int size() const { return static_cast<int>(vertex.size()); }
 };

@@ -1,16 +1,33 @@
 #include "multigrid/transfer.h"
 
+#include "base/parallel.h"
+
 namespace fairing {
+
+namespace {
+
+// bring_back(k) for each removal, pass by pass from the last on.
+template <typename BringBack>
+void in_reverse(const Removals& removals, const BringBack& bring_back) {
+    for (std::size_t pass = removals.pass_begin.size(); --pass > 0;) {
+        const int first = removals.pass_begin[pass - 1];
+        for_ranges(removals.pass_begin[pass] - first, coarse_grain, [&](int begin, int end) {
+            for (int k = first + begin; k < first + end; ++k) bring_back(k);
+        });
+    }
+}
+
+}  // namespace
 
 void Transfer::prolong(const SingleField& coarse, SingleField& fine) const {
     fine.setZero();  // a coarse level may lack some of the fixed vertices
     for (int c = 0; c < coarse_count(); ++c) fine.col(coarse_in_fine[at(c)]) = coarse.col(c);
-    for (int k = removals.size(); k-- > 0;) {
+    in_reverse(removals, [&](int k) {
         Eigen::Vector4f sum = Eigen::Vector4f::Zero();
         for (int j = removals.begin[at(k)]; j < removals.begin[at(k) + 1]; ++j)
             sum += removals.weights[at(j)] * fine.col(removals.neighbours[at(j)]);
         fine.col(removals.vertex[at(k)]) = sum;
-    }
+    });
 }
 
 void Transfer::restrict(SingleField& fine, SingleField& coarse) const {
@@ -21,6 +38,18 @@ void Transfer::restrict(SingleField& fine, SingleField& coarse) const {
     }
     for (int c = 0; c < coarse_free_count; ++c) coarse.col(c) = fine.col(coarse_in_fine[at(c)]);
     coarse.rightCols(coarse.cols() - coarse_free_count).setZero();
+}
+
+void Transfer::prolong_means(const Points& coarse, int fine_free_count, Points& fine) const {
+    for (std::size_t c = 0; c < coarse_in_fine.size(); ++c) {
+        if (coarse_in_fine[c] < fine_free_count) fine.col(coarse_in_fine[c]) = coarse.col(static_cast<Eigen::Index>(c));
+    }
+    in_reverse(removals, [&](int k) {
+        Vector3 sum = Vector3::Zero();
+        for (int j = removals.begin[at(k)]; j < removals.begin[at(k) + 1]; ++j)
+            sum += double{removals.weights[at(j)]} * fine.col(removals.neighbours[at(j)]);
+        fine.col(removals.vertex[at(k)]) = sum;
+    });
 }
 
 Vector3 lifted_mean(const Points& points, const Points& normals, const int* vertices, const float* weights, int count) {
@@ -47,7 +76,7 @@ void Transfer::prolong_surface(const Points& coarse, const Points& coarse_normal
         fine.col(v) = coarse.col(static_cast<Eigen::Index>(c));
         fine_normals.col(v) = coarse_normals.col(static_cast<Eigen::Index>(c));
     }
-    for (int k = removals.size(); k-- > 0;) {
+    in_reverse(removals, [&](int k) {
         const int first = removals.begin[at(k)];
         const int count = removals.begin[at(k) + 1] - first;
         const int v = removals.vertex[at(k)];
@@ -57,7 +86,7 @@ void Transfer::prolong_surface(const Points& coarse, const Points& coarse_normal
         for (int j = first; j < first + count; ++j)
             normal += double{removals.weights[at(j)]} * fine_normals.col(removals.neighbours[at(j)]);
         fine_normals.col(v) = normal.normalized();
-    }
+    });
 }
 
 }  // namespace fairing

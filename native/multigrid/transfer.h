@@ -21,6 +21,9 @@ struct Transfer {
     // Interpolation: removed vertices take the weighted mean of what was around them. `fine` in the right size.
     void prolong(const SingleField& coarse, SingleField& fine) const;
 
+    // The same in double precision. `fine` comes with the fixed vertices.
+    void prolong_means(const Points& coarse, int fine_free_count, Points& fine) const;
+
     // Its transpose; nothing arrives at fixed vertices. `fine` is used up, `coarse` in the right size.
     void restrict(SingleField& fine, SingleField& coarse) const;
 

@@ -13,6 +13,7 @@ class BiharmonicOperator : public NormalOperator {
 public:
     // `layout`: about where the free vertices are (3 × free count), to order the factorisation by; or nothing.
     explicit BiharmonicOperator(const Patch& patch, Points layout = {});
+    void prepare() override { factor_.analyse_pattern(matrix_); }
     [[nodiscard]] bool update(const Stiffness& stiffness, const Progress& progress) override;
     // The same for K + factor · M; the free vertices' factors in length⁻⁴.
     [[nodiscard]] bool update_with_mass(const Stiffness& stiffness, const VectorX& factors, const Progress& progress);

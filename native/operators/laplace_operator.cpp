@@ -53,6 +53,8 @@ SparseMatrix LaplaceOperator::lower(const Stiffness& stiffness) const {
     return matrix;
 }
 
+void LaplaceOperator::prepare() { factor_.analyse_pattern(lower({VectorX::Zero(patch_.edge_count()), {}})); }
+
 bool LaplaceOperator::update(const Stiffness& stiffness, const Progress& progress) {
     return factor_.factorise(lower(stiffness), "the Laplace–Beltrami operator", progress);
 }

@@ -12,6 +12,7 @@ class LaplaceOperator : public NormalOperator {
 public:
     // `layout`: about where the free vertices are (3 × free count), to order the factorisation by; or nothing.
     explicit LaplaceOperator(const Patch& patch, Points layout = {}, Kept kept = Kept::doubles);
+    void prepare() override;
     [[nodiscard]] bool update(const Stiffness& stiffness, const Progress& progress) override;
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const override { return factor_.solve(rhs); }
     // Valid until the next update.

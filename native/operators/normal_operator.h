@@ -13,6 +13,8 @@ namespace fairing {
 class NormalOperator {
 public:
     virtual ~NormalOperator() = default;
+    // Finds the ordering of the factorisation, which depends on no surface. `update` does it otherwise.
+    virtual void prepare() = 0;
     // Assembles the operator for a surface and factorises it. False where it is not positive definite (a surface that
     // has degenerated); solve may not be called then.
     [[nodiscard]] virtual bool update(const Stiffness& stiffness, const Progress& progress) = 0;

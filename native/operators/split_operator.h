@@ -17,6 +17,7 @@ class SplitBiharmonicOperator : public NormalOperator {
 public:
     // `fixed_points`: 3 × fixed vertices. `layout` as for BiharmonicOperator.
     SplitBiharmonicOperator(const Patch& patch, const Points& fixed_points, Points layout);
+    void prepare() override { laplace_.prepare(); }
     [[nodiscard]] bool update(const Stiffness& stiffness, const Progress& progress) override;
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const override;
 

@@ -12,7 +12,6 @@ namespace fairing {
 
 namespace {
 
-constexpr int rings = 3;
 constexpr double usual_share = 0.75;  // of the length has less, and the same share has more than the lower bound
 
 struct WeightedAngle {

@@ -29,8 +29,8 @@ public:
     [[nodiscard]] const Points& normals() const { return normals_; }  // of the triangles; zero without area
     // Of edge e; zero where it has not two triangles.
     [[nodiscard]] double angle(int edge) const { return angles_[edge]; }
-    // The middle half, by the edges' lengths, of the angles within three rings of triangles around an edge (a, b), and
-    // zero.
+    static constexpr int rings = 3;  // of triangles around an edge
+    // The middle half, by the edges' lengths, of the angles within these rings around an edge (a, b), and zero.
     [[nodiscard]] AngleRange usual(int a, int b);
 
 private:

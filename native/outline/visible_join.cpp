@@ -77,13 +77,41 @@ private:
     VectorX weight_;
 };
 
+bool is_border(const Patch& patch, const std::array<int, 2>& ends) {
+    const RingView ring = patch.ring(ends[0]);
+    return !ring.closed() && (ring.vertices.front() == ends[1] || ring.vertices.back() == ends[1]);
+}
+
+// All triangles that the bands of border edges depend on: of a large patch few.
+Triangles beside_border(const Patch& patch) {
+    std::vector<char> near(at(patch.vertex_count()), 0);
+    for (int v = patch.free_count; v < patch.vertex_count(); ++v) near[at(v)] = !patch.ring(v).closed();
+    const auto is_near = [&](auto triangle) {
+        return std::ranges::any_of(triangle, [&](int v) { return near[at(v)]; });
+    };
+    for (int ring = 0; ring < DihedralBands::rings; ++ring) {
+        std::vector<char> wider = near;
+        for (const auto triangle : patch.triangles.colwise()) {
+            if (!is_near(triangle)) continue;
+            for (int v : triangle) wider[at(v)] = 1;
+        }
+        near = std::move(wider);
+    }
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index t = 0; t < patch.triangles.cols(); ++t) {
+        if (is_near(patch.triangles.col(t))) kept.push_back(t);
+    }
+    return patch.triangles(Eigen::all, kept);
+}
+
 // Twice the angle by which the prescribed normals lean outwards from the triangle at a border side, degrees.
-double mirrored_angle(const Patch& patch, const Points& points, const Points& prescribed, int side) {
-    const int a = side_tail(patch.triangles, side);
-    const int b = side_head(patch.triangles, side);
-    const Vector3 face = normal_of(points, patch.triangles, side);
+double mirrored_angle(const Triangles& triangles, const Points& points, const Points& prescribed, int side) {
+    const int first_fixed = static_cast<int>(points.cols() - prescribed.cols());
+    const int a = side_tail(triangles, side);
+    const int b = side_head(triangles, side);
+    const Vector3 face = normal_of(points, triangles, side);
     const Vector3 outwards = direction((points.col(b) - points.col(a)).cross(face));
-    const Vector3 normal = prescribed.col(a - patch.free_count) + prescribed.col(b - patch.free_count);
+    const Vector3 normal = prescribed.col(a - first_fixed) + prescribed.col(b - first_fixed);
     return 2.0 * std::atan2(normal.dot(outwards), normal.dot(face)) * 180.0 / std::numbers::pi;
 }
 
@@ -109,13 +137,14 @@ VectorX visible_join(const JoinedMesh& given, const Indices& outline) {
 }
 
 VectorX one_sided_join(const Patch& patch, const Points& points, const Points& prescribed) {
-    DihedralBands bands(points, patch.triangles);
+    const Triangles triangles = beside_border(patch);
+    DihedralBands bands(points, triangles);
     Means means(points.cols());
     const EdgeTable& edges = bands.edges();
     for (int e = 0; e < edges.size(); ++e) {
-        if (edges.side_count(e) != 1) continue;
+        if (edges.side_count(e) != 1 || !is_border(patch, edges.ends[at(e)])) continue;
         const auto [a, b] = edges.ends[at(e)];
-        const double angle = mirrored_angle(patch, points, prescribed, edges.side(e, 0));
+        const double angle = mirrored_angle(triangles, points, prescribed, edges.side(e, 0));
         means.add(edges.ends[at(e)], bands.usual(a, b).excess(angle), (points.col(a) - points.col(b)).norm());
     }
     VectorX join(prescribed.cols());

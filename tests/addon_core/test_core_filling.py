@@ -118,7 +118,8 @@ def test_spacing_is_a_factor_of_the_outlines_edges() -> None:
     assert 2.0 < counts[1] / counts[0] < 5.0  # the outline's edges stay, so that it is less than 4 near it
 
 
-def test_each_loop_for_itself_or_all_joined() -> None:
+def two_tubes(*, turned_over: bool = False) -> MeshArrays:
+    """Along z with a gap between the vertices from 48 and those from 72 on; the upper one inside out if wanted."""
     steps = np.linspace(0.0, 2.0 * np.pi, 25)[:-1]
     rings = [(np.cos(steps), np.sin(steps), np.full(24, height)) for height in (-1.6, -1.3, -1.0, 1.0, 1.3, 1.6)]
     points = np.concatenate([np.stack(ring, axis=1) for ring in rings])
@@ -127,12 +128,26 @@ def test_each_loop_for_itself_or_all_joined() -> None:
         for ring in (0, 1, 3, 4)
         for i in range(24)
     ]
-    mesh = polygon_mesh(points, quads, np.zeros(len(quads), dtype=bool))
+    quads = [quad[::-1] if turned_over and quad[0] >= 72 else quad for quad in quads]
+    return polygon_mesh(points, quads, np.zeros(len(quads), dtype=bool))
+
+
+def test_each_loop_for_itself_or_all_joined() -> None:
+    mesh = two_tubes()
     seeds = (48, 72)
     assert len(filled(mesh, *seeds)) == 2
     (tube,) = filled(mesh, *seeds, bridge=True)
     assert [len(loop) for loop in tube.loops] == [24, 24]
     assert np.abs(np.linalg.norm(tube.positions[:, :2], axis=1) - 1.0).max() < 1e-2
+
+
+def test_a_tube_turned_over_is_told_and_four_outlines_are_too_many() -> None:
+    with pytest.raises(MeshRefusal, match=r"faces around the outline through vertex .* are turned over") as error:
+        filled(two_tubes(turned_over=True), 48, 72, bridge=True)
+    assert set(error.value.elements.tolist()) == set(range(72, 96))
+    with pytest.raises(BorderRefusal, match=r"all 4 selected outlines.*belong together") as too_many:
+        filled(two_tubes(), 0, 48, 72, 120, bridge=True)
+    assert len(too_many.value.elements) == 96
 
 
 def test_who_selected_just_two_outlines_is_not_told_to_select_fewer() -> None:
@@ -155,13 +170,12 @@ def test_a_surface_through_the_mesh_is_unusable() -> None:
     assert piece.verdict.grade != UNUSABLE
 
 
-def test_what_has_not_converged_is_unusable() -> None:
-    """The outer border of a flat sheet: its surface would be the other side of a pillow without any height."""
+def test_the_outside_of_a_sheet_is_refused() -> None:
+    """Its surface would be the other side of a pillow without any height."""
     flat = polygon_mesh(grid_points(SIZE), grid_quads(SIZE), np.zeros(SIZE * SIZE, dtype=bool))
-    (piece,) = filled(flat, 0)
-    assert piece.verdict.grade == UNUSABLE
-    assert "No fair surface was found for an outline of 32 edges" in piece.verdict.reason
-    assert set(piece.verdict.spots.tolist()) == set(piece.outline.tolist())
+    with pytest.raises(MeshRefusal, match="border of 32 edges through vertex 0 goes around the outside") as error:
+        filled(flat, 0)
+    assert len(error.value.elements) == 32
 
 
 def judged(points: Floats, join: Join, *tangent_only: int, **of_result: object) -> Verdict:
@@ -173,6 +187,14 @@ def judged(points: Floats, join: Join, *tangent_only: int, **of_result: object) 
     result = SimpleNamespace(**{**usual, **of_result})
     only_tangent = np.array(tangent_only, dtype=np.int64)
     return judge(empty, np.arange(rim), Surface(points, triangles, result, join, only_tangent))  # type: ignore[arg-type]
+
+
+def test_what_has_not_converged_is_unusable() -> None:
+    points, _, rim = disc(3)
+    told = judged(points, Join(nothing(), np.empty(0)), converged=False, termination="stalled")
+    assert told.grade == UNUSABLE
+    assert told.reason == f"No fair surface was found for an outline of {rim} edges"
+    assert set(told.spots.tolist()) == set(range(rim))
 
 
 def test_outlines_that_are_joined_are_told_as_several() -> None:

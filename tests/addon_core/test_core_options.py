@@ -71,6 +71,7 @@ def test_a_property_that_does_not_exist_is_named(options: Any) -> None:
         ({"spacing": 2.0}, {"mesh": "NEW"}),
         ({"inner": "EVEN"}, {"mesh": "NEW"}),
         ({"bulge": 0.1}, {"equation": "CONSTANT"}),
+        ({"levels": 1}, {"method": "PAPER"}),
         ({"detail_size": 0.1}, {"detail": 0.5}),
         ({"detail_from": "Skin"}, {"detail": 0.5}),
         ({"detail_face_set": 1}, {"detail": 0.5}),
@@ -81,6 +82,17 @@ def test_what_nothing_looks_at_is_told(given: dict[str, Any], beside: dict[str, 
     assert FairOptions(**given).idle == tuple(given)
     assert FairOptions(**given, **beside).idle == ()
     assert FairOptions(**beside).idle == ()
+
+
+@pytest.mark.parametrize("beside", [{"equation": "MINIMAL_ENERGY"}, {"method": "PAPER"}])
+def test_curvature_is_continued_by_the_harmonic_shape_of_the_fast_solver_alone(beside: dict[str, Any]) -> None:
+    assert FairOptions(continuity="G2").idle == ()
+    assert FairOptions(continuity="G2", **beside).idle == ("continuity",)
+
+
+def test_a_soap_film_looks_at_no_slope() -> None:
+    assert FairOptions(boundary_normals="AVERAGE").idle == ()
+    assert FairOptions(boundary_normals="AVERAGE", equation="MINIMAL").idle == ("boundary_normals",)
 
 
 def test_a_new_mesh_looks_at_no_open_border() -> None:

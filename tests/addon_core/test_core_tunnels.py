@@ -71,7 +71,10 @@ def test_only_a_bad_result_is_told_what_its_selection_holds(
     monkeypatch.setattr(core.outcome, "judge", lambda *_: Verdict(grade))
     monkeypatch.setattr(core.outcome, "tunnel_hint", lambda patch: (f"{len(patch.free)} free",))
     found = core.outcome.outcome(mesh, np.eye(4), options, solve(mesh, np.eye(4), options))
-    assert (f"{found.free_count} free" in found.warnings) == told
+    hint = f"{found.free_count} free"
+    assert (hint in (*found.warnings, found.verdict.reason)) == told
+    assert found.verdict.reason == (hint if grade == UNUSABLE else "")
+    assert hint not in found.warnings or grade == LOOK
 
 
 def test_tunnels_of_all_pieces_are_counted_together() -> None:

@@ -12,22 +12,27 @@ import pytest
 import fairing
 from core.arrays import Ints
 from core.eaten import Eaten
+from core.evidence import Evidence
 from core.findings import Origin
+from core.flank import Flank
 from core.options import FairOptions
+from core.outcome import outcome
 from core.quality import Join, Quality
+from core.region import MeshArrays
 from core.solve import pose, solve
 from core.verdict import (
+    ADD_LEFT_OUT,
     AS_SELECTED,
     EVEN_CURVATURE,
     EVEN_SPREAD,
     GOOD,
     GROW,
+    GROW_OVER,
     HOLD_BORDER,
     LOOK,
     SMOOTH_OUTLINE,
     UNUSABLE,
     WRITE,
-    Evidence,
     Verdict,
     judge,
 )
@@ -75,6 +80,20 @@ def test_a_knob_deserves_a_look(fine: Evidence) -> None:
     assert verdict.reason == "The surface swells to a knob around 2 vertices: another outline may avoid it"
     for meant in ({"detail": 0.5}, {"equation": "CONSTANT", "bulge": 1.0}, {"factor": 0.5}):
         assert judged(knob, **meant).grade == GOOD, meant
+
+
+def test_an_outline_on_a_slope_deserves_a_look_and_offers_the_way_over_it(fine: Evidence) -> None:
+    outline = fine.problem.patch.outline[:3]
+    for is_bump, kind in ((True, "bump"), (False, "dent")):
+        sloped = replace(fine, flank=Flank(outline, is_bump, 4))
+        verdict = judged(sloped)
+        spots = fine.problem.patch.vertices[outline].tolist()
+        assert (verdict.grade, verdict.spots.tolist(), verdict.rings) == (LOOK, spots, 4)
+        assert verdict.remedies == (GROW_OVER, GROW, SMOOTH_OUTLINE)
+        assert verdict.reason.startswith(f"The outline is on the slope of a {kind}, so that the {kind} stays")
+        for meant in ({"detail": 0.5}, {"equation": "CONSTANT", "bulge": 1.0}, {"factor": 0.5}):
+            assert judged(sloped, **meant).grade == GOOD, meant
+    assert judged(fine).rings == 1
 
 
 @pytest.mark.parametrize("termination", ["stalled", "iteration_limit"])
@@ -253,7 +272,14 @@ def test_a_hard_edge_that_was_eaten_deserves_a_look(fine: Evidence) -> None:
     kinked = replace(running, join=Join(ints(7, 8, 9), np.array([12.5, 3.0, 31.0])))
     assert judged(kinked).reason.endswith("or grow the selection: a kink of 31° shows at the outline")
     assert judged(kinked).spots.tolist() == [3, 8, 9, 7]
+    steep = replace(running, join=Join(ints(7, 8, 9), np.array([12.5, 3.0, 41.0])))
+    assert judged(steep).reason == (
+        "A kink shows at 2 vertices of the outline, of 41° at worst, and hard edges were rounded off at 2 vertices"
+    )
+    assert judged(steep).spots.tolist() == [9, 7, 3, 8]
     marked = replace(fine, eaten=Eaten(running_on=ints(3, 8), marked=ints(4)))
+    assert judged(replace(marked, join=steep.join)).reason.startswith("A kink shows")
+    assert judged(replace(marked, join=kinked.join)).reason.startswith("Edges marked sharp")
     assert judged(marked).spots.tolist() == [4]
     assert judged(marked).reason.startswith("Edges marked sharp were rounded off at 1 vertex")
     for options in ({"factor": 0.5}, {"equation": "MINIMAL"}):
@@ -266,6 +292,10 @@ def test_a_kink_deserves_a_look_at_its_vertices(fine: Evidence) -> None:
     assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [9, 7])
     assert verdict.reason == "A kink shows at 2 vertices of the outline, of 31° at worst"
     assert verdict.remedies == (GROW, SMOOTH_OUTLINE)
+    turned = replace(fine, join=Join(ints(7, 8), np.array([12.5, 105.9])))
+    assert judged(turned).reason == (
+        "The surface turns back from the slope around it at 2 vertices of the outline, by 106°"
+    )
     assert judged(kinked, equation="MINIMAL").grade == GOOD
     assert judged(kinked, factor=0.5).grade == GOOD
 
@@ -279,6 +309,12 @@ def test_new_needles_deserve_a_look(fine: Evidence) -> None:
     needle = replace(CLEAN, needles=ints(FACE))
     assert judged(replace(fine, after=needle)).spots.tolist() == CORNERS
     assert judged(replace(fine, before=needle, after=needle)).grade == GOOD
+
+
+def test_needles_in_a_plane_are_not_seen(fine: Evidence) -> None:
+    points = fine.problem.points.copy()
+    points[:, 2] = 0.0
+    assert judged(replace(fine, after=replace(CLEAN, needles=ints(FACE)), points=points)).grade == GOOD
 
 
 @pytest.mark.parametrize(
@@ -304,3 +340,30 @@ def test_without_anything_outside_there_is_nothing_to_grow_into(fine: Evidence) 
     assert verdict.remedies == (EVEN_CURVATURE, WRITE)
     assert verdict.reason.startswith("No fair surface was found: the search came to a halt")
     assert verdict.spots.tolist() == problem.patch.vertices[problem.patch.outline].tolist()
+
+
+@pytest.mark.parametrize(("count", "grade"), [(1, GOOD), (2, GOOD), (3, LOOK)])
+def test_several_faces_left_out_within_deserve_a_look(count: int, grade: str) -> None:
+    whole = grid(24, 0.6, on_sphere)
+    mesh = without_faces(whole, count)
+    found = outcome(mesh, np.eye(4), FairOptions(), solve(mesh, np.eye(4), FairOptions())).verdict
+    assert (ADD_LEFT_OUT in found.remedies) == (grade == LOOK)
+    if grade == LOOK:
+        assert found.reason.startswith(f"{count} faces inside are left out of the selection")
+        corners = mesh.corner_vertices[(whole.in_patch & ~mesh.in_patch)[mesh.corner_faces]]
+        assert found.spots.tolist() == np.unique(corners).tolist()
+    else:
+        assert "left out of the selection" not in found.reason
+
+
+def without_faces(mesh: MeshArrays, count: int) -> MeshArrays:
+    """As if a lasso had missed some, none beside another or the outline."""
+    chosen = mesh.in_patch.copy()
+    ring = np.isin(mesh.corner_vertices, mesh.corner_vertices[~chosen[mesh.corner_faces]])
+    inner = np.setdiff1d(np.flatnonzero(chosen), mesh.corner_faces[ring])
+    for _ in range(count):
+        face = inner[0]
+        chosen[face] = False
+        touched = np.isin(mesh.corner_vertices, mesh.corner_vertices[mesh.corner_faces == face])
+        inner = np.setdiff1d(inner, mesh.corner_faces[touched])
+    return replace(mesh, in_patch=chosen)

@@ -176,7 +176,7 @@ def test_operator_without_a_window(named: bool) -> None:
         assert bpy.ops.mesh.fair_region.poll()
         assert bpy.ops.mesh.fair_region() == {"FINISHED"}
         assert not bpy.ops.mesh.fair_curvature.poll()  # not even an active object
-        with pytest.raises(RuntimeError, match="pin_group"):
+        with pytest.raises(RuntimeError, match="Pin Group"):
             bpy.ops.mesh.fair_region(pin_group="Missing")
     meshes.leave()
     assert meshes.positions(obj).tobytes() == meshes.positions(expected).tobytes()

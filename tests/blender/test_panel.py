@@ -279,6 +279,12 @@ def test_every_option_and_choice_has_a_german_name() -> None:
             assert [name for name in names if name not in german and name not in same] == []
 
 
+def test_sentences_that_are_whole_are_told_in_german() -> None:
+    german = module("translations").languages()["de"]
+    polling = module("host.polling")
+    assert {polling.NO_FACE, polling.NO_FREE, module("run.background").CANCELLED} <= set(german)
+
+
 def footprint() -> dict[str, Any]:
     """Everything that an add-on may leave behind."""
     handlers = bpy.app.handlers

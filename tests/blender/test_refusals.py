@@ -44,7 +44,7 @@ REFUSED = [
     (add_nan, {}, "finite"),
     (flatten, {}, "scale"),
     (nothing, {"pin_group": "Missing"}, "Missing"),
-    (nothing, {"levels": 5}, "levels"),
+    (nothing, {"levels": 5}, r"Levels: 5 is not accepted; .*method Multigrid"),
 ]
 
 
@@ -68,7 +68,7 @@ def test_a_refused_run_takes_the_place_of_the_one_before() -> None:
         meshes.fair(obj, faces, pin_group="Missing")
     report = meshes.report()
     assert (report.verdict, report.written, report.converged, report.free_vertices) == ("UNUSABLE", False, False, 0)
-    assert report.reason == "pin_group: there is no vertex group named 'Missing'"
+    assert report.reason == "Pin Group: there is no vertex group named 'Missing'"
     assert (report.objects, report.warnings, len(report.checks), report.seconds) == (obj.name, "", 0, 0.0)
     assert not module("run.last_run").has_regions()
     assert not bpy.types.VIEW3D_PT_fairing_report.poll(bpy.context)

@@ -29,6 +29,16 @@ def test_nothing_is_good_before_it_has_been_looked_at() -> None:
     assert report.verdict == "UNUSABLE"
 
 
+def test_options_that_nothing_looked_at_are_told_by_their_labels(capfd: pytest.CaptureFixture[str]) -> None:
+    obj, faces = meshes.domed_grid()
+    meshes.fair(obj, faces, bulge=0.5)
+    assert checks()["Without effect"] == ("Bulge", "TOLD")
+    assert details()["Without effect"]
+    assert "Without effect with these options: Bulge" in capfd.readouterr().out
+    meshes.fair(obj, faces, bulge=0.1, equation="CONSTANT")
+    assert "Without effect" not in checks()
+
+
 def test_report_of_a_restored_hemisphere() -> None:
     obj = meshes.sphere(96)
     upper = upper_half(obj)

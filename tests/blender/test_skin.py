@@ -257,8 +257,8 @@ def test_scripts_name_the_group_too() -> None:
 @pytest.mark.parametrize(
     ("options", "text"),
     [
-        ({"factor_group": "Missing"}, "factor_group: there is no vertex group named 'Missing'"),
-        ({"factor_mask": "USED"}, "factor_mask: nothing is masked"),
+        ({"factor_group": "Missing"}, "Factor Group: there is no vertex group named 'Missing'"),
+        ({"factor_mask": "USED"}, "Sculpt Mask: nothing is masked"),
         ({"factor_group": "None"}, "leave every vertex of the selection where it is"),
         ({"factor_group": "Soft", "outline": "MENDED"}, "Outline: Smooth"),
         ({"factor_group": "Soft", "mesh": "NEW"}, "choose Mesh: Keep"),
@@ -327,7 +327,7 @@ def test_a_script_copies_skin_too(nothing_solves: Any) -> None:
 @pytest.mark.parametrize(
     ("options", "text"),
     [
-        ({"detail_from": "Missing"}, "detail_from: there is no vertex group named 'Missing'"),
+        ({"detail_from": "Missing"}, "Detail From: there is no vertex group named 'Missing'"),
         ({"detail_face_set": 3}, "Detail Face Set: no visible face is in the face set 3"),
         ({"detail_from": "Skin", "feather": 0.1}, "Detail From copies a skin"),
     ],

@@ -175,6 +175,26 @@ TEST_CASE("coarse curved surfaces have no visible join, but a kink the other way
     CHECK(joined(dented).minCoeff() > 15.0);
 }
 
+TEST_CASE("a one-sided join looks at three rings beside the outline, however much lies behind them") {
+    const auto join_of = [](int n) {
+        const test::Mesh mesh = test::grid(n, 0.2, test::sphere);
+        const test::Single single = test::single_patch(mesh);
+        const Patch& patch = single.patch();
+        Points prescribed = single.points.rightCols(patch.vertex_count() - patch.free_count);
+        prescribed.row(2).array() += 0.4;  // leaning normals: a join that shows
+        prescribed.colwise().normalize();
+        Points dented = single.points;
+        for (int v = 0; v < patch.free_count; ++v) {
+            const bool is_far = single.points.col(v).head<2>().cwiseAbs().maxCoeff() < 0.1;
+            if (is_far) dented(2, v) += 0.3;
+        }
+        return std::pair(one_sided_join(patch, single.points, prescribed), one_sided_join(patch, dented, prescribed));
+    };
+    const auto [join, behind] = join_of(24);
+    CHECK(join.maxCoeff() > 1.0);
+    CHECK(join == behind);
+}
+
 TEST_CASE("mended: noise is moved out of the outline and two rings, by a quarter of an edge at most") {
     const Points noisy = rough_plane(3, 0.15);
     const Triangles outside = grid_triangles(columns, rows, seam, columns - 1);
@@ -279,6 +299,10 @@ TEST_CASE("eased: curvature does not vary along a circle of a sphere or a cone; 
     const double ratio =
         outline_variation(fine.patch(), zigzag(fine)) / outline_variation(coarse.patch(), zigzag(coarse));
     CHECK(ratio == doctest::Approx(8.0).epsilon(0.02));
+    OutlineData twins = circle;
+    twins.points.col(1) = twins.points.col(0);
+    twins.points(2, 1) += 1e-6;
+    CHECK(outline_variation(coarse.patch(), twins) < 10.0);  // 36 / 1e-6² with what is between them
     OutlineData scaled = zigzag(coarse);
     scaled.points *= 2.0;
     CHECK(outline_variation(coarse.patch(), scaled) ==

@@ -110,3 +110,10 @@ TEST_CASE("a finger that is thinner is a blemish, one that is smaller or gone is
     CHECK(patch.changed(before, finger(0.015, 0.12)).thin.empty());
     CHECK(patch.changed(before, cone(0.5 * std::numbers::pi)).thin.empty());
 }
+
+TEST_CASE("a wall may become narrower, what was blunt no claw") {
+    Revolved patch;
+    const Profile before = cone(std::atan(0.95));
+    CHECK(patch.changed(before, cone(std::atan(0.6))).thin.empty());
+    CHECK_FALSE(patch.changed(before, cone(std::atan(0.2))).thin.empty());
+}

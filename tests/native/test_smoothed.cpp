@@ -171,6 +171,11 @@ TEST_CASE("blemishes are what the shape before has not") {
     before.problem.before = thread;
     CHECK(finder(before).in(thread).narrow.empty());
 
+    const Blemishes slender = finder(pipe).in(waved(pipe, -0.4));
+    CHECK(slender.bent.empty());
+    CHECK(slender.all() == slender.narrow);
+    CHECK_FALSE(slender.absent());
+
     const Indices wide = finder(pipe).in(waved(pipe, 0.5)).wide;
     REQUIRE_FALSE(wide.empty());
     for (const int v : wide) CHECK(waved(pipe, 0.5).col(v).head<2>().norm() > 1.28);

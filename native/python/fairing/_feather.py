@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from fairing import _arguments, _core, _mending
 from fairing._measure import edges_with_uses
-from fairing._mending import Answer, Boundary, Surroundings
+from fairing._mending import Answer, Boundary, Surroundings, marked
 from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
 
 Marks = npt.NDArray[np.bool_]
@@ -156,7 +156,7 @@ def _faded(given: Boundary, around: Surroundings, share: float) -> FloatArray:
     """Weights of bands, each as wide as its component asks for."""
     points = given.vertices
     component = _core.components(around.inside, given.fixed, len(points))
-    weights = _marked(around.inside, len(points)).astype(np.float64)
+    weights = marked(around.inside, len(points)).astype(np.float64)
     for number in range(component.max(initial=-1) + 1):
         inside = around.inside[component == number]
         rim = points[np.intersect1d(inside, around.rim)]
@@ -166,23 +166,17 @@ def _faded(given: Boundary, around: Surroundings, share: float) -> FloatArray:
     return weights
 
 
-def _marked(vertices: npt.NDArray[Any], count: int) -> Marks:
-    mask = np.zeros(count, dtype=bool)
-    mask[vertices[(vertices >= 0) & (vertices < count)]] = True
-    return mask
-
-
 def _band(given: Boundary, around: Surroundings, weights: FloatArray) -> Band:
     """Free the vertices of the triangles outside that have a weight.
 
     Those on the mesh border or at edges with more than two triangles stay, as do pins and curves inside the patch.
     """
     count = len(given.vertices)
-    beyond = _marked(around.outside, count)
-    fixed = _marked(around.rim if given.fixed is None else given.fixed, count)
+    beyond = marked(around.outside, count)
+    fixed = marked(around.rim if given.fixed is None else given.fixed, count)
     odd = _at_odd_edges(np.concatenate([around.inside, around.outside]), count)
     held = odd | (fixed & ~beyond)
-    return Band(_marked(around.inside, count) & ~fixed & ~held, beyond & (weights > 0.0) & ~held, held, weights)
+    return Band(marked(around.inside, count) & ~fixed & ~held, beyond & (weights > 0.0) & ~held, held, weights)
 
 
 def _parts(points: FloatArray, around: Surroundings, band: Band) -> list[Part]:
@@ -191,8 +185,8 @@ def _parts(points: FloatArray, around: Surroundings, band: Band) -> list[Part]:
         return []
     near = _around_band(around, band)
     both = np.concatenate([around.inside, around.outside[near]])
-    fixed = band.held | _marked(around.outside[~near], len(points))
-    component = _core.components(both, np.flatnonzero(fixed & _marked(both, len(points))).astype(np.int32), len(points))
+    fixed = band.held | marked(around.outside[~near], len(points))
+    component = _core.components(both, np.flatnonzero(fixed & marked(both, len(points))).astype(np.int32), len(points))
     is_inside = np.arange(len(both)) < len(around.inside)
     parts = []
     for number in range(component.max(initial=-1) + 1):
@@ -204,18 +198,18 @@ def _parts(points: FloatArray, around: Surroundings, band: Band) -> list[Part]:
 
 def _around_band(around: Surroundings, band: Band) -> Marks:
     """Marks (o,) of the triangles outside in the band, and in as many rings beyond, LEAST_RINGS or more."""
-    reached = _marked(around.rim, len(band.weights))
+    reached = marked(around.rim, len(band.weights))
     left = band.freed & ~reached
     rings = 0
     while left.any():
-        reached |= _marked(around.outside[reached[around.outside].any(axis=1)], len(reached))
+        reached |= marked(around.outside[reached[around.outside].any(axis=1)], len(reached))
         if not (left & reached).any():
             break
         left &= ~reached
         rings += 1
     reached |= band.freed
     for _ in range(max(rings, LEAST_RINGS)):
-        reached |= _marked(around.outside[reached[around.outside].any(axis=1)], len(reached))
+        reached |= marked(around.outside[reached[around.outside].any(axis=1)], len(reached))
     return np.asarray(reached[around.outside].all(axis=1))
 
 
@@ -230,7 +224,7 @@ def _part(points: FloatArray, triangles: tuple[IntArray, IntArray], fixed: Marks
         text = "feather: the band covers all that lies around the patch, so nothing stays: make it narrower"
         raise MeshError(Diagnostic("NO_BOUNDARY", text, np.unique(inside).astype(np.int32), "vertex", {}))
     edges, uses = edges_with_uses(inside)
-    in_band = _marked(outside, len(points))
+    in_band = marked(outside, len(points))
     rim = edges[(uses == 1) & in_band[edges].all(axis=1)]
     length = np.linalg.norm(points[rim[:, 0]] - points[rim[:, 1]], axis=1).sum()
     corners = points[outside]
@@ -247,4 +241,4 @@ def _diameter(outline: FloatArray) -> float:
 def _at_odd_edges(triangles: IntArray, count: int) -> Marks:
     """Marks (n,) of the ends of edges that don't have two triangles."""
     edges, uses = edges_with_uses(triangles)
-    return _marked(edges[uses != 2], count)
+    return marked(edges[uses != 2], count)

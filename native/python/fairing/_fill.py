@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _loops, _options
+from fairing import _arguments, _core, _loops, _options, _sides
 from fairing._fair import fair
 from fairing._new_mesh import FillResult, NewMeshResult, Origin, RemeshResult
-from fairing._types import FairResult, FloatArray, IntArray
+from fairing._types import FairResult, FloatArray, IntArray, MeshError
 
 LEAST_COUNT = 1000
 """Free vertices of the mesh that is solved, for each component. Coarser wishes are cut from its surface."""
@@ -50,9 +50,11 @@ def fill(
         The mesh around, consistently wound; there may be none if ``loops`` and ``normals`` are given.
     loops : list of (k,) int
         Closed loops of border vertices, in either direction; default: all border loops. A loop that no triangle
-        touches has the new surface on its left, seen from the side of the normals.
+        touches has the new surface on its left, seen from the side of the normals; it is turned where that leads away
+        from the other loops of a bridge, or outside of a lone loop.
     normals : (n, 3), (Σ k, 3) float, or a list with a (k, 3) for each loop
-        Normals at the outline, of any length but zero. Default: :func:`fairing.surrounding_normals`.
+        Normals at the outline, of any length but zero; of the vertices, where n is Σ k and they are no list.
+        Default: :func:`fairing.surrounding_normals`.
     bridge : bool
         False: each loop gets a surface of its own. True: one surface joins all loops, a tube between two, a blend
         between more.
@@ -78,8 +80,9 @@ def fill(
     Raises
     ------
     MeshError
-        NOT_A_LOOP, NO_BOUNDARY, NONMANIFOLD_VERTEX (loops that touch, or vertices of one outline in one place),
-        NONMANIFOLD_EDGE (also where the surface would double back onto a triangle that sticks out into a loop),
+        NOT_A_LOOP, NO_BOUNDARY, NONMANIFOLD_VERTEX (loops that touch or cross, or vertices of one outline in one
+        place), NONMANIFOLD_EDGE (also where the surface would double back onto a triangle that sticks out into a
+        loop), NOT_A_HOLE (the outside of a sheet), LOOPS_NOT_JOINED (one is turned; loops that no surface joins),
         ZERO_NORMAL, NORMALS_OPPOSE_WINDING, NONFINITE or INDEX_RANGE; ``elements`` are the vertices.
     ValueError, Cancelled, SolverError, MemoryError
         As for :func:`fairing.fair`.
@@ -93,13 +96,13 @@ def fill(
         raise ValueError(f"bridge: True or False is needed, not {bridge!r}")
     outline = _loops.border_loops(around, limit) if loops is None else _loops.given_loops(loops, points, around)
     _loops.check(outline, points, bool(bridge))
-    normals = _loops.loop_normals(normals, outline, points, around)
+    outline, normals = _sides.settled(
+        outline, points, _loops.loop_normals(normals, outline, points, around), bool(bridge)
+    )
     if fixed_curvatures is not None:
         options["fixed_curvatures"] = _loops.loop_curvatures(fixed_curvatures, outline, len(points))
     watch = _Watch(progress)
-    first = _core.fill_loops(
-        points, list(outline.loops), outline.split(normals), bool(bridge), _first_equation(options), watch.part(0, 0.2)
-    )
+    first = _first_surface(points, outline, normals, bool(bridge), options, watch.part(0, 0.2))
     watch.lap("first")
     patch = _Patch(np.concatenate([points, first["vertices"]]), first["triangles"], outline.vertices, normals)
     count = patch.expected_count(length)
@@ -172,6 +175,24 @@ def remesh(
         values["mean_curvature"] = _carried(report.mean_curvature, faces, origin)
     values["seconds"] = {**values["seconds"], **watch.seconds}
     return RemeshResult(**values, origin=origin, old=_read_only(old_vertex))
+
+
+def _first_surface(
+    points: FloatArray,
+    outline: _loops.Outline,
+    normals: FloatArray,
+    bridge: bool,
+    options: dict[str, Any],
+    progress: _Progress | None,
+) -> Any:
+    """On a coarse mesh: `vertices`, `triangles`, `converged`, and how the solve on a fine one `start`s."""
+    rows = outline.split(normals)
+    try:
+        return _core.fill_loops(points, list(outline.loops), rows, bridge, _first_equation(options), progress)
+    except MeshError as error:
+        if not bridge or error.code != "NONMANIFOLD_EDGE":
+            raise
+        raise _sides.not_joined(outline, points, normals) from error
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments
+from fairing._crossings import crossing_edges
 from fairing._measure import boundary_loops
 from fairing._outline import surrounding_normals
 from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
@@ -21,8 +22,8 @@ class Outline:
 
     loops: tuple[IntArray, ...]
     turned: tuple[bool, ...]
-    named: bool
-    """Whether the caller named the loops."""
+    bare: tuple[bool, ...]
+    """Whether no triangle holds the loop."""
 
     @property
     def vertices(self) -> IntArray:
@@ -32,20 +33,18 @@ class Outline:
         """Rows in the loops' order, those of each loop apart."""
         return np.split(rows, np.cumsum([len(loop) for loop in self.loops])[:-1])
 
-    def rows_of(self, rows: FloatArray, name: str, count: int) -> FloatArray:
-        """Rows in the loops' order, of an argument with a row for each vertex of the loops, as the caller named these,
-        or for each of the mesh's ``count`` vertices."""
-        here = len(self.vertices)
-        if self.named and len(rows) == here:
-            parts = zip(self.split(rows), self.turned, strict=True)
-            return np.concatenate([part[::-1] if turned else part for part, turned in parts])
-        if len(rows) == count:
+    def rows_of(self, rows: FloatArray, name: str, count: int, by_loop: bool) -> FloatArray:
+        """Rows in the loops' order, of an argument with a row for each of the mesh's ``count`` vertices, or for each
+        vertex of the loops, as the caller named these. Where it may be either, ``by_loop`` says which."""
+        if len(rows) == count and not by_loop:
             of_loops: FloatArray = rows[self.vertices]
             return of_loops
+        here = len(self.vertices)
         if len(rows) != here:
             text = f"{name}: {here} rows, one for each vertex of the loops, or {count}, one for each vertex of the mesh"
             raise ValueError(f"{text}, are needed, not {len(rows)}")
-        return rows
+        parts = zip(self.split(rows), self.turned, strict=True)
+        return np.concatenate([part[::-1] if turned else part for part, turned in parts])
 
 
 def border_loops(triangles: IntArray, longest: int) -> Outline:
@@ -57,7 +56,7 @@ def border_loops(triangles: IntArray, longest: int) -> Outline:
         if found:
             text = f"no border loop has {longest} edges or fewer; the shortest has {min(map(len, found))}"
         raise MeshError(Diagnostic("NO_BOUNDARY", text, np.empty(0, np.int32), "vertex", {"loops": len(found)}))
-    return Outline(tuple(chosen), (False,) * len(chosen), False)
+    return Outline(tuple(chosen), (False,) * len(chosen), (False,) * len(chosen))
 
 
 def given_loops(loops: Any, vertices: FloatArray, triangles: IntArray) -> Outline:
@@ -71,9 +70,9 @@ def given_loops(loops: Any, vertices: FloatArray, triangles: IntArray) -> Outlin
     named = [_arguments.integers("loops", loop, None) for loop in loops]
     inside = [_arguments.indices_within("loops", loop, len(vertices)) for loop in named]
     sides = _directed_edges(triangles, len(vertices))
-    turned = tuple(_runs_along(loop, sides, len(vertices)) for loop in inside)
-    oriented = (loop[::-1].copy() if turn else loop for loop, turn in zip(inside, turned, strict=True))
-    return Outline(tuple(oriented), turned, True)
+    sense = [_sense(loop, sides, len(vertices)) for loop in inside]
+    oriented = (loop[::-1].copy() if way > 0 else loop for loop, way in zip(inside, sense, strict=True))
+    return Outline(tuple(oriented), tuple(way > 0 for way in sense), tuple(way == 0 for way in sense))
 
 
 def check(outline: Outline, vertices: FloatArray, joined: bool) -> None:
@@ -87,20 +86,24 @@ def check(outline: Outline, vertices: FloatArray, joined: bool) -> None:
             _refuse("NOT_A_LOOP", f"a loop of {len(loop)} vertices bounds nothing: three are needed", loop)
         if len(np.unique(loop)) < len(loop):
             twice = _repeated(loop)
-            _refuse("NONMANIFOLD_VERTEX", f"a loop touches itself at {_listed(twice)}: split these vertices", twice)
+            _refuse("NONMANIFOLD_VERTEX", f"a loop touches itself at {listed(twice)}: split these vertices", twice)
     twice = _repeated(seen)
     if len(twice):
-        _refuse("NONMANIFOLD_VERTEX", f"two loops touch each other at {_listed(twice)}: split these vertices", twice)
+        _refuse("NONMANIFOLD_VERTEX", f"two loops touch each other at {listed(twice)}: split these vertices", twice)
     broken = seen[~np.isfinite(vertices[seen]).all(axis=1)]
     if len(broken):
-        _refuse("NONFINITE", f"coordinates are not finite at {_listed(broken)}", broken)
+        _refuse("NONFINITE", f"coordinates are not finite at {listed(broken)}", broken)
     for loop in outline.loops:
         after = np.roll(loop, -1)
         same = loop[(vertices[loop] == vertices[after]).all(axis=1)]
         if len(same):
-            _refuse("NOT_A_LOOP", f"an edge of a loop has no length at {_listed(same)}: merge these vertices", same)
-    for loop in [seen] if joined else outline.loops:
-        _refuse_places_passed_twice(loop, vertices)
+            _refuse("NOT_A_LOOP", f"an edge of a loop has no length at {listed(same)}: merge these vertices", same)
+    for loops in [outline.loops] if joined else [(loop,) for loop in outline.loops]:
+        _refuse_places_passed_twice(np.concatenate(loops), vertices)
+        crossing = np.unique(crossing_edges(loops, vertices))
+        if len(crossing):
+            text = f"edges of an outline touch or cross each other at {listed(crossing)}: move them apart"
+            _refuse("NONMANIFOLD_VERTEX", text, crossing)
 
 
 def _refuse_places_passed_twice(outline: IntArray, vertices: FloatArray) -> None:
@@ -109,7 +112,7 @@ def _refuse_places_passed_twice(outline: IntArray, vertices: FloatArray) -> None
     meeting = outline[count[place.ravel()] > 1]
     if len(meeting):
         advice = "merge them where the mesh is torn, move them apart where the outline touches itself"
-        text = f"an outline passes through one place several times, with {_listed(meeting)}: {advice}"
+        text = f"an outline passes through one place several times, with {listed(meeting)}: {advice}"
         figures = {"meeting": float(len(meeting))}
         raise MeshError(Diagnostic("NONMANIFOLD_VERTEX", text, np.sort(meeting).astype(np.int32), "vertex", figures))
 
@@ -121,34 +124,48 @@ def loop_normals(normals: Any, outline: Outline, vertices: FloatArray, triangles
     if normals is None:
         missing = where[~(np.linalg.norm(around, axis=1) > 0)]
         if len(missing):
-            _refuse("ZERO_NORMAL", f"no triangle touches {_listed(missing)}: pass `normals`", missing)
+            _refuse("ZERO_NORMAL", f"no triangle touches {listed(missing)}: pass `normals`", missing)
         return around
-    rows = outline.rows_of(_arguments.floats("normals", _stacked(normals, 2)), "normals", len(vertices))
+    given, by_loop = _stacked(normals, 2)
+    rows = outline.rows_of(_arguments.floats("normals", given), "normals", len(vertices), by_loop)
     size = np.linalg.norm(rows, axis=1)
     bad = where[~(np.isfinite(size) & (size > 0))]
     if len(bad):
-        _refuse("ZERO_NORMAL", f"normals: zero or not finite at {_listed(bad)}", bad)
+        _refuse("ZERO_NORMAL", f"normals: zero or not finite at {listed(bad)}", bad)
     against = where[(rows * around).sum(axis=1) < 0]
     if 2 * len(against) > len(where):
         text = f"normals: {len(against)} of {len(where)} point against the triangles around: turn them"
         _refuse("NORMALS_OPPOSE_WINDING", text, against)
     unit: FloatArray = rows / size[:, None]
+    _check_across(unit, outline, vertices)
     return unit
+
+
+def _check_across(normals: FloatArray, outline: Outline, vertices: FloatArray) -> None:
+    """ValueError where most of the unit normals lie along the outline: they belong to other vertices."""
+    along = [np.roll(vertices[loop], -1, axis=0) - np.roll(vertices[loop], 1, axis=0) for loop in outline.loops]
+    ways = np.concatenate(along)
+    wrong = np.abs((normals * ways).sum(axis=1)) > np.sqrt(0.5) * np.linalg.norm(ways, axis=1)
+    if 2 * wrong.sum() > len(normals):
+        text = f"normals: {wrong.sum()} of {len(normals)} point along the outline, not across it"
+        raise ValueError(f"{text}: are the rows in the order of the vertices, or of the loops as they were named?")
 
 
 def loop_curvatures(curvatures: Any, outline: Outline, count: int) -> FloatArray:
     """(Σ k,) mean curvatures in the order of the loops, NaN where not known; ``count``: of the mesh's vertices."""
-    stacked = _stacked(curvatures, 1)
+    given, by_loop = _stacked(curvatures, 1)
     here = outline.vertices
-    rows = here if np.shape(stacked) == here.shape else np.arange(count, dtype=np.int32)
-    return outline.rows_of(_arguments.curvatures(stacked, rows), "fixed_curvatures", count)
+    rows = (
+        here if np.shape(given) == here.shape and (by_loop or len(here) != count) else np.arange(count, dtype=np.int32)
+    )
+    return outline.rows_of(_arguments.curvatures(given, rows), "fixed_curvatures", count, by_loop)
 
 
-def _stacked(values: Any, dimensions: int) -> Any:
-    """A list with an array of so many dimensions for each loop as one array; anything else as it is."""
+def _stacked(values: Any, dimensions: int) -> tuple[Any, bool]:
+    """A list with an array of so many dimensions for each loop as one array, and whether it was one."""
     if isinstance(values, (list, tuple)) and len(values) and np.ndim(values[0]) == dimensions:
-        return np.concatenate([np.asarray(rows) for rows in values])
-    return values
+        return np.concatenate([np.asarray(rows) for rows in values]), True
+    return values, False
 
 
 def _directed_edges(triangles: IntArray, count: int) -> npt.NDArray[np.int64]:
@@ -156,24 +173,27 @@ def _directed_edges(triangles: IntArray, count: int) -> npt.NDArray[np.int64]:
     return (tails * count + np.roll(tails, -1, axis=1)).ravel()
 
 
-def _runs_along(loop: IntArray, sides: npt.NDArray[np.int64], count: int) -> bool:
-    """Whether the mesh lies on the loop's left; False where there is no mesh. MeshError where it is no border."""
+def _sense(loop: IntArray, sides: npt.NDArray[np.int64], count: int) -> int:
+    """1 where the mesh lies on the loop's left, −1 on its right, 0 where there is none.
+
+    MeshError where the loop is no border.
+    """
     if len(loop) < 3:
-        return False  # `check` refuses it
+        return 0  # `check` refuses it
     tails, heads = loop.astype(np.int64), np.roll(loop, -1).astype(np.int64)
     along = np.isin(tails * count + heads, sides)
     against = np.isin(heads * count + tails, sides)
     if (along & against).any():
         inner = _ends(loop, along & against)
-        _refuse("NOT_A_LOOP", f"edges of a loop are no border, faces lie on both sides: {_listed(inner)}", inner)
+        _refuse("NOT_A_LOOP", f"edges of a loop are no border, faces lie on both sides: {listed(inner)}", inner)
     if along.any() and not along.all():
         odd = _ends(loop, ~along)
-        text = f"a loop leaves the border of the mesh, or the triangles' windings differ along it: {_listed(odd)}"
+        text = f"a loop leaves the border of the mesh, or the triangles' windings differ along it: {listed(odd)}"
         _refuse("NOT_A_LOOP", text, odd)
     if against.any() and not against.all():
         odd = _ends(loop, ~against)
-        _refuse("NOT_A_LOOP", f"a loop leaves the border of the mesh at {_listed(odd)}", odd)
-    return bool(along.all())
+        _refuse("NOT_A_LOOP", f"a loop leaves the border of the mesh at {listed(odd)}", odd)
+    return int(along.all()) - int(against.all())
 
 
 def _ends(loop: IntArray, edges: npt.NDArray[np.bool_]) -> IntArray:
@@ -187,7 +207,7 @@ def _repeated(indices: IntArray) -> IntArray:
     return repeated
 
 
-def _listed(indices: IntArray) -> str:
+def listed(indices: IntArray) -> str:
     shown = ", ".join(str(index) for index in indices[:5])
     more = f" and {len(indices) - 5} more" if len(indices) > 5 else ""
     return f"vertex {shown}" if len(indices) == 1 else f"vertices {shown}{more}"

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from fairing import _arguments, _core
 from fairing._outline import VISIBLE_KINK
@@ -47,11 +48,10 @@ class Surroundings:
             named = _arguments.integers("outside", given, 3)
             outside = _arguments.indices_within("outside", named, vertices.shape[0])
             return cls.between(vertices, triangles, outside)
-        held = np.zeros(vertices.shape[0], dtype=bool)
-        held[_within(fixed, vertices.shape[0])] = True
+        held = marked(np.empty(0, np.int32) if fixed is None else fixed, vertices.shape[0])  # the engine names others
         idle = held[triangles].all(axis=1)
         around = cls.between(vertices, triangles[~idle], triangles[idle])
-        if 2 * len(around.rim) < held[np.unique(around.inside)].sum():
+        if 2 * len(around.rim) < (held & marked(around.inside, len(held))).sum():
             return cls.between(vertices, triangles, triangles[:0])
         return around
 
@@ -59,14 +59,15 @@ class Surroundings:
     def between(cls, vertices: FloatArray, inside: IntArray, outside: IntArray) -> Surroundings:
         """Without triangles outside that have a corner which is not finite."""
         finite = outside[np.isfinite(vertices[outside]).all(axis=(1, 2))]
-        return cls(inside, finite, np.intersect1d(inside, finite).astype(np.int32))
+        rim = marked(inside, len(vertices)) & marked(finite, len(vertices))
+        return cls(inside, finite, np.flatnonzero(rim).astype(np.int32))
 
 
-def _within(fixed: IntArray | None, count: int) -> IntArray:
-    """Those that exist: the engine names the others."""
-    if fixed is None:
-        return np.empty(0, np.int32)
-    return fixed[(fixed >= 0) & (fixed < count)]
+def marked(vertices: npt.NDArray[Any], count: int) -> npt.NDArray[np.bool_]:
+    """Marks (count,) of those of the vertices that exist."""
+    marks = np.zeros(count, dtype=bool)
+    marks[vertices[(vertices >= 0) & (vertices < count)]] = True
+    return marks
 
 
 def refuse_creases(creases: Any, around: Surroundings) -> None:

@@ -135,11 +135,11 @@ def sample(value: npt.ArrayLike | None, count: int, detail: Any) -> IntArray | N
     return triangles
 
 
-def sample_around(sample: IntArray | None, free: IntArray) -> IntArray | None:
-    """What of the sample has no corner among the ``free`` vertices of the patch, whose skin is to be replaced."""
+def sample_around(sample: IntArray | None, inside: IntArray, held: IntArray) -> IntArray | None:
+    """What of the sample has no corner inside the patch but at ``held`` vertices: that skin is to be replaced."""
     if sample is None:
         return None
-    around: IntArray = sample[~np.isin(sample, free).any(axis=1)]
+    around: IntArray = sample[~np.isin(sample, np.setdiff1d(inside, held)).any(axis=1)]
     if not len(around):
         raise ValueError("detail_from: all of the sample lies in the patch itself; name triangles outside it")
     return around

@@ -1,0 +1,236 @@
+"""What the eye would see of a result that is usable."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .arrays import Floats, Ints
+from .bends import bends
+from .evidence import NOTHING, Evidence, Found, corners_of
+from .options import FairOptions
+from .quality import Join
+from .selection import LeftOut
+from .vectors import area_vectors, unit
+from .words import counted
+
+STEEP = 40.0  # degrees from which a kink at the outline is worse than a hard edge that was rounded off
+TURNED = 90.0  # and from which it is no kink any more
+FLAT = 1.0  # degrees between the neighbours of a needle, below which it is not seen
+MANY_LEFT_OUT = 3  # faces that a careless lasso leaves out; one or two may be meant
+MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
+_KNOT = "Seams and marks inside, which stay, are squeezed to a knot at {}"
+# What stands in for a surface that there is none of, by the engine's name for it.
+SUBSTITUTES = {
+    "loft": "No fair surface fits these outlines: the loft that joins them is a substitute, so look at its shape",
+    "smoothed": "No fair surface fits these outlines: the old shape was smoothed as far as it goes, so look at it",
+}
+
+
+def visible(evidence: Evidence, options: FairOptions) -> Found:
+    """Return the first reason to look at it, with its places, the worst first."""
+    for look in _LOOKS:
+        told = look(evidence, options)
+        if told[0]:
+            return told
+    return NOTHING
+
+
+def are_many(left_out: LeftOut) -> bool:
+    """Tell whether so many faces are left out that it can't be meant."""
+    return left_out.count >= MANY_LEFT_OUT
+
+
+def _holed(evidence: Evidence, _options: FairOptions) -> Found:
+    if not are_many(evidence.left_out):
+        return NOTHING
+    reason = (
+        f"{evidence.left_out.count} faces inside are left out of the selection, so that their places stay: add them"
+    )
+    return reason, evidence.left_out.vertices
+
+
+def _pierced(evidence: Evidence, _options: FairOptions) -> Found:
+    if not len(evidence.pierced):
+        return NOTHING
+    text = counted(len(evidence.pierced), "vertex", "vertices")
+    return f"The surface passes through faces outside the selection at {text}: select or move these", evidence.pierced
+
+
+def _seamed(evidence: Evidence, _options: FairOptions) -> Found:
+    if not len(evidence.seams):
+        return NOTHING
+    text = counted(len(evidence.seams), "vertex", "vertices")
+    return f"A seam of doubled vertices holds the surface at {text}: undo, and use Merge by Distance", evidence.seams
+
+
+def _kinked(evidence: Evidence, options: FairOptions) -> Found:
+    if not judges_join(options):
+        return NOTHING
+    seen = evidence.join.seen
+    if len(seen):
+        return kink_reason(evidence.join), seen
+    kinks = evidence.named("NO_SOLUTION", "kinks")  # dihedral angles show these on fine meshes only
+    if not len(kinks):
+        return NOTHING
+    text = counted(len(kinks), "vertex", "vertices")
+    return f"The surface does not continue the slope of its surroundings at {text} of the outline", kinks
+
+
+def kink_reason(join: Join) -> str:
+    """Return the sentence for a join that is seen."""
+    text = counted(len(join.seen), "vertex", "vertices")
+    if join.worst_seen >= TURNED:
+        return f"The surface turns back from the slope around it at {text} of the outline, by {join.worst_seen:.0f}°"
+    return f"A kink shows at {text} of the outline, of {join.worst_seen:.0f}° at worst"
+
+
+def slope_reason(vertices: Ints) -> str:
+    """Return the sentence for outline vertices where a curvature was asked for and is not continued."""
+    text = counted(len(vertices), "vertex", "vertices")
+    return f"The curvature outside is not continued at {text} of the outline, as was asked for"
+
+
+def _pointed(evidence: Evidence, _options: FairOptions) -> Found:
+    tips = evidence.named("PINS_NOT_SPREAD", "tips")
+    if not len(tips):
+        return NOTHING
+    return f"The surface comes to a point at {counted(len(tips), 'pinned vertex', 'pinned vertices')}", tips
+
+
+def _rounded(evidence: Evidence, _options: FairOptions) -> Found:
+    if not len(evidence.rounded):
+        return NOTHING
+    text = counted(len(evidence.rounded), "vertex", "vertices")
+    return f"Outline: Smooth has rounded a hard edge outside at {text}: choose As Selected", evidence.rounded
+
+
+def _eaten(evidence: Evidence, options: FairOptions) -> Found:
+    if not judges_join(options):
+        return NOTHING
+    marked, running = evidence.eaten.marked, evidence.eaten.running_on
+    if len(marked):
+        text = counted(len(marked), "vertex", "vertices")
+        reason = f"Edges marked sharp were rounded off at {text}: undo, and Pin Edges: Sharp keeps them"
+        return _with_kinks(evidence, reason, marked) if evidence.join.worst_seen >= STEEP else (reason, marked)
+    if len(running):
+        text = counted(len(running), "vertex", "vertices")
+        reason = f"A hard edge runs on outside, but was rounded off at {text}: mark it sharp and pin it to keep it"
+        return _with_kinks(evidence, reason, running)
+    return NOTHING
+
+
+def _with_kinks(evidence: Evidence, reason: str, spots: Ints) -> Found:
+    """Add the kinks at the outline, or begin with them where these are the worse of both.
+
+    Another selection may be what helps then.
+    """
+    seen = evidence.join.seen
+    if not len(seen):
+        return reason, spots
+    if evidence.join.worst_seen >= STEEP:
+        edge = counted(len(spots), "vertex", "vertices")
+        return f"{kink_reason(evidence.join)}, and hard edges were rounded off at {edge}", _both(seen, spots)
+    kink = f"a kink of {evidence.join.worst_seen:.0f}° shows at the outline"
+    return f"{reason}, or grow the selection: {kink}", _both(spots, seen)
+
+
+def _both(spots: Ints, others: Ints) -> Ints:
+    joined: Ints = np.concatenate([spots, others])
+    return joined
+
+
+def _swollen(evidence: Evidence, options: FairOptions) -> Found:
+    if not len(evidence.swollen) or not judges_join(options) or _is_meant_to_swell(options):
+        return NOTHING
+    text = counted(len(evidence.swollen), "vertex", "vertices")
+    return f"The surface swells to a knob around {text}: another outline may avoid it", evidence.swollen
+
+
+def _flanked(evidence: Evidence, options: FairOptions) -> Found:
+    if evidence.flank is None or not judges_join(options) or _is_meant_to_swell(options):
+        return NOTHING
+    kind = "bump" if evidence.flank.is_bump else "dent"
+    reason = f"The outline is on the slope of a {kind}, so that the {kind} stays: grow the selection over it"
+    return reason, evidence.problem.patch.vertices[evidence.flank.outline]
+
+
+def _substituted(evidence: Evidence, _options: FairOptions) -> Found:
+    """Tell of a loft, which may be as flat as a strap, and of the old shape smoothed, which may keep part of it."""
+    for figure, reason in SUBSTITUTES.items():
+        if any(evidence.told("NO_SOLUTION", figure)):
+            return reason, _most_bent(evidence)
+    return NOTHING
+
+
+def _most_bent(evidence: Evidence) -> Ints:
+    """Return the mesh vertices of the free ones where edges bend most, the worst first."""
+    patch = evidence.problem.patch
+    edges = bends(_points(evidence), patch.triangles)
+    sharpest = np.zeros(len(patch.vertices))
+    for end in edges.edges.T:
+        np.maximum.at(sharpest, end, np.abs(edges.degrees))
+    order = patch.free[np.argsort(-sharpest[patch.free], kind="stable")]
+    worst: Ints = patch.vertices[order[: int(np.ceil(MOST_BENT * len(order)))]]
+    return worst
+
+
+def _points(evidence: Evidence) -> Floats:
+    """Return the places of the patch's vertices after the run."""
+    points = evidence.problem.points if evidence.points is None else evidence.points
+    own: Floats = points[: len(evidence.problem.patch.vertices)]
+    return own
+
+
+def _refused(evidence: Evidence, _options: FairOptions) -> Found:
+    """Tell what was asked for and not given: curvature that is continued, the old skin."""
+    curvature = evidence.named("G2_NOT_MET")
+    if len(curvature):
+        return slope_reason(np.unique(curvature)), curvature
+    if any(evidence.told("REFERENCE_UNUSABLE", "old_skin", "sample_skin")):
+        outline = evidence.problem.patch.vertices[evidence.problem.patch.outline]
+        return "The detail asked for could not be put back: the result is smooth", outline
+    return NOTHING
+
+
+def _squeezed(evidence: Evidence, _options: FairOptions) -> Found:
+    if not len(evidence.squeezed):
+        return NOTHING
+    text = counted(len(evidence.squeezed), "vertex", "vertices")
+    return f"{_KNOT.format(text)}: to be rid of them, delete the faces and use Fair Fill", evidence.squeezed
+
+
+def _needles(evidence: Evidence, _options: FairOptions) -> Found:
+    needles = _that_show(evidence, np.setdiff1d(evidence.after.needles, evidence.before.needles))
+    if not len(needles):
+        return NOTHING
+    return counted(len(needles), "face is a needle", "faces are needles"), corners_of(evidence.problem, needles)
+
+
+def _that_show(evidence: Evidence, needles: Ints) -> Ints:
+    """Return those of the needles whose neighbours bend: on a plane no one sees them."""
+    patch, points = evidence.problem.patch, _points(evidence)
+    sides = bends(points, patch.triangles).sides
+    normals = unit(area_vectors(points, patch.triangles))
+    shown = []
+    for row in np.flatnonzero(np.isin(patch.faces, needles)):
+        beside = normals[np.setdiff1d(sides[(sides == row).any(axis=1)], row)]
+        if len(beside) and (beside @ beside.T).min() < np.cos(np.radians(FLAT)):
+            shown.append(patch.faces[row])
+    found: Ints = np.unique(np.array(shown, dtype=np.int64))
+    return found
+
+
+# The first that finds something gives the reason.
+_LOOKS = (
+    *(_holed, _pierced, _seamed, _rounded, _eaten, _kinked, _pointed, _swollen, _flanked),
+    *(_substituted, _refused, _squeezed, _needles),
+)
+
+
+def _is_meant_to_swell(options: FairOptions) -> bool:
+    return options.detail > 0.0 or (options.equation == "CONSTANT" and options.bulge != 0.0)
+
+
+def judges_join(options: FairOptions) -> bool:
+    """Tell whether the result is meant to continue its surroundings: a soap film and a blend are not."""
+    return options.factor == 1.0 and options.equation != "MINIMAL"

@@ -1,0 +1,64 @@
+"""Edges of an outline that touch or cross each other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from fairing._types import FloatArray, IntArray
+
+_TOUCHING = 1e-9  # of the outline's extent
+_TINY = 1e-300
+
+
+def crossing_edges(loops: Sequence[IntArray], vertices: FloatArray) -> IntArray:
+    """(c, 4) vertices: the ends of two edges that meet, not at a vertex that both have."""
+    edges = np.concatenate([np.column_stack([loop, np.roll(loop, -1)]) for loop in loops])
+    slack = _TOUCHING * float(np.ptp(vertices[edges].reshape(-1, 3), axis=0).max())
+    one, other = _near_pairs(vertices[edges], slack)
+    apart = (edges[one][:, :, None] != edges[other][:, None]).all(axis=(1, 2))
+    one, other = one[apart], other[apart]
+    met = _distances(vertices[edges[one]], vertices[edges[other]]) <= slack
+    found: IntArray = np.hstack([edges[one[met]], edges[other[met]]])
+    return found
+
+
+def _near_pairs(segments: FloatArray, slack: float) -> tuple[IntArray, IntArray]:
+    """Pairs of segments (n, 2, 3) whose boxes meet."""
+    low, high = segments.min(axis=1) - slack, segments.max(axis=1) + slack
+    axis = int(np.argmax(np.ptp(low, axis=0)))
+    order = np.argsort(low[:, axis], kind="stable")
+    low, high = low[order], high[order]
+    last = np.searchsorted(low[:, axis], high[:, axis], side="right")  # of those that begin before this one ends
+    counts = last - np.arange(len(order)) - 1
+    one = np.repeat(np.arange(len(order)), counts)
+    other = one + 1 + np.arange(len(one)) - np.repeat(np.cumsum(counts) - counts, counts)
+    meet = ((low[one] <= high[other]) & (low[other] <= high[one])).all(axis=1)
+    return order[one[meet]], order[other[meet]]
+
+
+def _distances(one: FloatArray, other: FloatArray) -> FloatArray:
+    """Between segments (c, 2, 3) and (c, 2, 3): of inner points nearest to each other, and of ends from the other."""
+    u, v, w = one[:, 1] - one[:, 0], other[:, 1] - other[:, 0], one[:, 0] - other[:, 0]
+    uu, uv, vv = (u * u).sum(axis=1), (u * v).sum(axis=1), (v * v).sum(axis=1)
+    uw, vw = (u * w).sum(axis=1), (v * w).sum(axis=1)
+    size = uu * vv - uv * uv
+    aslant = size > 1e-12 * uu * vv  # of parallel ones an end is among the nearest
+    size = np.where(aslant, size, 1.0)
+    s, t = (uv * vw - vv * uw) / size, (uu * vw - uv * uw) / size
+    inner = aslant & (s >= 0) & (s <= 1) & (t >= 0) & (t <= 1)
+    least = np.where(inner, np.linalg.norm(w + s[:, None] * u - t[:, None] * v, axis=1), np.inf)
+    for points, segment in ((one, other), (other, one)):
+        for end in (0, 1):
+            least = np.minimum(least, _from_segment(points[:, end], segment))
+    result: FloatArray = least
+    return result
+
+
+def _from_segment(points: FloatArray, segments: FloatArray) -> FloatArray:
+    along = segments[:, 1] - segments[:, 0]
+    share = ((points - segments[:, 0]) * along).sum(axis=1) / np.maximum((along * along).sum(axis=1), _TINY)
+    feet = segments[:, 0] + np.clip(share, 0, 1)[:, None] * along
+    result: FloatArray = np.linalg.norm(points - feet, axis=1)
+    return result
