@@ -191,7 +191,6 @@ bool may_be_replaced(const SolverOptions& options) {
 // in 4 to 15 s.
 std::optional<FirstSurface> from_tube(const OpenOutline& outline, const SolverOptions& options,
                                       const Progress& progress) {
-    constexpr double wide = 1.2;  // radians
     const auto swept = SweptTube::between(outline.loops, outline.points, outline.normals);
     if (!swept) return std::nullopt;
     Meshed even = tube_mesh(outline, *swept, options);
@@ -201,7 +200,8 @@ std::optional<FirstSurface> from_tube(const OpenOutline& outline, const SolverOp
         solution = solve_near(problem, {even.points, true}, progress.range(0.0, 0.3));
     solution = solution ? or_else(problem, std::move(*solution), progress.range(0.3, 1.0), &even.points)
                         : solve_else_roughly(problem, even.points, progress.range(0.3, 1.0));
-    if (!solution && swept->turn() > wide && may_be_replaced(options)) solution = lofted(problem, {}, progress.here());
+    if (!solution && swept->turn() > wide_bend && may_be_replaced(options))
+        solution = lofted(problem, {}, progress.here());
     if (!solution) return std::nullopt;
     return FirstSurface{std::move(even.patch), std::move(*solution)};
 }

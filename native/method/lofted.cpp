@@ -68,10 +68,10 @@ Lofts lofts_of(const Problem& problem, const Progress& progress) {
     return lofts;
 }
 
-// The tube between two outlines along a bend, where lofts are drawn to its inner side.
+// The tube between two outlines along a wide bend.
 std::optional<Candidate> swept(const Problem& problem, const Progress& progress) {
     const auto tube = tube_between(problem);
-    auto points = tube ? swept_start(problem, *tube, progress) : std::nullopt;
+    auto points = tube && tube->turn() > wide_bend ? swept_start(problem, *tube, progress) : std::nullopt;
     if (!points) return std::nullopt;
     const double merit = willmore_energy(problem, *points);
     return Candidate{std::move(*points), merit, swept_loft_way};

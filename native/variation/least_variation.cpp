@@ -265,9 +265,8 @@ public:
     // Over a coarse mesh elbows of 120° and more don't settle, and dense ones of 90° take 5 to 10 s on the fine one;
     // from the tube they end in one.
     std::optional<Attempt> run(const Progress& progress) {
-        constexpr double far = 1.2;  // radians
         const bool is_tube = tube_.has_value();
-        if (is_tube && tube_->turn() > far) try_tube(progress.range(0.0, 0.1));
+        if (is_tube && tube_->turn() > wide_bend) try_tube(progress.range(0.0, 0.1));
         if (!has_ended() && !is_in_valley()) try_membrane(is_tube, progress.range(0.1, 1.0));
         return std::move(best_);
     }
