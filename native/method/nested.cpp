@@ -81,11 +81,11 @@ private:
         return problem;
     }
 
-    // Analyses the operators of all finer levels beside other work: the coarsest surface tells about where vertices
-    // are.
+    // Analyses the operators of finer levels beside other work: the coarsest surface tells about where vertices are.
     void prepare_beside(const Points& coarsest) {
         operators_.resize(levels_.coarsest());
         for (std::size_t k = operators_.size(); k-- > 0;) {
+            if (levels_.problem(k).patch.free_count > largest_prepared) continue;
             operators_[k].preparing = Beside([this, k, coarsest] {
                 const Problem& problem = levels_.problem(k);
                 operators_[k].made = make_normal_operator(problem, levels_.layout(k, coarsest), Solves::few);

@@ -10,6 +10,7 @@ from fairing._loops import Outline, listed
 from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
 
 _AWAY = -0.3  # mean cosine between the ways into the surface and to the other loops; −.17 at a bend of 200°
+_ACROSS = 0.1  # of the same: a loop whose surface leads neither there nor away may be meant either way
 _FACING = 0.5  # of the same, and between normals and the ways from a loop's middle
 _MOST_PLACES = 400  # of a loop, and of all others together
 _TINY = 1e-300
@@ -66,11 +67,9 @@ def not_joined(outline: Outline, vertices: FloatArray, normals: FloatArray) -> M
     """Why no triangulation joins the loops: which of them leads away, and what to do."""
     ways = [rim.way_to_others for rim in _rims(outline, vertices, normals)]
     worst = int(np.argmin(ways))
-    if ways[worst] > -_AWAY:
-        text = (
-            "loops: no surface joins them; they cross or are linked, or face away from each other. Join fewer at once"
-        )
-        return _refusal("LOOPS_NOT_JOINED", text, outline.vertices, {})
+    if ways[worst] > _ACROSS:
+        text = "loops: no surface joins them; they cross or are linked, face away from each other, or are too many"
+        return _refusal("LOOPS_NOT_JOINED", f"{text}: join fewer", outline.vertices, {})
     what = "the surface would lead away from the others there"
     return _refused(outline, worst, what, "turn its normals or its direction")
 
