@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import replace
 from typing import Any
 
@@ -160,6 +161,23 @@ def test_a_solver_stays_with_the_surface_that_it_took_while_the_outline_is_dragg
     assert np.abs(after.vertices - last.vertices).max() < 0.05
 
 
+def test_a_drag_changes_its_surface_once() -> None:
+    """Up to the last lean at which the harmonic surface is reached, then that of least variation, and back with it.
+
+    The change is as large as the two differ; before it the harmonic one runs ahead of its outline already.
+    """
+    tube = tubes.pipe(5.0, 0.0, seed=3)
+    solver = fairing.Solver(tube.triangles, fixed=tube.fixed, threads=1)
+    found = [solver.solve(*leaning(lean)) for lean in (0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 2.0, 1.0)]
+    kinds = [result.equation for result in found]
+    first = kinds.index("least_variation")
+    assert 1 <= first <= 6
+    assert kinds == ["harmonic"] * first + ["least_variation"] * (len(kinds) - first)
+    steps = [np.abs(b.vertices - a.vertices).max() for a, b in itertools.pairwise(found)]
+    assert steps[first - 1] < 0.2
+    assert max(steps[first:]) < 0.05
+
+
 def test_a_solver_tries_again_after_a_large_move() -> None:
     tube = tubes.pipe(5.0, 3.0, seed=3)
     solver = fairing.Solver(tube.triangles, fixed=tube.fixed, threads=1)
@@ -182,26 +200,29 @@ def test_an_elbow_of_90_degrees_may_be_a_bulb() -> None:
 def test_an_elbow_of_150_degrees_is_no_loft() -> None:
     """Its V · A is about 100, that of jagged outlines thousands. A loft would be one radius off the torus.
 
-    The last digits decide whether one of these ends `converged` or near it, so one of the three may stop short.
+    The last digits decide whether one of these descents ends, so one of the three may be the tube swept along it.
     """
-    converged = 0
+    found = 0
     for bend, seed in [(2.0, 2), (3.0, 2), (3.0, 3)]:
         result = tubes.elbow(bend, 150.0, seed=seed).faired(equation="harmonic")
-        assert result.equation == "least_variation"
+        assert result.converged
         assert tubes.off_torus(result.vertices, bend) < 0.15
-        converged += result.converged
-    assert converged >= 2
+        found += result.equation == "least_variation"
+    assert found >= 2
 
 
-def test_a_descent_that_nearly_ended_is_better_than_a_loft() -> None:
+def test_a_wide_bend_is_swept_where_its_descent_stalls() -> None:
     """A wide bend of 180°: the product falls along a valley to loops 1.2 to 4 radii off, in 300 steps or more.
 
-    What comes back is the flattest place of the way there, 0.07 to 0.31 off. A loft would be one radius off.
+    The flattest place of the way there is 0.07 to 0.31 off, and no answer. A loft along the mesh's lines would be one
+    radius off; the sections swept along a cubic, which leaves a semicircle by 1.8 % of its radius, 0.08.
     """
     for seed in (91, 92):
         result = tubes.elbow(4.0, 180.0, seed=seed).faired(equation="harmonic")
-        assert result.equation == "least_variation"
-        assert result.converged or tubes.off_torus(result.vertices, 4.0) < 0.5
+        assert result.converged
+        assert result.equation in ("least_variation", "loft")
+        assert result.equation == "least_variation" or [name for name, _ in result.way][-1] == "swept loft"
+        assert tubes.off_torus(result.vertices, 4.0) < 0.35
 
 
 @pytest.mark.parametrize(("bend", "degrees", "seed"), [(1.7, 180.0, 4), (2.5, 180.0, 2), (3.0, 160.0, 4)])
@@ -287,12 +308,14 @@ def test_a_wing_whose_solve_was_cut_short_is_no_loft() -> None:
 def test_a_solver_stays_with_a_loft() -> None:
     """And goes on from one outline to the next as evenly as the outline does."""
     made = wing()
+    inside = np.setdiff1d(np.arange(len(made.vertices)), made.fixed)
+    made.vertices[inside] *= np.random.default_rng(0).uniform(-1.0, 1.0, (len(inside), 3))  # no shape to be smoothed
     solver = fairing.Solver(made.triangles, fixed=made.fixed, threads=1)
     first = solver.solve(made.vertices, made.normals)
     moved = made.vertices + np.array([0.02, 0.0, 0.0]) * (made.vertices[:, 2:] > 2.9)
     second = solver.solve(moved, made.normals)
     assert [first.equation, second.equation] == ["loft", "loft"]
-    assert [name for name, _ in second.way] == ["loft"]
+    assert [name for name, _ in second.way] == ["creased loft"]
     assert np.abs(second.vertices - first.vertices).max() < 0.021
 
 

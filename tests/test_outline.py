@@ -337,6 +337,29 @@ def test_the_join_from_the_patchs_side_alone() -> None:
     assert minimal.join.shape == minimal.fixed.shape
 
 
+@pytest.mark.parametrize("depth", [0.05, 0.1, 0.2, 0.3])
+def test_the_join_shows_a_dent_of_the_first_row_inside(depth: float) -> None:
+    """Equal triangles in a plane: that row leans all triangles of the outline, one vertex one of them."""
+    i, j = np.mgrid[-10:11, -10:11]
+    vertices = np.column_stack([(i + 0.5 * j).ravel(), (np.sqrt(0.75) * j).ravel(), 0.0 * i.ravel()])
+    number = np.arange(len(vertices)).reshape(i.shape)
+    a, b, c, d = (number[s, t].ravel() for s in (np.s_[:-1], np.s_[1:]) for t in (np.s_[:-1], np.s_[1:]))
+    triangles = np.concatenate([np.column_stack([a, c, b]), np.column_stack([c, d, b])])
+    ring = np.maximum(np.maximum(abs(i), abs(j)), abs(i + j)).ravel()
+    within = (ring[triangles] <= 6).all(axis=1)
+    outline, kink = np.flatnonzero(ring == 6), np.degrees(np.arctan(depth / np.sqrt(0.75)))
+
+    def join(dented: np.ndarray) -> np.ndarray:
+        surface = vertices - depth * np.outer(dented, [0.0, 0.0, 1.0])
+        return fairing.visible_join(surface, triangles[within], triangles[~within], outline)
+
+    assert join(ring == 5) == pytest.approx(np.full(len(outline), kink))
+    assert join((ring == 5) | (ring == 4)) == pytest.approx(np.full(len(outline), kink))
+    lone = np.arange(len(vertices)) == number[10 + 5, 10 - 2]
+    assert join(lone).max() == pytest.approx(0.5 * kink)
+    assert join(ring == 4).max() == 0.0
+
+
 def test_the_visible_join_of_an_edge_that_was_there_before() -> None:
     """Half a cube's edge: sharp where there was none, nothing new where it was sharp before."""
     across = np.array([[0, 0, 0], [0, 1, 0], [1, 0, 0], [1, 1, 0], [0, 0, -1], [0, 1, -1]], dtype=float)

@@ -10,6 +10,7 @@
 #include "fill/joined_loops.h"
 #include "fill/tube_start.h"
 #include "method/accept.h"
+#include "method/lofted.h"
 #include "method/near_start.h"
 #include "method/otherwise.h"
 #include "problem/surface_state.h"
@@ -172,24 +173,35 @@ std::optional<FirstSurface> from_ball(const OpenOutline& outline, const Meshed& 
     return near(outline, even, options, progress);
 }
 
-// Where a tube bends so much that the flat mesh grows into something else. The harmonic surface, or that of least
-// variation where it has none or a bulb.
-std::optional<FirstSurface> from_tube(const OpenOutline& outline, const SolverOptions& options,
-                                      const Progress& progress) {
-    const auto swept = SweptTube::between(outline.loops, outline.points, outline.normals);
-    if (!swept) return std::nullopt;
-    TubeMesh tube = tube_start(*swept);
+Meshed tube_mesh(const OpenOutline& outline, const SweptTube& swept, const SolverOptions& options) {
+    TubeMesh tube = tube_start(swept);
     const auto added = tube.points.cols();
     Points points(3, added + outline.points.cols());
     points << tube.points, outline.points;
     const Patch patch = made_patch(static_cast<int>(added), std::move(tube.triangles), points.cols());
-    Meshed even = even_mesh(outline, patch, points, options);
+    return even_mesh(outline, patch, points, options);
+}
+
+bool may_be_replaced(const SolverOptions& options) {
+    return options.equation != Equation::least_variation && options.otherwise != Otherwise::stop;
+}
+
+// Where a tube bends so much that the flat mesh grows into something else. The harmonic surface, or that of least
+// variation where it has none or a bulb. Where a wide bend has neither, a loft: other meshes found it no other surface,
+// in 4 to 15 s.
+std::optional<FirstSurface> from_tube(const OpenOutline& outline, const SolverOptions& options,
+                                      const Progress& progress) {
+    const auto swept = SweptTube::between(outline.loops, outline.points, outline.normals);
+    if (!swept) return std::nullopt;
+    Meshed even = tube_mesh(outline, *swept, options);
     const Problem problem = problem_on(outline, even.patch, options);
     std::optional<Solution> solution;
     if (options.equation != Equation::least_variation)
         solution = solve_near(problem, {even.points, true}, progress.range(0.0, 0.3));
     solution = solution ? or_else(problem, std::move(*solution), progress.range(0.3, 1.0), &even.points)
                         : solve_else_roughly(problem, even.points, progress.range(0.3, 1.0));
+    if (!solution && swept->turn() > wide_bend && may_be_replaced(options))
+        solution = lofted(problem, {}, progress.here());
     if (!solution) return std::nullopt;
     return FirstSurface{std::move(even.patch), std::move(*solution)};
 }
@@ -220,18 +232,30 @@ FirstSurface sought(const OpenOutline& outline, const SolverOptions& options, co
     return result;
 }
 
+// Joined by a loft over the mesh of a tube, or over the last mesh, if there is one.
+FirstSurface with_loft(const OpenOutline& outline, const SolverOptions& options, FirstSurface last,
+                       const Progress& progress) {
+    if (const auto swept = SweptTube::between(outline.loops, outline.points, outline.normals)) {
+        Meshed even = tube_mesh(outline, *swept, options);
+        if (auto loft = lofted(problem_on(outline, even.patch, options), {}, progress))
+            return {std::move(even.patch), std::move(*loft)};
+    }
+    if (auto loft = lofted(problem_on(outline, last.patch, options), last.solution, progress))
+        last.solution = std::move(*loft);
+    return last;
+}
+
 }  // namespace
 
 FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
     constexpr double usual = 0.6;  // share of the progress
     FirstSurface result = sought(outline, options, progress.range(0.0, usual));
-    const bool asked = options.equation == Equation::least_variation || options.otherwise == Otherwise::stop;
-    if (has_converged(result) || asked || outline.loops.size() < 2) return result;
+    if (has_converged(result) || !may_be_replaced(options) || outline.loops.size() < 2) return result;
     // What a solve in vain leaves is no start for the surface of least variation, whose own descents may be.
     SolverOptions other = options;
     other.equation = Equation::least_variation;
     FirstSurface even = sought(outline, other, progress.range(usual, 1.0));
-    if (!has_converged(even)) return result;
+    if (!has_converged(even)) return with_loft(outline, options, std::move(result), progress.here());
     even.solution.instead = Instead::least_variation;
     return even;
 }

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double largest_bend = 2.0;  // of the largest |H| on the outline
 constexpr double least_girth = 0.75;  // of what it comes from
+constexpr double least_width = 0.94;  // of flat sections: the edges of wings were drawn in to .80 to .92 elsewhere
 constexpr double most_girth = 4.0 / 3.0;
 constexpr double most_aside = 0.5;  // of a radius: lofts that an artist keeps had .15 to .40, webs and dents .51 to 2.3
 constexpr double least_bluntness = 0.7;
@@ -65,7 +66,10 @@ Indices Blemishes::all() const {
 Blemishes BlemishFinder::in(const Points& points) const {
     Blemishes found{torn(points), bent(points), {}, {}, thin(points)};
     if (!girths_) return found;
-    found.narrow = corners_of(problem_.patch, girths_->narrow(points, least_girth));
+    Indices narrow = girths_->narrow(points, least_girth);
+    const Indices slim = girths_->slim(points, least_width);
+    narrow.insert(narrow.end(), slim.begin(), slim.end());
+    found.narrow = corners_of(problem_.patch, narrow);
     found.wide = corners_of(problem_.patch, girths_->wide(points, most_girth));
     return found;
 }

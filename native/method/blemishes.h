@@ -12,10 +12,12 @@ namespace fairing {
 
 // Vertices of a patch, each at most once in a list.
 struct Blemishes {
-    Indices torn;    // of triangles that cross others or are turned over
-    Indices bent;    // where |H| is beyond twice the largest on the outline and the largest nearby before
-    Indices narrow;  // of waists and threads: less than three quarters as long around (method/girths)
-    Indices wide;    // of bulges: more than four thirds as long
+    Indices torn;  // of triangles that cross others or are turned over
+    Indices bent;  // where |H| is beyond twice the largest on the outline and the largest nearby before
+    // Of waists and threads: less than three quarters as long around, or flat and less than 0.94 as wide
+    // (method/girths).
+    Indices narrow;
+    Indices wide;  // of bulges: more than four thirds as long
     Indices thin;  // of what ends within the patch, where it is there still: less than 0.7 as blunt (start/protrusions)
 
     [[nodiscard]] bool absent() const { return all().empty(); }

@@ -20,6 +20,9 @@ public:
 
     // Triangles of the cross-sections of a surface (3 × local vertices) that are shorter than `share` of both.
     [[nodiscard]] Indices narrow(const Points& points, double share) const;
+    // Those of the cross-sections that are flat on the shape before and less wide than `share` of both widths, its own
+    // and the expected one: edges of wings that are drawn inwards.
+    [[nodiscard]] Indices slim(const Points& points, double share) const;
     // Those of the cross-sections that are longer than both `times` over.
     [[nodiscard]] Indices wide(const Points& points, double times) const;
     // How far the middle of a cross-section lies at most from where it was, over the radius that it had: L / 2π.
@@ -31,6 +34,7 @@ private:
     CrossSections sections_;
     std::vector<VectorX> lesser_;  // of the two lengths, for each outline
     std::vector<VectorX> larger_;
+    std::vector<VectorX> slimmer_;  // of the two widths
     std::vector<VectorX> radii_;
     std::vector<Points> middles_;
 };

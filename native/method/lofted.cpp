@@ -54,7 +54,7 @@ std::optional<Points> surface(const Problem& problem, const Problem& outline, co
 struct Candidate {
     Points points;
     double merit;
-    bool eased;
+    const char* way;
 };
 
 using Lofts = std::vector<std::pair<double, Loft>>;  // with their handicaps
@@ -68,7 +68,15 @@ Lofts lofts_of(const Problem& problem, const Progress& progress) {
     return lofts;
 }
 
-// The least bent first.
+// The tube between two outlines along a wide bend.
+std::optional<Candidate> swept(const Problem& problem, const Progress& progress) {
+    const auto tube = tube_between(problem);
+    auto points = tube && tube->turn() > wide_bend ? swept_start(problem, *tube, progress) : std::nullopt;
+    if (!points) return std::nullopt;
+    const double merit = willmore_energy(problem, *points);
+    return Candidate{std::move(*points), merit, swept_loft_way};
+}
+
 std::vector<Candidate> candidates(const Problem& problem, const Problem& outline, const Lofts& lofts) {
     std::vector<Candidate> found;
     for (const auto& [handicap, loft] : lofts) {
@@ -77,11 +85,9 @@ std::vector<Candidate> candidates(const Problem& problem, const Problem& outline
             auto points = surface(problem, outline, fill, share);
             if (!points) continue;
             const double merit = handicap * willmore_energy(problem, *points);
-            found.push_back({std::move(*points), merit, &outline != &problem});
+            found.push_back({std::move(*points), merit, &outline == &problem ? "loft" : eased_loft_way});
         }
     }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.merit < b.merit; });
     return found;
 }
 
@@ -99,7 +105,7 @@ Solution solution_at(const Problem& problem, const Candidate& candidate) {
     solution.boundary_normals = one_sided_normals(problem.patch, candidate.points);
     solution.iterations = 1;
     solution.instead = Instead::loft;
-    solution.ways = {{candidate.eased ? eased_loft_way : "loft", 0.0}};
+    solution.ways = {{candidate.way, 0.0}};
     solution.flaw = flaw_of(problem, solution);
     return solution;
 }
@@ -130,10 +136,12 @@ std::optional<Solution> mended(const Problem& problem, const Candidate& candidat
     return std::nullopt;
 }
 
-// The least bent one over an outline that is accepted, mended where none is.
-std::optional<Solution> best_over(const Problem& problem, const Problem& outline, const Lofts& lofts) {
+// The least bent one that is accepted, mended where none is.
+std::optional<Solution> best_of(const Problem& problem, std::vector<Candidate> candidates) {
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.merit < b.merit; });
     std::vector<std::pair<Candidate, Solution>> flawed;
-    for (Candidate& candidate : candidates(problem, outline, lofts)) {
+    for (Candidate& candidate : candidates) {
         Solution solution = solution_at(problem, candidate);
         if (is_accepted(problem, solution)) return solution;
         flawed.emplace_back(std::move(candidate), std::move(solution));
@@ -173,18 +181,20 @@ std::optional<Solution> along_creases(const Problem& problem, const Progress& pr
 }
 
 // The outline as it is comes first.
-std::optional<Solution> best_of(const Problem& problem, const Progress& progress) {
+std::optional<Solution> best_loft(const Problem& problem, const Progress& progress) {
     if (auto creased = along_creases(problem, progress)) return creased;
     const Lofts lofts = lofts_of(problem, progress);
-    auto solution = best_over(problem, problem, lofts);
-    return solution ? std::move(solution) : best_over(problem, eased(problem), lofts);
+    std::vector<Candidate> found = candidates(problem, problem, lofts);
+    if (auto tube = swept(problem, progress)) found.push_back(std::move(*tube));
+    auto solution = best_of(problem, std::move(found));
+    return solution ? std::move(solution) : best_of(problem, candidates(problem, eased(problem), lofts));
 }
 
 }  // namespace
 
 std::optional<Solution> lofted(const Problem& problem, const Solution& first, const Progress& progress) {
     const Stopwatch watch;
-    auto solution = best_of(problem, progress);
+    auto solution = best_loft(problem, progress);
     if (!solution) return std::nullopt;
     const std::string way = solution->ways.back().name;
     solution->ways = first.ways;

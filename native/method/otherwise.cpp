@@ -93,10 +93,20 @@ bool is_better(const Problem& problem, const Solution& even, const Solution& fir
     return !(variation_energy(problem, first.points) <= variation_energy(problem, even.points));
 }
 
-// Whether a descent that did not end is nearer to what is wanted than a loft: an elbow of 150° off by a tenth.
-bool is_evener(const Problem& problem, const Solution& even, const Solution& loft) {
+// Whether a descent that did not end is nearer to what is wanted than a loft: joints, and bends whose loft lies at
+// their inner side. A tube swept along the bend is no farther from a torus than the place where descents stall, and is
+// an answer.
+bool is_evener(const Problem& problem, const Solution& even, const Solution& other) {
+    if (other.instead != Instead::loft || other.ways.back().name == swept_loft_way) return false;
     if (!crossing_triangles(problem.patch.triangles, even.points).empty()) return false;
-    return variation_energy(problem, even.points) < variation_energy(problem, loft.points);
+    return variation_energy(problem, even.points) < variation_energy(problem, other.points);
+}
+
+// The one place that decides what is handed out where no equation has a surface. `even`: a descent that did not end.
+Solution handed_out(const Problem& problem, Solution first, std::optional<Solution> even,
+                    std::optional<Solution> other) {
+    if (other && !(even && is_evener(problem, *even, *other))) return std::move(*other);
+    return even && is_better(problem, *even, first) ? std::move(*even) : std::move(first);
 }
 
 Solution instead_of_bulb(const Problem& problem, Solution solution, const Progress& progress, const Points* near) {
@@ -152,9 +162,7 @@ Solution instead_of_failure(const Problem& problem, Solution solution, const Pro
     if (even && is_answer(*even)) return instead_of_misshapen(problem, std::move(*even), progress);
     if (even) solution.ways = even->ways;
     auto other = without_equation(problem, solution, progress);
-    if (other && !(even && other->instead == Instead::loft && is_evener(problem, *even, *other)))
-        return std::move(*other);
-    return even && is_better(problem, *even, solution) ? std::move(*even) : std::move(solution);
+    return handed_out(problem, std::move(solution), std::move(even), std::move(other));
 }
 
 }  // namespace
@@ -180,9 +188,8 @@ Solution or_else(const Problem& problem, Solution solution, const Progress& prog
                                                      : instead_of_misshapen(problem, std::move(solution), rest);
     }
     if (lacks_surface(solution)) return instead_of_failure(problem, std::move(solution), rest);
-    if (auto other = is_tried_enough(problem, solution) ? without_equation(problem, solution, rest) : std::nullopt)
-        return std::move(*other);
-    return solution;
+    auto other = is_tried_enough(problem, solution) ? without_equation(problem, solution, rest) : std::nullopt;
+    return handed_out(problem, std::move(solution), std::nullopt, std::move(other));
 }
 
 std::optional<Solution> solve_else(const Problem& problem, Instead kind, const Progress& progress, const Points* near) {

@@ -1,8 +1,9 @@
 #include "start/girth.h"
 
+#include <algorithm>
+
 #include "operators/laplace_operator.h"
 #include "start/clamped_fill.h"
-#include "start/level_lines.h"
 
 namespace fairing {
 
@@ -12,6 +13,24 @@ constexpr int line_count = 17;
 constexpr double first_level = 0.1;  // the last one as far from the other end
 
 double level_of(int line) { return first_level + (1.0 - 2.0 * first_level) * line / (line_count - 1); }
+
+// By length; the origin where there is none.
+Vector3 middle_of(const std::vector<LevelPiece>& pieces) {
+    Vector3 sum = Vector3::Zero();
+    double length = 0.0;
+    for (const LevelPiece& piece : pieces) {
+        sum += piece.length * piece.middle;
+        length += piece.length;
+    }
+    return length > 0.0 ? Vector3(sum / length) : sum;
+}
+
+Vector3 farthest(const std::vector<LevelPiece>& pieces, const Vector3& from) {
+    const auto nearer = [&](const LevelPiece& a, const LevelPiece& b) {
+        return (a.middle - from).squaredNorm() < (b.middle - from).squaredNorm();
+    };
+    return std::max_element(pieces.begin(), pieces.end(), nearer)->middle;
+}
 
 }  // namespace
 
@@ -31,26 +50,37 @@ std::optional<CrossSections> CrossSections::of(const Patch& patch, const Progres
     return result;
 }
 
+std::vector<LevelPiece> CrossSections::pieces(int outline, int line, const Points& points) const {
+    std::vector<LevelPiece> found;
+    for (const auto triangle : patch_.triangles.colwise()) {
+        const LevelPiece piece = level_within(triangle, levels_[at(outline)], level_of(line), points);
+        if (piece.length > 0.0) found.push_back(piece);
+    }
+    return found;
+}
+
 VectorX CrossSections::lengths(int outline, const Points& points) const {
     VectorX result = VectorX::Zero(line_count);
     for (int line = 0; line < line_count; ++line) {
-        for (const auto triangle : patch_.triangles.colwise())
-            result[line] += level_within(triangle, levels_[at(outline)], level_of(line), points).length;
+        for (const LevelPiece& piece : pieces(outline, line, points)) result[line] += piece.length;
+    }
+    return result;
+}
+
+VectorX CrossSections::widths(int outline, const Points& points) const {
+    VectorX result = VectorX::Zero(line_count);
+    for (int line = 0; line < line_count; ++line) {
+        const auto line_pieces = pieces(outline, line, points);
+        if (line_pieces.empty()) continue;
+        const Vector3 one_end = farthest(line_pieces, middle_of(line_pieces));
+        result[line] = (farthest(line_pieces, one_end) - one_end).norm();
     }
     return result;
 }
 
 Points CrossSections::middles(int outline, const Points& points) const {
     Points result = Points::Zero(3, line_count);
-    for (int line = 0; line < line_count; ++line) {
-        double length = 0.0;
-        for (const auto triangle : patch_.triangles.colwise()) {
-            const LevelPiece piece = level_within(triangle, levels_[at(outline)], level_of(line), points);
-            result.col(line) += piece.length * piece.middle;
-            length += piece.length;
-        }
-        if (length > 0.0) result.col(line) /= length;
-    }
+    for (int line = 0; line < line_count; ++line) result.col(line) = middle_of(pieces(outline, line, points));
     return result;
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "base/progress.h"
 #include "mesh/patch.h"
+#include "start/level_lines.h"
 
 namespace fairing {
 
@@ -19,6 +21,9 @@ public:
     [[nodiscard]] int outline_count() const { return static_cast<int>(levels_.size()); }
     // Lengths of the lines around one outline on a surface (3 × local vertices), from the others towards it.
     [[nodiscard]] VectorX lengths(int outline, const Points& points) const;
+    // How far apart two places of each line are, as far as two steps find the farthest: from the middle to the first,
+    // from there to the second. Noise hardly adds to it, as it does to the length.
+    [[nodiscard]] VectorX widths(int outline, const Points& points) const;
     // The lines' centroids, 3 × as many.
     [[nodiscard]] Points middles(int outline, const Points& points) const;
     // The triangles that a line around an outline runs through.
@@ -26,6 +31,8 @@ public:
 
 private:
     explicit CrossSections(const Patch& patch) : patch_(patch) {}
+
+    [[nodiscard]] std::vector<LevelPiece> pieces(int outline, int line, const Points& points) const;
 
     const Patch& patch_;
     std::vector<VectorX> levels_;  // of all vertices, for each outline

@@ -9,6 +9,9 @@
 
 namespace fairing {
 
+// Radians by which a tube turns from where membranes and lofts are drawn to its inner side.
+inline constexpr double wide_bend = 1.2;
+
 // A closed section in its frame of the axis. Shares are those of its length, from 0 below 1.
 class TubeSection {
 public:

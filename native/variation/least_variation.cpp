@@ -110,13 +110,14 @@ struct FineStart {
     double damping = 0.0;
     double most_merit = HUGE_VAL;  // given up where it stays above
     bool flattest = false;         // variation/newton.h
+    int most_steps = most_fine_steps;
 };
 
 SolvedSheet solve_fine(ProxyMesh& mesh, const Problem& problem, const SolvedSheet& coarse, const FineStart& begin,
                        const Progress& progress) {
     const int limit = std::clamp(3 * problem.patch.free_count, 3000, most_fine);
     mesh.adapt(sizing_of(problem, {fine_share, fine_turn, fine_growth}, limit));
-    NewtonLimits limits{problem.options.tolerance, std::min(problem.options.max_iterations, most_fine_steps)};
+    NewtonLimits limits{problem.options.tolerance, std::min(problem.options.max_iterations, begin.most_steps)};
     limits.damping = begin.damping;
     limits.most_merit = begin.most_merit;
     limits.flattest = begin.flattest;
@@ -231,12 +232,16 @@ std::optional<Attempt> attempted_on_tube(const Problem& problem, const Points& t
 // One mesh, from a surface that is near.
 std::optional<Solution> solve_nearby(const Problem& problem, const NearVariation& near, double most,
                                      const Progress& progress) {
+    // Bridges, elbows and S-bends end in 40 at most; where they don't, along wide bends, 300 end nowhere, too, in 12 s.
+    constexpr int most_steps = 60;
+    const FineStart begin{.damping = near_damping, .most_steps = most_steps};
     Stopwatch watch;
     ProxyMesh mesh(problem.patch, near.points);
-    SolvedSheet solved =
-        near.roughly ? solve_coarse(mesh, problem, near_beginning, progress.range(0.0, 0.9), most)
-                     : solve_fine(mesh, problem, unsolved(mesh, problem), {near_damping}, progress.range(0.0, 0.5));
-    if (!near.roughly && !solved.result.converged) {  // too far from it: over a coarse mesh
+    SolvedSheet solved = near.roughly
+                             ? solve_coarse(mesh, problem, near_beginning, progress.range(0.0, 0.9), most)
+                             : solve_fine(mesh, problem, unsolved(mesh, problem), begin, progress.range(0.0, 0.5));
+    const bool has_ended = solved.result.converged || solved.result.steps >= most_steps;
+    if (!near.roughly && !has_ended) {  // too far from it: over a coarse mesh
         const auto anew = attempted(problem, near.points, near_beginning, most, progress.range(0.5, 0.9));
         if (anew) return solution_of(problem, *anew, progress.range(0.9, 1.0));
     }
@@ -260,9 +265,8 @@ public:
     // Over a coarse mesh elbows of 120° and more don't settle, and dense ones of 90° take 5 to 10 s on the fine one;
     // from the tube they end in one.
     std::optional<Attempt> run(const Progress& progress) {
-        constexpr double far = 1.2;  // radians
         const bool is_tube = tube_.has_value();
-        if (is_tube && tube_->turn() > far) try_tube(progress.range(0.0, 0.1));
+        if (is_tube && tube_->turn() > wide_bend) try_tube(progress.range(0.0, 0.1));
         if (!has_ended() && !is_in_valley()) try_membrane(is_tube, progress.range(0.1, 1.0));
         return std::move(best_);
     }

@@ -100,6 +100,8 @@ TEST_CASE("cross-sections of a pipe have the lengths of its circles") {
         CHECK(straight.minCoeff() == doctest::Approx(circle).epsilon(2e-3));
         CHECK(straight.maxCoeff() == doctest::Approx(circle).epsilon(2e-3));
         CHECK(sections->lengths(k, waisted).minCoeff() == doctest::Approx(0.3 * circle).epsilon(5e-3));
+        CHECK(sections->widths(k, pipe.single.points).minCoeff() == doctest::Approx(2.0).epsilon(5e-3));
+        CHECK(sections->widths(k, pipe.single.points).maxCoeff() == doctest::Approx(2.0).epsilon(5e-3));
     }
 }
 
@@ -183,6 +185,26 @@ TEST_CASE("blemishes are what the shape before has not") {
     CHECK(finder(before).in(waved(pipe, 0.0)).narrow.empty());  // a swelling that is gone leaves no waist
     before.problem.before = waved(pipe, -0.5);
     CHECK(finder(before).in(waved(pipe, 0.0)).wide.empty());
+}
+
+TEST_CASE("edges of flat sections that are drawn in are a blemish, waists of round ones as small are none") {
+    const auto flattened = [](Points points, double thickness) {
+        points.row(1) *= thickness;
+        return points;
+    };
+    for (const double thickness : {0.12, 0.3, 1.0}) {  // flatness 1.52, 1.43 and 1
+        Known wing(40);
+        wing.problem.before = flattened(wing.single.points, thickness);
+        wing.problem.fixed_points = wing.problem.before.rightCols(wing.problem.fixed_points.cols());
+        const auto drawn_in = [&](double height) {
+            Points points = waved(wing, height);
+            points.row(1) = wing.problem.before.row(1);
+            return points;
+        };
+        CHECK(finder(wing).in(wing.problem.before).narrow.empty());
+        CHECK(finder(wing).in(drawn_in(-0.03)).narrow.empty());
+        CHECK(finder(wing).in(drawn_in(-0.12)).narrow.empty() == (thickness == 1.0));
+    }
 }
 
 TEST_CASE("a wave around a pipe bends it both ways by its steepest slope") {
