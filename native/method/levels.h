@@ -39,8 +39,8 @@ public:
     void set_up_tangential(std::size_t k, RingMatrix laplacian, const Progress& progress);
     void set_up_tangential(std::size_t k, const Progress& progress) { set_up_tangential(k, laplacian(k), progress); }
 
-    // About where the free vertices of level k are, from a surface of the coarsest level. Other threads may leave levels
-    // meanwhile.
+    // About where the free vertices of level k are, from a surface of the coarsest level. Other threads may leave
+    // levels meanwhile.
     [[nodiscard]] Points layout(std::size_t k, const Points& coarsest) const;
 
     // Lets go of the edges and rings of a coarse level that is left, or brings them back.
@@ -51,7 +51,7 @@ private:
     struct Level {
         Problem problem;
         Shared<Lambda> weights;  // symmetric
-        int free_count;  // also while the patch is left
+        int free_count;          // also while the patch is left
         Workspace work = {};
         const LaplaceCycle* tangential_cycle = nullptr;  // in `work`
         std::unique_ptr<FactorisedLaplacian> factor = {};
