@@ -6,18 +6,17 @@ features they run on, or bend to both sides. docs/blender.md has how often that 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-
-import fairing
 
 from .around import wide_outside, wound_alike
 from .arrays import Floats, Ints
 from .bends import bends
 from .engine import Problem
 from .region import MeshArrays
-from .swelling import Disc, discs
+from .swelling import Disc
 from .vectors import area_vectors, unit
 
 INSIDE = (0.3, 0.7)  # distances from the outline, in radii of the patch, where it is looked at
@@ -62,12 +61,12 @@ class _Frames:
         return away.min(axis=1), degrees, nearest
 
 
-def flank(mesh: MeshArrays, problem: Problem, after: Floats) -> Flank | None:
-    """Return where a piece of the patch ends on the flank of a bump or a dent; None where none does.
+def flank(mesh: MeshArrays, problem: Problem, after: Floats, discs: Sequence[Disc]) -> Flank | None:
+    """Return where one of the patch's discs ends on the flank of a bump or a dent; None where none does.
 
     mesh: in the space of the problem; after: (q, 3) positions of problem.vertices.
     """
-    pieces = [disc for disc in discs(problem.patch) if np.isin(_border(disc)[0], problem.outside).all()]
+    pieces = [disc for disc in discs if np.isin(disc.border, problem.outside).all()]
     if not pieces or not len(problem.outside):
         return None
     around = wound_alike(mesh, wide_outside(mesh, problem.patch))
@@ -103,12 +102,13 @@ def _flank(problem: Problem, disc: Disc, surroundings: tuple[Floats, Ints], edge
 
 def _border(disc: Disc) -> tuple[Ints, Ints]:
     """Return a disc's border edges (k, 2) and the vertex opposite to each in its triangle (k,)."""
-    sides = np.concatenate([disc.triangles[:, [k, (k + 1) % 3]] for k in range(3)])
-    opposite = np.concatenate([disc.triangles[:, (k + 2) % 3] for k in range(3)])
-    edges, uses = fairing.edges_with_uses(disc.triangles)
-    border = np.sort(sides, axis=1)
     count = int(disc.triangles.max()) + 1
-    at_border = np.isin(border @ [count, 1], edges[uses == 1] @ [count, 1])
+    outer = np.zeros(count, dtype=bool)
+    outer[disc.border] = True
+    beside = disc.triangles[outer[disc.triangles].sum(axis=1) > 1]
+    sides = np.concatenate([beside[:, [k, (k + 1) % 3]] for k in range(3)])
+    opposite = np.concatenate([beside[:, (k + 2) % 3] for k in range(3)])
+    at_border = np.isin(np.sort(sides, axis=1) @ [count, 1], disc.border @ [count, 1])
     return sides[at_border], opposite[at_border]
 
 

@@ -22,7 +22,7 @@ from .rounded import rounded_edges
 from .seams import seam_kinks
 from .selection import left_out
 from .solve import Solved
-from .swelling import discs, swellings, waviness
+from .swelling import Disc, discs, swellings, waviness
 from .symmetry import mirror_map, symmetrised, with_band
 from .tunnels import tunnel_hint
 from .verdict import GOOD, LOOK, Verdict, because_of, judge
@@ -63,12 +63,14 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     clear = as_solved and not mesh.mirror_x and _is_clear(patch, result)
     quality_before, quality_after = quality.compare(patch, (before[:own], after[:own]), clear)
     join = quality.join(problem, after)
-    odd = _rounded(problem, after, moving, options), _swollen(patch, before, after), _eaten(mesh, problem, after)
+    pieces = discs(patch)
+    swollen = patch.vertices[swellings(pieces, after[:own], waviness(pieces, before[:own]))]
+    odd = _rounded(problem, after, moving, options), swollen, _eaten(mesh, problem, after)
     through = _pierced(mesh, matrix, problem, after)
     seams = seam_kinks(patch, after[:own], join.limit)
     evidence = Evidence(
         problem, result, solved.failures, quality_before, quality_after, join, *odd, pierced=through, points=after,
-        flank=_flank(mesh, matrix, problem, after), left_out=left_out(mesh), seams=seams,
+        flank=_flank(mesh, matrix, problem, after, pieces), left_out=left_out(mesh), seams=seams,
     )  # fmt: skip
     verdict = judge(evidence, options.resolved(mesh.textured))
     tunnels = () if verdict.grade == GOOD else tunnel_hint(patch)
@@ -101,16 +103,9 @@ def _pierced(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) 
     return pierced(mesh, Sheet(before, own), Sheet(moved, own))
 
 
-def _swollen(patch: Patch, before: Floats, after: Floats) -> Ints:
-    """Return the mesh vertices at the tops of knobs that the old surface had less of."""
-    pieces, own = discs(patch), len(patch.vertices)
-    vertices: Ints = patch.vertices[swellings(pieces, after[:own], waviness(pieces, before[:own]))]
-    return vertices
-
-
-def _flank(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -> Flank | None:
+def _flank(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats, pieces: tuple[Disc, ...]) -> Flank | None:
     with np.errstate(invalid="ignore", over="ignore"):  # what is not finite outside the patch
-        return flank(mesh.transformed(matrix), problem, after)
+        return flank(mesh.transformed(matrix), problem, after, pieces)
 
 
 def _eaten(mesh: MeshArrays, problem: Problem, after: Floats) -> Eaten:

@@ -69,8 +69,11 @@ def crossing(sheet: Sheet, others: Ints, few: Ints | None = None) -> Ints:
 
     The sheet's own are numbered first.
     """
-    used, numbers = np.unique(np.concatenate([sheet.triangles, others]), return_inverse=True)
-    return fairing.self_intersections(sheet.points[used], numbers.reshape(-1, 3), near=few).astype(np.int64)
+    triangles = np.concatenate([sheet.triangles, others])
+    used = np.zeros(len(sheet.points), dtype=bool)
+    used[triangles] = True
+    numbers = np.cumsum(used) - 1  # the points that no triangle has may be many, or not finite
+    return fairing.self_intersections(sheet.points[used], numbers[triangles], near=few).astype(np.int64)
 
 
 def _crossed(sheet: Sheet, others: Ints, few: Ints | None = None) -> Ints:

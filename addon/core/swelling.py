@@ -25,6 +25,7 @@ class Disc:
 
     triangles: Ints  # (m, 3) patch indices
     inner: Ints  # patch indices of the vertices off its border, ascending
+    border: Ints  # (k, 2) its edges with a single triangle, the smaller index of each first
 
 
 def discs(patch: Patch) -> tuple[Disc, ...]:
@@ -40,7 +41,8 @@ def _disc(triangles: Ints) -> Disc | None:
     vertices = np.unique(triangles)
     if len(vertices) - len(edges) + len(triangles) != 1:
         return None
-    return Disc(triangles, np.setdiff1d(vertices, edges[uses == 1]))
+    border = edges[uses == 1]
+    return Disc(triangles, np.setdiff1d(vertices, border), border)
 
 
 def swellings(pieces: tuple[Disc, ...], points: Floats, before: float = 0.0) -> Ints:
