@@ -10,6 +10,7 @@ import pytest
 import fairing
 import measures
 import shapes
+from fine_rims import fine_rim
 from solving import codes
 
 ROWS = 3  # of free vertices that follow the outline
@@ -115,6 +116,23 @@ def test_an_outline_that_can_be_met_is() -> None:
     assert result.converged
     assert "eased" not in dict(result.way)
     assert "NO_SOLUTION" not in codes(result)
+
+
+@pytest.mark.parametrize(
+    ("radians", "ways"),
+    [(0.5, ["nested", "proxy"]), (1.0, ["nested", "eased"]), (4.0, ["nested", "eased", "proxy"])],
+)
+def test_what_no_proxy_would_meet_is_passed_by_at_once(radians: float, ways: list[str]) -> None:
+    """Where curvature varies by 8e9, 1.4e10 and more; over normals of any direction nothing is found, once each."""
+    rim = fine_rim(2048, 0.2, radians)
+    result = fairing.fair(rim.vertices, rim.triangles, fixed=rim.fixed, fixed_normals=rim.normals, threads=1)
+    names = [name for name, _ in result.way]
+    assert names[: len(ways)] == ways
+    assert names.count("eased") <= 1
+    if radians <= 1.0:
+        assert names == ways
+        assert result.converged
+        assert np.abs(np.linalg.norm(result.vertices[len(rim.fixed) :], axis=1) - 1).max() < 0.03
 
 
 def test_small_patches_pass_noise_by_as_well() -> None:

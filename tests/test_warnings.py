@@ -53,8 +53,16 @@ def test_self_intersections_of_any_triangles() -> None:
     both = np.vstack([square, upright])
     assert fairing.self_intersections(both, triangles).tolist() == [0, 1, 2, 3]
     assert not len(fairing.self_intersections(np.vstack([square, square + np.array([0.0, 0.0, 0.1])]), triangles))
+    assert fairing.self_intersections(both, triangles, near=[0]).tolist() == [0, 2, 3]  # 1 crosses these, but not 0
+    assert fairing.self_intersections(both, triangles, near=[3, 2]).tolist() == [0, 1, 2, 3]
+    assert not len(fairing.self_intersections(both, triangles, near=[]))
     both[3] = np.nan
     assert fairing.self_intersections(both, triangles).tolist() == [0, 2, 3]
+    assert fairing.self_intersections(both, triangles, near=[2]).tolist() == [0, 2]
+    assert not len(fairing.self_intersections(both, triangles, near=[1]))
+    for wrong in ([4], [-1]):
+        with pytest.raises(ValueError, match=f"no triangle {wrong[0]}"):
+            fairing.self_intersections(both, triangles, near=wrong)
 
 
 def test_flipped_triangles_are_those_around_a_vertex_dragged_across_an_edge() -> None:

@@ -53,14 +53,16 @@ def turns(mesh: MeshArrays, sides: Sides) -> Floats:
     return angles
 
 
+def edges_of(mesh: MeshArrays, faces: Mask) -> Mask:
+    """Return the (e,) mask of the edges of the faces in a mask (f,)."""
+    edges = np.zeros(len(mesh.edges), dtype=bool)
+    edges[mesh.corner_edges[faces[mesh.corner_faces]]] = True
+    return edges
+
+
 def outline_edges(mesh: MeshArrays) -> Mask:
     """Return the (e,) mask of the edges between the patch and faces outside it."""
-    inside = np.zeros(len(mesh.edges), dtype=bool)
-    outside = inside.copy()
-    chosen = mesh.in_patch[mesh.corner_faces]
-    inside[mesh.corner_edges[chosen]] = True
-    outside[mesh.corner_edges[~chosen]] = True
-    between: Mask = inside & outside
+    between: Mask = edges_of(mesh, mesh.in_patch) & edges_of(mesh, ~mesh.in_patch)
     return between
 
 

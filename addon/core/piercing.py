@@ -34,11 +34,12 @@ def pierced(mesh: MeshArrays, before: Sheet, after: Sheet) -> Ints:
     now = _crossed(after, others)
     if not len(now):
         return nothing()
-    others = others[np.setdiff1d(now, _crossed(before, others))]
-    if not len(others):
+    new = np.setdiff1d(now, _crossed(before, others, now))
+    if not len(new):
         return nothing()
-    found = crossing(after, others)
-    numbers: Ints = np.unique(after.triangles[found[found < len(after.triangles)]])
+    own = len(after.triangles)
+    found = crossing(after, others[new], np.arange(own, own + len(new)))
+    numbers: Ints = np.unique(after.triangles[found[found < own]])
     return numbers
 
 
@@ -63,14 +64,18 @@ def _beyond(points: Floats, low: Floats, high: Floats) -> NDArray[np.uint8]:
     return sides
 
 
-def crossing(sheet: Sheet, others: Ints) -> Ints:
-    """Return which of the triangles pass through others: the sheet's own are numbered first."""
+def crossing(sheet: Sheet, others: Ints, few: Ints | None = None) -> Ints:
+    """Return which of the triangles pass through others, or through one of `few` and these themselves.
+
+    The sheet's own are numbered first.
+    """
     used, numbers = np.unique(np.concatenate([sheet.triangles, others]), return_inverse=True)
-    return fairing.self_intersections(sheet.points[used], numbers.reshape(-1, 3)).astype(np.int64)
+    return fairing.self_intersections(sheet.points[used], numbers.reshape(-1, 3), near=few).astype(np.int64)
 
 
-def _crossed(sheet: Sheet, others: Ints) -> Ints:
-    """Return which of the others cross the sheet, or each other."""
-    found = crossing(sheet, others) - len(sheet.triangles)
+def _crossed(sheet: Sheet, others: Ints, few: Ints | None = None) -> Ints:
+    """Return which of the others cross the sheet, or each other; of pairs only those with one of the few in them."""
+    own = len(sheet.triangles)
+    found = crossing(sheet, others, None if few is None else own + few) - own
     numbers: Ints = found[found >= 0]
     return numbers

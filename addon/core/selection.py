@@ -11,7 +11,7 @@ import fairing
 from .around import numbered, outside_triangles, wound_alike
 from .arrays import Floats, Ints, Mask
 from .engine import Problem, bad_outline
-from .outline import outline_edges, two_sided_edges
+from .outline import edges_of, outline_edges, two_sided_edges
 from .region import MeshArrays, free_vertices, make_patch, nothing
 
 LEFT_OUT = 4  # faces at most of a hole in a selection that is taken for an oversight
@@ -29,7 +29,7 @@ def pieces(mesh: MeshArrays, faces: Mask, walls: Mask | None = None) -> Ints:
 
     Pieces hang together across edges, those in the (e,) mask `walls` aside.
     """
-    ways = np.ones(len(mesh.edges), dtype=bool) if walls is None else ~walls
+    ways = edges_of(mesh, faces) if walls is None else edges_of(mesh, faces) & ~walls
     pairs = two_sided_edges(mesh, ways).faces
     first, second = pairs[faces[pairs].all(axis=1)].T
     label = np.arange(len(faces))
@@ -90,13 +90,27 @@ def left_out(mesh: MeshArrays) -> LeftOut:
 
 def left_out_faces(mesh: MeshArrays) -> Mask:
     """Return the (f,) mask of small holes in the selection: visible faces with selected ones all around."""
-    rest = visible(mesh) & ~mesh.in_patch
+    rest = _beside_patch(mesh, LEFT_OUT + 1)
     label = pieces(mesh, rest)
     sizes = np.bincount(label[rest], minlength=len(rest))
     is_open = np.zeros(len(rest), dtype=bool)
     is_open[label[rest & _open_faces(mesh)]] = True
     small: Mask = rest & (sizes[label] <= LEFT_OUT) & ~is_open[label]
     return small
+
+
+def _beside_patch(mesh: MeshArrays, steps: int) -> Mask:
+    """Return the (f,) mask of the visible faces beyond the patch that some steps across edges reach.
+
+    A piece of fewer faces than steps is whole there, and a larger one has as many as steps at least.
+    """
+    rest = visible(mesh) & ~mesh.in_patch
+    reached = mesh.in_patch.copy()
+    for _ in range(steps):
+        reached[mesh.corner_faces[edges_of(mesh, reached)[mesh.corner_edges]]] = True
+        reached &= rest | mesh.in_patch
+    beside: Mask = reached & rest
+    return beside
 
 
 def far_sides(mesh: MeshArrays) -> list[Ints]:
@@ -123,9 +137,7 @@ def _open_faces(mesh: MeshArrays) -> Mask:
 
 def _beside_hidden(mesh: MeshArrays) -> Mask:
     """Return the (e,) mask of the edges of hidden faces."""
-    edges = np.zeros(len(mesh.edges), dtype=bool)
-    edges[mesh.corner_edges[~visible(mesh)[mesh.corner_faces]]] = True
-    return edges
+    return edges_of(mesh, ~visible(mesh))
 
 
 def problem_of(mesh: MeshArrays, matrix: Floats) -> Problem:

@@ -46,8 +46,10 @@ py::array flipped_array(const DoubleArray& vertices, const IntArray& triangles, 
         flipped_triangles({to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices), {}}));
 }
 
-py::array crossing_array(const DoubleArray& vertices, const IntArray& triangles) {
-    return from_indices(crossing_triangles(to_triangles(triangles), to_points(vertices)));
+py::array crossing_array(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& near) {
+    const Triangles list = to_triangles(triangles);
+    const Points points = to_points(vertices);
+    return from_indices(near ? crossings_with(list, points, to_indices(*near)) : crossing_triangles(list, points));
 }
 
 py::array conformal_distortion_array(const DoubleArray& reference, const DoubleArray& vertices,
@@ -65,7 +67,7 @@ void bind_measure(py::module_& module) {
     module.def("components", &component_array, py::arg("triangles"), py::arg("fixed"), py::arg("vertex_count"));
     module.def("boundary_loops", &boundary_loop_arrays, py::arg("triangles"));
     module.def("flipped_triangles", &flipped_array, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"));
-    module.def("self_intersections", &crossing_array, py::arg("vertices"), py::arg("triangles"));
+    module.def("self_intersections", &crossing_array, py::arg("vertices"), py::arg("triangles"), py::arg("near"));
     module.def("conformal_distortion", &conformal_distortion_array, py::arg("reference"), py::arg("vertices"),
                py::arg("triangles"));
 }

@@ -255,7 +255,11 @@ FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& opti
     SolverOptions other = options;
     other.equation = Equation::least_variation;
     FirstSurface even = sought(outline, other, progress.range(usual, 1.0));
-    if (!has_converged(even)) return with_loft(outline, options, std::move(result), progress.here());
+    if (!has_converged(even)) {
+        FirstSurface loft = with_loft(outline, options, std::move(result), progress.here());
+        if (has_converged(loft)) return loft;
+        // Where none does, a finer mesh may still end where this one did not.
+    }
     even.solution.instead = Instead::least_variation;
     return even;
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "geometry/one_ring_buffer.h"
+#include "mesh/corners.h"
 
 namespace fairing {
 
@@ -22,7 +23,7 @@ Indices flipped_triangles(const Patch& patch, const Points& points) {
 
 Indices flipped_by_solution(const Patch& patch, const Points& points) {
     Indices flipped = flipped_triangles(patch, points);
-    std::erase_if(flipped, [&](int t) { return patch.triangles.col(t).minCoeff() >= patch.free_count; });
+    std::erase_if(flipped, [&](int t) { return !has_free_corner(patch, t); });
     return flipped;
 }
 

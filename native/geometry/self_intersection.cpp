@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include <Eigen/Geometry>
+#include <unsupported/Eigen/BVH>
 
 #include "base/parallel.h"
 
@@ -28,6 +29,16 @@ double volume(const Vector3& a, const Vector3& b, const Vector3& c, const Vector
     return area_vector({a, b, c}).dot(d - a);
 }
 
+Corners corners_of(const Triangles& triangles, const Points& points, int t) {
+    return {points.col(triangles(0, t)), points.col(triangles(1, t)), points.col(triangles(2, t))};
+}
+
+Box box_around(const Corners& corners) {
+    Box box;
+    for (const Vector3& corner : corners) box.extend(corner);
+    return box;
+}
+
 // The triangles of a range of the order, split at the median.
 struct Node {
     Box box;
@@ -39,8 +50,9 @@ struct Node {
 
 class Crossings {
 public:
-    Crossings(const Triangles& triangles, const Points& points)
-        : triangles_(triangles), points_(points), crossing_(at(static_cast<int>(triangles.cols()))) {
+    // `asked`: for each triangle whether its pairs count; a pair of two that are not asked for doesn't.
+    Crossings(const Triangles& triangles, const Points& points, const std::vector<char>& asked)
+        : triangles_(triangles), points_(points), asked_(asked), crossing_(asked.size()) {
         const int count = static_cast<int>(triangles.cols());
         order_.resize(at(count));
         std::iota(order_.begin(), order_.end(), 0);
@@ -75,16 +87,14 @@ private:
         areas_.resize(3, count);
         for_ranges(count, coarse_grain, [&](int begin, int end) {
             for (int t = begin; t < end; ++t) {
-                for (const Vector3& corner : corners(t)) boxes_[at(t)].extend(corner);
+                boxes_[at(t)] = box_around(corners(t));
                 sizes_[at(t)] = boxes_[at(t)].diagonal().norm();
                 areas_.col(t) = area_vector(corners(t));
             }
         });
     }
 
-    [[nodiscard]] Corners corners(int t) const {
-        return {points_.col(triangles_(0, t)), points_.col(triangles_(1, t)), points_.col(triangles_(2, t))};
-    }
+    [[nodiscard]] Corners corners(int t) const { return corners_of(triangles_, points_, t); }
 
     // Children of node k are 2 k and 2 k + 1: a level begins at a power of two and has as many nodes.
     void sort_level(int first) {
@@ -171,6 +181,7 @@ private:
     }
 
     void test_triangles(int a, int b) {
+        if (!asked_[at(a)] && !asked_[at(b)]) return;
         if (!boxes_[at(a)].intersects(boxes_[at(b)]) || lies_beside(a, b) || lies_beside(b, a)) return;
         int shared = 0;
         for (int v : triangles_.col(a)) {
@@ -228,6 +239,7 @@ private:
 
     const Triangles& triangles_;
     const Points& points_;
+    const std::vector<char>& asked_;
     std::vector<std::atomic<char>> crossing_;
     std::vector<Box> boxes_;     // of triangles
     std::vector<double> sizes_;  // of these
@@ -236,11 +248,59 @@ private:
     std::vector<Node> nodes_;
 };
 
+// Whether a box meets one of a tree's.
+struct Meeting {
+    const Box& box;
+    bool found = false;
+    [[nodiscard]] bool intersectVolume(const Box& volume) const { return box.intersects(volume); }
+    bool intersectObject(const Box& object) { return found = box.intersects(object); }  // true: no need to go on
+};
+
+// Of all triangles those whose boxes meet the box of one of the few, these among them; ascending.
+Indices around_few(const Triangles& triangles, const Points& points, const Indices& few) {
+    std::vector<Box> boxes;
+    boxes.reserve(few.size());
+    Box all;
+    for (const int t : few) all.extend(boxes.emplace_back(box_around(corners_of(triangles, points, t))));
+    const Eigen::KdBVH<double, 3, Box> tree(boxes.begin(), boxes.end(), boxes.begin(), boxes.end());
+    const auto count = static_cast<int>(triangles.cols());
+    std::vector<char> meets(at(count), 0);
+    for_ranges(count, coarse_grain, [&](int begin, int end) {
+        for (int t = begin; t < end; ++t) {
+            const Box box = box_around(corners_of(triangles, points, t));
+            if (!box.intersects(all)) continue;
+            Meeting meeting{box};
+            Eigen::BVIntersect(tree, meeting);
+            meets[at(t)] = meeting.found ? 1 : 0;
+        }
+    });
+    Indices found;
+    for (int t = 0; t < count; ++t) {
+        if (meets[at(t)]) found.push_back(t);
+    }
+    return found;
+}
+
 }  // namespace
 
 Indices crossing_triangles(const Triangles& triangles, const Points& points) {
     if (triangles.cols() == 0) return {};
-    return Crossings(triangles, points).find();
+    const std::vector<char> asked(at(static_cast<int>(triangles.cols())), 1);
+    return Crossings(triangles, points, asked).find();
+}
+
+Indices crossings_with(const Triangles& triangles, const Points& points, const Indices& few) {
+    if (few.empty()) return {};
+    const Indices around = around_few(triangles, points, few);
+    std::vector<char> is_few(at(static_cast<int>(triangles.cols())), 0);
+    for (const int t : few) is_few[at(t)] = 1;
+    std::vector<char> asked;
+    asked.reserve(around.size());
+    for (const int t : around) asked.push_back(is_few[at(t)]);
+    const Triangles chosen = triangles(Eigen::all, around);
+    Indices found = Crossings(chosen, points, asked).find();
+    for (int& k : found) k = around[at(k)];
+    return found;
 }
 
 }  // namespace fairing

@@ -10,7 +10,7 @@
 #include "geometry/outline_angles.h"
 #include "geometry/self_intersection.h"
 #include "method/eased.h"
-#include "placement/untear.h"
+#include "placement/tears.h"
 #include "problem/surface_state.h"
 
 namespace fairing {

@@ -5,7 +5,10 @@
 #include "base/difference.h"
 #include "geometry/flips.h"
 #include "geometry/self_intersection.h"
+#include "mesh/corners.h"
 #include "problem/surface_state.h"
+#include "start/several_outlines.h"
+#include "start/shape_before.h"
 
 namespace fairing {
 
@@ -18,16 +21,6 @@ constexpr double most_girth = 4.0 / 3.0;
 constexpr double least_bluntness = 0.7;
 constexpr double most_blunt = 0.6;   // what is blunter counts as that: pieces of a wall have 2 / π and more, by width
 constexpr double least_reach = 0.2;  // of what sticks out, of what it was; less is as good as gone
-
-Indices corners_of(const Patch& patch, const Indices& triangles) {
-    Indices corners;
-    for (const int t : triangles) {
-        for (const int v : patch.triangles.col(t)) corners.push_back(v);
-    }
-    std::sort(corners.begin(), corners.end());
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    return corners;
-}
 
 // The largest value at each vertex and its neighbours.
 VectorX largest_around(const Patch& patch, const VectorX& values) {
@@ -54,6 +47,18 @@ BlemishFinder::BlemishFinder(const Problem& problem, const Points& before, const
     if (!protrusions_) return;
     reaches_before_ = protrusions_->reaches(before);
     blunt_before_ = protrusions_->bluntness(before);
+}
+
+const BlemishFinder* BlemishSearch::finder() {
+    if (!asked_ && joins_outlines(problem_)) {
+        if (const auto before = shape_before(problem_, progress_)) finder_.emplace(problem_, *before, progress_);
+    }
+    asked_ = true;
+    return finder_ ? &*finder_ : nullptr;
+}
+
+bool BlemishSearch::is_blemished(const Points& points) {
+    return finder() != nullptr && (!finder()->in(points).absent() || finder()->lies_aside(points));
 }
 
 Indices Blemishes::all() const {

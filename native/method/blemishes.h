@@ -51,4 +51,22 @@ private:
     VectorX blunt_before_;
 };
 
+// A finder for the shape that a problem's patch had. It is made when it is first asked for, which takes as long as a
+// solve between the outlines, and kept.
+class BlemishSearch {
+public:
+    BlemishSearch(const Problem& problem, const Progress& progress) : problem_(problem), progress_(progress) {}
+
+    // Nothing for one outline, or where no shape before is known.
+    [[nodiscard]] const BlemishFinder* finder();
+    // Whether a surface has blemishes, or lies aside of the shape before, so that smoothing that is worth trying.
+    [[nodiscard]] bool is_blemished(const Points& points);
+
+private:
+    const Problem& problem_;
+    const Progress& progress_;
+    bool asked_ = false;
+    std::optional<BlemishFinder> finder_;
+};
+
 }  // namespace fairing

@@ -18,6 +18,9 @@ Problem eased(const Problem& problem);
 // Whether curvature varies so much along the outline that noise or folds of the surroundings must be the cause.
 bool is_jagged(const Problem& problem);
 
+// Whether it varies so much that no surface on a mesh of the engine's own has met such an outline.
+bool is_beyond_reach(const Problem& problem);
+
 // What share of that is left without the outline's short waves: noise of 0.1 to 0.8 edges keeps 3e-5 to 7e-4 of it,
 // jagged patches of other meshes 4e-5 to 0.2, those of limbs and wings that are cut across 2e-3 and more.
 double roughness_left(const Problem& problem);

@@ -41,7 +41,7 @@ bool takes_patience(const Problem& problem, const Situation& situation) {
 // that cut limbs across none was found, in half as much time again.
 bool takes_eased(const Problem& problem, const Situation& situation) {
     constexpr double most_left = 1e-3;
-    if (!is_fourth_order(problem)) return false;
+    if (!is_fourth_order(problem) || situation.has_asked(eased_way)) return false;
     const bool hindered = std::all_of(situation.found.begin(), situation.found.end(), [&](const Solution& s) {
         if (s.flaw == Flaw::folded || s.flaw == Flaw::crossing) return is_uniform(problem.weights);
         return s.termination == Termination::stalled && s.reached_load == 0.0;
@@ -82,7 +82,7 @@ bool is_folded(const Situation& situation) {
 Solution solve_global(const Problem& problem, const Progress& progress) {
     const Way direct = directly();
     const Way proxy = on_proxy();
-    const std::array<Way, 11> ways{{
+    const std::array<Way, 12> ways{{
         {"minimal", [](const Problem& p, const Situation&) { return is_minimal(p); },
          [](const Problem& p, const Situation&, const Progress& part) { return Found(solve_directly(p, part)); }, 0.0,
          1.0},
@@ -93,6 +93,10 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
          [](const Problem& p, const Situation&, const Progress& part) { return solve_nested(p, part); }, 0.0, 1.0},
         {"even", [](const Problem& p, const Situation& s) { return takes_even(p, s) && is_large(p); }, evenly, 0.0,
          0.3},
+        // What the proxy would only refuse later, after a third of the whole time.
+        {eased_way,
+         [](const Problem& p, const Situation& s) { return is_large(p) && takes_eased(p, s) && is_beyond_reach(p); },
+         on_eased_outline, 0.3, 0.5},
         {direct.name, takes_direct, direct.solve, direct.begin, direct.end},
         {proxy.name, [](const Problem& p, const Situation&) { return is_fourth_order(p); }, proxy.solve, proxy.begin,
          proxy.end},

@@ -10,7 +10,6 @@
 #include "geometry/surface_fit.h"
 #include "method/accept.h"
 #include "method/eased.h"
-#include "method/smoothed.h"
 #include "placement/follow_outline.h"
 #include "placement/refill.h"
 #include "problem/surface_state.h"
@@ -96,12 +95,12 @@ bool is_spiky(const Problem& problem, const Points& points) {
     return has_spike(problem.patch, points, 0.5 * mean_outline_edge(problem));
 }
 
+// Its curvature is left open: few are taken.
 Solution solution_at(const Problem& problem, const Candidate& candidate) {
     Solution solution;
     solution.points = candidate.points;
     solution.termination = is_spiky(problem, candidate.points) ? Termination::stalled : Termination::converged;
     if (solution.termination != Termination::converged) return solution;
-    solution.mean_curvature = measured_surface(problem, candidate.points).curvature.mean;
     solution.boundary_normals = one_sided_normals(problem.patch, candidate.points);
     solution.iterations = 1;
     solution.instead = Instead::loft;
@@ -122,6 +121,11 @@ bool is_accepted(const Problem& problem, const Solution& solution) {
     return end_of(solution) == Termination::converged && !is_turned_in(problem, solution);
 }
 
+Solution measured(const Problem& problem, Solution solution) {
+    solution.mean_curvature = measured_surface(problem, solution.points).curvature.mean;
+    return solution;
+}
+
 // Where few triangles fold or cross, what lies around them is filled anew.
 std::optional<Solution> mended(const Problem& problem, const Candidate& candidate, const Solution& flawed) {
     constexpr std::size_t few = 20;
@@ -131,7 +135,7 @@ std::optional<Solution> mended(const Problem& problem, const Candidate& candidat
     for (const int reach : rings) {
         trial.points = refilled(problem.patch, candidate.points, flawed.bad_triangles, reach);
         Solution solution = solution_at(problem, trial);
-        if (is_accepted(problem, solution)) return solution;
+        if (is_accepted(problem, solution)) return measured(problem, std::move(solution));
     }
     return std::nullopt;
 }
@@ -143,7 +147,7 @@ std::optional<Solution> best_of(const Problem& problem, std::vector<Candidate> c
     std::vector<std::pair<Candidate, Solution>> flawed;
     for (Candidate& candidate : candidates) {
         Solution solution = solution_at(problem, candidate);
-        if (is_accepted(problem, solution)) return solution;
+        if (is_accepted(problem, solution)) return measured(problem, std::move(solution));
         flawed.emplace_back(std::move(candidate), std::move(solution));
     }
     for (const auto& [candidate, solution] : flawed) {
@@ -162,7 +166,7 @@ bool folds_beside(const Patch& patch, const CreasedStart& start) {
 }
 
 // Where both outlines cross the same creases, these run along, as the edges of a wing, and the sections with them.
-std::optional<Solution> along_creases(const Problem& problem, const Progress& progress) {
+std::optional<Solution> along_creases(const Problem& problem, BlemishSearch& search, const Progress& progress) {
     const auto start = creased_start(problem, progress);
     if (!start || folds_beside(problem.patch, *start)) return std::nullopt;
     Solution solution;
@@ -176,13 +180,13 @@ std::optional<Solution> along_creases(const Problem& problem, const Progress& pr
     solution.polished = false;  // its folds are the creases'
     solution.flaw = flaw_of(problem, solution);
     solution.polished = true;
-    const bool is_good = is_accepted(problem, solution) && !is_blemished(problem, solution, progress);
+    const bool is_good = is_accepted(problem, solution) && !search.is_blemished(solution.points);
     return is_good ? std::optional(std::move(solution)) : std::nullopt;
 }
 
 // The outline as it is comes first.
-std::optional<Solution> best_loft(const Problem& problem, const Progress& progress) {
-    if (auto creased = along_creases(problem, progress)) return creased;
+std::optional<Solution> best_loft(const Problem& problem, BlemishSearch& search, const Progress& progress) {
+    if (auto creased = along_creases(problem, search, progress)) return creased;
     const Lofts lofts = lofts_of(problem, progress);
     std::vector<Candidate> found = candidates(problem, problem, lofts);
     if (auto tube = swept(problem, progress)) found.push_back(std::move(*tube));
@@ -192,14 +196,20 @@ std::optional<Solution> best_loft(const Problem& problem, const Progress& progre
 
 }  // namespace
 
-std::optional<Solution> lofted(const Problem& problem, const Solution& first, const Progress& progress) {
+std::optional<Solution> lofted(const Problem& problem, const Solution& first, BlemishSearch& search,
+                               const Progress& progress) {
     const Stopwatch watch;
-    auto solution = best_loft(problem, progress);
+    auto solution = best_loft(problem, search, progress);
     if (!solution) return std::nullopt;
     const std::string way = solution->ways.back().name;
     solution->ways = first.ways;
     solution->ways.push_back({way, watch.seconds()});
     return solution;
+}
+
+std::optional<Solution> lofted(const Problem& problem, const Solution& first, const Progress& progress) {
+    BlemishSearch search(problem, progress);
+    return lofted(problem, first, search, progress);
 }
 
 }  // namespace fairing

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/progress.h"
+#include "method/blemishes.h"
 #include "problem/problem.h"
 #include "problem/solution.h"
 
@@ -15,6 +16,9 @@ inline constexpr const char* swept_loft_way = "swept loft";
 // let go as far as that takes. `first`: what was tried before. Nothing for one outline, or where no share is accepted.
 // Where both outlines face each other along a wide bend, the sections swept along it (start/swept_start), where these
 // are bent less: way `swept_loft_way`.
+std::optional<Solution> lofted(const Problem& problem, const Solution& first, BlemishSearch& search,
+                               const Progress& progress);
+// With a search of its own.
 std::optional<Solution> lofted(const Problem& problem, const Solution& first, const Progress& progress);
 
 }  // namespace fairing

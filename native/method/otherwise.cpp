@@ -132,9 +132,10 @@ bool is_tried_enough(const Problem& problem, const Solution& solution) {
 
 // A loft without blemishes, or the shape before as smooth as it can be, or any loft.
 std::optional<Solution> without_equation(const Problem& problem, const Solution& first, const Progress& progress) {
-    auto loft = lofted(problem, first, progress);
-    if (loft && !is_blemished(problem, *loft, progress)) return loft;
-    auto shape = smoothed(problem, loft ? *loft : first, progress);
+    BlemishSearch search(problem, progress);
+    auto loft = lofted(problem, first, search, progress);
+    if (loft && !search.is_blemished(loft->points)) return loft;
+    auto shape = smoothed(problem, loft ? *loft : first, search, progress);
     return shape ? std::move(shape) : std::move(loft);
 }
 

@@ -8,7 +8,6 @@
 #include "geometry/self_intersection.h"
 #include "geometry/surface_fit.h"
 #include "method/accept.h"
-#include "method/blemishes.h"
 #include "problem/surface_state.h"
 #include "start/several_outlines.h"
 #include "start/shape_before.h"
@@ -34,8 +33,8 @@ void shorten(const Patch& patch, const Points& before, const Indices& vertices, 
 }
 
 // The first without blemishes, or the last one that is not torn.
-std::optional<Points> smoothest(const Problem& problem, ShapeBefore& shape, const Progress& progress) {
-    const BlemishFinder finder(problem, shape.points(), progress);
+std::optional<Points> smoothest(const Problem& problem, ShapeBefore& shape, const BlemishFinder& finder,
+                                const Progress& progress) {
     VectorX wavelengths = VectorX::Constant(problem.patch.vertex_count(), std::numeric_limits<double>::infinity());
     std::optional<Points> best;
     for (int round = 0; round < most_rounds; ++round) {
@@ -63,12 +62,14 @@ Solution solution_at(const Problem& problem, const Points& points) {
 
 }  // namespace
 
-std::optional<Solution> smoothed(const Problem& problem, const Solution& first, const Progress& progress) {
+std::optional<Solution> smoothed(const Problem& problem, const Solution& first, BlemishSearch& search,
+                                 const Progress& progress) {
     const Stopwatch watch;
-    if (!joins_outlines(problem)) return std::nullopt;
+    const BlemishFinder* finder = search.finder();
+    if (!finder) return std::nullopt;
     auto shape = ShapeBefore::of(problem, progress);
     if (!shape) return std::nullopt;
-    const auto points = smoothest(problem, *shape, progress);
+    const auto points = smoothest(problem, *shape, *finder, progress);
     if (!points) return std::nullopt;
     Solution solution = solution_at(problem, *points);
     if (end_of(solution) != Termination::converged) return std::nullopt;
@@ -77,12 +78,9 @@ std::optional<Solution> smoothed(const Problem& problem, const Solution& first, 
     return solution;
 }
 
-bool is_blemished(const Problem& problem, const Solution& solution, const Progress& progress) {
-    if (!joins_outlines(problem)) return false;
-    const auto before = shape_before(problem, progress);
-    if (!before) return false;
-    const BlemishFinder finder(problem, *before, progress);
-    return !finder.in(solution.points).absent() || finder.lies_aside(solution.points);
+std::optional<Solution> smoothed(const Problem& problem, const Solution& first, const Progress& progress) {
+    BlemishSearch search(problem, progress);
+    return smoothed(problem, first, search, progress);
 }
 
 bool crosses_anew(const Problem& problem, const Solution& solution) {

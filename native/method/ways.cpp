@@ -40,6 +40,10 @@ bool Situation::tried(std::string_view way) const {
     return std::any_of(found.begin(), found.end(), [&](const Solution& s) { return s.ways.back().name == way; });
 }
 
+bool Situation::has_asked(std::string_view way) const {
+    return std::find(asked.begin(), asked.end(), way) != asked.end();
+}
+
 Solution run_ways(std::span<const Way> ways, const Problem& problem, const Progress& progress) {
     Situation situation;
     std::vector<WayTaken> taken;
@@ -48,6 +52,7 @@ Solution run_ways(std::span<const Way> ways, const Problem& problem, const Progr
         const Stopwatch watch;
         auto solution = way.solve(problem, situation, progress.range(way.begin, way.end));
         taken.push_back({way.name, watch.seconds()});
+        situation.asked.emplace_back(way.name);
         if (!solution) continue;
         solution->ways = taken;
         solution->flaw = flaw_of(problem, *solution);

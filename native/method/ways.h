@@ -13,11 +13,14 @@ namespace fairing {
 
 // What the ways before have come to.
 struct Situation {
-    std::vector<Solution> found;  // none of them accepted
+    std::vector<Solution> found;          // none of them accepted
+    std::vector<std::string_view> asked;  // all ways that were gone, those that found nothing among them
 
     // The latest one on the user's own connectivity, or none.
     [[nodiscard]] const Solution* own_mesh() const;
+    // Whether a way has come to something.
     [[nodiscard]] bool tried(std::string_view way) const;
+    [[nodiscard]] bool has_asked(std::string_view way) const;
 };
 
 struct Way {

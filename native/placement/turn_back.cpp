@@ -8,6 +8,7 @@
 
 #include "geometry/flips.h"
 #include "geometry/frame.h"
+#include "mesh/corners.h"
 #include "placement/folds.h"
 
 namespace fairing {
@@ -101,7 +102,7 @@ private:
     void add_triangles_at(int v, Indices& list) const {
         for (const int edge : patch_.ring(v).spokes) {
             for (const int t : patch_.edge_triangles[at(edge)]) {
-                if (t != none && patch_.triangles.col(t).minCoeff() < patch_.free_count) list.push_back(t);
+                if (t != none && has_free_corner(patch_, t)) list.push_back(t);
             }
         }
     }

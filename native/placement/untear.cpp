@@ -5,38 +5,21 @@
 
 #include "geometry/flips.h"
 #include "geometry/self_intersection.h"
+#include "mesh/corners.h"
 #include "placement/refill.h"
+#include "placement/tears.h"
 
 namespace fairing {
 
 namespace {
 
-void keep_each_once(Indices& numbers) {
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
-
-Indices corners_of(const Patch& patch, const Indices& triangles) {
-    Indices corners;
-    for (const int t : triangles) {
-        for (const int v : patch.triangles.col(t)) corners.push_back(v);
+// The free ones that lie elsewhere now.
+Indices moved_between(const Patch& patch, const Points& before, const Points& now) {
+    Indices moved;
+    for (int v = 0; v < patch.free_count; ++v) {
+        if (before.col(v) != now.col(v)) moved.push_back(v);
     }
-    keep_each_once(corners);
-    return corners;
-}
-
-// Those with one of the vertices as a corner.
-Indices triangles_at(const Patch& patch, const Indices& vertices) {
-    Indices result;
-    for (const int v : vertices) {
-        for (const int edge : patch.ring(v).spokes) {
-            for (const int t : patch.edge_triangles[at(edge)]) {
-                if (t != none) result.push_back(t);
-            }
-        }
-    }
-    keep_each_once(result);
-    return result;
+    return moved;
 }
 
 double ring_radius(const Patch& patch, const Points& points, int v) {
@@ -52,7 +35,7 @@ public:
     Around(const Patch& patch, int v) : patch_(patch) {
         Indices near = triangles_at(patch, {v});
         turning_ = near = triangles_at(patch, corners_of(patch, near));
-        std::erase_if(turning_, [&](int t) { return patch.triangles.col(t).minCoeff() >= patch.free_count; });
+        std::erase_if(turning_, [&](int t) { return !has_free_corner(patch, t); });
         for (int k = 0; k < 2; ++k) near = triangles_at(patch, corners_of(patch, near));
         triangles_ = patch.triangles(Eigen::all, near);
     }
@@ -91,49 +74,40 @@ bool improve(const Patch& patch, int v, Points& points) {
     return best != centre;
 }
 
-// Wider and wider around what is torn, for as long as that leaves less of it.
-bool fill_anew(const Patch& patch, Points& points, Indices& torn) {
-    constexpr std::array rings{1, 2, 3, 4, 6};
-    for (const int reach : rings) {
-        Points trial = refilled(patch, points, torn, reach);
-        Indices left = torn_triangles(patch, trial);
-        if (left.size() >= torn.size()) continue;
-        points = std::move(trial);
-        torn = std::move(left);
-        return true;
-    }
-    return false;
+// Takes a surface that has less torn triangles.
+bool take(const Patch& patch, Points trial, Points& points, Tears& tears) {
+    Tears left = tears.after(trial, moved_between(patch, points, trial));
+    if (left.count() >= tears.count()) return false;
+    points = std::move(trial);
+    tears = std::move(left);
+    return true;
 }
 
-bool try_elsewhere(const Patch& patch, Points& points, Indices& torn) {
+// Wider and wider around what is torn, for as long as that leaves less of it.
+bool fill_anew(const Patch& patch, Points& points, Tears& tears) {
+    constexpr std::array rings{1, 2, 3, 4, 6};
+    return std::any_of(rings.begin(), rings.end(), [&](int reach) {
+        return take(patch, refilled(patch, points, tears.triangles(), reach), points, tears);
+    });
+}
+
+bool try_elsewhere(const Patch& patch, Points& points, Tears& tears) {
     Points trial = points;
-    for (const int v : corners_of(patch, torn)) {
+    for (const int v : corners_of(patch, tears.triangles())) {
         if (patch.is_free(v)) improve(patch, v, trial);
     }
-    Indices left = torn_triangles(patch, trial);
-    if (left.size() >= torn.size()) return false;
-    points = std::move(trial);
-    torn = std::move(left);
-    return true;
+    return take(patch, std::move(trial), points, tears);
 }
 
 }  // namespace
 
-Indices torn_triangles(const Patch& patch, const Points& points) {
-    Indices result = flipped_by_solution(patch, points);
-    const Indices crossing = crossing_triangles(patch.triangles, points);
-    result.insert(result.end(), crossing.begin(), crossing.end());
-    keep_each_once(result);
-    return result;
-}
-
 Points untorn(const Patch& patch, Points points) {
     constexpr std::size_t few = 100;  // to try one by one
     constexpr int most_rounds = 20;
-    Indices torn = torn_triangles(patch, points);
-    for (int round = 0; round < most_rounds && !torn.empty(); ++round) {
-        if (fill_anew(patch, points, torn)) continue;
-        if (torn.size() > few || !try_elsewhere(patch, points, torn)) break;
+    Tears tears(patch, points);
+    for (int round = 0; round < most_rounds && tears.count() > 0; ++round) {
+        if (fill_anew(patch, points, tears)) continue;
+        if (tears.count() > few || !try_elsewhere(patch, points, tears)) break;
     }
     return points;
 }

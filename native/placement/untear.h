@@ -5,13 +5,9 @@
 
 namespace fairing {
 
-// Local numbers, ascending, of the triangles with a free corner that are turned over, and of all that pass through
-// others.
-Indices torn_triangles(const Patch& patch, const Points& points);
-
-// `points` (3 × local vertices) with fewer torn triangles, or as they are: what lies around these is filled anew, then
-// their free corners are tried elsewhere, on the surface and off it. The fixed vertices stay, and what lies farther
-// than six rings from torn triangles.
+// `points` (3 × local vertices) with fewer torn triangles (placement/tears), or as they are: what lies around these is
+// filled anew, then their free corners are tried elsewhere, on the surface and off it. The fixed vertices stay, and
+// what lies farther than six rings from torn triangles.
 Points untorn(const Patch& patch, Points points);
 
 }  // namespace fairing

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
-#include <set>
 
+#include "mesh/corners.h"
 #include "mesh/union_find.h"
 #include "operators/laplace_operator.h"
 #include "start/clamped_fill.h"
@@ -55,13 +55,7 @@ std::vector<Indices> pieces_beyond(const Patch& patch, const VectorX& values, do
 
 // By Euler's characteristic.
 bool is_disc(const Patch& patch, const Indices& triangles) {
-    std::set<int> vertices;
-    std::set<int> edges;
-    for (const int t : triangles) {
-        vertices.insert(patch.triangles.col(t).begin(), patch.triangles.col(t).end());
-        edges.insert(patch.triangle_edges.col(t).begin(), patch.triangle_edges.col(t).end());
-    }
-    return vertices.size() + triangles.size() == edges.size() + 1;
+    return corners_of(patch, triangles).size() + triangles.size() == edges_of(patch, triangles).size() + 1;
 }
 
 }  // namespace

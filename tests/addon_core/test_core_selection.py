@@ -93,6 +93,12 @@ def test_a_lasso_that_left_faces_out() -> None:
     hole = np.zeros_like(inside)
     hole[[SIZE * 5 + 5, SIZE * 5 + 6, SIZE * 7 + 7]] = True
     assert np.array_equal(left_out_faces(chosen(inside & ~hole)), hole)
+    cross = np.zeros_like(inside)
+    cross[[SIZE * 5 + 5, SIZE * 4 + 5, SIZE * 6 + 5, SIZE * 5 + 4, SIZE * 5 + 6]] = True
+    assert not left_out_faces(chosen(inside & ~cross)).any()  # one more than an oversight has
+    long = np.zeros_like(inside)
+    long[SIZE * 5 + 4 : SIZE * 5 + 8] = True
+    assert np.array_equal(left_out_faces(chosen(inside & ~long)), long)
     large = where(lambda c: np.abs(c).max(axis=0) < 0.3)  # a hole on purpose
     assert not left_out_faces(chosen(inside & ~large)).any()
     corner = np.ones_like(inside)

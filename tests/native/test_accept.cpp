@@ -5,7 +5,7 @@
 #include "method/otherwise.h"
 #include "method/ways.h"
 #include "placement/placement.h"
-#include "placement/untear.h"
+#include "placement/tears.h"
 #include "problem/solution.h"
 
 using namespace fairing;

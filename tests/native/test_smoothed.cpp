@@ -73,6 +73,11 @@ Points moved_aside(const Known& pipe, Points points, double way) {
     return points;
 }
 
+bool is_blemished(const Problem& problem, const Points& points) {
+    const Progress progress;
+    return BlemishSearch(problem, progress).is_blemished(points);
+}
+
 BlemishFinder finder(const Known& pipe) { return {pipe.problem, pipe.problem.before, Progress()}; }
 
 // A wall that bulges through the wall across from it, without folds.
@@ -337,11 +342,11 @@ TEST_CASE("a loft beside the shape before gives way where it is off by half a ra
     for (const double way : {0.4, 0.6}) {
         const Solution loft = taken(moved(way), Instead::loft);
         CHECK(finder(pipe).in(loft.points).absent());
-        CHECK(is_blemished(pipe.problem, loft, Progress()) == (way > 0.5));
+        CHECK(is_blemished(pipe.problem, loft.points) == (way > 0.5));
     }
     Known bent = pipe;
     bent.problem.before = moved(0.6);
-    CHECK_FALSE(is_blemished(bent.problem, taken(moved(0.6), Instead::loft), Progress()));
+    CHECK_FALSE(is_blemished(bent.problem, moved(0.6)));
 }
 
 TEST_CASE("a surface that crosses itself where the shape before did not gives way to that") {

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "meshes.h"
+#include "placement/tears.h"
 #include "placement/untear.h"
 
 using namespace fairing;
@@ -49,6 +50,28 @@ TEST_CASE("a vertex that no filling brings back is tried elsewhere") {
     const Points result = untorn(patch, points);
     CHECK(torn_triangles(patch, result).empty());
     CHECK(result.col(tooth) == points.col(tooth));
+}
+
+TEST_CASE("tears are kept up to date while vertices move") {
+    const test::Single single = test::single_patch(test::grid(20, 0.3, test::sphere));
+    const Patch& patch = single.patch();
+    Points points = single.points;
+    Tears tears(patch, points);
+    const auto shift = [&](int first, int step, const Vector3& by) {
+        Indices moved;
+        for (int v = first; v < patch.free_count; v += step) {
+            points.col(v) += by;
+            moved.push_back(v);
+        }
+        tears = tears.after(points, moved);
+        CHECK(tears.triangles() == torn_triangles(patch, points));
+        return tears.count();
+    };
+    CHECK(tears.count() == 0);
+    CHECK(shift(0, 37, {0.12, 0.1, 0.0}) > 0);   // over their neighbours
+    CHECK(shift(1, 53, {0.3, -0.2, -0.1}) > 0);  // and others through triangles farther off
+    CHECK(shift(0, 37, {-0.12, -0.1, 0.0}) > 0);
+    CHECK(shift(1, 53, {-0.3, 0.2, 0.1}) == 0);
 }
 
 TEST_CASE("what is not torn is left as it is, to the bit") {

@@ -127,6 +127,15 @@ def triangles_within(value: npt.ArrayLike, count: int) -> IntArray:
     return indices_within("triangles", integers("triangles", value, 3), count)
 
 
+def rows_within(name: str, value: npt.ArrayLike, count: int) -> IntArray:
+    """(k,) numbers of ``count`` triangles, or ValueError."""
+    numbers = integers(name, value, None)
+    outside = numbers[(numbers < 0) | (numbers >= count)]
+    if len(outside):
+        raise ValueError(f"{name}: there is no triangle {outside[0]}; there are {count}, counted from 0")
+    return numbers
+
+
 NO_EDGES = np.empty((0, 2), dtype=np.int32)
 
 

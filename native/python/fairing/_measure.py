@@ -98,17 +98,24 @@ def flipped_triangles(
     return _core.flipped_triangles(points, faces, held)
 
 
-def self_intersections(vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> IntArray:
+def self_intersections(
+    vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, near: npt.ArrayLike | None = None
+) -> IntArray:
     """Triangles that another one pierces: an edge of one passes through the inside of the other. Ascending.
 
     Triangles that share an edge don't count, nor do those that only touch or overlap in one plane, nor those with a
     corner that is NaN or infinite. This is what the warning SELF_INTERSECTION of :func:`fairing.fair` names in each
-    component; here any triangles are compared.
+    component; here any triangles are compared. With ``near``, (k,) numbers of triangles, only pairs with one of these
+    count, and both of a pair are named: faster where these are few. ValueError where a number is none of a triangle.
     """
     points = _arguments.floats("vertices", vertices)
     faces = _arguments.triangles_within(triangles, points.shape[0])
-    finite = np.flatnonzero(np.isfinite(points[faces]).all(axis=(1, 2)))
-    found = finite[_core.self_intersections(points, faces[finite])].astype(np.int32)
+    asked = None if near is None else _arguments.rows_within("near", near, len(faces))
+    whole = np.isfinite(points[faces]).all(axis=(1, 2))
+    finite = np.flatnonzero(whole)
+    if asked is not None:
+        asked = np.searchsorted(finite, asked[whole[asked]]).astype(np.int32)
+    found = finite[_core.self_intersections(points, faces[finite], asked)].astype(np.int32)
     found.flags.writeable = False
     return found
 
