@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import fairing
+import graded
 import joints
 import measures
 import shapes
@@ -61,6 +62,18 @@ def test_a_joint_that_is_a_bulb_has_even_curvature() -> None:
     sound = star.faired(equation="harmonic")
     assert sound.equation == "harmonic"
     assert (sound.vertices == star.faired(equation="harmonic", otherwise="stop").vertices).all()
+
+
+def test_a_straight_graded_pipe_is_not_compared_with_another_surface() -> None:
+    """Over chords of its coarse end it was taken for a bulb, and solved in six times the steps."""
+    pipe = graded.regraded(shapes.cylinder(2750, shapes.Style(jitter=0.0), length=11.0), 5500)
+    steps = itertools.count()
+    result = fairing.fair(
+        shapes.start_from_nothing(pipe), pipe.triangles, fixed=pipe.fixed, fixed_normals=pipe.fixed_normals,
+        tolerance=1e-10, threads=1, progress=lambda _fraction, _stage: next(steps) >= 0,
+    )  # fmt: skip
+    assert result.equation == "harmonic"
+    assert next(steps) < 1000
 
 
 def test_stop_keeps_the_best_of_the_equation_asked_for() -> None:

@@ -18,7 +18,6 @@ constexpr double largest_bend = 2.0;  // of the largest |H| on the outline
 constexpr double least_girth = 0.75;  // of what it comes from
 constexpr double least_width = 0.94;  // of flat sections: the edges of wings were drawn in to .80 to .92 elsewhere
 constexpr double most_girth = 4.0 / 3.0;
-constexpr double most_aside = 0.5;  // of a radius: lofts that an artist keeps had .15 to .40, webs and dents .51 to 2.3
 constexpr double least_bluntness = 0.7;
 constexpr double most_blunt = 0.6;   // what is blunter counts as that: pieces of a wall have 2 / π and more, by width
 constexpr double least_reach = 0.2;  // of what sticks out, of what it was; less is as good as gone
@@ -79,7 +78,7 @@ Blemishes BlemishFinder::in(const Points& points) const {
     return found;
 }
 
-bool BlemishFinder::lies_aside(const Points& points) const { return girths_ && girths_->aside(points) > most_aside; }
+bool BlemishFinder::lies_aside(const Points& points) const { return girths_ && girths_->lies_aside(points); }
 
 Indices BlemishFinder::torn(const Points& points) const {
     const Patch& patch = problem_.patch;

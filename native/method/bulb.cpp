@@ -43,7 +43,8 @@ double largest_distance(const Problem& problem, const Points& points, const Poin
 }
 
 // Bulbs and waists were off that tube by a sixth of the radius and more. On graded meshes measuring how their curvature
-// varies takes five times as long as their solution, and tells of the mesh.
+// varies takes five times as long as their solution, and tells of the mesh. The tube's places are looked for on the
+// surface, not the other way round: a graded mesh that is laid on a tube has chords that leave it by an eighth.
 bool is_swept(const Problem& problem, const Points& points, const Progress& progress) {
     constexpr double near = 0.05;  // of the tube's radius
     const auto tube = tube_between(problem);
@@ -51,7 +52,7 @@ bool is_swept(const Problem& problem, const Points& points, const Progress& prog
     const auto swept = swept_start(problem, *tube, progress.here());
     if (!swept) return false;
     const double radius = std::min(tube->first().girth(), tube->last().girth()) / (2.0 * std::numbers::pi);
-    return largest_distance(problem, points, *swept) < near * radius;
+    return largest_distance(problem, *swept, points) < near * radius;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ namespace {
 // π times the width over the length: 1 for circles, π / 2 at most. Ellipses of 2.3 : 1 have as much; wings had 1.33 to
 // 1.43, a head between an eye and the neck 1.31.
 constexpr double least_flatness = 1.33;
+constexpr double most_aside = 0.5;  // of a radius: lofts that an artist keeps had .15 to .40, webs and dents .51 to 2.3
 
 VectorX between_ends(const VectorX& lengths) {
     return VectorX::LinSpaced(lengths.size(), lengths[0], lengths[lengths.size() - 1]);
@@ -79,5 +80,7 @@ double Girths::aside(const Points& points) const {
     }
     return farthest;
 }
+
+bool Girths::lies_aside(const Points& points) const { return aside(points) > most_aside; }
 
 }  // namespace fairing

@@ -27,6 +27,8 @@ public:
     [[nodiscard]] Indices wide(const Points& points, double times) const;
     // How far the middle of a cross-section lies at most from where it was, over the radius that it had: L / 2π.
     [[nodiscard]] double aside(const Points& points) const;
+    // Whether that is more than half: webs between limbs, dents, swellings to one side.
+    [[nodiscard]] bool lies_aside(const Points& points) const;
 
 private:
     explicit Girths(CrossSections sections) : sections_(std::move(sections)) {}

@@ -66,6 +66,13 @@ Points waved(const Known& pipe, double height) {
     return pipe.shaped([=](double t) { return 1.0 + 0.5 * height * (1.0 - std::cos(2.0 * std::numbers::pi * t)); });
 }
 
+// Cross-sections moved to one side, those in the middle by that way.
+Points moved_aside(const Known& pipe, Points points, double way) {
+    for (auto point : points.colwise())
+        point[0] += 0.5 * way * (1.0 - std::cos(2.0 * std::numbers::pi * point[2] / pipe.length()));
+    return points;
+}
+
 bool is_blemished(const Problem& problem, const Points& points) {
     const Progress progress;
     return BlemishSearch(problem, progress).is_blemished(points);
@@ -254,6 +261,17 @@ TEST_CASE("a spindle or a thread between two outlines gives way to a shape witho
     CHECK_FALSE(is_misshapen(pipe.problem, waved(pipe, -0.4), Progress()));
 }
 
+TEST_CASE("a bulge to one side gives way sooner than one all around") {
+    const Known pipe(20);
+    for (const double height : {0.15, 0.3}) {
+        for (const double way : {0.4, 0.6}) {
+            const Points bulge = moved_aside(pipe, waved(pipe, height), way);
+            REQUIRE(bent_both_ways(pipe.single.patch(), bulge) > 0.3);
+            CHECK(is_misshapen(pipe.problem, bulge, Progress()) == (height > 0.2 && way > 0.5));
+        }
+    }
+}
+
 TEST_CASE("a long pipe is smoothed as far as it keeps three quarters of its girth") {
     const Known pipe(90);
     REQUIRE(pipe.middle_radius(smoothed_by(pipe, endless)) < 0.1);
@@ -316,12 +334,7 @@ TEST_CASE("a loft with a waist gives way to the shape before") {
 
 TEST_CASE("a loft beside the shape before gives way where it is off by half a radius") {
     const Known pipe(40);
-    const auto moved = [&](double way) {
-        Points points = pipe.single.points;
-        for (auto point : points.colwise())
-            point[0] += 0.5 * way * (1.0 - std::cos(2.0 * std::numbers::pi * point[2] / pipe.length()));
-        return points;
-    };
+    const auto moved = [&](double way) { return moved_aside(pipe, pipe.single.points, way); };
     const auto girths = Girths::of(pipe.single.patch(), pipe.problem.before, Progress());
     REQUIRE(girths);
     CHECK(girths->aside(pipe.single.points) < 1e-12);
