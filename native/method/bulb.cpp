@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <numbers>
 
-#include "geometry/face_geometry.h"
 #include "geometry/target_surface.h"
 #include "problem/surface_state.h"
+#include "start/several_outlines.h"
 #include "start/swept_start.h"
 
 namespace fairing {
@@ -17,18 +17,8 @@ namespace {
 bool has_room(const Patch& patch, const Points& points) {
     constexpr double of_tubes = 0.2;  // least area, of the sum of the outlines' squared lengths
     constexpr double of_joints = 0.4;
-    const std::vector<Indices> loops = patch.loops();
-    if (loops.size() < 2) return false;
-    double squares = 0.0;
-    for (const Indices& loop : loops) {
-        double length = 0.0;
-        for (std::size_t k = 0; k < loop.size(); ++k)
-            length += (points.col(loop[k]) - points.col(loop[(k + 1) % loop.size()])).norm();
-        squares += length * length;
-    }
-    FaceGeometry faces;
-    faces.update(points, patch.triangles);
-    return faces.areas.sum() > (loops.size() == 2 ? of_tubes : of_joints) * squares;
+    const int loops = patch.loop_count();
+    return loops > 1 && length_between(patch, points) > (loops == 2 ? of_tubes : of_joints);
 }
 
 double largest_distance(const Problem& problem, const Points& points, const Points& from) {

@@ -13,6 +13,7 @@
 #include "start/globalisation.h"
 #include "start/membrane.h"
 #include "start/normal_fill.h"
+#include "start/several_outlines.h"
 
 namespace fairing {
 
@@ -40,6 +41,13 @@ struct Start {
     double fill_seconds = 0.0;
 };
 
+// Two surfaces fit a pipe from 2π radii on.
+bool may_fit_several(const Problem& problem, const Points& points) {
+    constexpr double shortest = 0.2;  // a pipe of two and a half radii
+    const int loops = problem.patch.loop_count();
+    return loops > 2 || (loops == 2 && length_between(problem.patch, points) > shortest);
+}
+
 // The membrane depends on the outline's positions alone; the normals come in with the Willmore descent.
 Start make_start(const Problem& problem, Workspace& work, const Progress& progress) {
     const Stopwatch watch;
@@ -52,9 +60,8 @@ Start make_start(const Problem& problem, Workspace& work, const Progress& progre
         return start;
     }
     start.points = globalise(problem, work, start.points, progress);
-    if (problem.patch.loop_count() < 2) return start;
-    // Between loops the G1 data may admit several surfaces (a pipe longer than 2 π r): the one whose curvatures vary
-    // least is wanted, so the start that varies least goes first.
+    if (!may_fit_several(problem, start.points)) return start;
+    // The one whose curvatures vary least is wanted, so the start that varies least goes first.
     const auto along_normals = normal_fill(problem, progress.here());
     if (along_normals && curvature_variation(problem, *along_normals) < curvature_variation(problem, start.points)) {
         start.points = settled(problem, work, *along_normals);

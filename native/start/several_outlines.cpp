@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/face_geometry.h"
+
 namespace fairing {
 
 namespace {
@@ -30,7 +32,40 @@ bool is_held_elsewhere(const Patch& patch, const std::vector<Indices>& loops) {
     return pinned || on_loops != at(patch.vertex_count() - patch.free_count);
 }
 
+struct Loop {
+    double length = 0.0;
+    Vector3 middle = Vector3::Zero();
+};
+
+Loop measured(const Indices& vertices, const Points& points) {
+    Loop loop;
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+        const Vector3 here = points.col(vertices[k]);
+        const Vector3 next = points.col(vertices[(k + 1) % vertices.size()]);
+        loop.length += (next - here).norm();
+        loop.middle += here / static_cast<double>(vertices.size());
+    }
+    return loop;
+}
+
 }  // namespace
+
+double length_between(const Patch& patch, const Points& points) {
+    double squares = 0.0;
+    std::vector<Loop> loops;
+    for (const Indices& vertices : patch.loops()) {
+        loops.push_back(measured(vertices, points));
+        squares += loops.back().length * loops.back().length;
+    }
+    FaceGeometry faces;
+    faces.update(points, patch.triangles);
+    double area = faces.areas.sum();
+    if (loops.size() == 2) {
+        const double around = 0.5 * (loops[0].length + loops[1].length);
+        area = std::max(area, around * (loops[0].middle - loops[1].middle).norm());
+    }
+    return area / squares;
+}
 
 bool joins_outlines(const Problem& problem) {
     const std::vector<Indices> loops = problem.patch.loops();

@@ -9,6 +9,11 @@ namespace fairing {
 // elsewhere.
 bool joins_outlines(const Problem& problem);
 
+// How long what lies between outlines is for their size: its area, or that of the straight tube between two of them
+// where this is more, over the sum of their squared lengths. L / 4π for a pipe of L radii. `points`: 3 × local
+// vertices.
+double length_between(const Patch& patch, const Points& points);
+
 // How far the slope at each fixed vertex is believed: 1 where the given normals turn by less than 30° along the
 // outline, less and less up to 60°, 0 beyond.
 VectorX trust_in_slopes(const Problem& problem);
