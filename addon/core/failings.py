@@ -11,6 +11,8 @@ from .options import FairOptions
 from .words import counted
 
 _ROUGH_BORDER = ": a fair border may not exist where it is rough beside the selection; Open Border: Held needs none"
+# It uses up its steps on most real meshes.
+_MULTIGRID = ": Method: Multigrid did not get there. Method: Global finds it more often, and at once"
 
 
 def failing(evidence: Evidence, options: FairOptions) -> Found:
@@ -27,12 +29,16 @@ def _no_answer(evidence: Evidence, options: FairOptions) -> Found:
     if result.converged or result.termination == "folded":
         return NOTHING
     reason = evidence.failures[0] if evidence.failures else "No fair surface was found"
-    reason += _ROUGH_BORDER if options.fairs_border else _ending(evidence)
+    reason += _ending(evidence, options)
     return reason, _troubled(evidence.problem) if len(evidence.problem.outside) else patch.vertices[patch.outline]
 
 
-def _ending(evidence: Evidence) -> str:
+def _ending(evidence: Evidence, options: FairOptions) -> str:
     """Return how the search ended, where the engine does not tell why, and what there is instead."""
+    if options.fairs_border:
+        return _ROUGH_BORDER
+    if options.method == "PAPER":
+        return _MULTIGRID
     if any(evidence.told("NOT_CONVERGED", "load_share", "area", "from_behind")):
         return ""
     count = evidence.result.iterations

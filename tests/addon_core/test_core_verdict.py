@@ -332,6 +332,14 @@ def test_how_a_search_ended_is_told_without_a_figure_that_says_nothing(
     assert judged(replace(fine, result=result)).reason.startswith(f"No fair surface was found: {told}. What it came to")
 
 
+def test_where_multigrid_fails_the_other_method_is_named(fine: Evidence) -> None:
+    """It uses up its steps on most real meshes, and how many there were tells an artist nothing."""
+    result = replace(fine.result, converged=False, termination="iteration_limit", iterations=200)
+    reason = judged(replace(fine, result=result), method="PAPER").reason
+    assert "Method: Global" in reason
+    assert "200" not in reason
+
+
 def test_without_anything_outside_there_is_nothing_to_grow_into(fine: Evidence) -> None:
     whole = grid(8, 2.0, on_sphere)
     problem, _ = pose(whole, np.eye(4), FairOptions())
