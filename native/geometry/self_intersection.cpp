@@ -248,12 +248,14 @@ private:
     std::vector<Node> nodes_;
 };
 
-// Whether a box meets one of a tree's.
+// Whether a box meets one of a tree's. Eigen names the functions.
 struct Meeting {
     const Box& box;
     bool found = false;
+    // NOLINTBEGIN(readability-identifier-naming)
     [[nodiscard]] bool intersectVolume(const Box& volume) const { return box.intersects(volume); }
     bool intersectObject(const Box& object) { return found = box.intersects(object); }  // true: no need to go on
+    // NOLINTEND(readability-identifier-naming)
 };
 
 // Of all triangles those whose boxes meet the box of one of the few, these among them; ascending.
