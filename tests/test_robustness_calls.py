@@ -247,12 +247,13 @@ def test_a_callback_may_call_again() -> None:
 
 # In a thread, whose stack is there from the start: the kernel ends a process whose main stack can't grow.
 STARVED = """
-import resource, sys, threading
+import resource, sys, threading, time
 sys.path.insert(0, sys.argv[1])
 import numpy as np, fairing, hard_inputs, shapes
 item = hard_inputs.of_patch(shapes.catenoid(2000))
 
 def starve():
+    time.sleep(0.5)  # the main thread waits by then: where its stack cannot grow the kernel ends it
     for spare in [*range(0, 20_000_000, 1_000_000), 10**9]:
         used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
         resource.setrlimit(resource.RLIMIT_AS, (used + spare, resource.RLIM_INFINITY))
