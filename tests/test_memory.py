@@ -40,7 +40,7 @@ def test_a_large_patch_takes_less_than_two_kilobytes_a_vertex(tmp_path: Path) ->
     np.savez(
         path, vertices=patch.vertices, triangles=patch.triangles, fixed=patch.fixed, normals=patch.fixed_normals
     )  # fmt: skip
-    # The least of three: what a helper holds at the same time depends on when it runs, 1.60 to 1.72 kB on a busy machine.
+    # What a helper holds at the same time depends on when it runs: 1.60 to 1.72 kB on a busy machine.
     call = [sys.executable, "-c", CALL, str(path)]
     peaks = [float(subprocess.run(call, capture_output=True, text=True, check=True).stdout) for _ in range(3)]
     assert min(peaks) <= MOST * len(patch.free)
