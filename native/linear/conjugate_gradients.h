@@ -14,12 +14,18 @@ double inner_product(const Field& a, const Field& b) {
     });
 }
 
+template <typename Field>
+struct GradientSolution {
+    Field x;
+    bool positive = true;  // A was positive definite in all directions looked at
+};
+
 // x with A x ≈ r from x = 0, until the residual in the preconditioner's norm has fallen to `relative_tolerance` or
 // after `max_cycles`; earlier where A shows itself not to be positive definite. `apply(p, q)`: q ← A p;
 // `precondition(r, z)`: z ← about A⁻¹ r. Both get q and z in the right size.
 template <typename Field, typename Apply, typename Precondition>
-Field conjugate_gradients(Field r, double relative_tolerance, int max_cycles, const Apply& apply,
-                          const Precondition& precondition) {
+GradientSolution<Field> conjugate_gradients(Field r, double relative_tolerance, int max_cycles, const Apply& apply,
+                                            const Precondition& precondition) {
     const int count = static_cast<int>(r.cols());
     Field x = Field::Zero(r.rows(), count);
     Field z(r.rows(), count);
@@ -31,7 +37,7 @@ Field conjugate_gradients(Field r, double relative_tolerance, int max_cycles, co
     for (int cycle = 0; cycle < max_cycles && rz > target; ++cycle) {
         apply(p, product);
         const double curvature = inner_product(p, product);
-        if (!(curvature > 0.0)) break;
+        if (!(curvature > 0.0)) return {std::move(x), false};
         const auto alpha = static_cast<typename Field::Scalar>(rz / curvature);
         for_ranges(count, coarse_grain, [&](int begin, int end) {
             const int size = end - begin;
@@ -48,7 +54,7 @@ Field conjugate_gradients(Field r, double relative_tolerance, int max_cycles, co
         });
         rz = next;
     }
-    return x;
+    return {std::move(x)};
 }
 
 }  // namespace fairing

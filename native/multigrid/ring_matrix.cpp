@@ -40,10 +40,9 @@ void even_out(const RingMatrix& weights, int free_count, int sweeps, Points& poi
             const int first = weights.begin[at(i)];
             const int count = weights.begin[at(i) + 1] - first;
             const int* around = &weights.columns[at(first)];
-            points.col(i) = lifted_mean(points, normals, around, &weights.weights[first], count);
-            Vector3 normal = Vector3::Zero();
-            for (int k = 0; k < count; ++k) normal += double{weights.weights[first + k]} * normals.col(around[k]);
-            normals.col(i) = normal.normalized();
+            const LiftedMean lifted = lifted_mean(points, normals, around, &weights.weights[first], count);
+            points.col(i) = lifted.point;
+            normals.col(i) = lifted.normal;
         }
     }
 }

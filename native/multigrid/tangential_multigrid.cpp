@@ -20,6 +20,13 @@ void project_across(SingleField& field, const SingleField& normals) {
     });
 }
 
+// product ← product + W p
+void add_turns(const ShapeOperators& turns, const SingleField& p, SingleField& product) {
+    for_ranges(static_cast<int>(turns.cols()), coarse_grain, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i) product.col(i).head<3>() += turn(turns, i, p.col(i).head<3>());
+    });
+}
+
 SingleField to_single(const Points& field, Eigen::Index count, double unit = 1.0) {
     SingleField result = SingleField::Zero(4, count);
     result.topRows<3>() = (field.leftCols(count) / unit).cast<float>();
@@ -98,26 +105,38 @@ void MultigridStep::cycle(SingleField& r, SingleField& x) const {
     smooth(x, r, Residual::left);
 }
 
+// The planes turn with what stands along the normals.
+MultigridStep::Planes MultigridStep::single_planes(const Points& pull, const TangentPlanes& planes) const {
+    Planes result{to_single(planes.normals, patch_.free_count), planes.turns};
+    for_ranges(static_cast<int>(result.turns.cols()), coarse_grain, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i)
+            result.turns.col(i) *= static_cast<float>(pull.col(i).dot(planes.normals.col(i)));
+    });
+    return result;
+}
+
 // d with L d = scale · pull; across the normals if there are any, as `pull` is then. In units of its own, far from the
 // limits of single precision.
-Points MultigridStep::solve(Points pull, const SingleField* normals, double tolerance, int most_cycles) const {
+MultigridStep::Moves MultigridStep::solve(const Points& pull, const Planes* planes, double tolerance,
+                                          int most_cycles) const {
     const double unit = pull.cwiseAbs().maxCoeff();
-    if (!(unit > 0.0)) return Points::Zero(3, patch_.free_count);
-    SingleField r = to_single(pull, pull.cols(), unit);
-    pull.resize(3, 0);
+    if (!(unit > 0.0)) return {Points::Zero(3, patch_.free_count), true};
     SingleField residual;
     const auto apply = [&](const SingleField& p, SingleField& product) {
         laplacian_.apply(p, patch_.free_count, [&](int i, const Eigen::Vector4f& value) { product.col(i) = value; });
         product.rightCols(fixed_points_.cols()).setZero();
-        if (normals) project_across(product, *normals);
+        if (!planes) return;
+        if (planes->turns.cols() > 0) add_turns(planes->turns, p, product);
+        project_across(product, planes->normals);
     };
     const auto precondition = [&](const SingleField& field, SingleField& z) {
         residual = field;
         cycle(residual, z);
-        if (normals) project_across(z, *normals);
+        if (planes) project_across(z, planes->normals);
     };
-    const SingleField d = conjugate_gradients(std::move(r), tolerance, most_cycles, apply, precondition);
-    return unit * d.topLeftCorner(3, patch_.free_count).cast<double>();
+    const auto [x, positive] =
+        conjugate_gradients(to_single(pull, pull.cols(), unit), tolerance, most_cycles, apply, precondition);
+    return {unit * x.topLeftCorner(3, patch_.free_count).cast<double>(), positive};
 }
 
 // What single precision leaves is solved for again.
@@ -131,7 +150,7 @@ Points MultigridStep::harmonic_positions() const {
     Points r = pull(points);
     const double first = r.norm();
     for (int k = 0; k < most_times && r.norm() > tolerance * first; ++k) {
-        points.leftCols(patch_.free_count) += solve(r, nullptr, each_time, most_cycles);
+        points.leftCols(patch_.free_count) += solve(r, nullptr, each_time, most_cycles).d;
         r = pull(points);
     }
     return points.leftCols(patch_.free_count);
@@ -141,13 +160,16 @@ double MultigridStep::merit(const Points& points, const Points& /*normals*/) con
     return -0.5 * scale() * inner_product<Points>(points, pull(points));
 }
 
-Points MultigridStep::displacement(const Points& points, const Points& normals, int max_cycles) const {
+Points MultigridStep::displacement(const Points& points, const TangentPlanes& planes, int max_cycles) const {
     constexpr double relative_tolerance = 0.05;
     // In double precision: along the normals the pull is far larger than what steps towards the solution leave across.
     Points across = pull(points);
-    project_across(across.leftCols(patch_.free_count), normals);
-    const SingleField single_normals = to_single(normals, patch_.free_count);
-    return solve(std::move(across), &single_normals, relative_tolerance, max_cycles);
+    Planes singles = single_planes(across, planes);
+    project_across(across.leftCols(patch_.free_count), planes.normals);
+    Moves moves = solve(across, &singles, relative_tolerance, max_cycles);
+    if (moves.positive || singles.turns.cols() == 0) return std::move(moves.d);
+    singles.turns.resize(6, 0);
+    return solve(across, &singles, relative_tolerance, max_cycles).d;
 }
 
 }  // namespace fairing

@@ -41,7 +41,8 @@ public:
     void hold(const Points& fixed_points) override { fixed_points_ = fixed_points; }
     [[nodiscard]] Points harmonic_positions() const override;
     [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
-    [[nodiscard]] Points displacement(const Points& points, const Points& normals, int max_cycles = 10) const override;
+    [[nodiscard]] Points displacement(const Points& points, const TangentPlanes& planes,
+                                      int max_cycles = 10) const override;
     [[nodiscard]] double scale() const override { return laplacian_.largest; }
     void cycle(SingleField& r, SingleField& x) const override;
 
@@ -50,7 +51,17 @@ private:
 
     // All of these in units of the scale.
     [[nodiscard]] Points pull(const Points& points) const;
-    [[nodiscard]] Points solve(Points pull, const SingleField* normals, double tolerance, int most_cycles) const;
+    struct Moves {
+        Points d;
+        bool positive;  // the operator was
+    };
+    // The projection across single normals, and ⟨n, −L x⟩ W as `displacement` adds it; W may be empty.
+    struct Planes {
+        SingleField normals;
+        ShapeOperators turns;
+    };
+    [[nodiscard]] Planes single_planes(const Points& pull, const TangentPlanes& planes) const;
+    [[nodiscard]] Moves solve(const Points& pull, const Planes* planes, double tolerance, int most_cycles) const;
     void subtract_product(const SingleField& x, SingleField& r) const;
     void smooth(SingleField& x, SingleField& r, Residual last) const;
 

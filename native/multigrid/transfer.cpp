@@ -1,5 +1,7 @@
 #include "multigrid/transfer.h"
 
+#include <algorithm>
+
 #include "base/parallel.h"
 
 namespace fairing {
@@ -52,11 +54,15 @@ void Transfer::prolong_means(const Points& coarse, int fine_free_count, Points& 
     });
 }
 
-Vector3 lifted_mean(const Points& points, const Points& normals, const int* vertices, const float* weights, int count) {
+LiftedMean lifted_mean(const Points& points, const Points& normals, const int* vertices, const float* weights,
+                       int count) {
+    constexpr double least_cosine = 0.5;
     Vector3 mean = Vector3::Zero();
+    Vector3 normal = Vector3::Zero();
     double sum = 0.0;
     for (int k = 0; k < count; ++k) {
         mean += double{weights[k]} * points.col(vertices[k]);
+        normal += double{weights[k]} * normals.col(vertices[k]);
         sum += weights[k];
     }
     mean /= sum;
@@ -65,7 +71,8 @@ Vector3 lifted_mean(const Points& points, const Points& normals, const int* vert
         const auto n = normals.col(vertices[k]);
         lift += double{weights[k]} * n.dot(points.col(vertices[k]) - mean) * n;
     }
-    return mean + 0.5 / sum * lift;
+    const double c = std::max(normal.norm() / sum, least_cosine);
+    return {mean + 1.0 / (c * (1.0 + c) * sum) * lift, normal.normalized()};
 }
 
 void Transfer::prolong_surface(const Points& coarse, const Points& coarse_normals, int fine_free_count, Points& fine,
@@ -80,12 +87,10 @@ void Transfer::prolong_surface(const Points& coarse, const Points& coarse_normal
         const int first = removals.begin[at(k)];
         const int count = removals.begin[at(k) + 1] - first;
         const int v = removals.vertex[at(k)];
-        fine.col(v) =
+        const LiftedMean lifted =
             lifted_mean(fine, fine_normals, &removals.neighbours[at(first)], &removals.weights[at(first)], count);
-        Vector3 normal = Vector3::Zero();
-        for (int j = first; j < first + count; ++j)
-            normal += double{removals.weights[at(j)]} * fine_normals.col(removals.neighbours[at(j)]);
-        fine_normals.col(v) = normal.normalized();
+        fine.col(v) = lifted.point;
+        fine_normals.col(v) = lifted.normal;
     });
 }
 

@@ -32,7 +32,14 @@ struct Transfer {
                          Points& fine_normals) const;
 };
 
-// The weighted mean of points, lifted half-way to their tangent planes, which is exact on parabolas.
-Vector3 lifted_mean(const Points& points, const Points& normals, const int* vertices, const float* weights, int count);
+// The weighted mean of points, lifted about half-way to their tangent planes. Half-way is exact on parabolas only, and
+// lies inside of spheres by a fourth-order term that no step of a coarser level removes. With c, the length of the mean
+// of the unit normals, 1/(c (1 + c)) of the way is right on spheres, too, for points at the same angle from the middle.
+struct LiftedMean {
+    Vector3 point;
+    Vector3 normal;  // unit, the mean's
+};
+LiftedMean lifted_mean(const Points& points, const Points& normals, const int* vertices, const float* weights,
+                       int count);
 
 }  // namespace fairing

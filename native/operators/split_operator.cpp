@@ -48,7 +48,7 @@ VectorX SplitBiharmonicOperator::solve_column(const VectorX& rhs) const {
     };
     const auto precondition = [&](const OutlineRow& r, OutlineRow& z) { z = outline_.approximate_inverse(r); };
     VectorX u = factor.solve_vector(rhs);
-    u -= harmonic(conjugate_gradients(turned(u), relative_tolerance, most_cycles, apply, precondition));
+    u -= harmonic(conjugate_gradients(turned(u), relative_tolerance, most_cycles, apply, precondition).x);
     return factor.solve_vector(u.cwiseProduct(free_mass_));
 }
 

@@ -53,8 +53,9 @@ public:
     // σ m, 3 × k.
     [[nodiscard]] Points turns() const {
         const Points m = conjugate_gradients(
-            right_hand_side(), accuracy, most_cycles, [&](const Points& p, Points& q) { apply(p, q); },
-            [&](const Points& r, Points& z) { z = r * diagonal_.cwiseInverse().asDiagonal(); });
+                             right_hand_side(), accuracy, most_cycles, [&](const Points& p, Points& q) { apply(p, q); },
+                             [&](const Points& r, Points& z) { z = r * diagonal_.cwiseInverse().asDiagonal(); })
+                             .x;
         return m * errors_.asDiagonal();
     }
 

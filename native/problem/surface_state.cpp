@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <Eigen/LU>
+
 #include "base/parallel.h"
 #include "geometry/surface_fit.h"
 #include "problem/willmore.h"
@@ -63,6 +65,39 @@ Points SurfaceState::moves(Points within, const VectorX& heights) const {
         }
     });
     return within;
+}
+
+namespace {
+
+// ∇u at a vertex in the plane across its normal, by least squares over its ring.
+Vector3 gradient(const RingView& ring, const SurfaceState& state, const VectorX& heights, int vertex) {
+    const Frame frame(state.normals.col(vertex));
+    Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d rhs = Eigen::Vector2d::Zero();
+    for (const int j : ring.vertices) {
+        const Vector3 d = state.points.col(j) - state.points.col(vertex);
+        const Eigen::Vector2d t(frame.u.dot(d), frame.v.dot(d));
+        matrix += t * t.transpose();
+        rhs += ((j < heights.size() ? heights[j] : 0.0) - heights[vertex]) * t;
+    }
+    matrix.diagonal().array() += 1e-9 * matrix.trace() + 1e-300;
+    const Eigen::Vector2d slope = matrix.inverse() * rhs;
+    return slope.x() * frame.u + slope.y() * frame.v;
+}
+
+}  // namespace
+
+Raised raised(const Patch& patch, const SurfaceState& state, const VectorX& heights) {
+    const int count = static_cast<int>(heights.size());
+    Raised result{state.points, Points(3, count)};
+    for_ranges(count, fine_grain, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i) {
+            const Vector3 n = state.normals.col(i);
+            result.points.col(i) += heights[i] * n;
+            result.normals.col(i) = (n - gradient(patch.ring(i), state, heights, i)).normalized();
+        }
+    });
+    return result;
 }
 
 double largest_length(const Points& field) { return std::sqrt(field.colwise().squaredNorm().maxCoeff()); }

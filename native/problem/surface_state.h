@@ -23,6 +23,14 @@ struct SurfaceState {
     [[nodiscard]] Points moves(Points within, const VectorX& heights) const;
 };
 
+// Where the first vertices are once they have moved by small `heights` along their normals, and their normals there,
+// n − ∇u to first order.
+struct Raised {
+    Points points;   // 3 × local vertices
+    Points normals;  // 3 × heights, unit
+};
+Raised raised(const Patch& patch, const SurfaceState& state, const VectorX& heights);
+
 // A surface with all of the above measured.
 SurfaceState measured_surface(const Problem& problem, const Points& points);
 

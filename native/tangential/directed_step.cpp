@@ -51,7 +51,8 @@ double DirectedStep::merit(const Points& points, const Points& normals) const {
     return 0.5 * imbalance(points, normals).squaredNorm();
 }
 
-Points DirectedStep::displacement(const Points& points, const Points& normals, int max_cycles) const {
+Points DirectedStep::displacement(const Points& points, const TangentPlanes& planes, int max_cycles) const {
+    const Points& normals = planes.normals;
     constexpr double relative_tolerance = 0.05;
     const auto as_points = [](const VectorX& x) { return Points(Eigen::Map<const Points>(x.data(), 3, x.size() / 3)); };
     const auto as_vector = [](const Points& x) { return VectorX(Eigen::Map<const VectorX>(x.data(), x.size())); };

@@ -15,7 +15,7 @@ public:
     void hold(const Points& fixed_points) override;
     [[nodiscard]] Points harmonic_positions() const override;
     [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
-    [[nodiscard]] Points displacement(const Points& points, const Points& normals, int max_cycles) const override;
+    [[nodiscard]] Points displacement(const Points& points, const TangentPlanes& planes, int max_cycles) const override;
 
 private:
     // P (Λx − x) of the free vertices.

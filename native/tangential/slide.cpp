@@ -1,5 +1,6 @@
 #include "tangential/slide.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "base/parallel.h"
@@ -14,12 +15,16 @@ constexpr int history_depth = 3;
 constexpr double longest_move = 0.1;  // units of D
 constexpr double stuck = 0.8;         // from one step to the next: vertices that the outline holds back
 constexpr double near_enough = 5e-4;  // units of D; the iteration does the rest
+// Of the step that would come next, by how the last two shrank; one that is ten times luck is not counted on.
+constexpr double next_near_enough = 1e-4;
+constexpr double fastest = 0.05;
 
 struct Sliding {
     const TargetSurface& target;
     std::vector<SurfacePoint>& where;  // free vertices
     Points& points;                    // 3 × local vertices
     Points normals;                    // at the free vertices
+    ShapeOperators turns;              // likewise, where the vertices began; empty: not known
 };
 
 // The vertices stay on the surface by a walk over its triangles. Near extraordinary vertices they have to move over
@@ -40,13 +45,14 @@ void slide(Sliding& vertices, const TangentialStep& tangential, int most_steps) 
     Anderson anderson(3L * static_cast<Eigen::Index>(vertices.where.size()), history_depth);
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < most_steps; ++step) {
-        const Points d = tangential.displacement(points, vertices.normals);
+        const Points d = tangential.displacement(points, {vertices.normals, vertices.turns});
         const double largest = largest_length(d);
         if (largest > stuck * last) return;
+        const double next = largest * std::max(largest / last, fastest);
         last = largest;
         anderson.move(points, d, longest_move);
         walk(vertices);
-        if (largest < near_enough) return;
+        if (largest < near_enough || (step > 0 && next < next_near_enough)) return;
     }
 }
 
@@ -58,7 +64,7 @@ void slide(const Problem& problem, const TangentialStep& tangential, const Point
     const TargetSurface target(problem.patch, surface, normals);
     std::vector<SurfacePoint> where(at(problem.patch.free_count));
     for (std::size_t v = 0; v < where.size(); ++v) where[v] = target.at_vertex(static_cast<int>(v));
-    Sliding vertices{target, where, points, normals};
+    Sliding vertices{target, where, points, normals, shape_operators(problem.patch, surface, normals)};
     slide(vertices, tangential, most_steps);
 }
 
@@ -66,7 +72,7 @@ void slide_on(const TargetSurface& target, const TangentialStep& tangential, int
               std::vector<SurfacePoint>& where, Points& points) {
     Points normals(3, static_cast<Eigen::Index>(where.size()));
     for (std::size_t v = 0; v < where.size(); ++v) normals.col(static_cast<Eigen::Index>(v)) = target.normal(where[v]);
-    Sliding vertices{target, where, points, std::move(normals)};
+    Sliding vertices{target, where, points, std::move(normals), {}};
     slide(vertices, tangential, most_steps);
 }
 

@@ -1,7 +1,6 @@
 #include "tangential/symmetric_step.h"
 
 #include "base/errors.h"
-#include "linear/conjugate_gradients.h"
 #include "tangential/across.h"
 
 namespace fairing {
@@ -68,16 +67,29 @@ Points SymmetricStep::precondition(const Points& field, const Points& normals) c
     return result;
 }
 
-Points SymmetricStep::displacement(const Points& points, const Points& normals, int max_cycles) const {
-    constexpr double relative_tolerance = 0.05;
+Points SymmetricStep::displacement(const Points& points, const TangentPlanes& planes, int max_cycles) const {
     Points r = -gradient(points);
-    project_across(r, normals);
+    TangentPlanes weighted(planes.normals, planes.turns);
+    for (int i = 0; i < static_cast<int>(weighted.turns.cols()); ++i)
+        weighted.turns.col(i) *= static_cast<float>(r.col(i).dot(planes.normals.col(i)));
+    project_across(r, planes.normals);
+    auto [d, positive] = solve_across(r, weighted, max_cycles);
+    if (positive || weighted.turns.cols() == 0) return std::move(d);
+    return solve_across(r, TangentPlanes(planes.normals), max_cycles).x;
+}
+
+// `planes`: turns by ⟨n, −L x⟩ W.
+GradientSolution<Points> SymmetricStep::solve_across(const Points& r, const TangentPlanes& planes,
+                                                     int max_cycles) const {
+    constexpr double relative_tolerance = 0.05;
     const auto apply = [&](const Points& p, Points& product) {
         product = applied(p);
-        project_across(product, normals);
+        for (int i = 0; i < static_cast<int>(planes.turns.cols()); ++i)
+            product.col(i) += turn(planes.turns, i, p.col(i).cast<float>()).cast<double>();
+        project_across(product, planes.normals);
     };
-    const auto approximate_inverse = [&](const Points& field, Points& z) { z = precondition(field, normals); };
-    return conjugate_gradients(std::move(r), relative_tolerance, max_cycles, apply, approximate_inverse);
+    const auto approximate_inverse = [&](const Points& field, Points& z) { z = precondition(field, planes.normals); };
+    return conjugate_gradients(r, relative_tolerance, max_cycles, apply, approximate_inverse);
 }
 
 }  // namespace fairing

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/progress.h"
+#include "linear/conjugate_gradients.h"
 #include "linear/sparse_cholesky.h"
 #include "tangential/tangential_step.h"
 
@@ -16,7 +17,7 @@ public:
     void hold(const Points& fixed_points) override;
     [[nodiscard]] Points harmonic_positions() const override;
     [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
-    [[nodiscard]] Points displacement(const Points& points, const Points& normals, int max_cycles) const override;
+    [[nodiscard]] Points displacement(const Points& points, const TangentPlanes& planes, int max_cycles) const override;
 
     // L⁻¹ of a field over the free vertices.
     [[nodiscard]] Points inverse(const Points& field) const;
@@ -26,6 +27,8 @@ private:
     [[nodiscard]] Points applied(const Points& points) const;  // L
     [[nodiscard]] Points gradient(const Points& points) const;
     [[nodiscard]] Points precondition(const Points& field, const Points& normals) const;
+    [[nodiscard]] GradientSolution<Points> solve_across(const Points& r, const TangentPlanes& planes,
+                                                        int max_cycles) const;
 
     int free_count_;
     SparseMatrix laplacian_;  // both triangles

@@ -5,8 +5,20 @@
 
 #include "base/progress.h"
 #include "fairness/row_weights.h"
+#include "geometry/shape_operator.h"
 
 namespace fairing {
+
+// The tangent planes that vertices move in. Refers to the normals.
+struct TangentPlanes {
+    const Points& normals;  // unit, of the free vertices and maybe others
+    ShapeOperators turns;   // how the planes turn at the free vertices; empty: not known, they are taken as fixed
+
+    // NOLINTNEXTLINE(google-explicit-constructor,hicpp-explicit-conversions): most surfaces are known by their normals
+    TangentPlanes(const Points& unit_normals) : normals(unit_normals) {}
+    TangentPlanes(const Points& unit_normals, ShapeOperators shapes)
+        : normals(unit_normals), turns(std::move(shapes)) {}
+};
 
 // Displacements across the normals until Σ_j λ_ij (x_j − x_i) is parallel to the normal at every free vertex.
 class TangentialStep {
@@ -28,8 +40,10 @@ public:
 
     // d with P L P d = −P L x; P is the projection across the unit normals, L the λ-Laplacian. Conjugate gradients
     // (GMRES where λ is not symmetric), preconditioned by P L⁻¹ P, to a relative residual of 0.05 or until
-    // `max_cycles`.
-    [[nodiscard]] virtual Points displacement(const Points& points, const Points& normals,
+    // `max_cycles`. Where it is known how the planes turn, Newton's step: P L P d − ⟨n, L x⟩ W d = −P L x, since P
+    // turns with the vertices and L x stands along the normals at the end. Without it smooth moves on a hemisphere are
+    // too short by 60 %. Where that system is not positive definite, or λ not symmetric, the planes count as fixed.
+    [[nodiscard]] virtual Points displacement(const Points& points, const TangentPlanes& planes,
                                               int max_cycles = 10) const = 0;
 };
 

@@ -1,7 +1,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <numeric>
+
+#include <Eigen/QR>
 
 #include "linear/nested_dissection.h"
 #include "linear/sparse_cholesky.h"
@@ -10,6 +14,7 @@
 #include "multigrid/coarsening.h"
 #include "multigrid/tangential_multigrid.h"
 #include "operators/normal_operator.h"
+#include "problem/surface_state.h"
 #include "tangential/symmetric_step.h"
 
 using namespace fairing;
@@ -20,8 +25,9 @@ int euler_number(const Patch& patch) { return patch.vertex_count() - patch.edge_
 
 // A part of the unit sphere, where points are their own normals, with its levels.
 struct Ball {
-    explicit Ball(int n, double jitter = 0.3, int coarsest = 40)
-        : single(test::single_patch(test::grid(n, jitter, test::sphere))),
+    explicit Ball(int n, double jitter = 0.3, int coarsest = 40,
+                  const std::function<Vector3(double, double)>& surface = test::sphere)
+        : single(test::single_patch(test::grid(n, jitter, surface))),
           weights(uniform_weights(single.patch())),
           levels(coarsen(single.patch(), weights, {single.points, single.points}, coarsest)) {}
 
@@ -236,6 +242,120 @@ TEST_CASE("multigrid and a factorisation give the same tangential steps") {
     CHECK((step - other).norm() < 0.15 * step.norm());
     CHECK(multigrid.merit(ball.single.points, ball.single.points) >
           0.0);  // and both measure the energy that steps lower
+}
+
+TEST_CASE("on a sphere a tangential step that knows how the planes turn is Newton's") {
+    // Out to 70° from the pole, 100° in the corners.
+    const Ball ball(40, 0.2, 300, [](double u, double v) {
+        const double x = 2.0 * u - 1.0;
+        const double y = 2.0 * v - 1.0;
+        const double r = std::max(std::hypot(x, y), 1e-9);
+        return Vector3(std::sin(1.22 * r) / r * x, std::sin(1.22 * r) / r * y, std::cos(1.22 * r));
+    });
+    REQUIRE(ball.levels.size() == 1);
+    const int free = ball.patch().free_count;
+    const CoarseLevel& level = ball.levels[0];
+    const Points of_coarse = of_level(level, ball.single.points);
+    const FactorisedLaplacian base(level.patch, level.weights,
+                                   of_coarse.rightCols(level.patch.vertex_count() - level.patch.free_count),
+                                   Progress());
+    const MultigridStep multigrid(ball.patch(), RingMatrix(ball.patch().vertex_count(), ball.weights),
+                                  ball.fixed_points(), level.transfer, base);
+    const SymmetricStep factorised(ball.patch(), ball.weights, ball.fixed_points(), Progress());
+    PatchCurvature curvature{VectorX::Constant(free, -1.0), Points::Zero(3, free)};
+    curvature.form.row(0).setConstant(-1.0);
+    curvature.form.row(2).setConstant(-1.0);
+    // Points of the unit sphere are their own normals.
+    const auto moved = [&](const TangentialStep& step, Points points, bool turning) {
+        const Points normals = points.leftCols(free);
+        const ShapeOperators turns = turning ? shape_operators(curvature, normals, free) : ShapeOperators();
+        points.leftCols(free) += step.displacement(points, {normals, turns}, 30);
+        points.colwise().normalize();
+        return points;
+    };
+    Points even = ball.single.points;
+    for (int k = 0; k < 12; ++k) even = moved(factorised, even, true);
+    const double balance = moved(factorised, even, true).leftCols(free).operator-(even.leftCols(free)).norm();
+    CHECK(balance < 1e-6);
+    Points start = even;
+    for (int v = 0; v < free; ++v) {
+        const double bump = 0.02 * std::max(even(2, v) - 0.3, 0.0);
+        start.col(v) = (even.col(v) + bump * Vector3::UnitX()).normalized();
+    }
+    const double off = (start - even).norm();
+    for (const TangentialStep* step :
+         {static_cast<const TangentialStep*>(&multigrid), static_cast<const TangentialStep*>(&factorised)}) {
+        const double known = (moved(*step, start, true) - even).norm() / off;
+        const double fixed = (moved(*step, start, false) - even).norm() / off;
+        CHECK(known < 0.12);
+        CHECK(fixed > 0.2);
+    }
+}
+
+TEST_CASE("where turning planes leave no positive definite system they count as fixed") {
+    const Ball ball(20);
+    const SymmetricStep step(ball.patch(), ball.weights, ball.fixed_points(), Progress());
+    const Points& points = ball.single.points;
+    ShapeOperators wild = ShapeOperators::Zero(6, ball.patch().free_count);
+    wild.topRows<3>().setConstant(1e6F);  // about the radius of a millionth of the patch
+    CHECK(step.displacement(points, {points, wild}, 10) == step.displacement(points, points, 10));
+}
+
+TEST_CASE("means are lifted onto the sphere that points at the same angle lie on") {
+    for (const double angle : {0.1, 0.5}) {
+        Points ring(3, 5);
+        for (int k = 0; k < 5; ++k) {
+            const double phi = 1.3 * k + 0.2 * k * k;
+            ring.col(k) << std::sin(angle) * std::cos(phi), std::sin(angle) * std::sin(phi), std::cos(angle);
+        }
+        // Weights that balance the ring: the mean lies on the axis.
+        const Eigen::Matrix<double, 3, 5> rows =
+            (Eigen::Matrix<double, 3, 5>() << ring.topRows<2>(), Eigen::RowVectorXd::Ones(5)).finished();
+        const Eigen::VectorXf weights = rows.completeOrthogonalDecomposition().solve(Vector3::UnitZ()).cast<float>();
+        const std::vector<int> all{0, 1, 2, 3, 4};
+        const LiftedMean lifted = lifted_mean(ring, ring, all.data(), weights.data(), 5);
+        CHECK((lifted.point - Vector3::UnitZ()).norm() < 1e-6);  // half-way: 7e-5 and .04
+        CHECK((lifted.normal - Vector3::UnitZ()).norm() < 1e-6);
+    }
+}
+
+TEST_CASE("shape operators: of spheres by either way, and of a cylinder across and along it") {
+    const Ball ball(40, 0.2);
+    const int free = ball.patch().free_count;
+    const ShapeOperators shapes = shape_operators(ball.patch(), ball.single.points, ball.single.points);
+    for (int v = 0; v < free; ++v) {
+        const Vector3 n = ball.single.points.col(v);
+        const Vector3 t = n.cross(Vector3(0.3, 0.5, 0.1)).normalized();
+        CHECK((turn(shapes, v, t.cast<float>()).cast<double>() - t).norm() < 0.02);
+        CHECK(turn(shapes, v, n.cast<float>()).norm() < 1e-5F);
+    }
+    PatchCurvature cylinder{VectorX(1), Points(3, 1)};
+    const Points normal = Vector3(0.6, 0.8, 0.0);  // of radius 2 around the z axis
+    const Frame frame(normal.col(0));
+    const Vector3 around(-0.8, 0.6, 0.0);
+    const Eigen::Vector2d t(around.dot(frame.u), around.dot(frame.v));
+    cylinder.form << -0.5 * t.x() * t.x(), -t.x() * t.y(), -0.5 * t.y() * t.y();
+    const ShapeOperators shape = shape_operators(cylinder, normal, 1);
+    CHECK((turn(shape, 0, around.cast<float>()) - 0.5F * around.cast<float>()).norm() < 1e-6F);
+    CHECK(turn(shape, 0, Eigen::Vector3f::UnitZ()).norm() < 1e-6F);
+}
+
+TEST_CASE("raised vertices have the normals of the surface that they lead to") {
+    const test::Single single = test::single_patch(test::grid(12, 0.3, test::flat));
+    const Patch& patch = single.patch();
+    SurfaceState state;
+    state.points = single.points;
+    state.normals = Vector3::UnitZ().replicate(1, patch.vertex_count());
+    const VectorX heights =
+        (0.02 * single.points.row(0) - 0.01 * single.points.row(1)).head(patch.free_count).transpose();
+    const Raised up = raised(patch, state, heights);
+    const Vector3 exact = Vector3(-0.02, 0.01, 1.0).normalized();
+    for (int v = 0; v < patch.free_count; ++v) {
+        CHECK(up.points(2, v) == doctest::Approx(heights[v]));
+        const auto ring = patch.ring(v).vertices;
+        const bool inside = std::ranges::all_of(ring, [&](int j) { return patch.is_free(j); });
+        if (inside) CHECK((up.normals.col(v) - exact).norm() < 1e-5);
+    }
 }
 
 TEST_CASE("harmonic positions are balanced to double precision, whatever the factor is kept in") {

@@ -1,0 +1,27 @@
+// Shape operators: how a surface's unit normal turns along it.
+#pragma once
+
+#include "geometry/mean_curvature.h"
+
+namespace fairing {
+
+// W with dn = W d for small steps d within the surface, a symmetric 3 × 3 tensor in space, 0 along the normal: the
+// entries xx, yy, zz, xy, xz, yz of a vertex are a column. 1/R in the tangent plane of a sphere with outward normals.
+// In single precision: iterations take it for their steps, never for where they end.
+using ShapeOperators = Eigen::Matrix<float, 6, Eigen::Dynamic>;
+
+// W d of column i.
+inline Eigen::Vector3f turn(const ShapeOperators& shapes, int i, const Eigen::Vector3f& d) {
+    const auto w = shapes.col(i);
+    return {w[0] * d.x() + w[3] * d.y() + w[4] * d.z(), w[3] * d.x() + w[1] * d.y() + w[5] * d.z(),
+            w[4] * d.x() + w[5] * d.y() + w[2] * d.z()};
+}
+
+// Of the first `count` vertices, from the fitted curvature in the frames of their unit normals.
+ShapeOperators shape_operators(const PatchCurvature& curvature, const Points& normals, int count);
+
+// Of the free vertices, from the unit normals (3 × local vertices, 0 at pins) of their neighbours alone, by least
+// squares: exact on spheres and cylinders with exact normals up to the square of the edges.
+ShapeOperators shape_operators(const Patch& patch, const Points& points, const Points& normals);
+
+}  // namespace fairing
