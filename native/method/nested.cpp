@@ -158,7 +158,7 @@ private:
         levels_.leave(k + 1);
         progress.report(share_of_start / 3, "refinement");
         levels_.set_up_tangential(k, std::move(laplacian), progress_);
-        slide(problem, *work.tangential, normals, most_slides, points);
+        slide(problem, *work.tangential, normals, turning(), most_slides, points);
         normals.resize(3, 0);  // the iteration needs the room
         progress.report(share_of_start, "refinement");
         work.normal = normal_operator(k, points);
@@ -166,14 +166,16 @@ private:
         if (k == 0 && std::holds_alternative<RowWeights>(*problem.weights)) {
             work.tangential =
                 make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here());
-            slide(problem, *work.tangential, max_normals(problem.patch, points, problem.fixed_normals), most_slides,
-                  points);
+            slide(problem, *work.tangential, max_normals(problem.patch, points, problem.fixed_normals), turning(),
+                  most_slides, points);
         }
         if (flipped_by_solution(problem.patch, points).size() > tolerated_folds(problem)) return {};
         Solution solution = iterate(problem, work, std::move(points), progress.range(share_of_start, 1.0));
         work.normal.reset();  // the tangential step serves the finer levels
         return solution;
     }
+
+    [[nodiscard]] Turning turning() const { return is_rough_ ? Turning::unknown : Turning::known; }
 
     struct Surface {
         Points points;

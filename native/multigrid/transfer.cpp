@@ -56,7 +56,7 @@ void Transfer::prolong_means(const Points& coarse, int fine_free_count, Points& 
 
 LiftedMean lifted_mean(const Points& points, const Points& normals, const int* vertices, const float* weights,
                        int count) {
-    constexpr double least_cosine = 0.5;
+    constexpr double least_cosine = 0.9;  // rings that bend more tell noise, or too little
     Vector3 mean = Vector3::Zero();
     Vector3 normal = Vector3::Zero();
     double sum = 0.0;

@@ -7,10 +7,14 @@
 
 namespace fairing {
 
+// Whether steps count on how the tangent planes turn, which they read off the normals: where these are noise, as beside
+// a jagged outline, the planes are taken as fixed.
+enum class Turning { known, unknown };
+
 // Vertices nearer to their inner-fairness positions: some accelerated tangential steps, each of which ends on the
 // surface as it was given. `points`: 3 × local vertices; `normals`: unit, of the surface there (0 at pins).
-void slide(const Problem& problem, const TangentialStep& tangential, const Points& normals, int most_steps,
-           Points& points);
+void slide(const Problem& problem, const TangentialStep& tangential, const Points& normals, Turning turning,
+           int most_steps, Points& points);
 
 // The same on another surface. `where`: places of the free vertices on it; `points`: 3 × local vertices.
 void slide_on(const TargetSurface& target, const TangentialStep& tangential, int most_steps,
