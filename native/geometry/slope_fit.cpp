@@ -47,6 +47,9 @@ struct Axes {
 };
 
 class Fit {
+    using Four = TallSystem::Four;
+    using Index = TallSystem::Index;
+
 public:
     Fit(const Vector3& centre, std::span<const Vector3> points, Degree degree, Centre at_centre)
         : terms_(terms_of(degree)),
@@ -56,11 +59,11 @@ public:
           offsets_(4, 3 * system_.fours()),
           weights_(4, system_.fours()) {
         offsets_.setZero();  // as the centre's own row has them
-        for (int k = 0; k < count_ - constants_; ++k) {
-            const Vector3 offset = points[at(k)] - centre;
-            for (int axis = 0; axis < 3; ++axis) offsets_(k % 4, 3 * (k / 4) + axis) = offset[axis];
+        for (Index k = 0; k < count_ - constants_; ++k) {
+            const Vector3 offset = points[static_cast<std::size_t>(k)] - centre;
+            for (Index axis = 0; axis < 3; ++axis) offsets_(k % 4, 3 * (k / 4) + axis) = offset[axis];
         }
-        for (int k = 0; k < system_.fours(); ++k) {
+        for (Index k = 0; k < system_.fours(); ++k) {
             weights_.col(k) =
                 offsets_.col(3 * k).square() + offsets_.col(3 * k + 1).square() + offsets_.col(3 * k + 2).square();
         }
@@ -68,7 +71,7 @@ public:
         scale_ = std::sqrt(farthest);
         if (scale_ > 0.0) offsets_ /= scale_;
         weights_ = (weights_ * (-1.0 / (farthest * width_of_weights * width_of_weights))).exp();
-        for (int k = count_; k < 4 * system_.fours(); ++k) weights_(k % 4, k / 4) = 0.0;
+        for (Index k = count_; k < 4 * system_.fours(); ++k) weights_(k % 4, k / 4) = 0.0;
         mean_weight_ = std::sqrt(weights_.square().sum() / count_);
     }
 
@@ -77,7 +80,7 @@ public:
 
     // `constant`: c₀ of the round before.
     std::optional<Round> round(const Vector3& normal, const Axes& axes, double constant) {
-        for (int k = 0; k < system_.fours(); ++k) fill_four(k, normal, axes, constant);
+        for (Index k = 0; k < system_.fours(); ++k) fill_four(k, normal, axes, constant);
         system_.triangularise();
         return solve();
     }
@@ -95,15 +98,13 @@ public:
     }
 
 private:
-    using Four = TallSystem::Four;
-
     [[nodiscard]] int unknowns() const { return terms_ + constants_ + 2; }
 
-    [[nodiscard]] Four along(const Vector3& axis, int k) const {
+    [[nodiscard]] Four along(const Vector3& axis, Index k) const {
         return axis.x() * offsets_.col(3 * k) + axis.y() * offsets_.col(3 * k + 1) + axis.z() * offsets_.col(3 * k + 2);
     }
 
-    void fill_four(int k, const Vector3& normal, const Axes& axes, double constant) {
+    void fill_four(Index k, const Vector3& normal, const Axes& axes, double constant) {
         const Four weight = weights_.col(k);
         const Four x = along(axes.x, k);
         const Four y = along(axes.y, k);

@@ -10,31 +10,32 @@ namespace fairing {
 class TallSystem {
 public:
     using Four = Eigen::Array4d;
+    using Index = Eigen::Index;
     static constexpr int most_columns = 11;
     using Row = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_columns, 1>;
 
     // rows ≥ columns
-    TallSystem(int rows, int columns);
+    TallSystem(Index rows, Index columns);
 
-    [[nodiscard]] int fours() const { return fours_; }
+    [[nodiscard]] Index fours() const { return fours_; }
     // Entries 4 `four` … 4 `four` + 3 of a column.
-    void set(int four, int column, const Four& values) { rows_.col(column * fours_ + four) = values; }
+    void set(Index four, Index column, const Four& values) { rows_.col(column * fours_ + four) = values; }
 
     // Makes R, and leaves zeros in the rows.
     void triangularise();
-    [[nodiscard]] double factor(int row, int column) const { return factor_(row, column); }
+    [[nodiscard]] double factor(Index row, Index column) const { return factor_(row, column); }
     // The least pivot of the first `count` ones over the largest of them.
-    [[nodiscard]] double least_pivot(int count) const;
+    [[nodiscard]] double least_pivot(Index count) const;
     // R x = the column behind them, for the first `count` columns.
-    [[nodiscard]] Row solve(int count) const;
+    [[nodiscard]] Row solve(Index count) const;
     // Rᵀ x = y, likewise.
     [[nodiscard]] Row solve_transposed(Row y) const;
 
 private:
-    void reflect(int column);
+    void reflect(Index column);
 
-    int columns_;
-    int fours_;
+    Index columns_;
+    Index fours_;
     Eigen::Matrix<double, 4, Eigen::Dynamic> rows_;
     Eigen::Matrix<double, most_columns, most_columns> factor_;
 };
