@@ -118,11 +118,12 @@ Indices all_fixed(const MeshInput& input, const VertexRoles& roles, Diagnostics&
     return fixed;
 }
 
-// Average of the unit normals of the triangles at each vertex (paper §7.5).
-Points averaged_triangle_normals(const Points& points, const CutMesh& mesh) {
+// Average of the unit normals of the triangles at each fixed vertex (paper §7.5), zero at the others.
+Points averaged_triangle_normals(const Points& points, const CutMesh& mesh, const VertexRoles& roles) {
     Points sums = Points::Zero(3, points.cols());
     for (const auto t : mesh.triangles.colwise()) {
         const auto v = [&](int k) { return mesh.input_vertex[at(t[k])]; };
+        if (!roles.fixed[at(v(0))] && !roles.fixed[at(v(1))] && !roles.fixed[at(v(2))]) continue;
         const Vector3 a = points.col(v(0));
         const Vector3 ab = points.col(v(1)) - a;
         const Vector3 cross = ab.stableNormalized().cross(Vector3(points.col(v(2)) - a).stableNormalized());
@@ -130,7 +131,9 @@ Points averaged_triangle_normals(const Points& points, const CutMesh& mesh) {
         if (!(length > 0.0)) continue;
         for (int k = 0; k < 3; ++k) sums.col(v(k)) += cross / length;
     }
-    for (auto column : sums.colwise()) column = direction(column);
+    for (int v = 0; v < sums.cols(); ++v) {
+        sums.col(v) = roles.fixed[at(v)] ? direction(sums.col(v)) : Vector3(Vector3::Zero());
+    }
     return sums;
 }
 
@@ -208,12 +211,21 @@ void warn_of_opposed_normals(const CheckedMesh& mesh, const Points& averaged, Di
          {{"vertices", size_of(opposed)}}});
 }
 
+// Of far more area than a flat one, by numbers that are neither too large nor too small for their squares.
+bool is_surely_broad(const Vector3& a, const Vector3& b, const Vector3& c) {
+    constexpr double least = 1e-60;
+    constexpr double most = 1e60;
+    const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    return longest > least && longest < most && (b - a).cross(c - a).squaredNorm() > 1e-22 * longest * longest;
+}
+
 void warn_of_flat_triangles(const MeshInput& input, const CutMesh& mesh, Diagnostics& warnings) {
     Indices offenders;
     for (int t : mesh.input_triangle) {
         const Vector3 a = input.vertices.col(input.triangles(0, t));
         const Vector3 b = input.vertices.col(input.triangles(1, t));
         const Vector3 c = input.vertices.col(input.triangles(2, t));
+        if (is_surely_broad(a, b, c)) continue;
         const double longest = std::max({(b - a).stableNorm(), (c - b).stableNorm(), (a - c).stableNorm()});
         const Vector3 cross = Vector3((b - a) / longest).cross(Vector3((c - a) / longest));
         if (!(cross.norm() > 1e-12)) offenders.push_back(t);
@@ -257,10 +269,7 @@ MeshTopology check_topology(const MeshInput& input) {
 void check_geometry(const MeshInput& input, CheckedMesh& mesh) {
     mesh.warnings.clear();
     warn_of_flat_triangles(input, mesh.cut, mesh.warnings);
-    mesh.normals = averaged_triangle_normals(input.vertices, mesh.cut);
-    for (int v = 0; v < mesh.normals.cols(); ++v) {
-        if (!mesh.roles.fixed[at(v)]) mesh.normals.col(v).setZero();
-    }
+    mesh.normals = averaged_triangle_normals(input.vertices, mesh.cut, mesh.roles);
     if (input.fixed_normals) {
         const Points averaged = mesh.normals;
         copy_given_normals(input, mesh);

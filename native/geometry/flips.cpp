@@ -1,22 +1,36 @@
 #include "geometry/flips.h"
 
+#include <algorithm>
+
 #include <Eigen/Geometry>
 
+#include "geometry/cotangent.h"
 #include "geometry/one_ring_buffer.h"
 #include "mesh/corners.h"
 
 namespace fairing {
 
+namespace {
+
+// A triangle as flat as FaceGeometry gives no normal for is not turned over. The cross product is of its edges.
+bool has_normal(const Vector3& cross, const Vector3& first, const Vector3& second) {
+    const double longest = std::max({first.squaredNorm(), second.squaredNorm(), (second - first).squaredNorm()});
+    return cross.norm() > least_twice_area * longest;
+}
+
+}  // namespace
+
 Indices flipped_triangles(const Patch& patch, const Points& points) {
-    FaceGeometry faces;
-    faces.update(points, patch.triangles);
     const Points no_normals = Points::Zero(3, patch.vertex_count() - patch.free_count);
     const Points normals = max_normals(patch, points, no_normals);
     Indices flipped;
     for (int t = 0; t < patch.triangle_count(); ++t) {
-        Vector3 around = Vector3::Zero();
-        for (int v : patch.triangles.col(t)) around += normals.col(v);
-        if (around.dot(faces.normals.col(t)) < 0.0) flipped.push_back(t);
+        const auto corners = patch.triangles.col(t);
+        const Vector3 around = normals.col(corners[0]) + normals.col(corners[1]) + normals.col(corners[2]);
+        const Vector3 first = points.col(corners[1]) - points.col(corners[0]);
+        const Vector3 second = points.col(corners[2]) - points.col(corners[0]);
+        const Vector3 cross = first.cross(second);
+        if (around.dot(cross) < 0.0 && has_normal(cross, first, second)) flipped.push_back(t);
     }
     return flipped;
 }

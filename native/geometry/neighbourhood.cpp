@@ -47,19 +47,19 @@ Neighbourhood::Neighbourhood(const VertexAdjacency& adjacency, const Points& poi
 
 void Neighbourhood::gather(int vertex) {
     ++stamp_;
-    Indices visited(1, vertex);
+    visited_.assign(1, vertex);
     mark_[at(vertex)] = stamp_;
     size_of_rings_.assign(1, 0);
     std::size_t ring_begin = 0;
     while (static_cast<int>(size_of_rings_.size()) <= reach_.rings ||
-           (visited.size() <= reach_.points && static_cast<int>(size_of_rings_.size()) <= most_rings)) {
-        const std::size_t ring_end = visited.size();
-        for (std::size_t k = ring_begin; k < ring_end; ++k) visit_neighbours(visited[k], visited);
+           (visited_.size() <= reach_.points && static_cast<int>(size_of_rings_.size()) <= most_rings)) {
+        const std::size_t ring_end = visited_.size();
+        for (std::size_t k = ring_begin; k < ring_end; ++k) visit_neighbours(visited_[k]);
         ring_begin = ring_end;
-        size_of_rings_.push_back(visited.size() - 1);
+        size_of_rings_.push_back(visited_.size() - 1);
     }
     by_ring_.clear();
-    for (std::size_t k = 1; k < visited.size(); ++k) by_ring_.emplace_back(points_.col(visited[k]));
+    for (std::size_t k = 1; k < visited_.size(); ++k) by_ring_.emplace_back(points_.col(visited_[k]));
     sort_by_distance(points_.col(vertex));
 }
 
@@ -71,21 +71,23 @@ std::span<const Vector3> Neighbourhood::nearest(std::size_t count) const {
     return std::span(by_distance_).first(std::min(by_distance_.size(), count));
 }
 
-void Neighbourhood::visit_neighbours(int vertex, Indices& visited) {
+void Neighbourhood::visit_neighbours(int vertex) {
     for (int k = adjacency_.begin[at(vertex)]; k < adjacency_.begin[at(vertex) + 1]; ++k) {
         const int other = adjacency_.neighbours[at(k)];
         if (mark_[at(other)] == stamp_) continue;
         mark_[at(other)] = stamp_;
-        visited.push_back(other);
+        visited_.push_back(other);
     }
 }
 
 void Neighbourhood::sort_by_distance(const Vector3& centre) {
-    by_distance_ = by_ring_;
-    const std::size_t kept = std::min(by_distance_.size(), reach_.points);
-    std::partial_sort(
-        by_distance_.begin(), by_distance_.begin() + std::ptrdiff_t(kept), by_distance_.end(),
-        [&](const Vector3& a, const Vector3& b) { return (a - centre).squaredNorm() < (b - centre).squaredNorm(); });
+    distances_.clear();
+    for (const Vector3& point : by_ring_) distances_.push_back({(point - centre).squaredNorm(), point});
+    const std::size_t kept = std::min(distances_.size(), reach_.points);
+    std::partial_sort(distances_.begin(), distances_.begin() + std::ptrdiff_t(kept), distances_.end(),
+                      [](const Distant& a, const Distant& b) { return a.squared < b.squared; });
+    by_distance_.clear();
+    for (std::size_t k = 0; k < kept; ++k) by_distance_.push_back(distances_[k].point);
 }
 
 }  // namespace fairing

@@ -49,7 +49,12 @@ public:
     [[nodiscard]] std::span<const Vector3> nearest(std::size_t count) const;
 
 private:
-    void visit_neighbours(int vertex, Indices& visited);
+    struct Distant {
+        double squared;
+        Vector3 point;
+    };
+
+    void visit_neighbours(int vertex);
     void sort_by_distance(const Vector3& centre);
 
     const VertexAdjacency& adjacency_;
@@ -60,6 +65,8 @@ private:
     std::vector<std::size_t> size_of_rings_;  // of the first k rings together
     std::vector<Vector3> by_ring_;
     std::vector<Vector3> by_distance_;
+    Indices visited_;                 // scratch
+    std::vector<Distant> distances_;  // likewise
 };
 
 }  // namespace fairing

@@ -4,12 +4,13 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <numeric>
+#include <span>
 
 #include <Eigen/Geometry>
 #include <unsupported/Eigen/BVH>
 
 #include "base/parallel.h"
+#include "geometry/box_tree.h"
 
 namespace fairing {
 
@@ -17,9 +18,6 @@ namespace {
 
 using Box = Eigen::AlignedBox3d;
 using Corners = std::array<Vector3, 3>;
-
-constexpr int leaf_size = 4;
-constexpr int most_pieces = 64;  // of a level of the tree, to work on side by side
 
 // Twice the area of a triangle along its normal.
 Vector3 area_vector(const Corners& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
@@ -39,33 +37,59 @@ Box box_around(const Corners& corners) {
     return box;
 }
 
-// The triangles of a range of the order, split at the median.
-struct Node {
-    Box box;
-    int begin = 0;
-    int end = 0;
-    [[nodiscard]] int size() const { return end - begin; }
-    [[nodiscard]] bool is_leaf() const { return size() <= leaf_size; }
+struct Face {
+    std::array<int, 3> vertices;
+    Corners corners;
+    [[nodiscard]] bool has(int v) const { return v == vertices[0] || v == vertices[1] || v == vertices[2]; }
 };
+
+using Heights = std::array<double, 3>;
+
+// Of the corners of a face over the plane of another with this area vector, times twice its area.
+Heights heights(const Face& face, const Face& other, const Vector3& area) {
+    Heights above;
+    for (std::size_t k = 0; k < 3; ++k) above[k] = area.dot(face.corners[k] - other.corners[0]);
+    return above;
+}
+
+// All of a face lies on one side of another's plane: neither passes through the other. Most neighbours end here.
+bool lie_beside(const Heights& above) {
+    const auto [p, q, r] = above;
+    return std::min({p, q, r}) >= 0.0 || std::max({p, q, r}) <= 0.0;
+}
+
+// The line pq passes all edges of the triangle on the side of its inside: where all volumes have the sign of `slack`,
+// and more than its size.
+bool passes_inside(const Vector3& p, const Vector3& q, const Corners& t, double slack) {
+    const double sign = slack > 0.0 ? 1.0 : -1.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (!(sign * volume(p, q, t[k], t[(k + 1) % 3]) > std::abs(slack))) return false;
+    }
+    return true;
+}
+
+// An edge of a face with these heights over another passes through the inside of that one, by more than round-off.
+// Edges that end in a corner of the other only touch it.
+bool edge_pierces(const Face& face, const Heights& above, const Face& other, double slack) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t next = (k + 1) % 3;
+        const double p = above[k];
+        const double q = above[next];
+        if (!((p > slack && q < -slack) || (p < -slack && q > slack))) continue;
+        if (other.has(face.vertices[k]) || other.has(face.vertices[next])) continue;
+        if (passes_inside(face.corners[k], face.corners[next], other.corners, p > 0.0 ? -slack : slack)) return true;
+    }
+    return false;
+}
 
 class Crossings {
 public:
     // `asked`: for each triangle whether its pairs count; a pair of two that are not asked for doesn't.
     Crossings(const Triangles& triangles, const Points& points, const std::vector<char>& asked)
-        : triangles_(triangles), points_(points), asked_(asked), crossing_(asked.size()) {
-        const int count = static_cast<int>(triangles.cols());
-        order_.resize(at(count));
-        std::iota(order_.begin(), order_.end(), 0);
-        measure_triangles();
-        int last_level = 1;  // nodes there: enough for all of them to be leaves
-        while (last_level * leaf_size < count) last_level *= 2;
-        nodes_.resize(2 * at(last_level));
-        nodes_[1] = {Box(), 0, count};
-        for (int level = 1; level <= last_level; level *= 2) sort_level(level);
-    }
+        : triangles_(triangles), points_(points), asked_(asked), crossing_(asked.size()) {}
 
     Indices find() {
-        test_pairs();
+        BoxTree(triangles_, points_).for_overlaps([&](int t, std::span<const int> others) { test(t, others); });
         Indices result;
         for (int t = 0; t < static_cast<int>(crossing_.size()); ++t) {
             if (crossing_[at(t)]) result.push_back(t);
@@ -74,178 +98,38 @@ public:
     }
 
 private:
-    // Two nodes that may touch, or one twice.
-    struct Pair {
-        int first;
-        int second;
-    };
-
-    void measure_triangles() {
-        const auto count = static_cast<int>(triangles_.cols());
-        boxes_.resize(at(count));
-        sizes_.resize(at(count));
-        areas_.resize(3, count);
-        for_ranges(count, coarse_grain, [&](int begin, int end) {
-            for (int t = begin; t < end; ++t) {
-                boxes_[at(t)] = box_around(corners(t));
-                sizes_[at(t)] = boxes_[at(t)].diagonal().norm();
-                areas_.col(t) = area_vector(corners(t));
-            }
-        });
+    [[nodiscard]] Face face(int t) const {
+        return {{triangles_(0, t), triangles_(1, t), triangles_(2, t)}, corners_of(triangles_, points_, t)};
     }
 
-    [[nodiscard]] Corners corners(int t) const { return corners_of(triangles_, points_, t); }
-
-    // Children of node k are 2 k and 2 k + 1: a level begins at a power of two and has as many nodes.
-    void sort_level(int first) {
-        for_ranges(first, std::max(1, first / most_pieces), [&](int begin, int end) {
-            for (int k = first + begin; k < first + end; ++k) sort_node(k);
-        });
-    }
-
-    void sort_node(int index) {
-        Node& node = nodes_[at(index)];
-        Box centres;
-        for (int k = node.begin; k < node.end; ++k) {
-            const Box& box = boxes_[at(order_[at(k)])];
-            node.box.extend(box);
-            centres.extend(Vector3(box.min() + box.max()));
-        }
-        if (node.is_leaf()) return;
-        Eigen::Index axis = 0;
-        centres.sizes().maxCoeff(&axis);
-        const int middle = (node.begin + node.end) / 2;
-        // Keys side by side: large nodes would wait for the memory otherwise.
-        std::vector<std::pair<double, int>> keys;
-        keys.reserve(at(node.size()));
-        for (int k = node.begin; k < node.end; ++k) {
-            const Box& box = boxes_[at(order_[at(k)])];
-            keys.emplace_back(box.min()[axis] + box.max()[axis], order_[at(k)]);
-        }
-        std::nth_element(keys.begin(), keys.begin() + (middle - node.begin), keys.end());
-        std::transform(keys.begin(), keys.end(), order_.begin() + node.begin,
-                       [](const auto& key) { return key.second; });
-        nodes_[at(2 * index)] = {Box(), node.begin, middle};
-        nodes_[at(2 * index + 1)] = {Box(), middle, node.end};
-    }
-
-    // Pairs of large nodes are split one after the other, what they come down to side by side.
-    void test_pairs() {
-        const int small = std::max(leaf_size, static_cast<int>(order_.size()) / most_pieces);
-        std::vector<Pair> open{{1, 1}};
-        std::vector<Pair> pieces;
-        while (!open.empty()) {
-            const Pair pair = open.back();
-            open.pop_back();
-            if (std::max(nodes_[at(pair.first)].size(), nodes_[at(pair.second)].size()) <= small) {
-                pieces.push_back(pair);
-            } else {
-                split(pair, [&](const Pair& part) { open.push_back(part); });
-            }
-        }
-        run_pieces(static_cast<int>(pieces.size()), [&](int k) { test(pieces[at(k)]); });
-    }
-
-    // visit(pair) for the parts of a pair of which not both are leaves, as far as they touch.
-    template <typename Visit>
-    void split(const Pair& pair, const Visit& visit) const {
-        const auto [a, b] = pair;
-        if (a == b) {
-            for (const Pair& part : {Pair{2 * a, 2 * a}, Pair{2 * a + 1, 2 * a + 1}, Pair{2 * a, 2 * a + 1}}) {
-                if (touch(part)) visit(part);
-            }
-            return;
-        }
-        const bool splits_first = nodes_[at(a)].size() >= nodes_[at(b)].size();
-        for (int child : {0, 1}) {
-            const Pair part = splits_first ? Pair{2 * a + child, b} : Pair{a, 2 * b + child};
-            if (touch(part)) visit(part);
+    void test(int t, std::span<const int> others) {
+        const Face a = face(t);
+        const Vector3 area = area_vector(a.corners);
+        for (const int other : others) {
+            if (!asked_[at(t)] && !asked_[at(other)]) continue;
+            const Face b = face(other);
+            if (!cross(a, area, b) || (crossing_[at(t)] && crossing_[at(other)])) continue;
+            crossing_[at(t)] = crossing_[at(other)] = 1;
         }
     }
 
-    [[nodiscard]] bool touch(const Pair& pair) const {
-        return nodes_[at(pair.first)].box.intersects(nodes_[at(pair.second)].box);
-    }
-
-    void test(const Pair& pair) {
-        const Node& a = nodes_[at(pair.first)];
-        const Node& b = nodes_[at(pair.second)];
-        if (!a.is_leaf() || !b.is_leaf()) {
-            split(pair, [&](const Pair& part) { test(part); });
-            return;
-        }
-        for (int k = a.begin; k < a.end; ++k) {
-            const int other = pair.first == pair.second ? k + 1 : b.begin;
-            for (int l = other; l < b.end; ++l) test_triangles(order_[at(k)], order_[at(l)]);
-        }
-    }
-
-    void test_triangles(int a, int b) {
-        if (!asked_[at(a)] && !asked_[at(b)]) return;
-        if (!boxes_[at(a)].intersects(boxes_[at(b)]) || lies_beside(a, b) || lies_beside(b, a)) return;
-        int shared = 0;
-        for (int v : triangles_.col(a)) {
-            for (int w : triangles_.col(b)) shared += v == w;
-        }
-        if (shared > 1 || (crossing_[at(a)] && crossing_[at(b)])) return;
-        if (edge_pierces(a, b) || edge_pierces(b, a)) crossing_[at(a)] = crossing_[at(b)] = 1;
-    }
-
-    // Of the corners of triangle a over b's plane, times twice b's area.
-    [[nodiscard]] std::array<double, 3> heights(int a, int b) const {
-        const Vector3 normal = areas_.col(b);
-        const Vector3 origin = points_.col(triangles_(0, b));
-        std::array<double, 3> above;
-        for (int k = 0; k < 3; ++k) above[at(k)] = normal.dot(points_.col(triangles_(k, a)) - origin);
-        return above;
-    }
-
-    // All of triangle a lies on one side of b's plane: neither passes through the other. Most neighbours end here.
-    [[nodiscard]] bool lies_beside(int a, int b) const {
-        const auto [p, q, r] = heights(a, b);
-        return std::min({p, q, r}) >= 0.0 || std::max({p, q, r}) <= 0.0;
-    }
-
-    // An edge of triangle a passes through the inside of triangle b, by more than round-off. Edges that end in a corner
-    // of b only touch it.
-    [[nodiscard]] bool edge_pierces(int a, int b) const {
+    static bool cross(const Face& a, const Vector3& area, const Face& b) {
+        const Heights above_a = heights(b, a, area);
+        if (lie_beside(above_a)) return false;
+        const auto shared = std::count_if(b.vertices.begin(), b.vertices.end(), [&](int v) { return a.has(v); });
+        if (shared > 1) return false;
+        const Heights above_b = heights(a, b, area_vector(b.corners));
+        if (lie_beside(above_b)) return false;
         constexpr double round_off = 1e-12;
-        const Corners from = corners(a);
-        const Corners to = corners(b);
-        const double size = std::max(sizes_[at(a)], sizes_[at(b)]);
+        const double size = std::max(box_around(a.corners).diagonal().norm(), box_around(b.corners).diagonal().norm());
         const double slack = round_off * size * size * size;
-        const std::array<double, 3> above = heights(a, b);
-        const auto is_corner_of_b = [&](int v) { return (triangles_.col(b).array() == v).any(); };
-        for (int k = 0; k < 3; ++k) {
-            const int next = (k + 1) % 3;
-            const double p = above[at(k)];
-            const double q = above[at(next)];
-            if (!((p > slack && q < -slack) || (p < -slack && q > slack))) continue;
-            if (is_corner_of_b(triangles_(k, a)) || is_corner_of_b(triangles_(next, a))) continue;
-            if (passes_inside(from[at(k)], from[at(next)], to, p > 0.0 ? -slack : slack)) return true;
-        }
-        return false;
-    }
-
-    // The line pq passes all edges of the triangle on the side of its inside: where all volumes have the sign of
-    // `slack`, and more than its size.
-    [[nodiscard]] static bool passes_inside(const Vector3& p, const Vector3& q, const Corners& t, double slack) {
-        const double sign = slack > 0.0 ? 1.0 : -1.0;
-        for (int k = 0; k < 3; ++k) {
-            if (!(sign * volume(p, q, t[at(k)], t[at((k + 1) % 3)]) > std::abs(slack))) return false;
-        }
-        return true;
+        return edge_pierces(a, above_b, b, slack) || edge_pierces(b, above_a, a, slack);
     }
 
     const Triangles& triangles_;
     const Points& points_;
     const std::vector<char>& asked_;
     std::vector<std::atomic<char>> crossing_;
-    std::vector<Box> boxes_;     // of triangles
-    std::vector<double> sizes_;  // of these
-    Points areas_;               // area vectors of triangles
-    Indices order_;
-    std::vector<Node> nodes_;
 };
 
 // Whether a box meets one of a tree's. Eigen names the functions.

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "geometry/frame.h"
+#include "geometry/tall_system.h"
 
 namespace fairing {
 
@@ -21,11 +22,11 @@ constexpr double cos_of_widest_turn = 0.5;
 
 // Columns of the system: quadratic and cubic terms, the constant where the centre is free, then x and y; the heights
 // stand in the last one.
-constexpr Eigen::Index sphere_terms = 1;
-constexpr Eigen::Index quadratic_terms = 3;
-constexpr Eigen::Index cubic_terms = 4;
+constexpr int sphere_terms = 1;
+constexpr int quadratic_terms = 3;
+constexpr int cubic_terms = 4;
 
-Eigen::Index terms_of(Degree degree) {
+int terms_of(Degree degree) {
     if (degree == Degree::sphere) return sphere_terms;
     return degree == Degree::cubic ? quadratic_terms + cubic_terms : quadratic_terms;
 }
@@ -36,7 +37,6 @@ struct Round {
     double constant;
     double error;
     double scatter;
-    double curvature_error;
 };
 
 // The axes in which the quadratic terms are written. Where the direction isn't known yet, chords stretch all of them.
@@ -46,94 +46,103 @@ struct Axes {
     bool known;
 };
 
-// The triangular factor of A = Q R in place of A, above the diagonal and on it, by Householder's reflections. For
-// systems this small half of the time of Eigen's would go into its blocks and buffers.
-void triangularise(Eigen::MatrixXd& A) {
-    const Eigen::Index rows = A.rows();
-    for (Eigen::Index j = 0; j < std::min(rows, A.cols()); ++j) {
-        auto v = A.col(j).tail(rows - j);
-        const double pivot = v[0] > 0.0 ? -v.norm() : v.norm();
-        v[0] -= pivot;
-        const double scale = -pivot * v[0];  // half of |v|²
-        if (!(scale > 0.0)) continue;
-        for (Eigen::Index k = j + 1; k < A.cols(); ++k) {
-            auto column = A.col(k).tail(rows - j);
-            column -= v.dot(column) / scale * v;
-        }
-        v[0] = pivot;
-    }
-}
-
 class Fit {
+    using Four = TallSystem::Four;
+    using Index = TallSystem::Index;
+
 public:
     Fit(const Vector3& centre, std::span<const Vector3> points, Degree degree, Centre at_centre)
         : terms_(terms_of(degree)),
           constants_(at_centre == Centre::free ? 1 : 0),
-          offsets_(3, static_cast<Eigen::Index>(points.size()) + constants_),
-          system_(offsets_.cols(), terms_ + constants_ + 3) {
-        offsets_.rightCols(constants_).setZero();  // the centre itself
-        for (std::size_t k = 0; k < points.size(); ++k) {
-            offsets_.col(static_cast<Eigen::Index>(k)) = points[k] - centre;
+          count_(static_cast<int>(points.size()) + constants_),
+          system_(count_, unknowns() + 1),
+          offsets_(4, 3 * system_.fours()),
+          weights_(4, system_.fours()) {
+        offsets_.setZero();  // as the centre's own row has them
+        for (Index k = 0; k < count_ - constants_; ++k) {
+            const Vector3 offset = points[static_cast<std::size_t>(k)] - centre;
+            for (Index axis = 0; axis < 3; ++axis) offsets_(k % 4, 3 * (k / 4) + axis) = offset[axis];
         }
-        scale_ = std::sqrt(offsets_.colwise().squaredNorm().maxCoeff());
+        for (Index k = 0; k < system_.fours(); ++k) {
+            weights_.col(k) =
+                offsets_.col(3 * k).square() + offsets_.col(3 * k + 1).square() + offsets_.col(3 * k + 2).square();
+        }
+        const double farthest = weights_.maxCoeff();  // squared
+        scale_ = std::sqrt(farthest);
         if (scale_ > 0.0) offsets_ /= scale_;
-        weights_ = (-offsets_.colwise().squaredNorm().array() / (width_of_weights * width_of_weights)).exp();
+        weights_ = (weights_ * (-1.0 / (farthest * width_of_weights * width_of_weights))).exp();
+        for (Index k = count_; k < 4 * system_.fours(); ++k) weights_(k % 4, k / 4) = 0.0;
+        mean_weight_ = std::sqrt(weights_.square().sum() / count_);
     }
 
-    [[nodiscard]] bool usable() const { return scale_ > 0.0 && offsets_.cols() > unknowns(); }
+    [[nodiscard]] bool usable() const { return scale_ > 0.0 && count_ > unknowns(); }
     [[nodiscard]] double scale() const { return scale_; }
 
     // `constant`: c₀ of the round before.
     std::optional<Round> round(const Vector3& normal, const Axes& axes, double constant) {
-        for (Eigen::Index k = 0; k < offsets_.cols(); ++k) fill_row(k, normal, axes, constant);
-        triangularise(system_);
+        for (Index k = 0; k < system_.fours(); ++k) fill_four(k, normal, axes, constant);
+        system_.triangularise();
         return solve();
     }
 
-private:
-    [[nodiscard]] Eigen::Index unknowns() const { return terms_ + constants_ + 2; }
-
-    void fill_row(Eigen::Index k, const Vector3& normal, const Axes& axes, double constant) {
-        const Vector3 d = offsets_.col(k);
-        const double x = axes.x.dot(d);
-        const double y = axes.y.dot(d);
-        const double height = normal.dot(d);
-        const double above = height - constant;
-        auto row = system_.row(k);
+    // Of the sum of the terms of x² and y², in the last round.
+    [[nodiscard]] double error_of_curvature() const {
+        TallSystem::Row covariance = TallSystem::Row::Zero(unknowns());
         if (terms_ == sphere_terms) {
-            row[0] = x * x + y * y + above * above;
+            covariance[0] = 2.0;
         } else {
-            row.head<3>() << x * x, x * y, y * y;
-            if (axes.known) {
-                row[0] += above * above;
-            } else {
-                row.head<3>() *= d.squaredNorm() / std::max(x * x + y * y, 1e-24);
-            }
+            covariance[0] = 1.0;
+            covariance[2] = 1.0;
         }
-        if (terms_ > quadratic_terms) row.segment<4>(3) << x * x * x, x * x * y, x * y * y, y * y * y;
-        row.segment(terms_, constants_).setOnes();
-        row.tail<3>() << x, y, height;
-        row *= weights_[k];
+        return system_.solve_transposed(covariance).norm() * residual();
     }
 
-    // From the triangular factor in place of the system. The slopes are the last unknowns: their covariance needs the
-    // last block of the factor only.
+private:
+    [[nodiscard]] int unknowns() const { return terms_ + constants_ + 2; }
+
+    [[nodiscard]] Four along(const Vector3& axis, Index k) const {
+        return axis.x() * offsets_.col(3 * k) + axis.y() * offsets_.col(3 * k + 1) + axis.z() * offsets_.col(3 * k + 2);
+    }
+
+    void fill_four(Index k, const Vector3& normal, const Axes& axes, double constant) {
+        const Four weight = weights_.col(k);
+        const Four x = along(axes.x, k);
+        const Four y = along(axes.y, k);
+        const Four height = along(normal, k);
+        const Four above = height - constant;
+        const Four squared = x * x + y * y;
+        int column = 0;
+        const auto add = [&](const Four& values) { system_.set(k, column++, weight * values); };
+        if (terms_ == sphere_terms) {
+            add(squared + above * above);
+        } else if (axes.known) {
+            add(x * x + above * above), add(x * y), add(y * y);
+        } else {
+            const Four stretch = (squared + height * height) / squared.max(1e-24);
+            add(stretch * x * x), add(stretch * x * y), add(stretch * y * y);
+        }
+        if (terms_ > quadratic_terms) add(x * x * x), add(x * x * y), add(x * y * y), add(y * y * y);
+        if (constants_ > 0) add(Four::Ones());
+        add(x), add(y), add(height);
+    }
+
+    [[nodiscard]] double residual() const {
+        return std::abs(system_.factor(unknowns(), unknowns())) / std::sqrt(static_cast<double>(count_ - unknowns()));
+    }
+
+    // From the triangular factor. The slopes are the last unknowns: their covariance needs the last block of the factor
+    // only.
     [[nodiscard]] std::optional<Round> solve() const {
-        const auto factor = system_.topLeftCorner(unknowns(), unknowns());
-        const VectorX pivots = factor.diagonal().cwiseAbs();
-        if (!(pivots.minCoeff() > least_pivot * pivots.maxCoeff())) return std::nullopt;
-        VectorX solution = system_.col(unknowns()).head(unknowns());
-        factor.triangularView<Eigen::Upper>().solveInPlace(solution);
-        const Eigen::Matrix2d last = factor.bottomRightCorner<2, 2>();
-        const Eigen::Matrix2d inverse = last.triangularView<Eigen::Upper>().solve(Eigen::Matrix2d::Identity());
-        const auto spare = static_cast<double>(offsets_.cols() - unknowns());
-        const double residual = std::abs(system_(unknowns(), unknowns())) / std::sqrt(spare);
+        if (!(system_.least_pivot(unknowns()) > least_pivot)) return std::nullopt;
+        const TallSystem::Row solution = system_.solve(unknowns());
+        const double first = 1.0 / system_.factor(unknowns() - 2, unknowns() - 2);
+        const double last = 1.0 / system_.factor(unknowns() - 1, unknowns() - 1);
+        const double beside = -first * last * system_.factor(unknowns() - 2, unknowns() - 1);
         Round result{solution.tail<2>(),
                      {},
                      constants_ > 0 ? solution[terms_] : 0.0,
-                     inverse.norm() * residual,
-                     residual / root_mean_square_weight(),
-                     error_of_curvature(factor) * residual};
+                     std::sqrt(first * first + beside * beside + last * last) * residual(),
+                     residual() / mean_weight_};
         result.terms.setZero();
         result.terms.head(terms_) = solution.head(terms_);
         if (terms_ == sphere_terms) result.terms[2] = result.terms[0];
@@ -141,29 +150,13 @@ private:
         return result;
     }
 
-    // Of the sum of the terms of x² and y², for a residual of one.
-    template <typename Factor>
-    [[nodiscard]] double error_of_curvature(const Factor& factor) const {
-        VectorX covariance = VectorX::Zero(unknowns());
-        if (terms_ == sphere_terms) {
-            covariance[0] = 2.0;
-        } else {
-            covariance[0] = 1.0;
-            covariance[2] = 1.0;
-        }
-        factor.transpose().template triangularView<Eigen::Lower>().solveInPlace(covariance);
-        return covariance.norm();
-    }
-
-    [[nodiscard]] double root_mean_square_weight() const {
-        return std::sqrt(weights_.squaredNorm() / static_cast<double>(offsets_.cols()));
-    }
-
-    Eigen::Index terms_;
-    Eigen::Index constants_;
-    Points offsets_;  // in units of the farthest
-    VectorX weights_;
-    Eigen::MatrixXd system_;
+    int terms_;
+    int constants_;
+    int count_;  // of rows
+    TallSystem system_;
+    Eigen::Array4Xd offsets_;   // x, y, z of each four, in units of the farthest
+    Eigen::Array4Xd weights_;   // zero in the rows that fill up the last four
+    double mean_weight_ = 0.0;  // root of the mean square
     double scale_ = 0.0;
 };
 
@@ -191,7 +184,6 @@ void take(SlopeFit& fit, const Round& round, const Axes& axes) {
     fit.height = scale * round.constant;
     fit.scatter = scale * round.scatter;
     fit.mean_curvature = (round.terms[0] + round.terms[2]) / scale;
-    fit.curvature_error = round.curvature_error / scale;
     fit.x = axes.x;
     fit.y = axes.y;
     fit.terms = round.terms;
@@ -219,6 +211,7 @@ std::optional<SlopeFit> fit_slopes(const Vector3& centre, std::span<const Vector
         if (k + 1 >= least_rounds && change < std::max(settled, settled_in_noise * round->error)) break;
     }
     if (!(result.normal.dot(start) > cos_of_widest_turn)) return std::nullopt;
+    result.curvature_error = fit.error_of_curvature() / fit.scale();
     return result;
 }
 

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 
-#include "base/direction.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "geometry/face_geometry.h"
@@ -38,12 +37,6 @@ std::vector<Candidate> candidates(const Neighbourhood& around, Centre at_centres
     return list;
 }
 
-Points averaged_at(const Points& points, const Triangles& triangles) {
-    Points sums = summed_normals(points, triangles);
-    for (auto column : sums.colwise()) column = direction(column);
-    return sums;
-}
-
 }  // namespace
 
 Reach SurfaceFits::reach_of(Centre at_centres) {
@@ -54,7 +47,7 @@ SurfaceFits::SurfaceFits(const Points& points, const Triangles& triangles, Centr
     : points_(points),
       adjacency_(triangles, static_cast<int>(points.cols())),
       around_(adjacency_, points_, reach_of(at_centres)),
-      averaged_(averaged_at(points, triangles)),
+      summed_(summed_normals(points, triangles)),
       at_centres_(at_centres) {}
 
 // The standard error falls with more terms where the surface has them, and rises where the points don't determine them.
@@ -63,7 +56,7 @@ std::optional<SlopeFit> SurfaceFits::at_vertex(int vertex, Neighbourhood& around
     std::optional<SlopeFit> best;
     std::optional<SlopeFit> most_certain;  // of its curvature
     for (const auto& [points, degree] : candidates(around, at_centres_)) {
-        const auto fit = fit_slopes(points_.col(vertex), points, averaged_.col(vertex), degree, at_centres_);
+        const auto fit = fit_slopes(points_.col(vertex), points, averaged(vertex), degree, at_centres_);
         if (fit && (!best || fit->error < best->error)) best = fit;
         if (fit && (!most_certain || fit->curvature_error < most_certain->curvature_error)) most_certain = fit;
     }

@@ -1,6 +1,7 @@
 // Surfaces fitted to nearby vertices: for outlines, where the one-ring sees one side only.
 #pragma once
 
+#include "base/direction.h"
 #include "geometry/neighbourhood.h"
 #include "geometry/slope_fit.h"
 #include "mesh/patch.h"
@@ -21,7 +22,7 @@ public:
     std::optional<SlopeFit> at_vertex(int vertex, Neighbourhood& around) const;
     [[nodiscard]] Neighbourhood walk() const { return {adjacency_, points_, reach_of(at_centres_)}; }
     // The normalised sum of the adjacent triangles' cross products; zero where there are none.
-    [[nodiscard]] Vector3 averaged(int vertex) const { return averaged_.col(vertex); }
+    [[nodiscard]] Vector3 averaged(int vertex) const { return direction(summed_.col(vertex)); }
 
 private:
     static Reach reach_of(Centre at_centres);
@@ -29,7 +30,7 @@ private:
     const Points& points_;
     VertexAdjacency adjacency_;
     Neighbourhood around_;
-    Points averaged_;
+    Points summed_;  // cross products
     Centre at_centres_;
 };
 

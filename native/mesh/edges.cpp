@@ -13,23 +13,44 @@ struct Entry {
     int side;
 };
 
-// Sides bucketed by their smaller vertex: one pass of counting sort, linear in the number of triangles.
+// visit(side, lower end, higher end)
+template <typename Visit>
+void for_each_side(const Triangles& triangles, const Visit& visit) {
+    for (int t = 0; t < static_cast<int>(triangles.cols()); ++t) {
+        checkpoint(t);
+        for (int k = 0; k < 3; ++k) {
+            const int tail = triangles(k, t);
+            const int head = triangles(k == 2 ? 0 : k + 1, t);
+            visit(3 * t + k, std::min(tail, head), std::max(tail, head));
+        }
+    }
+}
+
+// Sides bucketed by their smaller vertex: one pass of counting sort, linear in the number of triangles. Those of a
+// bucket as they are numbered.
 std::vector<Entry> bucket_sides(const Triangles& triangles, Indices& bucket_begin) {
-    const int side_count = 3 * static_cast<int>(triangles.cols());
-    for (int s = 0; s < side_count; ++s) {
-        const int low = std::min(side_tail(triangles, s), side_head(triangles, s));
-        ++bucket_begin[static_cast<std::size_t>(low) + 1];
-    }
+    for_each_side(triangles, [&](int, int low, int) { ++bucket_begin[at(low) + 1]; });
     for (std::size_t v = 1; v < bucket_begin.size(); ++v) bucket_begin[v] += bucket_begin[v - 1];
-    std::vector<Entry> entries(static_cast<std::size_t>(side_count));
+    std::vector<Entry> entries(static_cast<std::size_t>(triangles.size()));
     Indices cursor(bucket_begin.begin(), bucket_begin.end());
-    for (int s = 0; s < side_count; ++s) {
-        checkpoint(s);
-        const int low = std::min(side_tail(triangles, s), side_head(triangles, s));
-        const int high = std::max(side_tail(triangles, s), side_head(triangles, s));
-        entries[static_cast<std::size_t>(cursor[static_cast<std::size_t>(low)]++)] = {high, s};
-    }
+    for_each_side(triangles, [&](int side, int low, int high) { entries[at(cursor[at(low)]++)] = {high, side}; });
     return entries;
+}
+
+// A bucket's by their larger vertex, then as they are. They are few.
+void sort_bucket(Entry* first, Entry* last) {
+    constexpr std::ptrdiff_t few = 16;
+    const auto is_less = [](const Entry& a, const Entry& b) { return a.high < b.high; };
+    if (last - first > few) {
+        std::stable_sort(first, last, is_less);
+        return;
+    }
+    for (Entry* next = first; next != last; ++next) {
+        const Entry entry = *next;
+        Entry* place = next;
+        for (; place != first && is_less(entry, *(place - 1)); --place) *place = *(place - 1);
+        *place = entry;
+    }
 }
 
 }  // namespace
@@ -40,18 +61,19 @@ EdgeTable make_edges(const Triangles& triangles, int vertex_count) {
     EdgeTable table;
     table.edge_of_side.resize(entries.size());
     table.sides.reserve(entries.size());
+    table.ends.reserve(entries.size() / 2 + 16);
+    table.begin.reserve(entries.size() / 2 + 17);
     for (int low = 0; low < vertex_count; ++low) {
         checkpoint(low);
-        const auto first = entries.begin() + bucket_begin[static_cast<std::size_t>(low)];
-        const auto last = entries.begin() + bucket_begin[static_cast<std::size_t>(low) + 1];
-        std::sort(first, last,
-                  [](const Entry& a, const Entry& b) { return a.high != b.high ? a.high < b.high : a.side < b.side; });
-        for (auto entry = first; entry != last; ++entry) {
+        Entry* const first = entries.data() + bucket_begin[at(low)];
+        Entry* const last = entries.data() + bucket_begin[at(low) + 1];
+        sort_bucket(first, last);
+        for (const Entry* entry = first; entry != last; ++entry) {
             if (entry == first || entry->high != (entry - 1)->high) {
                 table.begin.push_back(static_cast<int>(table.sides.size()));
                 table.ends.push_back({low, entry->high});
             }
-            table.edge_of_side[static_cast<std::size_t>(entry->side)] = table.size() - 1;
+            table.edge_of_side[at(entry->side)] = table.size() - 1;
             table.sides.push_back(entry->side);
         }
     }

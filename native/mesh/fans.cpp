@@ -3,31 +3,47 @@
 #include <algorithm>
 
 #include "base/progress.h"
-#include "mesh/union_find.h"
 
 namespace fairing {
 
 namespace {
 
-int corner_at(const Triangles& triangles, int side, int vertex) {
-    return 3 * (side / 3) + (side_tail(triangles, side) == vertex ? side % 3 : (side % 3 + 1) % 3);
-}
+// Corners around a vertex of the mesh, one after the other across its uncut edges. Corner 3 t + k has side 3 t + k on
+// one hand and side 3 t + (k + 2) % 3 on the other.
+class FanWalk {
+public:
+    FanWalk(const Triangles& triangles, const EdgeTable& edges, const std::vector<char>& cut)
+        : triangles_(triangles), edges_(edges), cut_(cut) {}
 
-Fans number_fans(const Triangles& triangles, UnionFind& corners) {
-    Fans fans;
-    const int corner_count = 3 * static_cast<int>(triangles.cols());
-    fans.of_corner.assign(at(corner_count), none);
-    for (int c = 0; c < corner_count; ++c) {
-        checkpoint(c);
-        int& fan = fans.of_corner[at(corners.root(c))];
-        if (fan == none) {
-            fan = static_cast<int>(fans.input_vertex.size());
-            fans.input_vertex.push_back(triangles(c % 3, c / 3));
+    // visit(corner) for a corner's fan, as far as it says true: from this corner to the last one on either hand.
+    template <typename Visit>
+    void around(int corner, const Visit& visit) const {
+        visit(corner);
+        for (const int first : {corner, corner - corner % 3 + (corner + 2) % 3}) {
+            for (int twin = beyond(first); twin != none;) {
+                const int triangle = twin - twin % 3;
+                const bool starts_here = vertex(twin) == vertex(corner);
+                const int next = starts_here ? twin : triangle + (twin + 1) % 3;
+                if (!visit(next)) break;
+                twin = beyond(starts_here ? triangle + (twin + 2) % 3 : next);
+            }
         }
-        fans.of_corner[at(c)] = fan;
     }
-    return fans;
-}
+
+private:
+    [[nodiscard]] int vertex(int corner) const { return triangles_.data()[corner]; }
+
+    // The side on the other triangle of an edge that joins two.
+    [[nodiscard]] int beyond(int side) const {
+        const int edge = edges_.edge_of_side[at(side)];
+        if (cut_[at(edge)] || edges_.side_count(edge) != 2) return none;
+        return edges_.side(edge, 0) == side ? edges_.side(edge, 1) : edges_.side(edge, 0);
+    }
+
+    const Triangles& triangles_;
+    const EdgeTable& edges_;
+    const std::vector<char>& cut_;
+};
 
 std::array<int, 3> sorted_fans(const Fans& fans, int triangle) {
     std::array<int, 3> result{};
@@ -39,15 +55,22 @@ std::array<int, 3> sorted_fans(const Fans& fans, int triangle) {
 }  // namespace
 
 Fans join_corners(const Triangles& triangles, const EdgeTable& edges, const std::vector<char>& cut) {
-    UnionFind corners(3 * static_cast<int>(triangles.cols()));
-    for (int e = 0; e < edges.size(); ++e) {
-        checkpoint(e);
-        if (cut[at(e)] || edges.side_count(e) != 2) continue;
-        for (int v : edges.ends[at(e)]) {
-            corners.join(corner_at(triangles, edges.side(e, 0), v), corner_at(triangles, edges.side(e, 1), v));
-        }
+    Fans fans;
+    const int corner_count = 3 * static_cast<int>(triangles.cols());
+    fans.of_corner.assign(at(corner_count), none);
+    const FanWalk walk(triangles, edges, cut);
+    for (int c = 0; c < corner_count; ++c) {
+        checkpoint(c);
+        if (fans.of_corner[at(c)] != none) continue;
+        const auto fan = static_cast<int>(fans.input_vertex.size());
+        fans.input_vertex.push_back(triangles(c % 3, c / 3));
+        walk.around(c, [&](int corner) {
+            if (fans.of_corner[at(corner)] != none) return false;
+            fans.of_corner[at(corner)] = fan;
+            return true;
+        });
     }
-    return number_fans(triangles, corners);
+    return fans;
 }
 
 Indices doubled_triangles(const Triangles& triangles, const EdgeTable& edges, const Fans& fans) {

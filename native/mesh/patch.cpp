@@ -70,13 +70,14 @@ void Patch::number_edges() {
             const int head = triangles((k + 1) % 3, t);
             int edge = find(head, tail);
             if (edge == none) {
+                if (find(tail, head) != none) refuse(t, tail, head);
                 edge = edge_count();
                 edge_ends.push_back({tail, head});
                 edge_triangles.push_back({t, none});
             } else {
+                if (edge_triangles[at(edge)][1] != none) refuse(t, tail, head);
                 edge_triangles[at(edge)][1] = t;
             }
-            if (find(tail, head) != none) refuse(t, tail, head);
             sides[at(end[at(tail)]++)] = {head, edge};
             triangle_edges((k + 2) % 3, t) = edge;
         }

@@ -16,6 +16,8 @@ public:
 
     // The set's representative, and whether `item` has the opposite parity to it.
     std::pair<int, bool> find(int item) {
+        const int above = parent_[at(item)];
+        if (parent_[at(above)] == above) return {above, parity_[at(item)] != 0};  // mostly; a root's own parity is none
         int root = item;
         bool flipped = false;
         while (parent_[at(root)] != root) {

@@ -57,6 +57,7 @@ DihedralBands::DihedralBands(const Points& points, const Triangles& triangles)
       normals_(3, triangles.cols()),
       begin_(static_cast<std::size_t>(points.cols()) + 1, 0),
       at_vertex_(static_cast<std::size_t>(triangles.size())),
+      vertex_mark_(static_cast<std::size_t>(points.cols()), 0),
       triangle_mark_(static_cast<std::size_t>(triangles.cols()), 0),
       edge_mark_(static_cast<std::size_t>(edges_.size()), 0) {
     for (int v : triangles.reshaped()) ++begin_[at(v) + 1];
@@ -89,6 +90,7 @@ Indices DihedralBands::triangles_near(int a, int b) {
     ++stamp_;
     Indices found;
     Indices front{a, b};
+    for (const int v : front) vertex_mark_[at(v)] = stamp_;
     for (int ring = 0; ring < rings; ++ring) {
         Indices next;
         for (int v : front) {
@@ -97,7 +99,11 @@ Indices DihedralBands::triangles_near(int a, int b) {
                 if (triangle_mark_[at(t)] == stamp_) continue;
                 triangle_mark_[at(t)] = stamp_;
                 found.push_back(t);
-                next.insert(next.end(), triangles_.col(t).begin(), triangles_.col(t).end());
+                for (const int corner : triangles_.col(t)) {
+                    if (vertex_mark_[at(corner)] == stamp_) continue;
+                    vertex_mark_[at(corner)] = stamp_;
+                    next.push_back(corner);
+                }
             }
         }
         front = std::move(next);

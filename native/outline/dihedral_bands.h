@@ -45,6 +45,7 @@ private:
     VectorX lengths_;
     Indices begin_;  // of each vertex in `at_vertex_`
     Indices at_vertex_;
+    Indices vertex_mark_;
     Indices triangle_mark_;
     Indices edge_mark_;
     int stamp_ = 0;

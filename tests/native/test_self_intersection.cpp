@@ -1,5 +1,12 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
 #include "geometry/self_intersection.h"
 #include "meshes.h"
 
@@ -18,6 +25,52 @@ test::Mesh join(const test::Mesh& first, const test::Mesh& second, const Vector3
 }
 
 Vector3 wall(double u, double v) { return {u, 0.0, v}; }
+
+// Whether p + s (q − p) = a + u (b − a) + v (c − a) for 0 < s < 1, 0 < u, v, u + v < 1.
+bool passes(const Vector3& p, const Vector3& q, const Eigen::Matrix3d& triangle) {
+    Eigen::Matrix3d edges;
+    edges << q - p, triangle.col(0) - triangle.col(1), triangle.col(0) - triangle.col(2);
+    const Vector3 at = edges.fullPivLu().solve(triangle.col(0) - p);
+    return at.minCoeff() > 0.0 && at[0] < 1.0 && at[1] + at[2] < 1.0;
+}
+
+bool pierces(const test::Mesh& mesh, int a, int b) {
+    const Eigen::Matrix3d other = mesh.points(Eigen::all, mesh.triangles.col(b));
+    const auto is_corner = [&](int v) { return (mesh.triangles.col(b).array() == v).any(); };
+    for (int k = 0; k < 3; ++k) {
+        const int from = mesh.triangles(k, a);
+        const int to = mesh.triangles((k + 1) % 3, a);
+        if (is_corner(from) || is_corner(to)) continue;
+        if (passes(mesh.points.col(from), mesh.points.col(to), other)) return true;
+    }
+    return false;
+}
+
+// All pairs, one after the other.
+Indices crossings_by_force(const test::Mesh& mesh) {
+    std::set<int> found;
+    for (int a = 0; a < mesh.triangles.cols(); ++a) {
+        for (int b = 0; b < a; ++b) {
+            int shared = 0;
+            for (const int v : mesh.triangles.col(a)) shared += (mesh.triangles.col(b).array() == v).any() ? 1 : 0;
+            if (shared < 2 && (pierces(mesh, a, b) || pierces(mesh, b, a))) found.insert({a, b});
+        }
+    }
+    return {found.begin(), found.end()};
+}
+
+test::Mesh triangle_soup(std::mt19937& random) {
+    std::normal_distribution<double> normal(0.0, 1.0);
+    std::uniform_int_distribution<int> vertex(0, 24);
+    test::Mesh soup{Points(3, 25), Triangles(3, 30)};
+    for (double& x : soup.points.reshaped()) x = normal(random);
+    for (auto corners : soup.triangles.colwise()) {
+        std::set<int> three;
+        while (three.size() < 3) three.insert(vertex(random));
+        std::copy(three.begin(), three.end(), corners.begin());
+    }
+    return soup;
+}
 
 }  // namespace
 
@@ -85,4 +138,31 @@ TEST_CASE("triangles that share a vertex may cross, those that share an edge fol
     Triangles shares_edge(3, 2);
     shares_edge << 0, 1, 1, 0, 2, 3;
     CHECK(crossing_triangles(shares_edge, points).empty());
+}
+
+TEST_CASE("random triangles and rough surfaces cross as a search through all pairs finds them") {
+    for (unsigned seed = 0; seed < 30; ++seed) {
+        std::mt19937 random(seed);
+        std::normal_distribution<double> normal(0.0, 1.0);
+        const test::Mesh soup = triangle_soup(random);
+        const test::Mesh far = join(soup, {1e12 * soup.points, soup.triangles}, {1e14, 0.0, 0.0});
+        const test::Mesh all = join(far, {1e-9 * soup.points, soup.triangles}, {0.0, 100.0, 0.0});
+        CHECK(crossing_triangles(all.triangles, all.points) == crossings_by_force(all));
+        test::Mesh rough = test::grid(11, 1.0, test::sphere);
+        for (double& x : rough.points.reshaped()) x += 0.02 * (seed % 5) * normal(random);
+        CHECK(crossing_triangles(rough.triangles, rough.points) == crossings_by_force(rough));
+    }
+}
+
+TEST_CASE("triangles that are not finite cross nothing, and the others do all the same") {
+    const test::Mesh floor = test::grid(9, 0.2, test::flat);
+    test::Mesh both = join(floor, test::grid(7, 0.2, wall), {0.03, 0.47, -0.51});
+    const Indices all = crossing_triangles(both.triangles, both.points);
+    both.points.col(0) *= std::numeric_limits<double>::quiet_NaN();
+    both.points.col(1) *= std::numeric_limits<double>::infinity();
+    const Indices found = crossing_triangles(both.triangles, both.points);
+    REQUIRE(found.size() > 10);
+    CHECK(std::includes(all.begin(), all.end(), found.begin(), found.end()));
+    both.points = 1e308 * both.points.cwiseMin(1.0).cwiseMax(-1.0).eval();
+    CHECK(crossing_triangles(both.triangles, both.points).size() <= all.size());
 }

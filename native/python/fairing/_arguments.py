@@ -52,9 +52,10 @@ def integers(name: str, value: npt.ArrayLike, columns: int | None) -> IntArray:
     wanted = "(k,)" if columns is None else f"(n, {columns})"
     if array.ndim != (1 if columns is None else 2) or (columns and array.shape[1] != columns):
         raise ValueError(f"{name}: shape {wanted} is needed, not {array.shape}")
-    outside = (array > _INT32.max) | (array < _INT32.min)
-    if outside.any():
-        raise _index_range(name, array, outside)
+    if not np.can_cast(array.dtype, np.int32):
+        outside = (array > _INT32.max) | (array < _INT32.min)
+        if outside.any():
+            raise _index_range(name, array, outside)
     return np.ascontiguousarray(array, dtype=np.int32)
 
 
@@ -100,9 +101,9 @@ def indices_within(name: str, array: IntArray, count: int) -> IntArray:
 
     Its elements: rows of the triangles, otherwise the vertices named.
     """
-    outside = (array < 0) | (array >= count)
-    if not outside.any():
+    if array.size == 0 or (array.min() >= 0 and array.max() < count):
         return array
+    outside = (array < 0) | (array >= count)
     place = tuple(np.argwhere(outside)[0])
     there_are = f"outside 0 … {count - 1}" if count else "but there are no vertices"
     text = f"{name}: row {place[0]} names vertex {array[place]}, {there_are}{_reason(array, count)}"

@@ -220,8 +220,9 @@ def fair(
     joins = _options.continuity(continuity, equation, method)
     sample = _options.sample(detail_from, count, detail)
     around = _mending.Surroundings.of(points, faces, fixed_list, outside)
-    held = around.rim if fixed_list is None else np.union1d(around.rim, fixed_list)
-    sample = _options.sample_around(sample, around.inside, held)
+    if sample is not None:
+        held = around.rim if fixed_list is None else np.union1d(around.rim, fixed_list)
+        sample = _options.sample_around(sample, around.inside, held)
     as_given = _mending.Boundary(points, fixed_list, given_normals)
     if not joins and fixed_curvatures is not None:
         raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")

@@ -49,10 +49,11 @@ class Surroundings:
             outside = _arguments.indices_within("outside", named, vertices.shape[0])
             return cls.between(vertices, triangles, outside)
         held = marked(np.empty(0, np.int32) if fixed is None else fixed, vertices.shape[0])  # the engine names others
-        idle = held[triangles].all(axis=1)
-        around = cls.between(vertices, triangles[~idle], triangles[idle])
-        if 2 * len(around.rim) < (held & marked(around.inside, len(held))).sum():
-            return cls.between(vertices, triangles, triangles[:0])
+        corners = held[triangles]
+        idle = corners[:, 0] & corners[:, 1] & corners[:, 2]
+        around = cls.between(vertices, triangles[~idle], triangles[idle]) if idle.any() else None
+        if around is None or 2 * len(around.rim) < (held & marked(around.inside, len(held))).sum():
+            return cls(triangles, triangles[:0], np.empty(0, np.int32))
         return around
 
     @classmethod
@@ -66,7 +67,9 @@ class Surroundings:
 def marked(vertices: npt.NDArray[Any], count: int) -> npt.NDArray[np.bool_]:
     """Marks (count,) of those of the vertices that exist."""
     marks = np.zeros(count, dtype=bool)
-    marks[vertices[(vertices >= 0) & (vertices < count)]] = True
+    if vertices.size and (vertices.min() < 0 or vertices.max() >= count):
+        vertices = vertices[(vertices >= 0) & (vertices < count)]
+    marks[vertices] = True
     return marks
 
 

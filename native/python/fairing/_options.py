@@ -135,10 +135,8 @@ def sample(value: npt.ArrayLike | None, count: int, detail: Any) -> IntArray | N
     return triangles
 
 
-def sample_around(sample: IntArray | None, inside: IntArray, held: IntArray) -> IntArray | None:
+def sample_around(sample: IntArray, inside: IntArray, held: IntArray) -> IntArray:
     """What of the sample has no corner inside the patch but at ``held`` vertices: that skin is to be replaced."""
-    if sample is None:
-        return None
     around: IntArray = sample[~np.isin(sample, np.setdiff1d(inside, held)).any(axis=1)]
     if not len(around):
         raise ValueError("detail_from: all of the sample lies in the patch itself; name triangles outside it")

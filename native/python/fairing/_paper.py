@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 from fairing import _arguments, _core
 
@@ -48,6 +48,9 @@ class PaperOptions:
             _arguments.positive("epsilon", self.epsilon)
 
 
+_LEFT_OUT = PaperOptions()
+
+
 def engine_options(method: str, levels: int, given: PaperOptions | None) -> _core.PaperOptions:
     """What the engine takes, checked; ``given`` is None where the caller leaves it out."""
     if given is not None and not isinstance(given, PaperOptions):
@@ -55,7 +58,7 @@ def engine_options(method: str, levels: int, given: PaperOptions | None) -> _cor
     if given is not None and method != "paper":
         raise ValueError(f"paper: holds options of method 'paper'; method {method!r} has none of them")
     result = _core.PaperOptions()
-    for name, value in asdict(given or PaperOptions()).items():
+    for name, value in vars(given or _LEFT_OUT).items():
         if value is not None:  # of epsilon: the engine's 0 says the same
             setattr(result, name, value)
     result.levels = _arguments.whole("levels", levels, 0, None if method == "paper" else 1)

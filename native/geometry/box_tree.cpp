@@ -1,0 +1,215 @@
+#include "geometry/box_tree.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include "base/parallel.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr std::size_t least_pieces = 16;  // nodes of a level to work on side by side
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+struct Key {
+    std::uint64_t place = 0;
+    int triangle = none;
+};
+
+// The lowest 21 bits, with two zeros after each.
+std::uint64_t spread(std::uint64_t bits) {
+    bits = (bits | bits << 32U) & 0x001f00000000ffffU;
+    bits = (bits | bits << 16U) & 0x001f0000ff0000ffU;
+    bits = (bits | bits << 8U) & 0x100f00f00f00f00fU;
+    bits = (bits | bits << 4U) & 0x10c30c30c30c30c3U;
+    return (bits | bits << 2U) & 0x1249249249249249U;
+}
+
+// A cube around the points that are finite.
+struct Cube {
+    Vector3 corner = Vector3::Constant(infinite);
+    double edge = 0.0;
+
+    Cube(const Points& points, std::span<const Key> keys) {
+        Vector3 most = -corner;
+        for (const Key& key : keys) {
+            const auto point = points.col(key.triangle);
+            if (!point.allFinite()) continue;
+            corner = corner.cwiseMin(point);
+            most = most.cwiseMax(point);
+        }
+        edge = (most - corner).maxCoeff();
+    }
+
+    // Along Morton's curve, which numbers 2²¹ cells along each edge.
+    [[nodiscard]] std::uint64_t place(const Vector3& point) const {
+        constexpr double last = (1U << 21U) - 1.0;
+        std::uint64_t result = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double cell = last / edge * (point[axis] - corner[axis]);
+            result = result << 1U | spread(cell > 0.0 ? static_cast<std::uint64_t>(std::min(cell, last)) : 0);
+        }
+        return result;
+    }
+};
+
+// Counting sorts by eleven bits at a time, the lowest first; what has one place stays as it was.
+void sort_many(std::span<Key> keys) {
+    constexpr unsigned bits = 11;
+    constexpr std::size_t digits = 1U << bits;
+    std::vector<Key> sorted(keys.size());
+    for (unsigned shift = 0; shift < 63; shift += bits) {
+        const auto digit = [&](const Key& key) { return key.place >> shift & (digits - 1); };
+        std::array<int, digits + 1> begin{};
+        for (const Key& key : keys) ++begin[digit(key) + 1];
+        for (std::size_t k = 1; k < digits; ++k) begin[k] += begin[k - 1];
+        for (const Key& key : keys) sorted[at(begin[digit(key)]++)] = key;
+        std::copy(sorted.begin(), sorted.end(), keys.begin());
+    }
+}
+
+void sort_few(std::span<Key> keys) {
+    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+        return a.place != b.place ? a.place < b.place : a.triangle < b.triangle;
+    });
+}
+
+// What falls into one cell is sorted in a cube of its own: small parts of a large mesh would be in disorder otherwise.
+void sort_along_curve(std::span<Key> keys, const Points& centres) {
+    constexpr std::size_t many = 1024;
+    constexpr std::ptrdiff_t crowd = 16;
+    const Cube cube(centres, keys);
+    if (!(cube.edge > 0.0 && cube.edge < infinite)) return;
+    for_ranges(static_cast<int>(keys.size()), coarse_grain, [&](int begin, int end) {
+        for (int k = begin; k < end; ++k) keys[at(k)].place = cube.place(centres.col(keys[at(k)].triangle));
+    });
+    (keys.size() < many ? sort_few : sort_many)(keys);
+    for (auto begin = keys.begin(); begin != keys.end();) {
+        auto end = begin + 1;
+        while (end != keys.end() && end->place == begin->place) ++end;
+        if (end - begin > crowd) sort_along_curve({begin, end}, centres);
+        begin = end;
+    }
+}
+
+Indices along_curve(const Triangles& triangles, const Points& points) {
+    const auto count = static_cast<int>(triangles.cols());
+    std::vector<Key> keys(at(count));
+    Points centres(3, count);
+    for_ranges(count, coarse_grain, [&](int begin, int end) {
+        for (int t = begin; t < end; ++t) {
+            const auto corners = triangles.col(t);
+            centres.col(t) = points.col(corners[0]) + points.col(corners[1]) + points.col(corners[2]);
+            keys[at(t)].triangle = t;
+        }
+    });
+    sort_along_curve(keys, centres);
+    Indices order(at(count));
+    std::transform(keys.begin(), keys.end(), order.begin(), [](const Key& key) { return key.triangle; });
+    return order;
+}
+
+}  // namespace
+
+BoxTree::BoxTree(const Triangles& triangles, const Points& points) : order_(along_curve(triangles, points)) {
+    add_triangles(triangles, points);
+    while (levels_.back().size() > 1) add_level();
+}
+
+void BoxTree::add_triangles(const Triangles& triangles, const Points& points) {
+    const auto count = static_cast<int>(order_.size());
+    std::vector<Boxes>& leaves = levels_.emplace_back(at((count + 3) / 4));
+    for_ranges(static_cast<int>(leaves.size()), coarse_grain / 4, [&](int begin, int end) {
+        for (int k = 4 * begin; k < 4 * end; ++k) {
+            Vector3 least = Vector3::Constant(infinite);
+            Vector3 most = -least;
+            if (k < count) {
+                const auto corners = triangles.col(order_[at(k)]);
+                const Vector3 a = points.col(corners[0]);
+                const Vector3 b = points.col(corners[1]);
+                const Vector3 c = points.col(corners[2]);
+                if ((a + b + c).allFinite()) {
+                    least = a.cwiseMin(b).cwiseMin(c);
+                    most = a.cwiseMax(b).cwiseMax(c);
+                }
+            }
+            for (int axis = 0; axis < 3; ++axis) {
+                leaves[at(k / 4)].least[at(axis)][k % 4] = least[axis];
+                leaves[at(k / 4)].most[at(axis)][k % 4] = most[axis];
+            }
+        }
+    });
+}
+
+void BoxTree::add_level() {
+    const std::size_t count = levels_.back().size();
+    std::vector<Boxes> level((count + 3) / 4);
+    for (std::size_t k = 0; k < 4 * level.size(); ++k) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto slot = static_cast<Eigen::Index>(k % 4);
+            level[k / 4].least[axis][slot] = k < count ? levels_.back()[k].least[axis].minCoeff() : infinite;
+            level[k / 4].most[axis][slot] = k < count ? levels_.back()[k].most[axis].maxCoeff() : -infinite;
+        }
+    }
+    levels_.push_back(std::move(level));
+}
+
+// take(k, gaps) for each child of the first node that overlaps some of the second. A gap is the largest of all
+// directions, negative where boxes overlap.
+template <typename Take>
+void BoxTree::compare(int level, const Pair& pair, const Take& take) const {
+    const Boxes& first = levels_[at(level)][at(pair.first)];
+    const Boxes& second = levels_[at(level)][at(pair.second)];
+    for (int k = 0; k < 4; ++k) {
+        Four gaps = Four::Constant(-infinite);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            gaps = gaps.max(first.least[axis][k] - second.most[axis]).max(second.least[axis] - first.most[axis][k]);
+        }
+        if (gaps.minCoeff() < 0.0) take(k, gaps);
+    }
+}
+
+// take(pair) for the pairs of children that overlap.
+template <typename Take>
+void BoxTree::split(int level, const Pair& pair, const Take& take) const {
+    compare(level, pair, [&](int k, const Four& gaps) {
+        for (int l = pair.first == pair.second ? k : 0; l < 4; ++l) {
+            if (gaps[l] < 0.0) take(Pair{4 * pair.first + k, 4 * pair.second + l});
+        }
+    });
+}
+
+void BoxTree::descend(int level, const Pair& pair, const Visit& visit) const {
+    if (level == 0) {
+        visit_triangles(pair, visit);
+    } else {
+        split(level, pair, [&](const Pair& part) { descend(level - 1, part, visit); });
+    }
+}
+
+void BoxTree::visit_triangles(const Pair& pair, const Visit& visit) const {
+    compare(0, pair, [&](int k, const Four& gaps) {
+        std::array<int, 4> others;
+        std::size_t count = 0;
+        for (int l = pair.first == pair.second ? k + 1 : 0; l < 4; ++l) {
+            if (gaps[l] < 0.0) others[count++] = order_[at(4 * pair.second + l)];
+        }
+        if (count > 0) visit(order_[at(4 * pair.first + k)], std::span(others).first(count));
+    });
+}
+
+// Pairs of large nodes are split one after the other, what they come down to side by side.
+void BoxTree::for_overlaps(const Visit& visit) const {
+    int level = static_cast<int>(levels_.size()) - 1;
+    std::vector<Pair> pairs{{0, 0}};
+    for (; level > 0 && levels_[at(level)].size() < least_pieces; --level) {
+        std::vector<Pair> parts;
+        for (const Pair& pair : pairs) split(level, pair, [&](const Pair& part) { parts.push_back(part); });
+        pairs = std::move(parts);
+    }
+    run_pieces(static_cast<int>(pairs.size()), [&](int k) { descend(level, pairs[at(k)], visit); });
+}
+
+}  // namespace fairing

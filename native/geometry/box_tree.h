@@ -1,0 +1,50 @@
+// A tree of the boxes around triangles, for the pairs of them that may cross.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <span>
+
+#include "base/types.h"
+
+namespace fairing {
+
+// Four children to each node, the triangles in the order of a curve that fills space (Morton's).
+class BoxTree {
+public:
+    BoxTree(const Triangles& triangles, const Points& points);
+
+    // Gets one triangle and up to four others.
+    using Visit = std::function<void(int, std::span<const int>)>;
+    // Each pair once whose boxes have points inside in common: those that only touch don't count, nor do triangles that
+    // are not finite. On several threads, in any order.
+    void for_overlaps(const Visit& visit) const;
+
+private:
+    using Four = Eigen::Array4d;
+    // Four boxes, coordinate by coordinate.
+    struct Boxes {
+        std::array<Four, 3> least;
+        std::array<Four, 3> most;
+    };
+    // Two nodes of a level, or one twice.
+    struct Pair {
+        int first;
+        int second;
+    };
+
+    void add_triangles(const Triangles& triangles, const Points& points);
+    void add_level();
+    template <typename Take>
+    void compare(int level, const Pair& pair, const Take& take) const;
+    template <typename Take>
+    void split(int level, const Pair& pair, const Take& take) const;
+    void descend(int level, const Pair& pair, const Visit& visit) const;
+    void visit_triangles(const Pair& pair, const Visit& visit) const;
+
+    Indices order_;  // of the triangles
+    // From the leaves up. Child k of node i is node 4 i + k of the level below, its box the k-th of the node's.
+    std::vector<std::vector<Boxes>> levels_;
+};
+
+}  // namespace fairing
