@@ -74,7 +74,7 @@ VectorX mean_curvature(const CheckedMesh& mesh, const Points& points, NormalKind
         faces.update(local, patch.triangles);
         const Points at_fixed = normals_at_fixed(patch, local, mesh, boundary);
         const Points normals = vertex_normals(patch, local, faces, at_fixed, kind);
-        const VectorX H = patch_curvature(patch, local, faces, normals, kind).mean;
+        const VectorX H = patch_curvature(patch, local, std::move(faces), normals, kind).mean;
         for (int v = 0; v < patch.vertex_count(); ++v) {
             sum[patch.to_input[at(v)]] += H[v];
             sides[patch.to_input[at(v)]] += 1.0;

@@ -51,7 +51,6 @@ public:
         state_.points = std::move(start);
         const int most = problem_.options.max_iterations;
         solution_.termination = Termination::iteration_limit;
-        solution_.points = state_.points;
         solution_.mean_curvature = VectorX::Zero(patch_.vertex_count());
         solution_.residual = std::numeric_limits<double>::max();
         for (int k = 0; k < most; ++k) {
@@ -66,7 +65,7 @@ public:
                 solution_.termination = Termination::stalled;
                 break;
             }
-            const Points d = plain_step();
+            Points d = plain_step();
             const double largest = largest_length(d);
             solution_.iterations = k + 1;
             if (k == 0) solution_.first_step = largest;
@@ -75,7 +74,8 @@ public:
             arrived_ = largest <= problem_.options.tolerance;
             if (arrived_ && problem_.options.start_only) {
                 end_here();
-                solution_.points = moved(d);
+                move(std::move(d));
+                best_is_here_ = true;
                 break;
             }
             if (largest <= least_share * problem_.options.tolerance || (arrived_ && k + 1 == most)) {
@@ -88,8 +88,9 @@ public:
                 break;
             }
             residual_before_ = residual_;
-            state_.points = moved(d);
+            move(std::move(d));
         }
+        if (best_is_here_) solution_.points = std::move(state_.points);
         return std::move(solution_);
     }
 
@@ -114,10 +115,12 @@ private:
         keep();
     }
 
-    Points moved(const Points& d) {
-        Points points = state_.points;
-        anderson_.move(points, damping_ * d, largest_step);
-        return points;
+    // The best points are copied only where the iteration leaves them: a large patch has no room for both before.
+    void move(Points d) {
+        if (best_is_here_) solution_.points = state_.points;
+        best_is_here_ = false;
+        d *= damping_;
+        anderson_.move(state_.points, std::move(d), largest_step);
     }
 
     // The largest move of the next iteration, from this one's and the last one's; infinite where they hardly shrink.
@@ -151,7 +154,8 @@ private:
 
     void keep() {
         best_residual_ = residual_;
-        solution_.points = state_.points;
+        best_is_here_ = true;
+        solution_.points.resize(3, 0);
         solution_.mean_curvature = state_.curvature.mean;
         solution_.residual = residual_;
     }
@@ -168,6 +172,7 @@ private:
 
     Points plain_step() {
         const VectorX u = work_.normal->solve(outer_);
+        state_.stiffness = {};  // the tangential step needs the room
         return state_.moves(work_.tangential->displacement(state_.points, state_.normals), u);
     }
 
@@ -195,6 +200,7 @@ private:
     bool arrives_ = false;          // the next step would be
     double start_energy_ = -1.0;    // not known yet
     double best_residual_ = std::numeric_limits<double>::infinity();
+    bool best_is_here_ = true;  // the points that come back are those of the state
     double last_step_ = 0.0;
     double step_at_refresh_ = 0.0;
     int refreshed_at_ = 0;

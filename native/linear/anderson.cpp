@@ -42,7 +42,12 @@ Eigen::VectorXd least_squares_by_parts(const Eigen::MatrixXf& A, int columns, co
 
 Anderson::Anderson(Eigen::Index size, int depth) : depth_(depth), df_(size, depth), sums_(size, depth) {}
 
-Eigen::VectorXd Anderson::step(const Eigen::VectorXd& x, const Eigen::VectorXd& f) {
+Eigen::VectorXd Anderson::step(const Values& x, const Values& f) {
+    remember(x, f);
+    return accelerated();
+}
+
+void Anderson::remember(const Values& x, const Values& f) {
     if (last_x_.size() > 0) {
         const int slot = count_++ % depth_;
         df_.col(slot) = (f - last_f_).cast<float>();
@@ -50,10 +55,13 @@ Eigen::VectorXd Anderson::step(const Eigen::VectorXd& x, const Eigen::VectorXd& 
     }
     last_x_ = x;
     last_f_ = f;
+}
+
+Eigen::VectorXd Anderson::accelerated() const {
     const int used = std::min(count_, depth_);
-    if (used == 0) return f;
-    const Eigen::VectorXd gamma = least_squares_by_parts(df_, used, f);
-    Eigen::VectorXd step = f;
+    if (used == 0) return last_f_;
+    const Eigen::VectorXd gamma = least_squares_by_parts(df_, used, last_f_);
+    Eigen::VectorXd step = last_f_;
     for_ranges(static_cast<int>(step.size()), rows_at_once, [&](int begin, int end) {
         const int size = end - begin;
         step.segment(begin, size) -= sums_.block(begin, 0, size, used).cast<double>() * gamma;
@@ -61,10 +69,13 @@ Eigen::VectorXd Anderson::step(const Eigen::VectorXd& x, const Eigen::VectorXd& 
     return step;
 }
 
-void Anderson::move(Eigen::Matrix3Xd& points, const Eigen::Matrix3Xd& plain, double longest) {
+void Anderson::move(Eigen::Matrix3Xd& points, Eigen::Matrix3Xd plain, double longest) {
+    const Eigen::Index count = plain.cols();
     Eigen::Map<Eigen::VectorXd> x(points.data(), plain.size());
-    Eigen::VectorXd far = step(x, plain.reshaped());
-    const double largest = std::sqrt(far.reshaped(3, plain.cols()).colwise().squaredNorm().maxCoeff());
+    remember(x, Eigen::Map<const Eigen::VectorXd>(plain.data(), plain.size()));
+    plain.resize(3, 0);  // the step needs the room
+    Eigen::VectorXd far = accelerated();
+    const double largest = std::sqrt(far.reshaped(3, count).colwise().squaredNorm().maxCoeff());
     if (largest > longest) far *= longest / largest;
     x += far;
 }

@@ -10,16 +10,21 @@ class Anderson {
 public:
     Anderson(Eigen::Index size, int depth);
 
+    using Values = Eigen::Ref<const Eigen::VectorXd>;
     // The accelerated step from x, given the plain step f(x).
-    Eigen::VectorXd step(const Eigen::VectorXd& x, const Eigen::VectorXd& f);
+    Eigen::VectorXd step(const Values& x, const Values& f);
     // Moves points (3 × n or more) by that step, given the plain one (3 × n): the whole step shorter where a point
     // would go further than `longest`.
-    void move(Eigen::Matrix3Xd& points, const Eigen::Matrix3Xd& plain, double longest);
+    void move(Eigen::Matrix3Xd& points, Eigen::Matrix3Xd plain, double longest);
     void reset() { count_ = 0, last_x_.resize(0); }
     // The next step is the first of an iteration of nearly the same f. The differences serve it too.
     void begin_again() { last_x_.resize(0); }
 
 private:
+    void remember(const Values& x, const Values& f);
+    // From what was remembered last.
+    [[nodiscard]] Eigen::VectorXd accelerated() const;
+
     int depth_;
     int count_ = 0;  // differences since the last reset
     // In single precision: they turn a plain step into a better one, where that is 0 the iteration ends.

@@ -76,6 +76,7 @@ void Levels::leave(std::size_t k) {
     PatchMembers& members = left_[k - 1];
     members = std::move(patch);
     patch = Patch({members.free_count, members.to_input, {}, {}, Triangles(3, 0)});
+    levels_[k].weights = levels_[k].problem.weights = {};
 }
 
 void Levels::come_back(std::size_t k) {

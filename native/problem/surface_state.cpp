@@ -1,6 +1,7 @@
 #include "problem/surface_state.h"
 
 #include <cmath>
+#include <utility>
 
 #include "base/parallel.h"
 #include "geometry/surface_fit.h"
@@ -21,8 +22,7 @@ void SurfaceState::measure_curvature(const Problem& problem) {
     const Points boundary = problem.options.equation == Equation::minimal ? one_sided_normals(problem.patch, points)
                                                                           : problem.fixed_normals;
     normals = vertex_normals(problem.patch, points, faces, boundary, problem.options.normals);
-    curvature = patch_curvature(problem.patch, points, faces, normals, problem.options.normals);
-    faces = {};
+    curvature = patch_curvature(problem.patch, points, std::exchange(faces, {}), normals, problem.options.normals);
 }
 
 SurfaceState measured_surface(const Problem& problem, const Points& points) {

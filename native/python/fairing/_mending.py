@@ -50,6 +50,8 @@ class Surroundings:
             return cls.between(vertices, triangles, outside)
         held = marked(np.empty(0, np.int32) if fixed is None else fixed, vertices.shape[0])  # the engine names others
         idle = held[triangles].all(axis=1)
+        if not idle.any():  # a large mesh has no room for a copy
+            return cls.between(vertices, triangles, triangles[:0])
         around = cls.between(vertices, triangles[~idle], triangles[idle])
         if 2 * len(around.rim) < (held & marked(around.inside, len(held))).sum():
             return cls.between(vertices, triangles, triangles[:0])
