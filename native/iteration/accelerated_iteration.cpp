@@ -44,7 +44,7 @@ public:
           damping_(damping),
           progress_(progress),
           conormals_(conormals(problem.patch, problem.fixed_points, problem.fixed_normals)),
-          own_history_(work.keeps_factor ? 0 : 3L * problem.patch.free_count, history_depth),
+          own_history_(history_depth),
           anderson_(work.keeps_factor ? kept_history() : own_history_) {}
 
     Solution run(Points start) {
@@ -97,7 +97,7 @@ public:
 private:
     // The map hardly changes from one solve with a factor to the next, nor do its differences.
     Anderson& kept_history() {
-        if (!work_.history) work_.history = std::make_unique<Anderson>(3L * patch_.free_count, history_depth);
+        if (!work_.history) work_.history = std::make_unique<Anderson>(history_depth);
         work_.history->begin_again();
         return *work_.history;
     }
