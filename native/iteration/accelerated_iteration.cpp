@@ -75,7 +75,7 @@ public:
             if (arrived_ && problem_.options.start_only) {
                 end_here();
                 move(std::move(d));
-                best_is_here_ = true;
+                best_ = Best::here;
                 break;
             }
             if (largest <= least_share * problem_.options.tolerance || (arrived_ && k + 1 == most)) {
@@ -90,11 +90,13 @@ public:
             residual_before_ = residual_;
             move(std::move(d));
         }
-        if (best_is_here_) solution_.points = std::move(state_.points);
+        store_best();
         return std::move(solution_);
     }
 
 private:
+    enum class Best { here, one_back, stored };  // of the points that come back: in the state, or left by one step
+
     // The map hardly changes from one solve with a factor to the next, nor do its differences.
     Anderson& kept_history() {
         if (!work_.history) work_.history = std::make_unique<Anderson>(history_depth);
@@ -115,12 +117,17 @@ private:
         keep();
     }
 
-    // The best points are copied only where the iteration leaves them: a large patch has no room for both before.
     void move(Points d) {
-        if (best_is_here_) solution_.points = state_.points;
-        best_is_here_ = false;
+        best_ = best_ == Best::here ? Best::one_back : Best::stored;
         d *= damping_;
         anderson_.move(state_.points, std::move(d), largest_step);
+    }
+
+    // The best points are copied only where nothing else keeps them: a large patch has no room for them twice.
+    void store_best() {
+        if (best_ != Best::stored) solution_.points = state_.points;
+        if (best_ == Best::one_back) solution_.points.leftCols(patch_.free_count) = anderson_.last();
+        best_ = Best::stored;
     }
 
     // The largest move of the next iteration, from this one's and the last one's; infinite where they hardly shrink.
@@ -140,6 +147,7 @@ private:
             return false;
         }
         if (residual_ < best_residual_ && !exploded()) keep();
+        if (best_ == Best::one_back) store_best();
         return true;
     }
 
@@ -154,7 +162,7 @@ private:
 
     void keep() {
         best_residual_ = residual_;
-        best_is_here_ = true;
+        best_ = Best::here;
         solution_.points.resize(3, 0);
         solution_.mean_curvature = state_.curvature.mean;
         solution_.residual = residual_;
@@ -200,7 +208,7 @@ private:
     bool arrives_ = false;          // the next step would be
     double start_energy_ = -1.0;    // not known yet
     double best_residual_ = std::numeric_limits<double>::infinity();
-    bool best_is_here_ = true;  // the points that come back are those of the state
+    Best best_ = Best::here;
     double last_step_ = 0.0;
     double step_at_refresh_ = 0.0;
     int refreshed_at_ = 0;

@@ -17,6 +17,8 @@ public:
     // Moves points (3 × n or more) by that step, given the plain one (3 × n): the whole step shorter where a point
     // would go further than `longest`.
     void move(Eigen::Matrix3Xd& points, Eigen::Matrix3Xd plain, double longest);
+    // The points that the last step went from.
+    [[nodiscard]] Eigen::Map<const Eigen::Matrix3Xd> last() const { return {last_x_.data(), 3, last_x_.size() / 3}; }
     void reset() { *this = Anderson(depth_); }
     // The next step is the first of an iteration of nearly the same f. The differences serve it too.
     void begin_again() { last_x_.resize(0); }

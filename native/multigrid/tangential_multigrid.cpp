@@ -48,7 +48,6 @@ MultigridStep::MultigridStep(const Patch& patch, RingMatrix laplacian, const Poi
       coarser_(coarser),
       laplacian_(std::move(laplacian)),
       inverse_diagonal_(Eigen::VectorXf::Zero(patch.vertex_count())),
-      fine_(4, patch.vertex_count()),
       coarse_r_(4, transfer.coarse_count()),
       coarse_x_(4, transfer.coarse_count()) {
     inverse_diagonal_.head(patch.free_count) =
@@ -87,6 +86,7 @@ void MultigridStep::smooth(SingleField& x, SingleField& r, Residual last) const 
 
 void MultigridStep::cycle(SingleField& r, SingleField& x) const {
     x.setZero();
+    fine_.resize(4, x.cols());
     smooth(x, r, Residual::kept);
     fine_ = r;
     transfer_.restrict(fine_, coarse_r_);
@@ -117,6 +117,7 @@ Points MultigridStep::solve(Points pull, const SingleField* normals, double tole
         if (normals) project_across(z, *normals);
     };
     const SingleField d = conjugate_gradients(std::move(r), tolerance, most_cycles, apply, precondition);
+    fine_.resize(4, 0);  // others need the room until the next solve
     return unit * d.topLeftCorner(3, patch_.free_count).cast<double>();
 }
 
