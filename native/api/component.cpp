@@ -77,7 +77,7 @@ Indices outline_vertices(const Patch& patch) {
 
 }  // namespace
 
-Points gather(const Points& points, std::span<const int> vertices) {
+Points gather(const Eigen::Ref<const Points>& points, std::span<const int> vertices) {
     Points result(3, static_cast<Eigen::Index>(vertices.size()));
     for (std::size_t k = 0; k < vertices.size(); ++k)
         result.col(static_cast<Eigen::Index>(k)) = points.col(vertices[k]);
@@ -109,6 +109,7 @@ Lambda make_lambda(const Patch& patch, const Points& reference, const FairOption
         options.inner_fairness == InnerFairness::shape_preserving || options.inner_fairness == InnerFairness::custom;
     if (by_rows) return make_row_weights(patch, reference, options);
     if (options.inner_fairness == InnerFairness::conformal) return conformal_weights(patch, reference);
+    if (options.inner_fairness == InnerFairness::uniform && !options.neighbours) return UniformWeights{};
     InnerWeights weights =
         options.neighbours ? uniform_weights(local_edges(patch, *options.neighbours)) : uniform_weights(patch);
     if (options.inner_fairness == InnerFairness::inverse_distance) weigh_by_distance(weights, reference);

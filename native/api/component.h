@@ -2,6 +2,7 @@
 #pragma once
 
 #include "api/fair.h"
+#include "api/fixed_normals.h"
 
 namespace fairing {
 
@@ -15,7 +16,7 @@ struct Normalisation {
 };
 
 // Columns of `points` at the given vertices.
-Points gather(const Points& points, std::span<const int> vertices);
+Points gather(const Eigen::Ref<const Points>& points, std::span<const int> vertices);
 
 Normalisation normalise(const Points& fixed_points);
 
@@ -25,10 +26,10 @@ double outline_radius(const Patch& patch, const Points& fixed_points);
 
 // Columns belong to the input's vertices.
 struct ComponentData {
-    const Points& vertices;
-    const Points& normals;            // prescribed ones at fixed vertices
+    View<Points> vertices;
+    const FixedNormals& normals;      // prescribed ones
     const VectorX& curvatures;        // likewise; empty: none
-    const Points& reference;          // M0
+    View<Points> reference;           // M0
     const Triangles& outside;         // around the patches
     bool given_normals;               // by the caller
     const std::vector<char>& faired;  // border vertices that become fair
@@ -40,7 +41,7 @@ std::span<const int> free_vertices(const Patch& patch);
 std::span<const int> fixed_vertices(const Patch& patch);
 
 // λ of one patch, from its own edges, from `neighbours`, from the caller's rows or from the reference (3 × local
-// vertices): symmetric unless shape preserving or custom.
+// vertices; not read for uniform ones): symmetric unless shape preserving or custom.
 Lambda make_lambda(const Patch& patch, const Points& reference, const FairOptions& options);
 
 // The same as rows, for every kind.

@@ -117,7 +117,7 @@ ComponentAnswer ComponentSolver::solve(const ComponentData& data, const Progress
 
 BaseOutline ComponentSolver::outline_as_given(const ComponentData& data) const {
     const auto fixed = fixed_vertices(patch_);
-    return {gather(data.vertices, fixed), gather(data.normals, fixed)};
+    return {gather(data.vertices, fixed), data.normals.gather(fixed)};
 }
 
 ComponentAnswer ComponentSolver::solve_between(const ComponentData& data, const BaseOutline& outline,
@@ -132,27 +132,31 @@ ComponentAnswer ComponentSolver::solve_between(const ComponentData& data, const 
     }
     hold_border(data.faired, answer.problem);
     warn_of_precision(patch_, data.vertices, {unit.diameter, solver.tolerance}, answer.warnings);
-    answer.problem.before = gather(data.reference, patch_.to_input);
-    read_reference(answer.problem.before, unit);
-    answer.problem.before = unit.to_unit(answer.problem.before);
+    const auto before = [&patch = patch_, reference = data.reference, unit] {
+        return unit.to_unit(gather(reference, patch.to_input));
+    };
+    answer.problem.before = Deferred<Points>(before);
+    read_reference(data.reference, unit);
     answer.warnings.insert(answer.warnings.end(), reference_warnings_.begin(), reference_warnings_.end());
     answer.solution = options().method == Method::paper ? solve_by_paper(answer.problem, progress)
                                                         : solve_globally(answer, data, progress);
     return answer;
 }
 
-// λ stays as long as what it is read off does.
-void ComponentSolver::read_reference(const Points& reference, const Normalisation& unit) {
-    const InnerFairness kind = options_.asked.inner_fairness;
-    const bool reads = reads_reference(kind);
-    if (read_ && (!reads || reference == given_reference_)) return;
+// λ stays as long as what it is read off does, which one call does not change.
+void ComponentSolver::read_reference(const View<Points>& input, const Normalisation& unit) {
+    const bool reads = reads_reference(options_.asked.inner_fairness);
+    if (read_ && (!reads || !options_.repeated)) return;
+    const bool wanted = reads || options_.asked.method == Method::paper;
+    Points reference = wanted ? gather(input, patch_.to_input) : Points();
+    if (read_ && reference == given_reference_) return;
     read_ = false;
-    if (reads || options_.asked.method == Method::paper) reference_ = unit.to_unit(reference);
+    if (wanted) reference_ = unit.to_unit(reference);
     reference_warnings_.clear();
     usable_ = !reads || is_usable_reference(patch_, reference_, reference_warnings_);
     if (options().method == Method::global) lambda_ = make_lambda(patch_, reference_, options());
     warm_.new_weights();
-    if (reads) given_reference_ = reference;
+    if (reads && options_.repeated) given_reference_ = std::move(reference);
     read_ = true;
 }
 

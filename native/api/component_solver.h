@@ -49,7 +49,8 @@ private:
     };
     // Whether a solve starts from its last answer.
     [[nodiscard]] bool keeps() const;
-    void read_reference(const Points& reference, const Normalisation& unit);
+    // `input`: M0, in the caller's units.
+    void read_reference(const View<Points>& input, const Normalisation& unit);
     [[nodiscard]] BaseOutline outline_as_given(const ComponentData& data) const;
     [[nodiscard]] ComponentAnswer solve_between(const ComponentData& data, const BaseOutline& outline,
                                                 const Progress& progress);
@@ -68,9 +69,10 @@ private:
 
     const Patch& patch_;
     const CallOptions& options_;
-    bool read_ = false;       // the reference
-    Points given_reference_;  // 3 × local vertices, as the caller gave it; empty where λ is not read off it
-    Points reference_;        // in units of D; likewise, but the paper's method reads it, too
+    bool read_ = false;  // the reference
+    // 3 × local vertices, as the caller gave it; empty where λ is not read off it, or no call follows
+    Points given_reference_;
+    Points reference_;  // in units of D; likewise, but the paper's method reads it, too
     KeptSkin skin_;
     bool usable_ = true;
     Diagnostics reference_warnings_;

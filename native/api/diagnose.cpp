@@ -201,7 +201,7 @@ void warn_of_folded_detail(const Patch& patch, const Indices& triangles, Diagnos
                         {{"triangles", size_of(triangles)}}});
 }
 
-void warn_of_precision(const Patch& patch, const Points& input, const Precision& wanted, Diagnostics& warnings) {
+void warn_of_precision(const Patch& patch, const View<Points>& input, const Precision& wanted, Diagnostics& warnings) {
     constexpr double tolerated_share = 1e-3;  // of the mean border edge
     double length = 0.0;
     int count = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/diagnostic.h"
+#include "base/view.h"
 #include "problem/problem.h"
 #include "problem/solution.h"
 
@@ -27,7 +28,7 @@ struct Precision {
 };
 // PRECISION where neighbouring floating-point numbers lie farther apart than that, or than a thousandth of the border
 // edges. `input`: positions of all input vertices.
-void warn_of_precision(const Patch& patch, const Points& input, const Precision& wanted, Diagnostics& warnings);
+void warn_of_precision(const Patch& patch, const View<Points>& input, const Precision& wanted, Diagnostics& warnings);
 
 // What kept a solution from being one: NOT_CONVERGED with the free vertices, and FOLDED with the triangles where the
 // surface was found, whose number NOT_CONVERGED then has as the figure "folds". `angles`: degrees at the fixed vertices

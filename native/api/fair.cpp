@@ -157,7 +157,11 @@ private:
         }
         const auto boundary =
             options_.solver.equation == Equation::minimal ? BoundaryNormals::one_sided : BoundaryNormals::prescribed;
-        result_.mean_curvature = mean_curvature(prepared_.mesh, result_.vertices, options_.solver.normals, boundary);
+        const NormalKind kind = options_.solver.normals;
+        result_.mean_curvature =
+            prepared_.is_all_patches
+                ? mean_curvature(prepared_.patches, prepared_.mesh.normals, result_.vertices, kind, boundary)
+                : mean_curvature(prepared_.mesh, result_.vertices, kind, boundary);
     }
 
     const PreparedMesh& prepared_;
@@ -178,6 +182,12 @@ void prepare_for(const MeshInput& input, const CallOptions& options, std::unique
     prepared = prepare(input, options);
 }
 
+// What only repeated calls read again: a large mesh has no room for it during the solve.
+void let_go(MeshInput& input, PreparedMesh& prepared) {
+    input.triangles.resize(3, 0);
+    if (prepared.is_all_patches) prepared.mesh.cut = {};
+}
+
 // Patches are solved one after the other.
 int largest_free_count(const std::vector<Patch>& patches) {
     int largest = 0;
@@ -187,7 +197,7 @@ int largest_free_count(const std::vector<Patch>& patches) {
 
 }  // namespace
 
-FairResult run_call(const MeshInput& input, const std::optional<Points>& reference, const CallOptions& options,
+FairResult run_call(MeshInput& input, const std::optional<View<Points>>& reference, const CallOptions& options,
                     std::unique_ptr<PreparedMesh>& prepared, const ProgressCallback& callback) {
     const Stopwatch watch;
     const Threads threads(options.asked.threads);
@@ -198,13 +208,14 @@ FairResult run_call(const MeshInput& input, const std::optional<Points>& referen
     constexpr double end = 0.9;
     progress.report(0.0, "topology");
     prepare_for(input, options, prepared);
+    if (!options.repeated) let_go(input, *prepared);
     check_memory(largest_free_count(prepared->patches));
     std::optional<Call> call;  // made after the first solve, which needs the room
     const double topology_seconds = watch.seconds();
     const ComponentData data{input.vertices,
                              prepared->mesh.normals,
                              prepared->mesh.curvatures,
-                             reference ? *reference : input.vertices,
+                             reference.value_or(input.vertices),
                              input.outside,
                              input.fixed_normals.has_value(),
                              prepared->mesh.roles.faired,
@@ -227,7 +238,7 @@ FairResult run_call(const MeshInput& input, const std::optional<Points>& referen
     return result;
 }
 
-FairResult fair(const MeshInput& input, const std::optional<Points>& reference, const FairOptions& options,
+FairResult fair(MeshInput input, const std::optional<View<Points>>& reference, const FairOptions& options,
                 const ProgressCallback& progress) {
     std::unique_ptr<PreparedMesh> prepared;
     return run_call(input, reference, CallOptions(options, false), prepared, progress);

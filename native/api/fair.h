@@ -60,9 +60,8 @@ struct FairResult {
 };
 
 // `reference`: M0 of the inner-fairness weights; the input's vertices where it is left out.
-// Throws what check_mesh throws, NO_FREE_VERTICES, NO_BOUNDARY, SolverError, MemoryShortage and Cancelled; the input
-// stays as it is.
-FairResult fair(const MeshInput& input, const std::optional<Points>& reference, const FairOptions& options,
+// Throws what check_mesh throws, NO_FREE_VERTICES, NO_BOUNDARY, SolverError, MemoryShortage and Cancelled.
+FairResult fair(MeshInput input, const std::optional<View<Points>>& reference, const FairOptions& options,
                 const ProgressCallback& progress);
 
 }  // namespace fairing

@@ -25,11 +25,12 @@ std::optional<int> vertex_count(const MeshInput& input) {
 }  // namespace
 
 FairSolver::FairSolver(Triangles triangles, std::optional<Indices> fixed, HeldInside held, FairOptions options)
-    : input_{{}, std::move(triangles), std::move(fixed), {}, {}, Triangles(3, 0), std::move(held)},
+    : input_{vertices_, std::move(triangles), std::move(fixed), {}, {}, Triangles(3, 0), std::move(held)},
       options_(std::make_unique<CallOptions>(std::move(options), true)) {
     const auto count = vertex_count(input_);
     if (!count) return;
-    input_.vertices = Points::Zero(3, *count);  // connectivity is the same for any
+    vertices_ = Points::Zero(3, *count);  // connectivity is the same for any
+    input_.vertices = vertices_;
     prepared_ = prepare(input_, *options_);
 }
 
@@ -42,9 +43,10 @@ void FairSolver::change(FairOptions options) {
 }
 
 FairResult FairSolver::solve(Points vertices, std::optional<Points> fixed_normals,
-                             std::optional<VectorX> fixed_curvatures, const std::optional<Points>& reference,
+                             std::optional<VectorX> fixed_curvatures, const std::optional<View<Points>>& reference,
                              const ProgressCallback& progress) {
-    input_.vertices = std::move(vertices);
+    vertices_ = std::move(vertices);
+    input_.vertices = vertices_;
     input_.fixed_normals = std::move(fixed_normals);
     input_.fixed_curvatures = std::move(fixed_curvatures);
     return run_call(input_, reference, *options_, prepared_, progress);

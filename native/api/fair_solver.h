@@ -22,13 +22,14 @@ public:
 
     // What fair() gives: the first time bit for bit, then to the tolerance. Throws the same; the solver stays usable.
     FairResult solve(Points vertices, std::optional<Points> fixed_normals, std::optional<VectorX> fixed_curvatures,
-                     const std::optional<Points>& reference, const ProgressCallback& progress);
+                     const std::optional<View<Points>>& reference, const ProgressCallback& progress);
 
     // Other options from the next solve on; what does not depend on them is kept, the last answer too.
     void change(FairOptions options);
 
 private:
-    MeshInput input_;  // vertices and normals of the last call
+    Points vertices_;  // of the last call
+    MeshInput input_;  // with its normals
     std::unique_ptr<CallOptions> options_;
     std::unique_ptr<PreparedMesh> prepared_;
 };

@@ -86,7 +86,7 @@ struct OldSurface {
           points(unit.to_unit(gather(input.vertices, component.to_input))) {
         FaceGeometry faces;
         faces.update(points, patch.triangles);
-        normals = vertex_normals(patch, points, faces, gather(mesh.normals, fixed_vertices(patch)), NormalKind::fitted);
+        normals = vertex_normals(patch, points, faces, mesh.normals.gather(fixed_vertices(patch)), NormalKind::fitted);
     }
 
     [[nodiscard]] VectorX lengths(const WantedLengths& wanted, const KeptEdges& kept = {}) const {

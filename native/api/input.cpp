@@ -119,7 +119,7 @@ Indices all_fixed(const MeshInput& input, const VertexRoles& roles, Diagnostics&
 }
 
 // Average of the unit normals of the triangles at each fixed vertex (paper §7.5), zero at the others.
-Points averaged_triangle_normals(const Points& points, const CutMesh& mesh, const VertexRoles& roles) {
+Points averaged_triangle_normals(const View<Points>& points, const CutMesh& mesh, const VertexRoles& roles) {
     Points sums = Points::Zero(3, points.cols());
     for (const auto t : mesh.triangles.colwise()) {
         const auto v = [&](int k) { return mesh.input_vertex[at(t[k])]; };
@@ -158,8 +158,8 @@ void copy_given_normals(const MeshInput& input, CheckedMesh& mesh) {
                              ElementKind::vertex,
                              {{"normals", 1}}});
         }
-        mesh.normals.col(v) = direction(n);
-        if (mesh.normals.col(v).isZero()) refuse_zero_normal(k, v);
+        mesh.normals(v) = direction(n);
+        if (mesh.normals(v).isZero()) refuse_zero_normal(k, v);
     }
 }
 
@@ -193,12 +193,12 @@ void warn_of_normals(const MeshInput& input, CheckedMesh& mesh) {
 // Normals that point to the side from which the triangles given are clockwise. The interior given may be noise, and a
 // strongly curved surface over a flat one may differ by more than a right angle (a cap of 140°): only many that are
 // nearly opposite count.
-void warn_of_opposed_normals(const CheckedMesh& mesh, const Points& averaged, Diagnostics& warnings) {
+void warn_of_opposed_normals(const CheckedMesh& mesh, const FixedNormals& averaged, Diagnostics& warnings) {
     constexpr double cos_of_opposed = -0.8;
     constexpr double least_share = 1.0 / 3.0;
     Indices opposed;
     for (int v : mesh.fixed) {
-        if (mesh.normals.col(v).dot(averaged.col(v)) < cos_of_opposed) opposed.push_back(v);
+        if (mesh.normals(v).dot(averaged(v)) < cos_of_opposed) opposed.push_back(v);
     }
     if (static_cast<double>(opposed.size()) <= least_share * static_cast<double>(mesh.fixed.size())) return;
     warnings.push_back(
@@ -269,9 +269,9 @@ MeshTopology check_topology(const MeshInput& input) {
 void check_geometry(const MeshInput& input, CheckedMesh& mesh) {
     mesh.warnings.clear();
     warn_of_flat_triangles(input, mesh.cut, mesh.warnings);
-    mesh.normals = averaged_triangle_normals(input.vertices, mesh.cut, mesh.roles);
+    mesh.normals = {mesh.roles.fixed, averaged_triangle_normals(input.vertices, mesh.cut, mesh.roles)};
     if (input.fixed_normals) {
-        const Points averaged = mesh.normals;
+        const FixedNormals averaged = mesh.normals;
         copy_given_normals(input, mesh);
         warn_of_opposed_normals(mesh, averaged, mesh.warnings);
     }

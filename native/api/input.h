@@ -3,6 +3,8 @@
 
 #include <optional>
 
+#include "api/fixed_normals.h"
+#include "base/view.h"
 #include "mesh/patch.h"
 
 namespace fairing {
@@ -15,7 +17,7 @@ struct HeldInside {
 };
 
 struct MeshInput {
-    Points vertices;
+    View<Points> vertices;  // outlive the input
     Triangles triangles;
     std::optional<Indices> fixed;                  // left out: the mesh border
     std::optional<Points> fixed_normals;           // 3 × |fixed|
@@ -35,7 +37,7 @@ struct MeshTopology {
 
 // The mesh after all checks.
 struct CheckedMesh : MeshTopology {
-    Points normals;        // 3 × vertices: prescribed unit normals at fixed vertices, zero elsewhere
+    FixedNormals normals;  // prescribed unit normals, at `roles.fixed`
     VectorX curvatures;    // prescribed H of each vertex, NaN elsewhere; empty where none are prescribed
     Diagnostics warnings;  // of the geometry
 };

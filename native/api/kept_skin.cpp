@@ -101,9 +101,10 @@ void KeptSkin::read_sample(const ComponentData& data, double size, const Progres
     if (!borrowed_) warn_of_missing_detail(SkinOf::sample, warnings_);
 }
 
-BaseOutline KeptSkin::low_pass_outline(const ComponentData& data, const Points& positions) const {
+BaseOutline KeptSkin::low_pass_outline(const ComponentData& data, const View<Points>& given) const {
     const auto fixed = fixed_vertices(patch_);
-    BaseOutline result{gather(positions, fixed), gather(data.normals, fixed)};
+    const Points positions = given;
+    BaseOutline result{gather(positions, fixed), data.normals.gather(fixed)};
     const Indices places = places_at_rim(fixed, data.outside, positions.cols());
     if (places.empty() || !positions(Eigen::all, data.outside.reshaped()).allFinite()) return result;
     Indices rim;

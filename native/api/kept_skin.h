@@ -53,7 +53,7 @@ public:
 private:
     void read_own(const ComponentData& data, double size, const Progress& progress);
     void read_sample(const ComponentData& data, double size, const Progress& progress);
-    [[nodiscard]] BaseOutline low_pass_outline(const ComponentData& data, const Points& positions) const;
+    [[nodiscard]] BaseOutline low_pass_outline(const ComponentData& data, const View<Points>& given) const;
 
     const Patch& patch_;
     std::unique_ptr<Skin> skin_;  // one of both

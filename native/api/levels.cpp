@@ -23,7 +23,7 @@ Indices compose(const Indices& first, const Indices& then) {
 }
 
 // Triangles of one piece on each of its levels, coarse to fine, in input numbers.
-std::vector<Corners> piece_levels(const Patch& patch, const Points& points, int levels) {
+std::vector<Corners> piece_levels(const Patch& patch, const View<Points>& points, int levels) {
     const Hierarchy hierarchy = build_hierarchy(patch, gather(points, patch.to_input), levels);
     std::vector<Corners> result;
     for (const Patch& level : hierarchy.patches) {

@@ -21,7 +21,7 @@ namespace {
 
 // Visits every piece of the cut mesh as a patch with its positions.
 template <typename Visit>
-void for_each_piece(const CheckedMesh& mesh, const Points& points, Visit visit) {
+void for_each_piece(const CheckedMesh& mesh, const View<Points>& points, Visit visit) {
     const Pieces pieces(mesh.cut, mesh.roles);
     for (int k = 0; k < pieces.size(); ++k) {
         const Patch patch = pieces.patch(k);
@@ -40,10 +40,37 @@ Eigen::Matrix2d planar_edges(const Points& points, const Eigen::Vector3i& triang
 }
 
 // Fixed vertices whose normals nobody prescribed get the fit to their own side.
-Points normals_at_fixed(const Patch& patch, const Points& local, const CheckedMesh& mesh, BoundaryNormals boundary) {
-    return boundary == BoundaryNormals::prescribed ? gather(mesh.normals, fixed_vertices(patch))
+Points normals_at_fixed(const Patch& patch, const Points& local, const FixedNormals& normals,
+                        BoundaryNormals boundary) {
+    return boundary == BoundaryNormals::prescribed ? normals.gather(fixed_vertices(patch))
                                                    : one_sided_normals(patch, local);
 }
+
+// H of input vertices, the mean of their sides.
+class CurvatureMeans {
+public:
+    CurvatureMeans(const FixedNormals& normals, Eigen::Index vertex_count)
+        : normals_(normals), sum_(VectorX::Zero(vertex_count)), sides_(VectorX::Zero(vertex_count)) {}
+
+    void add(const Patch& patch, const Points& local, NormalKind kind, BoundaryNormals boundary) {
+        FaceGeometry faces;
+        faces.update(local, patch.triangles);
+        const Points at_fixed = normals_at_fixed(patch, local, normals_, boundary);
+        const Points normals = vertex_normals(patch, local, faces, at_fixed, kind);
+        const VectorX H = patch_curvature(patch, local, std::move(faces), normals, kind).mean;
+        for (int v = 0; v < patch.vertex_count(); ++v) {
+            sum_[patch.to_input[at(v)]] += H[v];
+            sides_[patch.to_input[at(v)]] += 1.0;
+        }
+    }
+
+    [[nodiscard]] VectorX all() const { return sum_.cwiseQuotient(sides_.cwiseMax(1.0)); }
+
+private:
+    const FixedNormals& normals_;
+    VectorX sum_;
+    VectorX sides_;
+};
 
 // Each triangle is scaled by a power of two, so that squares of its lengths are numbers: its angles stay the same.
 Eigen::Matrix3Xd cotangents(const Points& points, const Triangles& triangles) {
@@ -66,25 +93,23 @@ Eigen::Matrix3Xd cotangents(const Points& points, const Triangles& triangles) {
 
 }  // namespace
 
-VectorX mean_curvature(const CheckedMesh& mesh, const Points& points, NormalKind kind, BoundaryNormals boundary) {
-    VectorX sum = VectorX::Zero(points.cols());
-    VectorX sides = VectorX::Zero(points.cols());
-    for_each_piece(mesh, points, [&](const Patch& patch, const Points& local) {
-        FaceGeometry faces;
-        faces.update(local, patch.triangles);
-        const Points at_fixed = normals_at_fixed(patch, local, mesh, boundary);
-        const Points normals = vertex_normals(patch, local, faces, at_fixed, kind);
-        const VectorX H = patch_curvature(patch, local, faces, normals, kind).mean;
-        for (int v = 0; v < patch.vertex_count(); ++v) {
-            sum[patch.to_input[at(v)]] += H[v];
-            sides[patch.to_input[at(v)]] += 1.0;
-        }
-    });
-    return sum.cwiseQuotient(sides.cwiseMax(1.0));
+VectorX mean_curvature(const CheckedMesh& mesh, const View<Points>& points, NormalKind kind, BoundaryNormals boundary) {
+    CurvatureMeans means(mesh.normals, points.cols());
+    for_each_piece(mesh, points,
+                   [&](const Patch& patch, const Points& local) { means.add(patch, local, kind, boundary); });
+    return means.all();
+}
+
+VectorX mean_curvature(std::span<const Patch> pieces, const FixedNormals& normals, const View<Points>& points,
+                       NormalKind kind, BoundaryNormals boundary) {
+    CurvatureMeans means(normals, points.cols());
+    for (const Patch& patch : pieces) means.add(patch, gather(points, patch.to_input), kind, boundary);
+    return means.all();
 }
 
 Indices component_of_triangles(const Triangles& triangles, const std::optional<Indices>& fixed, int vertex_count) {
-    const MeshTopology mesh = check_topology({Points::Zero(3, vertex_count), triangles, fixed, {}});
+    const Points anywhere = Points::Zero(3, vertex_count);
+    const MeshTopology mesh = check_topology({anywhere, triangles, fixed, {}});
     const Pieces pieces(mesh.cut, mesh.roles);
     Indices number(at(pieces.size()), none);
     int count = 0;

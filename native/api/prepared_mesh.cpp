@@ -46,6 +46,9 @@ std::unique_ptr<PreparedMesh> prepare(const MeshInput& input, const CallOptions&
     check_geometry(input, prepared->mesh);
     prepared->finite = input.vertices.allFinite();
     patching.finish();
+    Eigen::Index triangles = 0;
+    for (const Patch& patch : prepared->patches) triangles += patch.triangle_count();
+    prepared->is_all_patches = triangles == prepared->mesh.cut.triangles.cols();
     prepared->solvers.reserve(prepared->patches.size());
     for (const Patch& patch : prepared->patches) prepared->solvers.emplace_back(patch, options);
     return prepared;

@@ -10,6 +10,7 @@ struct PreparedMesh {
     CheckedMesh mesh;
     bool finite;                           // all coordinates; where one is not, the topology depends on which
     std::vector<Patch> patches;            // all that have free and fixed vertices
+    bool is_all_patches;                   // no triangle lies outside of these
     Diagnostics closed_components;         // those that are left alone
     std::vector<ComponentSolver> solvers;  // one for each patch; they refer to patches and options
 };
@@ -18,8 +19,9 @@ struct PreparedMesh {
 std::unique_ptr<PreparedMesh> prepare(const MeshInput& input, const CallOptions& options);
 
 // One call. `prepared`: of an earlier call with the same triangles, fixed vertices and options, or null; it is made
-// where it is missing or not of this input. `reference`: M0; the input's vertices where it is left out.
-FairResult run_call(const MeshInput& input, const std::optional<Points>& reference, const CallOptions& options,
+// where it is missing or not of this input. `reference`: M0; the input's vertices where it is left out. Where no call
+// follows, the input's triangles and the cut mesh are let go.
+FairResult run_call(MeshInput& input, const std::optional<View<Points>>& reference, const CallOptions& options,
                     std::unique_ptr<PreparedMesh>& prepared, const ProgressCallback& callback);
 
 }  // namespace fairing

@@ -112,18 +112,19 @@ py::dict fair_arrays(const DoubleArray& vertices, const IntArray& triangles, con
                      const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
                      const std::optional<IntArray>& outside, const std::optional<IntArray>& sample,
                      const Options& options, const PaperOptions& paper, const py::object& callback) {
-    const MeshInput input{to_points(vertices),
-                          to_triangles(triangles),
-                          to_optional(fixed, to_indices),
-                          to_optional(fixed_normals, to_points),
-                          to_optional(fixed_curvatures, to_vector),
-                          outside ? to_triangles(*outside) : Triangles(3, 0),
-                          {options.creases, options.smooth_curves, options.fair_border},
-                          sample ? to_triangles(*sample) : Triangles(3, 0)};
-    const auto m0 = to_optional(reference, to_points);
+    MeshInput input{view_points(vertices),
+                    to_triangles(triangles),
+                    to_optional(fixed, to_indices),
+                    to_optional(fixed_normals, to_points),
+                    to_optional(fixed_curvatures, to_vector),
+                    outside ? to_triangles(*outside) : Triangles(3, 0),
+                    {options.creases, options.smooth_curves, options.fair_border},
+                    sample ? to_triangles(*sample) : Triangles(3, 0)};
+    const auto m0 = to_optional(reference, view_points);
     const FairOptions fair_options = to_fair_options(options, paper, {neighbours, weights});
-    return to_dict(without_gil(
-        callback, [&](const ProgressCallback& progress) { return fair(input, m0, fair_options, progress); }));
+    return to_dict(without_gil(callback, [&](const ProgressCallback& progress) {
+        return fair(std::move(input), m0, fair_options, progress);
+    }));
 }
 
 // fairing.Solver's engine. A second call while one is running (from another thread, or from `progress`) is refused.
@@ -149,7 +150,7 @@ public:
         Points points = to_points(vertices);
         auto normals = to_optional(fixed_normals, to_points);
         auto curvatures = to_optional(fixed_curvatures, to_vector);
-        const auto m0 = to_optional(reference, to_points);
+        const auto m0 = to_optional(reference, view_points);
         return to_dict(without_gil(callback, [&](const ProgressCallback& progress) {
             return solver_.solve(std::move(points), std::move(normals), std::move(curvatures), m0, progress);
         }));

@@ -46,7 +46,7 @@ WantedLengths to_lengths(const Wanted& wanted) {
 
 MeshInput to_input(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
                    const std::optional<DoubleArray>& fixed_normals) {
-    return {to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices),
+    return {view_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices),
             to_optional(fixed_normals, to_points)};
 }
 
@@ -85,7 +85,7 @@ py::array from_matrix(const Eigen::MatrixXd& matrix) {
 
 py::array interpolated(const DoubleArray& vertices, const IntArray& triangles, const IntArray& fixed,
                        const DoubleArray& values) {
-    const MeshInput input{to_points(vertices), to_triangles(triangles), to_indices(fixed), std::nullopt};
+    const MeshInput input{view_points(vertices), to_triangles(triangles), to_indices(fixed), std::nullopt};
     const Eigen::MatrixXd columns = to_matrix(values);
     Eigen::MatrixXd result;
     {

@@ -8,7 +8,7 @@ namespace {
 
 py::list hierarchy_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
                           int levels) {
-    const MeshInput input{to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices), {}};
+    const MeshInput input{view_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices), {}};
     std::vector<MeshLevel> result;
     {
         const py::gil_scoped_release released;

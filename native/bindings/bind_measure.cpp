@@ -12,14 +12,14 @@ namespace {
 py::array mean_curvature_array(const DoubleArray& vertices, const IntArray& triangles,
                                const std::optional<IntArray>& fixed, const std::optional<DoubleArray>& fixed_normals,
                                const std::string& normals) {
-    const MeshInput input{to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices),
+    const MeshInput input{view_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices),
                           to_optional(fixed_normals, to_points)};
     return from_vector(mean_curvature(input, normal_words.value(normals)));
 }
 
 py::array vertex_normals_array(const DoubleArray& vertices, const IntArray& triangles, const std::string& normals) {
     return from_points(
-        vertex_normals({to_points(vertices), to_triangles(triangles), {}, {}}, normal_words.value(normals)));
+        vertex_normals({view_points(vertices), to_triangles(triangles), {}, {}}, normal_words.value(normals)));
 }
 
 py::tuple cotan_laplacian_arrays(const DoubleArray& vertices, const IntArray& triangles) {
@@ -43,7 +43,7 @@ py::array component_array(const IntArray& triangles, const std::optional<IntArra
 
 py::array flipped_array(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed) {
     return from_indices(
-        flipped_triangles({to_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices), {}}));
+        flipped_triangles({view_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices), {}}));
 }
 
 py::array crossing_array(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& near) {

@@ -70,7 +70,7 @@ std::pair<py::array, py::array> soft_base_arrays(const DoubleArray& vertices, co
                                                  const py::array_t<bool>& faired,
                                                  const std::tuple<double, double, double>& sizes, int threads,
                                                  const py::object& callback) {
-    const MeshInput mesh{to_points(vertices), to_triangles(triangles), to_indices(fixed), {}};
+    const MeshInput mesh{view_points(vertices), to_triangles(triangles), to_indices(fixed), {}};
     const Points fair = to_points(base);
     const std::vector<char> marks(faired.data(), faired.data() + faired.size());
     const auto [detail, diameter, width] = sizes;

@@ -21,7 +21,9 @@ void raise_mesh_error(const MeshError& error) {
 
 }  // namespace
 
-Points to_points(const DoubleArray& array) { return Eigen::Map<const Points>(array.data(), 3, array.shape(0)); }
+View<Points> view_points(const DoubleArray& array) { return View<Points>::Map(array.data(), 3, array.shape(0)); }
+
+Points to_points(const DoubleArray& array) { return view_points(array); }
 
 Triangles to_triangles(const IntArray& array) { return Eigen::Map<const Triangles>(array.data(), 3, array.shape(0)); }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/errors.h"
+#include "base/view.h"
 
 namespace fairing::bindings {
 
@@ -17,6 +18,7 @@ using DoubleArray = py::array_t<double, py::array::c_style | py::array::forcecas
 using IntArray = py::array_t<int, py::array::c_style | py::array::forcecast>;
 
 Points to_points(const DoubleArray& array);
+View<Points> view_points(const DoubleArray& array);
 Triangles to_triangles(const IntArray& array);
 Indices to_indices(const IntArray& array);
 VectorX to_vector(const DoubleArray& array);  // (k,)

@@ -29,7 +29,7 @@ public:
           modes_(known.curves, problem.fixed_points, vertices_per_wave),
           operator_(problem.patch, problem.fixed_points, modes_, start.leftCols(problem.patch.free_count)),
           tangential_(make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())),
-          anderson_(3L * problem.patch.free_count, history_depth),
+          anderson_(history_depth),
           coefficients_(VectorX::Zero(modes_.count())) {
         state_.points = start;
     }

@@ -100,6 +100,7 @@ RowWeights row_weights(const Patch& patch, const InnerWeights& weights, const ch
 }
 
 bool is_uniform(const Lambda& weights) {
+    if (std::holds_alternative<UniformWeights>(weights)) return true;
     const auto* edges = std::get_if<InnerWeights>(&weights);
     return edges && std::all_of(edges->begin(), edges->end(),
                                 [&](const WeightedEdge& edge) { return edge.weight == edges->front().weight; });

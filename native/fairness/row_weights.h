@@ -23,8 +23,18 @@ struct RowWeights {
 // λ_ij of symmetric weights. Throws std::invalid_argument, naming `what`, where a row has no positive weight.
 RowWeights row_weights(const Patch& patch, const InnerWeights& weights, const char* what);
 
+// λ = 1 on the edges of the patch: listed where that is needed, a large patch has no room for them meanwhile.
+struct UniformWeights {};
+
 // λ of a patch: symmetric where the kind allows it, else by rows.
-using Lambda = std::variant<InnerWeights, RowWeights>;
+using Lambda = std::variant<InnerWeights, RowWeights, UniformWeights>;
+
+// use(edges) of symmetric λ.
+template <typename Use>
+auto with_edges(const Patch& patch, const Lambda& symmetric, const Use& use) {
+    if (std::holds_alternative<UniformWeights>(symmetric)) return use(uniform_weights(patch));
+    return use(std::get<InnerWeights>(symmetric));
+}
 
 // Whether all edges have the same weight.
 bool is_uniform(const Lambda& weights);

@@ -110,9 +110,10 @@ CurvatureFit fit_curvature(const Vector3& centre, std::span<const Vector3> point
     return fit.solve();
 }
 
-PatchCurvature patch_curvature(const Patch& patch, const Points& points, const FaceGeometry& faces,
-                               const Points& normals, NormalKind kind) {
+PatchCurvature patch_curvature(const Patch& patch, const Points& points, FaceGeometry faces, const Points& normals,
+                               NormalKind kind) {
     const Points virtual_points = edge_virtual_points(patch, points, faces, normals);
+    faces = {};  // the rest needs the room
     const auto virtual_point = [&](int edge) { return virtual_points.col(edge); };
     PatchCurvature curvature{VectorX(patch.vertex_count()), Points(3, patch.vertex_count())};
     for_ranges(patch.vertex_count(), fine_grain, [&](int begin, int end) {

@@ -62,7 +62,7 @@ struct PatchCurvature {
 
 // From the neighbours and a virtual point between every two of them. In corners of the outline also from the turn of
 // the normals along it, unless the normals are averaged ones: that is the paper's discretisation.
-PatchCurvature patch_curvature(const Patch& patch, const Points& points, const FaceGeometry& faces,
-                               const Points& normals, NormalKind kind);
+PatchCurvature patch_curvature(const Patch& patch, const Points& points, FaceGeometry faces, const Points& normals,
+                               NormalKind kind);
 
 }  // namespace fairing

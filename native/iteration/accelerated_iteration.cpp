@@ -48,14 +48,13 @@ public:
           damping_(damping),
           progress_(progress),
           conormals_(conormals(problem.patch, problem.fixed_points, problem.fixed_normals)),
-          own_history_(work.keeps_factor ? 0 : 3L * problem.patch.free_count, history_depth),
+          own_history_(history_depth),
           anderson_(work.keeps_factor ? kept_history() : own_history_) {}
 
     Solution run(Points start) {
         state_.points = std::move(start);
         const int most = problem_.options.max_iterations;
         solution_.termination = Termination::iteration_limit;
-        solution_.points = state_.points;
         solution_.mean_curvature = VectorX::Zero(patch_.vertex_count());
         solution_.residual = std::numeric_limits<double>::max();
         for (int k = 0; k < most; ++k) {
@@ -70,7 +69,7 @@ public:
                 solution_.termination = Termination::stalled;
                 break;
             }
-            const Points d = plain_step();
+            Points d = plain_step();
             const double largest = largest_length(d);
             solution_.iterations = k + 1;
             if (k == 0) solution_.first_step = largest;
@@ -79,7 +78,8 @@ public:
             arrived_ = largest <= problem_.options.tolerance;
             if (arrived_ && problem_.options.start_only) {
                 end_here();
-                solution_.points = moved(d);
+                move(std::move(d));
+                best_ = Best::here;
                 break;
             }
             if (largest <= least_share * problem_.options.tolerance || (arrived_ && k + 1 == most)) {
@@ -92,15 +92,18 @@ public:
                 break;
             }
             residual_before_ = residual_;
-            state_.points = moved(d);
+            move(std::move(d));
         }
+        store_best();
         return std::move(solution_);
     }
 
 private:
+    enum class Best { here, one_back, stored };  // of the points that come back: in the state, or left by one step
+
     // The map hardly changes from one solve with a factor to the next, nor do its differences.
     Anderson& kept_history() {
-        if (!work_.history) work_.history = std::make_unique<Anderson>(3L * patch_.free_count, history_depth);
+        if (!work_.history) work_.history = std::make_unique<Anderson>(history_depth);
         work_.history->begin_again();
         return *work_.history;
     }
@@ -118,10 +121,17 @@ private:
         keep();
     }
 
-    Points moved(const Points& d) {
-        Points points = state_.points;
-        anderson_.move(points, damping_ * d, largest_step);
-        return points;
+    void move(Points d) {
+        best_ = best_ == Best::here ? Best::one_back : Best::stored;
+        d *= damping_;
+        anderson_.move(state_.points, std::move(d), largest_step);
+    }
+
+    // The best points are copied only where nothing else keeps them: a large patch has no room for them twice.
+    void store_best() {
+        if (best_ != Best::stored) solution_.points = state_.points;
+        if (best_ == Best::one_back) solution_.points.leftCols(patch_.free_count) = anderson_.last();
+        best_ = Best::stored;
     }
 
     // The largest move of the next iteration, from this one's and the last one's; infinite where they hardly shrink.
@@ -141,6 +151,7 @@ private:
             return false;
         }
         if (residual_ < best_residual_ && !exploded()) keep();
+        if (best_ == Best::one_back) store_best();
         return true;
     }
 
@@ -155,7 +166,8 @@ private:
 
     void keep() {
         best_residual_ = residual_;
-        solution_.points = state_.points;
+        best_ = Best::here;
+        solution_.points.resize(3, 0);
         solution_.mean_curvature = state_.curvature.mean;
         solution_.residual = residual_;
     }
@@ -172,6 +184,7 @@ private:
 
     Points plain_step() {
         const VectorX u = work_.normal->solve(outer_);
+        state_.stiffness = {};  // the tangential step needs the room
         if (!(u.cwiseAbs().maxCoeff() < near_surface))
             return state_.moves(work_.tangential->displacement(state_.points, state_.normals), u);
         return state_.moves(step_within_raised(u), u);
@@ -209,6 +222,7 @@ private:
     bool arrives_ = false;          // the next step would be
     double start_energy_ = -1.0;    // not known yet
     double best_residual_ = std::numeric_limits<double>::infinity();
+    Best best_ = Best::here;
     double last_step_ = 0.0;
     double step_at_refresh_ = 0.0;
     int refreshed_at_ = 0;

@@ -20,15 +20,33 @@ Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b
     return qr.solve(b);
 }
 
-// The same of the first columns of a tall A by factors of its parts (Golub, Plemmons & Sameh 1988).
-Eigen::VectorXd least_squares_by_parts(const Eigen::MatrixXf& A, int columns, const Eigen::VectorXd& b) {
-    const int rows = static_cast<int>(A.rows());
+using Columns = std::vector<Eigen::VectorXf>;
+
+Eigen::MatrixXd rows_of(const Columns& columns, Eigen::Index begin, Eigen::Index size) {
+    Eigen::MatrixXd result(size, static_cast<Eigen::Index>(columns.size()));
+    for (std::size_t k = 0; k < columns.size(); ++k)
+        result.col(static_cast<Eigen::Index>(k)) = columns[k].segment(begin, size).cast<double>();
+    return result;
+}
+
+// rows_of(columns, begin, size) γ
+Eigen::VectorXd combined(const Columns& columns, Eigen::Index begin, Eigen::Index size, const Eigen::VectorXd& gamma) {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(size);
+    for (std::size_t k = 0; k < columns.size(); ++k)
+        sum += gamma[static_cast<Eigen::Index>(k)] * columns[k].segment(begin, size).cast<double>();
+    return sum;
+}
+
+// The same of a tall A by factors of its parts (Golub, Plemmons & Sameh 1988).
+Eigen::VectorXd least_squares_by_parts(const Columns& A, const Eigen::VectorXd& b) {
+    const int rows = static_cast<int>(b.size());
     const int parts = (rows + rows_at_once - 1) / rows_at_once;
-    if (parts == 1) return least_squares(A.leftCols(columns).cast<double>(), b);
+    if (parts == 1) return least_squares(rows_of(A, 0, rows), b);
+    const auto columns = static_cast<int>(A.size());
     Eigen::MatrixXd factors = Eigen::MatrixXd::Zero(Eigen::Index(parts) * columns, columns);
     Eigen::VectorXd values = Eigen::VectorXd::Zero(factors.rows());
     for_ranges(rows, rows_at_once, [&](int begin, int end) {
-        const Eigen::HouseholderQR<Eigen::MatrixXd> qr(A.block(begin, 0, end - begin, columns).cast<double>());
+        const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows_of(A, begin, end - begin));
         const Eigen::VectorXd rotated = qr.householderQ().adjoint() * b.segment(begin, end - begin);
         const Eigen::Index first = Eigen::Index(begin / rows_at_once) * columns;
         const int kept = std::min(columns, end - begin);
@@ -40,31 +58,39 @@ Eigen::VectorXd least_squares_by_parts(const Eigen::MatrixXf& A, int columns, co
 
 }  // namespace
 
-Anderson::Anderson(Eigen::Index size, int depth) : depth_(depth), df_(size, depth), sums_(size, depth) {}
+Eigen::VectorXd Anderson::step(const Values& x, const Values& f) {
+    remember(x, f);
+    return accelerated();
+}
 
-Eigen::VectorXd Anderson::step(const Eigen::VectorXd& x, const Eigen::VectorXd& f) {
+void Anderson::remember(const Values& x, const Values& f) {
     if (last_x_.size() > 0) {
-        const int slot = count_++ % depth_;
-        df_.col(slot) = (f - last_f_).cast<float>();
-        sums_.col(slot) = (x - last_x_ + f - last_f_).cast<float>();
+        const auto slot = static_cast<std::size_t>(count_++ % depth_);
+        if (slot == df_.size()) df_.emplace_back(), sums_.emplace_back();
+        df_[slot] = (f - last_f_).cast<float>();
+        sums_[slot] = (x - last_x_ + f - last_f_).cast<float>();
     }
     last_x_ = x;
     last_f_ = f;
-    const int used = std::min(count_, depth_);
-    if (used == 0) return f;
-    const Eigen::VectorXd gamma = least_squares_by_parts(df_, used, f);
-    Eigen::VectorXd step = f;
+}
+
+Eigen::VectorXd Anderson::accelerated() const {
+    if (df_.empty()) return last_f_;
+    const Eigen::VectorXd gamma = least_squares_by_parts(df_, last_f_);
+    Eigen::VectorXd step = last_f_;
     for_ranges(static_cast<int>(step.size()), rows_at_once, [&](int begin, int end) {
-        const int size = end - begin;
-        step.segment(begin, size) -= sums_.block(begin, 0, size, used).cast<double>() * gamma;
+        step.segment(begin, end - begin) -= combined(sums_, begin, end - begin, gamma);
     });
     return step;
 }
 
-void Anderson::move(Eigen::Matrix3Xd& points, const Eigen::Matrix3Xd& plain, double longest) {
+void Anderson::move(Eigen::Matrix3Xd& points, Eigen::Matrix3Xd plain, double longest) {
+    const Eigen::Index count = plain.cols();
     Eigen::Map<Eigen::VectorXd> x(points.data(), plain.size());
-    Eigen::VectorXd far = step(x, plain.reshaped());
-    const double largest = std::sqrt(far.reshaped(3, plain.cols()).colwise().squaredNorm().maxCoeff());
+    remember(x, Eigen::Map<const Eigen::VectorXd>(plain.data(), plain.size()));
+    plain.resize(3, 0);  // the step needs the room
+    Eigen::VectorXd far = accelerated();
+    const double largest = std::sqrt(far.reshaped(3, count).colwise().squaredNorm().maxCoeff());
     if (largest > longest) far *= longest / largest;
     x += far;
 }

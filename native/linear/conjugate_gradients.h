@@ -29,7 +29,7 @@ GradientSolution<Field> conjugate_gradients(Field r, double relative_tolerance, 
     const int count = static_cast<int>(r.cols());
     Field x = Field::Zero(r.rows(), count);
     Field z(r.rows(), count);
-    Field product(r.rows(), count);
+    Field& product = z;  // one is used up before the other is made
     precondition(r, z);
     Field p = z;
     double rz = inner_product(r, z);

@@ -147,8 +147,23 @@ bool SparseCholesky::eliminate(int s, Front front, const WorkDone& work_done) {
 
 bool SparseCholesky::factorise(const SparseMatrix& lower, const char* what, const Progress& progress) {
     progress.report(0.0, what);
+    read(lower);
+    return eliminate_all(what, progress);
+}
+
+bool SparseCholesky::factorise(SparseMatrix&& lower, const char* what, const Progress& progress) {
+    progress.report(0.0, what);
+    read(lower);
+    SparseMatrix().swap(lower);
+    return eliminate_all(what, progress);
+}
+
+void SparseCholesky::read(const SparseMatrix& lower) {
     if (!analysed_) analyse_pattern(lower);
     scatter(lower);
+}
+
+bool SparseCholesky::eliminate_all(const char* what, const Progress& progress) {
     SharedProgress shared(progress, what, tree_.total_work());
     const WorkDone work_done = [&](double operations) { shared.add(operations); };
     std::atomic<bool> positive = true;

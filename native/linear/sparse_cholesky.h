@@ -28,6 +28,8 @@ public:
     // call, or before, and kept: the pattern must stay the same. False where the matrix is not positive definite; the
     // factor is then unusable until the next call, as it is after Cancelled. `what` names the stage for `progress`.
     [[nodiscard]] bool factorise(const SparseMatrix& lower, const char* what, const Progress& progress);
+    // The same of a matrix that no one else needs: it goes as soon as its entries are read.
+    [[nodiscard]] bool factorise(SparseMatrix&& lower, const char* what, const Progress& progress);
 
     // Solves for one or several right-hand sides (n × k).
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
@@ -49,7 +51,9 @@ private:
     void find_slots(const SparseMatrix& lower, const Visit& visit) const;
     // The place of an entry in two rows of the matrix, in either order.
     [[nodiscard]] std::size_t slot_of(int row, int column) const;
+    void read(const SparseMatrix& lower);
     void scatter(const SparseMatrix& lower);
+    bool eliminate_all(const char* what, const Progress& progress);
     void add_child(int child, int parent, Front& front, Eigen::MatrixXd& parent_update);
     bool eliminate(int supernode, const WorkDone& work_done);
     bool eliminate(int supernode, Front front, const WorkDone& work_done);

@@ -99,6 +99,7 @@ void Patch::flatten_rings() {
     ring_begin_ = {0};
     rim_begin_ = {0};
     for (Indices* list : {&ring_vertices_, &ring_spokes_, &ring_rim_}) list->reserve(2 * edge_ends.size());
+    for (Indices* list : {&ring_begin_, &rim_begin_}) list->reserve(at(vertex_count()) + 1);
     for (int v = 0; v < vertex_count(); ++v) {
         checkpoint(v);
         int passed = 0;

@@ -60,12 +60,15 @@ void Pieces::number_vertices() {
 Patch Pieces::patch(int piece) const {
     PatchMembers members;
     members.free_count = free_count_[at(piece)];
+    members.to_input.reserve(vertices_[at(piece)].size());
+    members.pin.reserve(vertices_[at(piece)].size());
     for (int v : vertices_[at(piece)]) {
         const int input = cut_.input_vertex[at(v)];
         members.to_input.push_back(input);
         members.pin.push_back(roles_.pin[at(input)]);
     }
     const Indices& triangles = triangles_[at(piece)];
+    members.input_triangle.reserve(triangles.size());
     members.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
     for (int k = 0; k < static_cast<int>(triangles.size()); ++k) {
         checkpoint(k);

@@ -46,7 +46,7 @@ Indices inside(const Patch& patch, Indices triangles) {
 
 // Whether flaws of the shape before may stay.
 bool keeps_shape(const Problem& problem, const Solution& solution) {
-    return solution.instead == Instead::smoothed && problem.before.cols() == problem.patch.vertex_count();
+    return solution.instead == Instead::smoothed && problem.before->cols() == problem.patch.vertex_count();
 }
 
 // Of the triangles inside among each other.
@@ -64,7 +64,7 @@ Indices flips_of(const Problem& problem, const Solution& solution) {
     if (!solution.polished) return {};
     Indices flipped = flipped_by_solution(problem.patch, solution.points);
     if (is_eased(solution)) flipped = inside(problem.patch, std::move(flipped));
-    if (keeps_shape(problem, solution)) flipped = without(flipped, flipped_by_solution(problem.patch, problem.before));
+    if (keeps_shape(problem, solution)) flipped = without(flipped, flipped_by_solution(problem.patch, *problem.before));
     return flipped;
 }
 
@@ -75,7 +75,7 @@ Indices crossings_of(const Problem& problem, Solution& solution) {
     if (!solution.crossings) solution.crossings = crossing_triangles(triangles, solution.points);
     if (is_eased(solution)) return crossings_inside(problem.patch, solution.points);
     if (!keeps_shape(problem, solution)) return *solution.crossings;
-    return without(*solution.crossings, crossing_triangles(triangles, problem.before));
+    return without(*solution.crossings, crossing_triangles(triangles, *problem.before));
 }
 
 // Where the next vertices were tried everywhere beside an eased outline, single triangles have no room: those folds are

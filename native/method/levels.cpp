@@ -40,8 +40,10 @@ Levels::Levels(const Problem& problem, Outlines outlines) {
     const Points normals = with_fixed(problem.patch, problem.fixed_normals);
     const Points unknown = Points::Zero(3, points.cols());  // keeps an outline as it is
     const Shared<Lambda> weights = symmetric_weights(problem.weights);
-    coarse_ = coarsen(problem.patch, std::get<InnerWeights>(*weights),
-                      {points, outlines == Outlines::thinned ? normals : unknown}, coarsest_size);
+    const FixedPlaces outline{points, outlines == Outlines::thinned ? normals : unknown};
+    coarse_ = with_edges(problem.patch, weights, [&](const InnerWeights& edges) {
+        return coarsen(problem.patch, edges, outline, coarsest_size);
+    });
     left_.resize(coarse_.size());
     levels_.reserve(coarse_.size() + 1);
     levels_.push_back({finest(problem), weights, problem.patch.free_count});
@@ -55,7 +57,9 @@ Levels::Levels(const Problem& problem, Outlines outlines) {
 }
 
 RingMatrix Levels::laplacian(std::size_t k) const {
-    return {levels_[k].problem.patch.vertex_count(), std::get<InnerWeights>(*levels_[k].weights)};
+    const Patch& patch = levels_[k].problem.patch;
+    return with_edges(patch, levels_[k].weights,
+                      [&](const InnerWeights& edges) { return RingMatrix(patch.vertex_count(), edges); });
 }
 
 Points Levels::layout(std::size_t k, const Points& coarsest) const {
@@ -76,6 +80,7 @@ void Levels::leave(std::size_t k) {
     PatchMembers& members = left_[k - 1];
     members = std::move(patch);
     patch = Patch({members.free_count, members.to_input, {}, {}, Triangles(3, 0)});
+    levels_[k].weights = levels_[k].problem.weights = {};
 }
 
 void Levels::come_back(std::size_t k) {
@@ -97,8 +102,10 @@ bool Levels::is_factorised(std::size_t k) const {
 
 std::unique_ptr<FactorisedLaplacian> Levels::factorised(std::size_t k, const Progress& progress) const {
     const Level& level = levels_[k];
-    return std::make_unique<FactorisedLaplacian>(level.problem.patch, std::get<InnerWeights>(*level.weights),
-                                                 level.problem.fixed_points, progress.here());
+    const Problem& problem = level.problem;
+    return with_edges(problem.patch, level.weights, [&](const InnerWeights& edges) {
+        return std::make_unique<FactorisedLaplacian>(problem.patch, edges, problem.fixed_points, progress.here());
+    });
 }
 
 void Levels::factorise_beside() {

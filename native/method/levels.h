@@ -43,7 +43,7 @@ public:
     // levels meanwhile.
     [[nodiscard]] Points layout(std::size_t k, const Points& coarsest) const;
 
-    // Lets go of the edges and rings of a coarse level that is left, or brings them back.
+    // Lets go of the edges, rings and weights of a coarse level that is left, or brings edges and rings back.
     void leave(std::size_t k);
     void come_back(std::size_t k);
 

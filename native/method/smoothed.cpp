@@ -85,10 +85,10 @@ std::optional<Solution> smoothed(const Problem& problem, const Solution& first, 
 
 bool crosses_anew(const Problem& problem, const Solution& solution) {
     const Triangles& triangles = problem.patch.triangles;
-    if (!joins_outlines(problem) || problem.before.cols() != problem.patch.vertex_count()) return false;
+    if (!joins_outlines(problem)) return false;
     const Indices now = solution.crossings ? *solution.crossings : crossing_triangles(triangles, solution.points);
-    if (now.empty()) return false;
-    const Indices known = crossing_triangles(triangles, problem.before);
+    if (now.empty() || problem.before->cols() != problem.patch.vertex_count()) return false;
+    const Indices known = crossing_triangles(triangles, *problem.before);
     return !std::includes(known.begin(), known.end(), now.begin(), now.end());
 }
 

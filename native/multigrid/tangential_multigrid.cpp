@@ -55,7 +55,6 @@ MultigridStep::MultigridStep(const Patch& patch, RingMatrix laplacian, const Poi
       coarser_(coarser),
       laplacian_(std::move(laplacian)),
       inverse_diagonal_(Eigen::VectorXf::Zero(patch.vertex_count())),
-      fine_(4, patch.vertex_count()),
       coarse_r_(4, transfer.coarse_count()),
       coarse_x_(4, transfer.coarse_count()) {
     inverse_diagonal_.head(patch.free_count) =
@@ -94,6 +93,7 @@ void MultigridStep::smooth(SingleField& x, SingleField& r, Residual last) const 
 
 void MultigridStep::cycle(SingleField& r, SingleField& x) const {
     x.setZero();
+    fine_.resize(4, x.cols());
     smooth(x, r, Residual::kept);
     fine_ = r;
     transfer_.restrict(fine_, coarse_r_);
@@ -136,6 +136,7 @@ MultigridStep::Moves MultigridStep::solve(const Points& pull, const Planes* plan
     };
     const auto [x, positive] =
         conjugate_gradients(to_single(pull, pull.cols(), unit), tolerance, most_cycles, apply, precondition);
+    fine_.resize(4, 0);  // others need the room until the next solve
     return {unit * x.topLeftCorner(3, patch_.free_count).cast<double>(), positive};
 }
 

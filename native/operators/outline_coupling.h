@@ -12,7 +12,7 @@ class OutlineCoupling {
 public:
     explicit OutlineCoupling(const Patch& patch);
 
-    void update(const Stiffness& stiffness) { weights_ = stiffness.weights; }
+    void update(const Stiffness& stiffness);
 
     // C b, a value for each free vertex.
     [[nodiscard]] VectorX spread(const OutlineRow& outline) const;
@@ -27,12 +27,12 @@ private:
         int i;  // free
         int j;  // fixed, counted from the first one
         int edge;
+        double weight;  // w
     };
 
     int free_count_;
     int fixed_count_;
     std::vector<Entry> entries_;
-    VectorX weights_;  // of the edges
 };
 
 }  // namespace fairing

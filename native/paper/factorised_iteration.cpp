@@ -39,7 +39,7 @@ public:
           accelerated_(level.paper.acceleration == Acceleration::anderson),
           weights_(crowding(level.patch, start)),
           update_(level, start),
-          anderson_(3L * level.patch.free_count, history_depth),
+          anderson_(history_depth),
           watch_(accelerated_),
           damping_(limits.damping) {}
 

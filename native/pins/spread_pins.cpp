@@ -40,7 +40,7 @@ public:
           normal_(
               make_normal_operator(problem_, start(Eigen::all, released_.from).leftCols(released_.patch.free_count))),
           tangential_(make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())),
-          anderson_(3L * released_.patch.free_count, history_depth),
+          anderson_(history_depth),
           forces_(VectorX::Zero(count_)) {
         state_.points = start(Eigen::all, released_.from);
         targets_ = problem.fixed_points(Eigen::all, pins_);

@@ -28,7 +28,7 @@ public:
           folds_(folds),
           placement_(placement),
           merit_(merit_of(placement)),
-          anderson_(3L * problem.patch.free_count, history_depth) {
+          anderson_(history_depth) {
         if (folds_ == Folds::held_back) folded_ = folded_mask(problem_, target_, placement_);
     }
 

@@ -1,6 +1,7 @@
 // What a solver is given for one component.
 #pragma once
 
+#include "base/deferred.h"
 #include "base/shared.h"
 #include "fairness/row_weights.h"
 #include "geometry/vertex_normal.h"
@@ -47,7 +48,7 @@ struct Problem {
     // H at the fixed vertices, in units of D⁻¹, NaN where it is not known; for Δ_B² H = 0. Empty: a tangent join.
     VectorX fixed_curvatures = {};
     // The shape before (3 × local vertices), taken where no surface is found (method/smoothed). Empty: none.
-    Points before = {};
+    Deferred<Points> before = {};
 };
 
 }  // namespace fairing

@@ -1,6 +1,7 @@
 #include "problem/surface_state.h"
 
 #include <cmath>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -11,20 +12,20 @@
 namespace fairing {
 
 void SurfaceState::measure_faces(const Patch& patch) {
+    normals.resize(3, 0);  // of other points by now; the new ones need the room
+    curvature = {};
     faces.update(points, patch.triangles);
     stiffness.update(faces, patch);
     faces.cotangents.resize(3, 0);
+    faces.areas.resize(0);
 }
 
 void SurfaceState::measure_curvature(const Problem& problem) {
-    normals.resize(3, 0);  // the new ones need the room
-    curvature = {};
     // Without prescribed normals (G0) the outline's come from the surface itself.
     const Points boundary = problem.options.equation == Equation::minimal ? one_sided_normals(problem.patch, points)
                                                                           : problem.fixed_normals;
     normals = vertex_normals(problem.patch, points, faces, boundary, problem.options.normals);
-    curvature = patch_curvature(problem.patch, points, faces, normals, problem.options.normals);
-    faces = {};
+    curvature = patch_curvature(problem.patch, points, std::exchange(faces, {}), normals, problem.options.normals);
 }
 
 SurfaceState measured_surface(const Problem& problem, const Points& points) {

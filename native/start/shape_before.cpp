@@ -17,27 +17,28 @@ namespace {
 bool is_usable(const Problem& problem) {
     constexpr double most_turned = 0.05;  // of the triangles
     const Patch& patch = problem.patch;
-    if (problem.before.cols() != patch.vertex_count() || !problem.before.allFinite()) return false;
+    const Points& before = *problem.before;
+    if (before.cols() != patch.vertex_count() || !before.allFinite()) return false;
     FaceGeometry faces;
-    faces.update(problem.before, patch.triangles);
+    faces.update(before, patch.triangles);
     if (!(faces.areas.sum() > 1e-9)) return false;
-    const auto turned = static_cast<double>(flipped_triangles(patch, problem.before).size());
+    const auto turned = static_cast<double>(flipped_triangles(patch, before).size());
     return turned <= most_turned * patch.triangle_count();
 }
 
 // The shape before over the outline of today.
 std::optional<Points> over_outline(const Problem& problem, const Progress& progress) {
     const Patch& patch = problem.patch;
+    const Points& before = *problem.before;
     Points moves = Points::Zero(3, patch.vertex_count());
-    moves.rightCols(problem.fixed_points.cols()) =
-        problem.fixed_points - problem.before.rightCols(problem.fixed_points.cols());
-    if (moves.isZero(0.0)) return problem.before;
+    moves.rightCols(problem.fixed_points.cols()) = problem.fixed_points - before.rightCols(problem.fixed_points.cols());
+    if (moves.isZero(0.0)) return before;
     const Stiffness even = uniform_stiffness(patch);
     LaplaceOperator laplace(patch);
     if (!laplace.update(even, progress)) return std::nullopt;
     moves.leftCols(patch.free_count) =
         -laplace.solve(even.apply(patch, moves, patch.free_count).transpose()).transpose();
-    return Points(problem.before + moves);
+    return Points(before + moves);
 }
 
 // Of some shape, without the weights and masses of its needles, which drown their neighbours'.

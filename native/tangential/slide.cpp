@@ -42,7 +42,7 @@ void walk(Sliding& vertices) {
 
 void slide(Sliding& vertices, const TangentialStep& tangential, int most_steps) {
     Points& points = vertices.points;
-    Anderson anderson(3L * static_cast<Eigen::Index>(vertices.where.size()), history_depth);
+    Anderson anderson(history_depth);
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < most_steps; ++step) {
         const Points d = tangential.displacement(points, {vertices.normals, vertices.turns});

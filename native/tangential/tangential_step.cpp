@@ -10,7 +10,9 @@ std::unique_ptr<TangentialStep> make_tangential_step(const Patch& patch, const L
     if (const auto* rows = std::get_if<RowWeights>(&weights)) {
         return std::make_unique<DirectedStep>(patch, *rows, fixed_points, progress);
     }
-    return std::make_unique<SymmetricStep>(patch, std::get<InnerWeights>(weights), fixed_points, progress);
+    return with_edges(patch, weights, [&](const InnerWeights& edges) -> std::unique_ptr<TangentialStep> {
+        return std::make_unique<SymmetricStep>(patch, edges, fixed_points, progress);
+    });
 }
 
 }  // namespace fairing

@@ -198,7 +198,7 @@ TEST_CASE("Anderson acceleration ends a linear iteration within its dimension") 
     const VectorX diagonal = VectorX::LinSpaced(5, 0.01, 1.99);
     const VectorX b = VectorX::Ones(5);
     VectorX x = VectorX::Zero(5);
-    Anderson anderson(5, 6);
+    Anderson anderson(6);
     for (int k = 0; k < 7; ++k) x += anderson.step(x, b - diagonal.cwiseProduct(x));
     CHECK((diagonal.cwiseProduct(x) - b).norm() < 1e-8);
 }
@@ -209,7 +209,7 @@ TEST_CASE("differences of one iteration serve the next one of the same matrix") 
     const VectorX other = VectorX::LinSpaced(5, -3.0, 2.0);
     const auto left_after_one_step = [&](const auto& in_between) {
         VectorX x = VectorX::Zero(5);
-        Anderson anderson(5, 6);
+        Anderson anderson(6);
         for (int k = 0; k < 6; ++k) x += anderson.step(x, b - diagonal.cwiseProduct(x));
         in_between(anderson);
         x += anderson.step(x, other - diagonal.cwiseProduct(x));
@@ -224,7 +224,7 @@ TEST_CASE("an accelerated move is the step, shortened as a whole where a point w
     plain << 0.3, 0.0, 0.4, 0.1, 0.0, 0.0;  // of lengths 0.5 and 0.1
     for (const double longest : {0.05, 1.0}) {
         Points points = Points::Constant(3, 3, 7.0);
-        Anderson anderson(6, 4);
+        Anderson anderson(4);
         anderson.move(points, plain, longest);
         CHECK((points.leftCols(2).array() - 7.0 - plain.array() * std::min(1.0, longest / 0.5)).abs().maxCoeff() <
               1e-15);

@@ -46,7 +46,7 @@ struct Revolved : test::Pipe {
     // How blunt a finger on a plane is against another.
     [[nodiscard]] Blemishes changed(const Profile& before, const Profile& after) {
         problem.before = shaped(before);
-        return BlemishFinder(problem, problem.before, Progress()).in(shaped(after));
+        return BlemishFinder(problem, *problem.before, Progress()).in(shaped(after));
     }
 };
 

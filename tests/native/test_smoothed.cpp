@@ -78,7 +78,7 @@ bool is_blemished(const Problem& problem, const Points& points) {
     return BlemishSearch(problem, progress).is_blemished(points);
 }
 
-BlemishFinder finder(const Known& pipe) { return {pipe.problem, pipe.problem.before, Progress()}; }
+BlemishFinder finder(const Known& pipe) { return {pipe.problem, *pipe.problem.before, Progress()}; }
 
 // A wall that bulges through the wall across from it, without folds.
 Points pierced(const Known& pipe, double height) {
@@ -148,11 +148,13 @@ TEST_CASE("the shape before goes with its outline") {
 TEST_CASE("a shape that is not known, or crumpled, is not smoothed") {
     Known pipe(20);
     CHECK(smoothed(pipe.problem, {}, Progress()));
-    pipe.problem.before.leftCols(pipe.single.patch().free_count).array() *=
+    Points crumpled = pipe.single.points;
+    crumpled.leftCols(pipe.single.patch().free_count).array() *=
         Points::Random(3, pipe.single.patch().free_count).array();
+    pipe.problem.before = crumpled;
     CHECK_FALSE(ShapeBefore::of(pipe.problem, Progress()));
     CHECK_FALSE(smoothed(pipe.problem, {}, Progress()));
-    pipe.problem.before.resize(3, 0);
+    pipe.problem.before = Points(3, 0);
     CHECK_FALSE(smoothed(pipe.problem, {}, Progress()));
 }
 
@@ -207,13 +209,13 @@ TEST_CASE("edges of flat sections that are drawn in are a blemish, waists of rou
     for (const double thickness : {0.12, 0.3, 1.0}) {  // flatness 1.52, 1.43 and 1
         Known wing(40);
         wing.problem.before = flattened(wing.single.points, thickness);
-        wing.problem.fixed_points = wing.problem.before.rightCols(wing.problem.fixed_points.cols());
+        wing.problem.fixed_points = wing.problem.before->rightCols(wing.problem.fixed_points.cols());
         const auto drawn_in = [&](double height) {
             Points points = waved(wing, height);
-            if (thickness < 1.0) points.row(1) = wing.problem.before.row(1);
+            if (thickness < 1.0) points.row(1) = wing.problem.before->row(1);
             return points;
         };
-        CHECK(finder(wing).in(wing.problem.before).narrow.empty());
+        CHECK(finder(wing).in(*wing.problem.before).narrow.empty());
         CHECK(finder(wing).in(drawn_in(-0.03)).narrow.empty());
         CHECK(finder(wing).in(drawn_in(-0.12)).narrow.empty() == (thickness == 1.0));
     }
@@ -253,7 +255,7 @@ TEST_CASE("a spindle or a thread between two outlines gives way to a shape witho
         pipe.problem.before = wave;  // then it is the shape that is wanted
         CHECK_FALSE(is_misshapen(pipe.problem, wave, Progress()));
         CHECK(or_else(pipe.problem, taken(wave, Instead::nothing), Progress()).instead == Instead::nothing);
-        pipe.problem.before.resize(3, 0);
+        pipe.problem.before = Points(3, 0);
         CHECK(or_else(pipe.problem, taken(wave, Instead::nothing), Progress()).instead == Instead::nothing);
     }
     const Known pipe(10);
@@ -310,24 +312,26 @@ TEST_CASE("a smoothed shape may keep the crossings that were there, and no other
 TEST_CASE("a loft with a waist gives way to the shape before") {
     Known pipe(30);
     const Patch& patch = pipe.single.patch();
+    Points twisted = pipe.single.points;
     for (int v = 0; v < patch.vertex_count(); ++v) {
         const double twist = 2.6 * pipe.single.points(2, v) / pipe.length();  // of the lines: their waist is cos 1.3
-        pipe.problem.before.col(v) = Eigen::AngleAxisd(twist, Vector3::UnitZ()) * Vector3(pipe.single.points.col(v));
+        twisted.col(v) = Eigen::AngleAxisd(twist, Vector3::UnitZ()) * Vector3(pipe.single.points.col(v));
     }
+    pipe.problem.before = twisted;
     Points& outline = pipe.problem.fixed_points;
-    outline = pipe.problem.before.rightCols(outline.cols());
+    outline = pipe.problem.before->rightCols(outline.cols());
     for (Eigen::Index k = 0; k < outline.cols(); ++k) {
         const double up = k % 2 == 0 ? std::sin(0.6) : -std::sin(0.6);
         pipe.problem.fixed_normals.col(k) << std::cos(0.6) * outline(0, k), std::cos(0.6) * outline(1, k), up;
     }
     Solution failed;
-    failed.points = pipe.problem.before;
+    failed.points = *pipe.problem.before;
     failed.flaw = Flaw::not_converged;
     const Solution solution = or_else(pipe.problem, failed, Progress());
     CHECK(solution.instead == Instead::smoothed);
     CHECK(solution.ways.back().name == "smoothed");
     CHECK(finder(pipe).in(solution.points).narrow.empty());
-    pipe.problem.before.resize(3, 0);
+    pipe.problem.before = Points(3, 0);
     const Solution alone = or_else(pipe.problem, failed, Progress());
     CHECK(alone.instead == Instead::loft);
 }
@@ -335,7 +339,7 @@ TEST_CASE("a loft with a waist gives way to the shape before") {
 TEST_CASE("a loft beside the shape before gives way where it is off by half a radius") {
     const Known pipe(40);
     const auto moved = [&](double way) { return moved_aside(pipe, pipe.single.points, way); };
-    const auto girths = Girths::of(pipe.single.patch(), pipe.problem.before, Progress());
+    const auto girths = Girths::of(pipe.single.patch(), *pipe.problem.before, Progress());
     REQUIRE(girths);
     CHECK(girths->aside(pipe.single.points) < 1e-12);
     CHECK(girths->aside(moved(0.3)) == doctest::Approx(0.3).epsilon(0.01));

@@ -23,10 +23,11 @@ using namespace fairing;
 namespace {
 
 // A dented grid whose border is held; some of it round and so with a curvature to find.
-MeshInput dented_cap(int n) {
-    const test::Mesh mesh = test::grid(n, 0.2, test::sphere);
-    return {mesh.points, mesh.triangles, {}, {}};
-}
+struct DentedCap {
+    explicit DentedCap(int n) : mesh(test::grid(n, 0.2, test::sphere)), input{mesh.points, mesh.triangles, {}, {}} {}
+    test::Mesh mesh;
+    MeshInput input;
+};
 
 FairOptions options(Method method) {
     FairOptions result;
@@ -41,9 +42,9 @@ bool same_bits(const FairResult& one, const FairResult& other) {
 }  // namespace
 
 TEST_CASE("threads: calls at the same time on the same arrays give what they give alone") {
-    const MeshInput shared = dented_cap(8);
-    const MeshInput other = dented_cap(6);
-    const std::array<const MeshInput*, 4> inputs{&shared, &shared, &shared, &other};
+    const DentedCap shared(8);
+    const DentedCap other(6);
+    const std::array<const MeshInput*, 4> inputs{&shared.input, &shared.input, &shared.input, &other.input};
     const std::array methods{Method::global, Method::global, Method::paper, Method::paper};
     std::array<FairResult, 4> results;
     std::vector<std::thread> threads;
@@ -57,14 +58,14 @@ TEST_CASE("threads: calls at the same time on the same arrays give what they giv
 }
 
 TEST_CASE("threads: a run is watched and stopped from another thread") {
-    const MeshInput input = dented_cap(8);
+    const DentedCap cap(8);
     std::atomic<bool> stop = false;
     std::atomic<double> seen = -1.0;
     std::atomic<bool> cancelled = false;
     std::thread worker([&] {
         try {
             for (;;) {
-                fair(input, {}, options(Method::global), [&](double fraction, std::string_view) {
+                fair(cap.input, {}, options(Method::global), [&](double fraction, std::string_view) {
                     seen = fraction;
                     return !stop;
                 });
@@ -168,15 +169,15 @@ TEST_CASE("threads: crossing triangles are found by any number of them") {
 }
 
 TEST_CASE("threads: a nested solve has the same bits for any number of them") {
-    const MeshInput input = dented_cap(52);
+    const DentedCap cap(52);
     FairOptions wanted = options(Method::global);
     wanted.threads = 1;
-    const FairResult alone = fair(input, {}, wanted, {});
+    const FairResult alone = fair(cap.input, {}, wanted, {});
     CHECK(alone.converged);
     CHECK(alone.levels.size() > 1);
     for (const int threads : {0, 2, 5}) {
         wanted.threads = threads;
-        CHECK(same_bits(fair(input, {}, wanted, {}), alone));
+        CHECK(same_bits(fair(cap.input, {}, wanted, {}), alone));
     }
 }
 
