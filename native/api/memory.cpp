@@ -7,7 +7,7 @@ namespace fairing {
 
 namespace {
 
-constexpr int least_checked = 100000;  // free vertices: a quarter of a gigabyte
+constexpr int least_checked = 100000;  // free vertices: a seventh of a gigabyte
 
 std::string gigabytes(double bytes) {
     std::ostringstream text;
@@ -18,10 +18,10 @@ std::string gigabytes(double bytes) {
 
 }  // namespace
 
-// Measured on hemispheres of 100k and 1M free vertices with uniform weights: 1.62 and up to 1.59 kB for each. λ that
-// aren't symmetric take up to one and a half times that.
+// Measured on hemispheres of 100k and 1M free vertices with uniform weights on two threads: up to 1.37 and 1.20 kB for
+// each. λ that aren't symmetric take up to twice that.
 double memory_estimate(int free_count) {
-    constexpr double bytes = 1630.0;  // for each free vertex
+    constexpr double bytes = 1380.0;  // for each free vertex
     return bytes * free_count;
 }
 

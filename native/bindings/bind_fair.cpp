@@ -106,14 +106,14 @@ FairOptions to_fair_options(const Options& options, const PaperOptions& paper, c
     return result;
 }
 
-py::dict fair_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
+py::dict fair_arrays(const DoubleArray& vertices, const py::array& triangles, const std::optional<IntArray>& fixed,
                      const std::optional<DoubleArray>& fixed_normals,
                      const std::optional<DoubleArray>& fixed_curvatures, const std::optional<DoubleArray>& reference,
                      const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
                      const std::optional<IntArray>& outside, const std::optional<IntArray>& sample,
                      const Options& options, const PaperOptions& paper, const py::object& callback) {
     MeshInput input{view_points(vertices),
-                    to_triangles(triangles),
+                    to_triangles(IntArray::ensure(triangles)),
                     to_optional(fixed, to_indices),
                     to_optional(fixed_normals, to_points),
                     to_optional(fixed_curvatures, to_vector),

@@ -184,7 +184,8 @@ private:
 
     Points plain_step() {
         const VectorX u = work_.normal->solve(outer_);
-        state_.stiffness = {};  // the tangential step needs the room
+        outer_.resize(0);  // the tangential step needs the room
+        state_.stiffness = {};
         if (!(u.cwiseAbs().maxCoeff() < near_surface))
             return state_.moves(work_.tangential->displacement(state_.points, state_.normals), u);
         return state_.moves(step_within_raised(u), u);

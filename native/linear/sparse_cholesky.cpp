@@ -61,8 +61,6 @@ void SparseCholesky::analyse_pattern(const SparseMatrix& lower) {
     for (int s = 0; s < nodes.size(); ++s) {
         panel_begin_.push_back(panel_begin_.back() + at(nodes.row_count(s)) * at(nodes.column_count(s)));
     }
-    const auto size = static_cast<Eigen::Index>(panel_begin_.back());
-    kept_ == Kept::doubles ? panels_.resize(size) : singles_.resize(size);
     updates_.resize(at(nodes.size()));
     if (kept_ == Kept::doubles) {
         entry_slot_.resize(static_cast<std::size_t>(lower.nonZeros()));
@@ -91,7 +89,10 @@ void SparseCholesky::find_slots(const SparseMatrix& lower, const Visit& visit) c
     });
 }
 
+// The panels are not made before: what is analysed beside other work leaves that the room.
 void SparseCholesky::scatter(const SparseMatrix& lower) {
+    const auto size = static_cast<Eigen::Index>(panel_begin_.back());
+    kept_ == Kept::doubles ? panels_.resize(size) : singles_.resize(size);
     const double* values = lower.valuePtr();
     const auto clear = [&](auto* panels) {
         for_ranges(tree_.nodes().size(), fine_grain, [&](int first, int last) {

@@ -128,6 +128,13 @@ def triangles_within(value: npt.ArrayLike, count: int) -> IntArray:
     return indices_within("triangles", integers("triangles", value, 3), count)
 
 
+def triangles_as_given(value: npt.ArrayLike, count: int) -> npt.NDArray[Any]:
+    """The same; an array of wide integers itself: a large one has no room for another beside it."""
+    array = _array("triangles", value)
+    checked = triangles_within(array, count)
+    return array if array.dtype == np.int64 and array.shape == checked.shape else checked
+
+
 def rows_within(name: str, value: npt.ArrayLike, count: int) -> IntArray:
     """(k,) numbers of ``count`` triangles, or ValueError."""
     numbers = integers(name, value, None)

@@ -55,7 +55,8 @@ def fair(
 
     Solves Δ_B H = 0 (Schneider & Kobbelt 2001, eq. 4) for the positions of all vertices that are not fixed,
     with prescribed positions and normals at the fixed ones. The interior given is not looked at (conformal
-    weights without ``reference`` and default normals apart). No argument is ever changed.
+    weights without ``reference`` and default normals apart). No argument is ever changed. Large arrays are read where
+    they lie: they have to stay as they are during the call.
 
     Parameters
     ----------
@@ -201,7 +202,7 @@ def fair(
     """
     points = _arguments.floats("vertices", vertices)
     count = points.shape[0]
-    faces = _arguments.triangles_within(triangles, count)
+    faces = _arguments.triangles_as_given(triangles, count)
     fixed_list, given_normals = _arguments.boundary(fixed, fixed_normals)
     m0 = None if reference is None else _arguments.floats("reference", reference, count)
     edges = _options.neighbour_edges(neighbours, count)
