@@ -11,8 +11,8 @@ import pytest
 
 import shapes
 
-# 2.4 with all fields in double precision and a copy of everything for each level, 1.7 with copies of the input, lists of
-# uniform weights and old fields of the iteration.
+# 2.4 with all fields in double precision and a copy of everything for each level, 1.7 with copies of the input, lists
+# of uniform weights and old fields of the iteration.
 MOST = 1.35  # kB for each free vertex, above the input
 CALL = """
 import sys
