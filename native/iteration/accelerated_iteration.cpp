@@ -193,7 +193,7 @@ private:
 
     // Newton's step within the surface that the moves along the normals lead to: on a catenoid those alone shift the
     // vertices' places as far as they go.
-    Points step_within_raised(const VectorX& heights) const {
+    [[nodiscard]] Points step_within_raised(const VectorX& heights) const {
         const Raised next = raised(patch_, state_, heights);
         const TangentPlanes planes(next.normals, shape_operators(state_.curvature, state_.normals, patch_.free_count));
         return work_.tangential->displacement(next.points, planes);
