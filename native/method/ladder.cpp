@@ -6,6 +6,7 @@
 #include "method/accept.h"
 #include "method/direct.h"
 #include "method/eased.h"
+#include "method/eased_start.h"
 #include "method/even.h"
 #include "method/nested.h"
 #include "method/one_level.h"
@@ -41,7 +42,7 @@ bool takes_patience(const Problem& problem, const Situation& situation) {
 // that cut limbs across none was found, in half as much time again.
 bool takes_eased(const Problem& problem, const Situation& situation) {
     constexpr double most_left = 1e-3;
-    if (!is_fourth_order(problem) || situation.has_asked(eased_way)) return false;
+    if (!is_fourth_order(problem) || situation.has_asked(eased_way) || situation.refused("proxy")) return false;
     const bool hindered = std::all_of(situation.found.begin(), situation.found.end(), [&](const Solution& s) {
         if (s.flaw == Flaw::folded || s.flaw == Flaw::crossing) return is_uniform(problem.weights);
         return s.termination == Termination::stalled && s.reached_load == 0.0;
@@ -50,8 +51,16 @@ bool takes_eased(const Problem& problem, const Situation& situation) {
     return is_large(problem) || problem.patch.loop_count() == 1 || roughness_left(problem) < most_left;
 }
 
-Found on_eased_outline(const Problem& problem, const Situation& /*situation*/, const Progress& progress) {
-    return solve_eased(problem, progress);
+Found on_eased_outline(const Problem& problem, const Situation& situation, const Progress& progress) {
+    if (!begins_eased(problem)) return solve_eased(problem, nullptr, progress);
+    const auto start = started(problem, situation, progress);
+    return start ? solve_eased(problem, start, progress) : std::nullopt;
+}
+
+// Of 41 regions of scans over whose eased outline none was found, no proxy met the outline itself.
+bool takes_proxy(const Problem& problem, const Situation& situation) {
+    const bool refused = situation.refused(eased_way) && begins_eased(problem) && !situation.found.empty();
+    return is_fourth_order(problem) && !refused;
 }
 
 bool takes_even(const Problem& problem, const Situation& situation) {
@@ -98,8 +107,7 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
          [](const Problem& p, const Situation& s) { return is_large(p) && takes_eased(p, s) && is_beyond_reach(p); },
          on_eased_outline, 0.3, 0.5},
         {direct.name, takes_direct, direct.solve, direct.begin, direct.end},
-        {proxy.name, [](const Problem& p, const Situation&) { return is_fourth_order(p); }, proxy.solve, proxy.begin,
-         proxy.end},
+        {proxy.name, takes_proxy, proxy.solve, proxy.begin, proxy.end},
         {eased_way, [](const Problem& p, const Situation& s) { return is_large(p) && takes_eased(p, s); },
          on_eased_outline, 0.9, 1.0},
         {"patient", takes_patience,

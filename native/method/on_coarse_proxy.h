@@ -1,6 +1,7 @@
 // The robust way for large patches: the proxy from a coarse level, the user's vertices placed level by level.
 #pragma once
 
+#include "method/eased_start.h"
 #include "method/on_proxy.h"
 
 namespace fairing {
@@ -12,8 +13,13 @@ namespace fairing {
 std::optional<Solution> solve_on_coarse_proxy(const Problem& problem, const std::optional<OwnSurface>& guess,
                                               const Progress& progress);
 
+// The same from the start that is given, with the guess for the placement alone.
+std::optional<Solution> solve_from_start(const Problem& problem, const std::optional<OwnSurface>& guess,
+                                         const std::shared_ptr<const EasedStart>& start, const Progress& progress);
+
 // From nothing and without the polish: not for a surface that the problem's own mesh has no equal of. Nothing either
-// where the proxy has no solution.
-std::optional<Solution> place_on_coarse_proxy(const Problem& problem, const Progress& progress);
+// where the proxy has no solution. `start`: where the proxy begins, if there is one.
+std::optional<Solution> place_on_coarse_proxy(const Problem& problem, const std::shared_ptr<const EasedStart>& start,
+                                              const Progress& progress);
 
 }  // namespace fairing

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,6 +51,8 @@ struct WayTaken {
     double seconds;
 };
 
+struct EasedStart;  // method/eased_start
+
 struct Solution {
     Points points;  // 3 × local vertices
     VectorX mean_curvature;
@@ -77,6 +80,7 @@ struct Solution {
     Join join = Join::tangent;
     Pins pins = Pins::absent;
     Indices tangent_only;       // of partly_curvature: fixed vertices, counted from the first one
+    std::shared_ptr<const EasedStart> start = {};  // what it began with, for the next way
     double smooth_share = 0.0;  // of too_rough: how much of what is lacking long waves explain, 0 … 1
 };
 

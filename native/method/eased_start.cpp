@@ -1,0 +1,35 @@
+#include "method/eased_start.h"
+
+#include "method/eased.h"
+#include "method/levels.h"
+#include "method/sizes.h"
+#include "placement/follow_outline.h"
+
+namespace fairing {
+
+bool begins_eased(const Problem& problem) {
+    constexpr int smallest = 5000;  // free vertices; coarse proxies of less don't tell (proxy/proxy_solver)
+    return is_large(problem) && problem.patch.free_count >= smallest && problem.patch.loop_count() == 1 &&
+           is_jagged(problem);
+}
+
+std::shared_ptr<const EasedStart> eased_start(const Problem& problem, const Progress& progress) {
+    const Problem smooth = eased(problem);
+    const Levels levels(smooth, Outlines::kept);
+    const Problem& coarsest = levels.problem(levels.coarsest());
+    const Points membrane = proxy_membrane(coarsest, progress);
+    CoarseProxy proxy = solve_coarse_proxy(coarsest, membrane, problem.patch.free_count, progress);
+    if (proxy.end != CoarseEnd::converged) return nullptr;
+    return std::make_shared<const EasedStart>(EasedStart{std::move(proxy), membrane});
+}
+
+CoarseProxy over_outline(const CoarseProxy& coarse, const Points& outline) {
+    CoarseProxy result = coarse;
+    auto [patch, points] = result.mesh.snapshot();
+    follow_outline(patch, outline - points.rightCols(outline.cols()), points);
+    points.rightCols(outline.cols()) = outline;
+    result.mesh.read_back(patch, points);
+    return result;
+}
+
+}  // namespace fairing
