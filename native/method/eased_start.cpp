@@ -3,13 +3,11 @@
 #include "method/eased.h"
 #include "method/levels.h"
 #include "method/sizes.h"
-#include "placement/follow_outline.h"
 
 namespace fairing {
 
 bool begins_eased(const Problem& problem) {
-    constexpr int smallest = 5000;  // free vertices; coarse proxies of less don't tell (proxy/proxy_solver)
-    return is_large(problem) && problem.patch.free_count >= smallest && problem.patch.loop_count() == 1 &&
+    return is_large(problem) && problem.patch.free_count >= smallest_telling && problem.patch.loop_count() == 1 &&
            is_jagged(problem);
 }
 
@@ -21,15 +19,6 @@ std::shared_ptr<const EasedStart> eased_start(const Problem& problem, const Prog
     CoarseProxy proxy = solve_coarse_proxy(coarsest, membrane, problem.patch.free_count, progress);
     if (proxy.end != CoarseEnd::converged) return nullptr;
     return std::make_shared<const EasedStart>(EasedStart{std::move(proxy), membrane});
-}
-
-CoarseProxy over_outline(const CoarseProxy& coarse, const Points& outline) {
-    CoarseProxy result = coarse;
-    auto [patch, points] = result.mesh.snapshot();
-    follow_outline(patch, outline - points.rightCols(outline.cols()), points);
-    points.rightCols(outline.cols()) = outline;
-    result.mesh.read_back(patch, points);
-    return result;
 }
 
 }  // namespace fairing

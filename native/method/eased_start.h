@@ -1,4 +1,4 @@
-// The coarse proxy over an eased outline: where a surface begins that follows the jagged outline, and one beside it.
+// The coarse proxy over an eased outline: where the eased way begins, and what tells the proxy's whether it is in vain.
 #pragma once
 
 #include <memory>
@@ -15,13 +15,11 @@ struct EasedStart {
     Points membrane;
 };
 
-// Whether the ways over a proxy have this beginning in common: for large patches with one jagged outline.
+// Whether that tells: of large patches with one jagged outline.
 bool begins_eased(const Problem& problem);
 
-// Nothing where no coarse surface is found over the eased outline: then none is on finer proxies, over either outline.
+// Nothing where no coarse surface is found over the eased outline. Of 50 regions of scans with one outline and 10,000
+// or 30,000 free vertices where that was so none was solved over it, nor over its own outline without folds.
 std::shared_ptr<const EasedStart> eased_start(const Problem& problem, const Progress& progress);
-
-// The coarse proxy over another outline with as many vertices, 3 × fixed count.
-CoarseProxy over_outline(const CoarseProxy& coarse, const Points& outline);
 
 }  // namespace fairing

@@ -53,11 +53,12 @@ bool takes_eased(const Problem& problem, const Situation& situation) {
 
 Found on_eased_outline(const Problem& problem, const Situation& situation, const Progress& progress) {
     if (!begins_eased(problem)) return solve_eased(problem, nullptr, progress);
-    const auto start = started(problem, situation, progress);
+    const auto known = situation.start();
+    const auto start = known ? known : eased_start(problem, progress.here());
     return start ? solve_eased(problem, start, progress) : std::nullopt;
 }
 
-// Of 41 regions of scans over whose eased outline none was found, no proxy met the outline itself.
+// What no coarse proxy over the eased outline has found, none over the outline itself would.
 bool takes_proxy(const Problem& problem, const Situation& situation) {
     const bool refused = situation.refused(eased_way) && begins_eased(problem) && !situation.found.empty();
     return is_fourth_order(problem) && !refused;

@@ -33,12 +33,17 @@ public:
         if (coarsest == 0) return std::nullopt;
         const Problem& coarse = levels_.problem(coarsest);
         std::map<std::string, double> seconds;
-        const Points membrane = start_ ? start_->membrane : proxy_membrane(coarse, progress_);
+        const bool begins = polish == Polish::unwanted && start_;
+        const Points membrane = begins ? start_->membrane : proxy_membrane(coarse, progress_);
         const SurfaceState start = measured_surface(coarse, membrane);
         std::optional<Points> own;
         if (guess) own = on_coarsest(guess->points);
         seconds["fill"] = watch_.lap();
-        const SolvedProxy proxy = solved_proxy(guess && starts_from(problem_, *guess) ? own : std::nullopt, membrane);
+        const auto found = begins ? solve_fine_proxy(coarse, start_->proxy, problem_.patch.free_count, progress_)
+                                  : solved_proxy(guess && starts_from(problem_, *guess) ? own : std::nullopt, membrane,
+                                                 polish == Polish::wanted && begins_eased(problem_));
+        if (!found) return std::nullopt;
+        const SolvedProxy& proxy = *found;
         seconds["proxy"] = watch_.lap();
         if (polish == Polish::unwanted && !proxy.converged()) return std::nullopt;
         const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
@@ -65,12 +70,16 @@ private:
         return result;
     }
 
-    [[nodiscard]] SolvedProxy solved_proxy(const std::optional<Points>& guess, const Points& membrane) const {
-        const Problem& coarse = levels_.problem(levels_.coarsest());
+    // `asks`: whether the eased outline tells, where the coarse proxy ends without a surface.
+    std::optional<SolvedProxy> solved_proxy(const std::optional<Points>& guess, const Points& membrane, bool asks) {
+        const Problem& problem = levels_.problem(levels_.coarsest());
         const int shown = problem_.patch.free_count;
         const Progress part = progress_.range(0.0, 0.5);
-        if (!start_) return solve_proxy(coarse, guess, membrane, shown, part);
-        return solve_fine_proxy(coarse, over_outline(start_->proxy, coarse.fixed_points), shown, part);
+        if (guess || !asks) return solve_proxy(problem, guess, membrane, shown, part);
+        CoarseProxy coarse = solve_coarse_proxy(problem, membrane, shown, part);
+        if (coarse.end != CoarseEnd::converged && !start_) start_ = eased_start(problem_, progress_.here());
+        if (coarse.end != CoarseEnd::converged && !start_) return std::nullopt;
+        return solve_fine_proxy(problem, std::move(coarse), shown, part);
     }
 
     // By springs where nothing folds then, otherwise from where the coarsest vertices lie without them, and at last
@@ -190,7 +199,7 @@ private:
 
     const Problem& problem_;
     const Progress& progress_;
-    const std::shared_ptr<const EasedStart> start_;  // or none
+    std::shared_ptr<const EasedStart> start_;  // or none
     Stopwatch watch_;
     Levels levels_;
 };
@@ -198,12 +207,8 @@ private:
 }  // namespace
 
 std::optional<Solution> solve_on_coarse_proxy(const Problem& problem, const std::optional<OwnSurface>& guess,
+                                              const std::shared_ptr<const EasedStart>& start,
                                               const Progress& progress) {
-    return CoarseProxySolve(problem, nullptr, progress).run(guess, Polish::wanted);
-}
-
-std::optional<Solution> solve_from_start(const Problem& problem, const std::optional<OwnSurface>& guess,
-                                         const std::shared_ptr<const EasedStart>& start, const Progress& progress) {
     return CoarseProxySolve(problem, start, progress).run(guess, Polish::wanted);
 }
 

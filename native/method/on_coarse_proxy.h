@@ -9,13 +9,10 @@ namespace fairing {
 // As solve_on_proxy. The proxy begins with the vertices of a coarse level, so that nothing of the user's size is
 // solved before its surface is known. Folds count on the finest level alone: coarse levels may have no placement
 // without any. Where springs alone fold triangles, the equation's solution by them would be folded, too, and no polish
-// is tried. Nothing where the patch has no levels.
+// is tried. Nothing where the patch has no levels, and where neither the coarse proxy over the outline nor that over
+// the eased one, `start` if it is known, finds a surface.
 std::optional<Solution> solve_on_coarse_proxy(const Problem& problem, const std::optional<OwnSurface>& guess,
-                                              const Progress& progress);
-
-// The same from the start that is given, with the guess for the placement alone.
-std::optional<Solution> solve_from_start(const Problem& problem, const std::optional<OwnSurface>& guess,
-                                         const std::shared_ptr<const EasedStart>& start, const Progress& progress);
+                                              const std::shared_ptr<const EasedStart>& start, const Progress& progress);
 
 // From nothing and without the polish: not for a surface that the problem's own mesh has no equal of. Nothing either
 // where the proxy has no solution. `start`: where the proxy begins, if there is one.

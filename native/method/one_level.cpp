@@ -26,12 +26,6 @@ std::optional<OwnSurface> guess_from(const Situation& situation) {
 
 }  // namespace
 
-std::shared_ptr<const EasedStart> started(const Problem& problem, const Situation& situation,
-                                          const Progress& progress) {
-    auto start = situation.start();
-    return start ? start : eased_start(problem, progress);
-}
-
 Way directly() {
     return {"direct", [](const Problem&, const Situation&) { return true; },
             [](const Problem& problem, const Situation&, const Progress& progress) {
@@ -44,12 +38,9 @@ Way on_proxy() {
     return {"proxy", [](const Problem&, const Situation&) { return true; },
             [](const Problem& problem, const Situation& situation, const Progress& progress) {
                 const auto guess = guess_from(situation);
-                if (!(guess && guess->solved) && begins_eased(problem)) {
-                    const auto start = started(problem, situation, progress);
-                    return start ? solve_from_start(problem, guess, start, progress) : std::nullopt;
-                }
                 if (takes_coarse_proxy(problem, guess)) {
-                    if (auto solution = solve_on_coarse_proxy(problem, guess, progress)) return solution;
+                    auto solution = solve_on_coarse_proxy(problem, guess, situation.start(), progress);
+                    if (solution || (begins_eased(problem) && !situation.found.empty())) return solution;
                 }
                 return std::optional(solve_on_proxy(problem, guess, progress));
             },

@@ -14,7 +14,4 @@ Solution solve_on_own_mesh(const Problem& problem, const Progress& progress);
 Way directly();
 Way on_proxy();
 
-// The start that a way before has left, or a new one; nothing where it is not found.
-std::shared_ptr<const EasedStart> started(const Problem& problem, const Situation& situation, const Progress& progress);
-
 }  // namespace fairing

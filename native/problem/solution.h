@@ -45,13 +45,13 @@ enum class Pins { absent, spread, no_surface, no_outline, too_close, not_found, 
 // `smoothed`: the shape before, as smooth as it can be (method/smoothed).
 enum class Instead { nothing, least_variation, loft, smoothed };
 
+struct EasedStart;  // method/eased_start
+
 // A way that was tried (method/ways), and how long it took.
 struct WayTaken {
     std::string name;
     double seconds;
 };
-
-struct EasedStart;  // method/eased_start
 
 struct Solution {
     Points points;  // 3 × local vertices
@@ -79,9 +79,12 @@ struct Solution {
     bool even_weights = false;     // uniform weights were taken instead of the problem's
     Join join = Join::tangent;
     Pins pins = Pins::absent;
-    Indices tangent_only;       // of partly_curvature: fixed vertices, counted from the first one
+    Indices tangent_only;                          // of partly_curvature: fixed vertices, counted from the first one
     std::shared_ptr<const EasedStart> start = {};  // what it began with, for the next way
     double smooth_share = 0.0;  // of too_rough: how much of what is lacking long waves explain, 0 … 1
 };
+
+// Whether a step was half as short as the first one.
+inline bool has_halved(const Solution& solution) { return solution.least_step <= 0.5 * solution.first_step; }
 
 }  // namespace fairing

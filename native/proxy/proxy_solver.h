@@ -29,6 +29,9 @@ struct SolvedProxy {
 SolvedProxy solve_proxy(const Problem& problem, const std::optional<Points>& guess, const Points& membrane, int shown,
                         const Progress& progress);
 
+// Free vertices shown from which a coarse proxy tells of finer ones.
+inline constexpr int smallest_telling = 5000;
+
 // What has become of a coarse proxy. `near`: the fine one may find a surface all the same.
 enum class CoarseEnd { converged, near, far };
 
