@@ -17,7 +17,6 @@ std::shared_ptr<const EasedStart> eased_start(const Problem& problem, const Prog
     const Problem& coarsest = levels.problem(levels.coarsest());
     const Points membrane = proxy_membrane(coarsest, progress);
     CoarseProxy proxy = solve_coarse_proxy(coarsest, membrane, problem.patch.free_count, progress);
-    if (proxy.end != CoarseEnd::converged) return nullptr;
     return std::make_shared<const EasedStart>(EasedStart{std::move(proxy), membrane});
 }
 

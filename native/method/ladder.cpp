@@ -42,7 +42,7 @@ bool takes_patience(const Problem& problem, const Situation& situation) {
 // that cut limbs across none was found, in half as much time again.
 bool takes_eased(const Problem& problem, const Situation& situation) {
     constexpr double most_left = 1e-3;
-    if (!is_fourth_order(problem) || situation.has_asked(eased_way) || situation.refused("proxy")) return false;
+    if (!is_fourth_order(problem) || situation.has_asked(eased_way)) return false;
     const bool hindered = std::all_of(situation.found.begin(), situation.found.end(), [&](const Solution& s) {
         if (s.flaw == Flaw::folded || s.flaw == Flaw::crossing) return is_uniform(problem.weights);
         return s.termination == Termination::stalled && s.reached_load == 0.0;
@@ -55,7 +55,7 @@ Found on_eased_outline(const Problem& problem, const Situation& situation, const
     if (!begins_eased(problem)) return solve_eased(problem, nullptr, progress);
     const auto known = situation.start();
     const auto start = known ? known : eased_start(problem, progress.here());
-    return start ? solve_eased(problem, start, progress) : std::nullopt;
+    return start->found() ? solve_eased(problem, start, progress) : std::nullopt;
 }
 
 // What no coarse proxy over the eased outline has found, none over the outline itself would.

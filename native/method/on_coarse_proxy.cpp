@@ -39,11 +39,9 @@ public:
         std::optional<Points> own;
         if (guess) own = on_coarsest(guess->points);
         seconds["fill"] = watch_.lap();
-        const auto found = begins ? solve_fine_proxy(coarse, start_->proxy, problem_.patch.free_count, progress_)
-                                  : solved_proxy(guess && starts_from(problem_, *guess) ? own : std::nullopt, membrane,
-                                                 polish == Polish::wanted && begins_eased(problem_));
-        if (!found) return std::nullopt;
-        const SolvedProxy& proxy = *found;
+        const SolvedProxy proxy = begins ? solve_fine_proxy(coarse, start_->proxy, problem_.patch.free_count, progress_)
+                                         : solved_proxy(guess && starts_from(problem_, *guess) ? own : std::nullopt,
+                                                        membrane, polish == Polish::wanted && begins_eased(problem_));
         seconds["proxy"] = watch_.lap();
         if (polish == Polish::unwanted && !proxy.converged()) return std::nullopt;
         const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
@@ -71,14 +69,14 @@ private:
     }
 
     // `asks`: whether the eased outline tells, where the coarse proxy ends without a surface.
-    std::optional<SolvedProxy> solved_proxy(const std::optional<Points>& guess, const Points& membrane, bool asks) {
+    SolvedProxy solved_proxy(const std::optional<Points>& guess, const Points& membrane, bool asks) {
         const Problem& problem = levels_.problem(levels_.coarsest());
         const int shown = problem_.patch.free_count;
         const Progress part = progress_.range(0.0, 0.5);
         if (guess || !asks) return solve_proxy(problem, guess, membrane, shown, part);
         CoarseProxy coarse = solve_coarse_proxy(problem, membrane, shown, part);
         if (coarse.end != CoarseEnd::converged && !start_) start_ = eased_start(problem_, progress_.here());
-        if (coarse.end != CoarseEnd::converged && !start_) return std::nullopt;
+        if (coarse.end != CoarseEnd::converged && !start_->found()) coarse.end = CoarseEnd::far;
         return solve_fine_proxy(problem, std::move(coarse), shown, part);
     }
 

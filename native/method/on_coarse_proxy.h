@@ -9,8 +9,8 @@ namespace fairing {
 // As solve_on_proxy. The proxy begins with the vertices of a coarse level, so that nothing of the user's size is
 // solved before its surface is known. Folds count on the finest level alone: coarse levels may have no placement
 // without any. Where springs alone fold triangles, the equation's solution by them would be folded, too, and no polish
-// is tried. Nothing where the patch has no levels, and where neither the coarse proxy over the outline nor that over
-// the eased one, `start` if it is known, finds a surface.
+// is tried. Where the coarse proxies over the outline and over the eased one, `start` if it is known, find no surface,
+// no fine one is solved. Nothing where the patch has no levels.
 std::optional<Solution> solve_on_coarse_proxy(const Problem& problem, const std::optional<OwnSurface>& guess,
                                               const std::shared_ptr<const EasedStart>& start, const Progress& progress);
 

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "method/direct.h"
-#include "method/eased_start.h"
 #include "method/on_coarse_proxy.h"
 #include "method/on_proxy.h"
 #include "method/sizes.h"
@@ -39,8 +38,8 @@ Way on_proxy() {
             [](const Problem& problem, const Situation& situation, const Progress& progress) {
                 const auto guess = guess_from(situation);
                 if (takes_coarse_proxy(problem, guess)) {
-                    auto solution = solve_on_coarse_proxy(problem, guess, situation.start(), progress);
-                    if (solution || (begins_eased(problem) && !situation.found.empty())) return solution;
+                    if (auto solution = solve_on_coarse_proxy(problem, guess, situation.start(), progress))
+                        return solution;
                 }
                 return std::optional(solve_on_proxy(problem, guess, progress));
             },

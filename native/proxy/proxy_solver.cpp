@@ -25,8 +25,8 @@ constexpr int largest_free_limit = 20000;
 constexpr int free_limit_per_vertex = 3;
 constexpr double turn = 0.7;  // radians along an edge of the coarse proxy: nine edges around a pipe
 
-// Of 191 fine proxies of scans that converged all had halved their first step after seven, of 96 that did not 19. Where
-// it had not from a coarse proxy that converged, a descent in between was in vain, too.
+// Of 191 fine proxies of scans that converged all were near or had halved their first step by then, of 96 that did not
+// 23. Where one had not from a coarse proxy that converged, a descent in between was in vain, too.
 constexpr int soon = 8;
 
 bool is_small(int shown) {
@@ -60,7 +60,6 @@ bool tells(const Problem& problem, int shown) { return shown >= smallest_telling
 // with a step of 2e-5 to 3e-4 D were found on the fine one, those of 7e-4 to .3 were not. One of 2,800, whose coarse
 // proxy has 300, was found from 7e-3.
 CoarseEnd end_of(const Solution& solution, const Problem& problem, int shown) {
-    constexpr double near_step = 2e-3;  // units of D
     if (solution.termination == Termination::converged) return CoarseEnd::converged;
     return tells(problem, shown) && solution.least_step > near_step ? CoarseEnd::far : CoarseEnd::near;
 }
@@ -209,12 +208,12 @@ private:
         mesh.adapt(sizing);
         auto snapshot = mesh.snapshot();
         Problem problem = proxy_problem(problem_, shown_, snapshot.patch);
-        if (tells(problem_, shown_)) problem.options.halves_within = soon;
+        if (tells(problem_, shown_)) problem.options.nears_within = soon;
         Workspace work = make_workspace(problem, progress_);
         Points start = snapshot.points;
         Solution solution;
         if (from_converged) solution = solve_equation(problem, work, start, progress_.range(0.5, 0.8));
-        const bool hopeless = from_converged && tells(problem_, shown_) && !has_halved(solution);
+        const bool hopeless = from_converged && tells(problem_, shown_) && stays_far(solution);
         // The Willmore descent leads away from straight pipes: only where it is needed.
         if (solution.termination != Termination::converged && !hopeless) {
             start = globalise(problem, work, start, progress_.range(0.4, 0.5));
