@@ -135,6 +135,21 @@ def test_what_no_proxy_would_meet_is_passed_by_at_once(radians: float, ways: lis
         assert np.abs(np.linalg.norm(result.vertices[len(rim.fixed) :], axis=1) - 1).max() < 0.03
 
 
+def test_over_an_outline_beyond_reach_no_proxy_is_tried_where_the_eased_one_has_none() -> None:
+    """Of 5,000 vertices and more. Half of the time before."""
+    rim = fine_rim(5120, 0.2, 4.0)
+    result = fairing.fair(rim.vertices, rim.triangles, fixed=rim.fixed, fixed_normals=rim.normals, threads=1)
+    names = [name for name, _ in result.way]
+    assert names[:2] == ["nested", "eased"]
+    assert "proxy" not in names
+
+
+def test_the_eased_outline_is_asked_once() -> None:
+    """By the proxy, whose coarse surface was not found; then the way over that outline takes no time."""
+    seconds = dict(faired(rough_cap(1.0, 6.0, 0, free=6000)).way)
+    assert seconds["eased"] < 0.1 * seconds["proxy"]  # 0.5 to 3 times as long before
+
+
 def test_small_patches_pass_noise_by_as_well() -> None:
     """Of these six two converged before."""
     rough = [

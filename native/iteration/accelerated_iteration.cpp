@@ -204,7 +204,8 @@ private:
         const int in_vain = steps_.in_vain(largest);
         const bool grown = in_vain > growth_patience && residual_ > hopeless_growth * best_residual_;
         const bool creeps = contraction_.is_slow(largest) && problem_.options.contracts && largest > last_digits;
-        return !std::isfinite(largest) || grown || creeps || in_vain > problem_.options.patience;
+        const bool stays = solution_.iterations == problem_.options.nears_within && stays_far(solution_);
+        return !std::isfinite(largest) || grown || creeps || stays || in_vain > problem_.options.patience;
     }
 
     const Problem& problem_;

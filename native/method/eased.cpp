@@ -45,9 +45,11 @@ Problem eased(const Problem& problem) {
     return result;
 }
 
-std::optional<Solution> solve_eased(const Problem& problem, const Progress& progress) {
+std::optional<Solution> solve_eased(const Problem& problem, const std::shared_ptr<const EasedStart>& start,
+                                    const Progress& progress) {
     const Problem smooth = eased(problem);
-    auto solution = is_large(problem) ? place_on_coarse_proxy(smooth, progress) : place_on_proxy(smooth, progress);
+    auto solution =
+        is_large(problem) ? place_on_coarse_proxy(smooth, start, progress) : place_on_proxy(smooth, progress);
     if (!solution) return std::nullopt;
     follow_outline(problem.patch, problem.fixed_points - smooth.fixed_points, solution->points);
     solution->points = untorn(problem.patch, std::move(solution->points));

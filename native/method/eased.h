@@ -27,8 +27,9 @@ double roughness_left(const Problem& problem);
 
 // The surface of the outline without its short waves, solved on a mesh of the engine's own, the vertices placed on it.
 // The outline itself stays; the rows of vertices next to it follow where it lies beside that surface. Nothing where
-// that surface is not found either.
-std::optional<Solution> solve_eased(const Problem& problem, const Progress& progress);
+// that surface is not found either. `start`: where large patches begin, if there is such a start.
+std::optional<Solution> solve_eased(const Problem& problem, const std::shared_ptr<const EasedStart>& start,
+                                    const Progress& progress);
 
 // Whether a solution stands for another outline: it came that way, or is a loft over an eased one.
 bool is_eased(const Solution& solution);

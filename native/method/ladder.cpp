@@ -6,6 +6,7 @@
 #include "method/accept.h"
 #include "method/direct.h"
 #include "method/eased.h"
+#include "method/eased_start.h"
 #include "method/even.h"
 #include "method/nested.h"
 #include "method/one_level.h"
@@ -50,8 +51,17 @@ bool takes_eased(const Problem& problem, const Situation& situation) {
     return is_large(problem) || problem.patch.loop_count() == 1 || roughness_left(problem) < most_left;
 }
 
-Found on_eased_outline(const Problem& problem, const Situation& /*situation*/, const Progress& progress) {
-    return solve_eased(problem, progress);
+Found on_eased_outline(const Problem& problem, const Situation& situation, const Progress& progress) {
+    if (!begins_eased(problem)) return solve_eased(problem, nullptr, progress);
+    const auto known = situation.start();
+    const auto start = known ? known : eased_start(problem, progress.here());
+    return start->found() ? solve_eased(problem, start, progress) : std::nullopt;
+}
+
+// What no coarse proxy over the eased outline has found, none over the outline itself would.
+bool takes_proxy(const Problem& problem, const Situation& situation) {
+    const bool refused = situation.refused(eased_way) && begins_eased(problem) && !situation.found.empty();
+    return is_fourth_order(problem) && !refused;
 }
 
 bool takes_even(const Problem& problem, const Situation& situation) {
@@ -98,8 +108,7 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
          [](const Problem& p, const Situation& s) { return is_large(p) && takes_eased(p, s) && is_beyond_reach(p); },
          on_eased_outline, 0.3, 0.5},
         {direct.name, takes_direct, direct.solve, direct.begin, direct.end},
-        {proxy.name, [](const Problem& p, const Situation&) { return is_fourth_order(p); }, proxy.solve, proxy.begin,
-         proxy.end},
+        {proxy.name, takes_proxy, proxy.solve, proxy.begin, proxy.end},
         {eased_way, [](const Problem& p, const Situation& s) { return is_large(p) && takes_eased(p, s); },
          on_eased_outline, 0.9, 1.0},
         {"patient", takes_patience,

@@ -25,21 +25,23 @@ enum class Polish { wanted, unwanted };
 
 class CoarseProxySolve {
 public:
-    CoarseProxySolve(const Problem& problem, const Progress& progress)
-        : problem_(problem), progress_(progress), levels_(problem, Outlines::kept) {}
+    CoarseProxySolve(const Problem& problem, std::shared_ptr<const EasedStart> start, const Progress& progress)
+        : problem_(problem), progress_(progress), start_(std::move(start)), levels_(problem, Outlines::kept) {}
 
     std::optional<Solution> run(const std::optional<OwnSurface>& guess, Polish polish) {
         const std::size_t coarsest = levels_.coarsest();
         if (coarsest == 0) return std::nullopt;
         const Problem& coarse = levels_.problem(coarsest);
         std::map<std::string, double> seconds;
-        const Points membrane = proxy_membrane(coarse, progress_);
+        const bool begins = polish == Polish::unwanted && start_;
+        const Points membrane = begins ? start_->membrane : proxy_membrane(coarse, progress_);
         const SurfaceState start = measured_surface(coarse, membrane);
         std::optional<Points> own;
         if (guess) own = on_coarsest(guess->points);
         seconds["fill"] = watch_.lap();
-        const SolvedProxy proxy = solve_proxy(coarse, guess && starts_from(problem_, *guess) ? own : std::nullopt,
-                                              membrane, problem_.patch.free_count, progress_.range(0.0, 0.5));
+        const SolvedProxy proxy = begins ? solve_fine_proxy(coarse, start_->proxy, problem_.patch.free_count, progress_)
+                                         : solved_proxy(guess && starts_from(problem_, *guess) ? own : std::nullopt,
+                                                        membrane, polish == Polish::wanted && begins_eased(problem_));
         seconds["proxy"] = watch_.lap();
         if (polish == Polish::unwanted && !proxy.converged()) return std::nullopt;
         const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
@@ -52,6 +54,7 @@ public:
         seconds["polish"] = watch_.lap();
         solution.initial_residual = largest_residual(coarse, start, outer_residual(coarse, start));
         solution.levels = levels_.sizes();
+        solution.start = start_;
         solution.seconds = std::move(seconds);
         return solution;
     }
@@ -63,6 +66,18 @@ private:
         Points result(3, patch.vertex_count());
         for (int v = 0; v < patch.vertex_count(); ++v) result.col(v) = points.col(patch.to_input[at(v)]);
         return result;
+    }
+
+    // `asks`: whether the eased outline tells, where the coarse proxy ends without a surface.
+    SolvedProxy solved_proxy(const std::optional<Points>& guess, const Points& membrane, bool asks) {
+        const Problem& problem = levels_.problem(levels_.coarsest());
+        const int shown = problem_.patch.free_count;
+        const Progress part = progress_.range(0.0, 0.5);
+        if (guess || !asks) return solve_proxy(problem, guess, membrane, shown, part);
+        CoarseProxy coarse = solve_coarse_proxy(problem, membrane, shown, part);
+        if (coarse.end != CoarseEnd::converged && !start_) start_ = eased_start(problem_, progress_.here());
+        if (coarse.end != CoarseEnd::converged && !start_->found()) coarse.end = CoarseEnd::far;
+        return solve_fine_proxy(problem, std::move(coarse), shown, part);
     }
 
     // By springs where nothing folds then, otherwise from where the coarsest vertices lie without them, and at last
@@ -182,6 +197,7 @@ private:
 
     const Problem& problem_;
     const Progress& progress_;
+    std::shared_ptr<const EasedStart> start_;  // or none
     Stopwatch watch_;
     Levels levels_;
 };
@@ -189,12 +205,14 @@ private:
 }  // namespace
 
 std::optional<Solution> solve_on_coarse_proxy(const Problem& problem, const std::optional<OwnSurface>& guess,
+                                              const std::shared_ptr<const EasedStart>& start,
                                               const Progress& progress) {
-    return CoarseProxySolve(problem, progress).run(guess, Polish::wanted);
+    return CoarseProxySolve(problem, start, progress).run(guess, Polish::wanted);
 }
 
-std::optional<Solution> place_on_coarse_proxy(const Problem& problem, const Progress& progress) {
-    return CoarseProxySolve(problem, progress).run(std::nullopt, Polish::unwanted);
+std::optional<Solution> place_on_coarse_proxy(const Problem& problem, const std::shared_ptr<const EasedStart>& start,
+                                              const Progress& progress) {
+    return CoarseProxySolve(problem, start, progress).run(std::nullopt, Polish::unwanted);
 }
 
 }  // namespace fairing

@@ -38,7 +38,8 @@ Way on_proxy() {
             [](const Problem& problem, const Situation& situation, const Progress& progress) {
                 const auto guess = guess_from(situation);
                 if (takes_coarse_proxy(problem, guess)) {
-                    if (auto solution = solve_on_coarse_proxy(problem, guess, progress)) return solution;
+                    if (auto solution = solve_on_coarse_proxy(problem, guess, situation.start(), progress))
+                        return solution;
                 }
                 return std::optional(solve_on_proxy(problem, guess, progress));
             },

@@ -21,6 +21,10 @@ struct Situation {
     // Whether a way has come to something.
     [[nodiscard]] bool tried(std::string_view way) const;
     [[nodiscard]] bool has_asked(std::string_view way) const;
+    // Whether it was gone and has found nothing.
+    [[nodiscard]] bool refused(std::string_view way) const { return has_asked(way) && !tried(way); }
+    // Where the latest way began that can tell.
+    [[nodiscard]] std::shared_ptr<const EasedStart> start() const;
 };
 
 struct Way {

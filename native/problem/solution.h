@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,8 @@ enum class Pins { absent, spread, no_surface, no_outline, too_close, not_found, 
 // `smoothed`: the shape before, as smooth as it can be (method/smoothed).
 enum class Instead { nothing, least_variation, loft, smoothed };
 
+struct EasedStart;  // method/eased_start
+
 // A way that was tried (method/ways), and how long it took.
 struct WayTaken {
     std::string name;
@@ -76,8 +79,18 @@ struct Solution {
     bool even_weights = false;     // uniform weights were taken instead of the problem's
     Join join = Join::tangent;
     Pins pins = Pins::absent;
-    Indices tangent_only;       // of partly_curvature: fixed vertices, counted from the first one
+    Indices tangent_only;                          // of partly_curvature: fixed vertices, counted from the first one
+    std::shared_ptr<const EasedStart> start = {};  // what it began with, for the next way
     double smooth_share = 0.0;  // of too_rough: how much of what is lacking long waves explain, 0 … 1
 };
+
+// Steps from which on a surface is near, units of D. Fine proxies were found from coarse ones that ended with 2e-5 to
+// 3e-4.
+inline constexpr double near_step = 2e-3;
+
+// Whether no step of an iteration was short, nor half the first one.
+inline bool stays_far(const Solution& solution) {
+    return solution.least_step > near_step && solution.least_step > 0.5 * solution.first_step;
+}
 
 }  // namespace fairing

@@ -25,6 +25,11 @@ constexpr int largest_free_limit = 20000;
 constexpr int free_limit_per_vertex = 3;
 constexpr double turn = 0.7;  // radians along an edge of the coarse proxy: nine edges around a pipe
 
+// Iterations of fine proxies. Of 191 over regions of scans that converged none stayed far from a surface so long, of 96
+// that did not 73. Where one did that began at a coarse proxy's surface (3 regions), a descent and another iteration
+// were in vain, too.
+constexpr int soon = 8;
+
 bool is_small(int shown) {
     constexpr int largest = 1500;  // free vertices
     return shown <= largest;
@@ -49,18 +54,15 @@ int most_iterations_to(double tolerance, int usual) {
     return static_cast<int>(usual * std::max(decades, 1.0));
 }
 
-// What has become of a coarse proxy.
-enum class CoarseEnd { converged, near, far };
+// Whether what a proxy comes to says what others would.
+bool tells(const Problem& problem, int shown) { return shown >= smallest_telling && problem.patch.loop_count() == 1; }
 
 // Of the regions of scans with one outline and 5,000 free vertices or more whose coarse proxy did not converge, those
 // with a step of 2e-5 to 3e-4 D were found on the fine one, those of 7e-4 to .3 were not. One of 2,800, whose coarse
 // proxy has 300, was found from 7e-3.
 CoarseEnd end_of(const Solution& solution, const Problem& problem, int shown) {
-    constexpr int coarse_tells = 5000;  // free vertices shown
-    constexpr double near_step = 2e-3;  // units of D
     if (solution.termination == Termination::converged) return CoarseEnd::converged;
-    const bool tells = shown >= coarse_tells && problem.patch.loop_count() == 1;
-    return tells && solution.least_step > near_step ? CoarseEnd::far : CoarseEnd::near;
+    return tells(problem, shown) && solution.least_step > near_step ? CoarseEnd::far : CoarseEnd::near;
 }
 
 // A problem on the proxy's own connectivity: uniform weights, the same boundary data.
@@ -87,6 +89,13 @@ Workspace make_workspace(const Problem& problem, const Progress& progress) {
             make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())};
 }
 
+struct Fineness {
+    double growth;
+    double share_of_outline;  // longest edge of the fine proxy, in edges of the outline
+};
+
+constexpr Fineness first_fineness{0.5, 0.0};
+
 class ProxySolve {
 public:
     ProxySolve(const Problem& problem, int shown, const Progress& progress)
@@ -103,16 +112,9 @@ public:
     // it and a fine interior may keep the iteration from converging: then the interior is coarse, too.
     SolvedProxy from_membrane(const Points& membrane) {
         std::optional<SolvedProxy> least_bent;
-        for (const auto& [growth, share_of_outline] :
-             {std::pair(0.5, 0.0), std::pair(0.25, 0.35), std::pair(0.12, 0.35)}) {
-            ProxyMesh mesh(problem_.patch, membrane);
-            mesh.adapt({growth, longest_coarse, free_limit_});
-            const CoarseEnd end = solve_coarse(mesh, growth);
-            if (end == CoarseEnd::far) return given_up(std::move(mesh));
-            const double longest =
-                std::clamp(share_of_outline * mean_outline_edge(problem_), longest_fine, longest_coarse);
-            const Sizing fine{std::min(growth, finest_growth), longest, free_limit_};
-            SolvedProxy proxy = solve_fine(std::move(mesh), fine, end == CoarseEnd::converged);
+        for (const Fineness& fineness : {first_fineness, Fineness{0.25, 0.35}, Fineness{0.12, 0.35}}) {
+            SolvedProxy proxy = fine(coarse(membrane, fineness), fineness);
+            if (proxy.refused) return proxy;
             if (proxy.converged()) return proxy;
             if (!least_bent || proxy.energy < least_bent->energy) least_bent.emplace(std::move(proxy));
             // Of 23 regions of scans that were solved none needed another proxy, and those that fail are dearer each.
@@ -121,29 +123,29 @@ public:
         return std::move(*least_bent);
     }
 
-private:
-    struct Coarse {
-        ProxyMesh mesh;
-        CoarseEnd end;
-    };
-
     // A start for the fine proxy: the harmonic surface where the iteration finds it, the least bent one otherwise.
     // Between loops the data may admit several surfaces: the one that follows their normals goes first, which keeps
     // pipes straight, and the long way by descent is taken only where that fails.
-    CoarseEnd solve_coarse(ProxyMesh& mesh, double growth) {
+    CoarseProxy coarse(const Points& membrane, const Fineness& fineness) {
+        ProxyMesh mesh(problem_.patch, membrane);
+        mesh.adapt({fineness.growth, longest_coarse, free_limit_});
         if (problem_.patch.loop_count() > 1) {
-            auto along_normals = coarse_along_normals(mesh, growth);
-            if (along_normals && along_normals->end == CoarseEnd::converged) {
-                mesh = std::move(along_normals->mesh);
-                return CoarseEnd::converged;
-            }
+            auto along_normals = coarse_along_normals(mesh, fineness.growth);
+            if (along_normals && along_normals->end == CoarseEnd::converged) return std::move(*along_normals);
         }
-        Coarse bent = coarse_by_descent(std::move(mesh), growth);
-        mesh = std::move(bent.mesh);
-        return bent.end;
+        return coarse_by_descent(std::move(mesh), fineness.growth);
     }
 
-    std::optional<Coarse> coarse_along_normals(ProxyMesh mesh, double growth) {
+    SolvedProxy fine(CoarseProxy coarse, const Fineness& fineness) {
+        if (coarse.end == CoarseEnd::far) return given_up(std::move(coarse.mesh));
+        const double longest =
+            std::clamp(fineness.share_of_outline * mean_outline_edge(problem_), longest_fine, longest_coarse);
+        const Sizing sizing{std::min(fineness.growth, finest_growth), longest, free_limit_};
+        return solve_fine(std::move(coarse.mesh), sizing, coarse.end == CoarseEnd::converged);
+    }
+
+private:
+    std::optional<CoarseProxy> coarse_along_normals(ProxyMesh mesh, double growth) {
         constexpr int rounds = 3;  // of filling and meshing anew: the first mesh belongs to another surface
         for (int k = 0; k < rounds; ++k) {
             const auto snapshot = mesh.snapshot();
@@ -156,7 +158,7 @@ private:
         return iterate_coarse(std::move(mesh), [](const Problem&, Workspace&, const Points& points) { return points; });
     }
 
-    Coarse coarse_by_descent(ProxyMesh mesh, double growth) {
+    CoarseProxy coarse_by_descent(ProxyMesh mesh, double growth) {
         descend(mesh);
         mesh.adapt({growth, longest_coarse, free_limit_});
         return iterate_coarse(std::move(mesh), [&](const Problem& problem, Workspace& work, const Points& points) {
@@ -176,7 +178,7 @@ private:
     }
 
     template <typename MakeStart>
-    Coarse iterate_coarse(ProxyMesh mesh, const MakeStart& make_start) {
+    CoarseProxy iterate_coarse(ProxyMesh mesh, const MakeStart& make_start) {
         const auto snapshot = mesh.snapshot();
         const Problem problem = coarse_problem(problem_, shown_, snapshot.patch);
         Workspace work = make_workspace(problem, progress_);
@@ -206,13 +208,15 @@ private:
     SolvedProxy solve_fine(ProxyMesh mesh, const Sizing& sizing, bool from_converged) {
         mesh.adapt(sizing);
         auto snapshot = mesh.snapshot();
-        const Problem problem = proxy_problem(problem_, shown_, snapshot.patch);
+        Problem problem = proxy_problem(problem_, shown_, snapshot.patch);
+        if (tells(problem_, shown_)) problem.options.nears_within = soon;
         Workspace work = make_workspace(problem, progress_);
         Points start = snapshot.points;
         Solution solution;
         if (from_converged) solution = solve_equation(problem, work, start, progress_.range(0.5, 0.8));
+        const bool hopeless = from_converged && tells(problem_, shown_) && stays_far(solution);
         // The Willmore descent leads away from straight pipes: only where it is needed.
-        if (!from_converged || solution.termination != Termination::converged) {
+        if (solution.termination != Termination::converged && !hopeless) {
             start = globalise(problem, work, start, progress_.range(0.4, 0.5));
             solution = solve_patiently(problem, work, start, progress_.range(0.5, 0.8));
         }
@@ -224,7 +228,9 @@ private:
     [[nodiscard]] SolvedProxy given_up(ProxyMesh mesh) const {
         auto snapshot = mesh.snapshot();
         const Problem problem = proxy_problem(problem_, shown_, snapshot.patch);
-        return measured(std::move(mesh), snapshot, problem, snapshot.points, {});
+        SolvedProxy proxy = measured(std::move(mesh), snapshot, problem, snapshot.points, {});
+        proxy.refused = true;
+        return proxy;
     }
 
     // `problem`: of the snapshot's patch.
@@ -234,7 +240,12 @@ private:
         solution.mean_curvature = state.curvature.mean;
         solution.residual = largest_residual(problem, state, outer_residual(problem, state));
         const double energy = willmore_energy(problem, state.points);
-        return {std::move(mesh), {std::move(snapshot.patch), state.points}, std::move(solution), state.normals, energy};
+        return {std::move(mesh),
+                {std::move(snapshot.patch), state.points},
+                std::move(solution),
+                state.normals,
+                energy,
+                false};
     }
 
     const Problem& problem_;
@@ -265,6 +276,14 @@ SolvedProxy solve_proxy(const Problem& problem, const std::optional<Points>& gue
         if (proxy.converged()) return proxy;
     }
     return solve.from_membrane(membrane);
+}
+
+CoarseProxy solve_coarse_proxy(const Problem& problem, const Points& membrane, int shown, const Progress& progress) {
+    return ProxySolve(problem, shown, progress).coarse(membrane, first_fineness);
+}
+
+SolvedProxy solve_fine_proxy(const Problem& problem, CoarseProxy coarse, int shown, const Progress& progress) {
+    return ProxySolve(problem, shown, progress).fine(std::move(coarse), first_fineness);
 }
 
 Points proxy_membrane(const Problem& problem, const Progress& progress) {

@@ -15,6 +15,7 @@ struct SolvedProxy {
     Solution solution;         // of the patch of `mesh`
     Points normals;            // at its vertices
     double energy;             // Willmore
+    bool refused;              // the coarse proxy was far from any surface
 
     [[nodiscard]] bool converged() const { return solution.termination == Termination::converged; }
 };
@@ -27,6 +28,22 @@ struct SolvedProxy {
 // resolve what that mesh can't show.
 SolvedProxy solve_proxy(const Problem& problem, const std::optional<Points>& guess, const Points& membrane, int shown,
                         const Progress& progress);
+
+// Free vertices shown from which a coarse proxy tells of finer ones.
+inline constexpr int smallest_telling = 5000;
+
+// What has become of a coarse proxy. `near`: the fine one may find a surface all the same.
+enum class CoarseEnd { converged, near, far };
+
+struct CoarseProxy {
+    ProxyMesh mesh;  // of the harmonic surface where that was found, or the least bent one
+    CoarseEnd end;
+};
+
+// The two halves of solve_proxy, with its first proxy alone. The coarse one may have converged over another outline
+// next to this one, if its mesh lies over this one since.
+CoarseProxy solve_coarse_proxy(const Problem& problem, const Points& membrane, int shown, const Progress& progress);
+SolvedProxy solve_fine_proxy(const Problem& problem, CoarseProxy coarse, int shown, const Progress& progress);
 
 // Mean length of the outlines' edges; 0 without any.
 double mean_outline_edge(const Problem& problem);

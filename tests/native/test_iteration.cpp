@@ -113,6 +113,22 @@ TEST_CASE("an iteration that has to contract ends where its steps shrink too slo
     CHECK(near.solve(iterate).termination == Termination::converged);
 }
 
+TEST_CASE("an iteration that stays far from a surface ends early where that is asked, one that is near goes on") {
+    Ball far;
+    blow_up(far);
+    far.problem.options.nears_within = 3;
+    const Solution given_up = far.solve(iterate);
+    CHECK(given_up.termination == Termination::stalled);
+    CHECK(given_up.iterations == 3);
+    Ball near;
+    near.problem.options.nears_within = 6;
+    CHECK(near.solve(iterate).termination == Termination::converged);
+    Solution creeping;
+    creeping.first_step = near_step;
+    creeping.least_step = 0.9 * near_step;
+    CHECK(!stays_far(creeping));
+}
+
 TEST_CASE("where steps shrink fast the iteration ends without a last one that is within the tolerance") {
     Ball tight;
     tight.problem.options.tolerance = 1e-11;
