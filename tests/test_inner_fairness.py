@@ -156,7 +156,7 @@ def test_the_surface_does_not_depend_on_inner_fairness() -> None:
 
 def test_where_only_even_vertices_carry_the_equation_they_decide_the_surface() -> None:
     """Few vertices, an outline of wild normals: the others are placed on the surface of uniform inner fairness."""
-    patch = random_inputs.make_patch("disc", 40, 178, height=1.0, noise=0.6)
+    patch = random_inputs.make_patch("disc", 40, 119, height=1.0, noise=0.6)
     even = patch.fair()
     result = patch.fair(inner_fairness="inverse_distance")
     assert "even" in dict(result.way)
