@@ -195,8 +195,8 @@ private:
     // vertices' places as far as they go.
     [[nodiscard]] Points step_within_raised(const VectorX& heights) const {
         const Raised next = raised(patch_, state_, heights);
-        const TangentPlanes planes(next.normals, shape_operators(state_.curvature, state_.normals, patch_.free_count));
-        return work_.tangential->displacement(next.points, planes);
+        const ShapeOperators shapes = shape_operators(state_.curvature, state_.normals, patch_.free_count);
+        return work_.tangential->displacement(next.points, {next.normals, shapes});
     }
 
     bool hopeless(double largest) {

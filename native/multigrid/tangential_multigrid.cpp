@@ -20,13 +20,6 @@ void project_across(SingleField& field, const SingleField& normals) {
     });
 }
 
-// product ← product + W p
-void add_turns(const ShapeOperators& turns, const SingleField& p, SingleField& product) {
-    for_ranges(static_cast<int>(turns.cols()), coarse_grain, [&](int begin, int end) {
-        for (int i = begin; i < end; ++i) product.col(i).head<3>() += turn(turns, i, p.col(i).head<3>());
-    });
-}
-
 SingleField to_single(const Points& field, Eigen::Index count, double unit = 1.0) {
     SingleField result = SingleField::Zero(4, count);
     result.topRows<3>() = (field.leftCols(count) / unit).cast<float>();
@@ -105,16 +98,6 @@ void MultigridStep::cycle(SingleField& r, SingleField& x) const {
     smooth(x, r, Residual::left);
 }
 
-// The planes turn with what stands along the normals.
-MultigridStep::Planes MultigridStep::single_planes(const Points& pull, const TangentPlanes& planes) const {
-    Planes result{to_single(planes.normals, patch_.free_count), planes.turns};
-    for_ranges(static_cast<int>(result.turns.cols()), coarse_grain, [&](int begin, int end) {
-        for (int i = begin; i < end; ++i)
-            result.turns.col(i) *= static_cast<float>(pull.col(i).dot(planes.normals.col(i)));
-    });
-    return result;
-}
-
 // d with L d = scale · pull; across the normals if there are any, as `pull` is then. In units of its own, far from the
 // limits of single precision.
 MultigridStep::Moves MultigridStep::solve(const Points& pull, const Planes* planes, double tolerance,
@@ -126,7 +109,7 @@ MultigridStep::Moves MultigridStep::solve(const Points& pull, const Planes* plan
         laplacian_.apply(p, patch_.free_count, [&](int i, const Eigen::Vector4f& value) { product.col(i) = value; });
         product.rightCols(fixed_points_.cols()).setZero();
         if (!planes) return;
-        if (planes->turns.cols() > 0) add_turns(planes->turns, p, product);
+        add_turning(planes->turns, p, product);
         project_across(product, planes->normals);
     };
     const auto precondition = [&](const SingleField& field, SingleField& z) {
@@ -165,7 +148,7 @@ Points MultigridStep::displacement(const Points& points, const TangentPlanes& pl
     constexpr double relative_tolerance = 0.05;
     // In double precision: along the normals the pull is far larger than what steps towards the solution leave across.
     Points across = pull(points);
-    Planes singles = single_planes(across, planes);
+    Planes singles{to_single(planes.normals, patch_.free_count), turning(planes, across)};
     project_across(across.leftCols(patch_.free_count), planes.normals);
     Moves moves = solve(across, &singles, relative_tolerance, max_cycles);
     if (moves.positive || singles.turns.cols() == 0) return std::move(moves.d);

@@ -55,12 +55,11 @@ private:
         Points d;
         bool positive;  // the operator was
     };
-    // The projection across single normals, and ⟨n, −L x⟩ W as `displacement` adds it; W may be empty.
+    // The projection across single normals, and what its turning adds; that may be empty.
     struct Planes {
         SingleField normals;
         ShapeOperators turns;
     };
-    [[nodiscard]] Planes single_planes(const Points& pull, const TangentPlanes& planes) const;
     [[nodiscard]] Moves solve(const Points& pull, const Planes* planes, double tolerance, int most_cycles) const;
     void subtract_product(const SingleField& x, SingleField& r) const;
     void smooth(SingleField& x, SingleField& r, Residual last) const;

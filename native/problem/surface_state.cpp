@@ -3,8 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/LU>
-
 #include "base/parallel.h"
 #include "geometry/surface_fit.h"
 #include "problem/willmore.h"
@@ -73,16 +71,14 @@ namespace {
 // ∇u at a vertex in the plane across its normal, by least squares over its ring.
 Vector3 gradient(const RingView& ring, const SurfaceState& state, const VectorX& heights, int vertex) {
     const Frame frame(state.normals.col(vertex));
-    Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
-    Eigen::Vector2d rhs = Eigen::Vector2d::Zero();
+    NormalEquations<2> equations;
     for (const int j : ring.vertices) {
         const Vector3 d = state.points.col(j) - state.points.col(vertex);
-        const Eigen::Vector2d t(frame.u.dot(d), frame.v.dot(d));
-        matrix += t * t.transpose();
-        rhs += ((j < heights.size() ? heights[j] : 0.0) - heights[vertex]) * t;
+        const double rise = (j < heights.size() ? heights[j] : 0.0) - heights[vertex];
+        equations.add({frame.u.dot(d), frame.v.dot(d)}, rise, 1.0);
     }
-    matrix.diagonal().array() += 1e-9 * matrix.trace() + 1e-300;
-    const Eigen::Vector2d slope = matrix.inverse() * rhs;
+    equations.add_to_diagonal(1e-9 * equations.trace() + 1e-300);
+    const Eigen::Vector2d slope = equations.solve();
     return slope.x() * frame.u + slope.y() * frame.v;
 }
 

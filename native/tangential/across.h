@@ -1,8 +1,8 @@
-// The projection P across the normals.
+// The projection P across the normals, and what its turning adds to the λ-Laplacian.
 #pragma once
 
 #include "base/parallel.h"
-#include "base/types.h"
+#include "tangential/tangential_step.h"
 
 namespace fairing {
 
@@ -10,6 +10,27 @@ namespace fairing {
 inline void project_across(Eigen::Ref<Points> field, const Points& normals) {
     for_ranges(static_cast<int>(field.cols()), coarse_grain, [&](int begin, int end) {
         for (int i = begin; i < end; ++i) field.col(i) -= normals.col(i).dot(field.col(i)) * normals.col(i);
+    });
+}
+
+// ⟨n, pull⟩ W at the free vertices, for `pull` = −L x before it is projected; empty where the planes count as fixed.
+inline ShapeOperators turning(const TangentPlanes& planes, const Points& pull) {
+    if (!planes.shapes) return {};
+    ShapeOperators result = *planes.shapes;
+    for_ranges(static_cast<int>(result.cols()), coarse_grain, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i) result.col(i) *= static_cast<float>(pull.col(i).dot(planes.normals.col(i)));
+    });
+    return result;
+}
+
+// product ← product + W p for vectors in either precision (3 × n, or more rows that stay).
+template <typename Field>
+void add_turning(const ShapeOperators& turning, const Field& p, Field& product) {
+    for_ranges(static_cast<int>(turning.cols()), coarse_grain, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i) {
+            const Eigen::Vector3f d = p.col(i).template head<3>().template cast<float>();
+            product.col(i).template head<3>() += turn(turning, i, d).template cast<typename Field::Scalar>();
+        }
     });
 }
 

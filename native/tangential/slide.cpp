@@ -15,7 +15,7 @@ constexpr int history_depth = 3;
 constexpr double longest_move = 0.1;  // units of D
 constexpr double stuck = 0.8;         // from one step to the next: vertices that the outline holds back
 constexpr double near_enough = 5e-4;  // units of D; the iteration does the rest
-// Of the step that would come next, by how the last two shrank; one that is ten times luck is not counted on.
+// Of the step that would come next, by how the last two shrank; faster than `fastest` is luck.
 constexpr double next_near_enough = 1e-4;
 constexpr double fastest = 0.05;
 
@@ -24,7 +24,7 @@ struct Sliding {
     std::vector<SurfacePoint>& where;  // free vertices
     Points& points;                    // 3 × local vertices
     Points normals;                    // at the free vertices
-    ShapeOperators turns;              // likewise, where the vertices began; empty: not known
+    ShapeOperators shapes;             // likewise, where the vertices began; empty: not known
 };
 
 // The vertices stay on the surface by a walk over its triangles. Near extraordinary vertices they have to move over
@@ -45,7 +45,7 @@ void slide(Sliding& vertices, const TangentialStep& tangential, int most_steps) 
     Anderson anderson(history_depth);
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < most_steps; ++step) {
-        const Points d = tangential.displacement(points, {vertices.normals, vertices.turns});
+        const Points d = tangential.displacement(points, {vertices.normals, vertices.shapes});
         const double largest = largest_length(d);
         if (largest > stuck * last) return;
         const double next = largest * std::max(largest / last, fastest);
@@ -65,7 +65,7 @@ void slide(const Problem& problem, const TangentialStep& tangential, const Point
     std::vector<SurfacePoint> where(at(problem.patch.free_count));
     for (std::size_t v = 0; v < where.size(); ++v) where[v] = target.at_vertex(static_cast<int>(v));
     Sliding vertices{target, where, points, normals, {}};
-    if (turning == Turning::known) vertices.turns = shape_operators(problem.patch, surface, normals);
+    if (turning == Turning::known) vertices.shapes = shape_operators(problem.patch, surface, normals);
     slide(vertices, tangential, most_steps);
 }
 

@@ -69,26 +69,22 @@ Points SymmetricStep::precondition(const Points& field, const Points& normals) c
 
 Points SymmetricStep::displacement(const Points& points, const TangentPlanes& planes, int max_cycles) const {
     Points r = -gradient(points);
-    TangentPlanes weighted(planes.normals, planes.turns);
-    for (int i = 0; i < static_cast<int>(weighted.turns.cols()); ++i)
-        weighted.turns.col(i) *= static_cast<float>(r.col(i).dot(planes.normals.col(i)));
+    const ShapeOperators turns = turning(planes, r);
     project_across(r, planes.normals);
-    auto [d, positive] = solve_across(r, weighted, max_cycles);
-    if (positive || weighted.turns.cols() == 0) return std::move(d);
-    return solve_across(r, TangentPlanes(planes.normals), max_cycles).x;
+    auto [d, positive] = solve_across(r, planes.normals, turns, max_cycles);
+    if (positive || turns.cols() == 0) return std::move(d);
+    return solve_across(r, planes.normals, {}, max_cycles).x;
 }
 
-// `planes`: turns by ⟨n, −L x⟩ W.
-GradientSolution<Points> SymmetricStep::solve_across(const Points& r, const TangentPlanes& planes,
-                                                     int max_cycles) const {
+GradientSolution<Points> SymmetricStep::solve_across(const Points& r, const Points& normals,
+                                                     const ShapeOperators& turns, int max_cycles) const {
     constexpr double relative_tolerance = 0.05;
     const auto apply = [&](const Points& p, Points& product) {
         product = applied(p);
-        for (int i = 0; i < static_cast<int>(planes.turns.cols()); ++i)
-            product.col(i) += turn(planes.turns, i, p.col(i).cast<float>()).cast<double>();
-        project_across(product, planes.normals);
+        add_turning(turns, p, product);
+        project_across(product, normals);
     };
-    const auto approximate_inverse = [&](const Points& field, Points& z) { z = precondition(field, planes.normals); };
+    const auto approximate_inverse = [&](const Points& field, Points& z) { z = precondition(field, normals); };
     return conjugate_gradients(r, relative_tolerance, max_cycles, apply, approximate_inverse);
 }
 

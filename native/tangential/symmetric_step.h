@@ -27,8 +27,9 @@ private:
     [[nodiscard]] Points applied(const Points& points) const;  // L
     [[nodiscard]] Points gradient(const Points& points) const;
     [[nodiscard]] Points precondition(const Points& field, const Points& normals) const;
-    [[nodiscard]] GradientSolution<Points> solve_across(const Points& r, const TangentPlanes& planes,
-                                                        int max_cycles) const;
+    // Across the normals; `turns`: what their turning adds, or nothing.
+    [[nodiscard]] GradientSolution<Points> solve_across(const Points& r, const Points& normals,
+                                                        const ShapeOperators& turns, int max_cycles) const;
 
     int free_count_;
     SparseMatrix laplacian_;  // both triangles

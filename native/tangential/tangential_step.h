@@ -9,15 +9,15 @@
 
 namespace fairing {
 
-// The tangent planes that vertices move in. Refers to the normals.
+// The tangent planes that vertices move in. Refers to both.
 struct TangentPlanes {
-    const Points& normals;  // unit, of the free vertices and maybe others
-    ShapeOperators turns;   // how the planes turn at the free vertices; empty: not known, they are taken as fixed
+    const Points& normals;                   // unit, of the free vertices and maybe others
+    const ShapeOperators* shapes = nullptr;  // how the planes turn there; none, or empty: they are taken as fixed
 
     // NOLINTNEXTLINE(google-explicit-constructor,hicpp-explicit-conversions): most surfaces are known by their normals
     TangentPlanes(const Points& unit_normals) : normals(unit_normals) {}
-    TangentPlanes(const Points& unit_normals, ShapeOperators shapes)
-        : normals(unit_normals), turns(std::move(shapes)) {}
+    TangentPlanes(const Points& unit_normals, const ShapeOperators& known) : normals(unit_normals), shapes(&known) {}
+    TangentPlanes(const Points& unit_normals, ShapeOperators&& gone) = delete;
 };
 
 // Displacements across the normals until Σ_j λ_ij (x_j − x_i) is parallel to the normal at every free vertex.
