@@ -41,11 +41,9 @@ struct Start {
     double fill_seconds = 0.0;
 };
 
-// Two surfaces fit a pipe from 2π radii on.
 bool may_fit_several(const Problem& problem, const Points& points) {
-    constexpr double shortest = 0.2;  // a pipe of two and a half radii
     const int loops = problem.patch.loop_count();
-    return loops > 2 || (loops == 2 && length_between(problem.patch, points) > shortest);
+    return loops > 2 || (loops == 2 && length_between(problem.patch, points) > longest_single);
 }
 
 // The membrane depends on the outline's positions alone; the normals come in with the Willmore descent.

@@ -13,7 +13,7 @@ bool begins_eased(const Problem& problem) {
 
 std::shared_ptr<const EasedStart> eased_start(const Problem& problem, const Progress& progress) {
     const Problem smooth = eased(problem);
-    const Levels levels(smooth, Outlines::kept);
+    const Levels levels(smooth, Outlines::kept, coarsest_size);
     const Problem& coarsest = levels.problem(levels.coarsest());
     const Points membrane = proxy_membrane(coarsest, progress);
     CoarseProxy proxy = solve_coarse_proxy(coarsest, membrane, problem.patch.free_count, progress);

@@ -29,7 +29,7 @@ bool is_fourth_order(const Problem& problem) { return !is_minimal(problem) && !i
 // What a coarse level has refused, the full size would only refuse later; but long pipes between two outlines may have
 // no straight surface on a coarse mesh, and keep it on their own.
 bool takes_direct(const Problem& problem, const Situation& situation) {
-    const bool refused = situation.tried("nested") && !is_tube(problem);
+    const bool refused = situation.tried("nested") && is_large(problem) && !is_tube(problem);
     return is_fourth_order(problem) && problem.patch.free_count <= largest_direct && !refused;
 }
 
@@ -99,7 +99,7 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
         {"variation", [](const Problem& p, const Situation&) { return is_least_variation(p); },
          [](const Problem& p, const Situation&, const Progress& part) { return Found(solve_least_variation(p, part)); },
          0.0, 1.0},
-        {"nested", [](const Problem& p, const Situation&) { return is_fourth_order(p) && is_large(p); },
+        {"nested", [](const Problem& p, const Situation&) { return is_fourth_order(p) && takes_levels(p); },
          [](const Problem& p, const Situation&, const Progress& part) { return solve_nested(p, part); }, 0.0, 1.0},
         {"even", [](const Problem& p, const Situation& s) { return takes_even(p, s) && is_large(p); }, evenly, 0.0,
          0.3},

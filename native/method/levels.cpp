@@ -4,7 +4,6 @@ namespace fairing {
 
 namespace {
 
-constexpr int coarsest_size = 600;  // free vertices
 // Up to so many free vertices the tangential step is factorised; beyond, multigrid is faster.
 constexpr int largest_factorised = 7000;
 
@@ -35,15 +34,14 @@ Points with_fixed(const Patch& patch, const Points& fixed) {
     return points;
 }
 
-Levels::Levels(const Problem& problem, Outlines outlines) {
+Levels::Levels(const Problem& problem, Outlines outlines, int coarsest) {
     const Points points = with_fixed(problem.patch, problem.fixed_points);
     const Points normals = with_fixed(problem.patch, problem.fixed_normals);
     const Points unknown = Points::Zero(3, points.cols());  // keeps an outline as it is
     const Shared<Lambda> weights = symmetric_weights(problem.weights);
     const FixedPlaces outline{points, outlines == Outlines::thinned ? normals : unknown};
-    coarse_ = with_edges(problem.patch, weights, [&](const InnerWeights& edges) {
-        return coarsen(problem.patch, edges, outline, coarsest_size);
-    });
+    coarse_ = with_edges(problem.patch, weights,
+                         [&](const InnerWeights& edges) { return coarsen(problem.patch, edges, outline, coarsest); });
     left_.resize(coarse_.size());
     levels_.reserve(coarse_.size() + 1);
     levels_.push_back({finest(problem), weights, problem.patch.free_count});
@@ -62,9 +60,9 @@ RingMatrix Levels::laplacian(std::size_t k) const {
                       [&](const InnerWeights& edges) { return RingMatrix(patch.vertex_count(), edges); });
 }
 
-Points Levels::layout(std::size_t k, const Points& coarsest) const {
-    Points points = coarsest;
-    for (std::size_t level = this->coarsest(); level-- > k;) {
+Points Levels::layout(std::size_t k, std::size_t from, const Points& surface) const {
+    Points points = surface;
+    for (std::size_t level = from; level-- > k;) {
         const Points& fixed = levels_[level].problem.fixed_points;
         Points finer = Points::Zero(3, levels_[level].free_count + fixed.cols());
         finer.rightCols(fixed.cols()) = fixed;

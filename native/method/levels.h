@@ -16,7 +16,8 @@ enum class Outlines { thinned, kept };
 // Level 0 is the problem's patch, `coarsest()` the coarsest one. Refers to the problem.
 class Levels {
 public:
-    Levels(const Problem& problem, Outlines outlines);
+    // Down to about `coarsest` free vertices.
+    Levels(const Problem& problem, Outlines outlines, int coarsest);
     Levels(const Levels&) = delete;
     Levels& operator=(const Levels&) = delete;
     ~Levels() = default;
@@ -39,9 +40,9 @@ public:
     void set_up_tangential(std::size_t k, RingMatrix laplacian, const Progress& progress);
     void set_up_tangential(std::size_t k, const Progress& progress) { set_up_tangential(k, laplacian(k), progress); }
 
-    // About where the free vertices of level k are, from a surface of the coarsest level. Other threads may leave
+    // About where the free vertices of level k are, from a surface of the coarser level `from`. Other threads may leave
     // levels meanwhile.
-    [[nodiscard]] Points layout(std::size_t k, const Points& coarsest) const;
+    [[nodiscard]] Points layout(std::size_t k, std::size_t from, const Points& surface) const;
 
     // Lets go of the edges, rings and weights of a coarse level that is left, or brings edges and rings back.
     void leave(std::size_t k);

@@ -23,8 +23,9 @@ public:
     void hold(const Points& /*fixed_points*/) override {}
     [[nodiscard]] Points harmonic_positions() const override { return points_; }
     [[nodiscard]] double merit(const Points& /*points*/, const Points& /*normals*/) const override { return 0.0; }
+    [[nodiscard]] double imbalance(const Points& /*points*/, const Points& /*normals*/) const override { return 0.0; }
     [[nodiscard]] Points displacement(const Points& /*points*/, const TangentPlanes& /*planes*/,
-                                      int /*max_cycles*/) const override {
+                                      Effort /*effort*/) const override {
         return Points::Zero(3, points_.cols());
     }
 

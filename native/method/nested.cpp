@@ -11,17 +11,26 @@
 #include "method/eased.h"
 #include "method/levels.h"
 #include "method/one_level.h"
+#include "method/sizes.h"
 #include "problem/surface_state.h"
+#include "start/several_outlines.h"
 #include "tangential/slide.h"
 
 namespace fairing {
 
 namespace {
 
+// Over smooth outlines between which one surface fits so few tell it, and to solve them costs a third. Where they don't
+// the next level does, from the outlines alone.
+constexpr int smallest_coarsest = 150;
+constexpr double small_tolerance = 7e-4;    // units of D, there: triangles are too large for more
+constexpr int most_alone = 10;  // iterations there; single poor triangles keep steps at 1e-3
+constexpr int smallest_smooth = 500;        // free vertices from which on that pays
 constexpr double between_tolerance = 1e-4;  // units of D, of levels that are only starts
 // A level that starts at the coarser one's surface needs 3 to 8 iterations. Those between are good enough as starts
 // even where single poor triangles of a coarse level keep them from converging.
 constexpr int most_iterations = 20;
+constexpr int most_small = 14;  // where little is lost: graded meshes that don't carry their surface took 19 and 20
 constexpr int most_between = 6;
 constexpr int patience = 4;
 constexpr int evening_sweeps = 3;
@@ -41,13 +50,22 @@ std::size_t tolerated_folds(const Problem& problem) {
 // The fraction of all that is done after level k: each level takes about a quarter of the next finer one.
 double done_after(std::size_t k) { return begin + (1.0 - begin) * std::pow(0.25, static_cast<double>(k)); }
 
+bool begins_small(const Problem& problem) {
+    const Patch& patch = problem.patch;
+    if (patch.loop_count() > 2 || is_jagged(problem)) return false;
+    return straight_length_between(patch, with_fixed(patch, problem.fixed_points)) <= longest_single;
+}
+
 class NestedSolve {
 public:
     NestedSolve(const Problem& problem, const Progress& progress)
-        : problem_(problem), progress_(progress), is_rough_(is_jagged(problem)), levels_(problem, Outlines::thinned) {
+        : problem_(problem),
+          progress_(progress),
+          is_rough_(is_jagged(problem)),
+          levels_(problem, Outlines::thinned, begins_small(problem) ? smallest_coarsest : coarsest_size) {
         for (std::size_t k = 0; k <= levels_.coarsest(); ++k) {
             SolverOptions& options = levels_.problem(k).options;
-            options.max_iterations = std::min(k == 0 ? most_iterations : most_between, problem.options.max_iterations);
+            options.max_iterations = std::min(most_on(k), problem.options.max_iterations);
             options.patience = patience;
             options.contracts = is_rough_;
             if (k == 0) continue;
@@ -62,33 +80,55 @@ public:
         std::map<std::string, double> seconds{{"hierarchy", watch_.lap()}};
         progress_.report(begin, "hierarchy");
         levels_.factorise_beside();
-        Solution solution = solve_on_own_mesh(coarsest_problem(), progress_.range(begin, done_after(coarsest)));
+        std::size_t k = coarsest;
+        Solution solution = solved_alone(k);
+        while (!is_start(k, solution) && k > 1 && may_be_alone(k - 1)) solution = solved_alone(--k);
         seconds["coarsest"] = watch_.lap();
         const double initial_residual = solution.initial_residual;
-        solution = is_start(solution) ? refined(std::move(solution)) : given_up(coarsest, solution.points);
+        solution = is_start(k, solution) ? refined(k, std::move(solution)) : given_up(k, solution.points);
         solution.initial_residual = initial_residual;
         solution.levels = levels_.sizes();
         seconds["iteration"] = watch_.lap();
         solution.seconds = std::move(seconds);
+        if (!is_large(problem_) && solution.termination != Termination::converged) return std::nullopt;
         return solution;
     }
 
 private:
-    [[nodiscard]] Problem coarsest_problem() const {
-        Problem problem = levels_.problem(levels_.coarsest());
-        problem.options.max_iterations = problem_.options.max_iterations;
-        problem.options.patience = problem_.options.patience;
-        return problem;
+    [[nodiscard]] int most_on(std::size_t k) const {
+        if (k > 0) return most_between;
+        return is_large(problem_) ? most_iterations : most_small;
     }
 
-    // Analyses the operators of finer levels beside other work: the coarsest surface tells about where vertices are.
-    void prepare_beside(const Points& coarsest) {
-        operators_.resize(levels_.coarsest());
+    // From the outline alone.
+    [[nodiscard]] Solution solved_alone(std::size_t k) const {
+        Problem problem = levels_.problem(k);
+        problem.options.max_iterations = problem_.options.max_iterations;
+        problem.options.patience = problem_.options.patience;
+        if (problem.patch.free_count <= coarsest_size) {
+            problem.options.tolerance = std::max(problem.options.tolerance, small_tolerance);
+            problem.options.max_iterations = std::min(problem.options.max_iterations, most_alone);
+        }
+        return solve_on_own_mesh(problem, progress_.range(begin, done_after(k)));
+    }
+
+    // Whether no other surface fits between the outlines; a coarser mesh may lead from one to another.
+    [[nodiscard]] static bool is_only(const Patch& patch, const Points& points) {
+        return patch.loop_count() == 1 || length_between(patch, points) <= longest_single;
+    }
+
+    [[nodiscard]] bool may_be_alone(std::size_t k) const {
+        return levels_.problem(k).patch.free_count <= 2 * coarsest_size;
+    }
+
+    // Analyses the operators of finer levels beside other work: the first surface tells about where vertices are.
+    void prepare_beside(std::size_t from, const Points& surface) {
+        operators_.resize(from);
         for (std::size_t k = operators_.size(); k-- > 0;) {
             if (levels_.problem(k).patch.free_count > largest_prepared) continue;
-            operators_[k].preparing = Beside([this, k, coarsest] {
+            operators_[k].preparing = Beside([this, k, from, surface] {
                 const Problem& problem = levels_.problem(k);
-                operators_[k].made = make_normal_operator(problem, levels_.layout(k, coarsest), Solves::few);
+                operators_[k].made = make_normal_operator(problem, levels_.layout(k, from, surface), Solves::few);
                 operators_[k].made->prepare();
             });
         }
@@ -101,25 +141,30 @@ private:
         return make_normal_operator(problem, points.leftCols(problem.patch.free_count), Solves::few);
     }
 
-    // All levels from the coarsest one's solution.
-    Solution refined(Solution solution) {
-        prepare_beside(solution.points);
-        levels_.set_up_tangential(levels_.coarsest(), progress_);
-        for (std::size_t k = levels_.coarsest(); k-- > 0;) {
+    // All finer levels from the solution of level `from`.
+    Solution refined(std::size_t from, Solution solution) {
+        prepare_beside(from, solution.points);
+        levels_.set_up_tangential(from, progress_);
+        for (std::size_t k = from; k-- > 0;) {
             const Points coarser = solution.points;
             solution = refine(k, coarser, progress_.range(done_after(k + 1), done_after(k)));
-            if (!is_good(k, solution)) return given_up(k + 1, coarser);
+            if (is_good(k, solution)) continue;
+            if (k > 0 && may_be_alone(k)) solution = solved_alone(k);
+            if (k == 0 || !is_start(k, solution)) return given_up(k + 1, coarser);
         }
         solution.boundary_normals = one_sided_normals(problem_.patch, solution.points);
         return solution;
     }
 
-    // Of the coarsest level. Noise of the outline and single poor triangles keep it from converging, and the next level
-    // converges all the same. Regions of a bust went on from steps of 0.001 to 0.03, those of an ear, whose surface the
-    // coarsest mesh does not resolve, ended at 0.5 and more.
-    [[nodiscard]] static bool is_start(const Solution& solution) {
+    // Of a level that was solved alone. Noise of the outline and single poor triangles keep it from converging, and the
+    // next level converges all the same. Regions of a bust went on from steps of 0.001 to 0.03, those of an ear, whose
+    // surface the coarsest mesh does not resolve, ended at 0.5 and more.
+    [[nodiscard]] bool is_start(std::size_t k, const Solution& solution) const {
         constexpr double small_step = 0.04;  // units of D
-        if (solution.flaw == Flaw::not_converged) return solution.last_step <= small_step;
+        const Patch& patch = levels_.problem(k).patch;
+        if (patch.free_count <= coarsest_size && !is_only(patch, solution.points)) return false;
+        const double longest = patch.free_count <= coarsest_size ? near_step : small_step;
+        if (solution.flaw == Flaw::not_converged) return solution.last_step <= longest;
         return solution.flaw == Flaw::absent;
     }
 
@@ -170,7 +215,9 @@ private:
                   most_slides, points);
         }
         if (flipped_by_solution(problem.patch, points).size() > tolerated_folds(problem)) return {};
+        work.reaction = reaction_;
         Solution solution = iterate(problem, work, std::move(points), progress.range(share_of_start, 1.0));
+        reaction_ = work.reaction;
         work.normal.reset();  // the tangential step serves the finer levels
         return solution;
     }
@@ -195,6 +242,7 @@ private:
     const Problem& problem_;
     const Progress& progress_;
     const bool is_rough_;
+    double reaction_ = 0.0;  // of the level before
     Stopwatch watch_;
     Levels levels_;
     struct Operator {
@@ -205,6 +253,11 @@ private:
 };
 
 }  // namespace
+
+bool takes_levels(const Problem& problem) {
+    if (is_large(problem)) return true;
+    return problem.options.nested && problem.patch.free_count > smallest_smooth && begins_small(problem);
+}
 
 std::optional<Solution> solve_nested(const Problem& problem, const Progress& progress) {
     return NestedSolve(problem, progress).run();

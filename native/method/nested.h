@@ -9,6 +9,9 @@
 
 namespace fairing {
 
+// Whether a patch is large enough for levels: over smooth outlines small ones are, too.
+bool takes_levels(const Problem& problem);
+
 // Solves the coarsest level (method/one_level) and refines: each level starts at the surface of the one before and
 // needs a few accelerated iterations, whose linear systems are solved by multigrid. The way ends at a level that
 // starts folded or stays far from a surface, before the larger ones cost time, and on the finest one as soon as its

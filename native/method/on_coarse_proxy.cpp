@@ -7,6 +7,7 @@
 #include "method/levels.h"
 #include "method/placed_solution.h"
 #include "method/polish.h"
+#include "method/sizes.h"
 #include "placement/first_placement.h"
 #include "placement/folds.h"
 #include "placement/untangle.h"
@@ -26,7 +27,7 @@ enum class Polish { wanted, unwanted };
 class CoarseProxySolve {
 public:
     CoarseProxySolve(const Problem& problem, std::shared_ptr<const EasedStart> start, const Progress& progress)
-        : problem_(problem), progress_(progress), start_(std::move(start)), levels_(problem, Outlines::kept) {}
+        : problem_(problem), progress_(progress), start_(std::move(start)), levels_(problem, Outlines::kept, coarsest_size) {}
 
     std::optional<Solution> run(const std::optional<OwnSurface>& guess, Polish polish) {
         const std::size_t coarsest = levels_.coarsest();

@@ -100,8 +100,7 @@ void MultigridStep::cycle(SingleField& r, SingleField& x) const {
 
 // d with L d = scale · pull; across the normals if there are any, as `pull` is then. In units of its own, far from the
 // limits of single precision.
-MultigridStep::Moves MultigridStep::solve(const Points& pull, const Planes* planes, double tolerance,
-                                          int most_cycles) const {
+MultigridStep::Moves MultigridStep::solve(const Points& pull, const Planes* planes, const Effort& effort) const {
     const double unit = pull.cwiseAbs().maxCoeff();
     if (!(unit > 0.0)) return {Points::Zero(3, patch_.free_count), true};
     SingleField residual;
@@ -117,8 +116,8 @@ MultigridStep::Moves MultigridStep::solve(const Points& pull, const Planes* plan
         cycle(residual, z);
         if (planes) project_across(z, planes->normals);
     };
-    const auto [x, positive] =
-        conjugate_gradients(to_single(pull, pull.cols(), unit), tolerance, most_cycles, apply, precondition);
+    const auto [x, positive] = conjugate_gradients(to_single(pull, pull.cols(), unit), effort.tolerance,
+                                                   effort.max_cycles, apply, precondition);
     fine_.resize(4, 0);  // others need the room until the next solve
     return {unit * x.topLeftCorner(3, patch_.free_count).cast<double>(), positive};
 }
@@ -126,15 +125,14 @@ MultigridStep::Moves MultigridStep::solve(const Points& pull, const Planes* plan
 // What single precision leaves is solved for again.
 Points MultigridStep::harmonic_positions() const {
     constexpr double tolerance = 1e-8;
-    constexpr double each_time = 1e-3;
-    constexpr int most_cycles = 30;
+    constexpr Effort each_time{1e-3, 30};
     constexpr int most_times = 8;
     Points points = Points::Zero(3, patch_.vertex_count());
     points.rightCols(fixed_points_.cols()) = fixed_points_;
     Points r = pull(points);
     const double first = r.norm();
     for (int k = 0; k < most_times && r.norm() > tolerance * first; ++k) {
-        points.leftCols(patch_.free_count) += solve(r, nullptr, each_time, most_cycles).d;
+        points.leftCols(patch_.free_count) += solve(r, nullptr, each_time).d;
         r = pull(points);
     }
     return points.leftCols(patch_.free_count);
@@ -144,16 +142,21 @@ double MultigridStep::merit(const Points& points, const Points& /*normals*/) con
     return -0.5 * scale() * inner_product<Points>(points, pull(points));
 }
 
-Points MultigridStep::displacement(const Points& points, const TangentPlanes& planes, int max_cycles) const {
-    constexpr double relative_tolerance = 0.05;
+double MultigridStep::imbalance(const Points& points, const Points& normals) const {
+    Points across = pull(points);
+    project_across(across.leftCols(patch_.free_count), normals);
+    return scale() * across.norm();
+}
+
+Points MultigridStep::displacement(const Points& points, const TangentPlanes& planes, Effort effort) const {
     // In double precision: along the normals the pull is far larger than what steps towards the solution leave across.
     Points across = pull(points);
     Planes singles{to_single(planes.normals, patch_.free_count), turning(planes, across)};
     project_across(across.leftCols(patch_.free_count), planes.normals);
-    Moves moves = solve(across, &singles, relative_tolerance, max_cycles);
+    Moves moves = solve(across, &singles, effort);
     if (moves.positive || singles.turns.cols() == 0) return std::move(moves.d);
     singles.turns.resize(6, 0);
-    return solve(across, &singles, relative_tolerance, max_cycles).d;
+    return solve(across, &singles, effort).d;
 }
 
 }  // namespace fairing

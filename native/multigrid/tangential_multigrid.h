@@ -41,8 +41,9 @@ public:
     void hold(const Points& fixed_points) override { fixed_points_ = fixed_points; }
     [[nodiscard]] Points harmonic_positions() const override;
     [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
+    [[nodiscard]] double imbalance(const Points& points, const Points& normals) const override;
     [[nodiscard]] Points displacement(const Points& points, const TangentPlanes& planes,
-                                      int max_cycles = 10) const override;
+                                      Effort effort = {}) const override;
     [[nodiscard]] double scale() const override { return laplacian_.largest; }
     void cycle(SingleField& r, SingleField& x) const override;
 
@@ -60,7 +61,7 @@ private:
         SingleField normals;
         ShapeOperators turns;
     };
-    [[nodiscard]] Moves solve(const Points& pull, const Planes* planes, double tolerance, int most_cycles) const;
+    [[nodiscard]] Moves solve(const Points& pull, const Planes* planes, const Effort& effort) const;
     void subtract_product(const SingleField& x, SingleField& r) const;
     void smooth(SingleField& x, SingleField& r, Residual last) const;
 

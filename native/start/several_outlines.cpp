@@ -48,23 +48,36 @@ Loop measured(const Indices& vertices, const Points& points) {
     return loop;
 }
 
+std::vector<Loop> loops_of(const Patch& patch, const Points& points) {
+    std::vector<Loop> loops;
+    for (const Indices& vertices : patch.loops()) loops.push_back(measured(vertices, points));
+    return loops;
+}
+
+// Of the tube between two loops; 0 for fewer or more.
+double straight_area(const std::vector<Loop>& loops) {
+    if (loops.size() != 2) return 0.0;
+    return 0.5 * (loops[0].length + loops[1].length) * (loops[0].middle - loops[1].middle).norm();
+}
+
+double squares_of(const std::vector<Loop>& loops) {
+    double squares = 0.0;
+    for (const Loop& loop : loops) squares += loop.length * loop.length;
+    return squares;
+}
+
 }  // namespace
 
+double straight_length_between(const Patch& patch, const Points& points) {
+    const std::vector<Loop> loops = loops_of(patch, points);
+    return straight_area(loops) / squares_of(loops);
+}
+
 double length_between(const Patch& patch, const Points& points) {
-    double squares = 0.0;
-    std::vector<Loop> loops;
-    for (const Indices& vertices : patch.loops()) {
-        loops.push_back(measured(vertices, points));
-        squares += loops.back().length * loops.back().length;
-    }
+    const std::vector<Loop> loops = loops_of(patch, points);
     FaceGeometry faces;
     faces.update(points, patch.triangles);
-    double area = faces.areas.sum();
-    if (loops.size() == 2) {
-        const double around = 0.5 * (loops[0].length + loops[1].length);
-        area = std::max(area, around * (loops[0].middle - loops[1].middle).norm());
-    }
-    return area / squares;
+    return std::max(faces.areas.sum(), straight_area(loops)) / squares_of(loops);
 }
 
 bool joins_outlines(const Problem& problem) {

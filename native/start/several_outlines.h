@@ -14,6 +14,13 @@ bool joins_outlines(const Problem& problem);
 // vertices.
 double length_between(const Patch& patch, const Points& points);
 
+// The same of the straight tube between two outlines alone, whatever is at the free vertices.
+double straight_length_between(const Patch& patch, const Points& points);
+
+// Up to this length one surface fits between two outlines (a pipe of two and a half radii); two fit a pipe from 2π
+// radii on.
+inline constexpr double longest_single = 0.2;
+
 // How far the slope at each fixed vertex is believed: 1 where the given normals turn by less than 30° along the
 // outline, less and less up to 60°, 0 beyond.
 VectorX trust_in_slopes(const Problem& problem);

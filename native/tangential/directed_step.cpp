@@ -41,19 +41,22 @@ Points DirectedStep::solve(const Points& rhs) const {
 
 Points DirectedStep::harmonic_positions() const { return solve(pull_); }
 
-Points DirectedStep::imbalance(const Points& points, const Points& normals) const {
+Points DirectedStep::imbalances(const Points& points, const Points& normals) const {
     Points result = pull_ - (laplacian_ * points.leftCols(free_count_).transpose()).transpose();
     project_across(result, normals);
     return result;
 }
 
 double DirectedStep::merit(const Points& points, const Points& normals) const {
-    return 0.5 * imbalance(points, normals).squaredNorm();
+    return 0.5 * imbalances(points, normals).squaredNorm();
 }
 
-Points DirectedStep::displacement(const Points& points, const TangentPlanes& planes, int max_cycles) const {
+double DirectedStep::imbalance(const Points& points, const Points& normals) const {
+    return imbalances(points, normals).norm();
+}
+
+Points DirectedStep::displacement(const Points& points, const TangentPlanes& planes, Effort effort) const {
     const Points& normals = planes.normals;
-    constexpr double relative_tolerance = 0.05;
     const auto as_points = [](const VectorX& x) { return Points(Eigen::Map<const Points>(x.data(), 3, x.size() / 3)); };
     const auto as_vector = [](const Points& x) { return VectorX(Eigen::Map<const VectorX>(x.data(), x.size())); };
     const auto apply = [&](const VectorX& x) {
@@ -66,7 +69,8 @@ Points DirectedStep::displacement(const Points& points, const TangentPlanes& pla
         project_across(product, normals);
         return as_vector(product);
     };
-    return as_points(gmres(apply, precondition, as_vector(imbalance(points, normals)), relative_tolerance, max_cycles));
+    return as_points(
+        gmres(apply, precondition, as_vector(imbalances(points, normals)), effort.tolerance, effort.max_cycles));
 }
 
 }  // namespace fairing

@@ -15,11 +15,12 @@ public:
     void hold(const Points& fixed_points) override;
     [[nodiscard]] Points harmonic_positions() const override;
     [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
-    [[nodiscard]] Points displacement(const Points& points, const TangentPlanes& planes, int max_cycles) const override;
+    [[nodiscard]] double imbalance(const Points& points, const Points& normals) const override;
+    [[nodiscard]] Points displacement(const Points& points, const TangentPlanes& planes, Effort effort) const override;
 
 private:
     // P (Λx − x) of the free vertices.
-    [[nodiscard]] Points imbalance(const Points& points, const Points& normals) const;
+    [[nodiscard]] Points imbalances(const Points& points, const Points& normals) const;
     [[nodiscard]] Points solve(const Points& rhs) const;
 
     int free_count_;

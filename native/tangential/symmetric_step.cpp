@@ -43,6 +43,12 @@ double SymmetricStep::merit(const Points& points, const Points& /*normals*/) con
     return 0.5 * inner_product<Points>(free, gradient(points) - pull_);
 }
 
+double SymmetricStep::imbalance(const Points& points, const Points& normals) const {
+    Points r = gradient(points);
+    project_across(r, normals);
+    return r.norm();
+}
+
 Points SymmetricStep::gradient(const Points& points) const { return applied(points) - pull_; }
 
 // Row i of the symmetric matrix is its column i.
@@ -67,25 +73,24 @@ Points SymmetricStep::precondition(const Points& field, const Points& normals) c
     return result;
 }
 
-Points SymmetricStep::displacement(const Points& points, const TangentPlanes& planes, int max_cycles) const {
+Points SymmetricStep::displacement(const Points& points, const TangentPlanes& planes, Effort effort) const {
     Points r = -gradient(points);
     const ShapeOperators turns = turning(planes, r);
     project_across(r, planes.normals);
-    auto [d, positive] = solve_across(r, planes.normals, turns, max_cycles);
+    auto [d, positive] = solve_across(r, planes.normals, turns, effort);
     if (positive || turns.cols() == 0) return std::move(d);
-    return solve_across(r, planes.normals, {}, max_cycles).x;
+    return solve_across(r, planes.normals, {}, effort).x;
 }
 
 GradientSolution<Points> SymmetricStep::solve_across(const Points& r, const Points& normals,
-                                                     const ShapeOperators& turns, int max_cycles) const {
-    constexpr double relative_tolerance = 0.05;
+                                                     const ShapeOperators& turns, const Effort& effort) const {
     const auto apply = [&](const Points& p, Points& product) {
         product = applied(p);
         add_turning(turns, p, product);
         project_across(product, normals);
     };
     const auto approximate_inverse = [&](const Points& field, Points& z) { z = precondition(field, normals); };
-    return conjugate_gradients(r, relative_tolerance, max_cycles, apply, approximate_inverse);
+    return conjugate_gradients(r, effort.tolerance, effort.max_cycles, apply, approximate_inverse);
 }
 
 }  // namespace fairing

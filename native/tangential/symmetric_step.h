@@ -17,7 +17,9 @@ public:
     void hold(const Points& fixed_points) override;
     [[nodiscard]] Points harmonic_positions() const override;
     [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
-    [[nodiscard]] Points displacement(const Points& points, const TangentPlanes& planes, int max_cycles) const override;
+    [[nodiscard]] double imbalance(const Points& points, const Points& normals) const override;
+    [[nodiscard]] Points displacement(const Points& points, const TangentPlanes& planes,
+                                      Effort effort = {}) const override;
 
     // L⁻¹ of a field over the free vertices.
     [[nodiscard]] Points inverse(const Points& field) const;
@@ -29,7 +31,7 @@ private:
     [[nodiscard]] Points precondition(const Points& field, const Points& normals) const;
     // Across the normals; `turns`: what their turning adds, or nothing.
     [[nodiscard]] GradientSolution<Points> solve_across(const Points& r, const Points& normals,
-                                                        const ShapeOperators& turns, int max_cycles) const;
+                                                        const ShapeOperators& turns, const Effort& effort) const;
 
     int free_count_;
     SparseMatrix laplacian_;  // both triangles

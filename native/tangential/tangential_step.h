@@ -20,6 +20,12 @@ struct TangentPlanes {
     TangentPlanes(const Points& unit_normals, ShapeOperators&& gone) = delete;
 };
 
+// How far the systems of tangential steps are solved.
+struct Effort {
+    double tolerance = 0.05;
+    int max_cycles = 10;
+};
+
 // Displacements across the normals until Σ_j λ_ij (x_j − x_i) is parallel to the normal at every free vertex.
 class TangentialStep {
 public:
@@ -38,13 +44,16 @@ public:
     // vertices. Others have none: ½ Σ |P (Λx − x)_i|².
     [[nodiscard]] virtual double merit(const Points& points, const Points& normals) const = 0;
 
+    // |P L x|, the root of the sum of squares over the free vertices: 0 where no step is left.
+    [[nodiscard]] virtual double imbalance(const Points& points, const Points& normals) const = 0;
+
     // d with P L P d = −P L x; P is the projection across the unit normals, L the λ-Laplacian. Conjugate gradients
-    // (GMRES where λ is not symmetric), preconditioned by P L⁻¹ P, to a relative residual of 0.05 or until
+    // (GMRES where λ is not symmetric), preconditioned by P L⁻¹ P, to the relative residual `tolerance` or for
     // `max_cycles`. Where it is known how the planes turn, Newton's step: P L P d − ⟨n, L x⟩ W d = −P L x, since P
     // turns with the vertices and L x stands along the normals at the end. Without it smooth moves on a hemisphere are
     // too short by 60 %. Where that system is not positive definite, or λ not symmetric, the planes count as fixed.
     [[nodiscard]] virtual Points displacement(const Points& points, const TangentPlanes& planes,
-                                              int max_cycles = 10) const = 0;
+                                              Effort effort = {}) const = 0;
 };
 
 // The λ-Laplacian is constant and factorised here, once. `fixed_points`: 3 × fixed count. Throws SolverError where λ

@@ -11,6 +11,7 @@
 #include "linear/sparse_cholesky.h"
 #include "meshes.h"
 #include "method/levels.h"
+#include "method/sizes.h"
 #include "multigrid/coarsening.h"
 #include "multigrid/tangential_multigrid.h"
 #include "operators/normal_operator.h"
@@ -53,7 +54,7 @@ TEST_CASE("a level that was left has its edges and rings again when it comes bac
     const Ball ball(60);
     const Points fixed = ball.fixed_points();
     const Problem problem{ball.patch(), fixed, fixed, ball.weights, {}};
-    Levels levels(problem, Outlines::kept);
+    Levels levels(problem, Outlines::kept, coarsest_size);
     REQUIRE(levels.coarsest() >= 1);
     const Patch& patch = levels.problem(1).patch;
     const Patch before = patch;
@@ -236,8 +237,8 @@ TEST_CASE("multigrid and a factorisation give the same tangential steps") {
 
     const Points membrane = factorised.harmonic_positions();
     CHECK((multigrid.harmonic_positions() - membrane).norm() < 1e-6 * membrane.norm());
-    const Points step = factorised.displacement(ball.single.points, ball.single.points, 30);
-    const Points other = multigrid.displacement(ball.single.points, ball.single.points, 30);
+    const Points step = factorised.displacement(ball.single.points, ball.single.points, {0.05, 30});
+    const Points other = multigrid.displacement(ball.single.points, ball.single.points, {0.05, 30});
     // Both stop at a residual of 0.05.
     CHECK((step - other).norm() < 0.15 * step.norm());
     CHECK(multigrid.merit(ball.single.points, ball.single.points) >
@@ -269,7 +270,7 @@ TEST_CASE("on a sphere a tangential step that knows how the planes turn is Newto
     const auto moved = [&](const TangentialStep& step, Points points, bool turning) {
         const Points normals = points.leftCols(free);
         const ShapeOperators turns = turning ? shape_operators(curvature, normals, free) : ShapeOperators();
-        points.leftCols(free) += step.displacement(points, {normals, turns}, 30);
+        points.leftCols(free) += step.displacement(points, {normals, turns}, {0.05, 30});
         points.colwise().normalize();
         return points;
     };
@@ -298,7 +299,7 @@ TEST_CASE("where turning planes leave no positive definite system they count as 
     const Points& points = ball.single.points;
     ShapeOperators wild = ShapeOperators::Zero(6, ball.patch().free_count);
     wild.topRows<3>().setConstant(1e6F);  // about the radius of a millionth of the patch
-    CHECK(step.displacement(points, {points, wild}, 10) == step.displacement(points, points, 10));
+    CHECK(step.displacement(points, {points, wild}) == step.displacement(points, points));
 }
 
 TEST_CASE("means are lifted onto the sphere that points at the same angle lie on") {
