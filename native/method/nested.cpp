@@ -24,7 +24,7 @@ namespace {
 // the next level does, from the outlines alone.
 constexpr int smallest_coarsest = 150;
 constexpr double small_tolerance = 7e-4;    // units of D, there: triangles are too large for more
-constexpr int most_alone = 10;  // iterations there; single poor triangles keep steps at 1e-3
+constexpr int most_alone = 10;              // iterations there; single poor triangles keep steps at 1e-3
 constexpr int smallest_smooth = 500;        // free vertices from which on that pays
 constexpr double between_tolerance = 1e-4;  // units of D, of levels that are only starts
 // A level that starts at the coarser one's surface needs 3 to 8 iterations. Those between are good enough as starts
@@ -199,11 +199,11 @@ private:
         const Problem& problem = levels_.problem(k);
         Workspace& work = levels_.work(k);
         RingMatrix laplacian = levels_.laplacian(k);
-        auto [points, normals] = interpolated(k, coarse, laplacian);
+        auto [points, normals, shapes] = interpolated(k, coarse, laplacian);
         levels_.leave(k + 1);
         progress.report(share_of_start / 3, "refinement");
         levels_.set_up_tangential(k, std::move(laplacian), progress_);
-        slide(problem, *work.tangential, normals, turning(), most_slides, points);
+        slide(problem, *work.tangential, normals, std::move(shapes), most_slides, points);
         normals.resize(3, 0);  // the iteration needs the room
         progress.report(share_of_start, "refinement");
         work.normal = normal_operator(k, points);
@@ -224,19 +224,18 @@ private:
 
     [[nodiscard]] Turning turning() const { return is_rough_ ? Turning::unknown : Turning::known; }
 
-    struct Surface {
-        Points points;
-        Points normals;
-    };
-
-    [[nodiscard]] Surface interpolated(std::size_t k, const Points& coarse, const RingMatrix& laplacian) const {
+    // Curvatures beside a jagged outline are noise.
+    [[nodiscard]] BentPoints interpolated(std::size_t k, const Points& coarse, const RingMatrix& laplacian) const {
         const Problem& fine = levels_.problem(k);
+        const int count = fine.patch.free_count;
         const SurfaceState state = measured_surface(levels_.problem(k + 1), coarse);
-        Points points = with_fixed(fine.patch, fine.fixed_points);
-        Points normals = with_fixed(fine.patch, fine.fixed_normals);
-        levels_.transfer(k).prolong_surface(coarse, state.normals, fine.patch.free_count, points, normals);
-        even_out(laplacian, fine.patch.free_count, evening_sweeps, points, normals);
-        return {std::move(points), std::move(normals)};
+        BentPoints from{coarse, state.normals, {}};
+        if (!is_rough_) from.shapes = shape_operators(state.curvature, state.normals, static_cast<int>(coarse.cols()));
+        BentPoints points{with_fixed(fine.patch, fine.fixed_points), with_fixed(fine.patch, fine.fixed_normals), {}};
+        levels_.transfer(k).prolong_surface(from, count, points);
+        even_out(laplacian, count, evening_sweeps, points);
+        if (!is_rough_) points.shapes.conservativeResize(6, count);
+        return points;
     }
 
     const Problem& problem_;

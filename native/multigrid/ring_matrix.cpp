@@ -1,6 +1,7 @@
 #include "multigrid/ring_matrix.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/progress.h"
 
@@ -33,16 +34,30 @@ RingMatrix::RingMatrix(int vertex_count, const InnerWeights& edges) : begin(at(v
     }
 }
 
-void even_out(const RingMatrix& weights, int free_count, int sweeps, Points& points, Points& normals) {
+namespace {
+
+void fill_in(const RingMatrix& weights, ShapeOperators& shapes) {
+    for (int i = 0; i < static_cast<int>(shapes.cols()); ++i) {
+        if (!std::isnan(shapes(0, i))) continue;
+        const int first = weights.begin[at(i)];
+        const int count = weights.begin[at(i) + 1] - first;
+        shapes.col(i) = mean_shape(shapes, &weights.columns[at(first)], &weights.weights[first], count);
+    }
+}
+
+}  // namespace
+
+void even_out(const RingMatrix& weights, int free_count, int sweeps, BentPoints& points) {
+    fill_in(weights, points.shapes);
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         for (int i = 0; i < free_count; ++i) {
             checkpoint(i);
             const int first = weights.begin[at(i)];
             const int count = weights.begin[at(i) + 1] - first;
             const int* around = &weights.columns[at(first)];
-            const LiftedMean lifted = lifted_mean(points, normals, around, &weights.weights[first], count);
-            points.col(i) = lifted.point;
-            normals.col(i) = lifted.normal;
+            const LiftedMean lifted = lifted_mean(points, around, &weights.weights[first], count);
+            points.points.col(i) = lifted.point;
+            points.normals.col(i) = lifted.normal;
         }
     }
 }

@@ -44,7 +44,7 @@ struct RingMatrix {
 };
 
 // Sweeps of x_i ← the lifted mean of its neighbours by the weights, for the first `free_count` vertices, normals
-// alongside: evens out an interpolated surface.
-void even_out(const RingMatrix& weights, int free_count, int sweeps, Points& points, Points& normals);
+// alongside: evens out an interpolated surface. Shape operators that are unknown become the mean of their neighbours'.
+void even_out(const RingMatrix& weights, int free_count, int sweeps, BentPoints& points);
 
 }  // namespace fairing

@@ -1,6 +1,8 @@
 #include "multigrid/transfer.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "base/parallel.h"
 
@@ -54,43 +56,65 @@ void Transfer::prolong_means(const Points& coarse, int fine_free_count, Points& 
     });
 }
 
-LiftedMean lifted_mean(const Points& points, const Points& normals, const int* vertices, const float* weights,
-                       int count) {
+Eigen::Vector<float, 6> mean_shape(const ShapeOperators& shapes, const int* vertices, const float* weights, int count) {
+    Eigen::Vector<float, 6> mean = Eigen::Vector<float, 6>::Zero();
+    float sum = 0.0F;
+    for (int k = 0; k < count; ++k) {
+        const auto shape = shapes.col(vertices[k]);
+        if (std::isnan(shape[0])) continue;
+        mean += weights[k] * shape;
+        sum += weights[k];
+    }
+    return mean / sum;
+}
+
+LiftedMean lifted_mean(const BentPoints& points, const int* vertices, const float* weights, int count) {
     constexpr double least_cosine = 0.9;  // rings that bend more tell noise, or too little
     Vector3 mean = Vector3::Zero();
     Vector3 normal = Vector3::Zero();
     double sum = 0.0;
     for (int k = 0; k < count; ++k) {
-        mean += double{weights[k]} * points.col(vertices[k]);
-        normal += double{weights[k]} * normals.col(vertices[k]);
+        const int j = vertices[k];
+        mean += double{weights[k]} * points.points.col(j);
+        normal += double{weights[k]} * points.normals.col(j);
         sum += weights[k];
     }
     mean /= sum;
+    const bool bends = std::all_of(vertices, vertices + count, [&](int j) { return points.bends(j); });
     Vector3 lift = Vector3::Zero();
+    Vector3 turned = Vector3::Zero();
     for (int k = 0; k < count; ++k) {
-        const auto n = normals.col(vertices[k]);
-        lift += double{weights[k]} * n.dot(points.col(vertices[k]) - mean) * n;
+        const int j = vertices[k];
+        const auto n = points.normals.col(j);
+        const Vector3 d = mean - points.points.col(j);
+        lift -= double{weights[k]} * n.dot(d) * n;
+        if (bends) turned += double{weights[k]} * turn(points.shapes, j, d.cast<float>()).cast<double>();
     }
     const double c = std::max(normal.norm() / sum, least_cosine);
-    return {mean + 1.0 / (c * (1.0 + c) * sum) * lift, normal.normalized()};
+    return {mean + 1.0 / (c * (1.0 + c) * sum) * lift, (normal + 0.5 * turned).normalized()};
 }
 
-void Transfer::prolong_surface(const Points& coarse, const Points& coarse_normals, int fine_free_count, Points& fine,
-                               Points& fine_normals) const {
+void Transfer::prolong_surface(const BentPoints& coarse, int fine_free_count, BentPoints& fine) const {
+    if (coarse.shapes.cols() > 0)
+        fine.shapes.setConstant(6, fine.points.cols(), std::numeric_limits<float>::quiet_NaN());
     for (std::size_t c = 0; c < coarse_in_fine.size(); ++c) {
         const int v = coarse_in_fine[c];
+        const auto column = static_cast<Eigen::Index>(c);
+        if (coarse.shapes.cols() > 0) fine.shapes.col(v) = coarse.shapes.col(column);
         if (v >= fine_free_count) continue;
-        fine.col(v) = coarse.col(static_cast<Eigen::Index>(c));
-        fine_normals.col(v) = coarse_normals.col(static_cast<Eigen::Index>(c));
+        fine.points.col(v) = coarse.points.col(column);
+        fine.normals.col(v) = coarse.normals.col(column);
     }
     in_reverse(removals, [&](int k) {
         const int first = removals.begin[at(k)];
         const int count = removals.begin[at(k) + 1] - first;
         const int v = removals.vertex[at(k)];
-        const LiftedMean lifted =
-            lifted_mean(fine, fine_normals, &removals.neighbours[at(first)], &removals.weights[at(first)], count);
-        fine.col(v) = lifted.point;
-        fine_normals.col(v) = lifted.normal;
+        const int* around = &removals.neighbours[at(first)];
+        const float* weights = &removals.weights[at(first)];
+        const LiftedMean lifted = lifted_mean(fine, around, weights, count);
+        fine.points.col(v) = lifted.point;
+        fine.normals.col(v) = lifted.normal;
+        if (fine.shapes.cols() > 0) fine.shapes.col(v) = mean_shape(fine.shapes, around, weights, count);
     });
 }
 

@@ -1,6 +1,9 @@
 // Fields between a level and the next coarser one.
 #pragma once
 
+#include <cmath>
+
+#include "geometry/shape_operator.h"
 #include "multigrid/collapse_mesh.h"
 
 namespace fairing {
@@ -8,6 +11,16 @@ namespace fairing {
 // Vectors in single precision with a fourth entry of zero: a column fits a vector register. Enough for what only has to
 // be solved to a few per cent.
 using SingleField = Eigen::Matrix<float, 4, Eigen::Dynamic>;
+
+// Points of a surface with their unit normals (3 × vertices) and shape operators (6 × vertices, NaN where they are
+// unknown; no columns: all are).
+struct BentPoints {
+    Points points;
+    Points normals;
+    ShapeOperators shapes;
+
+    [[nodiscard]] bool bends(int i) const { return shapes.cols() > 0 && !std::isnan(shapes(0, i)); }
+};
 
 // Fields have a column for each vertex of a level, fixed ones included (where corrections are zero).
 struct Transfer {
@@ -27,19 +40,23 @@ struct Transfer {
     // Its transpose; nothing arrives at fixed vertices. `fine` is used up, `coarse` in the right size.
     void restrict(SingleField& fine, SingleField& coarse) const;
 
-    // Positions and normals (3 × vertices): means lifted as in `lifted_mean`. `fine` comes with the fixed vertices.
-    void prolong_surface(const Points& coarse, const Points& coarse_normals, int fine_free_count, Points& fine,
-                         Points& fine_normals) const;
+    // Means as in `lifted_mean`. `fine` comes with the fixed vertices; those that the coarse level lacks bend unknown.
+    void prolong_surface(const BentPoints& coarse, int fine_free_count, BentPoints& fine) const;
 };
 
 // The weighted mean of points, lifted about half-way to their tangent planes. Half-way is exact on parabolas only, and
 // lies inside of spheres by a fourth-order term that no step of a coarser level removes. With c, the length of the mean
 // of the unit normals, 1/(c (1 + c)) of the way is right on spheres, too, for points at the same angle from the middle.
+// The normal is the mean of theirs, each turned by half of what its shape operator says for the way to the mean:
+// without that it is tilted where the curvature varies, by a quarter of the squared spacing times the Laplacian of the
+// slope. Where one of the operators is unknown none is used: some alone would tilt it on a sphere.
 struct LiftedMean {
     Vector3 point;
-    Vector3 normal;  // unit, the mean's
+    Vector3 normal;  // unit
 };
-LiftedMean lifted_mean(const Points& points, const Points& normals, const int* vertices, const float* weights,
-                       int count);
+LiftedMean lifted_mean(const BentPoints& points, const int* vertices, const float* weights, int count);
+
+// The weighted mean of those shape operators that are known; NaN where none is.
+Eigen::Vector<float, 6> mean_shape(const ShapeOperators& shapes, const int* vertices, const float* weights, int count);
 
 }  // namespace fairing

@@ -60,12 +60,18 @@ void slide(Sliding& vertices, const TangentialStep& tangential, int most_steps) 
 
 void slide(const Problem& problem, const TangentialStep& tangential, const Points& normals, Turning turning,
            int most_steps, Points& points) {
+    ShapeOperators shapes;
+    if (turning == Turning::known) shapes = shape_operators(problem.patch, points, normals);
+    slide(problem, tangential, normals, std::move(shapes), most_steps, points);
+}
+
+void slide(const Problem& problem, const TangentialStep& tangential, const Points& normals, ShapeOperators shapes,
+           int most_steps, Points& points) {
     const Points surface = points;
     const TargetSurface target(problem.patch, surface, normals);
     std::vector<SurfacePoint> where(at(problem.patch.free_count));
     for (std::size_t v = 0; v < where.size(); ++v) where[v] = target.at_vertex(static_cast<int>(v));
-    Sliding vertices{target, where, points, normals, {}};
-    if (turning == Turning::known) vertices.shapes = shape_operators(problem.patch, surface, normals);
+    Sliding vertices{target, where, points, normals, std::move(shapes)};
     slide(vertices, tangential, most_steps);
 }
 

@@ -16,6 +16,10 @@ enum class Turning { known, unknown };
 void slide(const Problem& problem, const TangentialStep& tangential, const Points& normals, Turning turning,
            int most_steps, Points& points);
 
+// The same where the shape operators are known at the free vertices; empty: not known.
+void slide(const Problem& problem, const TangentialStep& tangential, const Points& normals, ShapeOperators shapes,
+           int most_steps, Points& points);
+
 // The same on another surface. `where`: places of the free vertices on it; `points`: 3 × local vertices.
 void slide_on(const TargetSurface& target, const TangentialStep& tangential, int most_steps,
               std::vector<SurfacePoint>& where, Points& points);

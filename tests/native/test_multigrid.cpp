@@ -184,11 +184,11 @@ TEST_CASE("an interpolated sphere is one to the fourth order in the spacing") {
         const Ball ball(n, 0.1, 20);
         const CoarseLevel& level = ball.levels.front();
         const Points coarse = of_level(level, ball.single.points);
-        Points fine = ball.single.points;
-        fine.leftCols(ball.patch().free_count).setZero();
-        Points normals = fine;
-        level.transfer.prolong_surface(coarse, coarse, ball.patch().free_count, fine, normals);
-        errors.push_back((fine.colwise().norm().array() - 1.0).abs().maxCoeff());
+        Points fixed = ball.single.points;
+        fixed.leftCols(ball.patch().free_count).setZero();
+        BentPoints fine{fixed, fixed, {}};
+        level.transfer.prolong_surface({coarse, coarse, {}}, ball.patch().free_count, fine);
+        errors.push_back((fine.points.colwise().norm().array() - 1.0).abs().maxCoeff());
     }
     CHECK(errors[0] < 2e-3);
     CHECK(errors[1] < errors[0] / 8.0);
@@ -314,7 +314,7 @@ TEST_CASE("means are lifted onto the sphere that points at the same angle lie on
             (Eigen::Matrix<double, 3, 5>() << ring.topRows<2>(), Eigen::RowVectorXd::Ones(5)).finished();
         const Eigen::VectorXf weights = rows.completeOrthogonalDecomposition().solve(Vector3::UnitZ()).cast<float>();
         const std::vector<int> all{0, 1, 2, 3, 4};
-        const LiftedMean lifted = lifted_mean(ring, ring, all.data(), weights.data(), 5);
+        const LiftedMean lifted = lifted_mean({ring, ring, {}}, all.data(), weights.data(), 5);
         CHECK((lifted.point - Vector3::UnitZ()).norm() < 1e-6);  // half-way: 7e-5 and .02
         CHECK((lifted.normal - Vector3::UnitZ()).norm() < 1e-6);
     }
