@@ -90,7 +90,9 @@ public:
                 best_ = Best::here;
                 break;
             }
-            if (largest <= least_share * problem_.options.tolerance || (arrived_ && k + 1 == most)) {
+            // The answer of the solve before that comes back as a start stays, to the bit.
+            const bool stays = arrived_ && k == 0 && work_.keeps_factor;
+            if (stays || largest <= least_share * problem_.options.tolerance || (arrived_ && k + 1 == most)) {
                 end_here();
                 break;
             }
@@ -216,7 +218,7 @@ private:
     [[nodiscard]] Points step_within_raised(const VectorX& heights) const {
         const Raised next = raised(patch_, state_, heights);
         const ShapeOperators shapes = shape_operators(state_.curvature, state_.normals, patch_.free_count);
-        const Effort effort = problem_.options.start_only ? Effort{} : Effort{closer};
+        const Effort effort = problem_.options.begins_near ? Effort{closer} : Effort{};
         return work_.tangential->displacement(next.points, {next.normals, shapes}, effort);
     }
 

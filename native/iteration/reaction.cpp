@@ -7,7 +7,8 @@ namespace fairing {
 namespace {
 
 constexpr int largest_solved = 1000;  // free vertices
-constexpr double largest_share = 0.5;
+// Beyond, surfaces are about to lose their hold: long pipes went on to bulbs.
+constexpr double largest_share = 0.4;
 
 // S (½ (κ₁² + κ₂²) u) over the free vertices.
 VectorX reaction(const Problem& problem, const SurfaceState& state, const VectorX& u) {
@@ -31,8 +32,9 @@ void add_reaction(const Problem& problem, const SurfaceState& state, const Norma
     }
     const VectorX lacking = normal.solve(reaction(problem, state, u));
     const double size = u.squaredNorm();
-    share = size > 0.0 ? std::clamp(lacking.dot(u) / size, 0.0, largest_share) : 0.0;
-    u += lacking / (1.0 - share);
+    const double found = size > 0.0 ? lacking.dot(u) / size : 0.0;
+    share = found > 0.0 && found < largest_share ? found : 0.0;
+    if (share > 0.0) u += lacking / (1.0 - share);
 }
 
 }  // namespace fairing

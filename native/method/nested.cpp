@@ -58,16 +58,19 @@ bool begins_small(const Problem& problem) {
 
 class NestedSolve {
 public:
-    NestedSolve(const Problem& problem, const Progress& progress)
+    // `coarsest`: free vertices of the level to begin on.
+    NestedSolve(const Problem& problem, int coarsest, const Progress& progress)
         : problem_(problem),
           progress_(progress),
           is_rough_(is_jagged(problem)),
-          levels_(problem, Outlines::thinned, begins_small(problem) ? smallest_coarsest : coarsest_size) {
+          begins_small_(coarsest < coarsest_size),
+          levels_(problem, Outlines::thinned, coarsest) {
         for (std::size_t k = 0; k <= levels_.coarsest(); ++k) {
             SolverOptions& options = levels_.problem(k).options;
             options.max_iterations = std::min(most_on(k), problem.options.max_iterations);
             options.patience = patience;
             options.contracts = is_rough_;
+            options.begins_near = k == 0;
             if (k == 0) continue;
             options.tolerance = std::max(between_tolerance, problem.options.tolerance);
             options.start_only = true;
@@ -90,7 +93,6 @@ public:
         solution.levels = levels_.sizes();
         seconds["iteration"] = watch_.lap();
         solution.seconds = std::move(seconds);
-        if (!is_large(problem_) && solution.termination != Termination::converged) return std::nullopt;
         return solution;
     }
 
@@ -105,7 +107,7 @@ private:
         Problem problem = levels_.problem(k);
         problem.options.max_iterations = problem_.options.max_iterations;
         problem.options.patience = problem_.options.patience;
-        if (problem.patch.free_count <= coarsest_size) {
+        if (is_small(k)) {
             problem.options.tolerance = std::max(problem.options.tolerance, small_tolerance);
             problem.options.max_iterations = std::min(problem.options.max_iterations, most_alone);
         }
@@ -116,6 +118,9 @@ private:
     [[nodiscard]] static bool is_only(const Patch& patch, const Points& points) {
         return patch.loop_count() == 1 || length_between(patch, points) <= longest_single;
     }
+
+    // Whether a level has fewer vertices than tell any surface.
+    [[nodiscard]] bool is_small(std::size_t k) const { return begins_small_ && k == levels_.coarsest(); }
 
     [[nodiscard]] bool may_be_alone(std::size_t k) const {
         return levels_.problem(k).patch.free_count <= 2 * coarsest_size;
@@ -148,9 +153,7 @@ private:
         for (std::size_t k = from; k-- > 0;) {
             const Points coarser = solution.points;
             solution = refine(k, coarser, progress_.range(done_after(k + 1), done_after(k)));
-            if (is_good(k, solution)) continue;
-            if (k > 0 && may_be_alone(k)) solution = solved_alone(k);
-            if (k == 0 || !is_start(k, solution)) return given_up(k + 1, coarser);
+            if (!is_good(k, solution)) return given_up(k + 1, coarser);
         }
         solution.boundary_normals = one_sided_normals(problem_.patch, solution.points);
         return solution;
@@ -161,9 +164,8 @@ private:
     // surface the coarsest mesh does not resolve, ended at 0.5 and more.
     [[nodiscard]] bool is_start(std::size_t k, const Solution& solution) const {
         constexpr double small_step = 0.04;  // units of D
-        const Patch& patch = levels_.problem(k).patch;
-        if (patch.free_count <= coarsest_size && !is_only(patch, solution.points)) return false;
-        const double longest = patch.free_count <= coarsest_size ? near_step : small_step;
+        if (is_small(k) && !is_only(levels_.problem(k).patch, solution.points)) return false;
+        const double longest = is_small(k) ? near_step : small_step;
         if (solution.flaw == Flaw::not_converged) return solution.last_step <= longest;
         return solution.flaw == Flaw::absent;
     }
@@ -241,6 +243,7 @@ private:
     const Problem& problem_;
     const Progress& progress_;
     const bool is_rough_;
+    const bool begins_small_;
     double reaction_ = 0.0;  // of the level before
     Stopwatch watch_;
     Levels levels_;
@@ -259,7 +262,12 @@ bool takes_levels(const Problem& problem) {
 }
 
 std::optional<Solution> solve_nested(const Problem& problem, const Progress& progress) {
-    return NestedSolve(problem, progress).run();
+    if (begins_small(problem)) {
+        auto solution = NestedSolve(problem, smallest_coarsest, progress).run();
+        if (solution && solution->termination == Termination::converged) return solution;
+        if (!is_large(problem)) return std::nullopt;
+    }
+    return NestedSolve(problem, coarsest_size, progress).run();
 }
 
 }  // namespace fairing

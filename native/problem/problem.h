@@ -26,11 +26,12 @@ struct SolverOptions {
     NormalKind normals = NormalKind::fitted;
     double tolerance = 1e-6;  // of the largest move in an iteration, in units of D
     int max_iterations = 200;
-    bool nested = true;       // large patches begin on coarser levels
-    bool contracts = false;   // ends stalled where the steps shrink slower than near a surface
-    int nears_within = 0;     // iterations after which it ends stalled where it stays far from a surface; 0: never
-    bool start_only = false;  // the surface is a start for another one: the last step is taken and not measured
-    int patience = 40;        // iterations without progress after which the solve is given up
+    bool nested = true;        // large patches begin on coarser levels
+    bool contracts = false;    // ends stalled where the steps shrink slower than near a surface
+    int nears_within = 0;      // iterations after which it ends stalled where it stays far from a surface; 0: never
+    bool begins_near = false;  // the start is a coarser level's surface: few steps are left, each worth more work
+    bool start_only = false;   // the surface is a start for another one: the last step is taken and not measured
+    int patience = 40;         // iterations without progress after which the solve is given up
 };
 
 // One component in units of D: translated and scaled so that D = 1.
