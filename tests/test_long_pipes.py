@@ -55,3 +55,12 @@ def test_large_graded_pipes_are_straight(length: float) -> None:
     assert result.equation == "harmonic"
     assert pipe.error(result.vertices) < 2e-3
     assert not len(fairing.flipped_triangles(result.vertices, pipe.triangles))
+
+
+@pytest.mark.parametrize("size", [4257, 4264])
+def test_graded_pipes_of_eight_and_a_half_radii_keep_to_the_straight_surface(size: int) -> None:
+    """Where a surface is about to lose its hold Newton's steps along the normals led to bulbs of .08 D, and converged."""
+    pipe = graded.regraded(even(8.5), size)
+    result = solved(pipe)
+    assert result.converged
+    assert pipe.error(result.vertices) < 2e-3

@@ -29,6 +29,11 @@ def from_border(cap: CubeCap, tolerance: float) -> fairing.FairResult:
     )
 
 
+def faired(patch: Patch) -> fairing.FairResult:
+    """With uniform weights, as it comes."""
+    return fairing.fair(patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals)
+
+
 @pytest.mark.parametrize("name", PATCHES)
 def test_levels_change_the_way_and_not_the_surface(name: str) -> None:
     """Both solve one discrete equation to 1e-10, so they end within some 1e-9 D of each other."""
@@ -54,6 +59,32 @@ def test_every_inner_fairness_is_nested(inner_fairness: str) -> None:
     assert result.converged
     assert len(result.levels) > 1
     assert patch.error(result.vertices) <= 1e-8  # a sphere is exact
+
+
+def test_over_smooth_outlines_small_patches_have_levels_too() -> None:
+    """A coarsest level of 150 to 300 vertices tells the surface; over jagged ones it takes 600."""
+    cap = shapes.cap(800)
+    result = faired(cap)
+    assert [way for way, _ in result.way] == ["nested"]
+    assert len(result.levels) == 2
+    assert result.levels[0] < 400
+    assert result.iterations <= 4
+    assert cap.error(result.vertices) < 1e-6
+    rng = np.random.default_rng(1)
+    normals = cap.fixed_normals + 0.3 * rng.normal(size=cap.fixed_normals.shape)
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    rough = fairing.fair(cap.vertices, cap.triangles, fixed=cap.fixed, fixed_normals=normals, otherwise="stop")
+    assert "nested" not in [way for way, _ in rough.way]
+
+
+@pytest.mark.parametrize("seed", [2, 3])
+def test_what_a_small_coarsest_level_does_not_tell_the_next_one_does(seed: int) -> None:
+    """Of a deep cap 80 to 105 vertices come to nothing, 390 to its sphere."""
+    cap = shapes.cap(1300, Style(seed=seed), half_angle=130.0)
+    result = faired(cap)
+    assert [way for way, _ in result.way] == ["nested"]
+    assert result.levels[0] < 200
+    assert cap.error(result.vertices) < 1e-5
 
 
 def test_few_iterations_remain_for_the_finest_level() -> None:

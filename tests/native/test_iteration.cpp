@@ -1,6 +1,9 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "iteration/accelerated_iteration.h"
+#include "iteration/reaction.h"
 #include "meshes.h"
 #include "operators/biharmonic_operator.h"
 #include "operators/workspace.h"
@@ -173,4 +176,49 @@ TEST_CASE("of a surface that is only a start the last step is taken, too") {
     Ball once;
     once.problem.options.max_iterations = 2;  // the second one measures where the first has led
     CHECK(distance(solution.points, once.solve(iterate).points) < 1e-12);
+}
+
+namespace {
+
+// A ball raised by small smooth heights that end with slope zero, measured, and what K makes of its residual.
+struct Bulge {
+    Ball ball{24};
+    VectorX heights;
+    SurfaceState state;
+    BiharmonicOperator normal{ball.patch()};
+    VectorX answer;
+
+    explicit Bulge(double height) : heights(ball.patch().free_count) {
+        Points points = ball.single.points;
+        for (int v = 0; v < ball.patch().free_count; ++v) {
+            const Vector3 p = points.col(v);
+            const double x = 2.0 * p.x() / p.z();
+            const double y = 2.0 * p.y() / p.z();
+            heights[v] = height * std::pow((1.0 - x * x) * (1.0 - y * y), 2);
+            points.col(v) *= 1.0 + heights[v];
+        }
+        state = measured_surface(ball.problem, points);
+        REQUIRE(normal.update(state.stiffness, Progress()));
+        answer = normal.solve(outer_residual(ball.problem, state));
+    }
+
+    [[nodiscard]] double off(const VectorX& moves) const { return (moves + heights).norm() / heights.norm(); }
+};
+
+}  // namespace
+
+TEST_CASE("along the normals of a curved surface K's answers are too short by what its own motion adds to H") {
+    const Bulge bulge(1e-5);
+    VectorX u = bulge.answer;
+    double share = 0.0;
+    add_reaction(bulge.ball.problem, bulge.state, bulge.normal, share, u);
+    CHECK(bulge.off(bulge.answer) > 3.0 * bulge.off(u));
+    CHECK(bulge.off(u) < 0.02);
+    CHECK(share > 0.02);
+    CHECK(share < 0.3);
+    Problem bent = bulge.ball.problem;  // of other equations K leaves out more
+    bent.options.equation = Equation::minimal_energy;
+    VectorX other = bulge.answer;
+    add_reaction(bent, bulge.state, bulge.normal, share, other);
+    CHECK(other == bulge.answer);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 
 #include <Eigen/QR>
@@ -318,6 +319,53 @@ TEST_CASE("means are lifted onto the sphere that points at the same angle lie on
         CHECK((lifted.point - Vector3::UnitZ()).norm() < 1e-6);  // half-way: 7e-5 and .02
         CHECK((lifted.normal - Vector3::UnitZ()).norm() < 1e-6);
     }
+}
+
+TEST_CASE("interpolated normals know how the curvature varies") {
+    // z = x³ + x y²: at the origin the plane is level, and the mean of the normals around leans by 2 h².
+    const double h = 0.05;
+    BentPoints ring{Points(3, 6), Points(3, 6), ShapeOperators(6, 6)};
+    for (int k = 0; k < 6; ++k) {
+        const double phi = 1.0471975512 * k + 0.1;
+        const double x = h * std::cos(phi);
+        const double y = h * std::sin(phi);
+        ring.points.col(k) << x, y, x * x * x + x * y * y;
+        ring.normals.col(k) = Vector3(-(3.0 * x * x + y * y), -2.0 * x * y, 1.0).normalized();
+        ring.shapes.col(k) << static_cast<float>(-6.0 * x), static_cast<float>(-2.0 * x), 0.0F,
+            static_cast<float>(-2.0 * y), 0.0F, 0.0F;
+    }
+    const std::vector<int> all{0, 1, 2, 3, 4, 5};
+    const std::vector<float> weights(6, 1.0F);
+    const auto lean = [&](const BentPoints& points) {
+        return (lifted_mean(points, all.data(), weights.data(), 6).normal - Vector3::UnitZ()).norm();
+    };
+    const double plain = lean({ring.points, ring.normals, {}});
+    CHECK(plain == doctest::Approx(2.0 * h * h).epsilon(0.01));
+    CHECK(lean(ring) < 0.01 * plain);
+    ring.shapes(0, 2) = std::numeric_limits<float>::quiet_NaN();  // one alone is missing: none counts
+    CHECK(lean(ring) == doctest::Approx(plain));
+    CHECK(mean_shape(ring.shapes, all.data(), weights.data(), 6).allFinite());
+}
+
+TEST_CASE("fixed vertices that a coarse level lacks bend as their neighbours do") {
+    const Ball ball(40, 0.2, 100);
+    const CoarseLevel& level = ball.levels.front();
+    const Points coarse = of_level(level, ball.single.points);
+    ShapeOperators shapes(6, coarse.cols());  // I − n nᵀ
+    for (Eigen::Index v = 0; v < coarse.cols(); ++v) {
+        const Eigen::Matrix3d w = Eigen::Matrix3d::Identity() - coarse.col(v) * coarse.col(v).transpose();
+        shapes.col(v) << Eigen::Vector<double, 6>(w(0, 0), w(1, 1), w(2, 2), w(0, 1), w(0, 2), w(1, 2)).cast<float>();
+    }
+    Points fixed = ball.single.points;
+    const int free = ball.patch().free_count;
+    fixed.leftCols(free).setZero();
+    BentPoints fine{fixed, fixed, {}};
+    level.transfer.prolong_surface({coarse, coarse, shapes}, free, fine);
+    REQUIRE(fine.shapes.cols() == fixed.cols());
+    CHECK(fine.shapes.rightCols(fixed.cols() - free).array().isNaN().any());
+    even_out(RingMatrix(ball.patch().vertex_count(), ball.weights), free, 1, fine);
+    CHECK(fine.shapes.allFinite());
+    CHECK((fine.normals - fine.points.colwise().normalized()).colwise().norm().maxCoeff() < 0.01);
 }
 
 TEST_CASE("shape operators: of spheres by either way, and of a cylinder across and along it") {
