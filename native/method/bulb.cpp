@@ -15,10 +15,9 @@ namespace {
 // Where tubes are long for the area between them, what their outlines ask for reaches everywhere: rings, pipes shorter
 // than two and a half radii and joints with arms of less are none. Of blends that are none 0.24 to 0.37 was measured.
 bool has_room(const Patch& patch, const Points& points) {
-    constexpr double of_tubes = 0.2;  // least area, of the sum of the outlines' squared lengths
     constexpr double of_joints = 0.4;
     const int loops = patch.loop_count();
-    return loops > 1 && length_between(patch, points) > (loops == 2 ? of_tubes : of_joints);
+    return loops > 1 && length_between(patch, points) > (loops == 2 ? longest_single : of_joints);
 }
 
 double largest_distance(const Problem& problem, const Points& points, const Points& from) {
