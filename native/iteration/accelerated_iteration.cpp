@@ -216,10 +216,11 @@ private:
     // Newton's step within the surface that the moves along the normals lead to: on a catenoid those alone shift the
     // vertices' places as far as they go.
     [[nodiscard]] Points step_within_raised(const VectorX& heights) const {
-        const Raised next = raised(patch_, state_, heights);
-        const ShapeOperators shapes = shape_operators(state_.curvature, state_.normals, patch_.free_count);
+        Raised next = raised(patch_, state_, heights);
+        ShapeOperators shapes = shape_operators(state_.curvature, state_.normals, patch_.free_count);
         const Effort effort = problem_.options.begins_near ? Effort{closer} : Effort{};
-        return work_.tangential->displacement(next.points, {next.normals, shapes}, effort);
+        return work_.tangential->displacement({std::move(next.points), std::move(next.normals), std::move(shapes)},
+                                              effort);
     }
 
     bool hopeless(double largest) {

@@ -44,6 +44,7 @@ public:
     [[nodiscard]] double imbalance(const Points& points, const Points& normals) const override;
     [[nodiscard]] Points displacement(const Points& points, const TangentPlanes& planes,
                                       Effort effort = {}) const override;
+    [[nodiscard]] Points displacement(TurningPlanes&& gone, Effort effort) const override;
     [[nodiscard]] double scale() const override { return laplacian_.largest; }
     void cycle(SingleField& r, SingleField& x) const override;
 
@@ -61,6 +62,8 @@ private:
         SingleField normals;
         ShapeOperators turns;
     };
+    // Of a pull that is across the normals.
+    [[nodiscard]] Points solved_across(const Points& across, Planes planes, const Effort& effort) const;
     [[nodiscard]] Moves solve(const Points& pull, const Planes* planes, const Effort& effort) const;
     void subtract_product(const SingleField& x, SingleField& r) const;
     void smooth(SingleField& x, SingleField& r, Residual last) const;

@@ -13,14 +13,17 @@ inline void project_across(Eigen::Ref<Points> field, const Points& normals) {
     });
 }
 
-// ⟨n, pull⟩ W at the free vertices, for `pull` = −L x before it is projected; empty where the planes count as fixed.
-inline ShapeOperators turning(const TangentPlanes& planes, const Points& pull) {
-    if (!planes.shapes) return {};
-    ShapeOperators result = *planes.shapes;
-    for_ranges(static_cast<int>(result.cols()), coarse_grain, [&](int begin, int end) {
-        for (int i = begin; i < end; ++i) result.col(i) *= static_cast<float>(pull.col(i).dot(planes.normals.col(i)));
+// ⟨n, pull⟩ W at the free vertices from W there, for `pull` = −L x before it is projected; empty where W is.
+inline ShapeOperators turning(ShapeOperators shapes, const Points& normals, const Points& pull) {
+    for_ranges(static_cast<int>(shapes.cols()), coarse_grain, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i) shapes.col(i) *= static_cast<float>(pull.col(i).dot(normals.col(i)));
     });
-    return result;
+    return shapes;
+}
+
+// The same of planes; empty where they count as fixed.
+inline ShapeOperators turning(const TangentPlanes& planes, const Points& pull) {
+    return planes.shapes ? turning(*planes.shapes, planes.normals, pull) : ShapeOperators();
 }
 
 // product ← product + W p for vectors in either precision (3 × n, or more rows that stay).

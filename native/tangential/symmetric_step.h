@@ -18,6 +18,7 @@ public:
     [[nodiscard]] Points harmonic_positions() const override;
     [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
     [[nodiscard]] double imbalance(const Points& points, const Points& normals) const override;
+    using TangentialStep::displacement;
     [[nodiscard]] Points displacement(const Points& points, const TangentPlanes& planes,
                                       Effort effort = {}) const override;
 

@@ -20,6 +20,14 @@ struct TangentPlanes {
     TangentPlanes(const Points& unit_normals, ShapeOperators&& gone) = delete;
 };
 
+// Vertices with tangent planes that turn, as a step takes them over: a large patch has no room for them while it is
+// solved for.
+struct TurningPlanes {
+    Points points;  // 3 × local vertices
+    Points normals;
+    ShapeOperators shapes;
+};
+
 // How far the systems of tangential steps are solved.
 struct Effort {
     double tolerance = 0.05;
@@ -54,6 +62,11 @@ public:
     // too short by 60 %. Where that system is not positive definite, or λ not symmetric, the planes count as fixed.
     [[nodiscard]] virtual Points displacement(const Points& points, const TangentPlanes& planes,
                                               Effort effort = {}) const = 0;
+
+    // The same, for planes that nobody needs any more.
+    [[nodiscard]] virtual Points displacement(TurningPlanes&& gone, Effort effort) const {
+        return displacement(gone.points, {gone.normals, gone.shapes}, effort);
+    }
 };
 
 // The λ-Laplacian is constant and factorised here, once. `fixed_points`: 3 × fixed count. Throws SolverError where λ
