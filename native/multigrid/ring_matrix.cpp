@@ -17,13 +17,16 @@ RingMatrix::RingMatrix(int vertex_count, const InnerWeights& edges) : begin(at(v
     }
     for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
     columns.resize(at(begin.back()));
-    weights.resize(begin.back());
     diagonal.setZero(vertex_count);
     if (!edges.empty()) largest = most;
+    const bool uniform =
+        std::all_of(edges.begin(), edges.end(), [&](const WeightedEdge& edge) { return edge.weight == largest; });
+    if (!uniform) weights.resize(begin.back());
     Indices cursor(begin.begin(), begin.end() - 1);
     const auto add = [&](int i, int j, float weight) {
         columns[at(cursor[at(i)])] = j;
-        weights[cursor[at(i)]++] = weight;
+        if (!uniform) weights[cursor[at(i)]] = weight;
+        ++cursor[at(i)];
         diagonal[i] += weight;
     };
     for (const auto& [i, j, weight] : edges) {
@@ -41,7 +44,7 @@ void fill_in(const RingMatrix& weights, ShapeOperators& shapes) {
         if (!std::isnan(shapes(0, i))) continue;
         const int first = weights.begin[at(i)];
         const int count = weights.begin[at(i) + 1] - first;
-        shapes.col(i) = mean_shape(shapes, &weights.columns[at(first)], &weights.weights[first], count);
+        shapes.col(i) = mean_shape(shapes, &weights.columns[at(first)], weights.weights_from(first), count);
     }
 }
 
@@ -55,7 +58,7 @@ void even_out(const RingMatrix& weights, int free_count, int sweeps, BentPoints&
             const int first = weights.begin[at(i)];
             const int count = weights.begin[at(i) + 1] - first;
             const int* around = &weights.columns[at(first)];
-            const LiftedMean lifted = lifted_mean(points, around, &weights.weights[first], count);
+            const LiftedMean lifted = lifted_mean(points, around, weights.weights_from(first), count);
             points.points.col(i) = lifted.point;
             points.normals.col(i) = lifted.normal;
         }

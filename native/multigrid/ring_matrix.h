@@ -11,11 +11,15 @@ namespace fairing {
 struct RingMatrix {
     Indices begin;
     Indices columns;
-    Eigen::VectorXf weights;   // w_ij / largest
+    Eigen::VectorXf weights;   // w_ij / largest; empty where all are 1
     Eigen::VectorXf diagonal;  // Σ_j w_ij / largest
     double largest = 1.0;
 
     RingMatrix(int vertex_count, const InnerWeights& weights);
+
+    [[nodiscard]] float weight(int k) const { return weights.size() > 0 ? weights[k] : 1.0F; }
+    // The weights from the k-th on; null where all are 1.
+    [[nodiscard]] const float* weights_from(int k) const { return weights.size() > 0 ? &weights[k] : nullptr; }
 
     // write(i, (A x)_i) for the first `rows` vertices: in double precision, 0 for constants.
     template <typename Write>
@@ -24,7 +28,7 @@ struct RingMatrix {
             for (int i = first; i < last; ++i) {
                 Vector3 sum = Vector3::Zero();
                 for (int k = begin[at(i)]; k < begin[at(i) + 1]; ++k)
-                    sum += double{weights[k]} * (x.col(i) - x.col(columns[at(k)]));
+                    sum += double{weight(k)} * (x.col(i) - x.col(columns[at(k)]));
                 write(i, sum);
             }
         });
@@ -36,7 +40,7 @@ struct RingMatrix {
         for_ranges(rows, coarse_grain, [&](int first, int last) {
             for (int i = first; i < last; ++i) {
                 Eigen::Vector4f sum = diagonal[i] * x.col(i);
-                for (int k = begin[at(i)]; k < begin[at(i) + 1]; ++k) sum -= weights[k] * x.col(columns[at(k)]);
+                for (int k = begin[at(i)]; k < begin[at(i) + 1]; ++k) sum -= weight(k) * x.col(columns[at(k)]);
                 write(i, sum);
             }
         });

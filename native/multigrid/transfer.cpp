@@ -21,6 +21,9 @@ void in_reverse(const Removals& removals, const BringBack& bring_back) {
     }
 }
 
+// Null: all are 1.
+float weight_of(const float* weights, int k) { return weights != nullptr ? weights[k] : 1.0F; }
+
 }  // namespace
 
 void Transfer::prolong(const SingleField& coarse, SingleField& fine) const {
@@ -62,8 +65,8 @@ Eigen::Vector<float, 6> mean_shape(const ShapeOperators& shapes, const int* vert
     for (int k = 0; k < count; ++k) {
         const auto shape = shapes.col(vertices[k]);
         if (std::isnan(shape[0])) continue;
-        mean += weights[k] * shape;
-        sum += weights[k];
+        mean += weight_of(weights, k) * shape;
+        sum += weight_of(weights, k);
     }
     return mean / sum;
 }
@@ -75,9 +78,9 @@ LiftedMean lifted_mean(const BentPoints& points, const int* vertices, const floa
     double sum = 0.0;
     for (int k = 0; k < count; ++k) {
         const int j = vertices[k];
-        mean += double{weights[k]} * points.points.col(j);
-        normal += double{weights[k]} * points.normals.col(j);
-        sum += weights[k];
+        mean += double{weight_of(weights, k)} * points.points.col(j);
+        normal += double{weight_of(weights, k)} * points.normals.col(j);
+        sum += weight_of(weights, k);
     }
     mean /= sum;
     const bool bends = std::all_of(vertices, vertices + count, [&](int j) { return points.bends(j); });
@@ -87,8 +90,8 @@ LiftedMean lifted_mean(const BentPoints& points, const int* vertices, const floa
         const int j = vertices[k];
         const auto n = points.normals.col(j);
         const Vector3 d = mean - points.points.col(j);
-        lift -= double{weights[k]} * n.dot(d) * n;
-        if (bends) turned += double{weights[k]} * turn(points.shapes, j, d.cast<float>()).cast<double>();
+        lift -= double{weight_of(weights, k)} * n.dot(d) * n;
+        if (bends) turned += double{weight_of(weights, k)} * turn(points.shapes, j, d.cast<float>()).cast<double>();
     }
     const double c = std::max(normal.norm() / sum, least_cosine);
     return {mean + 1.0 / (c * (1.0 + c) * sum) * lift, (normal + 0.5 * turned).normalized()};

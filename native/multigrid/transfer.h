@@ -50,6 +50,7 @@ struct Transfer {
 // The normal is the mean of theirs, each turned by half of what its shape operator says for the way to the mean:
 // without that it is tilted where the curvature varies, by a quarter of the squared spacing times the Laplacian of the
 // slope. Where one of the operators is unknown none is used: some alone would tilt it on a sphere.
+// No weights: all are 1.
 struct LiftedMean {
     Vector3 point;
     Vector3 normal;  // unit
