@@ -59,7 +59,7 @@ def test_large_graded_pipes_are_straight(length: float) -> None:
 
 @pytest.mark.parametrize("size", [4257, 4264])
 def test_graded_pipes_of_eight_and_a_half_radii_keep_to_the_straight_surface(size: int) -> None:
-    """Where a surface is about to lose its hold Newton's steps along the normals led to bulbs of .08 D, and converged."""
+    """Where a surface is about to lose its hold Newton's steps along the normals led to bulbs of .08 D."""
     pipe = graded.regraded(even(8.5), size)
     result = solved(pipe)
     assert result.converged

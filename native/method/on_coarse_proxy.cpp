@@ -27,7 +27,10 @@ enum class Polish { wanted, unwanted };
 class CoarseProxySolve {
 public:
     CoarseProxySolve(const Problem& problem, std::shared_ptr<const EasedStart> start, const Progress& progress)
-        : problem_(problem), progress_(progress), start_(std::move(start)), levels_(problem, Outlines::kept, coarsest_size) {}
+        : problem_(problem),
+          progress_(progress),
+          start_(std::move(start)),
+          levels_(problem, Outlines::kept, coarsest_size) {}
 
     std::optional<Solution> run(const std::optional<OwnSurface>& guess, Polish polish) {
         const std::size_t coarsest = levels_.coarsest();
