@@ -149,29 +149,23 @@ double MultigridStep::imbalance(const Points& points, const Points& normals) con
 }
 
 Points MultigridStep::displacement(const Points& points, const TangentPlanes& planes, Effort effort) const {
-    // In double precision: along the normals the pull is far larger than what steps towards the solution leave across.
-    Points across = pull(points);
-    Planes singles{to_single(planes.normals, patch_.free_count), turning(planes, across)};
-    project_across(across.leftCols(patch_.free_count), planes.normals);
-    return solved_across(across, std::move(singles), effort);
+    return displacement(TurningPlanes{points, planes.normals, planes.shapes ? *planes.shapes : ShapeOperators()},
+                        effort);
 }
 
 Points MultigridStep::displacement(TurningPlanes&& gone, Effort effort) const {
     TurningPlanes planes = std::move(gone);
+    // In double precision: along the normals the pull is far larger than what steps towards the solution leave across.
     Points across = pull(planes.points);
     planes.points.resize(3, 0);
     Planes singles{to_single(planes.normals, patch_.free_count),
                    turning(std::move(planes.shapes), planes.normals, across)};
     project_across(across.leftCols(patch_.free_count), planes.normals);
     planes.normals.resize(3, 0);
-    return solved_across(across, std::move(singles), effort);
-}
-
-Points MultigridStep::solved_across(const Points& across, Planes planes, const Effort& effort) const {
-    Moves moves = solve(across, &planes, effort);
-    if (moves.positive || planes.turns.cols() == 0) return std::move(moves.d);
-    planes.turns.resize(6, 0);
-    return solve(across, &planes, effort).d;
+    Moves moves = solve(across, &singles, effort);
+    if (moves.positive || singles.turns.cols() == 0) return std::move(moves.d);
+    singles.turns.resize(6, 0);
+    return solve(across, &singles, effort).d;
 }
 
 }  // namespace fairing

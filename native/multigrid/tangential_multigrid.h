@@ -62,8 +62,6 @@ private:
         SingleField normals;
         ShapeOperators turns;
     };
-    // Of a pull that is across the normals.
-    [[nodiscard]] Points solved_across(const Points& across, Planes planes, const Effort& effort) const;
     [[nodiscard]] Moves solve(const Points& pull, const Planes* planes, const Effort& effort) const;
     void subtract_product(const SingleField& x, SingleField& r) const;
     void smooth(SingleField& x, SingleField& r, Residual last) const;
