@@ -41,11 +41,6 @@ struct Start {
     double fill_seconds = 0.0;
 };
 
-bool may_fit_several(const Problem& problem, const Points& points) {
-    const int loops = problem.patch.loop_count();
-    return loops > 2 || (loops == 2 && length_between(problem.patch, points) > longest_single);
-}
-
 // The membrane depends on the outline's positions alone; the normals come in with the Willmore descent.
 Start make_start(const Problem& problem, Workspace& work, const Progress& progress) {
     const Stopwatch watch;
@@ -58,7 +53,7 @@ Start make_start(const Problem& problem, Workspace& work, const Progress& progre
         return start;
     }
     start.points = globalise(problem, work, start.points, progress);
-    if (!may_fit_several(problem, start.points)) return start;
+    if (!may_fit_several(problem.patch, start.points)) return start;
     // The one whose curvatures vary least is wanted, so the start that varies least goes first.
     const auto along_normals = normal_fill(problem, progress.here());
     if (along_normals && curvature_variation(problem, *along_normals) < curvature_variation(problem, start.points)) {

@@ -114,11 +114,6 @@ private:
         return solve_on_own_mesh(problem, progress_.range(begin, done_after(k)));
     }
 
-    // Whether no other surface fits between the outlines; a coarser mesh may lead from one to another.
-    [[nodiscard]] static bool is_only(const Patch& patch, const Points& points) {
-        return patch.loop_count() == 1 || length_between(patch, points) <= longest_single;
-    }
-
     // Whether a level has fewer vertices than tell any surface.
     [[nodiscard]] bool is_small(std::size_t k) const { return begins_small_ && k == levels_.coarsest(); }
 
@@ -164,7 +159,8 @@ private:
     // surface the coarsest mesh does not resolve, ended at 0.5 and more.
     [[nodiscard]] bool is_start(std::size_t k, const Solution& solution) const {
         constexpr double small_step = 0.04;  // units of D
-        if (is_small(k) && !is_only(levels_.problem(k).patch, solution.points)) return false;
+        // A coarser mesh may lead from one surface to another.
+        if (is_small(k) && may_fit_several(levels_.problem(k).patch, solution.points)) return false;
         const double longest = is_small(k) ? near_step : small_step;
         if (solution.flaw == Flaw::not_converged) return solution.last_step <= longest;
         return solution.flaw == Flaw::absent;

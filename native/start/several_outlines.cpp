@@ -80,6 +80,11 @@ double length_between(const Patch& patch, const Points& points) {
     return std::max(faces.areas.sum(), straight_area(loops)) / squares_of(loops);
 }
 
+bool may_fit_several(const Patch& patch, const Points& points) {
+    const int loops = patch.loop_count();
+    return loops > 2 || (loops == 2 && length_between(patch, points) > longest_single);
+}
+
 bool joins_outlines(const Problem& problem) {
     const std::vector<Indices> loops = problem.patch.loops();
     return loops.size() + touching(problem.patch, loops) > 1 && !is_held_elsewhere(problem.patch, loops);

@@ -21,6 +21,9 @@ double straight_length_between(const Patch& patch, const Points& points);
 // radii on.
 inline constexpr double longest_single = 0.2;
 
+// Whether several surfaces may fit between the outlines, by one that does (3 × local vertices).
+bool may_fit_several(const Patch& patch, const Points& points);
+
 // How far the slope at each fixed vertex is believed: 1 where the given normals turn by less than 30° along the
 // outline, less and less up to 60°, 0 beyond.
 VectorX trust_in_slopes(const Problem& problem);
