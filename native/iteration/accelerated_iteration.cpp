@@ -37,8 +37,10 @@ constexpr double fastest = 0.1;
 constexpr double share_of_factor = 0.2;  // of the time, in large problems
 
 // Of the moves along the normals, in units of D: beyond, slopes and curvatures say little about where the vertices will
-// be. Over jagged outlines such steps lost two surfaces of the tests.
+// be. Where steps have to shrink, over jagged outlines, coarser levels have come near already: of 78 regions of scans 26
+// ended nowhere that looked on from the first step, 30 that did from this length.
 constexpr double near_surface = 1e-3;
+constexpr double near_led_surface = 3e-2;
 
 // Steps within the surface are solved to this share, for the next one to be left out: less is left there than
 // `least_within` of the tolerance, by how the imbalance fell. Smooth errors show less there than others, hence the
@@ -194,7 +196,8 @@ private:
 
     Points plain_step() {
         VectorX u = work_.normal->solve(outer_);
-        const bool is_near = u.cwiseAbs().maxCoeff() < near_surface;
+        const double nearest = problem_.options.contracts ? near_led_surface : near_surface;
+        const bool is_near = u.cwiseAbs().maxCoeff() < nearest;
         if (is_near) add_reaction(problem_, state_, *work_.normal, work_.reaction, u);
         outer_.resize(0);  // the tangential step needs the room
         state_.stiffness = {};

@@ -45,7 +45,7 @@ Problem eased(const Problem& problem) {
     return result;
 }
 
-std::optional<Solution> solve_eased(const Problem& problem, const std::shared_ptr<const EasedStart>& start,
+std::optional<Solution> solve_eased(const Problem& problem, const std::shared_ptr<const ProxyStart>& start,
                                     const Progress& progress) {
     const Problem smooth = eased(problem);
     auto solution =

@@ -1,6 +1,7 @@
 // A surface over an eased outline, where none meets the outline as it is.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "base/progress.h"
@@ -8,6 +9,8 @@
 #include "problem/solution.h"
 
 namespace fairing {
+
+struct ProxyStart;  // method/proxy_start
 
 inline constexpr const char* eased_way = "eased";
 inline constexpr const char* eased_loft_way = "eased loft";  // method/lofted
@@ -28,7 +31,7 @@ double roughness_left(const Problem& problem);
 // The surface of the outline without its short waves, solved on a mesh of the engine's own, the vertices placed on it.
 // The outline itself stays; the rows of vertices next to it follow where it lies beside that surface. Nothing where
 // that surface is not found either. `start`: where large patches begin, if there is such a start.
-std::optional<Solution> solve_eased(const Problem& problem, const std::shared_ptr<const EasedStart>& start,
+std::optional<Solution> solve_eased(const Problem& problem, const std::shared_ptr<const ProxyStart>& start,
                                     const Progress& progress);
 
 // Whether a solution stands for another outline: it came that way, or is a loft over an eased one.

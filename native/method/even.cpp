@@ -1,8 +1,8 @@
 #include "method/even.h"
 
 #include "method/accept.h"
+#include "method/direct.h"
 #include "method/nested.h"
-#include "method/one_level.h"
 #include "method/polish.h"
 #include "method/sizes.h"
 #include "operators/workspace.h"
@@ -16,7 +16,7 @@ namespace {
 std::optional<Solution> solve_uniformly(const Problem& even, const Progress& progress) {
     std::optional<Solution> solution;
     if (is_large(even)) solution = solve_nested(even, progress);
-    if (!solution) solution = directly().solve(even, {}, progress);
+    if (!solution) solution = try_directly(even, progress);
     if (flaw_of(even, *solution) != Flaw::absent) return std::nullopt;
     return solution;
 }
@@ -41,7 +41,7 @@ std::optional<Solution> solve_evenly(const Problem& problem, const Progress& pro
     refuse_folds(problem, placed, *solution);
     if (solution->termination == Termination::folded) return solution;
     const SolvedSurface surface{target, curvature, mean_edge(problem.patch, state.points), placed.placement.where};
-    return polish(problem, work, std::move(*solution), surface, progress.range(0.5, 1.0));
+    return polish(problem, work, std::move(*solution), surface, Hope::usual, progress.range(0.5, 1.0));
 }
 
 }  // namespace fairing

@@ -6,10 +6,10 @@
 #include "method/accept.h"
 #include "method/direct.h"
 #include "method/eased.h"
-#include "method/eased_start.h"
 #include "method/even.h"
 #include "method/nested.h"
 #include "method/one_level.h"
+#include "method/proxy_start.h"
 #include "method/sizes.h"
 #include "variation/least_variation.h"
 
@@ -51,11 +51,10 @@ bool takes_eased(const Problem& problem, const Situation& situation) {
     return is_large(problem) || problem.patch.loop_count() == 1 || roughness_left(problem) < most_left;
 }
 
-Found on_eased_outline(const Problem& problem, const Situation& situation, const Progress& progress) {
-    if (!begins_eased(problem)) return solve_eased(problem, nullptr, progress);
-    const auto known = situation.start();
-    const auto start = known ? known : eased_start(problem, progress.here());
-    return start->found() ? solve_eased(problem, start, progress) : std::nullopt;
+Found on_eased_outline(const Problem& problem, Situation& situation, const Progress& progress) {
+    if (is_large(problem)) find_start(problem, situation, progress.here());
+    if (situation.start && !situation.start->found()) return std::nullopt;
+    return solve_eased(problem, situation.start, progress);
 }
 
 // What no coarse proxy over the eased outline has found, none over the outline itself would.
@@ -68,11 +67,11 @@ bool takes_even(const Problem& problem, const Situation& situation) {
     return is_fourth_order(problem) && !is_uniform(problem.weights) && !situation.tried("even");
 }
 
-Found evenly(const Problem& problem, const Situation& /*situation*/, const Progress& progress) {
+Found evenly(const Problem& problem, Situation& /*situation*/, const Progress& progress) {
     return solve_evenly(problem, progress);
 }
 
-Found with_uniform_weights(const Problem& problem, const Situation& /*situation*/, const Progress& progress) {
+Found with_uniform_weights(const Problem& problem, Situation& /*situation*/, const Progress& progress) {
     Problem even = problem;
     even.weights = uniform_weights(problem.patch);
     even.tolerated_folds = 0;
@@ -94,13 +93,13 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
     const Way proxy = on_proxy();
     const std::array<Way, 12> ways{{
         {"minimal", [](const Problem& p, const Situation&) { return is_minimal(p); },
-         [](const Problem& p, const Situation&, const Progress& part) { return Found(solve_directly(p, part)); }, 0.0,
+         [](const Problem& p, Situation&, const Progress& part) { return Found(solve_directly(p, part)); }, 0.0,
          1.0},
         {"variation", [](const Problem& p, const Situation&) { return is_least_variation(p); },
-         [](const Problem& p, const Situation&, const Progress& part) { return Found(solve_least_variation(p, part)); },
+         [](const Problem& p, Situation&, const Progress& part) { return Found(solve_least_variation(p, part)); },
          0.0, 1.0},
         {"nested", [](const Problem& p, const Situation&) { return is_fourth_order(p) && takes_levels(p); },
-         [](const Problem& p, const Situation&, const Progress& part) { return solve_nested(p, part); }, 0.0, 1.0},
+         [](const Problem& p, Situation&, const Progress& part) { return solve_nested(p, part); }, 0.0, 1.0},
         {"even", [](const Problem& p, const Situation& s) { return takes_even(p, s) && is_large(p); }, evenly, 0.0,
          0.3},
         // What the proxy would only refuse later, after a third of the whole time.
@@ -112,7 +111,7 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
         {eased_way, [](const Problem& p, const Situation& s) { return is_large(p) && takes_eased(p, s); },
          on_eased_outline, 0.9, 1.0},
         {"patient", takes_patience,
-         [](const Problem& p, const Situation&, const Progress& part) { return Found(solve_directly(p, part)); }, 0.8,
+         [](const Problem& p, Situation&, const Progress& part) { return Found(solve_directly(p, part)); }, 0.8,
          0.9},
         {"even", [](const Problem& p, const Situation& s) { return takes_even(p, s) && !is_large(p); }, evenly, 0.9,
          1.0},

@@ -34,9 +34,9 @@ Points with_fixed(const Patch& patch, const Points& fixed) {
     return points;
 }
 
-Levels::Levels(const Problem& problem, Outlines outlines, int coarsest) {
-    const Points points = with_fixed(problem.patch, problem.fixed_points);
-    const Points normals = with_fixed(problem.patch, problem.fixed_normals);
+Levels::Levels(const Problem& problem, const Problem& below, Outlines outlines, int coarsest) {
+    const Points points = with_fixed(problem.patch, below.fixed_points);
+    const Points normals = with_fixed(problem.patch, below.fixed_normals);
     const Points unknown = Points::Zero(3, points.cols());  // keeps an outline as it is
     const Shared<Lambda> weights = symmetric_weights(problem.weights);
     const FixedPlaces outline{points, outlines == Outlines::thinned ? normals : unknown};

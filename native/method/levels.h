@@ -16,8 +16,10 @@ enum class Outlines { thinned, kept };
 // Level 0 is the problem's patch, `coarsest()` the coarsest one. Refers to the problem.
 class Levels {
 public:
-    // Down to about `coarsest` free vertices.
-    Levels(const Problem& problem, Outlines outlines, int coarsest);
+    // Down to about `coarsest` free vertices. `below`: the problem whose outline the coarse levels have, on the same
+    // patch.
+    Levels(const Problem& problem, Outlines outlines, int coarsest) : Levels(problem, problem, outlines, coarsest) {}
+    Levels(const Problem& problem, const Problem& below, Outlines outlines, int coarsest);
     Levels(const Levels&) = delete;
     Levels& operator=(const Levels&) = delete;
     ~Levels() = default;

@@ -56,6 +56,13 @@ bool begins_small(const Problem& problem) {
     return straight_length_between(patch, with_fixed(patch, problem.fixed_points)) <= longest_single;
 }
 
+// No coarse mesh can show short waves of an outline: taken from every second vertex of a jagged one they would be noise
+// as large and twice as long. Coarse levels have the eased outline; only the finest one meets the outline as it is.
+Levels levels_of(const Problem& problem, int coarsest) {
+    if (!is_jagged(problem)) return {problem, Outlines::thinned, coarsest};
+    return {problem, eased(problem), Outlines::thinned, coarsest};
+}
+
 class NestedSolve {
 public:
     // `coarsest`: free vertices of the level to begin on.
@@ -64,12 +71,12 @@ public:
           progress_(progress),
           is_rough_(is_jagged(problem)),
           begins_small_(coarsest < coarsest_size),
-          levels_(problem, Outlines::thinned, coarsest) {
+          levels_(levels_of(problem, coarsest)) {
         for (std::size_t k = 0; k <= levels_.coarsest(); ++k) {
             SolverOptions& options = levels_.problem(k).options;
             options.max_iterations = std::min(most_on(k), problem.options.max_iterations);
             options.patience = patience;
-            options.contracts = is_rough_;
+            options.contracts = is_rough_ && k == 0;
             options.begins_near = k == 0;
             if (k == 0) continue;
             options.tolerance = std::max(between_tolerance, problem.options.tolerance);
@@ -147,8 +154,12 @@ private:
         levels_.set_up_tangential(from, progress_);
         for (std::size_t k = from; k-- > 0;) {
             const Points coarser = solution.points;
+            const bool leads = is_rough_ && solution.last_step <= near_step;
             solution = refine(k, coarser, progress_.range(done_after(k + 1), done_after(k)));
-            if (!is_good(k, solution)) return given_up(k + 1, coarser);
+            if (is_good(k, solution)) continue;
+            solution = given_up(k + 1, coarser);
+            solution.leads = leads;
+            return solution;
         }
         solution.boundary_normals = one_sided_normals(problem_.patch, solution.points);
         return solution;
@@ -167,16 +178,12 @@ private:
     }
 
     // Levels between are good enough as starts where their steps shrink, even if single poor triangles keep them from
-    // converging. Over jagged outlines no steps need to shrink there: the finest level tells after four to six. Of 24
-    // regions of scans with 10,000 vertices, none of whose levels between converged, 11 were solved from there, all but
-    // one with last steps below the larger limit; 4 others were not.
+    // converging.
     [[nodiscard]] bool is_good(std::size_t k, const Solution& solution) const {
         constexpr double shrinks = 1.0 / 3.0;
         constexpr double small_step = 1e-3;  // units of D
-        constexpr double rough_step = 0.03;
         if (solution.termination == Termination::converged) return true;
         if (k == 0 || solution.iterations == 0) return false;
-        if (is_rough_) return solution.last_step <= rough_step;
         return solution.termination == Termination::iteration_limit &&
                solution.last_step <= std::min(small_step, shrinks * solution.first_step);
     }
@@ -222,17 +229,16 @@ private:
 
     [[nodiscard]] Turning turning() const { return is_rough_ ? Turning::unknown : Turning::known; }
 
-    // Curvatures beside a jagged outline are noise.
     [[nodiscard]] BentPoints interpolated(std::size_t k, const Points& coarse, const RingMatrix& laplacian) const {
         const Problem& fine = levels_.problem(k);
         const int count = fine.patch.free_count;
         const SurfaceState state = measured_surface(levels_.problem(k + 1), coarse);
-        BentPoints from{coarse, state.normals, {}};
-        if (!is_rough_) from.shapes = shape_operators(state.curvature, state.normals, static_cast<int>(coarse.cols()));
+        const BentPoints from{coarse, state.normals,
+                              shape_operators(state.curvature, state.normals, static_cast<int>(coarse.cols()))};
         BentPoints points{with_fixed(fine.patch, fine.fixed_points), with_fixed(fine.patch, fine.fixed_normals), {}};
         levels_.transfer(k).prolong_surface(from, count, points);
         even_out(laplacian, count, evening_sweeps, points);
-        if (!is_rough_) points.shapes.conservativeResize(6, count);
+        points.shapes.conservativeResize(6, count);
         return points;
     }
 

@@ -26,7 +26,7 @@ enum class Polish { wanted, unwanted };
 
 class CoarseProxySolve {
 public:
-    CoarseProxySolve(const Problem& problem, std::shared_ptr<const EasedStart> start, const Progress& progress)
+    CoarseProxySolve(const Problem& problem, std::shared_ptr<const ProxyStart> start, const Progress& progress)
         : problem_(problem),
           progress_(progress),
           start_(std::move(start)),
@@ -37,15 +37,12 @@ public:
         if (coarsest == 0) return std::nullopt;
         const Problem& coarse = levels_.problem(coarsest);
         std::map<std::string, double> seconds;
-        const bool begins = polish == Polish::unwanted && start_;
-        const Points membrane = begins ? start_->membrane : proxy_membrane(coarse, progress_);
+        const Points membrane = start_ ? start_->membrane : proxy_membrane(coarse, progress_);
         const SurfaceState start = measured_surface(coarse, membrane);
         std::optional<Points> own;
         if (guess) own = on_coarsest(guess->points);
         seconds["fill"] = watch_.lap();
-        const SolvedProxy proxy = begins ? solve_fine_proxy(coarse, start_->proxy, problem_.patch.free_count, progress_)
-                                         : solved_proxy(guess && starts_from(problem_, *guess) ? own : std::nullopt,
-                                                        membrane, polish == Polish::wanted && begins_eased(problem_));
+        const SolvedProxy proxy = solved_proxy(guess && starts_from(problem_, *guess) ? own : std::nullopt, membrane);
         seconds["proxy"] = watch_.lap();
         if (polish == Polish::unwanted && !proxy.converged()) return std::nullopt;
         const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
@@ -58,7 +55,6 @@ public:
         seconds["polish"] = watch_.lap();
         solution.initial_residual = largest_residual(coarse, start, outer_residual(coarse, start));
         solution.levels = levels_.sizes();
-        solution.start = start_;
         solution.seconds = std::move(seconds);
         return solution;
     }
@@ -72,16 +68,16 @@ private:
         return result;
     }
 
-    // `asks`: whether the eased outline tells, where the coarse proxy ends without a surface.
-    SolvedProxy solved_proxy(const std::optional<Points>& guess, const Points& membrane, bool asks) {
+    // What large patches do not find from their start, they would not find without it either.
+    SolvedProxy solved_proxy(const std::optional<Points>& guess, const Points& membrane) {
         const Problem& problem = levels_.problem(levels_.coarsest());
         const int shown = problem_.patch.free_count;
         const Progress part = progress_.range(0.0, 0.5);
-        if (guess || !asks) return solve_proxy(problem, guess, membrane, shown, part);
-        CoarseProxy coarse = solve_coarse_proxy(problem, membrane, shown, part);
-        if (coarse.end != CoarseEnd::converged && !start_) start_ = eased_start(problem_, progress_.here());
-        if (coarse.end != CoarseEnd::converged && !start_->found()) coarse.end = CoarseEnd::far;
-        return solve_fine_proxy(problem, std::move(coarse), shown, part);
+        if (start_ && !guess) {
+            SolvedProxy proxy = solve_fine_proxy(problem, start_->proxy, shown, part);
+            if (proxy.converged() || shown >= smallest_telling) return proxy;
+        }
+        return solve_proxy(problem, guess, membrane, shown, part);
     }
 
     // By springs where nothing folds then, otherwise from where the coarsest vertices lie without them, and at last
@@ -196,12 +192,13 @@ private:
             work.tangential =
                 make_tangential_step(problem_.patch, problem_.weights, problem_.fixed_points, progress_.here());
         }
-        return polish(problem_, work, std::move(placed), surface, progress_.range(0.6, 1.0));
+        const Hope hope = start_ && start_->led ? Hope::little : Hope::usual;
+        return polish(problem_, work, std::move(placed), surface, hope, progress_.range(0.6, 1.0));
     }
 
     const Problem& problem_;
     const Progress& progress_;
-    std::shared_ptr<const EasedStart> start_;  // or none
+    const std::shared_ptr<const ProxyStart> start_;  // or none
     Stopwatch watch_;
     Levels levels_;
 };
@@ -209,12 +206,12 @@ private:
 }  // namespace
 
 std::optional<Solution> solve_on_coarse_proxy(const Problem& problem, const std::optional<OwnSurface>& guess,
-                                              const std::shared_ptr<const EasedStart>& start,
+                                              const std::shared_ptr<const ProxyStart>& start,
                                               const Progress& progress) {
     return CoarseProxySolve(problem, start, progress).run(guess, Polish::wanted);
 }
 
-std::optional<Solution> place_on_coarse_proxy(const Problem& problem, const std::shared_ptr<const EasedStart>& start,
+std::optional<Solution> place_on_coarse_proxy(const Problem& problem, const std::shared_ptr<const ProxyStart>& start,
                                               const Progress& progress) {
     return CoarseProxySolve(problem, start, progress).run(std::nullopt, Polish::unwanted);
 }

@@ -1,7 +1,7 @@
 // The robust way for large patches: the proxy from a coarse level, the user's vertices placed level by level.
 #pragma once
 
-#include "method/eased_start.h"
+#include "method/proxy_start.h"
 #include "method/on_proxy.h"
 
 namespace fairing {
@@ -12,11 +12,11 @@ namespace fairing {
 // is tried. Where the coarse proxies over the outline and over the eased one, `start` if it is known, find no surface,
 // no fine one is solved. Nothing where the patch has no levels.
 std::optional<Solution> solve_on_coarse_proxy(const Problem& problem, const std::optional<OwnSurface>& guess,
-                                              const std::shared_ptr<const EasedStart>& start, const Progress& progress);
+                                              const std::shared_ptr<const ProxyStart>& start, const Progress& progress);
 
 // From nothing and without the polish: not for a surface that the problem's own mesh has no equal of. Nothing either
 // where the proxy has no solution. `start`: where the proxy begins, if there is one.
-std::optional<Solution> place_on_coarse_proxy(const Problem& problem, const std::shared_ptr<const EasedStart>& start,
+std::optional<Solution> place_on_coarse_proxy(const Problem& problem, const std::shared_ptr<const ProxyStart>& start,
                                               const Progress& progress);
 
 }  // namespace fairing

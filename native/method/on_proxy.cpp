@@ -30,7 +30,7 @@ Solution solve_on_proxy(const Problem& problem, const std::optional<OwnSurface>&
     Solution solution = placed_solution(problem, proxy, target, placed);
     const double placement_seconds = watch.lap();
     if (solution.termination == Termination::converged) {
-        solution = polish(problem, work, std::move(solution), surface_of(proxy, target, placed.placement),
+        solution = polish(problem, work, std::move(solution), surface_of(proxy, target, placed.placement), Hope::usual,
                           progress.range(0.8, 1.0));
     }
     solution.initial_residual = largest_residual(problem, start, outer_residual(problem, start));

@@ -5,6 +5,7 @@
 #include "method/direct.h"
 #include "method/on_coarse_proxy.h"
 #include "method/on_proxy.h"
+#include "method/proxy_start.h"
 #include "method/sizes.h"
 
 namespace fairing {
@@ -27,7 +28,7 @@ std::optional<OwnSurface> guess_from(const Situation& situation) {
 
 Way directly() {
     return {"direct", [](const Problem&, const Situation&) { return true; },
-            [](const Problem& problem, const Situation&, const Progress& progress) {
+            [](const Problem& problem, Situation&, const Progress& progress) {
                 return std::optional(try_directly(problem, progress));
             },
             0.3, 0.5};
@@ -35,10 +36,13 @@ Way directly() {
 
 Way on_proxy() {
     return {"proxy", [](const Problem&, const Situation&) { return true; },
-            [](const Problem& problem, const Situation& situation, const Progress& progress) {
+            [](const Problem& problem, Situation& situation, const Progress& progress) {
                 const auto guess = guess_from(situation);
                 if (takes_coarse_proxy(problem, guess)) {
-                    if (auto solution = solve_on_coarse_proxy(problem, guess, situation.start(), progress))
+                    find_start(problem, situation, progress.here());
+                    const bool in_vain = situation.start && !situation.start->found();
+                    if (in_vain && !situation.found.empty()) return std::optional<Solution>();
+                    if (auto solution = solve_on_coarse_proxy(problem, guess, situation.start, progress))
                         return solution;
                 }
                 return std::optional(solve_on_proxy(problem, guess, progress));

@@ -22,11 +22,12 @@ int patience_to(double tolerance) { return tolerance < SolverOptions{}.tolerance
 
 }  // namespace
 
-Solution polish(const Problem& problem, Workspace& work, Solution placed, const SolvedSurface& surface,
+Solution polish(const Problem& problem, Workspace& work, Solution placed, const SolvedSurface& surface, Hope hope,
                 const Progress& progress) {
     Problem polishing = problem;
     polishing.options.max_iterations = std::min(most_to(problem.options.tolerance), problem.options.max_iterations);
     polishing.options.patience = std::min(patience_to(problem.options.tolerance), problem.options.patience);
+    polishing.options.contracts = hope == Hope::little;
     Solution own = iterate(polishing, work, placed.points, progress);
     if (own.termination != Termination::converged || !agree(problem, own, surface)) return placed;
     own.boundary_normals = one_sided_normals(problem.patch, own.points);

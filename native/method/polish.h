@@ -10,8 +10,9 @@ namespace fairing {
 
 // Solves the discrete equation on the problem's mesh from `placed`, whose vertices lie on a solved surface. Gives that
 // solution where it converges, agrees with that surface and is accepted, `placed` itself otherwise. `work` belongs to
-// the problem.
-Solution polish(const Problem& problem, Workspace& work, Solution placed, const SolvedSurface& surface,
+// the problem. `hope`: whether the same equation was solved for before, from another surface, and ended nowhere.
+enum class Hope { usual, little };
+Solution polish(const Problem& problem, Workspace& work, Solution placed, const SolvedSurface& surface, Hope hope,
                 const Progress& progress);
 
 }  // namespace fairing

@@ -44,11 +44,6 @@ bool Situation::has_asked(std::string_view way) const {
     return std::find(asked.begin(), asked.end(), way) != asked.end();
 }
 
-std::shared_ptr<const EasedStart> Situation::start() const {
-    const auto last = std::find_if(found.rbegin(), found.rend(), [](const Solution& s) { return s.start != nullptr; });
-    return last == found.rend() ? nullptr : last->start;
-}
-
 Solution run_ways(std::span<const Way> ways, const Problem& problem, const Progress& progress) {
     Situation situation;
     std::vector<WayTaken> taken;

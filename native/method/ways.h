@@ -1,6 +1,7 @@
 // The ways to a surface, in the order in which they are tried.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -11,10 +12,13 @@
 
 namespace fairing {
 
+struct ProxyStart;  // method/proxy_start
+
 // What the ways before have come to.
 struct Situation {
     std::vector<Solution> found;          // none of them accepted
     std::vector<std::string_view> asked;  // all ways that were gone, those that found nothing among them
+    std::shared_ptr<const ProxyStart> start = {};  // of the proxies, where a way has looked for it
 
     // The latest one on the user's own connectivity, or none.
     [[nodiscard]] const Solution* own_mesh() const;
@@ -23,15 +27,13 @@ struct Situation {
     [[nodiscard]] bool has_asked(std::string_view way) const;
     // Whether it was gone and has found nothing.
     [[nodiscard]] bool refused(std::string_view way) const { return has_asked(way) && !tried(way); }
-    // Where the latest way began that can tell.
-    [[nodiscard]] std::shared_ptr<const EasedStart> start() const;
 };
 
 struct Way {
     const char* name;
     bool (*suits)(const Problem& problem, const Situation& situation);
     // Nothing where it sees at once that it does not suit this problem.
-    std::optional<Solution> (*solve)(const Problem& problem, const Situation& situation, const Progress& progress);
+    std::optional<Solution> (*solve)(const Problem& problem, Situation& situation, const Progress& progress);
     double begin;  // shares of the time, for the progress
     double end;
 };

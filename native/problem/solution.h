@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,8 +44,6 @@ enum class Pins { absent, spread, no_surface, no_outline, too_close, not_found, 
 // `smoothed`: the shape before, as smooth as it can be (method/smoothed).
 enum class Instead { nothing, least_variation, loft, smoothed };
 
-struct EasedStart;  // method/eased_start
-
 // A way that was tried (method/ways), and how long it took.
 struct WayTaken {
     std::string name;
@@ -69,6 +66,7 @@ struct Solution {
     Flaw flaw = Flaw::absent;
     Indices bad_triangles;             // of the patch: folded or crossing ones, for those flaws
     std::optional<Indices> crossings;  // triangles of the patch that pass through others, where they were looked for
+    bool leads = false;                // not the finest level has a surface, but a coarser one: `points` lie on it
     bool from_surface = false;         // its iteration began on the solved surface of a proxy
     bool crosses = false;              // the surface passes through itself, whatever the mesh
     double first_step = 0.0;           // largest moves of the first and the last iteration, units of D
@@ -79,8 +77,7 @@ struct Solution {
     bool even_weights = false;     // uniform weights were taken instead of the problem's
     Join join = Join::tangent;
     Pins pins = Pins::absent;
-    Indices tangent_only;                          // of partly_curvature: fixed vertices, counted from the first one
-    std::shared_ptr<const EasedStart> start = {};  // what it began with, for the next way
+    Indices tangent_only;      // of partly_curvature: fixed vertices, counted from the first one
     double smooth_share = 0.0;  // of too_rough: how much of what is lacking long waves explain, 0 … 1
 };
 

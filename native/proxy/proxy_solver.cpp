@@ -25,6 +25,10 @@ constexpr int largest_free_limit = 20000;
 constexpr int free_limit_per_vertex = 3;
 constexpr double turn = 0.7;  // radians along an edge of the coarse proxy: nine edges around a pipe
 
+// Iterations of first coarse proxies, where they tell. Those that led to a surface over a region of a scan took 22 at
+// most, those that took 39 did not.
+constexpr int most_telling = 30;
+
 // Iterations of fine proxies. Of 191 over regions of scans that converged none stayed far from a surface so long, of 96
 // that did not 73. Where one did that began at a coarse proxy's surface (3 regions), a descent and another iteration
 // were in vain, too.
@@ -81,6 +85,7 @@ Problem coarse_problem(const Problem& problem, int shown, const Patch& patch) {
     Problem result = proxy_problem(problem, shown, patch);
     result.options.equation = Equation::harmonic;
     result.options.tolerance = coarse_tolerance;
+    if (tells(problem, shown)) result.options.max_iterations = std::min(most_telling, result.options.max_iterations);
     return result;
 }
 
@@ -136,7 +141,15 @@ public:
         return coarse_by_descent(std::move(mesh), fineness.growth);
     }
 
+    // From a surface that is found already.
+    CoarseProxy coarse_from(const Points& surface) {
+        ProxyMesh mesh(problem_.patch, surface);
+        mesh.adapt({first_fineness.growth, longest_coarse, free_limit_});
+        return iterate_coarse(std::move(mesh), [](const Problem&, Workspace&, const Points& points) { return points; });
+    }
+
     SolvedProxy fine(CoarseProxy coarse, const Fineness& fineness) {
+        lay_over_outline(coarse.mesh);
         if (coarse.end == CoarseEnd::far) return given_up(std::move(coarse.mesh));
         const double longest =
             std::clamp(fineness.share_of_outline * mean_outline_edge(problem_), longest_fine, longest_coarse);
@@ -145,6 +158,12 @@ public:
     }
 
 private:
+    void lay_over_outline(ProxyMesh& mesh) const {
+        auto snapshot = mesh.snapshot();
+        snapshot.points.rightCols(problem_.fixed_points.cols()) = problem_.fixed_points;
+        mesh.read_back(snapshot.patch, snapshot.points);
+    }
+
     std::optional<CoarseProxy> coarse_along_normals(ProxyMesh mesh, double growth) {
         constexpr int rounds = 3;  // of filling and meshing anew: the first mesh belongs to another surface
         for (int k = 0; k < rounds; ++k) {
@@ -280,6 +299,10 @@ SolvedProxy solve_proxy(const Problem& problem, const std::optional<Points>& gue
 
 CoarseProxy solve_coarse_proxy(const Problem& problem, const Points& membrane, int shown, const Progress& progress) {
     return ProxySolve(problem, shown, progress).coarse(membrane, first_fineness);
+}
+
+CoarseProxy coarse_proxy_from(const Problem& problem, const Points& surface, int shown, const Progress& progress) {
+    return ProxySolve(problem, shown, progress).coarse_from(surface);
 }
 
 SolvedProxy solve_fine_proxy(const Problem& problem, CoarseProxy coarse, int shown, const Progress& progress) {

@@ -41,9 +41,12 @@ struct CoarseProxy {
 };
 
 // The two halves of solve_proxy, with its first proxy alone. The coarse one may have converged over another outline
-// next to this one, if its mesh lies over this one since.
+// next to this one.
 CoarseProxy solve_coarse_proxy(const Problem& problem, const Points& membrane, int shown, const Progress& progress);
 SolvedProxy solve_fine_proxy(const Problem& problem, CoarseProxy coarse, int shown, const Progress& progress);
+
+// The first half from a surface that is found already, positions of all vertices of the problem's patch.
+CoarseProxy coarse_proxy_from(const Problem& problem, const Points& surface, int shown, const Progress& progress);
 
 // Mean length of the outlines' edges; 0 without any.
 double mean_outline_edge(const Problem& problem);

@@ -46,7 +46,7 @@ struct Solved {
     }
 };
 
-std::optional<Solution> nothing(const Problem&, const Situation&, const Progress&) { return std::nullopt; }
+std::optional<Solution> nothing(const Problem&, Situation&, const Progress&) { return std::nullopt; }
 bool always(const Problem&, const Situation&) { return true; }
 
 }  // namespace
@@ -246,8 +246,8 @@ TEST_CASE("the first way that is accepted ends the ladder, and all that were tri
     static const Solution good = solved.solution();
     static Solution bad = solved.solution();
     bad.termination = Termination::stalled;
-    const auto solve_well = [](const Problem&, const Situation&, const Progress&) { return std::optional(good); };
-    const auto solve_badly = [](const Problem&, const Situation&, const Progress&) { return std::optional(bad); };
+    const auto solve_well = [](const Problem&, Situation&, const Progress&) { return std::optional(good); };
+    const auto solve_badly = [](const Problem&, Situation&, const Progress&) { return std::optional(bad); };
     const std::array ways{Way{"no", [](const Problem&, const Situation&) { return false; }, solve_well, 0.0, 0.1},
                           Way{"empty", always, nothing, 0.1, 0.2}, Way{"bad", always, solve_badly, 0.2, 0.3},
                           Way{"good", always, solve_well, 0.3, 0.4}, Way{"late", always, solve_well, 0.4, 0.5}};
@@ -267,9 +267,9 @@ TEST_CASE("where nothing is accepted, what converged comes first, then what is l
     flat.termination = bent.termination = Termination::stalled;
     slow.iterations = 60;
     for (int v = 0; v < solved.patch().free_count; ++v) bent.points.col(v) *= v % 2 == 0 ? 1.1 : 0.9;
-    const auto give_flat = [](const Problem&, const Situation&, const Progress&) { return std::optional(flat); };
-    const auto give_bent = [](const Problem&, const Situation&, const Progress&) { return std::optional(bent); };
-    const auto give_slow = [](const Problem&, const Situation&, const Progress&) { return std::optional(slow); };
+    const auto give_flat = [](const Problem&, Situation&, const Progress&) { return std::optional(flat); };
+    const auto give_bent = [](const Problem&, Situation&, const Progress&) { return std::optional(bent); };
+    const auto give_slow = [](const Problem&, Situation&, const Progress&) { return std::optional(slow); };
     const std::array unsolved{Way{"bent", always, give_bent, 0.0, 0.5}, Way{"flat", always, give_flat, 0.5, 1.0}};
     CHECK(run_ways(unsolved, solved.problem, Progress()).points == flat.points);
     const std::array mixed{Way{"slow", always, give_slow, 0.0, 0.5}, Way{"flat", always, give_flat, 0.5, 1.0}};
