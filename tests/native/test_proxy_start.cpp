@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "meshes.h"
+#include "method/nested.h"
 #include "method/one_level.h"
 #include "method/proxy_start.h"
 
@@ -88,4 +89,18 @@ TEST_CASE("no proxy is solved where there is no start, if anything was found bef
     Situation empty;
     empty.start = none_found(rough);
     CHECK(on_proxy().solve(rough.problem, empty, Progress()));
+}
+
+TEST_CASE("a mesh leads whose finest level ends nowhere and a coarser one has the surface") {
+    const Rough met(0.6);
+    const Rough missed(2.0);
+    const auto solution = solve_nested(met.problem, Progress());
+    REQUIRE(solution);
+    CHECK(solution->termination == Termination::converged);
+    CHECK(!solution->leads);
+    const auto left = solve_nested(missed.problem, Progress());
+    REQUIRE(left);
+    CHECK(left->termination == Termination::stalled);
+    CHECK(left->leads);
+    CHECK(largest_off_sphere(left->points) < 0.05);
 }
