@@ -1,8 +1,8 @@
 // The robust way for large patches: the proxy from a coarse level, the user's vertices placed level by level.
 #pragma once
 
-#include "method/proxy_start.h"
 #include "method/on_proxy.h"
+#include "method/proxy_start.h"
 
 namespace fairing {
 

@@ -39,7 +39,8 @@ bool begins_eased(const Problem& problem) {
 
 void find_start(const Problem& problem, Situation& situation, const Progress& progress) {
     if (situation.start) return;
-    const auto led = std::find_if(situation.found.begin(), situation.found.end(), [](const auto& s) { return s.leads; });
+    const auto led =
+        std::find_if(situation.found.begin(), situation.found.end(), [](const auto& s) { return s.leads; });
     if (led != situation.found.end())
         situation.start = led_start(problem, led->points, progress);
     else if (begins_eased(problem))

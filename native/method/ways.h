@@ -16,8 +16,8 @@ struct ProxyStart;  // method/proxy_start
 
 // What the ways before have come to.
 struct Situation {
-    std::vector<Solution> found;          // none of them accepted
-    std::vector<std::string_view> asked;  // all ways that were gone, those that found nothing among them
+    std::vector<Solution> found;                   // none of them accepted
+    std::vector<std::string_view> asked;           // all ways that were gone, those that found nothing among them
     std::shared_ptr<const ProxyStart> start = {};  // of the proxies, where a way has looked for it
 
     // The latest one on the user's own connectivity, or none.

@@ -77,7 +77,7 @@ struct Solution {
     bool even_weights = false;     // uniform weights were taken instead of the problem's
     Join join = Join::tangent;
     Pins pins = Pins::absent;
-    Indices tangent_only;      // of partly_curvature: fixed vertices, counted from the first one
+    Indices tangent_only;       // of partly_curvature: fixed vertices, counted from the first one
     double smooth_share = 0.0;  // of too_rough: how much of what is lacking long waves explain, 0 … 1
 };
 
