@@ -8,10 +8,13 @@
 
 namespace fairing {
 
+// Little where the same equation was solved for before, from near that surface, and ended nowhere: the iteration then
+// ends as soon as its steps shrink slower than they do near a solution.
+enum class Hope { usual, little };
+
 // Solves the discrete equation on the problem's mesh from `placed`, whose vertices lie on a solved surface. Gives that
 // solution where it converges, agrees with that surface and is accepted, `placed` itself otherwise. `work` belongs to
-// the problem. `hope`: whether the same equation was solved for before, from another surface, and ended nowhere.
-enum class Hope { usual, little };
+// the problem.
 Solution polish(const Problem& problem, Workspace& work, Solution placed, const SolvedSurface& surface, Hope hope,
                 const Progress& progress);
 

@@ -41,10 +41,9 @@ void find_start(const Problem& problem, Situation& situation, const Progress& pr
     if (situation.start) return;
     const auto led =
         std::find_if(situation.found.begin(), situation.found.end(), [](const auto& s) { return s.leads; });
-    if (led != situation.found.end())
-        situation.start = led_start(problem, led->points, progress);
-    else if (begins_eased(problem))
-        situation.start = eased_start(problem, progress);
+    if (led != situation.found.end()) situation.start = led_start(problem, led->points, progress);
+    if (situation.start && situation.start->found()) return;
+    situation.start = begins_eased(problem) ? eased_start(problem, progress) : nullptr;
 }
 
 }  // namespace fairing
