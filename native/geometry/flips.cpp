@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/parallel.h"
 #include "geometry/cotangent.h"
 #include "geometry/one_ring_buffer.h"
 #include "mesh/corners.h"
@@ -18,19 +19,26 @@ bool has_normal(const Vector3& cross, const Vector3& first, const Vector3& secon
     return cross.norm() > least_twice_area * longest;
 }
 
+bool is_turned(const Points& points, const Points& normals, const Eigen::Vector3i& corners) {
+    const Vector3 around = normals.col(corners[0]) + normals.col(corners[1]) + normals.col(corners[2]);
+    const Vector3 first = points.col(corners[1]) - points.col(corners[0]);
+    const Vector3 second = points.col(corners[2]) - points.col(corners[0]);
+    const Vector3 cross = first.cross(second);
+    return around.dot(cross) < 0.0 && has_normal(cross, first, second);
+}
+
 }  // namespace
 
 Indices flipped_triangles(const Patch& patch, const Points& points) {
     const Points no_normals = Points::Zero(3, patch.vertex_count() - patch.free_count);
     const Points normals = max_normals(patch, points, no_normals);
+    std::vector<char> turned(at(patch.triangle_count()));
+    for_ranges(patch.triangle_count(), coarse_grain, [&](int begin, int end) {
+        for (int t = begin; t < end; ++t) turned[at(t)] = is_turned(points, normals, patch.triangles.col(t));
+    });
     Indices flipped;
     for (int t = 0; t < patch.triangle_count(); ++t) {
-        const auto corners = patch.triangles.col(t);
-        const Vector3 around = normals.col(corners[0]) + normals.col(corners[1]) + normals.col(corners[2]);
-        const Vector3 first = points.col(corners[1]) - points.col(corners[0]);
-        const Vector3 second = points.col(corners[2]) - points.col(corners[0]);
-        const Vector3 cross = first.cross(second);
-        if (around.dot(cross) < 0.0 && has_normal(cross, first, second)) flipped.push_back(t);
+        if (turned[at(t)]) flipped.push_back(t);
     }
     return flipped;
 }

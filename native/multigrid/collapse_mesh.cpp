@@ -139,16 +139,22 @@ Removals CollapseMesh::pass() {
     return removals;
 }
 
-bool CollapseMesh::try_collapse(int v, Star& star, Removals& removals) {
-    double least = dearest;
-    std::size_t best = star.size();
-    for (std::size_t k = 0; k < star.size(); ++k) {
-        const double price = cost(star, k);
-        if (price < least && is_legal(star, k)) {
-            least = price;
-            best = k;
-        }
+// The first of the cheapest neighbours onto which the centre may go; their number where there is none.
+std::size_t CollapseMesh::cheapest_legal(Star& star) {
+    const double largest = *std::max_element(star.weights.begin(), star.weights.end());
+    star.prices.clear();
+    for (std::size_t k = 0; k < star.size(); ++k) star.prices.push_back(cost(star, k, largest));
+    for (;;) {
+        const auto cheapest = std::min_element(star.prices.begin(), star.prices.end());
+        if (!(*cheapest < dearest)) return star.size();
+        const auto k = static_cast<std::size_t>(cheapest - star.prices.begin());
+        if (is_legal(star, k)) return k;
+        *cheapest = dearest;
     }
+}
+
+bool CollapseMesh::try_collapse(int v, Star& star, Removals& removals) {
+    const std::size_t best = cheapest_legal(star);
     if (best == star.size()) return false;
     if (is_fixed(v)) {
         --loop_size_[at(loop_[at(v)])];

@@ -49,7 +49,9 @@ private:
     void number_loops(const Patch& patch);
     void gather(int v, Star& star) const;
     bool try_collapse(int v, Star& star, Removals& removals);
-    [[nodiscard]] double cost(const Star& star, std::size_t k) const;
+    [[nodiscard]] std::size_t cheapest_legal(Star& star);
+    // `largest`: of the star's weights.
+    [[nodiscard]] double cost(const Star& star, std::size_t k, double largest) const;
     [[nodiscard]] bool is_legal(const Star& star, std::size_t k);
     [[nodiscard]] bool may_thin(const Star& star, std::size_t k) const;
     void pass_weights_on(Star& star, std::size_t k) const;

@@ -23,7 +23,7 @@ double CollapseMesh::valence_penalty(int v, int valence) const {
 }
 
 // What the collapse of the star's centre onto neighbour k does to the valences, and how weakly the two are tied.
-double CollapseMesh::cost(const Star& star, std::size_t k) const {
+double CollapseMesh::cost(const Star& star, std::size_t k, double largest) const {
     constexpr double never = std::numeric_limits<double>::infinity();
     const int kept = star.vertices[k];
     const int valence = valence_[at(kept)] + static_cast<int>(star.size()) - (star.closed ? 4 : 3);
@@ -39,7 +39,6 @@ double CollapseMesh::cost(const Star& star, std::size_t k) const {
     if (star.has_triangle(k)) lose_one(star.after(k));
     if (star.has_triangle(star.before(k))) lose_one(star.before(k));
     if (is_fixed(star.centre)) return change;
-    const double largest = *std::max_element(star.weights.begin(), star.weights.end());
     return change + weak * (1.0 - star.weights[k] / largest);
 }
 

@@ -18,6 +18,7 @@ struct Star {
     Indices vertices;
     Indices sides;
     std::vector<double> weights;
+    std::vector<double> prices;  // scratch: what collapses onto each neighbour cost
     std::vector<double> passed;  // scratch: new weights to the vertex kept
 
     [[nodiscard]] std::size_t size() const { return vertices.size(); }

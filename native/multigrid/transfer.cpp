@@ -12,10 +12,10 @@ namespace {
 
 // bring_back(k) for each removal, pass by pass from the last on.
 template <typename BringBack>
-void in_reverse(const Removals& removals, const BringBack& bring_back) {
+void in_reverse(const Removals& removals, int grain, const BringBack& bring_back) {
     for (std::size_t pass = removals.pass_begin.size(); --pass > 0;) {
         const int first = removals.pass_begin[pass - 1];
-        for_ranges(removals.pass_begin[pass] - first, coarse_grain, [&](int begin, int end) {
+        for_ranges(removals.pass_begin[pass] - first, grain, [&](int begin, int end) {
             for (int k = first + begin; k < first + end; ++k) bring_back(k);
         });
     }
@@ -29,7 +29,7 @@ float weight_of(const float* weights, int k) { return weights != nullptr ? weigh
 void Transfer::prolong(const SingleField& coarse, SingleField& fine) const {
     fine.setZero();  // a coarse level may lack some of the fixed vertices
     for (int c = 0; c < coarse_count(); ++c) fine.col(coarse_in_fine[at(c)]) = coarse.col(c);
-    in_reverse(removals, [&](int k) {
+    in_reverse(removals, coarse_grain, [&](int k) {
         Eigen::Vector4f sum = Eigen::Vector4f::Zero();
         for (int j = removals.begin[at(k)]; j < removals.begin[at(k) + 1]; ++j)
             sum += removals.weights[at(j)] * fine.col(removals.neighbours[at(j)]);
@@ -51,7 +51,7 @@ void Transfer::prolong_means(const Points& coarse, int fine_free_count, Points& 
     for (std::size_t c = 0; c < coarse_in_fine.size(); ++c) {
         if (coarse_in_fine[c] < fine_free_count) fine.col(coarse_in_fine[c]) = coarse.col(static_cast<Eigen::Index>(c));
     }
-    in_reverse(removals, [&](int k) {
+    in_reverse(removals, coarse_grain, [&](int k) {
         Vector3 sum = Vector3::Zero();
         for (int j = removals.begin[at(k)]; j < removals.begin[at(k) + 1]; ++j)
             sum += double{removals.weights[at(j)]} * fine.col(removals.neighbours[at(j)]);
@@ -108,7 +108,7 @@ void Transfer::prolong_surface(const BentPoints& coarse, int fine_free_count, Be
         fine.points.col(v) = coarse.points.col(column);
         fine.normals.col(v) = coarse.normals.col(column);
     }
-    in_reverse(removals, [&](int k) {
+    in_reverse(removals, fine_grain, [&](int k) {
         const int first = removals.begin[at(k)];
         const int count = removals.begin[at(k) + 1] - first;
         const int v = removals.vertex[at(k)];
