@@ -8,24 +8,23 @@ namespace fairing {
 
 namespace {
 
-// Corners around a vertex of the mesh, one after the other across its uncut edges. Corner 3 t + k has side 3 t + k on
+// Corners around a vertex of the mesh, one after the other across its twins. Corner 3 t + k has side 3 t + k on
 // one hand and side 3 t + (k + 2) % 3 on the other.
 class FanWalk {
 public:
-    FanWalk(const Triangles& triangles, const EdgeTable& edges, const std::vector<char>& cut)
-        : triangles_(triangles), edges_(edges), cut_(cut) {}
+    FanWalk(const Triangles& triangles, const Twins& twins) : triangles_(triangles), twins_(twins) {}
 
     // visit(corner) for a corner's fan, as far as it says true: from this corner to the last one on either hand.
     template <typename Visit>
     void around(int corner, const Visit& visit) const {
         visit(corner);
         for (const int first : {corner, corner - corner % 3 + (corner + 2) % 3}) {
-            for (int twin = beyond(first); twin != none;) {
+            for (int twin = twins_[at(first)]; twin != none;) {
                 const int triangle = twin - twin % 3;
                 const bool starts_here = vertex(twin) == vertex(corner);
                 const int next = starts_here ? twin : triangle + (twin + 1) % 3;
                 if (!visit(next)) break;
-                twin = beyond(starts_here ? triangle + (twin + 2) % 3 : next);
+                twin = twins_[at(starts_here ? triangle + (twin + 2) % 3 : next)];
             }
         }
     }
@@ -33,16 +32,8 @@ public:
 private:
     [[nodiscard]] int vertex(int corner) const { return triangles_.data()[corner]; }
 
-    // The side on the other triangle of an edge that joins two.
-    [[nodiscard]] int beyond(int side) const {
-        const int edge = edges_.edge_of_side[at(side)];
-        if (cut_[at(edge)] || edges_.side_count(edge) != 2) return none;
-        return edges_.side(edge, 0) == side ? edges_.side(edge, 1) : edges_.side(edge, 0);
-    }
-
     const Triangles& triangles_;
-    const EdgeTable& edges_;
-    const std::vector<char>& cut_;
+    const Twins& twins_;
 };
 
 std::array<int, 3> sorted_fans(const Fans& fans, int triangle) {
@@ -54,11 +45,11 @@ std::array<int, 3> sorted_fans(const Fans& fans, int triangle) {
 
 }  // namespace
 
-Fans join_corners(const Triangles& triangles, const EdgeTable& edges, const std::vector<char>& cut) {
+Fans join_corners(const Triangles& triangles, const Twins& twins) {
     Fans fans;
     const int corner_count = 3 * static_cast<int>(triangles.cols());
     fans.of_corner.assign(at(corner_count), none);
-    const FanWalk walk(triangles, edges, cut);
+    const FanWalk walk(triangles, twins);
     for (int c = 0; c < corner_count; ++c) {
         checkpoint(c);
         if (fans.of_corner[at(c)] != none) continue;

@@ -1,7 +1,7 @@
 // Fans: the corners of triangles that hang together around a vertex, across the edges that are not cut.
 #pragma once
 
-#include "mesh/edges.h"
+#include "mesh/twins.h"
 
 namespace fairing {
 
@@ -11,8 +11,8 @@ struct Fans {
     Indices input_vertex;
 };
 
-// Joins the two corners at either end of each two-sided edge that is not cut; so a fan is a chain or closed.
-Fans join_corners(const Triangles& triangles, const EdgeTable& edges, const std::vector<char>& cut);
+// Joins the two corners at either end of twins, which may run the same way; so a fan is a chain or closed.
+Fans join_corners(const Triangles& triangles, const Twins& twins);
 
 // Triangles that share all three fans with another one: a pocket, which no half-edge mesh can hold.
 Indices doubled_triangles(const Triangles& triangles, const EdgeTable& edges, const Fans& fans);

@@ -1,15 +1,21 @@
 #include "mesh/patch.h"
 
 #include <algorithm>
+#include <atomic>
+#include <iterator>
 
 #include "base/errors.h"
+#include "base/parallel.h"
 #include "base/progress.h"
 
 namespace fairing {
 
-Patch::Patch(PatchMembers members) : PatchMembers(std::move(members)) {
-    number_edges();
-    flatten_rings();
+Patch::Patch(PatchMembers members, Twins twins) : PatchMembers(std::move(members)) {
+    const Misfit misfit =
+        twins.empty() ? find_twins(triangles, vertex_count(), twins) : join_borders(triangles, twins);
+    if (misfit) refuse(*misfit);
+    number_edges(twins);
+    flatten_rings(twins);
 }
 
 RingView Patch::ring(int vertex) const {
@@ -35,96 +41,103 @@ std::vector<Indices> Patch::loops() const {
     return result;
 }
 
-void Patch::refuse(int triangle, int a, int b) const {
+void Patch::refuse(int side) const {
     throw MeshError({Code::nonmanifold_edge,
-                     "triangle " + std::to_string(input_triangle[at(triangle)]) + " can't be joined to its neighbours",
-                     {to_input[at(a)], to_input[at(b)]},
+                     "triangle " + std::to_string(input_triangle[at(side / 3)]) + " can't be joined to its neighbours",
+                     {to_input[at(side_tail(triangles, side))], to_input[at(side_head(triangles, side))]},
                      ElementKind::vertex,
                      {{"edges", 1}}});
 }
 
-// Edges in the order in which the triangles' sides (0 → 1, 1 → 2, 2 → 0) first show them.
-void Patch::number_edges() {
-    struct Side {
-        int head;
-        int edge;
-    };
-    Indices begin(at(vertex_count()) + 1, 0);
-    for (const int v : triangles.reshaped()) ++begin[at(v) + 1];
-    for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
-    Indices end(begin.begin(), begin.end() - 1);  // sides known so far, by tail
-    std::vector<Side> sides(at(3 * triangle_count()));
-    const auto find = [&](int tail, int head) {
-        for (int s = begin[at(tail)]; s < end[at(tail)]; ++s) {
-            if (sides[at(s)].head == head) return sides[at(s)].edge;
-        }
-        return none;
-    };
+// Edges in the order in which the triangles' sides first show them.
+void Patch::number_edges(const Twins& twins) {
     triangle_edges.resize(3, triangle_count());
-    edge_ends.reserve(at(3 * triangle_count() / 2 + vertex_count() / 8 + 8));
+    edge_ends.reserve(twins.size() / 2 + at(vertex_count() / 8 + 8));
     edge_triangles.reserve(edge_ends.capacity());
-    for (int t = 0; t < triangle_count(); ++t) {
-        checkpoint(t);
-        for (int k = 0; k < 3; ++k) {
-            const int tail = triangles(k, t);
-            const int head = triangles((k + 1) % 3, t);
-            int edge = find(head, tail);
-            if (edge == none) {
-                if (find(tail, head) != none) refuse(t, tail, head);
-                edge = edge_count();
-                edge_ends.push_back({tail, head});
-                edge_triangles.push_back({t, none});
-            } else {
-                if (edge_triangles[at(edge)][1] != none) refuse(t, tail, head);
-                edge_triangles[at(edge)][1] = t;
-            }
-            sides[at(end[at(tail)]++)] = {head, edge};
-            triangle_edges((k + 2) % 3, t) = edge;
+    const auto edge_of = [&](int side) -> int& { return triangle_edges((side + 2) % 3, side / 3); };
+    for (int side = 0; side < static_cast<int>(twins.size()); ++side) {
+        checkpoint(side);
+        const int twin = twins[at(side)];
+        if (twin != none && twin < side) {
+            edge_of(side) = edge_of(twin);
+            continue;
         }
+        edge_of(side) = edge_count();
+        edge_ends.push_back({side_tail(triangles, side), side_head(triangles, side)});
+        edge_triangles.push_back({side / 3, twin == none ? none : twin / 3});
     }
 }
 
-void Patch::flatten_rings() {
-    // A triangle at each vertex; on the border the one with the border edge that begins there.
-    Indices first(at(vertex_count()), none);
-    Indices triangles_at(at(vertex_count()), 0);
-    for (int t = 0; t < triangle_count(); ++t) {
-        for (int k = 0; k < 3; ++k) {
-            const int v = triangles(k, t);
-            ++triangles_at[at(v)];
-            const bool begins = edge_triangles[at(triangle_edges((k + 2) % 3, t))][1] == none;
-            if (first[at(v)] == none || begins) first[at(v)] = t;
-        }
+// The side from which on each ring is walked: of those on the border the one with the border behind it.
+void Patch::lay_out_rings(const Twins& twins, Indices& first) {
+    first.assign(at(vertex_count()), none);
+    rim_begin_.assign(at(vertex_count()) + 1, 0);
+    for (int side = 0; side < static_cast<int>(twins.size()); ++side) {
+        const int v = side_tail(triangles, side);
+        ++rim_begin_[at(v) + 1];
+        if (first[at(v)] == none || twins[at(side)] == none) first[at(v)] = side;
     }
-    ring_begin_ = {0};
-    rim_begin_ = {0};
-    for (Indices* list : {&ring_vertices_, &ring_spokes_, &ring_rim_}) list->reserve(2 * edge_ends.size());
-    for (Indices* list : {&ring_begin_, &rim_begin_}) list->reserve(at(vertex_count()) + 1);
-    for (int v = 0; v < vertex_count(); ++v) {
-        checkpoint(v);
-        int passed = 0;
-        for (int t = first[at(v)]; t != none;) {
-            const auto corners = triangles.col(t);
-            const int k = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
-            const int spoke = triangle_edges((k + 2) % 3, t);
-            const int left = triangle_edges((k + 1) % 3, t);
-            ring_vertices_.push_back(corners[(k + 1) % 3]);
-            ring_spokes_.push_back(spoke);
-            ring_rim_.push_back(triangle_edges(k, t));
-            ++passed;
-            const auto [a, b] = edge_triangles[at(left)];
-            const int next = a == t ? b : a;
-            if (next == none) {
-                ring_vertices_.push_back(corners[(k + 2) % 3]);
-                ring_spokes_.push_back(left);
-            }
-            t = next == first[at(v)] ? none : next;
-        }
-        // Several fans that meet in the vertex alone.
-        if (passed != triangles_at[at(v)]) refuse(first[at(v)], v, v);
-        ring_begin_.push_back(static_cast<int>(ring_vertices_.size()));
-        rim_begin_.push_back(static_cast<int>(ring_rim_.size()));
+    ring_begin_.assign(rim_begin_.size(), 0);
+    for (std::size_t v = 0; v < first.size(); ++v) {
+        const bool open = first[v] != none && twins[at(first[v])] == none;
+        ring_begin_[v + 1] = ring_begin_[v] + rim_begin_[v + 1] + (open ? 1 : 0);
+        rim_begin_[v + 1] += rim_begin_[v];
     }
+    for (Indices* list : {&ring_vertices_, &ring_spokes_}) list->resize(at(ring_begin_.back()));
+    ring_rim_.resize(at(rim_begin_.back()));
+}
+
+// False where several fans meet in the vertex alone.
+bool Patch::fill_ring(int vertex, int first, const Twins& twins) {
+    int place = ring_begin_[at(vertex)];
+    int rim = rim_begin_[at(vertex)];
+    const int end = rim_begin_[at(vertex) + 1];
+    for (int side = first; side != none;) {
+        if (rim == end || side_tail(triangles, side) != vertex) return false;
+        const int t = side / 3;
+        const int k = side % 3;
+        const int last = 3 * t + (k + 2) % 3;  // leads back
+        ring_vertices_[at(place)] = side_head(triangles, side);
+        ring_spokes_[at(place++)] = triangle_edges((k + 2) % 3, t);
+        ring_rim_[at(rim++)] = triangle_edges(k, t);
+        side = twins[at(last)];
+        if (side == none) {
+            ring_vertices_[at(place)] = side_tail(triangles, last);
+            ring_spokes_[at(place++)] = triangle_edges((k + 1) % 3, t);
+        }
+        if (side == first) break;
+    }
+    return rim == end;
+}
+
+// No edge twice.
+bool Patch::has_neighbours_once(int vertex) const {
+    constexpr std::ptrdiff_t few = 16;
+    const auto neighbours = ring(vertex).vertices;
+    if (std::ssize(neighbours) > few) {
+        Indices sorted(neighbours.begin(), neighbours.end());
+        std::sort(sorted.begin(), sorted.end());
+        return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+    }
+    for (auto v = neighbours.begin(); v != neighbours.end(); ++v) {
+        if (std::find(neighbours.begin(), v, *v) != v) return false;
+    }
+    return true;
+}
+
+void Patch::flatten_rings(const Twins& twins) {
+    Indices first;
+    lay_out_rings(twins, first);
+    std::atomic<int> misfit = vertex_count();
+    for_ranges(vertex_count(), coarse_grain, [&](int begin, int end) {
+        for (int v = begin; v < end; ++v) {
+            if (fill_ring(v, first[at(v)], twins) && has_neighbours_once(v)) continue;
+            int least = misfit;
+            while (v < least && !misfit.compare_exchange_weak(least, v)) {}
+            return;
+        }
+    });
+    if (misfit < vertex_count()) refuse(first[at(misfit)]);
 }
 
 }  // namespace fairing

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "mesh/topology.h"
+#include "mesh/twins.h"
 
 namespace fairing {
 
@@ -29,8 +30,9 @@ struct PatchMembers {
 // Topology of a patch.
 class Patch : public PatchMembers {
 public:
-    // Precondition: a manifold with consistent windings.
-    explicit Patch(PatchMembers members);
+    // Precondition: a manifold with consistent windings. `twins`: of its triangles where they are known; empty: they
+    // are looked for.
+    explicit Patch(PatchMembers members, Twins twins = {});
 
     [[nodiscard]] int vertex_count() const { return static_cast<int>(to_input.size()); }
     [[nodiscard]] int edge_count() const { return static_cast<int>(edge_ends.size()); }
@@ -46,9 +48,12 @@ public:
     std::vector<std::array<int, 2>> edge_triangles;  // second entry `none` on the border
 
 private:
-    void number_edges();
-    void flatten_rings();
-    [[noreturn]] void refuse(int triangle, int a, int b) const;
+    void number_edges(const Twins& twins);
+    void flatten_rings(const Twins& twins);
+    void lay_out_rings(const Twins& twins, Indices& first);
+    bool fill_ring(int vertex, int first, const Twins& twins);
+    [[nodiscard]] bool has_neighbours_once(int vertex) const;
+    [[noreturn]] void refuse(int side) const;
 
     Indices ring_begin_;
     Indices ring_vertices_;

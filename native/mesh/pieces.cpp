@@ -28,9 +28,12 @@ Pieces::Pieces(const CutMesh& cut, const VertexRoles& roles) : cut_(cut), roles_
 
 void Pieces::list_triangles() {
     triangles_.resize(at(cut_.piece_count));
+    place_.reserve(cut_.piece.size());
     for (int t = 0; t < static_cast<int>(cut_.piece.size()); ++t) {
         checkpoint(t);
-        triangles_[at(cut_.piece[at(t)])].push_back(t);
+        Indices& triangles = triangles_[at(cut_.piece[at(t)])];
+        place_.push_back(static_cast<int>(triangles.size()));
+        triangles.push_back(t);
     }
 }
 
@@ -57,6 +60,22 @@ void Pieces::number_vertices() {
     }
 }
 
+// Twins lie in one piece.
+Twins Pieces::twins_of(int piece) const {
+    if (cut_.twins.empty()) return {};
+    const Indices& triangles = triangles_[at(piece)];
+    if (triangles.size() == cut_.piece.size()) return cut_.twins;
+    Twins twins;
+    twins.reserve(3 * triangles.size());
+    for (const int t : triangles) {
+        for (int k = 0; k < 3; ++k) {
+            const int twin = cut_.twins[at(3 * t + k)];
+            twins.push_back(twin == none ? none : 3 * place_[at(twin / 3)] + twin % 3);
+        }
+    }
+    return twins;
+}
+
 Patch Pieces::patch(int piece) const {
     PatchMembers members;
     members.free_count = free_count_[at(piece)];
@@ -68,6 +87,7 @@ Patch Pieces::patch(int piece) const {
         members.pin.push_back(roles_.pin[at(input)]);
     }
     const Indices& triangles = triangles_[at(piece)];
+    Twins twins = twins_of(piece);
     members.input_triangle.reserve(triangles.size());
     members.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
     for (int k = 0; k < static_cast<int>(triangles.size()); ++k) {
@@ -76,7 +96,7 @@ Patch Pieces::patch(int piece) const {
         members.input_triangle.push_back(cut_.input_triangle[at(t)]);
         for (int c = 0; c < 3; ++c) members.triangles(c, k) = local_[at(cut_.triangles(c, t))];
     }
-    return Patch(std::move(members));
+    return Patch(std::move(members), std::move(twins));
 }
 
 std::vector<Patch> make_patches(const CutMesh& cut, const VertexRoles& roles) {

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <string>
 
+#include "base/beside.h"
 #include "base/errors.h"
 #include "base/progress.h"
 #include "base/text.h"
@@ -149,12 +150,30 @@ void check_doubled(const Triangles& triangles, const Indices& doubled) {
 
 // How the triangles hang together along the edges that are not cut.
 struct Joints {
+    Twins twins;
     Fans fans;
     Windings windings;
 };
 
 Joints join_triangles(const Triangles& triangles, const EdgeTable& edges, const std::vector<char>& cut) {
-    return {join_corners(triangles, edges, cut), join_windings(triangles, edges, cut)};
+    Joints joints{twins_across(edges, cut), {}, {UnionFind(0), UnionFind(0), {}}};
+    Beside winding([&] { joints.windings = join_windings(triangles, edges, cut); });
+    joints.fans = join_corners(triangles, joints.twins);
+    winding.finish();
+    return joints;
+}
+
+// Turns flipped triangles round: their first side becomes the last one.
+void turn_round(CutMesh& mesh) {
+    if (std::find(mesh.flipped.begin(), mesh.flipped.end(), 1) == mesh.flipped.end()) return;
+    for (int& twin : mesh.twins) {
+        if (twin != none && mesh.flipped[at(twin / 3)]) twin += 2 - 2 * (twin % 3);
+    }
+    for (int t = 0; t < mesh.triangles.cols(); ++t) {
+        if (!mesh.flipped[at(t)]) continue;
+        std::swap(mesh.triangles(1, t), mesh.triangles(2, t));
+        std::swap(mesh.twins[at(3 * t)], mesh.twins[at(3 * t + 2)]);
+    }
 }
 
 // Takes pieces that can't be joined apart into single triangles where nothing in them moves; throws where it does.
@@ -311,7 +330,7 @@ std::vector<char> find_cut_edges(const Triangles& triangles, const EdgeTable& ed
 
 CutMesh cut_mesh(const Triangles& triangles, const EdgeTable& edges, const Indices& input_triangle,
                  const VertexRoles& roles, Diagnostics& warnings) {
-    auto [fans, windings] = join_or_take_apart(triangles, edges, input_triangle, roles);
+    auto [twins, fans, windings] = join_or_take_apart(triangles, edges, input_triangle, roles);
 
     CutMesh mesh;
     mesh.input_triangle = input_triangle;
@@ -323,9 +342,8 @@ CutMesh cut_mesh(const Triangles& triangles, const EdgeTable& edges, const Indic
     warn_of_windings(mesh, warnings);
     mesh.triangles.resize(3, triangles.cols());
     for (int c = 0; c < 3 * triangles.cols(); ++c) mesh.triangles(c % 3, c / 3) = fans.of_corner[at(c)];
-    for (int t = 0; t < triangles.cols(); ++t) {
-        if (mesh.flipped[at(t)]) std::swap(mesh.triangles(1, t), mesh.triangles(2, t));
-    }
+    mesh.twins = std::move(twins);
+    turn_round(mesh);
     checkpoint();
     number_pieces(mesh, windings.pieces);
     return mesh;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/diagnostic.h"
-#include "mesh/edges.h"
+#include "mesh/twins.h"
 
 namespace fairing {
 
@@ -33,6 +33,7 @@ struct CutMesh {
     Indices input_triangle;     // triangle → input triangle
     Indices piece;              // triangle → piece, numbered by the lowest triangle
     std::vector<char> flipped;  // triangle: stored the other way round than the caller's
+    Twins twins;                // of the triangles; empty: not known
     int piece_count = 0;
 };
 

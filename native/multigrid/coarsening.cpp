@@ -58,11 +58,11 @@ std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights
         for (int& v : transfer.removals.vertex) v = fine_local[at(v)];
         for (int& v : transfer.removals.neighbours) v = fine_local[at(v)];
         transfer.fine_count = fine_count;
-        PatchMembers members = mesh.members();
-        transfer.coarse_free_count = members.free_count;
+        Patch coarse = mesh.patch();
+        transfer.coarse_free_count = coarse.free_count;
         Indices local(at(patch.vertex_count()), none);
-        for (std::size_t c = 0; c < members.to_input.size(); ++c) {
-            const int v = members.to_input[c];
+        for (std::size_t c = 0; c < coarse.to_input.size(); ++c) {
+            const int v = coarse.to_input[c];
             transfer.coarse_in_fine.push_back(fine_local[at(v)]);
             local[at(v)] = static_cast<int>(c);
         }
@@ -71,9 +71,9 @@ std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights
             edge.i = local[at(edge.i)];
             edge.j = local[at(edge.j)];
         }
-        fine_count = static_cast<int>(members.to_input.size());
+        fine_count = coarse.vertex_count();
         fine_local = std::move(local);
-        levels.push_back({Patch(std::move(members)), std::move(level_weights), std::move(transfer)});
+        levels.push_back({std::move(coarse), std::move(level_weights), std::move(transfer)});
     }
     return levels;
 }

@@ -268,7 +268,7 @@ void CollapseMesh::collapse(const Star& star, std::size_t k) {
     }
 }
 
-PatchMembers CollapseMesh::members() const {
+Patch CollapseMesh::patch() const {
     PatchMembers members;
     members.free_count = free_count_;
     Indices local(dead_vertex_.size(), none);
@@ -278,17 +278,24 @@ PatchMembers CollapseMesh::members() const {
         members.to_input.push_back(static_cast<int>(v));
         members.pin.push_back(pin_[v]);
     }
+    Indices place(dead_triangle_.size(), none);
     for (std::size_t t = 0; t < dead_triangle_.size(); ++t) {
-        if (!dead_triangle_[t]) members.input_triangle.push_back(static_cast<int>(t));
+        if (dead_triangle_[t]) continue;
+        place[t] = static_cast<int>(members.input_triangle.size());
+        members.input_triangle.push_back(static_cast<int>(t));
     }
+    Twins twins;
+    twins.reserve(3 * members.input_triangle.size());
     members.triangles.resize(3, static_cast<Eigen::Index>(members.input_triangle.size()));
     for (std::size_t t = 0; t < members.input_triangle.size(); ++t) {
         for (int k = 0; k < 3; ++k) {
-            members.triangles(k, static_cast<Eigen::Index>(t)) =
-                local[at(corner_[at(3 * members.input_triangle[t] + k)])];
+            const int side = 3 * members.input_triangle[t] + k;
+            const int twin = twin_[at(side)];
+            members.triangles(k, static_cast<Eigen::Index>(t)) = local[at(corner_[at(side)])];
+            twins.push_back(twin == none ? none : 3 * place[at(twin / 3)] + twin % 3);
         }
     }
-    return members;
+    return Patch(std::move(members), std::move(twins));
 }
 
 InnerWeights CollapseMesh::weights() const {

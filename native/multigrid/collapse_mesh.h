@@ -39,7 +39,7 @@ public:
 
     [[nodiscard]] int free_count() const { return free_count_; }
     // The present mesh: to_input and input_triangle are the patch's vertices and triangles.
-    [[nodiscard]] PatchMembers members() const;
+    [[nodiscard]] Patch patch() const;
     // Weights of the present edges by the patch's vertices, each edge once.
     [[nodiscard]] InnerWeights weights() const;
 

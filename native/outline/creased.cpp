@@ -15,7 +15,7 @@ BrokenSurface broken_along(const Triangles& triangles, int vertex_count, const s
         if (found != table.ends.end() && *found == wanted)
             cut[static_cast<std::size_t>(found - table.ends.begin())] = 1;
     }
-    const Fans fans = join_corners(triangles, table, cut);
+    const Fans fans = join_corners(triangles, twins_across(table, cut));
     BrokenSurface result{Triangles(3, triangles.cols()), fans.input_vertex};
     for (Eigen::Index c = 0; c < triangles.size(); ++c)
         result.triangles(c % 3, c / 3) = fans.of_corner[static_cast<std::size_t>(c)];

@@ -1,0 +1,105 @@
+#include "mesh/twins.h"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+#include "base/progress.h"
+
+namespace fairing {
+
+namespace {
+
+struct BorderSide {
+    std::array<int, 2> ends;  // ascending
+    int side;
+};
+
+std::vector<BorderSide> border_sides(const Triangles& triangles, const Twins& twins) {
+    std::vector<BorderSide> sides;
+    for (int s = 0; s < static_cast<int>(twins.size()); ++s) {
+        if (twins[at(s)] != none) continue;
+        const int tail = side_tail(triangles, s);
+        const int head = side_head(triangles, s);
+        sides.push_back({{std::min(tail, head), std::max(tail, head)}, s});
+    }
+    std::sort(sides.begin(), sides.end(),
+              [](const BorderSide& a, const BorderSide& b) { return std::tie(a.ends, a.side) < std::tie(b.ends, b.side); });
+    return sides;
+}
+
+// The sides that leave each vertex, as far as they were met.
+class Outgoing {
+public:
+    Outgoing(const Triangles& triangles, int vertex_count) : begin_(at(vertex_count) + 1, 0) {
+        for (const int v : triangles.reshaped()) ++begin_[at(v) + 1];
+        for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
+        end_.assign(begin_.begin(), begin_.end() - 1);
+        sides_.resize(at(begin_.back()));
+    }
+
+    [[nodiscard]] int find(int tail, int head) const {
+        for (int s = begin_[at(tail)]; s < end_[at(tail)]; ++s) {
+            if (sides_[at(s)].head == head) return sides_[at(s)].side;
+        }
+        return none;
+    }
+
+    void add(int side, int tail, int head) { sides_[at(end_[at(tail)]++)] = {head, side}; }
+
+private:
+    struct Side {
+        int head;
+        int side;
+    };
+
+    Indices begin_;
+    Indices end_;
+    std::vector<Side> sides_;
+};
+
+}  // namespace
+
+Twins twins_across(const EdgeTable& edges, const std::vector<char>& cut) {
+    Twins twins(edges.edge_of_side.size(), none);
+    for (int e = 0; e < edges.size(); ++e) {
+        checkpoint(e);
+        if (cut[at(e)] || edges.side_count(e) != 2) continue;
+        twins[at(edges.side(e, 0))] = edges.side(e, 1);
+        twins[at(edges.side(e, 1))] = edges.side(e, 0);
+    }
+    return twins;
+}
+
+Misfit join_borders(const Triangles& triangles, Twins& twins) {
+    const std::vector<BorderSide> sides = border_sides(triangles, twins);
+    for (std::size_t k = 1; k < sides.size(); ++k) {
+        if (sides[k].ends != sides[k - 1].ends) continue;
+        const int a = sides[k - 1].side;
+        const int b = sides[k].side;
+        if (twins[at(a)] != none || side_tail(triangles, a) == side_tail(triangles, b)) return b;
+        twins[at(a)] = b;
+        twins[at(b)] = a;
+    }
+    return std::nullopt;
+}
+
+Misfit find_twins(const Triangles& triangles, int vertex_count, Twins& twins) {
+    twins.assign(static_cast<std::size_t>(triangles.size()), none);
+    Outgoing met(triangles, vertex_count);
+    for (int side = 0; side < static_cast<int>(twins.size()); ++side) {
+        checkpoint(side);
+        const int tail = side_tail(triangles, side);
+        const int head = side_head(triangles, side);
+        const int twin = met.find(head, tail);
+        if (twin == none ? met.find(tail, head) != none : twins[at(twin)] != none) return side;
+        if (twin != none) {
+            twins[at(side)] = twin;
+            twins[at(twin)] = side;
+        }
+        met.add(side, tail, head);
+    }
+    return std::nullopt;
+}
+
+}  // namespace fairing

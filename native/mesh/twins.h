@@ -1,0 +1,25 @@
+// Which sides of triangles lie on each other. Side 3 t + k runs from corner k to corner k + 1 of triangle t.
+#pragma once
+
+#include <optional>
+
+#include "mesh/edges.h"
+
+namespace fairing {
+
+// For each side the one on the other triangle of its edge, `none` at borders.
+using Twins = Indices;
+
+// Across the edges that join two triangles and are not cut.
+Twins twins_across(const EdgeTable& edges, const std::vector<char>& cut);
+
+// A side that can't be joined to the others between its two vertices: they are two already, or run the same way.
+using Misfit = std::optional<int>;
+
+// Joins the sides without a twin that run to and fro between two vertices.
+Misfit join_borders(const Triangles& triangles, Twins& twins);
+
+// Of a list of triangles, from the vertices alone.
+Misfit find_twins(const Triangles& triangles, int vertex_count, Twins& twins);
+
+}  // namespace fairing
