@@ -75,6 +75,17 @@ double Stiffness::diagonal(const Patch& patch, int vertex) const {
     return sum;
 }
 
+double total_area(const Points& points, const Triangles& triangles) {
+    return sum_over_ranges(static_cast<int>(triangles.cols()), coarse_grain, [&](int begin, int end) {
+        double sum = 0.0;
+        for (int t = begin; t < end; ++t) {
+            const Vector3 a = points.col(triangles(0, t));
+            sum += 0.5 * (points.col(triangles(1, t)) - a).cross(Vector3(points.col(triangles(2, t)) - a)).norm();
+        }
+        return sum;
+    });
+}
+
 Points summed_normals(const Points& points, const Triangles& triangles) {
     Points sums = Points::Zero(3, points.cols());
     for (const auto t : triangles.colwise()) {

@@ -54,6 +54,8 @@ Field Stiffness::apply(const Patch& patch, const Field& field, int count) const 
     return result;
 }
 
+double total_area(const Points& points, const Triangles& triangles);
+
 // At each vertex the sum of the triangles' cross products (3 × points, zero where there are none): averaged normals,
 // not of unit length.
 Points summed_normals(const Points& points, const Triangles& triangles);

@@ -6,7 +6,6 @@ namespace fairing {
 
 namespace {
 
-constexpr int most_rings = 5;
 constexpr std::size_t most_points = 60;
 
 }  // namespace

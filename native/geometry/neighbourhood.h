@@ -30,7 +30,7 @@ private:
     int stamp_ = none;
 };
 
-// Rings are gathered up to `rings`, and on (to five) until there are more points than `points`.
+// Rings are gathered up to `rings`, and on (to `most_rings`) until there are more points than `points`.
 struct Reach {
     int rings;
     std::size_t points;
@@ -38,6 +38,8 @@ struct Reach {
 
 class Neighbourhood {
 public:
+    static constexpr int most_rings = 5;
+
     // Keeps references.
     Neighbourhood(const VertexAdjacency& adjacency, const Points& points, Reach reach);
 

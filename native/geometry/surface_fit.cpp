@@ -1,12 +1,14 @@
 #include "geometry/surface_fit.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include <Eigen/Geometry>
 
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "geometry/face_geometry.h"
+#include "mesh/strip.h"
 
 namespace fairing {
 
@@ -74,17 +76,21 @@ UnitSized to_unit_size(const Points& points, const Triangles& triangles) {
 }
 
 Points one_sided_normals(const Patch& patch, const Points& points) {
-    const UnitSized unit = to_unit_size(points, patch.triangles);
-    const SurfaceFits fits(unit.points, patch.triangles, Centre::met);
     const int count = patch.vertex_count() - patch.free_count;
+    Indices fixed(at(count));
+    std::iota(fixed.begin(), fixed.end(), patch.free_count);
+    const Strip strip = strip_around(patch, fixed, Neighbourhood::most_rings - 1);
+    const UnitSized unit = to_unit_size(strip.gather(points), strip.triangles);
+    const SurfaceFits fits(unit.points, strip.triangles, Centre::met);
     Points normals(3, count);
-    // Few pieces: each has marks for all vertices.
+    // Few pieces: each has marks for all vertices of the strip.
     for_ranges(count, std::max(16, count / 16), [&](int begin, int end) {
         Neighbourhood around = fits.walk();
         for (int k = begin; k < end; ++k) {
             checkpoint();
-            const auto fit = fits.at_vertex(patch.free_count + k, around);
-            normals.col(k) = fit ? fit->normal : fits.averaged(patch.free_count + k);
+            const int vertex = strip.local[at(patch.free_count + k)];
+            const auto fit = fits.at_vertex(vertex, around);
+            normals.col(k) = fit ? fit->normal : fits.averaged(vertex);
         }
     });
     return normals;

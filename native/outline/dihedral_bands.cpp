@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "base/direction.h"
+#include "base/parallel.h"
 #include "geometry/angle.h"
 
 namespace fairing {
@@ -56,10 +57,7 @@ DihedralBands::DihedralBands(const Points& points, const Triangles& triangles)
       edges_(make_edges(triangles, static_cast<int>(points.cols()))),
       normals_(3, triangles.cols()),
       begin_(static_cast<std::size_t>(points.cols()) + 1, 0),
-      at_vertex_(static_cast<std::size_t>(triangles.size())),
-      vertex_mark_(static_cast<std::size_t>(points.cols()), 0),
-      triangle_mark_(static_cast<std::size_t>(triangles.cols()), 0),
-      edge_mark_(static_cast<std::size_t>(edges_.size()), 0) {
+      at_vertex_(static_cast<std::size_t>(triangles.size())) {
     for (int v : triangles.reshaped()) ++begin_[at(v) + 1];
     for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
     Indices cursor(begin_.begin(), begin_.end() - 1);
@@ -75,33 +73,42 @@ DihedralBands::DihedralBands(const Points& points, const Triangles& triangles)
 void DihedralBands::measure_edges() {
     angles_ = VectorX::Zero(edges_.size());
     lengths_ = VectorX::Zero(edges_.size());
-    for (int e = 0; e < edges_.size(); ++e) {
-        const auto [a, b] = edges_.ends[at(e)];
-        lengths_[e] = (points_.col(a) - points_.col(b)).norm();
-        if (edges_.side_count(e) != 2) continue;
-        const int side = edges_.side(e, 1);
-        const int opposite = triangles_((side % 3 + 2) % 3, side / 3);
-        angles_[e] = dihedral_angle(normals_.col(edges_.side(e, 0) / 3), normals_.col(side / 3), points_.col(a),
-                                    points_.col(opposite));
-    }
+    for_ranges(edges_.size(), fine_grain, [&](int begin, int end) {
+        for (int e = begin; e < end; ++e) measure(e);
+    });
 }
 
-Indices DihedralBands::triangles_near(int a, int b) {
-    ++stamp_;
+void DihedralBands::measure(int edge) {
+    const auto [a, b] = edges_.ends[at(edge)];
+    lengths_[edge] = (points_.col(a) - points_.col(b)).norm();
+    if (edges_.side_count(edge) != 2) return;
+    const int side = edges_.side(edge, 1);
+    const int opposite = triangles_((side % 3 + 2) % 3, side / 3);
+    angles_[edge] = dihedral_angle(normals_.col(edges_.side(edge, 0) / 3), normals_.col(side / 3), points_.col(a),
+                                   points_.col(opposite));
+}
+
+DihedralBands::Walk DihedralBands::walk() const {
+    return {Indices(begin_.size() - 1, 0), Indices(static_cast<std::size_t>(triangles_.cols()), 0),
+            Indices(at(edges_.size()), 0)};
+}
+
+Indices DihedralBands::triangles_near(int a, int b, Walk& walk) const {
+    ++walk.stamp;
     Indices found;
     Indices front{a, b};
-    for (const int v : front) vertex_mark_[at(v)] = stamp_;
+    for (const int v : front) walk.vertices[at(v)] = walk.stamp;
     for (int ring = 0; ring < rings; ++ring) {
         Indices next;
         for (int v : front) {
             for (int k = begin_[at(v)]; k < begin_[at(v) + 1]; ++k) {
                 const int t = at_vertex_[at(k)];
-                if (triangle_mark_[at(t)] == stamp_) continue;
-                triangle_mark_[at(t)] = stamp_;
+                if (walk.triangles[at(t)] == walk.stamp) continue;
+                walk.triangles[at(t)] = walk.stamp;
                 found.push_back(t);
                 for (const int corner : triangles_.col(t)) {
-                    if (vertex_mark_[at(corner)] == stamp_) continue;
-                    vertex_mark_[at(corner)] = stamp_;
+                    if (walk.vertices[at(corner)] == walk.stamp) continue;
+                    walk.vertices[at(corner)] = walk.stamp;
                     next.push_back(corner);
                 }
             }
@@ -111,13 +118,13 @@ Indices DihedralBands::triangles_near(int a, int b) {
     return found;
 }
 
-AngleRange DihedralBands::usual(int a, int b) {
+AngleRange DihedralBands::usual(int a, int b, Walk& walk) const {
     std::vector<WeightedAngle> near;
-    for (int t : triangles_near(a, b)) {
+    for (int t : triangles_near(a, b, walk)) {
         for (int k = 0; k < 3; ++k) {
             const int e = edges_.edge_of_side[at(3 * t + k)];
-            if (edges_.side_count(e) != 2 || edge_mark_[at(e)] == stamp_) continue;
-            edge_mark_[at(e)] = stamp_;
+            if (edges_.side_count(e) != 2 || walk.edges[at(e)] == walk.stamp) continue;
+            walk.edges[at(e)] = walk.stamp;
             near.push_back({angles_[e], lengths_[e]});
         }
     }

@@ -29,13 +29,22 @@ public:
     [[nodiscard]] const Points& normals() const { return normals_; }  // of the triangles; zero without area
     // Of edge e; zero where it has not two triangles.
     [[nodiscard]] double angle(int edge) const { return angles_[edge]; }
+    // Marks of what was met around the last edge, for one thread.
+    struct Walk {
+        Indices vertices;
+        Indices triangles;
+        Indices edges;
+        int stamp = 0;
+    };
+    [[nodiscard]] Walk walk() const;
     static constexpr int rings = 3;  // of triangles around an edge
     // The middle half, by the edges' lengths, of the angles within these rings around an edge (a, b), and zero.
-    [[nodiscard]] AngleRange usual(int a, int b);
+    [[nodiscard]] AngleRange usual(int a, int b, Walk& walk) const;
 
 private:
     void measure_edges();
-    [[nodiscard]] Indices triangles_near(int a, int b);
+    void measure(int edge);
+    [[nodiscard]] Indices triangles_near(int a, int b, Walk& walk) const;
 
     const Points& points_;
     const Triangles& triangles_;
@@ -45,10 +54,6 @@ private:
     VectorX lengths_;
     Indices begin_;  // of each vertex in `at_vertex_`
     Indices at_vertex_;
-    Indices vertex_mark_;
-    Indices triangle_mark_;
-    Indices edge_mark_;
-    int stamp_ = 0;
 };
 
 }  // namespace fairing

@@ -9,6 +9,8 @@
 #include <Eigen/Geometry>
 
 #include "base/direction.h"
+#include "base/parallel.h"
+#include "mesh/strip.h"
 #include "outline/dihedral_bands.h"
 
 namespace fairing {
@@ -82,36 +84,30 @@ bool is_border(const Patch& patch, const std::array<int, 2>& ends) {
     return !ring.closed() && (ring.vertices.front() == ends[1] || ring.vertices.back() == ends[1]);
 }
 
-// All triangles that the bands of border edges depend on: of a large patch few.
-Triangles beside_border(const Patch& patch) {
-    std::vector<char> near(at(patch.vertex_count()), 0);
-    for (int v = patch.free_count; v < patch.vertex_count(); ++v) near[at(v)] = !patch.ring(v).closed();
-    const auto is_near = [&](auto triangle) {
-        return std::ranges::any_of(triangle, [&](int v) { return near[at(v)]; });
-    };
-    for (int ring = 0; ring < DihedralBands::rings; ++ring) {
-        std::vector<char> wider = near;
-        for (const auto triangle : patch.triangles.colwise()) {
-            if (!is_near(triangle)) continue;
-            for (int v : triangle) wider[at(v)] = 1;
-        }
-        near = std::move(wider);
+Indices border_of(const Patch& patch) {
+    Indices border;
+    for (int v = patch.free_count; v < patch.vertex_count(); ++v) {
+        if (!patch.ring(v).closed()) border.push_back(v);
     }
-    std::vector<Eigen::Index> kept;
-    for (Eigen::Index t = 0; t < patch.triangles.cols(); ++t) {
-        if (is_near(patch.triangles.col(t))) kept.push_back(t);
-    }
-    return patch.triangles(Eigen::all, kept);
+    return border;
 }
 
-// Twice the angle by which the prescribed normals lean outwards from the triangle at a border side, degrees.
-double mirrored_angle(const Triangles& triangles, const Points& points, const Points& prescribed, int side) {
-    const int first_fixed = static_cast<int>(points.cols() - prescribed.cols());
-    const int a = side_tail(triangles, side);
-    const int b = side_head(triangles, side);
+// Of the strip's sides those on the patch's border, in the order of their edges.
+Indices border_sides(const Patch& patch, const Strip& strip, const EdgeTable& edges) {
+    Indices sides;
+    for (int e = 0; e < edges.size(); ++e) {
+        if (edges.side_count(e) != 1) continue;
+        const auto [a, b] = edges.ends[at(e)];
+        if (is_border(patch, {strip.vertices[at(a)], strip.vertices[at(b)]})) sides.push_back(edges.side(e, 0));
+    }
+    return sides;
+}
+
+// Twice the angle by which the normals lean outwards from the triangle at a border side, degrees.
+double mirrored_angle(const Triangles& triangles, const Points& points, int side, const Vector3& normal) {
     const Vector3 face = normal_of(points, triangles, side);
-    const Vector3 outwards = direction((points.col(b) - points.col(a)).cross(face));
-    const Vector3 normal = prescribed.col(a - first_fixed) + prescribed.col(b - first_fixed);
+    const Vector3 along = points.col(side_head(triangles, side)) - points.col(side_tail(triangles, side));
+    const Vector3 outwards = direction(along.cross(face));
     return 2.0 * std::atan2(normal.dot(outwards), normal.dot(face)) * 180.0 / std::numbers::pi;
 }
 
@@ -120,13 +116,15 @@ double mirrored_angle(const Triangles& triangles, const Points& points, const Po
 VectorX visible_join(const JoinedMesh& given, const Indices& outline) {
     const JoinedMesh mesh{given.vertices, without_collapsed(given.inside), without_collapsed(given.outside),
                           given.before};
-    DihedralBands inside(mesh.vertices, mesh.inside);
-    DihedralBands outside(mesh.vertices, mesh.outside);
+    const DihedralBands inside(mesh.vertices, mesh.inside);
+    const DihedralBands outside(mesh.vertices, mesh.outside);
+    DihedralBands::Walk walk_inside = inside.walk();
+    DihedralBands::Walk walk_outside = outside.walk();
     Means means(mesh.vertices.cols());
     for (const OutlineEdge& edge : shared_edges(inside.edges(), outside.edges())) {
         const auto [a, b] = edge.ends;
-        AngleRange usual = inside.usual(a, b);
-        usual.include(outside.usual(a, b));
+        AngleRange usual = inside.usual(a, b, walk_inside);
+        usual.include(outside.usual(a, b, walk_outside));
         if (mesh.before) usual.include(angle_at(*mesh.before, mesh, edge));
         means.add(edge.ends, usual.excess(angle_at(mesh.vertices, mesh, edge)),
                   (mesh.vertices.col(a) - mesh.vertices.col(b)).norm());
@@ -137,18 +135,34 @@ VectorX visible_join(const JoinedMesh& given, const Indices& outline) {
 }
 
 VectorX one_sided_join(const Patch& patch, const Points& points, const Points& prescribed) {
-    const Triangles triangles = beside_border(patch);
-    DihedralBands bands(points, triangles);
-    Means means(points.cols());
-    const EdgeTable& edges = bands.edges();
-    for (int e = 0; e < edges.size(); ++e) {
-        if (edges.side_count(e) != 1 || !is_border(patch, edges.ends[at(e)])) continue;
-        const auto [a, b] = edges.ends[at(e)];
-        const double angle = mirrored_angle(triangles, points, prescribed, edges.side(e, 0));
-        means.add(edges.ends[at(e)], bands.usual(a, b).excess(angle), (points.col(a) - points.col(b)).norm());
+    // All triangles that the bands of border edges depend on: of a large patch few.
+    const Strip strip = strip_around(patch, border_of(patch), DihedralBands::rings);
+    const Points places = strip.gather(points);
+    const DihedralBands bands(places, strip.triangles);
+    const Indices sides = border_sides(patch, strip, bands.edges());
+    VectorX excess(static_cast<Eigen::Index>(sides.size()));
+    constexpr int grain = 32;  // each piece has marks of its own
+    for_ranges(static_cast<int>(sides.size()), grain, [&](int begin, int end) {
+        DihedralBands::Walk walk = bands.walk();
+        for (int k = begin; k < end; ++k) {
+            const int side = sides[at(k)];
+            const auto [a, b] = bands.edges().ends[at(bands.edges().edge_of_side[at(side)])];
+            const Vector3 normal = prescribed.col(strip.vertices[at(a)] - patch.free_count) +
+                                   prescribed.col(strip.vertices[at(b)] - patch.free_count);
+            const double angle = mirrored_angle(strip.triangles, places, side, normal);
+            excess[k] = bands.usual(a, b, walk).excess(angle);
+        }
+    });
+    Means means(places.cols());
+    for (Eigen::Index k = 0; k < excess.size(); ++k) {
+        const std::array<int, 2> ends = bands.edges().ends[at(bands.edges().edge_of_side[at(sides[std::size_t(k)])])];
+        means.add(ends, excess[k], (places.col(ends[0]) - places.col(ends[1])).norm());
     }
-    VectorX join(prescribed.cols());
-    for (Eigen::Index k = 0; k < join.size(); ++k) join[k] = means[patch.free_count + k];
+    VectorX join = VectorX::Zero(prescribed.cols());
+    for (int k = 0; k < static_cast<int>(join.size()); ++k) {
+        const int local = strip.local[at(patch.free_count + k)];
+        if (local != none) join[k] = means[local];
+    }
     return join;
 }
 

@@ -75,9 +75,7 @@ double straight_length_between(const Patch& patch, const Points& points) {
 
 double length_between(const Patch& patch, const Points& points) {
     const std::vector<Loop> loops = loops_of(patch, points);
-    FaceGeometry faces;
-    faces.update(points, patch.triangles);
-    return std::max(faces.areas.sum(), straight_area(loops)) / squares_of(loops);
+    return std::max(total_area(points, patch.triangles), straight_area(loops)) / squares_of(loops);
 }
 
 bool may_fit_several(const Patch& patch, const Points& points) {
