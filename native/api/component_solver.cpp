@@ -168,6 +168,7 @@ ComponentAnswer ComponentSolver::dressed(ComponentAnswer answer, const Component
     Points& points = answer.solution.points;
     if (skin_.keeps_places()) points = relaid(answer.problem, points, skin_.base(), progress.here());
     answer.solution.crossings.reset();
+    answer.solution.flipped.reset();
     Points base = answer.unit.from_unit(points);
     base.rightCols(outline.points.cols()) = outline.points;
     answer.dressed = skin_.put_back(data, base, progress.here());

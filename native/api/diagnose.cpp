@@ -25,9 +25,10 @@ namespace {
 
 constexpr double behind = 90.0;  // degrees
 
-void warn_of_flips(const Patch& patch, const Points& points, Diagnostics& warnings) {
-    Indices flipped = input_numbers(patch, flipped_triangles(patch, points));
+void warn_of_flips(const Patch& patch, const Solution& solution, Diagnostics& warnings) {
+    Indices flipped = solution.flipped ? *solution.flipped : flipped_triangles(patch, solution.points);
     if (flipped.empty()) return;
+    flipped = input_numbers(patch, std::move(flipped));
     warnings.push_back(
         {Code::flipped_triangles,
          counted(flipped.size(), "triangle of the result is turned over", "triangles of the result are turned over"),
@@ -354,7 +355,7 @@ Diagnostic no_solution(const Problem& problem, const Solution& solution) {
 }
 
 void diagnose(const Patch& patch, const Solution& solution, const Points& prescribed, Diagnostics& warnings) {
-    warn_of_flips(patch, solution.points, warnings);
+    warn_of_flips(patch, solution, warnings);
     warn_of_crossings(patch, solution, warnings);
     warn_of_sharp_outline(patch, prescribed, warnings);
 }

@@ -3,22 +3,31 @@
 #include <algorithm>
 #include <numbers>
 
+#include "base/parallel.h"
 #include "geometry/angle.h"
 
 namespace fairing {
 
+namespace {
+
+double angle_around(const Patch& patch, const Points& points, int vertex) {
+    const RingView ring = patch.ring(vertex);
+    const Vector3 here = points.col(vertex);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < ring.rim.size(); ++k) {
+        const int next = ring.vertices[k + 1 == ring.valence() ? 0 : k + 1];
+        sum += radians_between(points.col(ring.vertices[k]) - here, points.col(next) - here);
+    }
+    return sum;
+}
+
+}  // namespace
+
 VectorX angle_defects(const Patch& patch, const Points& points) {
     VectorX defects = VectorX::Zero(patch.vertex_count());
-    defects.head(patch.free_count).setConstant(2.0 * std::numbers::pi);
-    for (const auto corners : patch.triangles.colwise()) {
-        for (int k = 0; k < 3; ++k) {
-            const int v = corners[k];
-            if (!patch.is_free(v)) continue;
-            const Vector3 here = points.col(v);
-            defects[v] -=
-                radians_between(points.col(corners[(k + 1) % 3]) - here, points.col(corners[(k + 2) % 3]) - here);
-        }
-    }
+    for_ranges(patch.free_count, fine_grain, [&](int begin, int end) {
+        for (int v = begin; v < end; ++v) defects[v] = 2.0 * std::numbers::pi - angle_around(patch, points, v);
+    });
     return defects;
 }
 

@@ -7,6 +7,7 @@
 #include "base/difference.h"
 #include "geometry/face_geometry.h"
 #include "geometry/flips.h"
+#include "mesh/corners.h"
 #include "geometry/outline_angles.h"
 #include "geometry/self_intersection.h"
 #include "method/eased.h"
@@ -60,9 +61,11 @@ Indices crossings_inside(const Patch& patch, const Points& points) {
 }
 
 // That count against a solution. Placed vertices were compared with the surface that they lie on.
-Indices flips_of(const Problem& problem, const Solution& solution) {
+Indices flips_of(const Problem& problem, Solution& solution) {
     if (!solution.polished) return {};
-    Indices flipped = flipped_by_solution(problem.patch, solution.points);
+    solution.flipped = flipped_triangles(problem.patch, solution.points);
+    Indices flipped = *solution.flipped;
+    std::erase_if(flipped, [&](int t) { return !has_free_corner(problem.patch, t); });
     if (is_eased(solution)) flipped = inside(problem.patch, std::move(flipped));
     if (keeps_shape(problem, solution)) flipped = without(flipped, flipped_by_solution(problem.patch, *problem.before));
     return flipped;

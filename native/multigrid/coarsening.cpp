@@ -1,5 +1,7 @@
 #include "multigrid/coarsening.h"
 
+#include "base/beside.h"
+
 namespace fairing {
 
 namespace {
@@ -9,6 +11,7 @@ constexpr double factor = 3.5;
 constexpr double least_factor = 1.6;  // a level that shrinks less is not worth its cost
 constexpr double least_progress = 0.03;
 constexpr int most_passes = 12;
+constexpr std::size_t most_levels = 30;  // more than numbers of vertices have
 
 void append(Removals& all, const Removals& more) {
     for (std::size_t k = 1; k < more.pass_begin.size(); ++k) all.pass_begin.push_back(all.size() + more.pass_begin[k]);
@@ -45,11 +48,13 @@ Removals collapse_level(CollapseMesh& mesh, int target) {
 std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights, const FixedPlaces& outline,
                                  int coarsest) {
     std::vector<CoarseLevel> levels;
+    levels.reserve(most_levels);
+    std::vector<Beside> patching;  // the rings of a level, while collapses go on
     CollapseMesh mesh(patch, weights, outline);
     Indices fine_local(at(patch.vertex_count()));  // vertex of the patch → of the level above
     for (std::size_t v = 0; v < fine_local.size(); ++v) fine_local[v] = static_cast<int>(v);
     int fine_count = patch.vertex_count();
-    while (mesh.free_count() > 2 * coarsest) {
+    while (mesh.free_count() > 2 * coarsest && levels.size() < most_levels) {
         const int free_before = mesh.free_count();
         Transfer transfer;
         const int target = static_cast<int>(free_before / factor);
@@ -58,11 +63,12 @@ std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights
         for (int& v : transfer.removals.vertex) v = fine_local[at(v)];
         for (int& v : transfer.removals.neighbours) v = fine_local[at(v)];
         transfer.fine_count = fine_count;
-        Patch coarse = mesh.patch();
-        transfer.coarse_free_count = coarse.free_count;
+        CoarseMesh coarse = mesh.mesh();
+        transfer.coarse_free_count = coarse.members.free_count;
         Indices local(at(patch.vertex_count()), none);
-        for (std::size_t c = 0; c < coarse.to_input.size(); ++c) {
-            const int v = coarse.to_input[c];
+        const Indices& vertices = coarse.members.to_input;
+        for (std::size_t c = 0; c < vertices.size(); ++c) {
+            const int v = vertices[c];
             transfer.coarse_in_fine.push_back(fine_local[at(v)]);
             local[at(v)] = static_cast<int>(c);
         }
@@ -71,10 +77,15 @@ std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights
             edge.i = local[at(edge.i)];
             edge.j = local[at(edge.j)];
         }
-        fine_count = coarse.vertex_count();
+        fine_count = static_cast<int>(vertices.size());
         fine_local = std::move(local);
-        levels.push_back({std::move(coarse), std::move(level_weights), std::move(transfer)});
+        levels.push_back({Patch({}), std::move(level_weights), std::move(transfer)});
+        auto make = [&level = levels.back().patch, parts = std::move(coarse)]() mutable {
+            level = Patch(std::move(parts.members), std::move(parts.twins));
+        };
+        patching.emplace_back(std::move(make));
     }
+    for (Beside& work : patching) work.finish();
     return levels;
 }
 

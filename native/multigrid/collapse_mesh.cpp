@@ -268,8 +268,10 @@ void CollapseMesh::collapse(const Star& star, std::size_t k) {
     }
 }
 
-Patch CollapseMesh::patch() const {
-    PatchMembers members;
+CoarseMesh CollapseMesh::mesh() const {
+    CoarseMesh result;
+    PatchMembers& members = result.members;
+    Twins& twins = result.twins;
     members.free_count = free_count_;
     Indices local(dead_vertex_.size(), none);
     for (std::size_t v = 0; v < dead_vertex_.size(); ++v) {
@@ -284,7 +286,6 @@ Patch CollapseMesh::patch() const {
         place[t] = static_cast<int>(members.input_triangle.size());
         members.input_triangle.push_back(static_cast<int>(t));
     }
-    Twins twins;
     twins.reserve(3 * members.input_triangle.size());
     members.triangles.resize(3, static_cast<Eigen::Index>(members.input_triangle.size()));
     for (std::size_t t = 0; t < members.input_triangle.size(); ++t) {
@@ -295,7 +296,7 @@ Patch CollapseMesh::patch() const {
             twins.push_back(twin == none ? none : 3 * place[at(twin / 3)] + twin % 3);
         }
     }
-    return Patch(std::move(members), std::move(twins));
+    return result;
 }
 
 InnerWeights CollapseMesh::weights() const {

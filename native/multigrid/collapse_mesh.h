@@ -24,6 +24,12 @@ struct FixedPlaces {
     const Points& normals;
 };
 
+// What a patch of the present mesh is made of.
+struct CoarseMesh {
+    PatchMembers members;
+    Twins twins;
+};
+
 // A mesh without positions inside: interior shapes are those of the graph, which uniform weights make even, and
 // otherwise of the weights, which are large along short edges.
 class CollapseMesh {
@@ -39,7 +45,7 @@ public:
 
     [[nodiscard]] int free_count() const { return free_count_; }
     // The present mesh: to_input and input_triangle are the patch's vertices and triangles.
-    [[nodiscard]] Patch patch() const;
+    [[nodiscard]] CoarseMesh mesh() const;
     // Weights of the present edges by the patch's vertices, each edge once.
     [[nodiscard]] InnerWeights weights() const;
 

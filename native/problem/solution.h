@@ -66,6 +66,7 @@ struct Solution {
     Flaw flaw = Flaw::absent;
     Indices bad_triangles;             // of the patch: folded or crossing ones, for those flaws
     std::optional<Indices> crossings;  // triangles of the patch that pass through others, where they were looked for
+    std::optional<Indices> flipped;    // likewise: turned over
     bool leads = false;                // not the finest level has a surface, but a coarser one: `points` lie on it
     bool from_surface = false;         // its iteration began on the solved surface of a proxy
     bool crosses = false;              // the surface passes through itself, whatever the mesh
