@@ -1,5 +1,7 @@
 #include "method/levels.h"
 
+#include <utility>
+
 namespace fairing {
 
 namespace {
@@ -106,11 +108,11 @@ std::unique_ptr<FactorisedLaplacian> Levels::factorised(std::size_t k, const Pro
     });
 }
 
-void Levels::factorise_beside() {
+void Levels::prepare_beside() {
     for (std::size_t k = coarsest() + 1; k-- > 0;) {
-        if (is_factorised(k)) {
-            levels_[k].factorising = Beside([this, k] { levels_[k].factor = factorised(k, Progress()); });
-        }
+        Level& level = levels_[k];
+        level.preparing = is_factorised(k) ? Beside([&, k] { level.factor = factorised(k, Progress()); })
+                                           : Beside([&, k] { level.restriction.emplace(transfer(k)); });
     }
 }
 
@@ -121,12 +123,15 @@ void Levels::set_up_tangential(std::size_t k, RingMatrix laplacian, const Progre
         level.tangential_cycle = step.get();
         level.work.tangential = std::move(step);
     };
+    level.preparing.finish();
     if (is_factorised(k)) {
-        level.factorising.finish();
         adopt(level.factor ? std::move(level.factor) : factorised(k, progress));
     } else {
+        if (!level.restriction) level.restriction.emplace(transfer(k));
         adopt(std::make_unique<MultigridStep>(problem.patch, std::move(laplacian), problem.fixed_points,
-                                              coarse_[k].transfer, *levels_[k + 1].tangential_cycle));
+                                              std::move(*level.restriction),
+                                              *levels_[k + 1].tangential_cycle));
+        level.restriction.reset();
     }
 }
 

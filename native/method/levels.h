@@ -34,8 +34,8 @@ public:
     // Vertices of each level, coarse to fine.
     [[nodiscard]] std::vector<int> sizes() const;
 
-    // Has the tangential factors made beside other work: no surface is needed for them.
-    void factorise_beside();
+    // Has factors and restrictions of the tangential steps made beside other work: no surface is needed for them.
+    void prepare_beside();
 
     // Makes the tangential step of a level; that of the next coarser one comes first. λ that aren't symmetric count by
     // their symmetric part.
@@ -58,7 +58,8 @@ private:
         Workspace work = {};
         const LaplaceCycle* tangential_cycle = nullptr;  // in `work`
         std::unique_ptr<FactorisedLaplacian> factor = {};
-        Beside factorising = {};
+        std::optional<Restriction> restriction = {};
+        Beside preparing = {};
     };
 
     [[nodiscard]] bool is_factorised(std::size_t k) const;

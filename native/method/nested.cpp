@@ -89,7 +89,7 @@ public:
         if (coarsest == 0) return std::nullopt;
         std::map<std::string, double> seconds{{"hierarchy", watch_.lap()}};
         progress_.report(begin, "hierarchy");
-        levels_.factorise_beside();
+        levels_.prepare_beside();
         std::size_t k = coarsest;
         Solution solution = solved_alone(k);
         while (!is_start(k, solution) && k > 1 && may_be_alone(k - 1)) solution = solved_alone(--k);

@@ -41,15 +41,15 @@ void FactorisedLaplacian::cycle(SingleField& r, SingleField& x) const {
 }
 
 MultigridStep::MultigridStep(const Patch& patch, RingMatrix laplacian, const Points& fixed_points,
-                             const Transfer& transfer, const LaplaceCycle& coarser)
+                             Restriction restriction, const LaplaceCycle& coarser)
     : patch_(patch),
       fixed_points_(fixed_points),
-      transfer_(transfer),
+      restriction_(std::move(restriction)),
       coarser_(coarser),
       laplacian_(std::move(laplacian)),
       inverse_diagonal_(Eigen::VectorXf::Zero(patch.vertex_count())),
-      coarse_r_(4, transfer.coarse_count()),
-      coarse_x_(4, transfer.coarse_count()) {
+      coarse_r_(4, restriction_.transfer().coarse_count()),
+      coarse_x_(4, restriction_.transfer().coarse_count()) {
     inverse_diagonal_.head(patch.free_count) =
         laplacian_.diagonal.head(patch.free_count).cwiseMax(1e-30F).cwiseInverse();
 }
@@ -67,7 +67,7 @@ void MultigridStep::subtract_product(const SingleField& x, SingleField& r) const
 
 // Steps of the Chebyshev iteration of the fourth kind (Lottes 2022), which needs no lower bound of the spectrum:
 // x ← x + p(D⁻¹L) D⁻¹ r, with r kept as the residual of x if wanted.
-void MultigridStep::smooth(SingleField& x, SingleField& r, Residual last) const {
+void MultigridStep::smooth(SingleField& x, SingleField& r, From start, Residual last) const {
     SingleField& z = fine_;
     for (int k = 1; k <= smoothing_degree; ++k) {
         const auto step = static_cast<float>(k);
@@ -76,8 +76,9 @@ void MultigridStep::smooth(SingleField& x, SingleField& r, Residual last) const 
         for_ranges(static_cast<int>(x.cols()), coarse_grain, [&](int begin, int end) {
             for (int i = begin; i < end; ++i) {
                 const Eigen::Vector4f fresh = add * inverse_diagonal_[i] * r.col(i);
-                z.col(i) = k == 1 ? fresh : Eigen::Vector4f(keep * z.col(i) + fresh);
-                x.col(i) += z.col(i);
+                const Eigen::Vector4f move = k == 1 ? fresh : Eigen::Vector4f(keep * z.col(i) + fresh);
+                z.col(i) = move;
+                x.col(i) = k == 1 && start == From::zero ? move : Eigen::Vector4f(x.col(i) + move);
             }
         });
         if (k < smoothing_degree || last == Residual::kept) subtract_product(z, r);
@@ -85,17 +86,16 @@ void MultigridStep::smooth(SingleField& x, SingleField& r, Residual last) const 
 }
 
 void MultigridStep::cycle(SingleField& r, SingleField& x) const {
-    x.setZero();
     fine_.resize(4, x.cols());
-    smooth(x, r, Residual::kept);
-    fine_ = r;
-    transfer_.restrict(fine_, coarse_r_);
-    coarse_r_ *= static_cast<float>(scale() / coarser_.scale());
+    smooth(x, r, From::zero, Residual::kept);
+    restriction_.apply(r, static_cast<float>(scale() / coarser_.scale()), fine_, coarse_r_);
     coarser_.cycle(coarse_r_, coarse_x_);
-    transfer_.prolong(coarse_x_, fine_);
-    x += fine_;
+    restriction_.transfer().prolong(coarse_x_, fine_);
+    for_ranges(static_cast<int>(x.cols()), coarse_grain, [&](int begin, int end) {
+        x.middleCols(begin, end - begin) += fine_.middleCols(begin, end - begin);
+    });
     subtract_product(fine_, r);
-    smooth(x, r, Residual::left);
+    smooth(x, r, From::given, Residual::left);
 }
 
 // d with L d = scale · pull; across the normals if there are any, as `pull` is then. In units of its own, far from the

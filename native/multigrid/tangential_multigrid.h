@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/progress.h"
+#include "multigrid/restriction.h"
 #include "multigrid/ring_matrix.h"
 #include "tangential/symmetric_step.h"
 
@@ -36,7 +37,7 @@ private:
 class MultigridStep : public TangentialStep, public LaplaceCycle {
 public:
     // `laplacian`: of λ, over all vertices of the level.
-    MultigridStep(const Patch& patch, RingMatrix laplacian, const Points& fixed_points, const Transfer& transfer,
+    MultigridStep(const Patch& patch, RingMatrix laplacian, const Points& fixed_points, Restriction restriction,
                   const LaplaceCycle& coarser);
     void hold(const Points& fixed_points) override { fixed_points_ = fixed_points; }
     [[nodiscard]] Points harmonic_positions() const override;
@@ -49,6 +50,7 @@ public:
     void cycle(SingleField& r, SingleField& x) const override;
 
 private:
+    enum class From { zero, given };
     enum class Residual { kept, left };
 
     // All of these in units of the scale.
@@ -64,11 +66,11 @@ private:
     };
     [[nodiscard]] Moves solve(const Points& pull, const Planes* planes, const Effort& effort) const;
     void subtract_product(const SingleField& x, SingleField& r) const;
-    void smooth(SingleField& x, SingleField& r, Residual last) const;
+    void smooth(SingleField& x, SingleField& r, From start, Residual last) const;
 
     const Patch& patch_;
     Points fixed_points_;
-    const Transfer& transfer_;
+    Restriction restriction_;
     const LaplaceCycle& coarser_;
     RingMatrix laplacian_;
     Eigen::VectorXf inverse_diagonal_;  // 0 at fixed vertices

@@ -27,24 +27,17 @@ float weight_of(const float* weights, int k) { return weights != nullptr ? weigh
 }  // namespace
 
 void Transfer::prolong(const SingleField& coarse, SingleField& fine) const {
-    fine.setZero();  // a coarse level may lack some of the fixed vertices
-    for (int c = 0; c < coarse_count(); ++c) fine.col(coarse_in_fine[at(c)]) = coarse.col(c);
+    const int free_count = coarse_free_count + removals.size();
+    fine.rightCols(fine_count - free_count).setZero();  // a coarse level may lack some of the fixed vertices
+    for_ranges(coarse_count(), coarse_grain, [&](int begin, int end) {
+        for (int c = begin; c < end; ++c) fine.col(coarse_in_fine[at(c)]) = coarse.col(c);
+    });
     in_reverse(removals, coarse_grain, [&](int k) {
         Eigen::Vector4f sum = Eigen::Vector4f::Zero();
         for (int j = removals.begin[at(k)]; j < removals.begin[at(k) + 1]; ++j)
             sum += removals.weights[at(j)] * fine.col(removals.neighbours[at(j)]);
         fine.col(removals.vertex[at(k)]) = sum;
     });
-}
-
-void Transfer::restrict(SingleField& fine, SingleField& coarse) const {
-    for (int k = 0; k < removals.size(); ++k) {
-        const Eigen::Vector4f value = fine.col(removals.vertex[at(k)]);
-        for (int j = removals.begin[at(k)]; j < removals.begin[at(k) + 1]; ++j)
-            fine.col(removals.neighbours[at(j)]) += removals.weights[at(j)] * value;
-    }
-    for (int c = 0; c < coarse_free_count; ++c) coarse.col(c) = fine.col(coarse_in_fine[at(c)]);
-    coarse.rightCols(coarse.cols() - coarse_free_count).setZero();
 }
 
 void Transfer::prolong_means(const Points& coarse, int fine_free_count, Points& fine) const {

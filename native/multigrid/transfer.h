@@ -37,9 +37,6 @@ struct Transfer {
     // The same in double precision. `fine` comes with the fixed vertices.
     void prolong_means(const Points& coarse, int fine_free_count, Points& fine) const;
 
-    // Its transpose; nothing arrives at fixed vertices. `fine` is used up, `coarse` in the right size.
-    void restrict(SingleField& fine, SingleField& coarse) const;
-
     // Means as in `lifted_mean`. `fine` comes with the fixed vertices; those that the coarse level lacks bend unknown.
     void prolong_surface(const BentPoints& coarse, int fine_free_count, BentPoints& fine) const;
 };

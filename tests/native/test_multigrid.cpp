@@ -132,7 +132,8 @@ TEST_CASE("restriction is the transpose of interpolation, whose weights sum to o
     transfer.prolong(coarse, prolonged);
     const double left = prolonged.cwiseProduct(fine).cast<double>().sum();
     SingleField restricted(4, coarse.cols());
-    transfer.restrict(fine, restricted);
+    SingleField sums(4, transfer.fine_count);
+    Restriction(transfer).apply(fine, 1.0F, sums, restricted);
     const double right = coarse.cwiseProduct(restricted).cast<double>().sum();
     CHECK(left == doctest::Approx(right).epsilon(1e-5));
 }
@@ -231,9 +232,9 @@ TEST_CASE("multigrid and a factorisation give the same tangential steps") {
     const CoarseLevel& coarsest = ball.levels[1];
     const FactorisedLaplacian base(coarsest.patch, coarsest.weights, fixed[1], Progress());
     const MultigridStep between(middle.patch, RingMatrix(middle.patch.vertex_count(), middle.weights), fixed[0],
-                                coarsest.transfer, base);
+                                Restriction(coarsest.transfer), base);
     const MultigridStep multigrid(ball.patch(), RingMatrix(ball.patch().vertex_count(), ball.weights),
-                                  ball.fixed_points(), middle.transfer, between);
+                                  ball.fixed_points(), Restriction(middle.transfer), between);
     const SymmetricStep factorised(ball.patch(), ball.weights, ball.fixed_points(), Progress());
 
     const Points membrane = factorised.harmonic_positions();
@@ -262,7 +263,7 @@ TEST_CASE("on a sphere a tangential step that knows how the planes turn is Newto
                                    of_coarse.rightCols(level.patch.vertex_count() - level.patch.free_count),
                                    Progress());
     const MultigridStep multigrid(ball.patch(), RingMatrix(ball.patch().vertex_count(), ball.weights),
-                                  ball.fixed_points(), level.transfer, base);
+                                  ball.fixed_points(), Restriction(level.transfer), base);
     const SymmetricStep factorised(ball.patch(), ball.weights, ball.fixed_points(), Progress());
     PatchCurvature curvature{VectorX::Constant(free, -1.0), Points::Zero(3, free)};
     curvature.form.row(0).setConstant(-1.0);
