@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 
 #include "base/parallel.h"
 
@@ -58,15 +59,20 @@ struct Cube {
 // Counting sorts by eleven bits at a time, the lowest first; what has one place stays as it was.
 void sort_many(std::span<Key> keys) {
     constexpr unsigned bits = 11;
+    constexpr unsigned passes = 6;  // an even number: the last one ends where the first began
     constexpr std::size_t digits = 1U << bits;
-    std::vector<Key> sorted(keys.size());
-    for (unsigned shift = 0; shift < 63; shift += bits) {
-        const auto digit = [&](const Key& key) { return key.place >> shift & (digits - 1); };
-        std::array<int, digits + 1> begin{};
-        for (const Key& key : keys) ++begin[digit(key) + 1];
-        for (std::size_t k = 1; k < digits; ++k) begin[k] += begin[k - 1];
-        for (const Key& key : keys) sorted[at(begin[digit(key)]++)] = key;
-        std::copy(sorted.begin(), sorted.end(), keys.begin());
+    const auto digit = [](const Key& key, unsigned pass) { return key.place >> pass * bits & (digits - 1); };
+    std::vector<std::array<int, digits + 1>> begin(passes);
+    for (const Key& key : keys) {
+        for (unsigned pass = 0; pass < passes; ++pass) ++begin[pass][digit(key, pass) + 1];
+    }
+    std::vector<Key> other(keys.size());
+    std::span<Key> from = keys;
+    std::span<Key> to = other;
+    for (unsigned pass = 0; pass < passes; ++pass) {
+        std::partial_sum(begin[pass].begin(), begin[pass].end(), begin[pass].begin());
+        for (const Key& key : from) to[at(begin[pass][digit(key, pass)]++)] = key;
+        std::swap(from, to);
     }
 }
 

@@ -5,11 +5,12 @@
 #include <numeric>
 
 #include "base/difference.h"
+#include "base/parallel.h"
 #include "geometry/face_geometry.h"
 #include "geometry/flips.h"
-#include "mesh/corners.h"
 #include "geometry/outline_angles.h"
 #include "geometry/self_intersection.h"
+#include "mesh/corners.h"
 #include "method/eased.h"
 #include "placement/tears.h"
 #include "problem/surface_state.h"
@@ -26,9 +27,7 @@ constexpr int most_iterations = 20;
 bool has_area(const Problem& problem, const Points& points) {
     constexpr double usual_tolerance = 1e-6;  // looser ones are no reason to refuse narrow patches
     const double least_area = 4.0 * std::min(problem.options.tolerance, usual_tolerance);  // D²
-    FaceGeometry faces;
-    faces.update(points, problem.patch.triangles);
-    return faces.areas.sum() > std::max(least_area, 1e-9);
+    return total_area(points, problem.patch.triangles) > std::max(least_area, 1e-9);
 }
 
 // Met from the other side at most of the outline's vertices: a bulge that has turned inside out.
@@ -130,11 +129,15 @@ Difference difference_from(const SolvedSurface& surface, const Solution& own) {
 bool has_poor_triangles(const Patch& patch, const Points& points) {
     constexpr double poor_shape = 0.25;  // a right triangle of 7 : 1
     constexpr double tolerated_share = 0.1;
-    int poor = 0;
-    for (const auto triangle : patch.triangles.colwise()) {
-        if (triangle_shape(points.col(triangle[0]), points.col(triangle[1]), points.col(triangle[2])) < poor_shape)
-            ++poor;
-    }
+    const double poor = sum_over_ranges(patch.triangle_count(), coarse_grain, [&](int begin, int end) {
+        int count = 0;
+        for (int t = begin; t < end; ++t) {
+            const auto corners = patch.triangles.col(t);
+            if (triangle_shape(points.col(corners[0]), points.col(corners[1]), points.col(corners[2])) < poor_shape)
+                ++count;
+        }
+        return count;
+    });
     return poor > tolerated_share * patch.triangle_count();
 }
 
