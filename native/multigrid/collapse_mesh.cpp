@@ -36,8 +36,8 @@ CollapseMesh::CollapseMesh(const Patch& patch, const InnerWeights& weights, cons
 
 void CollapseMesh::build_sides(const Patch& patch) {
     const int side_count = 3 * patch.triangle_count();
-    corner_.assign(patch.triangles.data(), patch.triangles.data() + side_count);
-    twin_.assign(at(side_count), none);
+    sides_.resize(at(side_count));
+    for (int s = 0; s < side_count; ++s) sides_[at(s)] = {side_tail(patch.triangles, s), none, 0.0F};
     Indices first(at(patch.edge_count()), none);
     for (int s = 0; s < side_count; ++s) {
         checkpoint(s);
@@ -45,8 +45,8 @@ void CollapseMesh::build_sides(const Patch& patch) {
         if (other == none) {
             other = s;
         } else {
-            twin_[at(s)] = other;
-            twin_[at(other)] = s;
+            sides_[at(s)].twin = other;
+            sides_[at(other)].twin = s;
         }
     }
     for (int v = 0; v < patch.vertex_count(); ++v) {
@@ -57,8 +57,8 @@ void CollapseMesh::build_sides(const Patch& patch) {
     }
     for (int s = 0; s < side_count; ++s) {
         checkpoint(s);
-        int& side = first_side_[at(corner_[at(s)])];
-        if (side == none || twin_[at(s)] == none) side = s;
+        int& side = first_side_[at(sides_[at(s)].corner)];
+        if (side == none || sides_[at(s)].twin == none) side = s;
     }
 }
 
@@ -71,20 +71,22 @@ void CollapseMesh::set_weights(const Patch& patch, const InnerWeights& weights) 
                                             : ring.spokes[static_cast<std::size_t>(found - ring.vertices.begin())];
     };
     double sum = 0.0;
+    std::size_t next = 0;  // weights mostly come in the order of the edges
     for (const auto& [i, j, weight] : weights) {
         checkpoint(i);
-        const int edge = find(i, j);
+        const bool in_order = next < patch.edge_ends.size() && patch.edge_ends[next] == std::array{i, j};
+        const int edge = in_order ? static_cast<int>(next) : find(i, j);
+        ++next;
         sum += weight;
         if (edge != none) of_edge[edge] += weight;
     }
     // A star without any weight (all of its edges are others than the mesh's) is still interpolated from its ring.
     const double least = 1e-3 * sum / std::max<double>(1.0, static_cast<double>(patch.edge_count()));
-    weight_.resize(corner_.size());
-    for (std::size_t s = 0; s < corner_.size(); ++s) {
+    for (std::size_t s = 0; s < sides_.size(); ++s) {
         const int side = static_cast<int>(s);
         checkpoint(side);
         const double weight = of_edge[patch.triangle_edges((side + 2) % 3, side / 3)];
-        weight_[s] = static_cast<float>(std::max(weight, least));
+        sides_[s].weight = static_cast<float>(std::max(weight, least));
     }
 }
 
@@ -108,16 +110,16 @@ void CollapseMesh::gather(int v, Star& star) const {
     star.closed = true;
     int s = first_side_[at(v)];
     do {
-        star.vertices.push_back(corner_[at(next_side(s))]);
+        star.vertices.push_back(sides_[at(next_side(s))].corner);
         star.sides.push_back(s);
-        star.weights.push_back(weight_[at(s)]);
+        star.weights.push_back(sides_[at(s)].weight);
         const int last = previous_side(s);
-        s = twin_[at(last)];
+        s = sides_[at(last)].twin;
         if (s == none) {
             star.closed = false;
-            star.vertices.push_back(corner_[at(last)]);
+            star.vertices.push_back(sides_[at(last)].corner);
             star.sides.push_back(none);
-            star.weights.push_back(weight_[at(last)]);
+            star.weights.push_back(sides_[at(last)].weight);
             return;
         }
     } while (s != first_side_[at(v)]);
@@ -197,7 +199,7 @@ void CollapseMesh::pass_fixed_weights_on(Star& star, std::size_t k) const {
 void CollapseMesh::set_first_side(int v, int side) {
     if (border_[at(v)]) {
         // Clockwise to the end of the fan.
-        while (twin_[at(side)] != none) side = next_side(twin_[at(side)]);
+        while (sides_[at(side)].twin != none) side = next_side(sides_[at(side)].twin);
     }
     first_side_[at(v)] = side;
 }
@@ -205,13 +207,13 @@ void CollapseMesh::set_first_side(int v, int side) {
 // Drops the triangle of `side`, an edge between the star's centre and the vertex kept, and joins what lies behind the
 // two other edges, which become one of the given weight.
 void CollapseMesh::drop_triangle(int side, double weight) {
-    const int a = twin_[at(next_side(side))];
-    const int b = twin_[at(previous_side(side))];
+    const int a = sides_[at(next_side(side))].twin;
+    const int b = sides_[at(previous_side(side))].twin;
     dead_triangle_[at(side / 3)] = 1;
     for (const auto& [s, other] : {std::pair(a, b), std::pair(b, a)}) {
         if (s == none) continue;
-        twin_[at(s)] = other;
-        weight_[at(s)] = static_cast<float>(weight);
+        sides_[at(s)].twin = other;
+        sides_[at(s)].weight = static_cast<float>(weight);
     }
 }
 
@@ -221,8 +223,8 @@ void CollapseMesh::strengthen_rim(const Star& star, std::size_t k) {
         if (!star.has_triangle(j) || j == k || star.after(j) == k) continue;
         const auto more = static_cast<float>(star.weights[j] * star.weights[star.after(j)] / sum);
         const int rim = next_side(star.sides[j]);
-        weight_[at(rim)] += more;
-        if (twin_[at(rim)] != none) weight_[at(twin_[at(rim)])] += more;
+        sides_[at(rim)].weight += more;
+        if (sides_[at(rim)].twin != none) sides_[at(sides_[at(rim)].twin)].weight += more;
     }
 }
 
@@ -231,12 +233,12 @@ void CollapseMesh::hand_over_spokes(const Star& star, int kept) {
         const auto weight = static_cast<float>(star.passed[j]);
         const int s = star.sides[j];
         if (s == none) {
-            weight_[at(previous_side(star.sides[j - 1]))] = weight;
+            sides_[at(previous_side(star.sides[j - 1]))].weight = weight;
             continue;
         }
-        corner_[at(s)] = kept;
-        weight_[at(s)] = weight;
-        if (twin_[at(s)] != none) weight_[at(twin_[at(s)])] = weight;
+        sides_[at(s)].corner = kept;
+        sides_[at(s)].weight = weight;
+        if (sides_[at(s)].twin != none) sides_[at(sides_[at(s)].twin)].weight = weight;
     }
 }
 
@@ -250,19 +252,19 @@ void CollapseMesh::collapse(const Star& star, std::size_t k) {
     if (star.has_triangle(k)) {
         const int side = star.sides[k];  // centre → kept → l → centre
         dropped[0] = {side, star.after(k)};
-        drop_triangle(side, weight_[at(next_side(side))] + star.passed[star.after(k)]);
+        drop_triangle(side, sides_[at(next_side(side))].weight + star.passed[star.after(k)]);
     }
     if (star.has_triangle(star.before(k))) {
         const int side = previous_side(star.sides[star.before(k)]);  // kept → centre → r → kept
         dropped[1] = {side, star.before(k)};
-        drop_triangle(side, weight_[at(previous_side(side))] + star.passed[star.before(k)]);
+        drop_triangle(side, sides_[at(previous_side(side))].weight + star.passed[star.before(k)]);
     }
     for (const auto& [side, j] : dropped) {
         if (side == none) continue;
         const int apex = star.vertices[j];
         --valence_[at(apex)];
-        const int from_apex = twin_[at(next_side(side))];
-        const int to_apex = twin_[at(previous_side(side))];
+        const int from_apex = sides_[at(next_side(side))].twin;
+        const int to_apex = sides_[at(previous_side(side))].twin;
         set_first_side(apex, from_apex != none ? from_apex : next_side(to_apex));
         set_first_side(kept, to_apex != none ? to_apex : next_side(from_apex));
     }
@@ -291,8 +293,8 @@ CoarseMesh CollapseMesh::mesh() const {
     for (std::size_t t = 0; t < members.input_triangle.size(); ++t) {
         for (int k = 0; k < 3; ++k) {
             const int side = 3 * members.input_triangle[t] + k;
-            const int twin = twin_[at(side)];
-            members.triangles(k, static_cast<Eigen::Index>(t)) = local[at(corner_[at(side)])];
+            const int twin = sides_[at(side)].twin;
+            members.triangles(k, static_cast<Eigen::Index>(t)) = local[at(sides_[at(side)].corner)];
             twins.push_back(twin == none ? none : 3 * place[at(twin / 3)] + twin % 3);
         }
     }
@@ -301,9 +303,9 @@ CoarseMesh CollapseMesh::mesh() const {
 
 InnerWeights CollapseMesh::weights() const {
     InnerWeights result;
-    for (int s = 0; s < static_cast<int>(corner_.size()); ++s) {
-        if (dead_triangle_[at(s / 3)] || (twin_[at(s)] != none && twin_[at(s)] < s)) continue;
-        result.push_back({corner_[at(s)], corner_[at(next_side(s))], weight_[at(s)]});
+    for (int s = 0; s < static_cast<int>(sides_.size()); ++s) {
+        if (dead_triangle_[at(s / 3)] || (sides_[at(s)].twin != none && sides_[at(s)].twin < s)) continue;
+        result.push_back({sides_[at(s)].corner, sides_[at(next_side(s))].corner, sides_[at(s)].weight});
     }
     result.shrink_to_fit();
     return result;

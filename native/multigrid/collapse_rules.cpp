@@ -65,10 +65,10 @@ bool CollapseMesh::is_legal(const Star& star, std::size_t k) {
     int s = first_side_[at(kept)];
     const int start = s;
     do {
-        stamp_[at(corner_[at(next_side(s))])] = stamp_now_;
+        stamp_[at(sides_[at(next_side(s))].corner)] = stamp_now_;
         const int last = previous_side(s);
-        stamp_[at(corner_[at(last)])] = stamp_now_;
-        s = twin_[at(last)];
+        stamp_[at(sides_[at(last)].corner)] = stamp_now_;
+        s = sides_[at(last)].twin;
     } while (s != none && s != start);
     const bool left = star.has_triangle(k);
     const bool right = star.has_triangle(star.before(k));
