@@ -11,8 +11,7 @@
 namespace fairing {
 
 Patch::Patch(PatchMembers members, Twins twins) : PatchMembers(std::move(members)) {
-    const Misfit misfit =
-        twins.empty() ? find_twins(triangles, vertex_count(), twins) : join_borders(triangles, twins);
+    const Misfit misfit = twins.empty() ? find_twins(triangles, vertex_count(), twins) : join_borders(triangles, twins);
     if (misfit) refuse(*misfit);
     number_edges(twins);
     flatten_rings(twins);
@@ -133,7 +132,8 @@ void Patch::flatten_rings(const Twins& twins) {
         for (int v = begin; v < end; ++v) {
             if (fill_ring(v, first[at(v)], twins) && has_neighbours_once(v)) continue;
             int least = misfit;
-            while (v < least && !misfit.compare_exchange_weak(least, v)) {}
+            while (v < least && !misfit.compare_exchange_weak(least, v)) {
+            }
             return;
         }
     });

@@ -23,8 +23,9 @@ std::vector<BorderSide> border_sides(const Triangles& triangles, const Twins& tw
         const int head = side_head(triangles, s);
         sides.push_back({{std::min(tail, head), std::max(tail, head)}, s});
     }
-    std::sort(sides.begin(), sides.end(),
-              [](const BorderSide& a, const BorderSide& b) { return std::tie(a.ends, a.side) < std::tie(b.ends, b.side); });
+    std::sort(sides.begin(), sides.end(), [](const BorderSide& a, const BorderSide& b) {
+        return std::tie(a.ends, a.side) < std::tie(b.ends, b.side);
+    });
     return sides;
 }
 

@@ -129,8 +129,7 @@ void Levels::set_up_tangential(std::size_t k, RingMatrix laplacian, const Progre
     } else {
         if (!level.restriction) level.restriction.emplace(transfer(k));
         adopt(std::make_unique<MultigridStep>(problem.patch, std::move(laplacian), problem.fixed_points,
-                                              std::move(*level.restriction),
-                                              *levels_[k + 1].tangential_cycle));
+                                              std::move(*level.restriction), *levels_[k + 1].tangential_cycle));
         level.restriction.reset();
     }
 }

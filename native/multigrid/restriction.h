@@ -5,15 +5,15 @@
 
 namespace fairing {
 
-// The transpose of Transfer::prolong, by what arrives at each vertex instead of what leaves it: on several threads. Eight
-// bytes for each weight that are not shared with the interpolation.
+// The transpose of Transfer::prolong, by what arrives at each vertex instead of what leaves it: on several threads.
+// Eight bytes for each weight that are not shared with the interpolation.
 class Restriction {
 public:
     // Refers to it.
     explicit Restriction(const Transfer& transfer);
 
-    // coarse ← scale · Pᵀ fine; nothing arrives at fixed vertices. `sums`: scratch of the size of `fine`, `coarse` in the
-    // right size.
+    // coarse ← scale · Pᵀ fine; nothing arrives at fixed vertices. `sums`: scratch of the size of `fine`, `coarse` in
+    // the right size.
     void apply(const SingleField& fine, float scale, SingleField& sums, SingleField& coarse) const;
 
     [[nodiscard]] const Transfer& transfer() const { return transfer_; }

@@ -91,9 +91,8 @@ void MultigridStep::cycle(SingleField& r, SingleField& x) const {
     restriction_.apply(r, static_cast<float>(scale() / coarser_.scale()), fine_, coarse_r_);
     coarser_.cycle(coarse_r_, coarse_x_);
     restriction_.transfer().prolong(coarse_x_, fine_);
-    for_ranges(static_cast<int>(x.cols()), coarse_grain, [&](int begin, int end) {
-        x.middleCols(begin, end - begin) += fine_.middleCols(begin, end - begin);
-    });
+    for_ranges(static_cast<int>(x.cols()), coarse_grain,
+               [&](int begin, int end) { x.middleCols(begin, end - begin) += fine_.middleCols(begin, end - begin); });
     subtract_product(fine_, r);
     smooth(x, r, From::given, Residual::left);
 }
