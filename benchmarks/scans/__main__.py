@@ -16,6 +16,7 @@ import argparse
 import csv
 import statistics
 import sys
+import textwrap
 import time
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -88,9 +89,8 @@ def summary(rows: list[Row]) -> str:
         cells = [cell([row for row in rows if (row.wanted, row.noise) == (wanted, noise)]) for noise in noises]
         lines.append(f"| {wanted} | {' | '.join(cells)} |")
     places = ", ".join(dict.fromkeys(row.region for row in rows))
-    return "\n".join(
-        [*lines, "", f"Median (worst) × clean; within {GOAL:g} ×, polished, converged of all. Regions:", f"{places}."]
-    )
+    note = f"Median (worst) × clean; within {GOAL:g} ×, polished, converged of all. Regions: {places}."
+    return "\n".join([*lines, "", textwrap.fill(note, 120, break_on_hyphens=False)])
 
 
 def cell(rows: list[Row]) -> str:

@@ -46,6 +46,7 @@ std::unique_ptr<PreparedMesh> prepare(const MeshInput& input, const CallOptions&
     check_geometry(input, prepared->mesh);
     prepared->finite = input.vertices.allFinite();
     patching.finish();
+    prepared->mesh.cut.twins = {};  // the patches have their own rings now
     Eigen::Index triangles = 0;
     for (const Patch& patch : prepared->patches) triangles += patch.triangle_count();
     prepared->is_all_patches = triangles == prepared->mesh.cut.triangles.cols();

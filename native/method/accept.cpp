@@ -142,6 +142,7 @@ bool has_poor_triangles(const Patch& patch, const Points& points) {
 }
 
 Flaw flaw_of(const Problem& problem, Solution& solution) {
+    solution.flipped.reset();
     const bool folded_on_proxy = solution.termination == Termination::folded;
     if (solution.termination != Termination::converged && !folded_on_proxy) return Flaw::not_converged;
     if (!has_area(problem, solution.points)) return Flaw::collapsed;
