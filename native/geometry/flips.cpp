@@ -44,9 +44,7 @@ Indices flipped_triangles(const Patch& patch, const Points& points) {
 }
 
 Indices flipped_by_solution(const Patch& patch, const Points& points) {
-    Indices flipped = flipped_triangles(patch, points);
-    std::erase_if(flipped, [&](int t) { return !has_free_corner(patch, t); });
-    return flipped;
+    return with_free_corner(patch, flipped_triangles(patch, points));
 }
 
 bool is_flipped(const Patch& patch, const Points& points, int triangle) {

@@ -44,4 +44,9 @@ bool has_free_corner(const Patch& patch, int triangle) {
     return patch.triangles.col(triangle).minCoeff() < patch.free_count;
 }
 
+Indices with_free_corner(const Patch& patch, Indices triangles) {
+    std::erase_if(triangles, [&](int t) { return !has_free_corner(patch, t); });
+    return triangles;
+}
+
 }  // namespace fairing

@@ -63,8 +63,7 @@ Indices crossings_inside(const Patch& patch, const Points& points) {
 Indices flips_of(const Problem& problem, Solution& solution) {
     if (!solution.polished) return {};
     solution.flipped = flipped_triangles(problem.patch, solution.points);
-    Indices flipped = *solution.flipped;
-    std::erase_if(flipped, [&](int t) { return !has_free_corner(problem.patch, t); });
+    Indices flipped = with_free_corner(problem.patch, *solution.flipped);
     if (is_eased(solution)) flipped = inside(problem.patch, std::move(flipped));
     if (keeps_shape(problem, solution)) flipped = without(flipped, flipped_by_solution(problem.patch, *problem.before));
     return flipped;

@@ -30,21 +30,15 @@ struct Kind {
 };
 constexpr std::array kinds{Kind{0.6, 1.0}, Kind{1.5, 1.0}, Kind{4.0, 1.3}};
 
-double area_of(const Patch& patch, const Points& points) {
-    FaceGeometry faces;
-    faces.update(points, patch.triangles);
-    return faces.areas.sum();
-}
-
 // A share of the bulge over an outline, which may lie beside the problem's; nothing where it is a balloon.
 std::optional<Points> surface(const Problem& problem, const Problem& outline, const Fill& fill, double share) {
     const Patch& patch = problem.patch;
     Points points(3, patch.vertex_count());
     points.rightCols(outline.fixed_points.cols()) = outline.fixed_points;
     points.leftCols(patch.free_count) = fill.flat;
-    const double least_area = area_of(patch, points);
+    const double least_area = total_area(points, patch.triangles);
     points.leftCols(patch.free_count) += share * fill.bulge;
-    if (area_of(patch, points) > largest_growth * least_area) return std::nullopt;
+    if (total_area(points, patch.triangles) > largest_growth * least_area) return std::nullopt;
     if (&outline != &problem) follow_outline(patch, problem.fixed_points - outline.fixed_points, points);
     points.rightCols(problem.fixed_points.cols()) = problem.fixed_points;
     return points;

@@ -34,8 +34,8 @@ class Around {
 public:
     Around(const Patch& patch, int v) : patch_(patch) {
         Indices near = triangles_at(patch, {v});
-        turning_ = near = triangles_at(patch, corners_of(patch, near));
-        std::erase_if(turning_, [&](int t) { return !has_free_corner(patch, t); });
+        near = triangles_at(patch, corners_of(patch, near));
+        turning_ = with_free_corner(patch, near);
         for (int k = 0; k < 2; ++k) near = triangles_at(patch, corners_of(patch, near));
         triangles_ = patch.triangles(Eigen::all, near);
     }

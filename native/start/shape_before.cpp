@@ -19,9 +19,7 @@ bool is_usable(const Problem& problem) {
     const Patch& patch = problem.patch;
     const Points& before = *problem.before;
     if (before.cols() != patch.vertex_count() || !before.allFinite()) return false;
-    FaceGeometry faces;
-    faces.update(before, patch.triangles);
-    if (!(faces.areas.sum() > 1e-9)) return false;
+    if (!(total_area(before, patch.triangles) > 1e-9)) return false;
     const auto turned = static_cast<double>(flipped_triangles(patch, before).size());
     return turned <= most_turned * patch.triangle_count();
 }

@@ -109,7 +109,7 @@ TEST_CASE("sides that run to and fro between two vertices are joined, more than 
 }
 
 TEST_CASE("a patch refuses twins that leave an edge twice, or a vertex between two fans") {
-    // Two triangles on the same three vertices, joined along one edge, and a third one behind each other edge.
+    // Two triangles on the same three vertices, joined along one edge.
     Triangles pocket(3, 2);
     pocket << 0, 1,  //
         1, 0,        //
