@@ -8,6 +8,8 @@
 namespace fairing {
 
 using Vector3 = Eigen::Vector3d;
+template <typename Scalar>
+using Vector3Of = Eigen::Matrix<Scalar, 3, 1>;
 using VectorX = Eigen::VectorXd;
 
 // Points, normals and displacements: column i belongs to vertex i (the memory of a C-ordered (n, 3) array).

@@ -23,9 +23,6 @@ double CurvatureFit::rise(const Vector3& normal, const Vector3& d) const {
 
 namespace {
 
-// Of the squared distance, in the tangent plane: points nearer to the normal's line have no direction.
-constexpr double no_direction = 1e-24;
-
 // Wedges of the outline from which on its normals count in part, and in full (radians).
 constexpr double wide = 2.0 * std::numbers::pi / 3.0;
 constexpr double narrow = std::numbers::pi / 2.0;
@@ -34,11 +31,10 @@ constexpr double narrow = std::numbers::pi / 2.0;
 // down to 3e-5 of an edge on voxel meshes and beside booleans, and a normal's error is divided by that distance.
 constexpr double least_distance = 0.05;
 
-// Squared distance from which on points around a vertex tell its curvature.
-double least_squared(const Patch& patch, const Points& points, int vertex, std::span<const Vector3> around) {
-    if (patch.is_free(vertex)) return 0.0;
+// Squared distance from which on points around a vertex of the outline tell its curvature.
+double least_squared(const Vector3& centre, std::span<const Vector3> around) {
     double most = 0.0;
-    for (const Vector3& p : around) most = std::max(most, (p - points.col(vertex)).squaredNorm());
+    for (const Vector3& p : around) most = std::max(most, (p - centre).squaredNorm());
     return least_distance * least_distance * most;
 }
 
@@ -65,74 +61,71 @@ void add_outline_normals(const Patch& patch, const Points& points, const Points&
     const double weight = s * s * (3.0 - 2.0 * s);
     for (int v : patch.ring(vertex).vertices) {
         const bool is_told = !patch.is_free(v) && (points.col(v) - points.col(vertex)).squaredNorm() >= least;
-        if (is_told) fit.add_twist(points.col(v), normals.col(v), weight);
+        if (is_told) fit.add_twist(points.col(v) - points.col(vertex), normals.col(v), weight);
     }
 }
 
 }  // namespace
-
-void CurvatureLeastSquares::add_point(const Vector3& point) {
-    const Vector3 d = point - centre_;
-    const double squared = d.squaredNorm();
-    const Eigen::Vector2d t(frame_.u.dot(d), frame_.v.dot(d));
-    const double in_plane = t.squaredNorm();
-    if (!(in_plane > no_direction * squared)) return;
-    const Vector3 row(t.x() * t.x(), t.x() * t.y(), t.y() * t.y());
-    equations_.add(row / in_plane, 2.0 * normal_.dot(d) / squared, 1.0);
-}
-
-void CurvatureLeastSquares::add_twist(const Vector3& point, const Vector3& normal_there, double weight) {
-    const Vector3 d = point - centre_;
-    const double squared = d.squaredNorm();
-    const Eigen::Vector2d t(frame_.u.dot(d), frame_.v.dot(d));
-    const double in_plane = t.squaredNorm();
-    if (!(in_plane > no_direction * squared)) return;
-    const double product = t.x() * t.y();
-    const Vector3 row(-product, 0.5 * (t.x() * t.x() - t.y() * t.y()), product);
-    const Vector3 across = t.x() * frame_.v - t.y() * frame_.u;
-    equations_.add(row / in_plane, -normal_there.dot(across) / std::sqrt(in_plane * squared), weight);
-}
-
-CurvatureFit CurvatureLeastSquares::solve() const {
-    NormalEquations<3> equations = equations_;
-    equations.add_to_diagonal(1e-9 * equations.trace() + 1e-300);
-    const Vector3 x = equations.solve();
-    return {x[0], x[1], x[2]};
-}
 
 VectorX PatchCurvature::gaussian() const {
     return form.row(0).cwiseProduct(form.row(2)).transpose() - 0.25 * form.row(1).cwiseAbs2().transpose();
 }
 
 CurvatureFit fit_curvature(const Vector3& centre, std::span<const Vector3> points, const Vector3& normal) {
-    CurvatureLeastSquares fit(centre, normal);
-    for (const Vector3& p : points) fit.add_point(p);
-    return fit.solve();
+    CurvatureLeastSquares fit(normal);
+    for (const Vector3& p : points) fit.add_point(p - centre);
+    return CurvatureFit::of(fit.solve());
 }
+
+namespace {
+
+// At a vertex of the outline.
+Vector3 form_at_outline(const Patch& patch, const Points& points, const Points& virtual_points, const Points& normals,
+                        NormalKind kind, int vertex) {
+    OneRingBuffer buffer;
+    CurvatureLeastSquares rows(normals.col(vertex));
+    buffer.gather(patch, points, vertex);
+    const auto around = buffer.with_virtual(patch, vertex, [&](int edge) { return virtual_points.col(edge); });
+    const double least = least_squared(points.col(vertex), around);
+    for (const Vector3& p : around) {
+        const Vector3 offset = p - points.col(vertex);
+        if (offset.squaredNorm() >= least) rows.add_point(offset);
+    }
+    if (kind == NormalKind::fitted && !patch.ring(vertex).closed()) {
+        add_outline_normals(patch, points, normals, vertex, least, rows);
+    }
+    return rows.solve();
+}
+
+// At free vertices.
+Vector3Of<Lanes> forms_inside(const RingPair& rings, const Vector3Of<Lanes>& normals) {
+    CurvatureRows<Lanes> rows(normals);
+    for (std::size_t k = 0; k < rings.size(); ++k) rows.add_point(rings.offset(k));
+    return rows.solve();
+}
+
+}  // namespace
 
 PatchCurvature patch_curvature(const Patch& patch, const Points& points, FaceGeometry faces, const Points& normals,
                                NormalKind kind) {
     const Points virtual_points = edge_virtual_points(patch, points, faces, normals);
     faces = {};  // the rest needs the room
-    const auto virtual_point = [&](int edge) { return virtual_points.col(edge); };
     PatchCurvature curvature{VectorX(patch.vertex_count()), Points(3, patch.vertex_count())};
-    for_ranges(patch.vertex_count(), fine_grain, [&](int begin, int end) {
-        OneRingBuffer buffer;
-        for (int i = begin; i < end; ++i) {
-            CurvatureLeastSquares rows(points.col(i), normals.col(i));
-            buffer.gather(patch, points, i);
-            const auto around = buffer.with_virtual(patch, i, virtual_point);
-            const double least = least_squared(patch, points, i, around);
-            for (const Vector3& p : around) {
-                if ((p - points.col(i)).squaredNorm() >= least) rows.add_point(p);
-            }
-            if (kind == NormalKind::fitted && !patch.is_free(i) && !patch.ring(i).closed())
-                add_outline_normals(patch, points, normals, i, least, rows);
-            const CurvatureFit fit = rows.solve();
-            curvature.mean[i] = fit.mean();
-            curvature.form.col(i) << fit.x0, fit.x1, fit.x2;
+    for_ranges(patch.free_count, fine_grain, [&](int begin, int end) {
+        RingPair rings;
+        for (int i = begin; i < end; i += Lanes::count) {
+            const LaneIndices vertices = lanes_from(i, end);
+            rings.gather(patch, points, vertices);
+            rings.append_virtual(patch, virtual_points, vertices);
+            scatter(forms_inside(rings, gathered(normals, vertices)), vertices, curvature.form);
         }
     });
+    for_ranges(patch.vertex_count() - patch.free_count, fine_grain, [&](int begin, int end) {
+        for (int i = patch.free_count + begin; i < patch.free_count + end; ++i) {
+            curvature.form.col(i) = form_at_outline(patch, points, virtual_points, normals, kind, i);
+        }
+    });
+    curvature.mean = 0.5 * (curvature.form.row(0) + curvature.form.row(2)).transpose();
     return curvature;
 }
 

@@ -15,6 +15,7 @@ struct CurvatureFit {
     double x0 = 0.0;
     double x1 = 0.0;
     double x2 = 0.0;
+    static CurvatureFit of(const Vector3& form) { return {form[0], form[1], form[2]}; }
     [[nodiscard]] double mean() const { return 0.5 * (x0 + x2); }  // eq. 10
     [[nodiscard]] double gaussian() const { return x0 * x2 - 0.25 * x1 * x1; }
     // How far the surface rises along the normal at a small tangential displacement d: ½ κ(d) |d|², and no more
@@ -24,28 +25,68 @@ struct CurvatureFit {
 
 // The least squares of eq. 11, row by row. Points at the centre or straight above it carry no direction and are left
 // out. Exact on spheres, whatever the rows.
-class CurvatureLeastSquares {
+template <typename Scalar>
+class CurvatureRows {
 public:
+    using Vector = Vector3Of<Scalar>;
+
     // `normal` is a unit vector.
-    CurvatureLeastSquares(const Vector3& centre, const Vector3& normal)
-        : centre_(centre), normal_(normal), frame_(normal) {}
+    explicit CurvatureRows(const Vector& normal) : normal_(normal), frame_(normal) {}
 
-    // II(t, t) = κ of the direction t to the point (eq. 8).
-    void add_point(const Vector3& point);
+    // II(t, t) = κ of the direction t to the point at `offset` from the vertex (eq. 8).
+    void add_point(const Vector& offset);
 
-    // II(t, t⊥) from the turn of the unit normals towards `point`: −⟨normal_there − normal, t⊥⟩/|d|, t⊥ being t turned
+    // II(t, t⊥) from the turn of the unit normals towards the point: −⟨normal_there − normal, t⊥⟩/|d|, t⊥ being t turned
     // by 90° in the tangent plane. `weight`: of the row beside those of points.
-    void add_twist(const Vector3& point, const Vector3& normal_there, double weight = 1.0);
+    void add_twist(const Vector& offset, const Vector& normal_there, Scalar weight);
 
-    // Regularised by 1e-9 of the trace: finite for any input.
-    [[nodiscard]] CurvatureFit solve() const;
+    // x0, x1, x2, regularised by 1e-9 of the trace: finite for any input.
+    [[nodiscard]] Vector solve() const;
 
 private:
-    Vector3 centre_;
-    Vector3 normal_;
-    Frame frame_;
-    NormalEquations<3> equations_;
+    Vector normal_;
+    FrameOf<Scalar> frame_;
+    NormalEquations<3, Scalar> equations_;
 };
+using CurvatureLeastSquares = CurvatureRows<double>;
+
+// Points of which less than that part of the squared distance lies in the tangent plane have no direction.
+constexpr double no_direction = 1e-24;
+
+template <typename Scalar>
+void CurvatureRows<Scalar>::add_point(const Vector& offset) {
+    const Scalar x = frame_.u.dot(offset);
+    const Scalar y = frame_.v.dot(offset);
+    const Scalar in_plane = x * x + y * y;
+    const Scalar squared = offset.squaredNorm();
+    const auto is_told = in_plane > no_direction * squared;
+    const Scalar per_plane = 1.0 / select(is_told, in_plane, 1.0);
+    const Scalar curvature = 2.0 * normal_.dot(offset) / select(is_told, squared, 1.0);
+    equations_.add({x * x * per_plane, x * y * per_plane, y * y * per_plane}, curvature,
+                   select(is_told, Scalar(1.0), 0.0));
+}
+
+template <typename Scalar>
+void CurvatureRows<Scalar>::add_twist(const Vector& offset, const Vector& normal_there, Scalar weight) {
+    using std::sqrt;
+    const Scalar x = frame_.u.dot(offset);
+    const Scalar y = frame_.v.dot(offset);
+    const Scalar in_plane = x * x + y * y;
+    const Scalar squared = offset.squaredNorm();
+    const auto is_told = in_plane > no_direction * squared;
+    const Scalar per_plane = 1.0 / select(is_told, in_plane, 1.0);
+    const Scalar across = x * normal_there.dot(frame_.v) - y * normal_there.dot(frame_.u);
+    const Scalar twist = -across / sqrt(select(is_told, in_plane * squared, 1.0));
+    equations_.add({-x * y * per_plane, 0.5 * (x * x - y * y) * per_plane, x * y * per_plane}, twist,
+                   select(is_told, weight, 0.0));
+}
+
+template <typename Scalar>
+typename CurvatureRows<Scalar>::Vector CurvatureRows<Scalar>::solve() const {
+    NormalEquations<3, Scalar> equations = equations_;
+    equations.add_to_diagonal(1e-9 * equations.trace() + 1e-300);
+    return equations.solve();
+}
 
 // From the normal curvatures κ_j = 2⟨d_j, n⟩/⟨d_j, d_j⟩ of the directions to `points` alone. Negative on a sphere with
 // outward normals.

@@ -9,28 +9,30 @@ namespace fairing {
 
 // Sums weighted rows a · x = value of N unknowns. The sums are written out for N known to the compiler: rings have few
 // rows, and every step of the iteration fits two of them at every vertex.
-template <int N>
+template <int N, typename Scalar = double>
 class NormalEquations {
 public:
-    using Vector = Eigen::Matrix<double, N, 1>;
+    using Vector = Eigen::Matrix<Scalar, N, 1>;
 
-    void add(const Vector& row, double value, double weight) {
+    void add(const Vector& row, Scalar value, Scalar weight) {
         for (int j = 0; j < N; ++j) {
-            const double weighted = weight * row[j];
+            const Scalar weighted = weight * row[j];
             rhs_[j] += weighted * value;
             for (int i = j; i < N; ++i) matrix_(i, j) += weighted * row[i];
         }
     }
 
-    [[nodiscard]] double trace() const { return matrix_.trace(); }
-    void add_to_diagonal(double value) { matrix_.diagonal().array() += value; }
-    void add_to_diagonal(int k, double value) { matrix_(k, k) += value; }
+    [[nodiscard]] Scalar trace() const { return matrix_.trace(); }
+    void add_to_diagonal(Scalar value) { matrix_.diagonal().array() += value; }
+    void add_to_diagonal(int k, Scalar value) { matrix_(k, k) += value; }
 
     // By Cholesky's factor; the matrix must be positive definite. Destroys the sums.
     [[nodiscard]] Vector solve() {
+        using std::sqrt;
+        Vector inverse;  // of the factor's diagonal
         for (int j = 0; j < N; ++j) {
-            const double pivot = 1.0 / std::sqrt(matrix_(j, j));
-            for (int i = j; i < N; ++i) matrix_(i, j) *= pivot;
+            const Scalar pivot = inverse[j] = 1.0 / sqrt(matrix_(j, j));
+            for (int i = j + 1; i < N; ++i) matrix_(i, j) *= pivot;
             for (int k = j + 1; k < N; ++k) {
                 for (int i = k; i < N; ++i) matrix_(i, k) -= matrix_(i, j) * matrix_(k, j);
             }
@@ -39,13 +41,13 @@ public:
         }
         for (int j = N - 1; j >= 0; --j) {
             for (int i = j + 1; i < N; ++i) rhs_[j] -= matrix_(i, j) * rhs_[i];
-            rhs_[j] /= matrix_(j, j);
+            rhs_[j] *= inverse[j];
         }
         return rhs_;
     }
 
 private:
-    Eigen::Matrix<double, N, N> matrix_ = Eigen::Matrix<double, N, N>::Zero();  // its lower triangle
+    Eigen::Matrix<Scalar, N, N> matrix_ = Eigen::Matrix<Scalar, N, N>::Zero();  // its lower triangle
     Vector rhs_ = Vector::Zero();
 };
 

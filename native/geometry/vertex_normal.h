@@ -4,17 +4,11 @@
 #include <span>
 
 #include "geometry/face_geometry.h"
+#include "geometry/one_ring.h"
 
 namespace fairing {
 
 enum class NormalKind { fitted, averaged };
-
-// A vertex and the points around it, counter-clockwise; `closed` when the last is followed by the first.
-struct OneRing {
-    Vector3 centre;
-    std::span<const Vector3> points;
-    bool closed = true;
-};
 
 // Normalised sum of the cross products of the incident triangles (paper §6). Zero when they cancel.
 Vector3 averaged_normal(const OneRing& ring);

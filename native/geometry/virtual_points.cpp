@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lanes.h"
 #include "base/parallel.h"
 
 namespace fairing {
@@ -11,41 +12,73 @@ namespace {
 
 // Height of an arc over half the chord, as tan(θ/2) of its end angle θ given by (sin, cos) up to a common factor.
 // The cosine is kept positive, so that the angle's tangent is directed towards the other end.
-double arc_slope(double sine, double cosine) {
+template <typename Scalar>
+Scalar arc_slope(Scalar sine, Scalar cosine) {
+    using std::sqrt;
     constexpr double smallest_cosine = 0.1;
-    const double b = std::max(cosine, smallest_cosine);
-    return sine / (b + std::sqrt(sine * sine + b * b));
+    const Scalar b = select(cosine > smallest_cosine, cosine, smallest_cosine);
+    return sine / (b + sqrt(sine * sine + b * b));
 }
 
-}  // namespace
-
-Vector3 virtual_point(const NormalChord& chord) {
-    const Vector3 midpoint = 0.5 * (chord.a + chord.b);
-    const double length = (chord.b - chord.a).norm();
-    if (!(length > 0.0)) return midpoint;
-    const Vector3 direction = (chord.b - chord.a) / length;
-    Vector3 up = chord.triangle_normals - chord.triangle_normals.dot(direction) * direction;
-    const double up_length = up.norm();
-    if (!(up_length > 1e-12)) return midpoint;
-    up /= up_length;
-    const double slope_a = arc_slope(-chord.normal_a.dot(direction), chord.normal_a.dot(up));
-    const double slope_b = arc_slope(chord.normal_b.dot(direction), chord.normal_b.dot(up));
-    return midpoint + up * (0.25 * length * (slope_a + slope_b));
+template <typename Scalar>
+Vector3Of<Scalar> virtual_point_of(const NormalChordOf<Scalar>& chord) {
+    using Vector = Vector3Of<Scalar>;
+    const Vector along = chord.b - chord.a;
+    const Scalar length = along.norm();
+    const Vector direction = along * (1.0 / select(length > 0.0, length, 1.0));
+    const Vector up = chord.triangle_normals - chord.triangle_normals.dot(direction) * direction;
+    const Scalar up_length = up.norm();
+    const Scalar per_length = 1.0 / select(up_length > 1e-12, up_length, 1.0);
+    const Scalar slope_a =
+        arc_slope(Scalar(-chord.normal_a.dot(direction)), Scalar(chord.normal_a.dot(up) * per_length));
+    const Scalar slope_b =
+        arc_slope(Scalar(chord.normal_b.dot(direction)), Scalar(chord.normal_b.dot(up) * per_length));
+    // Nothing where the chord has no length or the triangles' normals no direction.
+    const Scalar height = select(up_length > 1e-12, 0.25 * length * (slope_a + slope_b) * per_length, 0.0);
+    return Scalar(0.5) * (chord.a + chord.b) + up * height;
 }
 
-Vector3 edge_virtual_point(const Patch& patch, const Points& points, const FaceGeometry& faces, const Points& normals,
-                           int edge) {
+// The chord of an edge of a patch.
+NormalChord chord_of(const Patch& patch, const Points& points, const FaceGeometry& faces, const Points& normals,
+                     int edge) {
     const auto [a, b] = patch.edge_ends[at(edge)];
     const auto [left, right] = patch.edge_triangles[at(edge)];
     Vector3 triangle_normals = faces.normals.col(left);
     if (right != none) triangle_normals += faces.normals.col(right);
-    return virtual_point({points.col(a), points.col(b), normals.col(a), normals.col(b), triangle_normals});
+    return {points.col(a), points.col(b), normals.col(a), normals.col(b), triangle_normals};
+}
+
+NormalChordOf<Lanes> chords_of(const Patch& patch, const Points& points, const FaceGeometry& faces,
+                               const Points& normals, LaneIndices edges) {
+    const auto [a0, b0] = patch.edge_ends[at(edges[0])];
+    const auto [a1, b1] = patch.edge_ends[at(edges[1])];
+    const auto [left0, right0] = patch.edge_triangles[at(edges[0])];
+    const auto [left1, right1] = patch.edge_triangles[at(edges[1])];
+    const Vector3 absent = Vector3::Zero();
+    const auto normal = [&](int triangle) {
+        return triangle == none ? absent.data() : faces.normals.col(triangle).data();
+    };
+    return {gathered(points, {a0, a1}), gathered(points, {b0, b1}), gathered(normals, {a0, a1}),
+            gathered(normals, {b0, b1}),
+            gathered(faces.normals, {left0, left1}) + side_by_side(normal(right0), normal(right1))};
+}
+
+}  // namespace
+
+Vector3 virtual_point(const NormalChord& chord) { return virtual_point_of(chord); }
+
+Vector3 edge_virtual_point(const Patch& patch, const Points& points, const FaceGeometry& faces, const Points& normals,
+                           int edge) {
+    return virtual_point(chord_of(patch, points, faces, normals, edge));
 }
 
 Points edge_virtual_points(const Patch& patch, const Points& points, const FaceGeometry& faces, const Points& normals) {
     Points result(3, patch.edge_count());
     for_ranges(patch.edge_count(), coarse_grain, [&](int begin, int end) {
-        for (int e = begin; e < end; ++e) result.col(e) = edge_virtual_point(patch, points, faces, normals, e);
+        for (int e = begin; e < end; e += Lanes::count) {
+            const LaneIndices edges = lanes_from(e, end);
+            scatter(virtual_point_of(chords_of(patch, points, faces, normals, edges)), edges, result);
+        }
     });
     return result;
 }

@@ -7,13 +7,15 @@ namespace fairing {
 
 // The chord from a to b with the vertex normals at its ends and the sum of the unit normals of the triangles at it
 // (on a border edge the single one).
-struct NormalChord {
-    Vector3 a;
-    Vector3 b;
-    Vector3 normal_a;
-    Vector3 normal_b;
-    Vector3 triangle_normals;
+template <typename Scalar>
+struct NormalChordOf {
+    Vector3Of<Scalar> a;
+    Vector3Of<Scalar> b;
+    Vector3Of<Scalar> normal_a;
+    Vector3Of<Scalar> normal_b;
+    Vector3Of<Scalar> triangle_normals;
 };
+using NormalChord = NormalChordOf<double>;
 
 // The point between a and b, midway between the two circular arcs that leave a and b along the tangents in the
 // plane of the chord and `triangle_normals` (paper §6.2). On a straight line it is the midpoint, exactly; continuous

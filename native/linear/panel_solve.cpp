@@ -1,7 +1,6 @@
 #include "linear/panel_solve.h"
 
 #include <algorithm>
-#include <array>
 
 namespace fairing {
 
@@ -11,40 +10,30 @@ constexpr int block = 4;  // columns of a panel at once
 
 // b ← b − Σ_k L_k x_k over rows begin … end − 1 of `width` columns that begin at `column`, `rows` long each.
 template <typename Stored>
-void subtract_columns(const Stored* column, std::ptrdiff_t rows, int width, const double* x, int begin, int end,
-                      double* b) {
+void subtract_columns(const Stored* column, std::ptrdiff_t rows, int width, const Stored* x, int begin, int end,
+                      Stored* b) {
     if (width == block) {
         const Stored* const c0 = column;
         const Stored* const c1 = c0 + rows;
         const Stored* const c2 = c1 + rows;
         const Stored* const c3 = c2 + rows;
-        const double x0 = x[0];  // copies: x is a part of b
-        const double x1 = x[1];
-        const double x2 = x[2];
-        const double x3 = x[3];
+        const Stored x0 = x[0];  // copies: x is a part of b
+        const Stored x1 = x[1];
+        const Stored x2 = x[2];
+        const Stored x3 = x[3];
         for (int i = begin; i < end; ++i) b[i] -= (c0[i] * x0 + c1[i] * x1) + (c2[i] * x2 + c3[i] * x3);
         return;
     }
     for (int k = 0; k < width; ++k) {
         const Stored* const c = column + k * rows;
-        const double xk = x[k];
+        const Stored xk = x[k];
         for (int i = begin; i < end; ++i) b[i] -= c[i] * xk;
     }
 }
 
-// Four sums side by side.
-double dot(const float* a, const double* b, int begin, int end) {
-    std::array<double, 4> sums{};
-    int i = begin;
-    for (; i + 4 <= end; i += 4) {
-        for (int k = 0; k < 4; ++k) sums[std::size_t(k)] += a[i + k] * b[i + k];
-    }
-    for (; i < end; ++i) sums[0] += a[i] * b[i];
-    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
-}
-
-double dot(const double* a, const double* b, int begin, int end) {
-    using Column = Eigen::Map<const Eigen::VectorXd>;
+template <typename Stored>
+Stored dot(const Stored* a, const Stored* b, int begin, int end) {
+    using Column = Eigen::Map<const Eigen::Vector<Stored, Eigen::Dynamic>>;
     return Column(a + begin, end - begin).dot(Column(b + begin, end - begin));
 }
 
@@ -80,7 +69,7 @@ void subtract_lanes(const Stored* column, int rows, int width, int begin, Stored
 }  // namespace
 
 template <typename Stored>
-void eliminate_vector(const PanelOf<Stored>& panel, double* b) {
+void eliminate_vector(const PanelOf<Stored>& panel, Stored* b) {
     const int rows = static_cast<int>(panel.rows());
     const int columns = static_cast<int>(panel.cols());
     for (int j = 0; j < columns; j += block) {
@@ -96,7 +85,7 @@ void eliminate_vector(const PanelOf<Stored>& panel, double* b) {
 }
 
 template <typename Stored>
-void substitute_vector(const PanelOf<Stored>& panel, double* b) {
+void substitute_vector(const PanelOf<Stored>& panel, Stored* b) {
     const int rows = static_cast<int>(panel.rows());
     for (int j = static_cast<int>(panel.cols()); j-- > 0;) {
         const Stored* const column = panel.data() + std::ptrdiff_t(j) * rows;
@@ -131,9 +120,9 @@ void substitute_lanes(const PanelOf<Stored>& panel, Stored* b) {
 }
 
 template void eliminate_vector<double>(const PanelOf<double>&, double*);
-template void eliminate_vector<float>(const PanelOf<float>&, double*);
+template void eliminate_vector<float>(const PanelOf<float>&, float*);
 template void substitute_vector<double>(const PanelOf<double>&, double*);
-template void substitute_vector<float>(const PanelOf<float>&, double*);
+template void substitute_vector<float>(const PanelOf<float>&, float*);
 template void eliminate_lanes<double>(const PanelOf<double>&, double*);
 template void eliminate_lanes<float>(const PanelOf<float>&, float*);
 template void substitute_lanes<double>(const PanelOf<double>&, double*);

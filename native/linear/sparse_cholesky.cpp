@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <thread>
 #include <type_traits>
 
@@ -190,11 +191,18 @@ auto SparseCholesky::with_panels(const Visit& visit) const {
 }
 
 VectorX SparseCholesky::solve_vector(const VectorX& rhs, const FrontReach& from, const FrontReach& to) const {
-    using Rows = Eigen::Map<VectorX>;
-    return with_panels([&](const auto* panels) {
+    return with_panels([&](const auto* panels) -> VectorX {
+        using Stored = std::remove_const_t<std::remove_pointer_t<decltype(panels)>>;
+        using Vector = Eigen::Vector<Stored, Eigen::Dynamic>;
+        using Rows = Eigen::Map<Vector>;
         const auto up = [&](int s, Rows& b) { eliminate_vector(panel(panels, s), b.data()); };
         const auto down = [&](int s, Rows& b) { substitute_vector(panel(panels, s), b.data()); };
-        return solve_by_fronts(tree_, order_, rhs, FrontSweeps{up, down}, from, to);
+        const FrontSweeps sweeps{up, down};
+        if constexpr (std::is_same_v<Stored, double>) return solve_by_fronts(tree_, order_, rhs, sweeps, from, to);
+        // In units of its own, far from the limits of single precision.
+        const double unit = std::max(rhs.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+        const Vector scaled = (rhs / unit).template cast<Stored>();
+        return unit * solve_by_fronts(tree_, order_, scaled, sweeps, from, to).template cast<double>();
     });
 }
 

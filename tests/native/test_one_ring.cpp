@@ -70,38 +70,38 @@ TEST_CASE("normals along the two sides of a corner determine the curvature") {
     const double a = 0.7;
     const double b = -0.3;
     const double c = -0.2;
-    CurvatureLeastSquares fit(Vector3::Zero(), Vector3::UnitZ());
+    CurvatureLeastSquares fit(Vector3::UnitZ());
     for (const double angle : {0.35, 1.31}) {
         const double x = 1e-3 * std::cos(angle);
         const double y = 1e-3 * std::sin(angle);
         const Vector3 point(x, y, 0.5 * (a * x * x + 2.0 * b * x * y + c * y * y));
         fit.add_point(point);
-        fit.add_twist(point, Vector3(-a * x - b * y, -b * x - c * y, 1.0).normalized());
+        fit.add_twist(point, Vector3(-a * x - b * y, -b * x - c * y, 1.0).normalized(), 1.0);
     }
-    CHECK(fit.solve().mean() == doctest::Approx(0.5 * (a + c)).epsilon(1e-5));
-    CHECK(fit.solve().gaussian() == doctest::Approx(a * c - b * b).epsilon(1e-5));
+    CHECK(CurvatureFit::of(fit.solve()).mean() == doctest::Approx(0.5 * (a + c)).epsilon(1e-5));
+    CHECK(CurvatureFit::of(fit.solve()).gaussian() == doctest::Approx(a * c - b * b).epsilon(1e-5));
 }
 
 TEST_CASE("the turn of the normals leaves H exact on spheres") {
     const auto points = ring(0.3, sphere_below);
-    CurvatureLeastSquares fit(Vector3::Zero(), Vector3::UnitZ());
+    CurvatureLeastSquares fit(Vector3::UnitZ());
     for (const Vector3& p : points) fit.add_point(p);
-    for (const Vector3& p : points) fit.add_twist(p, p + Vector3::UnitZ());  // the sphere's centre is at −z
-    CHECK(fit.solve().mean() == doctest::Approx(-1.0).epsilon(1e-8));
+    for (const Vector3& p : points) fit.add_twist(p, p + Vector3::UnitZ(), 1.0);  // the sphere's centre is at −z
+    CHECK(CurvatureFit::of(fit.solve()).mean() == doctest::Approx(-1.0).epsilon(1e-8));
 }
 
 TEST_CASE("in a narrow corner H falls where the neighbour between the sides falls, given the sides' normals") {
     // The iteration answers to a too large H by a move against the normal, as K does: the weight has to be positive.
     const auto response = [](double wedge, bool with_normals) {
         const auto mean = [&](double height) {
-            CurvatureLeastSquares fit(Vector3::Zero(), Vector3::UnitZ());
+            CurvatureLeastSquares fit(Vector3::UnitZ());
             for (const double angle : {-0.5 * wedge, 0.5 * wedge}) {
                 const Vector3 side(std::cos(angle), std::sin(angle), 0.0);
                 fit.add_point(side);
-                if (with_normals) fit.add_twist(side, Vector3::UnitZ());
+                if (with_normals) fit.add_twist(side, Vector3::UnitZ(), 1.0);
             }
             fit.add_point({1.0, 0.0, height});
-            return fit.solve().mean();
+            return CurvatureFit::of(fit.solve()).mean();
         };
         return mean(1e-3) - mean(-1e-3);
     };
@@ -137,9 +137,9 @@ TEST_CASE("the curvature fit is finite whatever it is given") {
     for (const auto& points : rings) {
         CHECK(std::isfinite(fit_curvature(Vector3::Zero(), points, Vector3::UnitZ()).mean()));
         CHECK(fitted_normal(Vector3::Zero(), points, Vector3::UnitZ()).allFinite());
-        CurvatureLeastSquares twisted(Vector3::Zero(), Vector3::UnitZ());
-        for (const Vector3& p : points) twisted.add_twist(p, Vector3::UnitX());
-        CHECK(std::isfinite(twisted.solve().mean()));
+        CurvatureLeastSquares twisted(Vector3::UnitZ());
+        for (const Vector3& p : points) twisted.add_twist(p, Vector3::UnitX(), 1.0);
+        CHECK(std::isfinite(CurvatureFit::of(twisted.solve()).mean()));
     }
 }
 
