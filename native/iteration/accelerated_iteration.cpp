@@ -49,6 +49,12 @@ constexpr double closer = 0.02;
 constexpr double least_within = 0.25;
 constexpr double doubt = 2.0;
 
+// Of steps along the normals, relative: what levels that are only starts need, and what is enough at last. There the
+// step leaves this share of the tolerance.
+constexpr double accuracy_of_starts = 0.02;
+constexpr double share_left = 0.02;
+constexpr double least_accuracy = 0.1;
+
 class AcceleratedIteration {
 public:
     AcceleratedIteration(const Problem& problem, Workspace& work, double damping, const Progress& progress)
@@ -194,8 +200,17 @@ private:
         return !wanted || work_.normal->update(state_.stiffness, progress_.range(0.0, k == 0 ? share_of_factor : 0.0));
     }
 
+    // To which the next step along the normals is solved for: the last one needs few digits.
+    [[nodiscard]] double accuracy() const {
+        if (problem_.options.start_only) return accuracy_of_starts;
+        if (solution_.iterations == 0) return NormalOperator::usual_accuracy;
+        const double next = last_step_ * residual_ / residual_before_;
+        return std::clamp(share_left * problem_.options.tolerance / next, NormalOperator::usual_accuracy,
+                          least_accuracy);
+    }
+
     Points plain_step() {
-        VectorX u = work_.normal->solve(outer_);
+        VectorX u = work_.normal->solve(outer_, accuracy());
         const double nearest = problem_.options.contracts ? near_led_surface : near_surface;
         const bool is_near = u.cwiseAbs().maxCoeff() < nearest;
         if (is_near) add_reaction(problem_, state_, *work_.normal, work_.reaction, u);

@@ -7,31 +7,42 @@ namespace fairing {
 
 namespace {
 
-// The nodes in log s. What is left of the integral beyond them is below a twentieth of the whole.
-constexpr double spacing = 2.0;
-constexpr double largest = 6.0;
-constexpr double below_least = 6.0;
+// The nodes in log s: the sum is within 2.3 % for eigenvalues from the least one to 4, which is about an outline's
+// largest. Beyond `largest` a hundredth of the integral is left out; the last node lies half a cell below the least one.
+constexpr double spacing = 3.0;
+constexpr double largest = 2.0;
 
 }  // namespace
 
 bool HalfOrder::update(const SparseMatrix& lower, double least) {
-    SparseMatrix identity(lower.rows(), lower.cols());
-    identity.setIdentity();
-    const auto count = static_cast<int>(std::ceil((largest + below_least - std::log(least)) / spacing));
+    Eigen::AMDOrdering<int>()(lower.selfadjointView<Eigen::Lower>(), order_);
+    order_ = order_.inverse().eval();
+    SparseMatrix ordered(lower.rows(), lower.cols());
+    ordered.selfadjointView<Eigen::Lower>() = lower.selfadjointView<Eigen::Lower>().twistedBy(order_);
+    const auto count = std::max(1, static_cast<int>(std::ceil((largest - std::log(least)) / spacing + 0.5)));
     terms_.clear();
     for (int k = 0; k < count; ++k) {
         Term& term = terms_.emplace_back();
         term.shift = std::exp(largest - k * spacing);
         term.weight = spacing / std::numbers::pi * std::sqrt(term.shift) / (1.0 + term.shift);
-        if (!term.factor.factorise(lower + term.shift * identity, "the outline", Progress())) return false;
+        term.factor.setShift(term.shift);
+        term.factor.compute(ordered);
+        if (term.factor.info() != Eigen::Success || !(term.factor.vectorD().minCoeff() > 0.0)) return false;
     }
+    // Below the last node's cell λ / (λ + s) is 1, but for the least eigenvalues.
+    const double end = terms_.back().shift * std::exp(-0.5 * spacing);
+    constant_ = 2.0 / std::numbers::pi * std::sqrt(least) * std::atan(std::sqrt(end / least));
     return true;
 }
 
 VectorX HalfOrder::apply(const VectorX& values) const {
-    VectorX result = VectorX::Zero(values.size());
-    for (const Term& term : terms_) result += term.weight * (values - term.shift * VectorX(term.factor.solve(values)));
-    return result;
+    const VectorX ordered = order_ * values;
+    VectorX result = constant_ * ordered;
+    for (const Term& term : terms_) {
+        const VectorX solved = term.factor.solve(ordered);
+        result += term.weight * (ordered - term.shift * solved);
+    }
+    return order_.inverse() * result;
 }
 
 }  // namespace fairing

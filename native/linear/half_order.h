@@ -1,9 +1,12 @@
 // A function of the square root of a sparse matrix, without its spectrum.
 #pragma once
 
-#include <vector>
+#include <deque>
 
-#include "linear/sparse_cholesky.h"
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCholesky>
+
+#include "linear/elimination.h"
 
 namespace fairing {
 
@@ -18,12 +21,18 @@ public:
     [[nodiscard]] VectorX apply(const VectorX& values) const;
 
 private:
+    // Outlines are loops: factors have some three entries in a row, which fronts would only slow down.
+    using Factor = Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>>;
     struct Term {
-        double weight;
-        double shift;           // s
-        SparseCholesky factor;  // of A + s
+        double weight = 0.0;
+        double shift = 0.0;  // s
+        Factor factor;       // of A + s, in the order
     };
-    std::vector<Term> terms_;
+    using Order = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
+
+    Order order_;
+    double constant_ = 0.0;   // the part of the integral below the least shift
+    std::deque<Term> terms_;  // factors can't be moved
 };
 
 }  // namespace fairing

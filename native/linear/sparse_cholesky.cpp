@@ -191,19 +191,30 @@ auto SparseCholesky::with_panels(const Visit& visit) const {
 }
 
 VectorX SparseCholesky::solve_vector(const VectorX& rhs, const FrontReach& from, const FrontReach& to) const {
-    return with_panels([&](const auto* panels) -> VectorX {
+    VectorX result(rhs.size());
+    with_panels([&](const auto* panels) {
         using Stored = std::remove_const_t<std::remove_pointer_t<decltype(panels)>>;
         using Vector = Eigen::Vector<Stored, Eigen::Dynamic>;
         using Rows = Eigen::Map<Vector>;
+        constexpr bool is_exact = std::is_same_v<Stored, double>;
+        // In units of its own, far from the limits of single precision.
+        const double unit =
+            is_exact ? 1.0 : std::max(rhs.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+        Vector x(rhs.size());
+        for_ranges(static_cast<int>(rhs.size()), coarse_grain, [&](int begin, int end) {
+            for (int k = begin; k < end; ++k) x[k] = static_cast<Stored>(rhs[order_[at(k)]] / unit);
+        });
         const auto up = [&](int s, Rows& b) { eliminate_vector(panel(panels, s), b.data()); };
         const auto down = [&](int s, Rows& b) { substitute_vector(panel(panels, s), b.data()); };
         const FrontSweeps sweeps{up, down};
-        if constexpr (std::is_same_v<Stored, double>) return solve_by_fronts(tree_, order_, rhs, sweeps, from, to);
-        // In units of its own, far from the limits of single precision.
-        const double unit = std::max(rhs.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
-        const Vector scaled = (rhs / unit).template cast<Stored>();
-        return unit * solve_by_fronts(tree_, order_, scaled, sweeps, from, to).template cast<double>();
+        TreeSolve<Vector, decltype(sweeps)> solve(tree_, sweeps, x);
+        solve.up(from);
+        solve.down(to);
+        for_ranges(static_cast<int>(rhs.size()), coarse_grain, [&](int begin, int end) {
+            for (int k = begin; k < end; ++k) result[order_[at(k)]] = unit * static_cast<double>(x[k]);
+        });
     });
+    return result;
 }
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& rhs) const {

@@ -17,9 +17,11 @@ public:
     [[nodiscard]] bool update(const Stiffness& stiffness, const Progress& progress) override;
     // The same for K + factor · M; the free vertices' factors in length⁻⁴.
     [[nodiscard]] bool update_with_mass(const Stiffness& stiffness, const VectorX& factors, const Progress& progress);
-    [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const override { return factor_.solve(rhs); }
 
 private:
+    [[nodiscard]] Eigen::MatrixXd solve_to(const Eigen::MatrixXd& rhs, double /*accuracy*/) const override {
+        return factor_.solve(rhs);
+    }
     void build_pattern();
     void find_slots();
     void assemble(const Stiffness& stiffness);

@@ -14,11 +14,13 @@ public:
     explicit LaplaceOperator(const Patch& patch, Points layout = {}, Kept kept = Kept::doubles);
     void prepare() override;
     [[nodiscard]] bool update(const Stiffness& stiffness, const Progress& progress) override;
-    [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const override { return factor_.solve(rhs); }
     // Valid until the next update.
     [[nodiscard]] const SparseCholesky& factor() const { return factor_; }
 
 private:
+    [[nodiscard]] Eigen::MatrixXd solve_to(const Eigen::MatrixXd& rhs, double /*accuracy*/) const override {
+        return factor_.solve(rhs);
+    }
     // Its lower triangle, made anew for each factorisation: a large patch has no room for it meanwhile.
     [[nodiscard]] SparseMatrix lower(const Stiffness& stiffness) const;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/progress.h"
+#include "linear/known_directions.h"
 #include "operators/laplace_operator.h"
 #include "operators/outline_coupling.h"
 #include "operators/outline_system.h"
@@ -19,10 +20,10 @@ public:
     SplitBiharmonicOperator(const Patch& patch, const Points& fixed_points, Points layout);
     void prepare() override { laplace_.prepare(); }
     [[nodiscard]] bool update(const Stiffness& stiffness, const Progress& progress) override;
-    [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const override;
 
 private:
-    [[nodiscard]] VectorX solve_column(const VectorX& rhs) const;
+    [[nodiscard]] Eigen::MatrixXd solve_to(const Eigen::MatrixXd& rhs, double accuracy) const override;
+    [[nodiscard]] VectorX solve_column(const VectorX& rhs, double accuracy) const;
 
     LaplaceOperator laplace_;
     OutlineSystem outline_;
@@ -30,6 +31,7 @@ private:
     VectorX free_mass_;  // 4M
     OutlineRow fixed_mass_;
     FrontReach beside_outline_;
+    mutable KnownDirections known_;  // of G
 };
 
 }  // namespace fairing

@@ -78,7 +78,7 @@ TEST_CASE("solves in part are those of the whole, where they are wanted") {
 }
 
 TEST_CASE("√A (1 + √A)⁻¹ by shifted inverses") {
-    // Frequencies from the slowest wave around 400 vertices to the fastest; the sum leaves out a twentieth at most.
+    // Frequencies from the slowest wave around 400 vertices to the fastest; the sum is within a fortieth of the function.
     const int count = 400;
     std::vector<Eigen::Triplet<double>> entries;
     const double least = 1e-4;
@@ -96,7 +96,7 @@ TEST_CASE("√A (1 + √A)⁻¹ by shifted inverses") {
         for (int k = 0; k < count; ++k) wave[k] = std::cos(angle * k);
         const double root = std::sqrt(2.0 - 2.0 * std::cos(angle) + least);
         CAPTURE(waves);
-        CHECK((half_order.apply(wave) - root / (1.0 + root) * wave).norm() < 0.06 * root / (1.0 + root) * wave.norm());
+        CHECK((half_order.apply(wave) - root / (1.0 + root) * wave).norm() < 0.025 * root / (1.0 + root) * wave.norm());
     }
 }
 
@@ -108,15 +108,19 @@ TEST_CASE("split by free and fixed vertices, the biharmonic operator has the sam
         BiharmonicOperator assembled(patch);
         SplitBiharmonicOperator split(patch, fixed_points(item.single), layout_of(item.single));
         REQUIRE(assembled.update(stiffness, Progress()));
-        REQUIRE(split.update(stiffness, Progress()));
         Eigen::MatrixXd rhs(patch.free_count, 2);  // smooth and rough
         for (int k = 0; k < patch.free_count; ++k) {
             rhs(k, 0) = stiffness.mass[k];
             rhs(k, 1) = k % 2 == 0 ? 1.0 : -1.0;
         }
         const Eigen::MatrixXd wanted = assembled.solve(rhs);
-        const Eigen::MatrixXd found = split.solve(rhs);
-        for (int k = 0; k < 2; ++k) CHECK((found - wanted).col(k).norm() < 0.01 * wanted.col(k).norm());
+        // The second column begins with what the first one found; float factors and fast ends leave some digits.
+        for (const auto& [accuracy, most] : {std::pair{1e-3, 1e-2}, std::pair{1e-6, 1e-4}}) {
+            REQUIRE(split.update(stiffness, Progress()));
+            const Eigen::MatrixXd found = split.solve(rhs, accuracy);
+            CAPTURE(accuracy);
+            for (int k = 0; k < 2; ++k) CHECK((found - wanted).col(k).norm() < most * wanted.col(k).norm());
+        }
     }
 }
 
