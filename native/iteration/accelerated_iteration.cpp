@@ -46,6 +46,7 @@ constexpr double near_led_surface = 3e-2;
 // `least_within` of the tolerance, by how the imbalance fell. Smooth errors show less there than others, hence the
 // doubt.
 constexpr double closer = 0.02;
+constexpr double roughest = 0.5;  // the last step, of which little is wanted
 constexpr double least_within = 0.25;
 constexpr double doubt = 2.0;
 
@@ -223,9 +224,10 @@ private:
     // Nothing where the last steps have left next to nothing.
     [[nodiscard]] Points step_within(const VectorX& heights) {
         const double imbalance = work_.tangential->imbalance(state_.points, state_.normals);
-        const double left = within_ * imbalance / imbalance_;
-        if (doubt * left <= least_within * problem_.options.tolerance) return Points::Zero(3, patch_.free_count);
-        Points within = step_within_raised(heights);
+        const double left = doubt * within_ * imbalance / imbalance_;
+        const double most = least_within * problem_.options.tolerance;
+        if (left <= most) return Points::Zero(3, patch_.free_count);
+        Points within = step_within_raised(heights, std::clamp(most / left, closer, roughest));
         within_ = largest_length(within);
         imbalance_ = imbalance;
         return within;
@@ -233,10 +235,10 @@ private:
 
     // Newton's step within the surface that the moves along the normals lead to: on a catenoid those alone shift the
     // vertices' places as far as they go.
-    [[nodiscard]] Points step_within_raised(const VectorX& heights) const {
+    [[nodiscard]] Points step_within_raised(const VectorX& heights, double tolerance) const {
         Raised next = raised(patch_, state_, heights);
         ShapeOperators shapes = shape_operators(state_.curvature, state_.normals, patch_.free_count);
-        const Effort effort = problem_.options.begins_near ? Effort{closer} : Effort{};
+        const Effort effort = problem_.options.begins_near ? Effort{tolerance} : Effort{};
         return work_.tangential->displacement({std::move(next.points), std::move(next.normals), std::move(shapes)},
                                               effort);
     }
