@@ -13,15 +13,6 @@ constexpr double least_progress = 0.03;
 constexpr int most_passes = 12;
 constexpr std::size_t most_levels = 30;  // more than numbers of vertices have
 
-void append(Removals& all, const Removals& more) {
-    for (std::size_t k = 1; k < more.pass_begin.size(); ++k) all.pass_begin.push_back(all.size() + more.pass_begin[k]);
-    const int offset = all.begin.back();
-    all.vertex.insert(all.vertex.end(), more.vertex.begin(), more.vertex.end());
-    all.neighbours.insert(all.neighbours.end(), more.neighbours.begin(), more.neighbours.end());
-    all.weights.insert(all.weights.end(), more.weights.begin(), more.weights.end());
-    for (std::size_t k = 1; k < more.begin.size(); ++k) all.begin.push_back(offset + more.begin[k]);
-}
-
 // What the vectors have in reserve a large mesh has no room for.
 void give_back_room(Removals& removals) {
     removals.vertex.shrink_to_fit();
@@ -36,7 +27,7 @@ Removals collapse_level(CollapseMesh& mesh, int target) {
     mesh.begin_level();
     for (int k = 0; k < most_passes && mesh.free_count() > target; ++k) {
         const int before = mesh.free_count();
-        append(removals, mesh.pass());
+        removals.append(mesh.pass());
         if (before - mesh.free_count() < least_progress * before) break;
     }
     give_back_room(removals);

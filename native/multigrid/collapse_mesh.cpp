@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
+#include <span>
+#include <utility>
 
+#include "base/parallel.h"
 #include "base/progress.h"
 
 namespace fairing {
@@ -14,7 +18,20 @@ constexpr int smallest_loop = 8;    // vertices that a loop keeps
 constexpr double dearest = 12.0;    // a collapse that spoils the valences more than this waits
 constexpr double far_share = 0.77;  // keeps the mean energy of a linear function on a regular star
 
+// Domains of a pass: at most so many, of so many vertices at least.
+constexpr int most_domains = 16;
+constexpr int least_domain = 2048;
+
 }  // namespace
+
+void Removals::append(const Removals& more) {
+    for (std::size_t k = 1; k < more.pass_begin.size(); ++k) pass_begin.push_back(size() + more.pass_begin[k]);
+    const int offset = begin.back();
+    vertex.insert(vertex.end(), more.vertex.begin(), more.vertex.end());
+    neighbours.insert(neighbours.end(), more.neighbours.begin(), more.neighbours.end());
+    weights.insert(weights.end(), more.weights.begin(), more.weights.end());
+    for (std::size_t k = 1; k < more.begin.size(); ++k) begin.push_back(offset + more.begin[k]);
+}
 
 CollapseMesh::CollapseMesh(const Patch& patch, const InnerWeights& weights, const FixedPlaces& outline)
     : outline_(outline),
@@ -28,7 +45,8 @@ CollapseMesh::CollapseMesh(const Patch& patch, const InnerWeights& weights, cons
       valence_(at(patch.vertex_count()), 0),
       first_side_(at(patch.vertex_count()), none),
       loop_(at(patch.vertex_count()), none),
-      stamp_(at(patch.vertex_count()), 0) {
+      alive_(at(patch.vertex_count())) {
+    std::iota(alive_.begin(), alive_.end(), 0);
     build_sides(patch);
     set_weights(patch, weights);
     number_loops(patch);
@@ -125,24 +143,69 @@ void CollapseMesh::gather(int v, Star& star) const {
     } while (s != first_side_[at(v)]);
 }
 
-Removals CollapseMesh::pass() {
+// Vertices begin … end − 1. A collapse changes nothing but the star of its centre and what its triangles tell each
+// other across the rim: those of stars inside of different domains know nothing of each other.
+struct CollapseMesh::Domain {
+    std::span<const int> alive;
     Removals removals;
-    Star star;
-    std::fill(blocked_.begin(), blocked_.end(), 0);
-    for (int v = 0; v < static_cast<int>(blocked_.size()); ++v) {
-        checkpoint(v);
-        if (dead_vertex_[at(v)] || blocked_[at(v)] || valence_[at(v)] > hub) continue;
-        if (is_fixed(v) && (pin_[at(v)] || !border_[at(v)])) continue;
-        gather(v, star);
-        if (!try_collapse(v, star, removals)) continue;
-        for (int u : star.vertices) blocked_[at(u)] = 1;
+    Indices waiting;  // of those alive: their stars reach beyond, or they are fixed
+
+    [[nodiscard]] bool has(const Star& star) const {
+        const auto [least, most] = std::minmax_element(star.vertices.begin(), star.vertices.end());
+        return *least >= alive.front() && *most <= alive.back();
     }
+};
+
+bool CollapseMesh::may_go(int v) const {
+    if (blocked_[at(v)] || valence_[at(v)] > hub) return false;
+    return !is_fixed(v) || (!pin_[at(v)] && border_[at(v)]);
+}
+
+void CollapseMesh::pass_over(Domain& domain) {
+    Star star;
+    for (const int v : domain.alive) {
+        checkpoint(v);
+        if (!may_go(v)) continue;
+        gather(v, star);
+        if (is_fixed(v) || !domain.has(star)) {
+            domain.waiting.push_back(v);
+        } else {
+            try_collapse(star, domain.removals);
+        }
+    }
+}
+
+// Domains first, then what lies between them. The domains are the same for any number of threads.
+Removals CollapseMesh::pass() {
+    const int count = static_cast<int>(alive_.size());
+    const int pieces = std::clamp(count / least_domain, 1, most_domains);
+    std::vector<Domain> domains(at(pieces));
+    for (int k = 0; k < pieces; ++k) {
+        const auto begin = std::size_t(count) * std::size_t(k) / std::size_t(pieces);
+        const auto end = std::size_t(count) * std::size_t(k + 1) / std::size_t(pieces);
+        domains[at(k)].alive = std::span(alive_).subspan(begin, end - begin);
+    }
+    for (const int v : alive_) blocked_[at(v)] = 0;
+    run_pieces(pieces, [&](int k) { pass_over(domains[at(k)]); });
+    Removals removals = std::move(domains.front().removals);
+    for (std::size_t k = 1; k < domains.size(); ++k) removals.append(std::exchange(domains[k].removals, {}));
+    Star star;
+    for (const Domain& domain : domains) {
+        for (const int v : domain.waiting) {
+            checkpoint(v);
+            if (blocked_[at(v)]) continue;
+            gather(v, star);
+            try_collapse(star, removals);
+        }
+    }
+    free_count_ -= removals.size();
     removals.pass_begin.push_back(removals.size());
+    std::erase_if(alive_, [&](int v) { return dead_vertex_[at(v)] != 0; });
     return removals;
 }
 
 // The first of the cheapest neighbours onto which the centre may go; their number where there is none.
-std::size_t CollapseMesh::cheapest_legal(Star& star) {
+std::size_t CollapseMesh::cheapest_legal(Star& star) const {
     const double largest = *std::max_element(star.weights.begin(), star.weights.end());
     star.prices.clear();
     for (std::size_t k = 0; k < star.size(); ++k) star.prices.push_back(cost(star, k, largest));
@@ -155,14 +218,14 @@ std::size_t CollapseMesh::cheapest_legal(Star& star) {
     }
 }
 
-bool CollapseMesh::try_collapse(int v, Star& star, Removals& removals) {
+bool CollapseMesh::try_collapse(Star& star, Removals& removals) {
+    const int v = star.centre;
     const std::size_t best = cheapest_legal(star);
     if (best == star.size()) return false;
     if (is_fixed(v)) {
         --loop_size_[at(loop_[at(v)])];
         pass_fixed_weights_on(star, best);
     } else {
-        --free_count_;
         const double sum = star.weight();
         removals.vertex.push_back(v);
         for (std::size_t k = 0; k < star.size(); ++k) {
@@ -173,6 +236,7 @@ bool CollapseMesh::try_collapse(int v, Star& star, Removals& removals) {
         pass_weights_on(star, best);
     }
     collapse(star, best);
+    for (const int u : star.vertices) blocked_[at(u)] = 1;
     return true;
 }
 

@@ -15,6 +15,7 @@ struct Removals {
     Indices pass_begin{0};       // no two of a pass are neighbours
 
     [[nodiscard]] int size() const { return static_cast<int>(vertex.size()); }
+    void append(const Removals& more);
 };
 
 // Where the fixed vertices are: thinned loops have to follow the outline. 3 × local vertices, free columns unused.
@@ -50,15 +51,19 @@ public:
     [[nodiscard]] InnerWeights weights() const;
 
 private:
+    struct Domain;
+
     void build_sides(const Patch& patch);
     void set_weights(const Patch& patch, const InnerWeights& weights);
     void number_loops(const Patch& patch);
     void gather(int v, Star& star) const;
-    bool try_collapse(int v, Star& star, Removals& removals);
-    [[nodiscard]] std::size_t cheapest_legal(Star& star);
+    void pass_over(Domain& domain);
+    [[nodiscard]] bool may_go(int v) const;
+    bool try_collapse(Star& star, Removals& removals);
+    [[nodiscard]] std::size_t cheapest_legal(Star& star) const;
     // `largest`: of the star's weights.
     [[nodiscard]] double cost(const Star& star, std::size_t k, double largest) const;
-    [[nodiscard]] bool is_legal(const Star& star, std::size_t k);
+    [[nodiscard]] bool is_legal(Star& star, std::size_t k) const;
     [[nodiscard]] bool may_thin(const Star& star, std::size_t k) const;
     void pass_weights_on(Star& star, std::size_t k) const;
     void pass_fixed_weights_on(Star& star, std::size_t k) const;
@@ -92,8 +97,7 @@ private:
         float weight;  // the same on both sides of an edge
     };
     std::vector<Side> sides_;
-    Indices stamp_;  // scratch: neighbours of the vertex looked at last
-    int stamp_now_ = 0;
+    Indices alive_;  // vertices, ascending
 };
 
 }  // namespace fairing

@@ -58,23 +58,23 @@ bool CollapseMesh::may_thin(const Star& star, std::size_t k) const {
 }
 
 // The link condition, and no chord from a fixed vertex to another one.
-bool CollapseMesh::is_legal(const Star& star, std::size_t k) {
+bool CollapseMesh::is_legal(Star& star, std::size_t k) const {
     const int kept = star.vertices[k];
     if (is_fixed(star.centre) && !may_thin(star, k)) return false;
-    ++stamp_now_;
+    star.around.clear();
     int s = first_side_[at(kept)];
     const int start = s;
     do {
-        stamp_[at(sides_[at(next_side(s))].corner)] = stamp_now_;
+        star.around.push_back(sides_[at(next_side(s))].corner);
         const int last = previous_side(s);
-        stamp_[at(sides_[at(last)].corner)] = stamp_now_;
         s = sides_[at(last)].twin;
+        if (s == none) star.around.push_back(sides_[at(last)].corner);
     } while (s != none && s != start);
     const bool left = star.has_triangle(k);
     const bool right = star.has_triangle(star.before(k));
     for (std::size_t j = 0; j < star.size(); ++j) {
         if (j == k || (left && j == star.after(k)) || (right && j == star.before(k))) continue;
-        if (stamp_[at(star.vertices[j])] == stamp_now_) return false;
+        if (std::find(star.around.begin(), star.around.end(), star.vertices[j]) != star.around.end()) return false;
         const bool along_outline = !star.closed && (j == 0 || j + 1 == star.size());
         if (is_fixed(kept) && is_fixed(star.vertices[j]) && !along_outline) return false;
     }

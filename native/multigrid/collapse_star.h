@@ -20,6 +20,7 @@ struct Star {
     std::vector<double> weights;
     std::vector<double> prices;  // scratch: what collapses onto each neighbour cost
     std::vector<double> passed;  // scratch: new weights to the vertex kept
+    Indices around;              // scratch: neighbours of the vertex kept
 
     [[nodiscard]] std::size_t size() const { return vertices.size(); }
     [[nodiscard]] double weight() const { return std::accumulate(weights.begin(), weights.end(), 0.0); }
