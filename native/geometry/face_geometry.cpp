@@ -60,10 +60,17 @@ void Stiffness::update(const FaceGeometry& faces, const Patch& patch) {
             if (right != none) weights[e] += cotangent_opposite(faces, patch, e, right);
         }
     });
-    mass.setZero(patch.vertex_count());
-    for (int t = 0; t < patch.triangle_count(); ++t) {
-        for (int v : patch.triangles.col(t)) mass[v] += faces.areas[t] / 3.0;
-    }
+    mass.resize(patch.vertex_count());
+    for_ranges(patch.vertex_count(), coarse_grain, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i) {
+            double twice = 0.0;  // each triangle is met at two of its edges
+            for (const int edge : patch.ring(i).spokes) {
+                const auto [left, right] = patch.edge_triangles[at(edge)];
+                twice += faces.areas[left] + (right != none ? faces.areas[right] : 0.0);
+            }
+            mass[i] = twice / 6.0;
+        }
+    });
     // A one-ring collapsed to a point has no area; the equations divide by it.
     const double floor = 1e-14 * std::max(mass.mean(), 1e-300);
     mass = mass.cwiseMax(floor);

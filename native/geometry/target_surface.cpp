@@ -47,19 +47,7 @@ Vector3 border_weights(const Vector3& p, const std::array<Vector3, 3>& corners) 
 }  // namespace
 
 TargetSurface::TargetSurface(const Patch& patch, const Points& points, const Points& normals, std::vector<char> walls)
-    : patch_(patch),
-      points_(points),
-      normals_(normals),
-      walls_(std::move(walls)),
-      face_normals_(3, patch.triangle_count()),
-      triangle_of_vertex_(at(patch.vertex_count()), 0) {
-    for (int t = 0; t < patch.triangle_count(); ++t) {
-        const auto corners = patch.triangles.col(t);
-        const Vector3 a = points.col(corners[0]);
-        face_normals_.col(t) = (points.col(corners[1]) - a).cross(points.col(corners[2]) - a).normalized();
-        for (int v : corners) triangle_of_vertex_[at(v)] = t;
-    }
-}
+    : patch_(patch), points_(points), normals_(normals), walls_(std::move(walls)) {}
 
 // The triangle on the other side, or none.
 int TargetSurface::across(int edge, int triangle) const {
@@ -141,6 +129,12 @@ Vector3 TargetSurface::position(const SurfacePoint& where) const {
     return sum + 6.0 * where.weights.prod() * (1.5 * edge_mean - 0.5 * corner_mean);
 }
 
+Vector3 TargetSurface::face_normal(int triangle) const {
+    const auto corners = patch_.triangles.col(triangle);
+    const Vector3 a = points_.col(corners[0]);
+    return (points_.col(corners[1]) - a).cross(points_.col(corners[2]) - a).normalized();
+}
+
 Vector3 TargetSurface::normal(const SurfacePoint& where) const {
     Vector3 sum = Vector3::Zero();
     for (int k = 0; k < 3; ++k) sum += where.weights[k] * normals_.col(patch_.triangles(k, where.triangle));
@@ -154,7 +148,8 @@ double TargetSurface::interpolate(const VectorX& values, const SurfacePoint& whe
 }
 
 SurfacePoint TargetSurface::at_vertex(int vertex) const {
-    SurfacePoint where{triangle_of_vertex_[at(vertex)], Vector3::Zero()};
+    const int edge = patch_.ring(vertex).spokes.front();
+    SurfacePoint where{patch_.edge_triangles[at(edge)].front(), Vector3::Zero()};
     for (int k = 0; k < 3; ++k) {
         if (patch_.triangles(k, where.triangle) == vertex) where.weights[k] = 1.0;
     }

@@ -26,7 +26,7 @@ public:
     [[nodiscard]] Vector3 position(const SurfacePoint& where) const;
     [[nodiscard]] Vector3 normal(const SurfacePoint& where) const;
     // Unit normal of a flat triangle of the mesh; zero where it has no area.
-    [[nodiscard]] Vector3 face_normal(int triangle) const { return face_normals_.col(triangle); }
+    [[nodiscard]] Vector3 face_normal(int triangle) const;
     // Linear interpolation of a value per vertex.
     [[nodiscard]] double interpolate(const VectorX& values, const SurfacePoint& where) const;
     [[nodiscard]] int vertex_count() const { return static_cast<int>(points_.cols()); }
@@ -41,8 +41,6 @@ private:
     const Points& points_;
     const Points& normals_;
     std::vector<char> walls_;
-    Points face_normals_;
-    Indices triangle_of_vertex_;
 };
 
 }  // namespace fairing

@@ -67,8 +67,17 @@ void Anderson::remember(const Values& x, const Values& f) {
     if (last_x_.size() > 0) {
         const auto slot = static_cast<std::size_t>(count_++ % depth_);
         if (slot == df_.size()) df_.emplace_back(), sums_.emplace_back();
-        df_[slot] = (f - last_f_).cast<float>();
-        sums_[slot] = (x - last_x_ + f - last_f_).cast<float>();
+        Eigen::VectorXf& df = df_[slot];
+        Eigen::VectorXf& sum = sums_[slot];
+        df.resize(f.size());
+        sum.resize(f.size());
+        for_ranges(static_cast<int>(f.size()), rows_at_once, [&](int begin, int end) {
+            const int size = end - begin;
+            const Eigen::VectorXd change = f.segment(begin, size) - last_f_.segment(begin, size);
+            df.segment(begin, size) = change.cast<float>();
+            sum.segment(begin, size) =
+                (x.segment(begin, size) - last_x_.segment(begin, size) + change).cast<float>();
+        });
     }
     last_x_ = x;
     last_f_ = f;

@@ -17,14 +17,6 @@ Patch::Patch(PatchMembers members, Twins twins) : PatchMembers(std::move(members
     flatten_rings(twins);
 }
 
-RingView Patch::ring(int vertex) const {
-    const auto view = [vertex](const Indices& begin, const Indices& items) {
-        const auto first = at(begin[at(vertex)]);
-        return std::span<const int>(items.data() + first, at(begin[at(vertex) + 1]) - first);
-    };
-    return {view(ring_begin_, ring_vertices_), view(ring_begin_, ring_spokes_), view(rim_begin_, ring_rim_)};
-}
-
 std::vector<Indices> Patch::loops() const {
     std::vector<char> seen(at(vertex_count()), 0);
     std::vector<Indices> result;

@@ -53,31 +53,34 @@ CollapseMesh::CollapseMesh(const Patch& patch, const InnerWeights& weights, cons
 }
 
 void CollapseMesh::build_sides(const Patch& patch) {
-    const int side_count = 3 * patch.triangle_count();
-    sides_.resize(at(side_count));
-    for (int s = 0; s < side_count; ++s) sides_[at(s)] = {side_tail(patch.triangles, s), none, 0.0F};
-    Indices first(at(patch.edge_count()), none);
-    for (int s = 0; s < side_count; ++s) {
-        checkpoint(s);
-        int& other = first[at(patch.triangle_edges((s + 2) % 3, s / 3))];
-        if (other == none) {
-            other = s;
-        } else {
-            sides_[at(s)].twin = other;
-            sides_[at(other)].twin = s;
+    sides_.resize(at(3 * patch.triangle_count()));
+    const auto side_along = [&](int edge, int triangle) {
+        int corner = 0;  // opposite
+        while (patch.triangle_edges(corner, triangle) != edge) ++corner;
+        return 3 * triangle + (corner + 1) % 3;
+    };
+    for_ranges(patch.triangle_count(), coarse_grain, [&](int begin, int end) {
+        for (int s = 3 * begin; s < 3 * end; ++s) {
+            const int edge = patch.triangle_edges((s + 2) % 3, s / 3);
+            const auto [left, right] = patch.edge_triangles[at(edge)];
+            const int other = left == s / 3 ? right : left;
+            sides_[at(s)] = {side_tail(patch.triangles, s), other == none ? none : side_along(edge, other), 0.0F};
         }
-    }
-    for (int v = 0; v < patch.vertex_count(); ++v) {
-        checkpoint(v);
-        const RingView ring = patch.ring(v);
-        valence_[at(v)] = static_cast<int>(ring.valence());
-        border_[at(v)] = !ring.closed();
-    }
-    for (int s = 0; s < side_count; ++s) {
-        checkpoint(s);
-        int& side = first_side_[at(sides_[at(s)].corner)];
-        if (side == none || sides_[at(s)].twin == none) side = s;
-    }
+    });
+    for_ranges(patch.vertex_count(), coarse_grain, [&](int begin, int end) {
+        for (int v = begin; v < end; ++v) {
+            const RingView ring = patch.ring(v);
+            valence_[at(v)] = static_cast<int>(ring.valence());
+            border_[at(v)] = !ring.closed();
+            // The ring of a border vertex begins at the side without a twin.
+            const int spoke = ring.spokes.front();
+            for (const int triangle : patch.edge_triangles[at(spoke)]) {
+                if (triangle == none) continue;
+                const int side = side_along(spoke, triangle);
+                if (sides_[at(side)].corner == v) first_side_[at(v)] = side;
+            }
+        }
+    });
 }
 
 void CollapseMesh::set_weights(const Patch& patch, const InnerWeights& weights) {
@@ -100,12 +103,12 @@ void CollapseMesh::set_weights(const Patch& patch, const InnerWeights& weights) 
     }
     // A star without any weight (all of its edges are others than the mesh's) is still interpolated from its ring.
     const double least = 1e-3 * sum / std::max<double>(1.0, static_cast<double>(patch.edge_count()));
-    for (std::size_t s = 0; s < sides_.size(); ++s) {
-        const int side = static_cast<int>(s);
-        checkpoint(side);
-        const double weight = of_edge[patch.triangle_edges((side + 2) % 3, side / 3)];
-        sides_[s].weight = static_cast<float>(std::max(weight, least));
-    }
+    for_ranges(static_cast<int>(sides_.size()), coarse_grain, [&](int begin, int end) {
+        for (int s = begin; s < end; ++s) {
+            const double weight = of_edge[patch.triangle_edges((s + 2) % 3, s / 3)];
+            sides_[at(s)].weight = static_cast<float>(std::max(weight, least));
+        }
+    });
 }
 
 void CollapseMesh::number_loops(const Patch& patch) {

@@ -70,7 +70,9 @@ void slide(const Problem& problem, const TangentialStep& tangential, const Point
     const Points surface = points;
     const TargetSurface target(problem.patch, surface, normals);
     std::vector<SurfacePoint> where(at(problem.patch.free_count));
-    for (std::size_t v = 0; v < where.size(); ++v) where[v] = target.at_vertex(static_cast<int>(v));
+    for_ranges(problem.patch.free_count, coarse_grain, [&](int begin, int end) {
+        for (int v = begin; v < end; ++v) where[at(v)] = target.at_vertex(v);
+    });
     Sliding vertices{target, where, points, normals, std::move(shapes)};
     slide(vertices, tangential, most_steps);
 }
