@@ -120,10 +120,10 @@ def test_an_outline_that_can_be_met_is() -> None:
 
 @pytest.mark.parametrize(
     ("radians", "ways"),
-    [(0.5, ["nested", "proxy"]), (1.0, ["nested", "eased"]), (4.0, ["nested", "eased", "proxy"])],
+    [(0.6, ["nested", "proxy"]), (1.0, ["nested", "eased"]), (4.0, ["nested", "eased", "proxy"])],
 )
 def test_what_no_proxy_would_meet_is_passed_by_at_once(radians: float, ways: list[str]) -> None:
-    """Where curvature varies by 8e9, 1.4e10 and more; over normals of any direction nothing is found, once each."""
+    """Where curvature varies by 1e10 and more; over normals of any direction nothing is found, once each."""
     rim = fine_rim(2048, 0.2, radians)
     result = fairing.fair(rim.vertices, rim.triangles, fixed=rim.fixed, fixed_normals=rim.normals, threads=1)
     names = [name for name, _ in result.way]

@@ -8,7 +8,7 @@
 
 namespace fairing {
 
-// Behaves like a number. Each lane has the bits that a double would have: no lane knows of the other.
+// Behaves like a number. No lane knows of the other: a vertex has the same bits whatever is calculated beside it.
 class Lanes {
     using Pack = double __attribute__((vector_size(16)));
     using Mask = decltype(Pack() > Pack());

@@ -148,8 +148,10 @@ double TargetSurface::interpolate(const VectorX& values, const SurfacePoint& whe
 }
 
 SurfacePoint TargetSurface::at_vertex(int vertex) const {
-    const int edge = patch_.ring(vertex).spokes.front();
-    SurfacePoint where{patch_.edge_triangles[at(edge)].front(), Vector3::Zero()};
+    int last = none;
+    for (const int edge : patch_.ring(vertex).spokes)
+        for (const int t : patch_.edge_triangles[at(edge)]) last = std::max(last, t);
+    SurfacePoint where{last, Vector3::Zero()};
     for (int k = 0; k < 3; ++k) {
         if (patch_.triangles(k, where.triangle) == vertex) where.weights[k] = 1.0;
     }

@@ -30,7 +30,7 @@ public:
     // Linear interpolation of a value per vertex.
     [[nodiscard]] double interpolate(const VectorX& values, const SurfacePoint& where) const;
     [[nodiscard]] int vertex_count() const { return static_cast<int>(points_.cols()); }
-    // A vertex as a point of one of its triangles.
+    // A vertex as a point of the last one of its triangles.
     [[nodiscard]] SurfacePoint at_vertex(int vertex) const;
 
 private:

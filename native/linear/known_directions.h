@@ -1,31 +1,69 @@
-// What earlier solves by conjugate gradients found out about a matrix, for the next right-hand side.
+// Conjugate gradients for one right-hand side after the other: what a solve finds out about a matrix serves the next.
 #pragma once
 
+#include <cmath>
+#include <utility>
 #include <vector>
 
-#include "base/types.h"
+#include "linear/conjugate_gradients.h"
 
 namespace fairing {
 
-// Conjugate directions p_i with A p_i, p_iᵀ A p_i = 1. A solve that begins with what they know and keeps its own
-// directions conjugate to them has only the rest to find (Erhel & Guyomarc'h 2000, "An augmented conjugate gradient
+// Keeps directions p_i, conjugate to each other, with A p_i. A solve begins with what they know of it and keeps its own
+// directions conjugate to them: it has only the rest to find (Erhel & Guyomarc'h 2000, "An augmented conjugate gradient
 // method for solving consecutive symmetric positive definite linear systems").
 class KnownDirections {
 public:
     using Row = Eigen::RowVectorXd;
 
+    // Another matrix follows.
     void forget() { pairs_.clear(); }
 
-    // Keeps p, conjugate to those known, with A p.
-    void remember(const Row& p, const Row& product) {
-        const double curvature = p.dot(product);
-        if (pairs_.size() == most || !(curvature > 0.0)) return;
-        const double size = 1.0 / std::sqrt(curvature);
-        pairs_.push_back({size * p, size * product});
+    // x with A x ≈ r, until r is left to the part `accuracy` in the preconditioner's norm or after `max_cycles`; `apply`
+    // and `precondition` as conjugate_gradients has them.
+    template <typename Apply, typename Precondition>
+    [[nodiscard]] Row solve(Row r, double accuracy, int max_cycles, const Apply& apply,
+                            const Precondition& precondition) {
+        Row z(r.size());
+        const auto size = [&] {
+            precondition(r, z);
+            return std::sqrt(r.dot(z));
+        };
+        const double whole = size();
+        Row x = known_part(r);
+        const double left = size();
+        if (!(left > accuracy * whole)) return x;
+        const std::size_t before = pairs_.size();
+        const auto apply_and_keep = [&](const Row& p, Row& product) {
+            apply(p, product);
+            keep(p, product);
+        };
+        const auto precondition_beside = [&](const Row& residual, Row& result) {
+            precondition(residual, result);
+            for (std::size_t k = 0; k < before; ++k)
+                result -= pairs_[k].product.dot(result) * pairs_[k].direction;
+        };
+        x += conjugate_gradients(std::move(r), accuracy * whole / left, max_cycles, apply_and_keep, precondition_beside).x;
+        return x;
     }
 
-    // The part of the solution of A x = r that lies in them; r becomes what is left.
-    [[nodiscard]] Row solve(Row& r) const {
+private:
+    static constexpr std::size_t most = 40;
+
+    struct Pair {  // pᵀ A p = 1
+        Row direction;
+        Row product;
+    };
+
+    void keep(const Row& p, const Row& product) {
+        const double curvature = p.dot(product);
+        if (pairs_.size() == most || !(curvature > 0.0)) return;
+        const double scale = 1.0 / std::sqrt(curvature);
+        pairs_.push_back({scale * p, scale * product});
+    }
+
+    // The part of the solution that lies in the directions; r becomes what is left.
+    [[nodiscard]] Row known_part(Row& r) const {
         Row x = Row::Zero(r.size());
         for (const Pair& pair : pairs_) {
             const double share = pair.direction.dot(r);
@@ -35,18 +73,6 @@ public:
         return x;
     }
 
-    // z ← z without what isn't conjugate to them.
-    void make_conjugate(Row& z) const {
-        for (const Pair& pair : pairs_) z -= pair.product.dot(z) * pair.direction;
-    }
-
-private:
-    static constexpr std::size_t most = 40;
-
-    struct Pair {
-        Row direction;
-        Row product;
-    };
     std::vector<Pair> pairs_;
 };
 

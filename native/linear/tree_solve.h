@@ -123,18 +123,16 @@ private:
 };
 
 // x with A x = rhs, both n × k in the matrix's order; `order`: position in the factor → row of the matrix.
-// `from`: reach of the rows of `rhs` that aren't zero; `to`: where x is wanted, elsewhere it is left undefined.
 template <typename Field, typename Sweeps>
-Field solve_by_fronts(const FrontTree& tree, const Indices& order, const Field& rhs, const Sweeps& sweeps,
-                      const FrontReach& from = FrontReach(), const FrontReach& to = FrontReach()) {
+Field solve_by_fronts(const FrontTree& tree, const Indices& order, const Field& rhs, const Sweeps& sweeps) {
     const int count = static_cast<int>(rhs.rows());
     Field x(rhs.rows(), rhs.cols());
     for_ranges(count, coarse_grain, [&](int begin, int end) {
         for (int k = begin; k < end; ++k) x.row(k) = rhs.row(order[at(k)]);
     });
     TreeSolve<Field, Sweeps> solve(tree, sweeps, x);
-    solve.up(from);
-    solve.down(to);
+    solve.up(FrontReach());
+    solve.down(FrontReach());
     Field result(rhs.rows(), rhs.cols());
     for_ranges(count, coarse_grain, [&](int begin, int end) {
         for (int k = begin; k < end; ++k) result.row(order[at(k)]) = x.row(k);

@@ -1,7 +1,5 @@
 #include "operators/split_operator.h"
 
-#include "linear/conjugate_gradients.h"
-
 namespace fairing {
 
 namespace {
@@ -42,24 +40,12 @@ VectorX SplitBiharmonicOperator::solve_column(const VectorX& rhs, double accurac
     const auto turned = [&](const VectorX& u) {
         return coupling_.gather(factor.solve_vector(u.cwiseProduct(free_mass_), FrontReach(), beside_outline_));
     };
-    KnownDirections found = known_;
     const auto apply = [&](const OutlineRow& p, OutlineRow& product) {
         product = p.cwiseProduct(fixed_mass_) + turned(harmonic(p));
-        found.remember(p, product);
     };
-    const auto precondition = [&](const OutlineRow& r, OutlineRow& z) {
-        z = outline_.approximate_inverse(r);
-        known_.make_conjugate(z);
-    };
+    const auto precondition = [&](const OutlineRow& r, OutlineRow& z) { z = outline_.approximate_inverse(r); };
     VectorX u = factor.solve_vector(rhs);
-    OutlineRow r = turned(u);
-    const double whole = r.dot(outline_.approximate_inverse(r));
-    OutlineRow curvature = known_.solve(r);
-    const double rest = r.dot(outline_.approximate_inverse(r));
-    const double left = accuracy * std::sqrt(whole / rest);
-    if (left < 1.0) curvature += conjugate_gradients(std::move(r), left, most_cycles, apply, precondition).x;
-    known_ = std::move(found);
-    u -= harmonic(curvature);
+    u -= harmonic(known_.solve(turned(u), accuracy, most_cycles, apply, precondition));
     return factor.solve_vector(u.cwiseProduct(free_mass_));
 }
 

@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "linear/anderson.h"
 #include "linear/gmres.h"
+#include "linear/known_directions.h"
 #include "linear/shrinking_steps.h"
 #include "linear/sparse_cholesky.h"
 #include "linear/sparse_lu.h"
@@ -191,6 +192,36 @@ TEST_CASE("an LU factorisation can be cancelled between its fronts and done agai
     REQUIRE(factor.factorise(matrix, "x", Progress()));
     const VectorX rhs = VectorX::Ones(matrix.rows());
     CHECK((matrix * factor.solve(rhs) - rhs).norm() < 1e-10);
+}
+
+TEST_CASE("a solve that knows what the last ones found has less to find") {
+    // Eigenvalues from 1 to 2 and twelve far off, which take a plain solve a direction each.
+    const int count = 400;
+    Eigen::RowVectorXd diagonal = Eigen::RowVectorXd::LinSpaced(count, 1.0, 2.0);
+    for (int k = 0; k < 12; ++k) diagonal[30 * k] = 10.0 * std::pow(3.0, k);
+    using Row = KnownDirections::Row;
+    int products = 0;
+    const auto apply = [&](const Row& p, Row& product) {
+        ++products;
+        product = p.cwiseProduct(diagonal);
+    };
+    const auto precondition = [](const Row& r, Row& z) { z = r; };
+    KnownDirections known;
+    Indices taken;
+    for (int times = 0; times < 3; ++times) {
+        const Row wanted = Row::Random(count);
+        products = 0;
+        const Row found = known.solve(wanted.cwiseProduct(diagonal), 1e-10, 100, apply, precondition);
+        CHECK((found - wanted).norm() < 1e-3 * wanted.norm());
+        taken.push_back(products);
+    }
+    CHECK(taken[0] > 15);
+    CHECK(taken[1] <= taken[0] / 2);
+    CHECK(taken[2] <= taken[0] / 2);
+    known.forget();
+    products = 0;
+    (void)known.solve(diagonal, 1e-10, 100, apply, precondition);
+    CHECK(products > 12);
 }
 
 TEST_CASE("Anderson acceleration ends a linear iteration within its dimension") {

@@ -8,6 +8,7 @@
 
 #include <Eigen/QR>
 
+#include "base/parallel.h"
 #include "linear/nested_dissection.h"
 #include "linear/sparse_cholesky.h"
 #include "meshes.h"
@@ -83,22 +84,37 @@ TEST_CASE("outlines without normals stay whole on all levels") {
 }
 
 TEST_CASE("levels shrink evenly and keep the topology, the outline and which vertices are fixed") {
-    const Ball ball(60);
-    REQUIRE(ball.levels.size() >= 3);
-    int finer = ball.patch().free_count;
-    for (const CoarseLevel& level : ball.levels) {
-        const double factor = static_cast<double>(finer) / level.patch.free_count;
-        CHECK(factor > 3.0);
-        CHECK(factor < 6.0);
-        finer = level.patch.free_count;
-        CHECK(euler_number(level.patch) == 1);
-        CHECK(level.patch.loop_count() == 1);
-        CHECK(level.patch.vertex_count() - level.patch.free_count >= 8);
-        for (int v = 0; v < level.patch.vertex_count(); ++v) {
-            CHECK(level.patch.is_free(v) == ball.patch().is_free(level.patch.to_input[at(v)]));
-            CHECK(level.patch.ring(v).closed() == level.patch.is_free(v));
+    for (const int n : {60, 120}) {  // one domain, and several
+        const Ball ball(n);
+        REQUIRE(ball.levels.size() >= 3);
+        int finer = ball.patch().free_count;
+        for (const CoarseLevel& level : ball.levels) {
+            const double factor = static_cast<double>(finer) / level.patch.free_count;
+            CHECK(factor > 3.0);
+            CHECK(factor < 6.0);
+            finer = level.patch.free_count;
+            CHECK(euler_number(level.patch) == 1);
+            CHECK(level.patch.loop_count() == 1);
+            CHECK(level.patch.vertex_count() - level.patch.free_count >= 8);
+            for (int v = 0; v < level.patch.vertex_count(); ++v) {
+                CHECK(level.patch.is_free(v) == ball.patch().is_free(level.patch.to_input[at(v)]));
+                CHECK(level.patch.ring(v).closed() == level.patch.is_free(v));
+            }
+            for (const WeightedEdge& edge : level.weights) CHECK(edge.weight > 0.0);
         }
-        for (const WeightedEdge& edge : level.weights) CHECK(edge.weight > 0.0);
+    }
+}
+
+TEST_CASE("levels are the same for any number of threads") {
+    const Ball alone(160);
+    for (int times = 0; times < 5; ++times) {
+        const Threads threads(4);
+        const Ball together(160);
+        REQUIRE(together.levels.size() == alone.levels.size());
+        for (std::size_t k = 0; k < alone.levels.size(); ++k) {
+            CHECK(together.levels[k].patch.triangles == alone.levels[k].patch.triangles);
+            CHECK(together.levels[k].transfer.removals.weights == alone.levels[k].transfer.removals.weights);
+        }
     }
 }
 
@@ -139,7 +155,7 @@ TEST_CASE("restriction is the transpose of interpolation, whose weights sum to o
 }
 
 TEST_CASE("no vertex that a pass removes hangs on another one of it, and values come back in the order of the passes") {
-    const Ball ball(30);
+    const Ball ball(100);
     const Transfer& transfer = ball.levels.front().transfer;
     const Removals& removals = transfer.removals;
     REQUIRE(removals.pass_begin.size() > 2);

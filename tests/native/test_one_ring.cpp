@@ -4,7 +4,10 @@
 
 #include "geometry/mean_curvature.h"
 #include "geometry/normal_equations.h"
+#include "geometry/one_ring_buffer.h"
 #include "geometry/vertex_normal.h"
+#include "geometry/virtual_points.h"
+#include "meshes.h"
 
 using namespace fairing;
 
@@ -158,4 +161,52 @@ TEST_CASE("the fitted normal fades back to its start continuously") {
     }
     CHECK(largest_jump < 0.01);
     CHECK((last - Vector3::UnitZ()).norm() < 1e-12);  // far beyond the fade: the start itself
+}
+
+TEST_CASE("two vertices at once have what each has alone") {
+    // Rings of 4 to 8 neighbours side by side. Sums of doubles are taken in another order.
+    const auto is_same = [](const Vector3& a, const Vector3& b) { return (a - b).norm() <= 1e-13 * b.norm(); };
+    for (const double jitter : {0.2, 0.45}) {
+        const test::Single single = test::single_patch(test::grid(27, jitter, test::sphere));
+        const Patch& patch = single.patch();
+        const Points& points = single.points;
+        const Points prescribed = points.rightCols(patch.vertex_count() - patch.free_count);
+        FaceGeometry faces;
+        faces.update(points, patch.triangles);
+        const Points normals = vertex_normals(patch, points, faces, prescribed, NormalKind::fitted);
+        const Points starts = max_normals(patch, points, prescribed);
+        const Points virtual_points = edge_virtual_points(patch, points, faces, normals);
+        const PatchCurvature curvature = patch_curvature(patch, points, faces, normals, NormalKind::fitted);
+        std::size_t valences = 0;
+        OneRingBuffer buffer;
+        for (int v = 0; v < patch.free_count; ++v) {
+            const OneRing ring = buffer.gather(patch, points, v);
+            if (v > 0 && ring.size() != patch.ring(v - 1).valence()) ++valences;
+            CHECK(is_same(starts.col(v), max_normal(ring)));
+            if (ring.size() >= 5)
+                CHECK(is_same(normals.col(v), fitted_normal(ring.centre, ring.points, max_normal(ring))));
+            CurvatureLeastSquares rows(normals.col(v));
+            const Vector3 centre = points.col(v);
+            for (const Vector3& p : ring.points) rows.add_point(p - centre);
+            for (const int edge : patch.ring(v).rim) rows.add_point(virtual_points.col(edge) - centre);
+            CHECK((curvature.form.col(v) - rows.solve()).norm() < 1e-10);
+        }
+        CHECK(valences > 100);
+        for (int e = 0; e < patch.edge_count(); ++e)
+            CHECK(is_same(virtual_points.col(e), edge_virtual_point(patch, points, faces, normals, e)));
+    }
+}
+
+TEST_CASE("frames of two normals are those of each, at the poles too") {
+    for (const double z : {0.0, -0.0, 1.0, -1.0, 0.6}) {
+        const double x = std::sqrt(1.0 - z * z);
+        const Vector3 n(x, 0.0, z);
+        const Vector3 other = Vector3::UnitY();
+        const FrameOf<Lanes> both(side_by_side(n.data(), other.data()));
+        for (int k = 0; k < 3; ++k) {
+            CHECK(both.u[k][0] == Frame(n).u[k]);
+            CHECK(both.v[k][0] == Frame(n).v[k]);
+            CHECK(both.u[k][1] == Frame(other).u[k]);
+        }
+    }
 }
