@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 #include "base/types.h"
 
@@ -32,10 +33,11 @@ public:
     Lanes& operator*=(Lanes b) { return *this = *this * b; }
 
     friend Lanes sqrt(Lanes a) {
-        Lanes result;
-        Eigen::Map<Eigen::Array2d, Eigen::Aligned16>(&result.pack_[0]) =
-            Eigen::Map<const Eigen::Array2d, Eigen::Aligned16>(&a.pack_[0]).sqrt();
-        return result;
+        Eigen::Array2d numbers;  // Eigen takes both roots at once, whatever the processor
+        std::memcpy(numbers.data(), &a.pack_, sizeof(Pack));
+        numbers = numbers.sqrt().eval();
+        std::memcpy(&a.pack_, numbers.data(), sizeof(Pack));
+        return a;
     }
 
     friend Lanes copysign(Lanes size, Lanes sign) {

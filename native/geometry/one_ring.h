@@ -62,7 +62,7 @@ private:
             return k < columns[lane].size() ? points.col(columns[lane][k]).data() : centres_[lane];
         };
         const std::size_t size = std::max(columns[0].size(), columns[1].size());
-        for (std::size_t k = 0; k < size; ++k) offsets_.push_back(side_by_side(point(0, k), point(1, k)) - centre_);
+        for (std::size_t k = 0; k < size; ++k) offsets_.emplace_back(side_by_side(point(0, k), point(1, k)) - centre_);
     }
 
     std::array<const double*, Lanes::count> centres_{};

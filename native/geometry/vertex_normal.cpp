@@ -36,7 +36,7 @@ Vector3Of<typename Ring::Scalar> sum_of_cross_products(const Ring& ring, Weight 
     Vector a = ring.offset_before();
     Scalar a_squared = a.squaredNorm();
     for (std::size_t k = 0; k < ring.size(); ++k) {
-        const Vector b = ring.offset(k);
+        const Vector& b = ring.offset(k);
         const Scalar b_squared = b.squaredNorm();
         sum += weight(a_squared * b_squared) * a.cross(b);
         a = b;
@@ -54,9 +54,8 @@ Vector3Of<typename Ring::Scalar> averaged_normal_of(const Ring& ring) {
 template <typename Ring>
 Vector3Of<typename Ring::Scalar> max_normal_of(const Ring& ring) {
     using Scalar = typename Ring::Scalar;
-    return sum_of_cross_products(ring, [](Scalar product) {
-        return select(product > 0.0, 1.0 / select(product > 0.0, product, 1.0), 0.0);
-    });
+    return sum_of_cross_products(
+        ring, [](Scalar product) { return select(product > 0.0, 1.0 / select(product > 0.0, product, 1.0), 0.0); });
 }
 
 // 1 below fade_begin, 0 above fade_end and where it is no number, smooth between.
@@ -85,7 +84,7 @@ Vector3Of<typename Ring::Scalar> fitted_normal_of(const Ring& ring, const Vector
     const Scalar softening = short_edge_softening * h * h;
     NormalEquations<5, Scalar> equations;
     for (std::size_t k = 0; k < ring.size(); ++k) {
-        const Vector3Of<Scalar> d = ring.offset(k);
+        const Vector3Of<Scalar>& d = ring.offset(k);
         const Scalar x = frame.u.dot(d);
         const Scalar y = frame.v.dot(d);
         const Scalar in_plane = x * x + y * y;

@@ -75,8 +75,7 @@ void Anderson::remember(const Values& x, const Values& f) {
             const int size = end - begin;
             const Eigen::VectorXd change = f.segment(begin, size) - last_f_.segment(begin, size);
             df.segment(begin, size) = change.cast<float>();
-            sum.segment(begin, size) =
-                (x.segment(begin, size) - last_x_.segment(begin, size) + change).cast<float>();
+            sum.segment(begin, size) = (x.segment(begin, size) - last_x_.segment(begin, size) + change).cast<float>();
         });
     }
     last_x_ = x;

@@ -8,7 +8,8 @@ namespace fairing {
 namespace {
 
 // The nodes in log s: the sum is within 2.3 % for eigenvalues from the least one to 4, which is about an outline's
-// largest. Beyond `largest` a hundredth of the integral is left out; the last node lies half a cell below the least one.
+// largest. Beyond `largest` a hundredth of the integral is left out; the last node lies half a cell below the least
+// one.
 constexpr double spacing = 3.0;
 constexpr double largest = 2.0;
 

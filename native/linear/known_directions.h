@@ -19,8 +19,8 @@ public:
     // Another matrix follows.
     void forget() { pairs_.clear(); }
 
-    // x with A x ≈ r, until r is left to the part `accuracy` in the preconditioner's norm or after `max_cycles`; `apply`
-    // and `precondition` as conjugate_gradients has them.
+    // x with A x ≈ r, until r is left to the part `accuracy` in the preconditioner's norm or after `max_cycles`;
+    // `apply` and `precondition` as conjugate_gradients has them.
     template <typename Apply, typename Precondition>
     [[nodiscard]] Row solve(Row r, double accuracy, int max_cycles, const Apply& apply,
                             const Precondition& precondition) {
@@ -40,10 +40,10 @@ public:
         };
         const auto precondition_beside = [&](const Row& residual, Row& result) {
             precondition(residual, result);
-            for (std::size_t k = 0; k < before; ++k)
-                result -= pairs_[k].product.dot(result) * pairs_[k].direction;
+            for (std::size_t k = 0; k < before; ++k) result -= pairs_[k].product.dot(result) * pairs_[k].direction;
         };
-        x += conjugate_gradients(std::move(r), accuracy * whole / left, max_cycles, apply_and_keep, precondition_beside).x;
+        x += conjugate_gradients(std::move(r), accuracy * whole / left, max_cycles, apply_and_keep, precondition_beside)
+                 .x;
         return x;
     }
 

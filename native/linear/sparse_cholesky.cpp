@@ -198,8 +198,7 @@ VectorX SparseCholesky::solve_vector(const VectorX& rhs, const FrontReach& from,
         using Rows = Eigen::Map<Vector>;
         constexpr bool is_exact = std::is_same_v<Stored, double>;
         // In units of its own, far from the limits of single precision.
-        const double unit =
-            is_exact ? 1.0 : std::max(rhs.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+        const double unit = is_exact ? 1.0 : std::max(rhs.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
         Vector x(rhs.size());
         for_ranges(static_cast<int>(rhs.size()), coarse_grain, [&](int begin, int end) {
             for (int k = begin; k < end; ++k) x[k] = static_cast<Stored>(rhs[order_[at(k)]] / unit);

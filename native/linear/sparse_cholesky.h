@@ -31,7 +31,8 @@ public:
     // The same of a matrix that no one else needs: it goes as soon as its entries are read.
     [[nodiscard]] bool factorise(SparseMatrix&& lower, const char* what, const Progress& progress);
 
-    // Solves for one or several right-hand sides (n × k). With a factor of singles all sums are singles, here and below.
+    // Solves for one or several right-hand sides (n × k). With a factor of singles all sums are singles, here and
+    // below.
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
     // For three at once, one point (a column) of each unknown: a third of the time where fronts are small.
     [[nodiscard]] Points solve_points(const Points& rhs) const;

@@ -78,7 +78,8 @@ TEST_CASE("solves in part are those of the whole, where they are wanted") {
 }
 
 TEST_CASE("√A (1 + √A)⁻¹ by shifted inverses") {
-    // Frequencies from the slowest wave around 400 vertices to the fastest; the sum is within a fortieth of the function.
+    // Frequencies from the slowest wave around 400 vertices to the fastest; the sum is within a fortieth of the
+    // function.
     const int count = 400;
     std::vector<Eigen::Triplet<double>> entries;
     const double least = 1e-4;
