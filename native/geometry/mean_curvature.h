@@ -44,6 +44,9 @@ public:
     [[nodiscard]] Vector solve() const;
 
 private:
+    // The direction to a point in the tangent plane, and whether there is any.
+    [[nodiscard]] auto towards(const Vector& offset) const;
+
     Vector normal_;
     FrameOf<Scalar> frame_;
     NormalEquations<3, Scalar> equations_;
@@ -54,30 +57,35 @@ using CurvatureLeastSquares = CurvatureRows<double>;
 constexpr double no_direction = 1e-24;
 
 template <typename Scalar>
-void CurvatureRows<Scalar>::add_point(const Vector& offset) {
+auto CurvatureRows<Scalar>::towards(const Vector& offset) const {
     const Scalar x = frame_.u.dot(offset);
     const Scalar y = frame_.v.dot(offset);
     const Scalar in_plane = x * x + y * y;
     const Scalar squared = offset.squaredNorm();
     const auto is_told = in_plane > no_direction * squared;
-    const Scalar per_plane = 1.0 / select(is_told, in_plane, 1.0);
-    const Scalar curvature = 2.0 * normal_.dot(offset) / select(is_told, squared, 1.0);
-    equations_.add({x * x * per_plane, x * y * per_plane, y * y * per_plane}, curvature,
+    struct Towards {
+        Scalar x, y;
+        Scalar in_plane, squared;  // 1 where there is no direction
+        decltype(in_plane > squared) is_told;
+    };
+    return Towards{x, y, select(is_told, in_plane, 1.0), select(is_told, squared, 1.0), is_told};
+}
+
+template <typename Scalar>
+void CurvatureRows<Scalar>::add_point(const Vector& offset) {
+    const auto [x, y, in_plane, squared, is_told] = towards(offset);
+    const Scalar share = 1.0 / in_plane;
+    equations_.add({x * x * share, x * y * share, y * y * share}, 2.0 * normal_.dot(offset) / squared,
                    select(is_told, Scalar(1.0), 0.0));
 }
 
 template <typename Scalar>
 void CurvatureRows<Scalar>::add_twist(const Vector& offset, const Vector& normal_there, Scalar weight) {
     using std::sqrt;
-    const Scalar x = frame_.u.dot(offset);
-    const Scalar y = frame_.v.dot(offset);
-    const Scalar in_plane = x * x + y * y;
-    const Scalar squared = offset.squaredNorm();
-    const auto is_told = in_plane > no_direction * squared;
-    const Scalar per_plane = 1.0 / select(is_told, in_plane, 1.0);
+    const auto [x, y, in_plane, squared, is_told] = towards(offset);
+    const Scalar share = 1.0 / in_plane;
     const Scalar across = x * normal_there.dot(frame_.v) - y * normal_there.dot(frame_.u);
-    const Scalar twist = -across / sqrt(select(is_told, in_plane * squared, 1.0));
-    equations_.add({-x * y * per_plane, 0.5 * (x * x - y * y) * per_plane, x * y * per_plane}, twist,
+    equations_.add({-x * y * share, 0.5 * (x * x - y * y) * share, x * y * share}, -across / sqrt(in_plane * squared),
                    select(is_told, weight, 0.0));
 }
 
