@@ -110,7 +110,7 @@ PatchCurvature patch_curvature(const Patch& patch, const Points& points, FaceGeo
                                NormalKind kind) {
     const Points virtual_points = edge_virtual_points(patch, points, faces, normals);
     faces = {};  // the rest needs the room
-    PatchCurvature curvature{VectorX(patch.vertex_count()), Points(3, patch.vertex_count())};
+    PatchCurvature curvature{VectorX(), Points(3, patch.vertex_count())};
     for_ranges(patch.free_count, fine_grain, [&](int begin, int end) {
         RingPair rings;
         for (int i = begin; i < end; i += Lanes::count) {

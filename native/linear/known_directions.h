@@ -31,7 +31,7 @@ public:
         };
         const double whole = size();
         Row x = known_part(r);
-        const double left = size();
+        const double left = pairs_.empty() ? whole : size();
         if (!(left > accuracy * whole)) return x;
         const std::size_t before = pairs_.size();
         const auto apply_and_keep = [&](const Row& p, Row& product) {
