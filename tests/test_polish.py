@@ -7,7 +7,7 @@ import pytest
 import fairing
 import graded
 import shapes
-from shapes import Patch
+from shapes import Patch, Style
 
 
 def solved(patch: Patch, weights: str = "uniform") -> fairing.FairResult:
@@ -20,12 +20,21 @@ def solved(patch: Patch, weights: str = "uniform") -> fairing.FairResult:
 
 @pytest.mark.parametrize("half_angle", [130.0, 140.0])
 def test_deep_caps_are_polished(half_angle: float) -> None:
-    """Their vertices slide by .1 to .2 D along the sphere: 6e-11 and 3e-11, where placed ones were off by 1.5e-5."""
-    cap = shapes.cap(1500, half_angle=half_angle)
-    result = solved(cap)
-    assert result.converged
-    assert result.polished
-    assert cap.error(result.vertices) < 1e-8
+    """Their vertices slide by .1 to .2 D along the sphere: 2e-10 at most, where placed ones were off by 1.5e-5.
+
+    Some find no harmonic surface from their outline alone, and take the sphere as that of least variation: of 15 of
+    130° none, of 15 of 140° two. Which ones changes with the last digits, and so from one processor to another.
+    """
+    harmonic = 0
+    for seed in (0, 1, 2):
+        cap = shapes.cap(1500, Style(seed=seed), half_angle=half_angle)
+        result = solved(cap)
+        assert result.converged
+        assert cap.error(result.vertices) < 1e-8
+        if result.equation == "harmonic":
+            assert result.polished
+            harmonic += 1
+    assert harmonic >= 2
 
 
 @pytest.mark.parametrize("weights", ["conformal", "shape_preserving"])

@@ -142,6 +142,7 @@ std::string_view reason_of(Pins pins) {
 
 Indices input_numbers(const Patch& patch, Indices triangles) {
     for (int& t : triangles) t = patch.input_triangle[at(t)];
+    std::sort(triangles.begin(), triangles.end());
     return triangles;
 }
 

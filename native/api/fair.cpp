@@ -8,6 +8,7 @@
 #include "api/memory.h"
 #include "api/prepared_mesh.h"
 #include "base/errors.h"
+#include "base/kept_memory.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "geometry/outline_angles.h"
@@ -240,6 +241,7 @@ FairResult run_call(MeshInput& input, const std::optional<View<Points>>& referen
 
 FairResult fair(MeshInput input, const std::optional<View<Points>>& reference, const FairOptions& options,
                 const ProgressCallback& progress) {
+    const KeptMemory memory(keeps_memory(input.most_free()));
     std::unique_ptr<PreparedMesh> prepared;
     return run_call(input, reference, CallOptions(options, false), prepared, progress);
 }

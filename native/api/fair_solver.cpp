@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "api/memory.h"
 #include "api/prepared_mesh.h"
+#include "base/kept_memory.h"
 
 namespace fairing {
 
@@ -49,6 +51,7 @@ FairResult FairSolver::solve(Points vertices, std::optional<Points> fixed_normal
     input_.vertices = vertices_;
     input_.fixed_normals = std::move(fixed_normals);
     input_.fixed_curvatures = std::move(fixed_curvatures);
+    const KeptMemory memory(keeps_memory(input_.most_free()));
     return run_call(input_, reference, *options_, prepared_, progress);
 }
 

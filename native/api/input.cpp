@@ -10,6 +10,7 @@
 #include "base/direction.h"
 #include "base/errors.h"
 #include "base/text.h"
+#include "mesh/memory_order.h"
 
 namespace fairing {
 
@@ -231,6 +232,7 @@ void warn_of_flat_triangles(const MeshInput& input, const CutMesh& mesh, Diagnos
         if (!(cross.norm() > 1e-12)) offenders.push_back(t);
     }
     if (offenders.empty()) return;
+    std::sort(offenders.begin(), offenders.end());
     warnings.push_back({Code::degenerate_face,
                         counted(offenders.size(), "triangle given has no area", "triangles given have no area"),
                         offenders,
@@ -257,6 +259,7 @@ MeshTopology check_topology(const MeshInput& input) {
                            marks_of(input, input.held.smooth_curves, "smooth_curves"), input.held.fair_border};
     Triangles triangles = drop_collapsed_triangles(input.triangles, kept, warnings);
     triangles = drop_unbounded_triangles(input, triangles, given.fixed, kept, warnings);
+    sort_triangles(triangles, kept, static_cast<int>(input.vertices.cols()));
     const EdgeTable edges = make_edges(triangles, static_cast<int>(input.vertices.cols()));
     mesh.roles = classify_vertices(edges, given);
     check_slopes(given, mesh.roles);

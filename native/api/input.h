@@ -25,6 +25,11 @@ struct MeshInput {
     Triangles outside = {};                        // around the patches; they stay
     HeldInside held = {};
     Triangles sample = {};  // whose detail is put on the surface; empty: the patch's own is
+
+    // Free vertices there are at most: border vertices may not be named.
+    [[nodiscard]] int most_free() const {
+        return static_cast<int>(vertices.cols()) - (fixed ? static_cast<int>(fixed->size()) : 0);
+    }
 };
 
 // What the connectivity and the choice of fixed vertices say. Border vertices are fixed, given or not.

@@ -20,6 +20,9 @@ private:
 // Bytes that a solve of so many free vertices takes at its peak, above the arrays given.
 double memory_estimate(int free_count);
 
+// Whether it pays to keep what such a call frees for itself until it ends (base/kept_memory.h).
+bool keeps_memory(int most_free);
+
 // Bytes that can still be had, swap space included; nothing where the system doesn't say (all but Linux).
 std::optional<double> available_memory();
 

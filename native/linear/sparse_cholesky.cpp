@@ -40,11 +40,49 @@ private:
     long reported_ = 0;
 };
 
+// One factorisation in either precision.
+template <typename Scalar>
+class FrontElimination {
+public:
+    explicit FrontElimination(const FrontTree& tree) : tree_(tree), updates_(at(tree.nodes().size())) {}
+
+    // Supernode s, whose children are done. False where a pivot is not positive.
+    [[nodiscard]] bool eliminate(int s, Front<Scalar> front, const WorkDone& work_done) {
+        Dense<Scalar>& update = updates_[at(s)];
+        const auto below = static_cast<Eigen::Index>(tree_.below(s).size());
+        update.setZero(below, below);
+        for (int child : tree_.children(s)) add_child(child, s, front, update);
+        return eliminate_front<Scalar>(front, update, work_done);
+    }
+
+private:
+    // Adds what a child passes on to the panel of its parent and to what the parent passes on itself (lower triangles).
+    void add_child(int child, int parent, Front<Scalar>& front, Dense<Scalar>& parent_update) {
+        Dense<Scalar>& update = updates_[at(child)];
+        const auto target = tree_.below_in_parent(child);
+        const int columns = tree_.nodes().column_count(parent);
+        for (Eigen::Index b = 0; b < update.cols(); ++b) {
+            const int column = target[std::size_t(b)];
+            if (column < columns) {
+                for (Eigen::Index a = b; a < update.rows(); ++a) front(target[std::size_t(a)], column) += update(a, b);
+            } else {
+                for (Eigen::Index a = b; a < update.rows(); ++a) {
+                    parent_update(target[std::size_t(a)] - columns, column - columns) += update(a, b);
+                }
+            }
+        }
+        update.resize(0, 0);
+    }
+
+    const FrontTree& tree_;
+    std::vector<Dense<Scalar>> updates_;  // Schur complements that supernodes pass on, freed when taken
+};
+
 }  // namespace
 
 template <typename Stored>
 auto SparseCholesky::panel(Stored* panels, int s) const {
-    using Matrix = Eigen::Matrix<std::remove_const_t<Stored>, Eigen::Dynamic, Eigen::Dynamic>;
+    using Matrix = Dense<std::remove_const_t<Stored>>;
     using Panel = Eigen::Map<std::conditional_t<std::is_const_v<Stored>, const Matrix, Matrix>>;
     const Supernodes& nodes = tree_.nodes();
     return Panel(panels + panel_begin_[at(s)], nodes.row_count(s), nodes.column_count(s));
@@ -62,7 +100,6 @@ void SparseCholesky::analyse_pattern(const SparseMatrix& lower) {
     for (int s = 0; s < nodes.size(); ++s) {
         panel_begin_.push_back(panel_begin_.back() + at(nodes.row_count(s)) * at(nodes.column_count(s)));
     }
-    updates_.resize(at(nodes.size()));
     if (kept_ == Kept::doubles) {
         entry_slot_.resize(static_cast<std::size_t>(lower.nonZeros()));
         find_slots(lower, [&](int k, std::size_t slot) { entry_slot_[at(k)] = slot; });
@@ -111,42 +148,6 @@ void SparseCholesky::scatter(const SparseMatrix& lower) {
     });
 }
 
-// Adds what a child passes on to the panel of its parent and to what the parent passes on itself (lower triangles).
-void SparseCholesky::add_child(int child, int parent, Front& front, Eigen::MatrixXd& parent_update) {
-    Eigen::MatrixXd& update = updates_[at(child)];
-    const auto target = tree_.below_in_parent(child);
-    const int columns = tree_.nodes().column_count(parent);
-    for (Eigen::Index b = 0; b < update.cols(); ++b) {
-        const int column = target[std::size_t(b)];
-        if (column < columns) {
-            for (Eigen::Index a = b; a < update.rows(); ++a) front(target[std::size_t(a)], column) += update(a, b);
-        } else {
-            for (Eigen::Index a = b; a < update.rows(); ++a) {
-                parent_update(target[std::size_t(a)] - columns, column - columns) += update(a, b);
-            }
-        }
-    }
-    update.resize(0, 0);
-}
-
-// False where a pivot is not positive.
-bool SparseCholesky::eliminate(int s, const WorkDone& work_done) {
-    if (kept_ == Kept::doubles) return eliminate(s, panel(panels_.data(), s), work_done);
-    auto kept = panel(singles_.data(), s);
-    Eigen::MatrixXd front = kept.cast<double>();
-    const bool positive = eliminate(s, Front(front.data(), front.rows(), front.cols()), work_done);
-    kept = front.cast<float>();
-    return positive;
-}
-
-bool SparseCholesky::eliminate(int s, Front front, const WorkDone& work_done) {
-    Eigen::MatrixXd& update = updates_[at(s)];
-    const auto below = static_cast<Eigen::Index>(tree_.below(s).size());
-    update.setZero(below, below);
-    for (int child : tree_.children(s)) add_child(child, s, front, update);
-    return eliminate_front(front, update, work_done);
-}
-
 bool SparseCholesky::factorise(const SparseMatrix& lower, const char* what, const Progress& progress) {
     progress.report(0.0, what);
     read(lower);
@@ -166,16 +167,24 @@ void SparseCholesky::read(const SparseMatrix& lower) {
 }
 
 bool SparseCholesky::eliminate_all(const char* what, const Progress& progress) {
+    return kept_ == Kept::doubles ? eliminate_all(panels_.data(), what, progress)
+                                  : eliminate_all(singles_.data(), what, progress);
+}
+
+template <typename Stored>
+bool SparseCholesky::eliminate_all(Stored* panels, const char* what, const Progress& progress) {
     SharedProgress shared(progress, what, tree_.total_work());
     const WorkDone work_done = [&](double operations) { shared.add(operations); };
+    FrontElimination<Stored> elimination(tree_);
+    const auto eliminate = [&](int s) { return elimination.eliminate(s, panel(panels, s), work_done); };
     std::atomic<bool> positive = true;
     run_pieces(static_cast<int>(tree_.subtrees().size()), [&](int k) {
         const Subtree& part = tree_.subtrees()[at(k)];
         for (int s = part.begin; s < part.end && positive; ++s) {
-            if (!eliminate(s, work_done)) positive = false;
+            if (!eliminate(s)) positive = false;
         }
     });
-    for (int s : tree_.top()) positive = positive && eliminate(s, work_done);
+    for (int s : tree_.top()) positive = positive && eliminate(s);
     return positive;
 }
 

@@ -10,8 +10,10 @@
 
 namespace fairing {
 
-// What a factor is kept in. It is found in double precision; `singles` take half of the memory, and solves with them
-// are right to some 1e-7 times the matrix's condition: enough for a step of an iteration.
+// What a factor is found and kept in. `singles` take half of the memory and of the time, and solves with them are right
+// to some 1e-7 times the matrix's condition: enough for a step of an iteration. A matrix that is positive definite by
+// less than their rounding may be refused; sums in double precision save nearly none of these, since the entries are
+// rounded as well.
 enum class Kept { doubles, singles };
 
 class SparseCholesky {
@@ -53,10 +55,9 @@ private:
     [[nodiscard]] std::size_t slot_of(int row, int column) const;
     void read(const SparseMatrix& lower);
     void scatter(const SparseMatrix& lower);
-    bool eliminate_all(const char* what, const Progress& progress);
-    void add_child(int child, int parent, Front& front, Eigen::MatrixXd& parent_update);
-    bool eliminate(int supernode, const WorkDone& work_done);
-    bool eliminate(int supernode, Front front, const WorkDone& work_done);
+    [[nodiscard]] bool eliminate_all(const char* what, const Progress& progress);
+    template <typename Stored>
+    [[nodiscard]] bool eliminate_all(Stored* panels, const char* what, const Progress& progress);
     // visit(panels_ or singles_).
     template <typename Visit>
     [[nodiscard]] auto with_panels(const Visit& visit) const;
@@ -74,8 +75,7 @@ private:
     Kept kept_ = Kept::doubles;
     VectorX panels_;  // one of these two is empty
     Eigen::VectorXf singles_;
-    std::vector<std::size_t> entry_slot_;   // entry of the matrix → place in panels_; a factor of singles keeps none
-    std::vector<Eigen::MatrixXd> updates_;  // Schur complement that a supernode passes on, freed when taken
+    std::vector<std::size_t> entry_slot_;  // entry of the matrix → place in panels_; a factor of singles keeps none
     bool analysed_ = false;
 };
 

@@ -1,6 +1,7 @@
 #include "mesh/pieces.h"
 
 #include "base/progress.h"
+#include "mesh/memory_order.h"
 
 namespace fairing {
 
@@ -96,6 +97,7 @@ Patch Pieces::patch(int piece) const {
         members.input_triangle.push_back(cut_.input_triangle[at(t)]);
         for (int c = 0; c < 3; ++c) members.triangles(c, k) = local_[at(cut_.triangles(c, t))];
     }
+    bring_neighbours_together(members, twins);
     return Patch(std::move(members), std::move(twins));
 }
 

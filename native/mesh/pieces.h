@@ -12,7 +12,7 @@ public:
 
     [[nodiscard]] int size() const { return static_cast<int>(triangles_.size()); }
     [[nodiscard]] bool has_free_vertex(int piece) const { return free_count_[at(piece)] > 0; }
-    // Free vertices first, each group in the order of the input, so that neighbours in the input stay close in memory.
+    // Free vertices first, each group in the order of the input, unless that leaves neighbours far apart in memory.
     [[nodiscard]] Patch patch(int piece) const;
 
 private:

@@ -126,6 +126,7 @@ void check_orientable(const Indices& twisted, const Indices& input_triangle) {
     Indices offenders;
     for (int t : twisted) offenders.push_back(input_triangle[at(t)]);
     if (offenders.empty()) return;
+    std::sort(offenders.begin(), offenders.end());
     throw MeshError({Code::not_orientable,
                      "the mesh has a single side (a Möbius strip) through triangle " +
                          std::to_string(offenders.front()) + ": cut it open, or fair a part that has two sides",
@@ -237,6 +238,7 @@ void warn_of_windings(const CutMesh& mesh, Diagnostics& warnings) {
         if (mesh.flipped[t]) offenders.push_back(mesh.input_triangle[t]);
     }
     if (offenders.empty()) return;
+    std::sort(offenders.begin(), offenders.end());
     warnings.push_back(
         {Code::inconsistent_winding,
          counted(offenders.size(), "triangle is wound against the others", "triangles are wound against the others") +
@@ -246,15 +248,23 @@ void warn_of_windings(const CutMesh& mesh, Diagnostics& warnings) {
          {{"triangles", size_of(offenders)}}});
 }
 
+// By the lowest triangle of the input: here they may come in another order.
 void number_pieces(CutMesh& mesh, UnionFind& pieces) {
     const int count = static_cast<int>(mesh.triangles.cols());
-    Indices number(at(count), none);
-    mesh.piece.resize(at(count));
+    Indices lowest(at(count), none);  // of the piece of this root
+    Indices roots;
     for (int t = 0; t < count; ++t) {
-        int& piece = number[at(pieces.root(t))];
-        if (piece == none) piece = mesh.piece_count++;
-        mesh.piece[at(t)] = piece;
+        const int root = pieces.root(t);
+        const int input = mesh.input_triangle[at(t)];
+        if (lowest[at(root)] == none) roots.push_back(root);
+        if (lowest[at(root)] == none || input < lowest[at(root)]) lowest[at(root)] = input;
     }
+    std::sort(roots.begin(), roots.end(), [&](int a, int b) { return lowest[at(a)] < lowest[at(b)]; });
+    mesh.piece_count = static_cast<int>(roots.size());
+    Indices number(at(count), none);
+    for (int k = 0; k < mesh.piece_count; ++k) number[at(roots[at(k)])] = k;
+    mesh.piece.resize(at(count));
+    for (int t = 0; t < count; ++t) mesh.piece[at(t)] = number[at(pieces.root(t))];
 }
 
 }  // namespace

@@ -34,16 +34,25 @@ struct RingMatrix {
         });
     }
 
-    // The same in single precision.
-    template <typename Write>
-    void apply(const SingleField& x, int rows, const Write& write) const {
+    // The same in single precision, of a field that is made as it is read: x(j) at vertex j, a Vector4f.
+    template <typename Field, typename Write>
+    void apply_singles(const Field& x, int rows, const Write& write) const {
         for_ranges(rows, coarse_grain, [&](int first, int last) {
-            for (int i = first; i < last; ++i) {
-                Eigen::Vector4f sum = diagonal[i] * x.col(i);
-                for (int k = begin[at(i)]; k < begin[at(i) + 1]; ++k) sum -= weight(k) * x.col(columns[at(k)]);
-                write(i, sum);
-            }
+            for (int i = first; i < last; ++i)
+                write(i, Eigen::Vector4f(diagonal[i] * x(i) - weighted_sum(x, begin[at(i)], begin[at(i) + 1])));
         });
+    }
+
+private:
+    template <typename Field>
+    [[nodiscard]] Eigen::Vector4f weighted_sum(const Field& x, int first, int last) const {
+        Eigen::Vector4f sum = Eigen::Vector4f::Zero();
+        if (weights.size() == 0) {
+            for (int k = first; k < last; ++k) sum += x(columns[at(k)]);
+        } else {
+            for (int k = first; k < last; ++k) sum += weights[k] * x(columns[at(k)]);
+        }
+        return sum;
     }
 };
 

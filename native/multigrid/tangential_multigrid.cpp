@@ -9,8 +9,6 @@ namespace fairing {
 
 namespace {
 
-constexpr int smoothing_degree = 2;
-
 // Of D⁻¹L where no weight is negative (Gershgorin).
 constexpr float largest_eigenvalue = 2.0F;
 
@@ -62,39 +60,34 @@ Points MultigridStep::pull(const Points& points) const {
 }
 
 void MultigridStep::subtract_product(const SingleField& x, SingleField& r) const {
-    laplacian_.apply(x, patch_.free_count, [&](int i, const Eigen::Vector4f& product) { r.col(i) -= product; });
+    laplacian_.apply_singles([&](int j) { return x.col(j); }, patch_.free_count,
+                             [&](int i, const Eigen::Vector4f& product) { r.col(i) -= product; });
 }
 
-// Steps of the Chebyshev iteration of the fourth kind (Lottes 2022), which needs no lower bound of the spectrum:
-// x ← x + p(D⁻¹L) D⁻¹ r, with r kept as the residual of x if wanted.
-void MultigridStep::smooth(SingleField& x, SingleField& r, From start, Residual last) const {
-    SingleField& z = fine_;
-    for (int k = 1; k <= smoothing_degree; ++k) {
-        const auto step = static_cast<float>(k);
-        const float keep = (2.0F * step - 3.0F) / (2.0F * step + 1.0F);
-        const float add = (8.0F * step - 4.0F) / (2.0F * step + 1.0F) / largest_eigenvalue;
-        for_ranges(static_cast<int>(x.cols()), coarse_grain, [&](int begin, int end) {
-            for (int i = begin; i < end; ++i) {
-                const Eigen::Vector4f fresh = add * inverse_diagonal_[i] * r.col(i);
-                const Eigen::Vector4f move = k == 1 ? fresh : Eigen::Vector4f(keep * z.col(i) + fresh);
-                z.col(i) = move;
-                x.col(i) = k == 1 && start == From::zero ? move : Eigen::Vector4f(x.col(i) + move);
-            }
-        });
-        if (k < smoothing_degree || last == Residual::kept) subtract_product(z, r);
-    }
+// Two steps of the Chebyshev iteration of the fourth kind (Lottes 2022), which needs no lower bound of the spectrum:
+// write(i, p(D⁻¹L) D⁻¹ r there). The first step is made where the second reads it: a large mesh is walked over as fast
+// as memory answers.
+template <typename Write>
+void MultigridStep::smooth(const SingleField& r, const Write& write) const {
+    constexpr float first = 4.0F / 3.0F / largest_eigenvalue;
+    constexpr float keep = 1.0F / 5.0F;
+    constexpr float add = 12.0F / 5.0F / largest_eigenvalue;
+    const auto z = [&](int j) { return Eigen::Vector4f(first * inverse_diagonal_[j] * r.col(j)); };
+    laplacian_.apply_singles(z, patch_.free_count, [&](int i, const Eigen::Vector4f& product) {
+        write(i, (1.0F + keep) * z(i) + add * inverse_diagonal_[i] * (r.col(i) - product));
+    });
 }
 
 void MultigridStep::cycle(SingleField& r, SingleField& x) const {
     fine_.resize(4, x.cols());
-    smooth(x, r, From::zero, Residual::kept);
+    x.rightCols(fixed_points_.cols()).setZero();
+    smooth(r, [&](int i, const Eigen::Vector4f& move) { x.col(i) = move; });
+    subtract_product(x, r);
     restriction_.apply(r, static_cast<float>(scale() / coarser_.scale()), fine_, coarse_r_);
     coarser_.cycle(coarse_r_, coarse_x_);
     restriction_.transfer().prolong(coarse_x_, fine_);
-    for_ranges(static_cast<int>(x.cols()), coarse_grain,
-               [&](int begin, int end) { x.middleCols(begin, end - begin) += fine_.middleCols(begin, end - begin); });
     subtract_product(fine_, r);
-    smooth(x, r, From::given, Residual::left);
+    smooth(r, [&](int i, const Eigen::Vector4f& move) { x.col(i) += fine_.col(i) + move; });
 }
 
 // d with L d = scale · pull; across the normals if there are any, as `pull` is then. In units of its own, far from the
@@ -103,12 +96,17 @@ MultigridStep::Moves MultigridStep::solve(const Points& pull, const Planes* plan
     const double unit = pull.cwiseAbs().maxCoeff();
     if (!(unit > 0.0)) return {Points::Zero(3, patch_.free_count), true};
     SingleField residual;
+    const bool turns = planes && planes->turns.cols() > 0;
     const auto apply = [&](const SingleField& p, SingleField& product) {
-        laplacian_.apply(p, patch_.free_count, [&](int i, const Eigen::Vector4f& value) { product.col(i) = value; });
+        const auto write = [&](int i, Eigen::Vector4f value) {
+            if (planes) {
+                if (turns) value.head<3>() += turn(planes->turns, i, p.col(i).head<3>());
+                value -= planes->normals.col(i).dot(value) * planes->normals.col(i);
+            }
+            product.col(i) = value;
+        };
+        laplacian_.apply_singles([&](int j) { return p.col(j); }, patch_.free_count, write);
         product.rightCols(fixed_points_.cols()).setZero();
-        if (!planes) return;
-        add_turning(planes->turns, p, product);
-        project_across(product, planes->normals);
     };
     const auto precondition = [&](const SingleField& field, SingleField& z) {
         residual = field;
@@ -148,23 +146,29 @@ double MultigridStep::imbalance(const Points& points, const Points& normals) con
 }
 
 Points MultigridStep::displacement(const Points& points, const TangentPlanes& planes, Effort effort) const {
-    return displacement(TurningPlanes{points, planes.normals, planes.shapes ? *planes.shapes : ShapeOperators()},
-                        effort);
+    // In double precision: along the normals the pull is far larger than what steps towards the solution leave across.
+    Points across = pull(points);
+    Planes singles{to_single(planes.normals, patch_.free_count), turning(planes, across)};
+    project_across(across.leftCols(patch_.free_count), planes.normals);
+    return solve_across(across, std::move(singles), effort);
 }
 
 Points MultigridStep::displacement(TurningPlanes&& gone, Effort effort) const {
     TurningPlanes planes = std::move(gone);
-    // In double precision: along the normals the pull is far larger than what steps towards the solution leave across.
     Points across = pull(planes.points);
     planes.points.resize(3, 0);
     Planes singles{to_single(planes.normals, patch_.free_count),
                    turning(std::move(planes.shapes), planes.normals, across)};
     project_across(across.leftCols(patch_.free_count), planes.normals);
     planes.normals.resize(3, 0);
-    Moves moves = solve(across, &singles, effort);
-    if (moves.positive || singles.turns.cols() == 0) return std::move(moves.d);
-    singles.turns.resize(6, 0);
-    return solve(across, &singles, effort).d;
+    return solve_across(across, std::move(singles), effort);
+}
+
+Points MultigridStep::solve_across(const Points& across, Planes planes, Effort effort) const {
+    Moves moves = solve(across, &planes, effort);
+    if (moves.positive || planes.turns.cols() == 0) return std::move(moves.d);
+    planes.turns.resize(6, 0);
+    return solve(across, &planes, effort).d;
 }
 
 }  // namespace fairing

@@ -50,9 +50,6 @@ public:
     void cycle(SingleField& r, SingleField& x) const override;
 
 private:
-    enum class From { zero, given };
-    enum class Residual { kept, left };
-
     // All of these in units of the scale.
     [[nodiscard]] Points pull(const Points& points) const;
     struct Moves {
@@ -65,8 +62,10 @@ private:
         ShapeOperators turns;
     };
     [[nodiscard]] Moves solve(const Points& pull, const Planes* planes, const Effort& effort) const;
+    [[nodiscard]] Points solve_across(const Points& across, Planes planes, Effort effort) const;
     void subtract_product(const SingleField& x, SingleField& r) const;
-    void smooth(SingleField& x, SingleField& r, From start, Residual last) const;
+    template <typename Write>
+    void smooth(const SingleField& r, const Write& write) const;
 
     const Patch& patch_;
     Points fixed_points_;

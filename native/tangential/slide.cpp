@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "base/parallel.h"
 #include "linear/anderson.h"
@@ -45,12 +46,12 @@ void slide(Sliding& vertices, const TangentialStep& tangential, int most_steps) 
     Anderson anderson(history_depth);
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < most_steps; ++step) {
-        const Points d = tangential.displacement(points, {vertices.normals, vertices.shapes});
+        Points d = tangential.displacement(points, {vertices.normals, vertices.shapes});
         const double largest = largest_length(d);
         if (largest > stuck * last) return;
         const double next = largest * std::max(largest / last, fastest);
         last = largest;
-        anderson.move(points, d, longest_move);
+        anderson.move(points, std::move(d), longest_move);
         walk(vertices);
         if (largest < near_enough || (step > 0 && next < next_near_enough)) return;
     }

@@ -236,6 +236,46 @@ TEST_CASE("the weights of a coarse level put its vertices where the fine level h
     CHECK(mean_error(level.weights) < 0.5 * mean_error(uniform_weights(level.patch)));
 }
 
+TEST_CASE("before and after the coarse level a cycle smooths by the Chebyshev polynomial of the fourth kind") {
+    class Nothing : public LaplaceCycle {
+    public:
+        [[nodiscard]] double scale() const override { return 1.0; }
+        void cycle(SingleField& /*r*/, SingleField& x) const override { x.setZero(); }
+    };
+    const Ball ball(14, 0.3, 30);
+    REQUIRE(!ball.levels.empty());
+    const int count = ball.patch().vertex_count();
+    const int free = ball.patch().free_count;
+    InnerWeights weights = ball.weights;
+    for (std::size_t k = 0; k < weights.size(); ++k) weights[k].weight = 1.0 + 0.5 * std::sin(static_cast<double>(k));
+    for (const bool uniform : {true, false}) {
+        const RingMatrix laplacian(count, uniform ? ball.weights : weights);
+        Eigen::MatrixXd L = Eigen::MatrixXd::Zero(count, count);
+        for (int i = 0; i < count; ++i) {
+            for (int k = laplacian.begin[at(i)]; k < laplacian.begin[at(i) + 1]; ++k) {
+                L(i, i) += laplacian.weight(k);
+                L(i, laplacian.columns[at(k)]) -= laplacian.weight(k);
+            }
+        }
+        const Eigen::MatrixXd A = L.topLeftCorner(free, free);
+        const Nothing nothing;
+        const MultigridStep step(ball.patch(), laplacian, ball.fixed_points(), Restriction(ball.levels[0].transfer),
+                                 nothing);
+        SingleField r = SingleField::Random(4, count);
+        r.rightCols(count - free).setZero();
+        SingleField x = SingleField::Random(4, count);
+        const Eigen::MatrixXd exact = A.llt().solve(Eigen::MatrixXd(r.leftCols(free).cast<double>().transpose()));
+        step.cycle(r, x);
+        // sin 5θ/2 over 5 sin θ/2, of cos θ = 1 − the eigenvalue of D⁻¹A, twice.
+        const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(free, free);
+        const Eigen::MatrixXd c = identity - A.diagonal().cwiseInverse().asDiagonal() * A;
+        const Eigen::MatrixXd left = (4.0 * c * c + 2.0 * c - identity) / 5.0;
+        const Eigen::MatrixXd expected = exact - left * left * exact;
+        CHECK((x.leftCols(free).cast<double>().transpose() - expected).norm() < 1e-5 * expected.norm());
+        CHECK(x.rightCols(count - free).isZero());
+    }
+}
+
 TEST_CASE("multigrid and a factorisation give the same tangential steps") {
     const Ball ball(40, 0.3, 60);
     REQUIRE(ball.levels.size() >= 2);

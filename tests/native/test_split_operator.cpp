@@ -125,7 +125,7 @@ TEST_CASE("split by free and fixed vertices, the biharmonic operator has the sam
         REQUIRE(split.update(other, Progress()));
         (void)split.solve(rhs, 1e-6);
         // The second column begins with what the first one found; float factors and fast ends leave some digits.
-        for (const auto& [accuracy, most] : {std::pair{1e-3, 1e-2}, std::pair{1e-6, 1e-4}}) {
+        for (const auto& [accuracy, most] : {std::pair{1e-3, 1e-2}, std::pair{1e-6, 3e-4}}) {
             REQUIRE(split.update(stiffness, Progress()));
             const Eigen::MatrixXd found = split.solve(rhs, accuracy);
             CAPTURE(accuracy);

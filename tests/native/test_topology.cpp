@@ -1,7 +1,12 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstdlib>
+
+#include "api/input.h"
 #include "base/errors.h"
 #include "mesh/loops.h"
+#include "mesh/pieces.h"
 #include "meshes.h"
 
 using namespace fairing;
@@ -116,4 +121,138 @@ TEST_CASE("two squares that share a corner have two loops") {
         1, 3,           //
         2, 4;
     CHECK(boundary_loops(triangles, 5) == std::vector<Indices>{{0, 1, 2}, {2, 3, 4}});
+}
+
+namespace {
+
+// A permutation of 0 … count − 1 that leaves few neighbours together; `count` is no multiple of 7919.
+Indices scattered(int count) {
+    Indices order(at(count));
+    for (int k = 0; k < count; ++k) order[at(k)] = static_cast<int>(7919LL * k % count);
+    return order;
+}
+
+}  // namespace
+
+TEST_CASE("triangles that come in any order lie in that of the vertices, and are called what they were") {
+    constexpr int n = 180;
+    const test::Mesh mesh = test::grid(n, 0.0, test::flat);
+    Triangles triangles(3, mesh.triangles.cols());
+    const Indices order = scattered(static_cast<int>(triangles.cols()));
+    for (Eigen::Index t = 0; t < triangles.cols(); ++t) triangles.col(t) = mesh.triangles.col(order[std::size_t(t)]);
+    const Indices turned{100, 20000, 60000};
+    for (const int t : turned) triangles.col(t).reverseInPlace();
+    const MeshTopology topology = check_topology({mesh.points, triangles, {}, {}});
+    const CutMesh& cut = topology.cut;
+    Indices seen(at(static_cast<int>(triangles.cols())), 0);
+    int last = 0;
+    bool same = true;
+    bool ascending = true;
+    for (int t = 0; t < cut.triangles.cols(); ++t) {
+        Eigen::Vector3i corners = cut.triangles.col(t).unaryExpr([&](int v) { return cut.input_vertex[at(v)]; });
+        ascending = ascending && corners.minCoeff() >= last;
+        last = corners.minCoeff();
+        Eigen::Vector3i given = triangles.col(cut.input_triangle[at(t)]);
+        ++seen[at(cut.input_triangle[at(t)])];
+        std::sort(corners.begin(), corners.end());
+        std::sort(given.begin(), given.end());
+        same = same && corners == given;
+    }
+    CHECK(ascending);
+    CHECK(same);
+    CHECK(seen == Indices(seen.size(), 1));
+    REQUIRE(topology.topology_warnings.size() == 1);
+    CHECK(topology.topology_warnings[0].elements == turned);
+}
+
+TEST_CASE("pieces are numbered by their lowest triangles, whatever their vertices") {
+    // The second grid has the lower vertices, and the first the lower triangles.
+    constexpr int n = 120;
+    const test::Mesh mesh = test::grid(n, 0.0, test::flat);
+    const auto count = static_cast<int>(mesh.points.cols());
+    Points points(3, 2 * count);
+    points << mesh.points, mesh.points;
+    Triangles triangles(3, 2 * mesh.triangles.cols());
+    triangles << (mesh.triangles.array() + count).matrix(), mesh.triangles;
+    const CutMesh cut = check_topology({points, triangles, {}, {}}).cut;
+    REQUIRE(cut.piece_count == 2);
+    CHECK(cut.input_triangle.front() == mesh.triangles.cols());
+    for (std::size_t t = 0; t < cut.piece.size(); t += 1000) {
+        CHECK(cut.piece[t] == (cut.input_triangle[t] < mesh.triangles.cols() ? 0 : 1));
+    }
+}
+
+namespace {
+
+// The mean distance of neighbouring free vertices in memory.
+double mean_distance(const Patch& patch) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (const auto& [a, b] : patch.edge_ends) {
+        if (!patch.is_free(a) || !patch.is_free(b)) continue;
+        sum += std::abs(a - b);
+        count += 1.0;
+    }
+    return sum / count;
+}
+
+}  // namespace
+
+TEST_CASE("neighbours that a shuffled mesh leaves far apart come together, and nothing else changes") {
+    constexpr int n = 60;
+    const test::Mesh mesh = test::grid(n, 0.0, test::flat);
+    const test::Single ordered = test::single_patch(mesh);
+    CHECK(std::is_sorted(ordered.patch().to_input.begin(),
+                         ordered.patch().to_input.begin() + ordered.patch().free_count));
+    const Indices number = scattered(static_cast<int>(mesh.points.cols()));
+    const Indices order = scattered(static_cast<int>(mesh.triangles.cols()));
+    test::Mesh shuffled = mesh;
+    for (Eigen::Index v = 0; v < mesh.points.cols(); ++v)
+        shuffled.points.col(number[std::size_t(v)]) = mesh.points.col(v);
+    for (std::size_t t = 0; t < order.size(); ++t) {
+        for (int k = 0; k < 3; ++k)
+            shuffled.triangles(k, static_cast<Eigen::Index>(t)) = number[at(mesh.triangles(k, order[t]))];
+    }
+    const test::Single single = test::single_patch(shuffled);
+    const Patch& patch = single.patch();
+    CHECK(mean_distance(patch) < 3.0 * mean_distance(ordered.patch()));  // 30 times as given
+    CHECK(patch.free_count == ordered.patch().free_count);
+    CHECK(std::is_sorted(patch.to_input.begin() + patch.free_count, patch.to_input.end()));
+    Indices numbers = patch.to_input;
+    std::sort(numbers.begin(), numbers.end());
+    bool all = true;
+    for (std::size_t v = 0; v < numbers.size(); ++v) all = all && numbers[v] == static_cast<int>(v);
+    CHECK(all);
+    bool same = true;
+    for (int t = 0; t < patch.triangle_count(); ++t) {
+        const Eigen::Vector3i corners = patch.triangles.col(t).unaryExpr([&](int v) { return patch.to_input[at(v)]; });
+        same = same && corners == shuffled.triangles.col(patch.input_triangle[at(t)]);
+    }
+    CHECK(same);
+    CHECK(patch.edge_count() == ordered.patch().edge_count());
+    CHECK(patch.loop_count() == 1);
+}
+
+TEST_CASE("a tube and a closed surface held by one pin are brought together as well") {
+    // A torus of n × n; the tube lacks a column of triangles.
+    constexpr int n = 60;
+    const Indices number = scattered(n * n);
+    for (const int open : {0, 1}) {
+        Triangles triangles(3, 2 * n * (n - open));
+        int t = 0;
+        for (int i = 0; i < n - open; ++i) {
+            for (int j = 0; j < n; ++j) {
+                const auto v = [&](int a, int b) { return number[at((i + a) % n * n + (j + b) % n)]; };
+                triangles.col(t++) << v(0, 0), v(1, 0), v(1, 1);
+                triangles.col(t++) << v(0, 0), v(1, 1), v(0, 1);
+            }
+        }
+        const Points anywhere = Points::Zero(3, n * n);
+        const MeshTopology topology =
+            check_topology({anywhere, triangles, open == 1 ? std::nullopt : std::optional(Indices{5}), {}});
+        const std::vector<Patch> patches = make_patches(topology.cut, topology.roles);
+        REQUIRE(patches.size() == 1);
+        CHECK(mean_distance(patches[0]) < 4.0 * n);  // 1,200 as given
+        CHECK(patches[0].loop_count() == 2 * open);
+    }
 }

@@ -1,0 +1,189 @@
+#include "mesh/memory_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <numeric>
+#include <utility>
+
+#include "base/progress.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr int least_sorted = 50000;  // fewer triangles fit into the cache in any order
+
+// The mean distance of neighbours, in vertices. Row by row it is about the square root of their number.
+constexpr double least_far = 400.0;  // what is nearer lies in the cache together
+constexpr double far_in_rows = 8.0;
+
+Indices least_corners(const Triangles& triangles) {
+    Indices least(at(static_cast<int>(triangles.cols())));
+    for (int t = 0; t < static_cast<int>(triangles.cols()); ++t) least[at(t)] = triangles.col(t).minCoeff();
+    return least;
+}
+
+// Counting sort: the numbers 0 … keys.size() − 1 by their keys, which lie below `count`, then ascending.
+Indices sorted_by(const Indices& keys, int count) {
+    Indices begin(at(count) + 1, 0);
+    for (const int key : keys) ++begin[at(key) + 1];
+    for (std::size_t k = 1; k < begin.size(); ++k) begin[k] += begin[k - 1];
+    Indices order(keys.size());
+    for (int t = 0; t < static_cast<int>(keys.size()); ++t) {
+        checkpoint(t);
+        order[at(begin[at(keys[at(t)])]++)] = t;
+    }
+    return order;
+}
+
+void reorder(const Indices& order, Triangles& triangles, Indices& numbers) {
+    Triangles sorted(3, triangles.cols());
+    Indices sorted_numbers(numbers.size());
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        sorted.col(static_cast<Eigen::Index>(k)) = triangles.col(order[k]);
+        sorted_numbers[k] = numbers[at(order[k])];
+    }
+    triangles = std::move(sorted);
+    numbers = std::move(sorted_numbers);
+}
+
+Indices inverse(const Indices& order) {
+    Indices place(order.size());
+    for (std::size_t k = 0; k < order.size(); ++k) place[at(order[k])] = static_cast<int>(k);
+    return place;
+}
+
+bool are_far_apart(const PatchMembers& members) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (const auto corners : members.triangles.colwise()) {
+        for (int k = 0; k < 3; ++k) {
+            const int a = corners[k];
+            const int b = corners[(k + 1) % 3];
+            if (std::max(a, b) >= members.free_count) continue;
+            sum += std::abs(a - b);
+            count += 1.0;
+        }
+    }
+    return sum > count * std::max(least_far, far_in_rows * std::sqrt(static_cast<double>(members.free_count)));
+}
+
+// From triangle to triangle across their sides.
+Indices steps_from(int start, const Twins& twins) {
+    Indices steps(twins.size() / 3, none);
+    Indices queue{start};
+    queue.reserve(steps.size());
+    steps[at(start)] = 0;
+    for (std::size_t next = 0; next < queue.size(); ++next) {
+        checkpoint(static_cast<int>(next));
+        const int t = queue[next];
+        for (int k = 0; k < 3; ++k) {
+            const int twin = twins[at(3 * t + k)];
+            if (twin == none || steps[at(twin / 3)] != none) continue;
+            steps[at(twin / 3)] = steps[at(t)] + 1;
+            queue.push_back(twin / 3);
+        }
+    }
+    return steps;
+}
+
+// On the outline; any where there is none.
+Indices outline_triangles(const Twins& twins) {
+    Indices found;
+    for (int s = 0; s < static_cast<int>(twins.size()); ++s) {
+        if (twins[at(s)] == none) found.push_back(s / 3);
+    }
+    if (!found.empty()) return found;
+    found.resize(twins.size() / 3);
+    std::iota(found.begin(), found.end(), 0);
+    return found;
+}
+
+// The place of a cell on the Hilbert curve over 2^16 × 2^16 of them (Hilbert 1891).
+std::uint32_t hilbert_place(std::uint32_t x, std::uint32_t y) {
+    std::uint32_t place = 0;
+    for (std::uint32_t half = 1U << 15; half > 0; half /= 2) {
+        const bool right = (x & half) != 0;
+        const bool up = (y & half) != 0;
+        place += half * half * ((right ? 3U : 0U) ^ (up ? 1U : 0U));
+        if (up) continue;
+        if (right) {
+            x = ~x;
+            y = ~y;
+        }
+        std::swap(x, y);
+    }
+    return place;
+}
+
+// Of each triangle on the curve over the chart. All of a piece can be reached.
+std::vector<std::uint32_t> places_on_chart(const Twins& twins) {
+    const Indices outline = outline_triangles(twins);
+    const Indices east = steps_from(outline.front(), twins);
+    const int farthest = *std::max_element(east.begin(), east.end());
+    const auto off_half = [&](int t) { return std::abs(2 * east[at(t)] - farthest); };
+    const int aside =
+        *std::min_element(outline.begin(), outline.end(), [&](int a, int b) { return off_half(a) < off_half(b); });
+    const Indices north = steps_from(aside, twins);
+    std::vector<std::uint32_t> places;
+    places.reserve(east.size());
+    const int scale = 1 + 2 * farthest / (1 << 16);  // one is at most twice as far from any as the other
+    for (std::size_t t = 0; t < east.size(); ++t)
+        places.push_back(
+            hilbert_place(static_cast<std::uint32_t>(east[t] / scale), static_cast<std::uint32_t>(north[t] / scale)));
+    return places;
+}
+
+// Old number → new number: the free vertices by the place of their first triangle, the fixed ones as they are.
+Indices vertex_numbers(const PatchMembers& members, const Twins& twins) {
+    const std::vector<std::uint32_t> places = places_on_chart(twins);
+    std::vector<std::pair<std::uint32_t, int>> sorted(at(members.free_count), {0, none});
+    for (int t = 0; t < static_cast<int>(places.size()); ++t) {
+        for (const int v : members.triangles.col(t)) {
+            if (v < members.free_count && sorted[at(v)].second == none) sorted[at(v)] = {places[at(t)], v};
+        }
+    }
+    std::sort(sorted.begin(), sorted.end());
+    Indices numbers(members.to_input.size());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    for (std::size_t k = 0; k < sorted.size(); ++k) numbers[at(sorted[k].second)] = static_cast<int>(k);
+    return numbers;
+}
+
+void renumber_vertices(const Indices& numbers, PatchMembers& members) {
+    const Indices to_input = members.to_input;
+    const std::vector<char> pin = members.pin;
+    for (std::size_t v = 0; v < numbers.size(); ++v) {
+        members.to_input[at(numbers[v])] = to_input[v];
+        members.pin[at(numbers[v])] = pin[v];
+    }
+    for (int& v : members.triangles.reshaped()) v = numbers[at(v)];
+}
+
+}  // namespace
+
+void sort_triangles(Triangles& triangles, Indices& numbers, int vertex_count) {
+    if (triangles.cols() < least_sorted) return;
+    const Indices least = least_corners(triangles);
+    if (!std::is_sorted(least.begin(), least.end())) reorder(sorted_by(least, vertex_count), triangles, numbers);
+}
+
+void bring_neighbours_together(PatchMembers& members, Twins& twins) {
+    if (twins.empty() || !are_far_apart(members)) return;
+    renumber_vertices(vertex_numbers(members, twins), members);
+    const Indices order = sorted_by(least_corners(members.triangles), static_cast<int>(members.to_input.size()));
+    reorder(order, members.triangles, members.input_triangle);
+    const Indices place = inverse(order);
+    Twins moved(twins.size());
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            const int twin = twins[3 * at(order[k]) + c];
+            moved[3 * k + c] = twin == none ? none : 3 * place[at(twin / 3)] + twin % 3;
+        }
+    }
+    twins = std::move(moved);
+}
+
+}  // namespace fairing
