@@ -65,15 +65,15 @@ def test_a_joint_that_is_a_bulb_has_even_curvature() -> None:
 
 
 def test_a_straight_graded_pipe_is_not_compared_with_another_surface() -> None:
-    """Over chords of its coarse end it was taken for a bulb, and solved in six times the steps."""
-    pipe = graded.regraded(shapes.cylinder(2750, shapes.Style(jitter=0.0), length=11.0), 5500)
-    steps = itertools.count()
+    """Over chords of its coarse end it was taken for a bulb, and solved in six times the time."""
+    pipe = graded.regraded(shapes.cylinder(800, shapes.Style(jitter=0.0), length=11.0), 1600)
+    stages: set[str] = set()
     result = fairing.fair(
-        shapes.start_from_nothing(pipe), pipe.triangles, fixed=pipe.fixed, fixed_normals=pipe.fixed_normals,
-        tolerance=1e-10, threads=1, progress=lambda _fraction, _stage: next(steps) >= 0,
+        pipe.vertices, pipe.triangles, fixed=pipe.fixed, fixed_normals=pipe.fixed_normals,
+        progress=lambda _fraction, stage: stages.add(stage) is None,
     )  # fmt: skip
     assert result.equation == "harmonic"
-    assert next(steps) < 1000
+    assert "least variation" not in stages
 
 
 def test_stop_keeps_the_best_of_the_equation_asked_for() -> None:
