@@ -20,7 +20,7 @@ void keep() {
 // Settings can't be read. These are the library's own once arrays of 32 MB have come and gone.
 void give_back() {
     constexpr int most_mapped = 65536;
-    constexpr int largest_in_heap = 32 << 20;
+    constexpr int largest_in_heap = 32 * 1024 * 1024;
     mallopt(M_MMAP_MAX, most_mapped);
     mallopt(M_MMAP_THRESHOLD, largest_in_heap);
     mallopt(M_TRIM_THRESHOLD, 2 * largest_in_heap);

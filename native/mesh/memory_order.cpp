@@ -101,10 +101,12 @@ Indices outline_triangles(const Twins& twins) {
     return found;
 }
 
-// The place of a cell on the Hilbert curve over 2^16 × 2^16 of them (Hilbert 1891).
+constexpr int cells = 65536;  // a power of two
+
+// The place of a cell on the Hilbert curve over cells × cells of them (Hilbert 1891).
 std::uint32_t hilbert_place(std::uint32_t x, std::uint32_t y) {
     std::uint32_t place = 0;
-    for (std::uint32_t half = 1U << 15; half > 0; half /= 2) {
+    for (std::uint32_t half = cells / 2; half > 0; half /= 2) {
         const bool right = (x & half) != 0;
         const bool up = (y & half) != 0;
         place += half * half * ((right ? 3U : 0U) ^ (up ? 1U : 0U));
@@ -129,7 +131,7 @@ std::vector<std::uint32_t> places_on_chart(const Twins& twins) {
     const Indices north = steps_from(aside, twins);
     std::vector<std::uint32_t> places;
     places.reserve(east.size());
-    const int scale = 1 + 2 * farthest / (1 << 16);  // one is at most twice as far from any as the other
+    const int scale = 1 + 2 * farthest / cells;  // one is at most twice as far from any as the other
     for (std::size_t t = 0; t < east.size(); ++t)
         places.push_back(
             hilbert_place(static_cast<std::uint32_t>(east[t] / scale), static_cast<std::uint32_t>(north[t] / scale)));

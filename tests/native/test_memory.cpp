@@ -44,7 +44,7 @@ TEST_CASE("small runs are left to the allocations") { CHECK_NOTHROW(check_memory
 
 namespace {
 
-constexpr std::size_t large = 64 << 20;
+constexpr std::size_t large = 64 * 1024 * 1024;
 
 // Bytes that the allocator has free after an array of that size came and went, and the most that it had mapped for it.
 struct Heap {
