@@ -50,7 +50,7 @@ void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& war
 // it lies beside the surface, in units of D.
 Diagnostic no_solution(const Problem& problem, const Solution& solution);
 
-// Triangles of a patch by the numbers that the caller knows.
+// Triangles of a patch by the numbers that the caller knows, ascending.
 Indices input_numbers(const Patch& patch, Indices triangles);
 
 // About a solved patch: flipped and crossing triangles, and an outline that turns more than 20° from vertex to vertex.

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/order.h"
 #include "base/progress.h"
 
 namespace fairing {
@@ -25,19 +26,6 @@ Indices least_corners(const Triangles& triangles) {
     return least;
 }
 
-// Counting sort: the numbers 0 … keys.size() − 1 by their keys, which lie below `count`, then ascending.
-Indices sorted_by(const Indices& keys, int count) {
-    Indices begin(at(count) + 1, 0);
-    for (const int key : keys) ++begin[at(key) + 1];
-    for (std::size_t k = 1; k < begin.size(); ++k) begin[k] += begin[k - 1];
-    Indices order(keys.size());
-    for (int t = 0; t < static_cast<int>(keys.size()); ++t) {
-        checkpoint(t);
-        order[at(begin[at(keys[at(t)])]++)] = t;
-    }
-    return order;
-}
-
 void reorder(const Indices& order, Triangles& triangles, Indices& numbers) {
     Triangles sorted(3, triangles.cols());
     Indices sorted_numbers(numbers.size());
@@ -47,12 +35,6 @@ void reorder(const Indices& order, Triangles& triangles, Indices& numbers) {
     }
     triangles = std::move(sorted);
     numbers = std::move(sorted_numbers);
-}
-
-Indices inverse(const Indices& order) {
-    Indices place(order.size());
-    for (std::size_t k = 0; k < order.size(); ++k) place[at(order[k])] = static_cast<int>(k);
-    return place;
 }
 
 bool are_far_apart(const PatchMembers& members) {
@@ -177,7 +159,7 @@ void bring_neighbours_together(PatchMembers& members, Twins& twins) {
     renumber_vertices(vertex_numbers(members, twins), members);
     const Indices order = sorted_by(least_corners(members.triangles), static_cast<int>(members.to_input.size()));
     reorder(order, members.triangles, members.input_triangle);
-    const Indices place = inverse(order);
+    const Indices place = places_in(order, order.size());
     Twins moved(twins.size());
     for (std::size_t k = 0; k < order.size(); ++k) {
         for (std::size_t c = 0; c < 3; ++c) {

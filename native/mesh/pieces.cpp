@@ -1,26 +1,10 @@
 #include "mesh/pieces.h"
 
+#include "base/order.h"
 #include "base/progress.h"
 #include "mesh/memory_order.h"
 
 namespace fairing {
-
-namespace {
-
-// Cut vertices by their input vertices, those of one as they are numbered.
-Indices sorted_by_input(const Indices& input_vertex, std::size_t input_count) {
-    Indices begin(input_count + 1, 0);
-    for (int input : input_vertex) ++begin[at(input) + 1];
-    for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
-    Indices sorted(input_vertex.size());
-    for (int v = 0; v < static_cast<int>(input_vertex.size()); ++v) {
-        checkpoint(v);
-        sorted[at(begin[at(input_vertex[at(v)])]++)] = v;
-    }
-    return sorted;
-}
-
-}  // namespace
 
 Pieces::Pieces(const CutMesh& cut, const VertexRoles& roles) : cut_(cut), roles_(roles) {
     list_triangles();
@@ -45,7 +29,8 @@ void Pieces::number_vertices() {
         checkpoint(t);
         for (int v : cut_.triangles.col(t)) piece_of[at(v)] = cut_.piece[at(t)];
     }
-    const Indices sorted = sorted_by_input(cut_.input_vertex, roles_.fixed.size());
+    // By their input vertices.
+    const Indices sorted = sorted_by(cut_.input_vertex, static_cast<int>(roles_.fixed.size()));
     vertices_.resize(triangles_.size());
     free_count_.assign(triangles_.size(), 0);
     local_.assign(cut_.input_vertex.size(), none);

@@ -1,5 +1,7 @@
 #include "mesh/renumbered.h"
 
+#include "base/order.h"
+
 namespace fairing {
 
 namespace {
@@ -9,18 +11,12 @@ using Halfedge = SurfaceMesh::HalfedgeHandle;
 using Edge = SurfaceMesh::EdgeHandle;
 using Face = SurfaceMesh::FaceHandle;
 
-Indices inverse(const Indices& order, std::size_t count) {
-    Indices numbers(count, none);
-    for (std::size_t k = 0; k < order.size(); ++k) numbers[at(order[k])] = static_cast<int>(k);
-    return numbers;
-}
-
 class Renumbered {
 public:
     Renumbered(const SurfaceMesh& mesh, const Indices& vertices, const Indices& edges)
         : old_(mesh),
-          vertex_number_(inverse(vertices, mesh.n_vertices())),
-          edge_number_(inverse(edges, mesh.n_edges())),
+          vertex_number_(places_in(vertices, mesh.n_vertices())),
+          edge_number_(places_in(edges, mesh.n_edges())),
           face_number_(mesh.n_faces(), none) {
         new_.request_vertex_status();
         new_.request_edge_status();

@@ -146,10 +146,8 @@ double MultigridStep::imbalance(const Points& points, const Points& normals) con
 }
 
 Points MultigridStep::displacement(const Points& points, const TangentPlanes& planes, Effort effort) const {
-    // In double precision: along the normals the pull is far larger than what steps towards the solution leave across.
     Points across = pull(points);
-    Planes singles{to_single(planes.normals, patch_.free_count), turning(planes, across)};
-    project_across(across.leftCols(patch_.free_count), planes.normals);
+    Planes singles = project(across, planes.normals, planes.shapes ? *planes.shapes : ShapeOperators());
     return solve_across(across, std::move(singles), effort);
 }
 
@@ -157,11 +155,16 @@ Points MultigridStep::displacement(TurningPlanes&& gone, Effort effort) const {
     TurningPlanes planes = std::move(gone);
     Points across = pull(planes.points);
     planes.points.resize(3, 0);
-    Planes singles{to_single(planes.normals, patch_.free_count),
-                   turning(std::move(planes.shapes), planes.normals, across)};
-    project_across(across.leftCols(patch_.free_count), planes.normals);
+    Planes singles = project(across, planes.normals, std::move(planes.shapes));
     planes.normals.resize(3, 0);
     return solve_across(across, std::move(singles), effort);
+}
+
+// In double precision: along the normals the pull is far larger than what steps towards the solution leave across.
+MultigridStep::Planes MultigridStep::project(Points& pull, const Points& normals, ShapeOperators shapes) const {
+    Planes planes{to_single(normals, patch_.free_count), turning(std::move(shapes), normals, pull)};
+    project_across(pull.leftCols(patch_.free_count), normals);
+    return planes;
 }
 
 Points MultigridStep::solve_across(const Points& across, Planes planes, Effort effort) const {

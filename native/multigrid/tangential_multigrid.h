@@ -62,6 +62,8 @@ private:
         ShapeOperators turns;
     };
     [[nodiscard]] Moves solve(const Points& pull, const Planes* planes, const Effort& effort) const;
+    // Takes from the pull what is along the normals.
+    [[nodiscard]] Planes project(Points& pull, const Points& normals, ShapeOperators shapes) const;
     [[nodiscard]] Points solve_across(const Points& across, Planes planes, Effort effort) const;
     void subtract_product(const SingleField& x, SingleField& r) const;
     template <typename Write>

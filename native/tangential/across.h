@@ -26,14 +26,10 @@ inline ShapeOperators turning(const TangentPlanes& planes, const Points& pull) {
     return planes.shapes ? turning(*planes.shapes, planes.normals, pull) : ShapeOperators();
 }
 
-// product ← product + W p for vectors in either precision (3 × n, or more rows that stay).
-template <typename Field>
-void add_turning(const ShapeOperators& turning, const Field& p, Field& product) {
+// product ← product + W p
+inline void add_turning(const ShapeOperators& turning, const Points& p, Points& product) {
     for_ranges(static_cast<int>(turning.cols()), coarse_grain, [&](int begin, int end) {
-        for (int i = begin; i < end; ++i) {
-            const Eigen::Vector3f d = p.col(i).template head<3>().template cast<float>();
-            product.col(i).template head<3>() += turn(turning, i, d).template cast<typename Field::Scalar>();
-        }
+        for (int i = begin; i < end; ++i) product.col(i) += turn(turning, i, p.col(i).cast<float>()).cast<double>();
     });
 }
 
