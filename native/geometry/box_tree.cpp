@@ -1,6 +1,7 @@
 #include "geometry/box_tree.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <limits>
 #include <numeric>
@@ -119,6 +120,36 @@ Indices along_curve(const Triangles& triangles, const Points& points) {
 
 }  // namespace
 
+// Those with settled triangles only.
+class SettledNodes {
+public:
+    explicit SettledNodes(std::span<const std::size_t> sizes) {
+        for (const std::size_t size : sizes) levels_.emplace_back(size);
+    }
+
+    [[nodiscard]] bool has(int level, int node) const {
+        return levels_[at(level)][at(node)].load(std::memory_order_relaxed) != 0;
+    }
+
+    // With the nodes above it that have nothing else.
+    void add(int leaf) {
+        levels_[0][at(leaf)] = 1;
+        std::size_t node = at(leaf);
+        for (std::size_t level = 1; level < levels_.size(); ++level) {
+            const std::vector<std::atomic<char>>& below = levels_[level - 1];
+            node /= 4;
+            const std::size_t end = std::min(4 * node + 4, below.size());
+            for (std::size_t child = 4 * node; child < end; ++child) {
+                if (below[child] == 0) return;
+            }
+            levels_[level][node] = 1;
+        }
+    }
+
+private:
+    std::vector<std::vector<std::atomic<char>>> levels_;
+};
+
 BoxTree::BoxTree(const Triangles& triangles, const Points& points) : order_(along_curve(triangles, points)) {
     add_triangles(triangles, points);
     while (levels_.back().size() > 1) add_level();
@@ -177,37 +208,60 @@ void BoxTree::compare(int level, const Pair& pair, const Take& take) const {
     }
 }
 
-// take(pair) for the pairs of children that overlap.
+// take(pair) for the pairs of children that overlap. A node's children with themselves come first: what they settle the
+// others need not look at.
 template <typename Take>
 void BoxTree::split(int level, const Pair& pair, const Take& take) const {
+    const bool is_one = pair.first == pair.second;
+    const auto child = [](int node, int k) { return 4 * node + k; };
+    if (is_one) {
+        compare(level, pair, [&](int k, const Four& gaps) {
+            if (gaps[k] < 0.0) take(Pair{child(pair.first, k), child(pair.first, k)});
+        });
+    }
     compare(level, pair, [&](int k, const Four& gaps) {
-        for (int l = pair.first == pair.second ? k : 0; l < 4; ++l) {
-            if (gaps[l] < 0.0) take(Pair{4 * pair.first + k, 4 * pair.second + l});
+        for (int l = is_one ? k + 1 : 0; l < 4; ++l) {
+            if (gaps[l] < 0.0) take(Pair{child(pair.first, k), child(pair.second, l)});
         }
     });
 }
 
-void BoxTree::descend(int level, const Pair& pair, const Visit& visit) const {
+void BoxTree::descend(int level, const Pair& pair, const Walk& walk) const {
+    if (walk.nodes.has(level, pair.first) && walk.nodes.has(level, pair.second)) return;
     if (level == 0) {
-        visit_triangles(pair, visit);
+        visit_triangles(pair, walk);
     } else {
-        split(level, pair, [&](const Pair& part) { descend(level - 1, part, visit); });
+        split(level, pair, [&](const Pair& part) { descend(level - 1, part, walk); });
     }
 }
 
-void BoxTree::visit_triangles(const Pair& pair, const Visit& visit) const {
+void BoxTree::visit_triangles(const Pair& pair, const Walk& walk) const {
+    bool settles = false;
     compare(0, pair, [&](int k, const Four& gaps) {
         std::array<int, 4> others;
         std::size_t count = 0;
         for (int l = pair.first == pair.second ? k + 1 : 0; l < 4; ++l) {
             if (gaps[l] < 0.0) others[count++] = order_[at(4 * pair.second + l)];
         }
-        if (count > 0) visit(order_[at(4 * pair.first + k)], std::span(others).first(count));
+        if (count > 0 && walk.visit(order_[at(4 * pair.first + k)], std::span(others).first(count))) settles = true;
     });
+    if (!settles) return;
+    for (const int leaf : {pair.first, pair.second}) {
+        if (is_settled(leaf, walk.is_settled)) walk.nodes.add(leaf);
+    }
+}
+
+bool BoxTree::is_settled(int leaf, const IsSettled& is_settled) const {
+    const auto begin = order_.begin() + std::ptrdiff_t{4} * leaf;
+    return std::all_of(begin, begin + std::min<std::ptrdiff_t>(4, order_.end() - begin), is_settled);
 }
 
 // Pairs of large nodes are split one after the other, what they come down to side by side.
-void BoxTree::for_overlaps(const Visit& visit) const {
+void BoxTree::for_overlaps(const Visit& visit, const IsSettled& is_settled) const {
+    std::vector<std::size_t> sizes;
+    for (const auto& level : levels_) sizes.push_back(level.size());
+    SettledNodes nodes(sizes);
+    const Walk walk{visit, is_settled, nodes};
     int level = static_cast<int>(levels_.size()) - 1;
     std::vector<Pair> pairs{{0, 0}};
     for (; level > 0 && levels_[at(level)].size() < least_pieces; --level) {
@@ -215,7 +269,7 @@ void BoxTree::for_overlaps(const Visit& visit) const {
         for (const Pair& pair : pairs) split(level, pair, [&](const Pair& part) { parts.push_back(part); });
         pairs = std::move(parts);
     }
-    run_pieces(static_cast<int>(pairs.size()), [&](int k) { descend(level, pairs[at(k)], visit); });
+    run_pieces(static_cast<int>(pairs.size()), [&](int k) { descend(level, pairs[at(k)], walk); });
 }
 
 }  // namespace fairing

@@ -9,16 +9,20 @@
 
 namespace fairing {
 
+class SettledNodes;
+
 // Four children to each node, the triangles in the order of a curve that fills space (Morton's).
 class BoxTree {
 public:
     BoxTree(const Triangles& triangles, const Points& points);
 
-    // Gets one triangle and up to four others.
-    using Visit = std::function<void(int, std::span<const int>)>;
+    // Gets one triangle and up to four others; true where one of them was settled.
+    using Visit = std::function<bool(int, std::span<const int>)>;
+    using IsSettled = std::function<bool(int)>;
     // Each pair once whose boxes have points inside in common: those that only touch don't count, nor do triangles that
-    // are not finite. On several threads, in any order.
-    void for_overlaps(const Visit& visit) const;
+    // are not finite. Pairs of two settled triangles may be left out: of n that lie all in one another n² / 2 are. On
+    // several threads, in any order.
+    void for_overlaps(const Visit& visit, const IsSettled& is_settled) const;
 
 private:
     using Four = Eigen::Array4d;
@@ -32,6 +36,11 @@ private:
         int first;
         int second;
     };
+    struct Walk {
+        const Visit& visit;
+        const IsSettled& is_settled;
+        SettledNodes& nodes;
+    };
 
     void add_triangles(const Triangles& triangles, const Points& points);
     void add_level();
@@ -39,8 +48,9 @@ private:
     void compare(int level, const Pair& pair, const Take& take) const;
     template <typename Take>
     void split(int level, const Pair& pair, const Take& take) const;
-    void descend(int level, const Pair& pair, const Visit& visit) const;
-    void visit_triangles(const Pair& pair, const Visit& visit) const;
+    void descend(int level, const Pair& pair, const Walk& walk) const;
+    void visit_triangles(const Pair& pair, const Walk& walk) const;
+    [[nodiscard]] bool is_settled(int leaf, const IsSettled& is_settled) const;
 
     Indices order_;  // of the triangles
     // From the leaves up. Child k of node i is node 4 i + k of the level below, its box the k-th of the node's.

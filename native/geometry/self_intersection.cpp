@@ -89,7 +89,9 @@ public:
         : triangles_(triangles), points_(points), asked_(asked), crossing_(asked.size()) {}
 
     Indices find() {
-        BoxTree(triangles_, points_).for_overlaps([&](int t, std::span<const int> others) { test(t, others); });
+        BoxTree(triangles_, points_)
+            .for_overlaps([&](int t, std::span<const int> others) { return test(t, others); },
+                          [&](int t) { return is_known(t); });
         Indices result;
         for (int t = 0; t < static_cast<int>(crossing_.size()); ++t) {
             if (crossing_[at(t)]) result.push_back(t);
@@ -102,16 +104,22 @@ private:
         return {{triangles_(0, t), triangles_(1, t), triangles_(2, t)}, corners_of(triangles_, points_, t)};
     }
 
-    void test(int t, std::span<const int> others) {
+    // Whether some cross.
+    bool test(int t, std::span<const int> others) {
         const Face a = face(t);
         const Vector3 area = area_vector(a.corners);
+        bool found = false;
         for (const int other : others) {
             if (!asked_[at(t)] && !asked_[at(other)]) continue;
-            const Face b = face(other);
-            if (!cross(a, area, b) || (crossing_[at(t)] && crossing_[at(other)])) continue;
+            if (is_known(t) && is_known(other)) continue;
+            if (!cross(a, area, face(other))) continue;
             crossing_[at(t)] = crossing_[at(other)] = 1;
+            found = true;
         }
+        return found;
     }
+
+    [[nodiscard]] bool is_known(int t) const { return crossing_[at(t)].load(std::memory_order_relaxed) != 0; }
 
     static bool cross(const Face& a, const Vector3& area, const Face& b) {
         const Heights above_a = heights(b, a, area);
