@@ -259,6 +259,7 @@ bool BoxTree::is_settled(int leaf, const IsSettled& is_settled) const {
 // Pairs of large nodes are split one after the other, what they come down to side by side.
 void BoxTree::for_overlaps(const Visit& visit, const IsSettled& is_settled) const {
     std::vector<std::size_t> sizes;
+    sizes.reserve(levels_.size());
     for (const auto& level : levels_) sizes.push_back(level.size());
     SettledNodes nodes(sizes);
     const Walk walk{visit, is_settled, nodes};

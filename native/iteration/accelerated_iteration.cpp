@@ -56,6 +56,14 @@ constexpr double accuracy_of_starts = 0.02;
 constexpr double share_left = 0.02;
 constexpr double least_accuracy = 0.1;
 
+// On large rough patches noise is most of what a step is solved for, and a small part of it still moves all of the
+// surface: a catenoid of a million vertices took four steps instead of two. So neither may what is left bend the step,
+// ε² = ∫ (Δd)², by more than moves it by these parts of the tolerance and of the step before. A disc clamped at its rim
+// moves by ε R / √(16 π) at most, as under a load in the middle.
+constexpr double moves_by_bending = 0.07;  // D, for each ε
+constexpr double most_left = 0.35;
+constexpr double most_left_of_step = 0.03;
+
 class AcceleratedIteration {
 public:
     AcceleratedIteration(const Problem& problem, Workspace& work, double damping, const Progress& progress)
@@ -202,12 +210,17 @@ private:
     }
 
     // To which the next step along the normals is solved for: the last one needs few digits.
-    [[nodiscard]] double accuracy() const {
-        if (problem_.options.start_only) return accuracy_of_starts;
-        if (solution_.iterations == 0) return NormalOperator::usual_accuracy;
+    [[nodiscard]] Accuracy accuracy() const {
+        if (problem_.options.start_only) return {accuracy_of_starts};
+        const Accuracy usual{.size = most_bending()};
+        if (solution_.iterations == 0) return usual;
         const double next = last_step_ * residual_ / residual_before_;
-        return std::clamp(share_left * problem_.options.tolerance / next, NormalOperator::usual_accuracy,
-                          least_accuracy);
+        return {std::clamp(share_left * problem_.options.tolerance / next, usual.share, least_accuracy), usual.size};
+    }
+
+    [[nodiscard]] double most_bending() const {
+        if (solution_.iterations == 0 && !problem_.options.begins_near) return std::numeric_limits<double>::infinity();
+        return std::max(most_left * problem_.options.tolerance, most_left_of_step * last_step_) / moves_by_bending;
     }
 
     Points plain_step() {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "linear/accuracy.h"
 #include "linear/conjugate_gradients.h"
 
 namespace fairing {
@@ -19,10 +20,10 @@ public:
     // Another matrix follows.
     void forget() { pairs_.clear(); }
 
-    // x with A x ≈ r, until r is left to the part `accuracy` in the preconditioner's norm or after `max_cycles`;
-    // `apply` and `precondition` as conjugate_gradients has them.
+    // x with A x ≈ r, until no more of r is left than `accuracy` allows or after `max_cycles`; `apply` and
+    // `precondition` as conjugate_gradients has them.
     template <typename Apply, typename Precondition>
-    [[nodiscard]] Row solve(Row r, double accuracy, int max_cycles, const Apply& apply,
+    [[nodiscard]] Row solve(Row r, const Accuracy& accuracy, int max_cycles, const Apply& apply,
                             const Precondition& precondition) {
         Row z(r.size());
         const auto size = [&] {
@@ -30,9 +31,10 @@ public:
             return std::sqrt(r.dot(z));
         };
         const double whole = size();
+        const double most_left = accuracy.left_of(whole);
         Row x = known_part(r);
         const double left = pairs_.empty() ? whole : size();
-        if (!(left > accuracy * whole)) return x;
+        if (!(left > most_left)) return x;
         const std::size_t before = pairs_.size();
         const auto apply_and_keep = [&](const Row& p, Row& product) {
             apply(p, product);
@@ -42,8 +44,7 @@ public:
             precondition(residual, result);
             for (std::size_t k = 0; k < before; ++k) result -= pairs_[k].product.dot(result) * pairs_[k].direction;
         };
-        x += conjugate_gradients(std::move(r), accuracy * whole / left, max_cycles, apply_and_keep, precondition_beside)
-                 .x;
+        x += conjugate_gradients(std::move(r), most_left / left, max_cycles, apply_and_keep, precondition_beside).x;
         return x;
     }
 

@@ -19,7 +19,7 @@ public:
     [[nodiscard]] bool update_with_mass(const Stiffness& stiffness, const VectorX& factors, const Progress& progress);
 
 private:
-    [[nodiscard]] Eigen::MatrixXd solve_to(const Eigen::MatrixXd& rhs, double /*accuracy*/) const override {
+    [[nodiscard]] Eigen::MatrixXd solve_to(const Eigen::MatrixXd& rhs, const Accuracy& /*accuracy*/) const override {
         return factor_.solve(rhs);
     }
     void build_pattern();

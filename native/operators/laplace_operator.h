@@ -18,7 +18,7 @@ public:
     [[nodiscard]] const SparseCholesky& factor() const { return factor_; }
 
 private:
-    [[nodiscard]] Eigen::MatrixXd solve_to(const Eigen::MatrixXd& rhs, double /*accuracy*/) const override {
+    [[nodiscard]] Eigen::MatrixXd solve_to(const Eigen::MatrixXd& rhs, const Accuracy& /*accuracy*/) const override {
         return factor_.solve(rhs);
     }
     // Its lower triangle, made anew for each factorisation: a large patch has no room for it meanwhile.

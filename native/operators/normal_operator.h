@@ -5,6 +5,7 @@
 
 #include "base/progress.h"
 #include "geometry/face_geometry.h"
+#include "linear/accuracy.h"
 #include "problem/problem.h"
 
 namespace fairing {
@@ -18,17 +19,14 @@ public:
     // Assembles the operator for a surface and factorises it. False where it is not positive definite (a surface that
     // has degenerated); solve may not be called then.
     [[nodiscard]] virtual bool update(const Stiffness& stiffness, const Progress& progress) = 0;
-    // With ten times that, hemispheres of 100k vertices need six iterations instead of four.
-    static constexpr double usual_accuracy = 0.003;
 
-    // The operator's inverse applied to one or more columns (free count × k). `accuracy`: the part that may be left to
-    // solve for, where that is done by an iteration; factors are as exact as they are.
-    [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs, double accuracy = usual_accuracy) const {
+    // The operator's inverse applied to one or more columns (free count × k).
+    [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs, const Accuracy& accuracy = {}) const {
         return solve_to(rhs, accuracy);
     }
 
 private:
-    [[nodiscard]] virtual Eigen::MatrixXd solve_to(const Eigen::MatrixXd& rhs, double accuracy) const = 0;
+    [[nodiscard]] virtual Eigen::MatrixXd solve_to(const Eigen::MatrixXd& rhs, const Accuracy& accuracy) const = 0;
 };
 
 // What an operator is made for: a few solves with a factor that is needed once, or many more or new factors now and

@@ -24,13 +24,13 @@ bool SplitBiharmonicOperator::update(const Stiffness& stiffness, const Progress&
     return true;
 }
 
-Eigen::MatrixXd SplitBiharmonicOperator::solve_to(const Eigen::MatrixXd& rhs, double accuracy) const {
+Eigen::MatrixXd SplitBiharmonicOperator::solve_to(const Eigen::MatrixXd& rhs, const Accuracy& accuracy) const {
     Eigen::MatrixXd result(rhs.rows(), rhs.cols());
     for (Eigen::Index k = 0; k < rhs.cols(); ++k) result.col(k) = solve_column(rhs.col(k), accuracy);
     return result;
 }
 
-VectorX SplitBiharmonicOperator::solve_column(const VectorX& rhs, double accuracy) const {
+VectorX SplitBiharmonicOperator::solve_column(const VectorX& rhs, const Accuracy& accuracy) const {
     const SparseCholesky& factor = laplace_.factor();
     // S_II⁻¹ C
     const auto harmonic = [&](const OutlineRow& outline) {

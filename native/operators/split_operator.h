@@ -22,8 +22,8 @@ public:
     [[nodiscard]] bool update(const Stiffness& stiffness, const Progress& progress) override;
 
 private:
-    [[nodiscard]] Eigen::MatrixXd solve_to(const Eigen::MatrixXd& rhs, double accuracy) const override;
-    [[nodiscard]] VectorX solve_column(const VectorX& rhs, double accuracy) const;
+    [[nodiscard]] Eigen::MatrixXd solve_to(const Eigen::MatrixXd& rhs, const Accuracy& accuracy) const override;
+    [[nodiscard]] VectorX solve_column(const VectorX& rhs, const Accuracy& accuracy) const;
 
     LaplaceOperator laplace_;
     OutlineSystem outline_;

@@ -211,7 +211,7 @@ TEST_CASE("a solve that knows what the last ones found has less to find") {
     for (int times = 0; times < 3; ++times) {
         const Row wanted = Row::Random(count);
         products = 0;
-        const Row found = known.solve(wanted.cwiseProduct(diagonal), 1e-10, 100, apply, precondition);
+        const Row found = known.solve(wanted.cwiseProduct(diagonal), {1e-10}, 100, apply, precondition);
         CHECK((found - wanted).norm() < 1e-3 * wanted.norm());
         taken.push_back(products);
     }
@@ -220,7 +220,7 @@ TEST_CASE("a solve that knows what the last ones found has less to find") {
     CHECK(taken[2] <= taken[0] / 2);
     known.forget();
     products = 0;
-    (void)known.solve(diagonal, 1e-10, 100, apply, precondition);
+    (void)known.solve(diagonal, {1e-10}, 100, apply, precondition);
     CHECK(products > 12);
 }
 

@@ -123,15 +123,50 @@ TEST_CASE("split by free and fixed vertices, the biharmonic operator has the sam
         Stiffness other = stiffness;
         other.mass *= 3.0;
         REQUIRE(split.update(other, Progress()));
-        (void)split.solve(rhs, 1e-6);
+        (void)split.solve(rhs, {1e-6});
         // The second column begins with what the first one found; float factors and fast ends leave some digits.
         for (const auto& [accuracy, most] : {std::pair{1e-3, 1e-2}, std::pair{1e-6, 3e-4}}) {
             REQUIRE(split.update(stiffness, Progress()));
-            const Eigen::MatrixXd found = split.solve(rhs, accuracy);
+            const Eigen::MatrixXd found = split.solve(rhs, {accuracy});
             CAPTURE(accuracy);
             for (int k = 0; k < 2; ++k) CHECK((found - wanted).col(k).norm() < most * wanted.col(k).norm());
         }
     }
+}
+
+TEST_CASE("what an absolute accuracy leaves of a rough load moves the surface by no more than a clamped disc") {
+    for (const Case& item : cases(24)) {
+        CAPTURE(item.name);
+        const Patch& patch = item.single.patch();
+        const Stiffness stiffness = stiffness_of(item.single);
+        BiharmonicOperator assembled(patch);
+        REQUIRE(assembled.update(stiffness, Progress()));
+        VectorX load(patch.free_count);
+        for (int k = 0; k < patch.free_count; ++k) load[k] = k % 3 == 0 ? 1.0 : -0.4;
+        const VectorX wanted = assembled.solve(load);
+        const Points fixed = fixed_points(item.single);
+        const double diameter = 2.0 * (fixed.colwise() - fixed.rowwise().mean()).colwise().norm().maxCoeff();
+        const auto off = [&](const Accuracy& accuracy) {
+            SplitBiharmonicOperator split(patch, fixed, layout_of(item.single));
+            REQUIRE(split.update(stiffness, Progress()));
+            return (split.solve(load, accuracy) - wanted).cwiseAbs().maxCoeff();
+        };
+        const double loose = off({1.0});
+        // Half of what the outline's share amounts to is asked for, a tenth, and so on.
+        for (const double part : {0.5, 0.1, 0.02}) {
+            const double size = part * loose / (0.07 * diameter);
+            CAPTURE(part);
+            CHECK(off({1.0, size}) < 1.5 * 0.07 * diameter * size);  // 1.5: the preconditioner's norm is near
+        }
+    }
+}
+
+TEST_CASE("an absolute accuracy asks for no more than single precision has, and for no less than the relative one") {
+    CHECK(Accuracy{}.left_of(2.0) == 0.003 * 2.0);
+    CHECK(Accuracy{0.02, 1e-3}.left_of(2.0) == 1e-3);
+    CHECK(Accuracy{0.02, 1.0}.left_of(2.0) == 0.02 * 2.0);
+    CHECK(Accuracy{0.02, 1e-9}.left_of(2.0) == 1e-4 * 2.0);
+    CHECK(Accuracy{1e-6, 1e-9}.left_of(2.0) == 1e-6 * 2.0);
 }
 
 TEST_CASE("the outline's system takes few cycles on fine meshes as on coarse ones") {
