@@ -123,8 +123,9 @@ Indices along_curve(const Triangles& triangles, const Points& points) {
 // Those with settled triangles only.
 class SettledNodes {
 public:
-    explicit SettledNodes(std::span<const std::size_t> sizes) {
-        for (const std::size_t size : sizes) levels_.emplace_back(size);
+    explicit SettledNodes(std::size_t leaves) {
+        levels_.emplace_back(leaves);
+        while (levels_.back().size() > 1) levels_.emplace_back((levels_.back().size() + 3) / 4);
     }
 
     [[nodiscard]] bool has(int level, int node) const {
@@ -258,10 +259,7 @@ bool BoxTree::is_settled(int leaf, const IsSettled& is_settled) const {
 
 // Pairs of large nodes are split one after the other, what they come down to side by side.
 void BoxTree::for_overlaps(const Visit& visit, const IsSettled& is_settled) const {
-    std::vector<std::size_t> sizes;
-    sizes.reserve(levels_.size());
-    for (const auto& level : levels_) sizes.push_back(level.size());
-    SettledNodes nodes(sizes);
+    SettledNodes nodes(levels_.front().size());
     const Walk walk{visit, is_settled, nodes};
     int level = static_cast<int>(levels_.size()) - 1;
     std::vector<Pair> pairs{{0, 0}};
