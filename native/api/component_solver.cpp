@@ -16,6 +16,7 @@
 #include "method/pinned.h"
 #include "outline/fair_border.h"
 #include "problem/free_slopes.h"
+#include "start/automatic_equation.h"
 
 namespace fairing {
 
@@ -74,6 +75,15 @@ double load_in_units(const Patch& patch, const Points& fixed_points, double diam
     return load;
 }
 
+// By the boundary loops alone.
+Equation chosen_for(const Problem& problem) {
+    std::vector<Indices> loops = problem.patch.loops();
+    for (Indices& loop : loops) {
+        for (int& v : loop) v -= problem.patch.free_count;
+    }
+    return automatic_equation(loops, problem.fixed_points, problem.fixed_normals);
+}
+
 // Open borders that become fair do so as curves; the surface then moves them along its normals.
 void hold_border(const std::vector<char>& faired, Problem& problem) {
     const Patch& patch = problem.patch;
@@ -125,7 +135,7 @@ ComponentAnswer ComponentSolver::solve_between(const ComponentData& data, const 
     const Normalisation unit = checked_unit(patch_, outline.points);
     const SolverOptions& solver = options_.asked.solver;
     ComponentAnswer answer{unit, {patch_, unit.to_unit(outline.points), outline.normals, {}, solver}, {}, {}, {}};
-    answer.problem.options.equation = equation_for(patch_, solver.equation);
+    answer.problem.options.equation = equation_of(answer.problem, data);
     answer.problem.options.load = load_in_units(patch_, answer.problem.fixed_points, unit.diameter, options_.asked);
     if (data.curvatures.size() > 0 && answer.problem.options.equation == Equation::harmonic) {
         answer.problem.fixed_curvatures = unit.diameter * data.curvatures(fixed_vertices(patch_));
@@ -141,6 +151,19 @@ ComponentAnswer ComponentSolver::solve_between(const ComponentData& data, const 
     answer.solution = options().method == Method::paper ? solve_by_paper(answer.problem, progress)
                                                         : solve_globally(answer, data, progress);
     return answer;
+}
+
+Equation ComponentSolver::equation_of(const Problem& problem, const ComponentData& data) {
+    const Equation asked = problem.options.equation;
+    if (asked != Equation::automatic) return equation_for(patch_, asked);
+    // The paper's method has one equation for tubes, and one surface alone continues a curvature.
+    const bool harmonic_alone = options_.asked.method == Method::paper || data.curvatures.size() > 0;
+    if (harmonic_alone) return equation_for(patch_, Equation::harmonic);
+    Outline outline = outline_of(problem);
+    const bool stays = keeps() && chosen_ && small_rotation(chosen_->outline, outline);
+    const Equation chosen = stays ? chosen_->equation : chosen_for(problem);
+    if (keeps()) chosen_ = Chosen{std::move(outline), chosen};
+    return equation_for(patch_, chosen);
 }
 
 // λ stays as long as what it is read off does, which one call does not change.
@@ -218,14 +241,14 @@ Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optio
     if (!near_last && start && options().start == Start::given)
         near_last = solve_near(problem, *start, progress.range(0.0, 0.4));
     if (!near_last && start && options().start == Start::least_variation)
-        near_last = solve_else(problem, Instead::least_variation, progress, &start->points);
-    if (!near_last && options().start == Start::loft) near_last = solve_else(problem, Instead::loft, progress);
-    if (!near_last && options().start == Start::smoothed) near_last = solve_else(problem, Instead::smoothed, progress);
+        near_last = solve_else(problem, Provenance::least_variation, progress, &start->points);
+    if (!near_last && options().start == Start::loft) near_last = solve_else(problem, Provenance::loft, progress);
+    if (!near_last && options().start == Start::smoothed) near_last = solve_else(problem, Provenance::old_shape, progress);
     Solution solution = near_last ? std::move(*near_last) : solve_pinned(problem, options().pin_radius, progress);
     if (!keeps()) return solution;
     replaced_.reset();
-    if (solution.instead != Instead::nothing && end_of(solution) == Termination::converged)
-        replaced_ = Replaced{outline_of(problem), solution.instead};
+    if (stands_in(solution.provenance) && end_of(solution) == Termination::converged)
+        replaced_ = Replaced{outline_of(problem), solution.provenance};
     // Other weights than those asked for were used: the next solve has to try again.
     if (solution.even_weights) {
         warm_.forget();

@@ -39,13 +39,18 @@ public:
     void options_changed() {
         read_ = false;
         replaced_.reset();
+        chosen_.reset();
         skin_.forget();
     }
 
 private:
     struct Replaced {
         Outline outline;
-        Instead kind;
+        Provenance kind;
+    };
+    struct Chosen {
+        Outline outline;
+        Equation equation;
     };
     // Whether a solve starts from its last answer.
     [[nodiscard]] bool keeps() const;
@@ -64,6 +69,8 @@ private:
     // From the last answer or `start` where there is one.
     [[nodiscard]] Solution solve_tangent(const Problem& problem, const std::optional<NearStart>& start,
                                          const Progress& progress);
+    // While a boundary is dragged, the equation stays what it was.
+    [[nodiscard]] Equation equation_of(const Problem& problem, const ComponentData& data);
     [[nodiscard]] std::optional<Solution> solve_near_last(const Problem& problem, const Progress& progress);
     [[nodiscard]] std::size_t tolerated_folds() const;
 
@@ -78,6 +85,7 @@ private:
     Diagnostics reference_warnings_;
     Shared<Lambda> lambda_;
     WarmStart warm_;
+    std::optional<Chosen> chosen_;      // of the last problem, where the equation is chosen automatically
     std::optional<Replaced> replaced_;  // of the last answer, where another surface was taken instead
 };
 

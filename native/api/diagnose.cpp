@@ -307,17 +307,15 @@ Indices kinks_of(const Problem& problem, const Solution& solution) {
     return kinks;
 }
 
-const char* taken(Instead instead) {
-    switch (instead) {
-        case Instead::loft: return "a loft was taken";
-        case Instead::smoothed: return "the shape before was taken, as smooth as it can be";
-        default: return "the surface of least variation was taken";
-    }
+const char* taken(Provenance provenance) {
+    if (is_loft(provenance)) return "a loft was taken";
+    if (provenance == Provenance::old_shape) return "the shape before was taken, as smooth as it can be";
+    return "the surface of least variation was taken";
 }
 
 // A loft and a smoothed shape may leave tangent planes, and name where they do.
 void add_kinks(const Problem& problem, const Solution& solution, Diagnostic& diagnostic) {
-    if (solution.instead != Instead::loft && solution.instead != Instead::smoothed) return;
+    if (!is_loft(solution.provenance) && solution.provenance != Provenance::old_shape) return;
     Indices kinks = kinks_of(problem, solution);
     if (kinks.empty()) return;
     diagnostic.figures["kinks"] = size_of(kinks);
@@ -334,22 +332,17 @@ Diagnostic no_solution(const Problem& problem, const Solution& solution) {
     const std::string name = harmonic ? "harmonic surface" : "surface of that equation";
     Figures figures{{"free_vertices", patch.free_count}};
     if (harmonic) figures["harmonic"] = 1.0;
-    if (solution.instead == Instead::loft) figures["loft"] = 1.0;
-    if (solution.instead == Instead::smoothed) figures["smoothed"] = 1.0;
-    std::string text = "no " + name + " fits the outlines of a component of " + free;
-    if (is_eased(solution)) {
+    if (is_loft(solution.provenance)) figures["loft"] = 1.0;
+    if (solution.provenance == Provenance::old_shape) figures["smoothed"] = 1.0;
+    const std::string text = "no " + name + " fits the outlines of a component of " + free;
+    if (lies_beside_boundary(solution.provenance)) {
         figures["distance"] = eased_by(problem);
-        const std::string what = solution.instead == Instead::loft ? "a loft" : "it";
+        const std::string what = is_loft(solution.provenance) ? "a loft" : "it";
         return {Code::no_solution, text + " as they are: " + what + " follows them smoothly, and they stay beside it",
                 Indices(free_vertices(patch).begin(), free_vertices(patch).end()), ElementKind::vertex, figures};
     }
-    if (solution.variation_ratio > 0.0) {
-        figures["variation"] = solution.variation_ratio;
-        text = "the " + name + " of a component of " + free + " is a bulb, whose curvatures vary " +
-               std::to_string(std::lround(solution.variation_ratio)) + " times as much as they need";
-    }
     const auto all = free_vertices(patch);
-    Diagnostic diagnostic{Code::no_solution, text + "; " + taken(solution.instead), Indices(all.begin(), all.end()),
+    Diagnostic diagnostic{Code::no_solution, text + "; " + taken(solution.provenance), Indices(all.begin(), all.end()),
                           ElementKind::vertex, figures};
     add_kinks(problem, solution, diagnostic);
     return diagnostic;

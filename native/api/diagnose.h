@@ -44,7 +44,7 @@ void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& war
 // "tips", names those at which the surface comes to a point (pins/sharp_pins).
 void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& warnings);
 // NO_SOLUTION: another surface was taken instead, with the free vertices. Figures: "free_vertices"; "harmonic", 1, for
-// that equation; for a bulb "variation", how many times as much its curvatures varied; for a loft "loft", 1, for
+// that equation; for a loft "loft", 1, for
 // the shape before "smoothed", 1, and where one of these two leaves the prescribed tangent planes by more than 20°
 // "kinks", these outline vertices, which are the elements then; for an eased outline (method/eased) "distance", how far
 // it lies beside the surface, in units of D.

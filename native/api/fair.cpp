@@ -13,7 +13,6 @@
 #include "base/stopwatch.h"
 #include "geometry/outline_angles.h"
 #include "method/accept.h"
-#include "method/eased.h"
 #include "outline/visible_join.h"
 
 namespace fairing {
@@ -27,7 +26,8 @@ public:
         result_.vertices = input.vertices;
         if (options.detail.share > 0.0) result_.base = input.vertices;
         result_.fixed = prepared.mesh.fixed;
-        result_.equation = options.solver.equation;
+        const Equation asked = options.solver.equation;
+        result_.equation = asked == Equation::automatic ? Equation::harmonic : asked;
         for (const Diagnostics* list :
              {&prepared.mesh.topology_warnings, &prepared.mesh.warnings, &prepared.closed_components}) {
             add_warnings(*list);
@@ -42,9 +42,11 @@ public:
         add_warnings(answer.warnings);
         write_back(patch, answer);
         const Solution& solution = answer.solution;
-        const bool eased = is_eased(solution) && end_of(solution) == Termination::converged;
-        if (solution.instead != Instead::nothing) note_instead(solution);
-        if (solution.instead != Instead::nothing || eased) tell_of_no_solution(answer);
+        result_.provenance = std::max(result_.provenance, solution.provenance);
+        if (stands_in(solution.provenance)) result_.equation = Equation::least_variation;
+        const bool is_beside = solution.provenance == Provenance::low_passed;
+        if (stands_in(solution.provenance) || (is_beside && end_of(solution) == Termination::converged))
+            result_.warnings.push_back(no_solution(answer.problem, solution));
         note_equation(answer.problem.options.equation);
         result_.residual = std::max(result_.residual, solution.residual);
         result_.initial_residual = std::max(result_.initial_residual, solution.initial_residual);
@@ -66,6 +68,7 @@ public:
             add_failure(end, failures_of(patch, solution, end, angles));
         }
         diagnose(patch, solution, prescribed, result_.warnings);
+        note_girth(girth_range(patch, solution.points, prescribed));
     }
 
     FairResult finish() {
@@ -115,19 +118,14 @@ private:
         for (std::size_t k = 1; k <= counts.size(); ++k) sum[sum.size() - k] += counts[counts.size() - k];
     }
 
-    // Free slopes have changed it. Of several, least variation is named.
+    // Free slopes or long tubes have changed it. Of several, least variation is named.
     void note_equation(Equation solved) {
         if (solved == options_.solver.equation || result_.equation == Equation::least_variation) return;
         result_.equation = solved;
     }
 
-    void note_instead(const Solution& solution) {
-        result_.equation = Equation::least_variation;
-        if (solution.instead != Instead::least_variation) result_.instead = std::max(result_.instead, solution.instead);
-    }
-
-    void tell_of_no_solution(const ComponentAnswer& answer) {
-        result_.warnings.push_back(no_solution(answer.problem, answer.solution));
+    void note_girth(const std::optional<GirthRange>& girth) {
+        if (girth) result_.girth = result_.girth ? worst_of(*result_.girth, *girth) : *girth;
     }
 
     void add_failure(Termination end, const Diagnostics& failures) {

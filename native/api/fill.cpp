@@ -146,8 +146,8 @@ NewSurface fill_loops(const OpenLoops& input, bool bridge, const SolverOptions& 
         const int free_count = first.patch.free_count;
         assembly.add(first.patch.triangles, unit.from_unit(first.solution.points.leftCols(free_count)), data.to_input);
         result.converged = result.converged && end_of(first.solution) == Termination::converged;
-        const Instead kind = first.solution.instead;
-        result.instead = s == 0 || result.instead == kind ? kind : Instead::nothing;
+        const Provenance kind = first.solution.provenance;
+        result.provenance = s == 0 || result.provenance == kind ? kind : Provenance::equation;
     }
     result.vertices = assembly.points();
     result.triangles = assembly.triangles();

@@ -18,7 +18,7 @@ struct NewSurface {
     Points vertices;  // the new ones
     Triangles triangles;
     bool converged = true;               // whether each is the equation's surface,
-    Instead instead = Instead::nothing;  // what was taken in its place, where each is of that kind
+    Provenance provenance = Provenance::equation;  // where each comes from; `equation` where they differ
 };
 
 // One surface over all loops, or one over each. The mesh is coarse (some 300 new vertices each), a start for `remesh`

@@ -13,8 +13,9 @@ namespace {
 
 // What no equation has goes first.
 std::string equation_of(const FairResult& result) {
-    if (result.instead == Instead::nothing) return equation_words.word(result.equation);
-    return instead_words.word(result.instead);
+    if (is_loft(result.provenance)) return "loft";
+    if (result.provenance == Provenance::old_shape) return "smoothed";
+    return equation_words.word(result.equation);
 }
 
 py::dict to_dict(const FairResult& result) {
@@ -24,12 +25,15 @@ py::dict to_dict(const FairResult& result) {
     for (const WayTaken& way : result.ways) ways.append(py::make_tuple(way.name, way.seconds));
     py::dict dict;
     dict["equation"] = equation_of(result);
+    dict["provenance"] = provenance_words.word(result.provenance);
     dict["vertices"] = from_points(result.vertices);
     dict["base"] = result.base.cols() > 0 ? from_points(result.base) : dict["vertices"];
     dict["fixed"] = from_indices(result.fixed);
     dict["mean_curvature"] = from_vector(result.mean_curvature);
     dict["boundary_angle"] = from_vector(result.boundary_angle);
     dict["join"] = from_vector(result.join);
+    dict["girth"] = py::none();
+    if (result.girth) dict["girth"] = py::make_tuple(result.girth->least, result.girth->largest);
     dict["continuity"] = result.joins_curvature ? "G2" : "G1";
     dict["converged"] = result.converged;
     dict["polished"] = result.polished;

@@ -13,9 +13,9 @@ namespace fairing::bindings {
 namespace {
 
 // Where a solve on a finer mesh of the same surface begins.
-Start start_after(Instead taken) {
-    if (taken == Instead::least_variation) return Start::least_variation;
-    return taken == Instead::loft ? Start::loft : Start::given;
+Start start_after(Provenance provenance) {
+    if (provenance == Provenance::least_variation) return Start::least_variation;
+    return is_loft(provenance) ? Start::loft : Start::given;
 }
 
 py::dict fill_arrays(const DoubleArray& vertices, const std::vector<IntArray>& loops,
@@ -32,7 +32,7 @@ py::dict fill_arrays(const DoubleArray& vertices, const std::vector<IntArray>& l
     dict["vertices"] = from_points(result.vertices);
     dict["triangles"] = from_triangles(result.triangles);
     dict["converged"] = result.converged;
-    dict["start"] = solve_start_words.word(start_after(result.instead));
+    dict["start"] = solve_start_words.word(start_after(result.provenance));
     return dict;
 }
 

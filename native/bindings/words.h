@@ -37,16 +37,23 @@ inline constexpr Words<Start, 5> solve_start_words{"start",
                                                      {"least_variation", Start::least_variation},
                                                      {"loft", Start::loft},
                                                      {"smoothed", Start::smoothed}}}};
-inline constexpr Words<Instead, 2> instead_words{"equation",
-                                                 {{{"loft", Instead::loft}, {"smoothed", Instead::smoothed}}}};
+inline constexpr Words<Provenance, 7> provenance_words{"provenance",
+                                                       {{{"equation", Provenance::equation},
+                                                         {"low_passed", Provenance::low_passed},
+                                                         {"least_variation", Provenance::least_variation},
+                                                         {"loft", Provenance::loft},
+                                                         {"low_passed_loft", Provenance::low_passed_loft},
+                                                         {"swept_tube", Provenance::swept_tube},
+                                                         {"old_shape", Provenance::old_shape}}}};
 inline constexpr Words<NormalKind, 2> normal_words{
     "normals", {{{"fitted", NormalKind::fitted}, {"averaged", NormalKind::averaged}}}};
-inline constexpr Words<Equation, 5> equation_words{"equation",
+inline constexpr Words<Equation, 6> equation_words{"equation",
                                                    {{{"harmonic", Equation::harmonic},
                                                      {"constant", Equation::constant},
                                                      {"minimal_energy", Equation::minimal_energy},
                                                      {"minimal", Equation::minimal},
-                                                     {"least_variation", Equation::least_variation}}}};
+                                                     {"least_variation", Equation::least_variation},
+                                                     {"automatic", Equation::automatic}}}};
 inline constexpr Words<Otherwise, 2> otherwise_words{
     "otherwise", {{{"least_variation", Otherwise::least_variation}, {"stop", Otherwise::stop}}}};
 // InnerFairness::custom has no word: it comes as rows.

@@ -15,6 +15,7 @@
 #include "method/otherwise.h"
 #include "problem/surface_state.h"
 #include "proxy/proxy_mesh.h"
+#include "start/automatic_equation.h"
 
 namespace fairing {
 
@@ -187,7 +188,7 @@ bool may_be_replaced(const SolverOptions& options) {
 }
 
 // Where a tube bends so much that the flat mesh grows into something else. The harmonic surface, or that of least
-// variation where it has none or a bulb. Where a wide bend has neither, a loft: other meshes found it no other surface,
+// variation where it has none. Where a wide bend has neither, a loft: other meshes found it no other surface,
 // in 4 to 15 s.
 std::optional<FirstSurface> from_tube(const OpenOutline& outline, const SolverOptions& options,
                                       const Progress& progress) {
@@ -198,7 +199,7 @@ std::optional<FirstSurface> from_tube(const OpenOutline& outline, const SolverOp
     std::optional<Solution> solution;
     if (options.equation != Equation::least_variation)
         solution = solve_near(problem, {even.points, true}, progress.range(0.0, 0.3));
-    solution = solution ? or_else(problem, std::move(*solution), progress.range(0.3, 1.0), &even.points)
+    solution = solution ? or_else(problem, std::move(*solution), progress.range(0.3, 1.0))
                         : solve_else_roughly(problem, even.points, progress.range(0.3, 1.0));
     if (!solution && swept->turn() > wide_bend && may_be_replaced(options))
         solution = lofted(problem, {}, progress.here());
@@ -223,7 +224,7 @@ FirstSurface sought(const OpenOutline& outline, const SolverOptions& options, co
         const bool converged = result.solution.termination == Termination::converged;
         if (!converged && (round > 0 || has_blown_up(result))) break;
         if (converged && result.solution.flaw == Flaw::absent && is_even(result)) break;
-        if (converged && result.solution.instead != Instead::nothing) break;  // solved on a mesh of its own
+        if (converged && stands_in(result.solution.provenance)) break;  // solved on a mesh of its own
         const double begin = 0.4 + 0.15 * round;
         FirstSurface next = on_even_mesh(outline, result, options, progress.range(begin, begin + 0.15));
         if (converged && next.solution.termination != Termination::converged) break;
@@ -247,8 +248,11 @@ FirstSurface with_loft(const OpenOutline& outline, const SolverOptions& options,
 
 }  // namespace
 
-FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
+FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& asked, const Progress& progress) {
     constexpr double usual = 0.6;  // share of the progress
+    SolverOptions options = asked;
+    if (asked.equation == Equation::automatic)
+        options.equation = automatic_equation(outline.loops, outline.points, outline.normals);
     FirstSurface result = sought(outline, options, progress.range(0.0, usual));
     if (has_converged(result) || !may_be_replaced(options) || outline.loops.size() < 2) return result;
     // What a solve in vain leaves is no start for the surface of least variation, whose own descents may be.
@@ -260,7 +264,7 @@ FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& opti
         if (has_converged(loft)) return loft;
         // Where none does, a finer mesh may still end where this one did not.
     }
-    even.solution.instead = Instead::least_variation;
+    even.solution.provenance = Provenance::least_variation;  // the equation asked for is another
     return even;
 }
 

@@ -31,11 +31,4 @@ VectorX angle_defects(const Patch& patch, const Points& points) {
     return defects;
 }
 
-double bent_both_ways(const Patch& patch, const Points& points) {
-    const VectorX defects = angle_defects(patch, points);
-    const double balls = defects.cwiseMax(0.0).sum();
-    const double saddles = -defects.cwiseMin(0.0).sum();
-    return std::min(balls, saddles) / (2.0 * std::numbers::pi);
-}
-
 }  // namespace fairing

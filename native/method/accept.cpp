@@ -11,9 +11,9 @@
 #include "geometry/outline_angles.h"
 #include "geometry/self_intersection.h"
 #include "mesh/corners.h"
-#include "method/eased.h"
 #include "placement/tears.h"
 #include "problem/surface_state.h"
+#include "start/several_outlines.h"
 
 namespace fairing {
 
@@ -46,7 +46,7 @@ Indices inside(const Patch& patch, Indices triangles) {
 
 // Whether flaws of the shape before may stay.
 bool keeps_shape(const Problem& problem, const Solution& solution) {
-    return solution.instead == Instead::smoothed && problem.before->cols() == problem.patch.vertex_count();
+    return solution.provenance == Provenance::old_shape && problem.before->cols() == problem.patch.vertex_count();
 }
 
 // Of the triangles inside among each other.
@@ -59,22 +59,34 @@ Indices crossings_inside(const Patch& patch, const Points& points) {
     return crossing;
 }
 
+// A surface between several loops that lies beside them must not cross itself there where the shape before did not:
+// that shape, smoothed, is at hand. Elsewhere crossings at the boundary are those of its own noise.
+Indices crossings_beside(const Problem& problem, const Solution& solution) {
+    const Indices& now = *solution.crossings;
+    if (now.empty()) return {};
+    const bool compares = joins_outlines(problem) && problem.before->cols() == problem.patch.vertex_count();
+    Indices wrong = crossings_inside(problem.patch, solution.points);
+    if (!wrong.empty() || !compares) return wrong;
+    return without(now, crossing_triangles(problem.patch.triangles, *problem.before));
+}
+
 // That count against a solution. Placed vertices were compared with the surface that they lie on.
 Indices flips_of(const Problem& problem, Solution& solution) {
     if (!solution.polished) return {};
     solution.flipped = flipped_triangles(problem.patch, solution.points);
     Indices flipped = with_free_corner(problem.patch, *solution.flipped);
-    if (is_eased(solution)) flipped = inside(problem.patch, std::move(flipped));
+    if (lies_beside_boundary(solution.provenance)) flipped = inside(problem.patch, std::move(flipped));
     if (keeps_shape(problem, solution)) flipped = without(flipped, flipped_by_solution(problem.patch, *problem.before));
     return flipped;
 }
 
 // Likewise. What the equation's own surface does is no fault of its vertices; what stands in for it has no reason to.
 Indices crossings_of(const Problem& problem, Solution& solution) {
-    if (solution.crosses && solution.instead == Instead::nothing) return {};
+    if (solution.crosses && !stands_in(solution.provenance)) return {};
     const Triangles& triangles = problem.patch.triangles;
     if (!solution.crossings) solution.crossings = crossing_triangles(triangles, solution.points);
-    if (is_eased(solution)) return crossings_inside(problem.patch, solution.points);
+    if (solution.provenance == Provenance::low_passed) return crossings_beside(problem, solution);
+    if (lies_beside_boundary(solution.provenance)) return crossings_inside(problem.patch, solution.points);
     if (!keeps_shape(problem, solution)) return *solution.crossings;
     return without(*solution.crossings, crossing_triangles(triangles, *problem.before));
 }
@@ -83,7 +95,7 @@ Indices crossings_of(const Problem& problem, Solution& solution) {
 // the outline's own. Of 12 regions that kept any 10 kept less than 1 % of the outline's vertices, the worst 1.8 %.
 Indices torn_beside(const Problem& problem, const Solution& solution) {
     constexpr double most_forced = 0.02;  // of the outline's vertices
-    if (solution.ways.empty() || solution.ways.back().name != eased_way) return {};
+    if (solution.provenance != Provenance::low_passed) return {};
     Indices torn = torn_triangles(problem.patch, solution.points);
     const bool forced =
         static_cast<double>(torn.size()) <= most_forced * static_cast<double>(problem.fixed_points.cols());

@@ -53,12 +53,8 @@ std::optional<Solution> solve_eased(const Problem& problem, const std::shared_pt
     if (!solution) return std::nullopt;
     follow_outline(problem.patch, problem.fixed_points - smooth.fixed_points, solution->points);
     solution->points = untorn(problem.patch, std::move(solution->points));
+    solution->provenance = Provenance::low_passed;
     return solution;
-}
-
-bool is_eased(const Solution& solution) {
-    return !solution.ways.empty() &&
-           (solution.ways.back().name == eased_way || solution.ways.back().name == eased_loft_way);
 }
 
 double eased_by(const Problem& problem) { return largest_length(problem.fixed_points - eased(problem).fixed_points); }

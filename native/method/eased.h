@@ -13,7 +13,6 @@ namespace fairing {
 struct ProxyStart;  // method/proxy_start
 
 inline constexpr const char* eased_way = "eased";
-inline constexpr const char* eased_loft_way = "eased loft";  // method/lofted
 
 // The problem with its outline without short waves.
 Problem eased(const Problem& problem);
@@ -33,9 +32,6 @@ double roughness_left(const Problem& problem);
 // that surface is not found either. `start`: where large patches begin, if there is such a start.
 std::optional<Solution> solve_eased(const Problem& problem, const std::shared_ptr<const ProxyStart>& start,
                                     const Progress& progress);
-
-// Whether a solution stands for another outline: it came that way, or is a loft over an eased one.
-bool is_eased(const Solution& solution);
 
 // How far the outline lies beside the eased one at most, units of D.
 double eased_by(const Problem& problem);

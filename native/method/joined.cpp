@@ -86,7 +86,7 @@ Solution joined(const Problem& problem, Solution tangent, const Progress& progre
     // Root mean square.
     constexpr double negligible = 0.01;
     constexpr double negligible_beside_roughness = 0.02;
-    if (tangent.flaw != Flaw::absent || tangent.even_weights || tangent.instead != Instead::nothing)
+    if (tangent.flaw != Flaw::absent || tangent.even_weights || stands_in(tangent.provenance))
         return with_join(std::move(tangent), Join::no_tangent_join);
     if (!tangent.polished) return with_join(std::move(tangent), Join::other_mesh);
     const KnownCurvature known = known_curvature(problem.patch, tangent.points, problem.fixed_curvatures);

@@ -29,12 +29,12 @@ bool is_fourth_order(const Problem& problem) { return !is_minimal(problem) && !i
 // What a coarse level has refused, the full size would only refuse later; but long pipes between two outlines may have
 // no straight surface on a coarse mesh, and keep it on their own.
 bool takes_direct(const Problem& problem, const Situation& situation) {
-    const bool refused = situation.tried("nested") && is_large(problem) && !is_tube(problem);
+    const bool refused = situation.produced("nested") && is_large(problem) && !is_tube(problem);
     return is_fourth_order(problem) && problem.patch.free_count <= largest_direct && !refused;
 }
 
 bool takes_patience(const Problem& problem, const Situation& situation) {
-    return is_fourth_order(problem) && problem.patch.free_count > largest_direct && !situation.tried("nested");
+    return is_fourth_order(problem) && problem.patch.free_count > largest_direct && !situation.produced("nested");
 }
 
 // Where the noise of the outline may be what stands in the way; vertices that fold because of their weights need
@@ -42,7 +42,7 @@ bool takes_patience(const Problem& problem, const Situation& situation) {
 // that cut limbs across none was found, in half as much time again.
 bool takes_eased(const Problem& problem, const Situation& situation) {
     constexpr double most_left = 1e-3;
-    if (!is_fourth_order(problem) || situation.has_asked(eased_way)) return false;
+    if (!is_fourth_order(problem) || situation.attempted(eased_way)) return false;
     const bool hindered = std::all_of(situation.found.begin(), situation.found.end(), [&](const Solution& s) {
         if (s.flaw == Flaw::folded || s.flaw == Flaw::crossing) return is_uniform(problem.weights);
         return s.termination == Termination::stalled && s.reached_load == 0.0;
@@ -59,12 +59,12 @@ Found on_eased_outline(const Problem& problem, Situation& situation, const Progr
 
 // What no coarse proxy over the eased outline has found, none over the outline itself would.
 bool takes_proxy(const Problem& problem, const Situation& situation) {
-    const bool refused = situation.refused(eased_way) && begins_eased(problem) && !situation.found.empty();
+    const bool refused = situation.came_up_empty(eased_way) && begins_eased(problem) && !situation.found.empty();
     return is_fourth_order(problem) && !refused;
 }
 
 bool takes_even(const Problem& problem, const Situation& situation) {
-    return is_fourth_order(problem) && !is_uniform(problem.weights) && !situation.tried("even");
+    return is_fourth_order(problem) && !is_uniform(problem.weights) && !situation.produced("even");
 }
 
 Found evenly(const Problem& problem, Situation& /*situation*/, const Progress& progress) {

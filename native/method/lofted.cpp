@@ -44,10 +44,19 @@ std::optional<Points> surface(const Problem& problem, const Problem& outline, co
     return points;
 }
 
+// For the log of ways.
+const char* name_of(Provenance provenance) {
+    switch (provenance) {
+        case Provenance::low_passed_loft: return "eased loft";
+        case Provenance::swept_tube: return "swept loft";
+        default: return "loft";
+    }
+}
+
 struct Candidate {
     Points points;
     double merit;
-    const char* way;
+    Provenance provenance;
 };
 
 using Lofts = std::vector<std::pair<double, Loft>>;  // with their handicaps
@@ -67,7 +76,7 @@ std::optional<Candidate> swept(const Problem& problem, const Progress& progress)
     auto points = tube && tube->turn() > wide_bend ? swept_start(problem, *tube, progress) : std::nullopt;
     if (!points) return std::nullopt;
     const double merit = willmore_energy(problem, *points);
-    return Candidate{std::move(*points), merit, swept_loft_way};
+    return Candidate{std::move(*points), merit, Provenance::swept_tube};
 }
 
 std::vector<Candidate> candidates(const Problem& problem, const Problem& outline, const Lofts& lofts) {
@@ -78,7 +87,7 @@ std::vector<Candidate> candidates(const Problem& problem, const Problem& outline
             auto points = surface(problem, outline, fill, share);
             if (!points) continue;
             const double merit = handicap * willmore_energy(problem, *points);
-            found.push_back({std::move(*points), merit, &outline == &problem ? "loft" : eased_loft_way});
+            found.push_back({std::move(*points), merit, &outline == &problem ? Provenance::loft : Provenance::low_passed_loft});
         }
     }
     return found;
@@ -97,8 +106,7 @@ Solution solution_at(const Problem& problem, const Candidate& candidate) {
     if (solution.termination != Termination::converged) return solution;
     solution.boundary_normals = one_sided_normals(problem.patch, candidate.points);
     solution.iterations = 1;
-    solution.instead = Instead::loft;
-    solution.ways = {{candidate.way, 0.0}};
+    solution.provenance = candidate.provenance;
     solution.flaw = flaw_of(problem, solution);
     return solution;
 }
@@ -169,8 +177,7 @@ std::optional<Solution> along_creases(const Problem& problem, BlemishSearch& sea
     solution.boundary_normals = one_sided_normals(problem.patch, start->points);
     solution.termination = Termination::converged;
     solution.iterations = 1;
-    solution.instead = Instead::loft;
-    solution.ways = {{"creased loft", 0.0}};
+    solution.provenance = Provenance::loft;
     solution.polished = false;  // its folds are the creases'
     solution.flaw = flaw_of(problem, solution);
     solution.polished = true;
@@ -195,9 +202,8 @@ std::optional<Solution> lofted(const Problem& problem, const Solution& first, Bl
     const Stopwatch watch;
     auto solution = best_loft(problem, search, progress);
     if (!solution) return std::nullopt;
-    const std::string way = solution->ways.back().name;
     solution->ways = first.ways;
-    solution->ways.push_back({way, watch.seconds()});
+    solution->ways.push_back({name_of(solution->provenance), watch.seconds()});
     return solution;
 }
 

@@ -10,12 +10,10 @@
 
 namespace fairing {
 
-inline constexpr const char* swept_loft_way = "swept loft";
-
 // The loft (start/loft) with as much of its bulge as makes neither folds nor crossings nor a balloon; its slopes are
 // let go as far as that takes. `first`: what was tried before. Nothing for one outline, or where no share is accepted.
 // Where both outlines face each other along a wide bend, the sections swept along it (start/swept_start), where these
-// are bent less: way `swept_loft_way`.
+// are bent less.
 std::optional<Solution> lofted(const Problem& problem, const Solution& first, BlemishSearch& search,
                                const Progress& progress);
 // With a search of its own.

@@ -7,11 +7,9 @@
 #include "base/stopwatch.h"
 #include "geometry/self_intersection.h"
 #include "method/accept.h"
-#include "method/bulb.h"
 #include "method/eased.h"
 #include "method/ladder.h"
 #include "method/lofted.h"
-#include "method/misshapen.h"
 #include "method/sizes.h"
 #include "method/smoothed.h"
 #include "variation/least_variation.h"
@@ -20,10 +18,6 @@ namespace fairing {
 
 namespace {
 
-constexpr double bulb = 2.0;  // ratio of variations
-// Changes of curvature by less than one over the patch's size can't be seen, and ratios of such energies are noise:
-// spheres and cylinders have none at all.
-constexpr double least_energy = 1.0;
 // Largest V · A from which a descent is tried. Between jagged outlines it reaches 10³ to 10⁵, and none was seen to end
 // there. It is 95 for an elbow of 150°.
 constexpr double most_to_try = 1000.0;
@@ -76,7 +70,7 @@ std::optional<Solution> least_variation(const Problem& problem, const Solution& 
     if (!even) return std::nullopt;
     even->ways = first.ways;
     even->ways.push_back({"variation", watch.seconds()});
-    even->instead = Instead::least_variation;
+    even->provenance = Provenance::least_variation;
     even->flaw = flaw_of(problem, *even);
     return even;
 }
@@ -97,9 +91,15 @@ bool is_better(const Problem& problem, const Solution& even, const Solution& fir
 // their inner side. A tube swept along the bend is no farther from a torus than the place where descents stall, and is
 // an answer.
 bool is_evener(const Problem& problem, const Solution& even, const Solution& other) {
-    if (other.instead != Instead::loft || other.ways.back().name == swept_loft_way) return false;
+    if (!is_loft(other.provenance) || other.provenance == Provenance::swept_tube) return false;
     if (!crossing_triangles(problem.patch.triangles, even.points).empty()) return false;
     return variation_energy(problem, even.points) < variation_energy(problem, other.points);
+}
+
+// Over a jagged boundary a low-passed surface may cross itself at the loops where the shape before did not
+// (method/accept).
+bool is_crossing_beside(const Solution& solution) {
+    return solution.provenance == Provenance::low_passed && solution.flaw == Flaw::crossing;
 }
 
 // The one place that decides what is handed out where no equation has a surface. `even`: a descent that did not end.
@@ -107,20 +107,6 @@ Solution handed_out(const Problem& problem, Solution first, std::optional<Soluti
                     std::optional<Solution> other) {
     if (other && !(even && is_evener(problem, *even, *other))) return std::move(*other);
     return even && is_better(problem, *even, first) ? std::move(*even) : std::move(first);
-}
-
-Solution instead_of_bulb(const Problem& problem, Solution solution, const Progress& progress, const Points* near) {
-    const double energy = variation_energy(problem, solution.points);
-    if (!(energy > least_energy)) return solution;
-    const double most = energy / bulb;
-    VariationLimits limits = near ? limits_near(*near, most, true) : limits_for(problem, most);
-    limits.from_tube = false;  // where the membrane's bulge leads to no better surface, the bulb may be none
-    auto even = least_variation(problem, solution, limits, progress);
-    if (!even || !is_answer(*even)) return solution;
-    const double least = variation_energy(problem, even->points);
-    if (energy <= bulb * least) return solution;
-    even->variation_ratio = energy / std::max(least, least_energy);
-    return std::move(*even);
 }
 
 // Whether as many iterations as are usual were in vain, or the vertices fold: a loft costs little.
@@ -139,28 +125,11 @@ std::optional<Solution> without_equation(const Problem& problem, const Solution&
     return shape ? std::move(shape) : std::move(loft);
 }
 
-// Where the equation's surface has a waist or a bulge that no load asks for, and there is another one without.
-Solution instead_of_misshapen(const Problem& problem, Solution solution, const Progress& progress) {
-    if (problem.options.equation == Equation::constant) return solution;
-    if (!is_misshapen(problem, solution.points, progress)) return solution;
-    auto other = without_equation(problem, solution, progress);
-    const bool is_better = other && !is_misshapen(problem, other->points, progress) &&
-                           is_wavier(problem.patch, solution.points, other->points);
-    return is_better ? std::move(*other) : std::move(solution);
-}
-
-// Over a jagged outline an eased surface may cross itself where the shape before did not.
-Solution instead_of_crossing(const Problem& problem, Solution solution, const Progress& progress) {
-    if (!crosses_anew(problem, solution)) return solution;
-    auto shape = smoothed(problem, solution, progress);
-    return shape ? std::move(*shape) : std::move(solution);
-}
-
 Solution instead_of_failure(const Problem& problem, Solution solution, const Progress& progress) {
     const bool is_patient = problem.patch.loop_count() == 1 && problem.patch.free_count <= largest_patient;
     const double most = is_patient ? most_of_patient : most_to_try;
     auto even = least_variation(problem, solution, limits_for(problem, most), progress);
-    if (even && is_answer(*even)) return instead_of_misshapen(problem, std::move(*even), progress);
+    if (even && is_answer(*even)) return std::move(*even);
     if (even) solution.ways = even->ways;
     auto other = without_equation(problem, solution, progress);
     return handed_out(problem, std::move(solution), std::move(even), std::move(other));
@@ -178,24 +147,21 @@ Solution solve_or_else(const Problem& problem, const Progress& progress) {
     return or_else(problem, solve_global(problem, progress), progress);
 }
 
-Solution or_else(const Problem& problem, Solution solution, const Progress& progress, const Points* near) {
-    if (!has_else(problem)) return solution;
+Solution or_else(const Problem& problem, Solution solution, const Progress& progress) {
+    if (!has_else(problem) || is_answer(solution)) return solution;
     const Progress rest = progress.range(begin, 1.0);
-    if (is_answer(solution)) {
-        if (may_be_bulb(problem, solution.points, rest))
-            solution = instead_of_bulb(problem, std::move(solution), rest, near);
-        solution = instead_of_crossing(problem, std::move(solution), rest);
-        return solution.instead == Instead::smoothed ? solution
-                                                     : instead_of_misshapen(problem, std::move(solution), rest);
+    if (is_crossing_beside(solution)) {
+        auto shape = smoothed(problem, solution, rest);
+        return shape ? std::move(*shape) : std::move(solution);
     }
     if (lacks_surface(solution)) return instead_of_failure(problem, std::move(solution), rest);
     auto other = is_tried_enough(problem, solution) ? without_equation(problem, solution, rest) : std::nullopt;
     return handed_out(problem, std::move(solution), std::nullopt, std::move(other));
 }
 
-std::optional<Solution> solve_else(const Problem& problem, Instead kind, const Progress& progress, const Points* near) {
-    if (kind == Instead::loft) return lofted(problem, {}, progress);
-    if (kind == Instead::smoothed) return smoothed(problem, {}, progress);
+std::optional<Solution> solve_else(const Problem& problem, Provenance kind, const Progress& progress, const Points* near) {
+    if (is_loft(kind)) return lofted(problem, {}, progress);
+    if (kind == Provenance::old_shape) return smoothed(problem, {}, progress);
     if (near) {
         auto even = least_variation(problem, {}, limits_near(*near, HUGE_VAL, false), progress);
         if (even && is_answer(*even)) return even;

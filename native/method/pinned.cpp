@@ -22,7 +22,7 @@ Solution with_pins(Solution solution, Pins pins) {
 bool is_of_fourth_order(const Problem& problem, const Solution& solution) {
     const Equation equation = problem.options.equation;
     return equation != Equation::minimal && equation != Equation::least_variation &&
-           solution.instead == Instead::nothing;
+           !stands_in(solution.provenance);
 }
 
 bool are_close(const Problem& problem, const Indices& pins, double distance) {

@@ -5,11 +5,9 @@
 #include <queue>
 
 #include "base/stopwatch.h"
-#include "geometry/self_intersection.h"
 #include "geometry/surface_fit.h"
 #include "method/accept.h"
 #include "problem/surface_state.h"
-#include "start/several_outlines.h"
 #include "start/shape_before.h"
 
 namespace fairing {
@@ -55,7 +53,7 @@ Solution solution_at(const Problem& problem, const Points& points) {
     solution.mean_curvature = measured_surface(problem, points).curvature.mean;
     solution.boundary_normals = one_sided_normals(problem.patch, points);
     solution.iterations = 1;
-    solution.instead = Instead::smoothed;
+    solution.provenance = Provenance::old_shape;
     solution.flaw = flaw_of(problem, solution);
     return solution;
 }
@@ -81,15 +79,6 @@ std::optional<Solution> smoothed(const Problem& problem, const Solution& first, 
 std::optional<Solution> smoothed(const Problem& problem, const Solution& first, const Progress& progress) {
     BlemishSearch search(problem, progress);
     return smoothed(problem, first, search, progress);
-}
-
-bool crosses_anew(const Problem& problem, const Solution& solution) {
-    const Triangles& triangles = problem.patch.triangles;
-    if (!joins_outlines(problem)) return false;
-    const Indices now = solution.crossings ? *solution.crossings : crossing_triangles(triangles, solution.points);
-    if (now.empty() || problem.before->cols() != problem.patch.vertex_count()) return false;
-    const Indices known = crossing_triangles(triangles, *problem.before);
-    return !std::includes(known.begin(), known.end(), now.begin(), now.end());
 }
 
 }  // namespace fairing

@@ -18,7 +18,4 @@ std::optional<Solution> smoothed(const Problem& problem, const Solution& first, 
 // With a search of its own.
 std::optional<Solution> smoothed(const Problem& problem, const Solution& first, const Progress& progress);
 
-// Whether triangles between several outlines pass through each other that did not before.
-bool crosses_anew(const Problem& problem, const Solution& solution);
-
 }  // namespace fairing

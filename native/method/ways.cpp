@@ -36,12 +36,13 @@ const Solution* Situation::own_mesh() const {
     return last == found.rend() ? nullptr : &*last;
 }
 
-bool Situation::tried(std::string_view way) const {
-    return std::any_of(found.begin(), found.end(), [&](const Solution& s) { return s.ways.back().name == way; });
+bool Situation::attempted(std::string_view strategy) const {
+    return std::any_of(attempts.begin(), attempts.end(), [&](const Attempt& a) { return a.strategy == strategy; });
 }
 
-bool Situation::has_asked(std::string_view way) const {
-    return std::find(asked.begin(), asked.end(), way) != asked.end();
+bool Situation::produced(std::string_view strategy) const {
+    return std::any_of(attempts.begin(), attempts.end(),
+                       [&](const Attempt& a) { return a.strategy == strategy && a.produced; });
 }
 
 Solution run_ways(std::span<const Way> ways, const Problem& problem, const Progress& progress) {
@@ -52,7 +53,7 @@ Solution run_ways(std::span<const Way> ways, const Problem& problem, const Progr
         const Stopwatch watch;
         auto solution = way.solve(problem, situation, progress.range(way.begin, way.end));
         taken.push_back({way.name, watch.seconds()});
-        situation.asked.emplace_back(way.name);
+        situation.attempts.push_back({way.name, solution.has_value()});
         if (!solution) continue;
         solution->ways = taken;
         solution->flaw = flaw_of(problem, *solution);

@@ -16,17 +16,23 @@ struct ProxyStart;  // method/proxy_start
 
 // What the ways before have come to.
 struct Situation {
-    std::vector<Solution> found;                   // none of them accepted
-    std::vector<std::string_view> asked;           // all ways that were gone, those that found nothing among them
+    struct Attempt {
+        std::string_view strategy;
+        bool produced;  // a surface, if none that was accepted
+    };
+
+    std::vector<Solution> found;  // none of them accepted
+    std::vector<Attempt> attempts;
     std::shared_ptr<const ProxyStart> start = {};  // of the proxies, where a way has looked for it
 
     // The latest one on the user's own connectivity, or none.
     [[nodiscard]] const Solution* own_mesh() const;
-    // Whether a way has come to something.
-    [[nodiscard]] bool tried(std::string_view way) const;
-    [[nodiscard]] bool has_asked(std::string_view way) const;
-    // Whether it was gone and has found nothing.
-    [[nodiscard]] bool refused(std::string_view way) const { return has_asked(way) && !tried(way); }
+    [[nodiscard]] bool attempted(std::string_view strategy) const;
+    // Whether the strategy has made a surface, if none that was accepted.
+    [[nodiscard]] bool produced(std::string_view strategy) const;
+    [[nodiscard]] bool came_up_empty(std::string_view strategy) const {
+        return attempted(strategy) && !produced(strategy);
+    }
 };
 
 struct Way {

@@ -33,6 +33,7 @@ double outer_source(const SolverOptions& options, const CurvatureFit& fit) {
             return -2.0 * H * (H * H - fit.gaussian());
         }
         case Equation::harmonic:
+        case Equation::automatic:
         case Equation::least_variation:
         case Equation::minimal: return 0.0;
     }

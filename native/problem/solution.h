@@ -40,9 +40,31 @@ enum class Join {
 // Whether pins have a radius (method/pinned). The last five: not, although it was asked for.
 enum class Pins { absent, spread, no_surface, no_outline, too_close, not_found, curvature_met };
 
-// What holds in place of the problem's equation, where that has no surface (method/otherwise).
-// `smoothed`: the shape before, as smooth as it can be (method/smoothed).
-enum class Instead { nothing, least_variation, loft, smoothed };
+// Where a surface comes from. Whoever makes a surface sets it, and nothing changes it afterwards. All but the first two
+// stand in for a surface that the problem's equation does not have (method/otherwise).
+enum class Provenance {
+    equation,         // the problem's equation, between the boundary loops as they are
+    low_passed,       // the same between loops without their short waves, beside which the real ones lie (method/eased)
+    least_variation,  // the surface of least variation, where another equation was asked for
+    loft,
+    low_passed_loft,  // a loft between loops without their short waves
+    swept_tube,       // cross-sections swept along a bend (start/swept_start)
+    old_shape,        // the shape before, as smooth as it can be (method/smoothed)
+};
+
+// Whether another surface than the equation's was taken.
+constexpr bool stands_in(Provenance provenance) { return provenance > Provenance::low_passed; }
+
+// Whether the surface meets other loops than the problem's, beside which those lie.
+constexpr bool lies_beside_boundary(Provenance provenance) {
+    return provenance == Provenance::low_passed || provenance == Provenance::low_passed_loft;
+}
+
+// Whether curves join the loops, without an equation.
+constexpr bool is_loft(Provenance provenance) {
+    return provenance == Provenance::loft || provenance == Provenance::low_passed_loft ||
+           provenance == Provenance::swept_tube;
+}
 
 // A way that was tried (method/ways), and how long it took.
 struct WayTaken {
@@ -62,7 +84,7 @@ struct Solution {
     double reached_load = 0.0;      // share of the load for which `points` solve the equation, where not the whole
     std::vector<int> levels;        // vertex counts, coarse to fine; empty: only the patch itself
     std::map<std::string, double> seconds;
-    std::vector<WayTaken> ways;
+    std::vector<WayTaken> ways;  // a log for people: no code decides by it
     Flaw flaw = Flaw::absent;
     Indices bad_triangles;             // of the patch: folded or crossing ones, for those flaws
     std::optional<Indices> crossings;  // triangles of the patch that pass through others, where they were looked for
@@ -73,8 +95,7 @@ struct Solution {
     double first_step = 0.0;           // largest moves of the first and the last iteration, units of D
     double last_step = 0.0;
     double least_step = 0.0;  // of all iterations
-    Instead instead = Instead::nothing;
-    double variation_ratio = 0.0;  // of the bulb that it replaces, where it is one
+    Provenance provenance = Provenance::equation;
     bool even_weights = false;     // uniform weights were taken instead of the problem's
     Join join = Join::tangent;
     Pins pins = Pins::absent;

@@ -110,6 +110,7 @@ VectorX outer_residual(const Problem& problem, const SurfaceState& state) {
     const auto H = state.curvature.mean.head(count).array();
     switch (problem.options.equation) {
         case Equation::harmonic:
+        case Equation::automatic:
         case Equation::least_variation: break;
         case Equation::minimal: return 4.0 * mass * H;
         case Equation::constant: return harmonic_residual(problem, state).array() + 2.0 * mass * problem.options.load;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <Eigen/Geometry>
 
@@ -125,6 +126,28 @@ std::size_t best_beginning(const Indices& loop, const Points& points, const Tube
 }
 
 }  // namespace
+
+std::optional<TubeEnd> tube_end(const Indices& loop, const Points& points, const Points& normals) {
+    const auto rim = rim_at(loop, points, normals);
+    return rim ? std::optional(rim->end) : std::nullopt;
+}
+
+std::optional<double> tube_length(const std::vector<Indices>& loops, const Points& points, const Points& normals) {
+    const auto rims = two_rims(loops, points, normals);
+    if (!rims) return std::nullopt;
+    const double radii =
+        radius_of_area(area_within(loops[0], points)) + radius_of_area(area_within(loops[1], points));
+    return 2.0 * TubeAxis(rims->first.end, rims->last.end).length() / radii;
+}
+
+double area_within(const Indices& loop, const Points& points) {
+    Vector3 area = Vector3::Zero();
+    for (std::size_t k = 0; k < loop.size(); ++k)
+        area += 0.5 * points.col(loop[k]).cross(points.col(loop[(k + 1) % loop.size()]));
+    return area.norm();
+}
+
+double radius_of_area(double area) { return std::sqrt(area / std::numbers::pi); }
 
 TubeSection::TubeSection(const Indices& loop, std::size_t first, const Points& points, const TubeAxis& axis, double s) {
     const Eigen::Matrix3d frame = axis.frame(s);

@@ -12,6 +12,20 @@ namespace fairing {
 // Radians by which a tube turns from where membranes and lofts are drawn to its inner side.
 inline constexpr double wide_bend = 1.2;
 
+// The end of a tube at a loop (columns of `points` and `normals`), the surface on its left. Nothing where the surface
+// leaves the loop in many directions, as a flat ring does.
+std::optional<TubeEnd> tube_end(const Indices& loop, const Points& points, const Points& normals);
+
+// How long the tube between two loops is along its axis, over the mean radius of the circles with its ends' areas.
+// Nothing where there are other than two loops, or where they don't face each other along one tube.
+std::optional<double> tube_length(const std::vector<Indices>& loops, const Points& points, const Points& normals);
+
+// The area within a closed loop (columns of `points`): that of its shadow in the direction in which that is largest.
+double area_within(const Indices& loop, const Points& points);
+
+// Of the circle with that area.
+double radius_of_area(double area);
+
 // A closed section in its frame of the axis. Shares are those of its length, from 0 below 1.
 class TubeSection {
 public:

@@ -260,7 +260,7 @@ std::optional<Solution> solve_nearby(const Problem& problem, const NearVariation
 class Search {
 public:
     Search(const Problem& problem, const VariationLimits& limits)
-        : problem_(problem), limits_(limits), tube_(limits.from_tube ? tube_between(problem) : std::nullopt) {}
+        : problem_(problem), limits_(limits), tube_(tube_between(problem)) {}
 
     // Over a coarse mesh elbows of 120° and more don't settle, and dense ones of 90° take 5 to 10 s on the fine one;
     // from the tube they end in one.

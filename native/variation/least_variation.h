@@ -26,7 +26,6 @@ struct NearVariation {
 struct VariationLimits {
     double most_product = HUGE_VAL;  // nothing comes back where a coarse mesh shows more
     int most_beginnings = 4;         // other meshes and dampings that are tried where the first ends nowhere
-    bool from_tube = true;           // tried after the first: from a tube swept between two outlines
     std::optional<NearVariation> near = std::nullopt;  // where to begin, instead of those
 };
 

@@ -149,7 +149,7 @@ TEST_CASE("crossings are a flaw where the surface itself has none") {
     CHECK(!solution.bad_triangles.empty());
     solution.crosses = true;
     CHECK(flaw_of(lenient, solution) == Flaw::absent);
-    solution.instead = Instead::least_variation;  // of what was asked for: no reason to pass through itself
+    solution.provenance = Provenance::least_variation;  // of what was asked for: no reason to pass through itself
     CHECK(flaw_of(lenient, solution) == Flaw::crossing);
 }
 

@@ -102,7 +102,7 @@ TEST_CASE("a loft whose slopes make a balloon lets them go") {
     REQUIRE(pipe.area(pipe.with(fill->flat + fill->bulge)) > 2.0 * least);
     const auto solution = lofted(pipe.problem, {}, Progress());
     REQUIRE(solution);
-    CHECK(solution->instead == Instead::loft);
+    CHECK(is_loft(solution->provenance));
     CHECK(pipe.area(solution->points) <= 2.0 * least);
     CHECK(pipe.area(solution->points) > 1.1 * least);
 }

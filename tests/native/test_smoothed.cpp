@@ -6,12 +6,10 @@
 #include <limits>
 #include <numbers>
 
-#include "geometry/angle_defects.h"
 #include "geometry/self_intersection.h"
 #include "method/accept.h"
 #include "method/blemishes.h"
 #include "method/girths.h"
-#include "method/misshapen.h"
 #include "method/otherwise.h"
 #include "method/smoothed.h"
 #include "pipes.h"
@@ -90,11 +88,11 @@ Points pierced(const Known& pipe, double height) {
     return points;
 }
 
-Solution taken(const Points& points, Instead instead) {
+Solution taken(const Points& points, Provenance provenance) {
     Solution solution;
     solution.points = points;
     solution.termination = Termination::converged;
-    solution.instead = instead;
+    solution.provenance = provenance;
     return solution;
 }
 
@@ -221,56 +219,13 @@ TEST_CASE("edges of flat sections that are drawn in are a blemish, waists of rou
     }
 }
 
-TEST_CASE("a wave around a pipe bends it both ways by its steepest slope") {
-    const Known pipe(60);
-    CHECK(bent_both_ways(pipe.single.patch(), pipe.single.points) < 1e-9);
-    for (const double height : {0.3, -0.3}) {
-        // r = 1 + h (1 − cos 2πt) / 2: dr/ds goes from 0 to ± s and back, and ∫ K dA = −2π ∫ d(dr/ds). What belongs to
-        // the outlines' vertices, half a row at either end, does not count; the balls or the saddles lie there.
-        const double steepest = std::numbers::pi * std::abs(height) / pipe.length();
-        const auto sine = [](double slope) { return slope / std::sqrt(1.0 + slope * slope); };
-        const double expected = 2.0 * (sine(steepest) - sine(steepest * std::sin(std::numbers::pi / 60.0)));
-        CHECK(bent_both_ways(pipe.single.patch(), waved(pipe, height)) == doctest::Approx(expected).epsilon(0.01));
-    }
-    const Points barrel = pipe.shaped([&](double t) {
-        const double z = (t - 0.5) * pipe.length();
-        return std::sqrt(16.0 - z * z) / std::sqrt(16.0 - 0.25 * pipe.length() * pipe.length());
-    });
-    CHECK(bent_both_ways(pipe.single.patch(), barrel) < 1e-9);
-}
-
-TEST_CASE("a spindle or a thread between two outlines gives way to a shape without") {
+TEST_CASE("an accepted surface is the answer, whatever its girth") {
     for (const double height : {0.6, -0.6}) {
-        Known pipe(10);
+        const Known pipe(10);
         const Points wave = waved(pipe, height);
-        CHECK(is_misshapen(pipe.problem, wave, Progress()));
-        const Solution solution = or_else(pipe.problem, taken(wave, Instead::nothing), Progress());
-        CHECK(solution.instead == Instead::loft);
-        CHECK_FALSE(is_misshapen(pipe.problem, solution.points, Progress()));
-        CHECK(pipe.middle_radius(solution.points) == doctest::Approx(1.0).epsilon(0.02));
-
-        pipe.problem.options.equation = Equation::constant;  // loads make bulges
-        CHECK(or_else(pipe.problem, taken(wave, Instead::nothing), Progress()).instead == Instead::nothing);
-        pipe.problem.options.equation = Equation::harmonic;
-        pipe.problem.before = wave;  // then it is the shape that is wanted
-        CHECK_FALSE(is_misshapen(pipe.problem, wave, Progress()));
-        CHECK(or_else(pipe.problem, taken(wave, Instead::nothing), Progress()).instead == Instead::nothing);
-        pipe.problem.before = Points(3, 0);
-        CHECK(or_else(pipe.problem, taken(wave, Instead::nothing), Progress()).instead == Instead::nothing);
-    }
-    const Known pipe(10);
-    CHECK_FALSE(is_misshapen(pipe.problem, waved(pipe, 0.3), Progress()));
-    CHECK_FALSE(is_misshapen(pipe.problem, waved(pipe, -0.4), Progress()));
-}
-
-TEST_CASE("a bulge to one side gives way sooner than one all around") {
-    const Known pipe(20);
-    for (const double height : {0.15, 0.3}) {
-        for (const double way : {0.4, 0.6}) {
-            const Points bulge = moved_aside(pipe, waved(pipe, height), way);
-            REQUIRE(bent_both_ways(pipe.single.patch(), bulge) > 0.3);
-            CHECK(is_misshapen(pipe.problem, bulge, Progress()) == (height > 0.2 && way > 0.5));
-        }
+        const Solution solution = or_else(pipe.problem, taken(wave, Provenance::equation), Progress());
+        CHECK(solution.provenance == Provenance::equation);
+        CHECK(solution.points == wave);
     }
 }
 
@@ -279,7 +234,7 @@ TEST_CASE("a long pipe is smoothed as far as it keeps three quarters of its girt
     REQUIRE(pipe.middle_radius(smoothed_by(pipe, endless)) < 0.1);
     const auto solution = smoothed(pipe.problem, {}, Progress());
     REQUIRE(solution);
-    CHECK(solution->instead == Instead::smoothed);
+    CHECK(solution->provenance == Provenance::old_shape);
     CHECK(end_of(*solution) == Termination::converged);
     CHECK(finder(pipe).in(solution->points).absent());
     const double kept = std::pow(2.0 * std::numbers::pi, 4);  // μ of a wavelength of 1, the first that is tried
@@ -290,23 +245,15 @@ TEST_CASE("a smoothed shape may keep the crossings that were there, and no other
     Known pipe(40);
     const Points crossing = pierced(pipe, 0.5);
     REQUIRE_FALSE(crossing_triangles(pipe.single.patch().triangles, crossing).empty());
-    Solution before = taken(crossing, Instead::smoothed);
-    CHECK(crosses_anew(pipe.problem, before));
     pipe.problem.before = crossing;
-    before.boundary_normals = pipe.problem.fixed_normals;
-    CHECK_FALSE(crosses_anew(pipe.problem, before));
-    before.flaw = flaw_of(pipe.problem, before);
-    CHECK(end_of(before) == Termination::converged);
-    Solution loft = taken(crossing, Instead::loft);
-    loft.boundary_normals = pipe.problem.fixed_normals;
-    loft.flaw = flaw_of(pipe.problem, loft);
-    CHECK(end_of(loft) == Termination::folded);
-    Solution elsewhere = taken(pierced(pipe, 0.25), Instead::smoothed);
-    elsewhere.boundary_normals = pipe.problem.fixed_normals;
-    elsewhere.flaw = flaw_of(pipe.problem, elsewhere);
-    CHECK(elsewhere.flaw == Flaw::crossing);
-    CHECK(end_of(elsewhere) == Termination::folded);
-    CHECK(crosses_anew(pipe.problem, elsewhere));
+    const auto flaw_at = [&](const Points& points, Provenance provenance) {
+        Solution solution = taken(points, provenance);
+        solution.boundary_normals = pipe.problem.fixed_normals;
+        return flaw_of(pipe.problem, solution);
+    };
+    CHECK(flaw_at(crossing, Provenance::old_shape) == Flaw::absent);
+    CHECK(flaw_at(crossing, Provenance::loft) == Flaw::crossing);
+    CHECK(flaw_at(pierced(pipe, 0.25), Provenance::old_shape) == Flaw::crossing);
 }
 
 TEST_CASE("a loft with a waist gives way to the shape before") {
@@ -328,12 +275,12 @@ TEST_CASE("a loft with a waist gives way to the shape before") {
     failed.points = *pipe.problem.before;
     failed.flaw = Flaw::not_converged;
     const Solution solution = or_else(pipe.problem, failed, Progress());
-    CHECK(solution.instead == Instead::smoothed);
+    CHECK(solution.provenance == Provenance::old_shape);
     CHECK(solution.ways.back().name == "smoothed");
     CHECK(finder(pipe).in(solution.points).narrow.empty());
     pipe.problem.before = Points(3, 0);
     const Solution alone = or_else(pipe.problem, failed, Progress());
-    CHECK(alone.instead == Instead::loft);
+    CHECK(is_loft(alone.provenance));
 }
 
 TEST_CASE("a loft beside the shape before gives way where it is off by half a radius") {
@@ -344,7 +291,7 @@ TEST_CASE("a loft beside the shape before gives way where it is off by half a ra
     CHECK(girths->aside(pipe.single.points) < 1e-12);
     CHECK(girths->aside(moved(0.3)) == doctest::Approx(0.3).epsilon(0.01));
     for (const double way : {0.4, 0.6}) {
-        const Solution loft = taken(moved(way), Instead::loft);
+        const Solution loft = taken(moved(way), Provenance::loft);
         CHECK(finder(pipe).in(loft.points).absent());
         CHECK(is_blemished(pipe.problem, loft.points) == (way > 0.5));
     }
@@ -353,11 +300,14 @@ TEST_CASE("a loft beside the shape before gives way where it is off by half a ra
     CHECK_FALSE(is_blemished(bent.problem, moved(0.6)));
 }
 
-TEST_CASE("a surface that crosses itself where the shape before did not gives way to that") {
+TEST_CASE("a surface beside its boundary that crosses itself where the shape before did not gives way to that") {
     const Known pipe(15);
-    Solution crossing = taken(pierced(pipe, 0.5), Instead::nothing);
-    crossing.boundary_normals = pipe.problem.fixed_normals;
-    CHECK(or_else(pipe.problem, crossing, Progress()).instead == Instead::smoothed);
-    crossing.points = pipe.single.points;
-    CHECK(or_else(pipe.problem, crossing, Progress()).instead == Instead::nothing);
+    const auto answer = [&](const Points& points, Provenance provenance) {
+        Solution solution = taken(points, provenance);
+        solution.boundary_normals = pipe.problem.fixed_normals;
+        solution.flaw = flaw_of(pipe.problem, solution);
+        return or_else(pipe.problem, std::move(solution), Progress());
+    };
+    CHECK(answer(pierced(pipe, 0.5), Provenance::low_passed).provenance == Provenance::old_shape);
+    CHECK(answer(pipe.single.points, Provenance::low_passed).provenance == Provenance::low_passed);
 }

@@ -76,19 +76,21 @@ def fair(
     reference : (n, 3) float
         The original mesh M0 of all weights but the uniform ones, and the shape that is kept in part where no surface is
         found (``otherwise``); default: ``vertices``.
-    equation : "harmonic" | "constant" | "minimal_energy" | "minimal" | "least_variation"
+    equation : "harmonic" | "constant" | "minimal_energy" | "minimal" | "least_variation" | "automatic"
         Δ_B H = 0, Δ_B H = ``load`` or Δ_B H = −2H(H² − K) with tangent planes met (G1), or H = 0 with positions
         met only (G0). See §7.5. "least_variation": the surface whose normal curvatures vary least (G1), which exists
-        between outlines that no harmonic surface joins; docs/least_variation.md.
+        between outlines that no harmonic surface joins; docs/least_variation.md. "automatic", decided for each
+        component by its boundary alone: "least_variation" between two loops that face each other along a tube of more
+        than 2.5 mean radii, where harmonic surfaces have waists and balloons; "harmonic" elsewhere, with "G2", and with
+        ``method`` "paper".
     otherwise : "least_variation" | "stop"
-        What is taken where ``equation`` has no surface that is accepted (method "global", all but "minimal"). By
-        default it is that of least variation, also in place of a bulb between two outlines: a surface whose curvatures
-        vary more than twice as much as they need. Several outlines that have none of it either are joined by a loft,
-        which may leave the tangent planes given, or, where the loft has threads, waists, sharp bends or crossings or
-        there is none, keep the shape of ``reference``, smoothed as far as it goes: docs/least_variation.md.
-        ``result.equation`` names what holds, and the warning NO_SOLUTION says so. "stop": the best surface found, not
-        ``converged``; bulbs stay. A solve that ran out of fewer than 200 ``max_iterations``, or has part of its load,
-        is never replaced.
+        What is taken where ``equation`` has no surface that is accepted (method "global", all but "minimal"); one that
+        is accepted is always returned. By default it is that of least variation. Several outlines that have none of it
+        either are joined by a loft, which may leave the tangent planes given, or, where the loft has threads, waists,
+        sharp bends or crossings or there is none, keep the shape of ``reference``, smoothed as far as it goes:
+        docs/least_variation.md. ``result.equation`` names what holds, and the warning NO_SOLUTION says so. "stop": the
+        best surface found, not ``converged``. A solve that ran out of fewer than 200 ``max_iterations``, or has part of
+        its load, is never replaced.
     load : float
         Of "constant", in length⁻³; positive bulges along the normals.
     bulge : float

@@ -304,13 +304,15 @@ def _spacing(value: Any, inner: str | None) -> _Spacing:
 
 def _start(first: str, options: dict[str, Any]) -> str:
     """Where the solve on the fine mesh begins; ``first``: what suits the first surface, which is a harmonic one."""
-    same = options.get("equation", "harmonic") == "harmonic" and options.get("otherwise") != "stop"
+    same = options.get("equation", "harmonic") in ("harmonic", "automatic") and options.get("otherwise") != "stop"
     return first if same else "given"
 
 
 def _first_equation(options: dict[str, Any]) -> str:
     """Of the first surface: harmonic but for the equation that joins what no harmonic surface does."""
-    return "least_variation" if options.get("equation") == "least_variation" else "harmonic"
+    asked = str(options.get("equation", "harmonic"))
+    joins_curvature = options.get("continuity", "G1") == "G2"
+    return asked if asked == "least_variation" or (asked == "automatic" and not joins_curvature) else "harmonic"
 
 
 def _report(report: FairResult, old_count: int) -> dict[str, Any]:

@@ -90,10 +90,10 @@ def continuity(value: str, equation: str, method: str) -> bool:
     """Whether curvatures are to be met; only Δ_B H = 0 of the fast solver has a version that meets them."""
     if _arguments.choice("continuity", value, CONTINUITIES) == "G1":
         return False
-    if equation != "harmonic" or method != "global":
+    if equation not in ("harmonic", "automatic") or method != "global":
         raise ValueError(
             f"continuity: 'G2' is not accepted with equation {equation!r} and method {method!r}; "
-            "accepted with 'harmonic' and 'global'"
+            "accepted with 'harmonic' or 'automatic' and 'global'"
         )
     return True
 

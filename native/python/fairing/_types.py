@@ -78,6 +78,11 @@ class FairResult:
     where any is a loft, or "smoothed" where any is its own shape, smoothed (see ``otherwise`` of :func:`fairing.fair`;
     the warning NO_SOLUTION names the component). ``converged`` refers to it. The last two are linear solves:
     ``residual`` says nothing about them."""
+    provenance: str
+    """Where the surface comes from: "equation"; "low_passed", the same between boundary loops without their short
+    waves, beside which the real ones lie; or what stands in for a surface that the equation does not have:
+    "least_variation", "loft", "low_passed_loft", "swept_tube" or "old_shape". Of several components the last in this
+    order. All but the first come with the warning NO_SOLUTION."""
     vertices: FloatArray
     """(n, 3) positions; vertices that are neither free nor in ``moved`` keep their bits."""
     base: FloatArray
@@ -92,6 +97,11 @@ class FairResult:
     join: FloatArray
     """(k',) degrees, in the order of ``fixed``: how visible the join is (see :func:`fairing.visible_join`). Where no
     triangles outside were given, they are taken for the patch's mirror image across the prescribed tangent planes."""
+    girth: tuple[float, float] | None
+    """How thin and how thick the surface is between boundary loops that are ends of tubes: the radius of the thinnest
+    cross-section over that of the thinner end, and of the thickest over the thicker end's, by the areas within. About
+    (1, 1) for tubes and cones, less for waists, more for balloons. None where no component has two loops or more, or
+    one of them is no tube's end."""
     continuity: Literal["G1", "G2"]
     """"G2": the surface continues the curvature of its surroundings, wherever that is known (G2_NOT_MET names the other
     vertices). "G1": only their slopes, because no more was asked for or because G2_NOT_MET says why."""

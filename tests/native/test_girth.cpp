@@ -1,0 +1,132 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "pipes.h"
+#include "start/automatic_equation.h"
+#include "start/girth_range.h"
+#include "start/swept_tube.h"
+
+using namespace fairing;
+using test::Pipe;
+
+namespace {
+
+double length_of(const Pipe& pipe) { return pipe.single.points.row(2).maxCoeff(); }
+
+// The pipe's points with the radius r(z / length).
+Points shaped(const Pipe& pipe, const std::function<double(double)>& radius) {
+    Points points = pipe.single.points;
+    for (auto point : points.colwise()) point.head<2>() *= radius(point[2] / length_of(pipe));
+    return points;
+}
+
+GirthRange girth(const Pipe& pipe, const Points& points) {
+    const auto range = girth_range(pipe.single.patch(), points, pipe.problem.fixed_normals);
+    REQUIRE(range);
+    return *range;
+}
+
+std::vector<Indices> loops_of(const Pipe& pipe) {
+    std::vector<Indices> loops = pipe.single.patch().loops();
+    for (Indices& loop : loops) {
+        for (int& v : loop) v -= pipe.single.patch().free_count;
+    }
+    return loops;
+}
+
+Equation chosen(const Pipe& pipe) {
+    return automatic_equation(loops_of(pipe), pipe.problem.fixed_points, pipe.problem.fixed_normals);
+}
+
+// A quarter of a torus: two rims of radius 1 around circles of that radius.
+struct Bend {
+    std::vector<Indices> loops{{}, {}};
+    Points points{3, 2 * count};
+    Points normals{3, 2 * count};
+
+    explicit Bend(double radius, double degrees) {
+        for (int k = 0; k < 2 * count; ++k) {
+            const double along = k < count ? 0.0 : degrees * std::numbers::pi / 180.0;
+            const double around = 2.0 * std::numbers::pi * k / count;
+            const Vector3 out(std::cos(along), std::sin(along), 0.0);
+            normals.col(k) = std::cos(around) * out + std::sin(around) * Vector3::UnitZ();
+            points.col(k) = radius * out + normals.col(k);
+        }
+        // The surface on the left: forwards around the first one, backwards around the last one.
+        for (int k = 0; k < count; ++k) {
+            loops[0].push_back(count - 1 - k);
+            loops[1].push_back(count + k);
+        }
+    }
+
+private:
+    static constexpr int count = 64;
+};
+
+}  // namespace
+
+TEST_CASE("the girth of a waisted pipe is that of its waist, of a barrel that of its middle") {
+    for (const int rows : {40, 90}) {  // 1,872 vertices, and 4,272: cells of three
+        const Pipe pipe(rows);
+        for (const double height : {-0.3, 0.0, 0.25}) {
+            const auto wave = [&](double t) { return 1.0 + height * std::sin(std::numbers::pi * t); };
+            const GirthRange range = girth(pipe, shaped(pipe, wave));
+            CAPTURE(rows);
+            CAPTURE(height);
+            CHECK(range.least == doctest::Approx(std::min(1.0, 1.0 + height)).epsilon(0.01));
+            CHECK(range.largest == doctest::Approx(std::max(1.0, 1.0 + height)).epsilon(0.01));
+        }
+    }
+}
+
+TEST_CASE("a cone's girth lies between its ends") {
+    const Pipe pipe(60);
+    const GirthRange range = girth(pipe, shaped(pipe, [](double t) { return 1.0 + t; }));
+    CHECK(range.least == doctest::Approx(1.0));
+    CHECK(range.largest == doctest::Approx(1.0));
+}
+
+TEST_CASE("noise hardly changes a girth, nor do motion and scale") {
+    const Pipe pipe(60);
+    const Points waist = shaped(pipe, [](double t) { return 1.0 - 0.4 * std::sin(std::numbers::pi * t); });
+    const double clean = girth(pipe, waist).least;
+    Points rough = waist;
+    for (Eigen::Index v = 0; v < rough.cols(); ++v)
+        rough.col(v) *= 1.0 + 0.02 * std::sin(12.9898 * static_cast<double>(v * v % 1009));
+    CHECK(girth(pipe, rough).least == doctest::Approx(clean).epsilon(0.02));
+    const Eigen::AngleAxisd turn(1.1, Vector3(1.0, 2.0, 3.0).normalized());
+    const Points moved = (3.0 * (turn.toRotationMatrix() * waist)).colwise() + Vector3(5.0, -7.0, 2.0);
+    const Points normals = turn.toRotationMatrix() * pipe.problem.fixed_normals;
+    const auto range = girth_range(pipe.single.patch(), moved, normals);
+    REQUIRE(range);
+    CHECK(range->least == doctest::Approx(clean).epsilon(1e-9));
+}
+
+TEST_CASE("loops that are no tubes' ends have no girth") {
+    const Pipe steep(20, 1.2);  // leans by 69°: a ball between two small caps
+    CHECK_FALSE(girth_range(steep.single.patch(), steep.single.points, steep.problem.fixed_normals));
+}
+
+TEST_CASE("a tube is as long as its axis, in radii") {
+    const Pipe pipe(50);
+    const auto length = tube_length(loops_of(pipe), pipe.problem.fixed_points, pipe.problem.fixed_normals);
+    REQUIRE(length);
+    CHECK(*length == doctest::Approx(length_of(pipe)).epsilon(0.005));  // the circles are polygons
+    for (const double degrees : {30.0, 90.0, 150.0}) {
+        const Bend bend(3.0, degrees);
+        const auto along = tube_length(bend.loops, bend.points, bend.normals);
+        REQUIRE(along);
+        CHECK(*along == doctest::Approx(3.0 * degrees * std::numbers::pi / 180.0).epsilon(0.01));
+    }
+}
+
+TEST_CASE("long tubes get least variation, short ones and rings the harmonic surface") {
+    const double row = length_of(Pipe(10)) / 10.0;
+    const auto rows = [&](double radii) { return static_cast<int>(std::lround(radii / row)); };
+    CHECK(chosen(Pipe(rows(0.9 * longest_harmonic_tube))) == Equation::harmonic);
+    CHECK(chosen(Pipe(rows(1.1 * longest_harmonic_tube))) == Equation::least_variation);
+    CHECK(chosen(Pipe(rows(1.1 * longest_harmonic_tube), 1.2)) == Equation::harmonic);
+}
