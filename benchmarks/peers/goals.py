@@ -14,19 +14,22 @@ from tools import BY_NAME, CHOLMOD, LDLT, OURS
 
 @dataclass(frozen=True)
 class Goal:
-    """measured against `most`; None where this run doesn't say."""
+    """measured against `most`; None where this run doesn't say. `unsolved`: where no surface was found."""
 
     text: str
     most: float
     measured: float | None
     note: str = ""
     unit: str = ""
+    unsolved: tuple[str, ...] = ()
 
     @property
     def verdict(self) -> str:
         """One or two words."""
         if self.measured is None:
             return "not measured"
+        if self.unsolved:
+            return f"**missed**: no surface ({', '.join(self.unsolved)})"
         return "met" if self.measured <= self.most else "**missed**"
 
     def line(self) -> str:
@@ -73,7 +76,8 @@ def _ratios(done: Measured) -> Iterator[Goal]:
         for size, ratio in goals_at.items():
             found = sorted(_compared(_at(done, size), names, busy(done)))
             title = f"whole call ÷ {text}, {_thousands(size)}"
-            yield Goal(title, ratio, *_worst(found)) if found else Goal(title, ratio, None)
+            lost = _unsolved(_at(done, size))
+            yield Goal(title, ratio, *_worst(found), unsolved=lost) if found else Goal(title, ratio, None)
 
 
 def _compared(rows: dict[str, dict[str, Row]], names: tuple[str, ...], busy: bool) -> Iterator[tuple[float, str, str]]:
@@ -85,6 +89,13 @@ def _compared(rows: dict[str, dict[str, Row]], names: tuple[str, ...], busy: boo
             against = f" against {min(others, key=lambda row: row['wall'])['tool']}" if len(names) > 1 else ""
             note = f"{shape}{against}; by the wall {ratios['wall']:.2g}, by processor time {ratios['cpu']:.2g}"
             yield max(ratios.values()) if busy else ratios["wall"], shape, note
+
+
+def _unsolved(rows: dict[str, dict[str, Row]]) -> tuple[str, ...]:
+    """Shapes for which ours ended without a surface."""
+    return tuple(
+        shape for shape, tools in rows.items() if OURS in tools and not tools[OURS]["state"].startswith("converged")
+    )
 
 
 def _worst(found: list[tuple[float, str, str]]) -> tuple[float, str]:
@@ -155,4 +166,6 @@ def _real(done: Measured) -> Iterator[Goal]:
         ratios = {_thousands(row["size"]): row["cpu"] / row["clean"] for row in done.real if row["mesh"] == name}
         worst = max(ratios, key=lambda size: ratios[size])
         note = ", ".join(f"{size} {ratio:.2g}" for size, ratio in ratios.items())
-        yield Goal(f"{name} ÷ a clean patch of its size", GOAL, ratios[worst], note)
+        # How fast the engine gives up is no figure.
+        lost = tuple(_thousands(row["size"]) for row in done.real if row["mesh"] == name and not row["converged"])
+        yield Goal(f"{name} ÷ a clean patch of its size", GOAL, ratios[worst], note, unsolved=lost)

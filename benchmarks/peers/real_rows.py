@@ -33,6 +33,7 @@ class Timed:
     cpu: float
     clean: float
     state: str
+    converged: bool
 
 
 def head(size: int) -> Input:
@@ -71,7 +72,8 @@ def timed(name: str, size: int, calls: int) -> Timed:
     result = pairs[0][0][0]
     cpu, cpu_clean = (statistics.median(pair[k][1] for pair in pairs) for k in (0, 1))
     state = ", ".join(way for way, _ in result.way)
-    return Timed(free, cpu, cpu_clean, state if result.converged else f"{state}: {result.termination}")
+    ended = state if result.converged else f"{state}: {result.termination}"
+    return Timed(free, cpu, cpu_clean, ended, result.converged)
 
 
 def _of(patch: shapes.Patch) -> Input:

@@ -89,7 +89,7 @@ def summary(rows: list[Row]) -> str:
         cells = [cell([row for row in rows if (row.wanted, row.noise) == (wanted, noise)]) for noise in noises]
         lines.append(f"| {wanted} | {' | '.join(cells)} |")
     places = ", ".join(dict.fromkeys(row.region for row in rows))
-    note = f"Median (worst) × clean; within {GOAL:g} ×, polished, converged of all. Regions: {places}."
+    note = f"Median (worst) × clean; converged within {GOAL:g} ×, polished, converged of all. Regions: {places}."
     return "\n".join([*lines, "", textwrap.fill(note, 120, break_on_hyphens=False)])
 
 
@@ -98,7 +98,7 @@ def cell(rows: list[Row]) -> str:
     if not rows:
         return "not run"
     ratios = [row.ratio for row in rows]
-    counts = [sum(ratio <= GOAL for ratio in ratios), sum(r.polished for r in rows), sum(r.converged for r in rows)]
+    counts = [sum(r.converged and r.ratio <= GOAL for r in rows), sum(r.polished for r in rows), sum(r.converged for r in rows)]
     return f"{statistics.median(ratios):.1f} ({max(ratios):.1f}); {', '.join(map(str, counts))} of {len(rows)}"
 
 
