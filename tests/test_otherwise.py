@@ -43,7 +43,7 @@ def test_a_pipe_without_a_harmonic_surface_has_even_curvature() -> None:
 
 
 @pytest.mark.parametrize(
-    ("length", "lean", "girth"), [(5.0, 2.0, (0.83, 1.0)), (7.0, -10.0, (1.0, 1.7)), (10.0, -5.0, (1.0, 1.5))]
+    ("length", "lean", "girth"), [(5.0, 2.0, (0.83, 1.0)), (3.0, 10.0, (0.82, 1.0)), (7.0, -10.0, (1.0, 1.73))]
 )
 def test_an_accepted_surface_is_returned_with_its_girth(
     length: float, lean: float, girth: tuple[float, float]
@@ -55,24 +55,24 @@ def test_an_accepted_surface_is_returned_with_its_girth(
     assert result.equation == "harmonic"
     assert not result.warnings
     assert result.girth == pytest.approx(girth, abs=0.1)
-    inner = np.abs(result.vertices[:, 2]) < 0.35 * length
+    inner = np.abs(result.vertices[:, 2] - 0.5 * length) < 0.4 * length
     assert result.girth[0] == pytest.approx(min(1.0, radii(result)[inner].min()), abs=0.02)
     assert result.girth[1] == pytest.approx(max(1.0, radii(result)[inner].max()), abs=0.02)
 
 
 def test_the_girth_of_a_joint_is_that_of_its_arms() -> None:
-    """A Y of 70° whose harmonic surface swells to twice its girth; three equal arms do not."""
+    """A Y of 70° whose harmonic surface swells to twice its girth; where three equal arms meet they have 1.3."""
     arms = [flat_arm(180), flat_arm(35, 0.8, 4.0), flat_arm(-35, 0.5, 4.0)]
     swollen = joints.joint(arms, seed=71).faired(equation="harmonic")
     star = joints.joint([flat_arm(0), flat_arm(120), flat_arm(240)], seed=71).faired(equation="harmonic")
     assert swollen.equation == star.equation == "harmonic"
     assert swollen.girth is not None and star.girth is not None
-    assert swollen.girth[1] > 1.5
-    assert star.girth[1] < 1.2
+    assert swollen.girth[1] > 1.9
+    assert star.girth[1] < 1.4
 
 
 def test_automatic_is_least_variation_for_long_tubes_alone() -> None:
-    for length, equation in ((2.2, "harmonic"), (3.0, "least_variation")):
+    for length, equation in ((1.8, "harmonic"), (2.2, "least_variation")):
         tube = tubes.pipe(length, 2.0, seed=3)
         result = tube.faired(equation="automatic")
         assert result.equation == equation
@@ -87,8 +87,8 @@ def test_automatic_is_least_variation_for_long_tubes_alone() -> None:
 
 
 def test_a_solver_keeps_the_equation_that_automatic_chose_while_a_tube_is_dragged() -> None:
-    """2.5 radii divide: a small move over them changes nothing, a new solver decides anew."""
-    tube = tubes.pipe(2.45, 0.0, seed=3)
+    """Two radii divide: a small move over them changes nothing, a new solver decides anew."""
+    tube = tubes.pipe(1.97, 0.0, seed=3)
     longer = tube.vertices * np.array([1.0, 1.0, 1.04])
     solver = fairing.Solver(tube.triangles, fixed=tube.fixed, equation="automatic", threads=1)
     assert solver.solve(tube.vertices, tube.normals).equation == "harmonic"
@@ -244,7 +244,7 @@ def test_an_elbow_of_90_degrees_is_a_tube_for_automatic() -> None:
     result = elbow.faired(equation="automatic")
     assert result.equation == "least_variation"
     assert result.girth is not None and result.girth[0] > 0.95
-    assert tubes.off_torus(result.vertices, 2.5) < 0.02
+    assert tubes.off_torus(result.vertices, 2.5) < 0.025  # chords of the mesh: .009
 
 
 def test_an_elbow_of_150_degrees_is_no_loft() -> None:

@@ -243,7 +243,8 @@ Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optio
     if (!near_last && start && options().start == Start::least_variation)
         near_last = solve_else(problem, Provenance::least_variation, progress, &start->points);
     if (!near_last && options().start == Start::loft) near_last = solve_else(problem, Provenance::loft, progress);
-    if (!near_last && options().start == Start::smoothed) near_last = solve_else(problem, Provenance::old_shape, progress);
+    if (!near_last && options().start == Start::smoothed)
+        near_last = solve_else(problem, Provenance::old_shape, progress);
     Solution solution = near_last ? std::move(*near_last) : solve_pinned(problem, options().pin_radius, progress);
     if (!keeps()) return solution;
     replaced_.reset();

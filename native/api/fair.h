@@ -38,16 +38,16 @@ struct FairOptions {
 };
 
 struct FairResult {
-    Equation equation = Equation::harmonic;  // that holds: least_variation where any component took it instead
+    Equation equation = Equation::harmonic;        // that holds: least_variation where any component took it instead
     Provenance provenance = Provenance::equation;  // the last of all components' in the order of the list
     Points vertices;
     Points base;  // without detail: the fair surface, which all figures below are about; no columns: `vertices`
     Indices fixed;
-    VectorX mean_curvature;       // eq. 8: −1/R on a sphere with outward normals; the mean of the sides on cut curves
-    VectorX boundary_angle;       // degrees, in the order of `fixed`
-    VectorX join;                 // likewise: how visible the outline is from the patch's side
+    VectorX mean_curvature;  // eq. 8: −1/R on a sphere with outward normals; the mean of the sides on cut curves
+    VectorX boundary_angle;  // degrees, in the order of `fixed`
+    VectorX join;            // likewise: how visible the outline is from the patch's side
     std::optional<GirthRange> girth;  // the worst of all components between tube ends; nothing where there are none
-    bool joins_curvature = true;  // G2, wherever a curvature was known
+    bool joins_curvature = true;      // G2, wherever a curvature was known
     bool converged = true;
     bool polished = true;
     Termination termination = Termination::converged;

@@ -17,7 +17,7 @@ struct OpenLoops {
 struct NewSurface {
     Points vertices;  // the new ones
     Triangles triangles;
-    bool converged = true;               // whether each is the equation's surface,
+    bool converged = true;                         // whether each is the equation's surface,
     Provenance provenance = Provenance::equation;  // where each comes from; `equation` where they differ
 };
 

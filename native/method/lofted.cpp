@@ -47,6 +47,7 @@ std::optional<Points> surface(const Problem& problem, const Problem& outline, co
 // For the log of ways.
 const char* name_of(Provenance provenance) {
     switch (provenance) {
+        case Provenance::creased_loft: return "creased loft";
         case Provenance::low_passed_loft: return "eased loft";
         case Provenance::swept_tube: return "swept loft";
         default: return "loft";
@@ -87,7 +88,8 @@ std::vector<Candidate> candidates(const Problem& problem, const Problem& outline
             auto points = surface(problem, outline, fill, share);
             if (!points) continue;
             const double merit = handicap * willmore_energy(problem, *points);
-            found.push_back({std::move(*points), merit, &outline == &problem ? Provenance::loft : Provenance::low_passed_loft});
+            found.push_back(
+                {std::move(*points), merit, &outline == &problem ? Provenance::loft : Provenance::low_passed_loft});
         }
     }
     return found;
@@ -177,7 +179,7 @@ std::optional<Solution> along_creases(const Problem& problem, BlemishSearch& sea
     solution.boundary_normals = one_sided_normals(problem.patch, start->points);
     solution.termination = Termination::converged;
     solution.iterations = 1;
-    solution.provenance = Provenance::loft;
+    solution.provenance = Provenance::creased_loft;
     solution.polished = false;  // its folds are the creases'
     solution.flaw = flaw_of(problem, solution);
     solution.polished = true;

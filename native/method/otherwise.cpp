@@ -159,7 +159,8 @@ Solution or_else(const Problem& problem, Solution solution, const Progress& prog
     return handed_out(problem, std::move(solution), std::nullopt, std::move(other));
 }
 
-std::optional<Solution> solve_else(const Problem& problem, Provenance kind, const Progress& progress, const Points* near) {
+std::optional<Solution> solve_else(const Problem& problem, Provenance kind, const Progress& progress,
+                                   const Points* near) {
     if (is_loft(kind)) return lofted(problem, {}, progress);
     if (kind == Provenance::old_shape) return smoothed(problem, {}, progress);
     if (near) {

@@ -47,6 +47,7 @@ enum class Provenance {
     low_passed,       // the same between loops without their short waves, beside which the real ones lie (method/eased)
     least_variation,  // the surface of least variation, where another equation was asked for
     loft,
+    creased_loft,     // a loft whose creases run from loop to loop
     low_passed_loft,  // a loft between loops without their short waves
     swept_tube,       // cross-sections swept along a bend (start/swept_start)
     old_shape,        // the shape before, as smooth as it can be (method/smoothed)
@@ -62,8 +63,7 @@ constexpr bool lies_beside_boundary(Provenance provenance) {
 
 // Whether curves join the loops, without an equation.
 constexpr bool is_loft(Provenance provenance) {
-    return provenance == Provenance::loft || provenance == Provenance::low_passed_loft ||
-           provenance == Provenance::swept_tube;
+    return provenance >= Provenance::loft && provenance <= Provenance::swept_tube;
 }
 
 // A way that was tried (method/ways), and how long it took.
@@ -96,7 +96,7 @@ struct Solution {
     double last_step = 0.0;
     double least_step = 0.0;  // of all iterations
     Provenance provenance = Provenance::equation;
-    bool even_weights = false;     // uniform weights were taken instead of the problem's
+    bool even_weights = false;  // uniform weights were taken instead of the problem's
     Join join = Join::tangent;
     Pins pins = Pins::absent;
     Indices tangent_only;       // of partly_curvature: fixed vertices, counted from the first one

@@ -18,8 +18,8 @@ namespace {
 
 constexpr int line_count = 17;
 constexpr double first_level = 0.1;  // the last one as far from the other end
-// Cells that vertices are gathered in. A line that follows borders of cells has the same shadow as one that does not, so
-// that more of them only cost time: a solve with these takes 3 ms.
+// Cells that vertices are gathered in. A line that follows borders of cells has the same shadow as one that does not,
+// so that more of them only cost time: a solve with these takes 3 ms.
 constexpr int most_cells = 1500;
 
 double level_of(int line) { return first_level + (1.0 - 2.0 * first_level) * line / (line_count - 1); }
@@ -54,8 +54,8 @@ private:
     int count_ = 0;
 };
 
-// For each loop the function of cells that is 1 there, 0 at the other loops, and elsewhere the mean of its neighbours by
-// the edges between them. Nothing where some cells hang on no loop.
+// For each loop the function of cells that is 1 there, 0 at the other loops, and elsewhere the mean of its neighbours
+// by the edges between them. Nothing where some cells hang on no loop.
 std::optional<Eigen::MatrixXd> harmonic_functions(const Patch& patch, const Cells& cells, int loop_count) {
     using Entry = Eigen::Triplet<double>;
     const int inner = cells.count() - loop_count;
@@ -111,7 +111,9 @@ public:
     [[nodiscard]] double area(int line) const {
         const std::vector<Step>& steps = steps_[at(line)];
         std::unordered_map<int, int> numbers;  // of edges, in the order in which the line meets them
-        const auto number = [&](int edge) { return numbers.try_emplace(edge, static_cast<int>(numbers.size())).first->second; };
+        const auto number = [&](int edge) {
+            return numbers.try_emplace(edge, static_cast<int>(numbers.size())).first->second;
+        };
         UnionFind curves(2 * static_cast<int>(steps.size()));
         for (const Step& step : steps) curves.join(number(step.from_edge), number(step.to_edge));
         std::map<int, Vector3> areas;
@@ -161,8 +163,7 @@ GirthRange range_around(const Patch& patch, const Points& points, const VectorX&
 }
 
 // Whether the surface leaves each loop along a tube.
-bool are_tube_ends(const Patch& patch, const std::vector<Indices>& loops, const Points& points,
-                   const Points& fixed_normals) {
+bool are_tube_ends(const std::vector<Indices>& loops, const Points& points, const Points& fixed_normals) {
     Points normals(3, points.cols());
     normals.rightCols(fixed_normals.cols()) = fixed_normals;
     return std::all_of(loops.begin(), loops.end(),
@@ -177,7 +178,7 @@ GirthRange worst_of(const GirthRange& a, const GirthRange& b) {
 
 std::optional<GirthRange> girth_range(const Patch& patch, const Points& points, const Points& fixed_normals) {
     const std::vector<Indices> loops = patch.loops();
-    if (loops.size() < 2 || !are_tube_ends(patch, loops, points, fixed_normals)) return std::nullopt;
+    if (loops.size() < 2 || !are_tube_ends(loops, points, fixed_normals)) return std::nullopt;
     const int count = static_cast<int>(loops.size());
     const Cells cells(patch, loops);
     const auto functions = harmonic_functions(patch, cells, count);

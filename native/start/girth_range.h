@@ -8,7 +8,8 @@
 namespace fairing {
 
 // The radius of the thinnest cross-section over that of the thinner of its two ends, and that of the thickest over the
-// thicker end's: 1 and 1 or nearly so for tubes and cones, less than 1 for waists, more than 1 for balloons. A
+// thicker end's: 1 and 1 or nearly so for tubes and cones, less than 1 for waists, more than 1 for balloons
+// and where arms meet (1.3 in a star of three equal ones). A
 // cross-section around a boundary loop is a level line of a function that is about harmonic on equilateral triangles, 1
 // on that loop and 0 on all others; one of its ends is that loop, the other one are all others together. Its radius is
 // that of the circle with the same area, which is the area of its shadow in the direction in which that is largest:

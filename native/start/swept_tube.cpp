@@ -135,8 +135,7 @@ std::optional<TubeEnd> tube_end(const Indices& loop, const Points& points, const
 std::optional<double> tube_length(const std::vector<Indices>& loops, const Points& points, const Points& normals) {
     const auto rims = two_rims(loops, points, normals);
     if (!rims) return std::nullopt;
-    const double radii =
-        radius_of_area(area_within(loops[0], points)) + radius_of_area(area_within(loops[1], points));
+    const double radii = radius_of_area(area_within(loops[0], points)) + radius_of_area(area_within(loops[1], points));
     return 2.0 * TubeAxis(rims->first.end, rims->last.end).length() / radii;
 }
 

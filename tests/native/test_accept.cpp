@@ -102,7 +102,7 @@ TEST_CASE("few triangles beside an eased outline may be the outline's own folds,
         solution.mean_curvature = VectorX::Constant(patch.vertex_count(), -1.0);
         solution.termination = Termination::converged;
         solution.polished = false;
-        solution.ways = {{"eased", 0.0}};
+        solution.provenance = Provenance::low_passed;
         CHECK(torn_triangles(patch, solution.points).size() >= static_cast<std::size_t>(folds));
         CHECK(flaw_of(problem, solution) == (folds == 1 ? Flaw::absent : Flaw::folded));
         CHECK(solution.bad_triangles.empty() == (folds == 1));

@@ -185,7 +185,7 @@ TEST_CASE("few folds of a loft are turned back") {
         const auto solution = lofted(tube.problem, {}, Progress());
         CHECK_MESSAGE(solution, seed);
         if (!solution) continue;
-        CHECK_MESSAGE(!is_eased(*solution), seed);
+        CHECK_MESSAGE(!lies_beside_boundary(solution->provenance), seed);
         CHECK(flipped_by_solution(tube.single.patch(), solution->points).empty());
     }
 }
@@ -198,7 +198,7 @@ TEST_CASE("where the outline folds, a loft follows it smoothly") {
         pipe.problem.fixed_points.col(k) = back * Vector3(pipe.problem.fixed_points.col(k));
     const auto solution = lofted(pipe.problem, {}, Progress());
     REQUIRE(solution);
-    CHECK(is_eased(*solution));
+    CHECK(lies_beside_boundary(solution->provenance));
     const bool kept = solution->points.rightCols(pipe.problem.fixed_points.cols()) == pipe.problem.fixed_points;
     CHECK(kept);
     const Patch& patch = pipe.single.patch();

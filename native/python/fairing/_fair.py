@@ -81,7 +81,7 @@ def fair(
         met only (G0). See §7.5. "least_variation": the surface whose normal curvatures vary least (G1), which exists
         between outlines that no harmonic surface joins; docs/least_variation.md. "automatic", decided for each
         component by its boundary alone: "least_variation" between two loops that face each other along a tube of more
-        than 2.5 mean radii, where harmonic surfaces have waists and balloons; "harmonic" elsewhere, with "G2", and with
+        than 2 mean radii, where harmonic surfaces have waists and balloons; "harmonic" elsewhere, with "G2", and with
         ``method`` "paper".
     otherwise : "least_variation" | "stop"
         What is taken where ``equation`` has no surface that is accepted (method "global", all but "minimal"); one that

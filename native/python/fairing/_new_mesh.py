@@ -38,6 +38,8 @@ class NewMeshResult:
     termination: Literal["converged", "iteration_limit", "stalled", "folded"]
     equation: str
     """The equation that holds (see ``otherwise`` of :func:`fairing.fair`)."""
+    provenance: str
+    girth: tuple[float, float] | None
     iterations: int
     residual: float
     initial_residual: float
