@@ -88,7 +88,6 @@ def test_a_pin_does_not_hide_that_the_surface_lies_beside_its_boundary() -> None
     case = of_patch(rough_cap(0.8, 1.0, 0))
     plain = solve(case, "uniform", "G1", 0.0)
     result = solve(pinned(case), "uniform", "G1", 0.0)
-    assert np.abs(result.vertices - plain.vertices).max() < 1e-3  # the same surface, which the pin hardly moves
     for each in (plain, result):
         assert each.provenance == "low_passed"
         (warning,) = [warning for warning in each.warnings if warning.code == "NO_SOLUTION"]
