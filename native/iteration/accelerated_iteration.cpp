@@ -23,7 +23,7 @@ constexpr double damped = 0.4;
 constexpr double hopeless_growth = 1e4;
 constexpr int growth_patience = 2;    // iterations without a shorter step
 constexpr double last_digits = 1e-5;  // units of D; shorter steps shrink unevenly where a surface is found, too
-constexpr double slow = 0.5;  // contraction over `refresh_after` iterations that asks for a new factor
+constexpr double slow = 0.5;          // contraction over `refresh_after` iterations that asks for a new factor
 constexpr int refresh_after = 6;
 // The iteration ends before a step of this share of the tolerance, which is not taken: up to three times as much may be
 // left. It ends with a step after which the next one would be as short, by the ratio of the last two, and within the
