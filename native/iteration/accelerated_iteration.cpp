@@ -74,7 +74,8 @@ public:
           progress_(progress),
           conormals_(conormals(problem.patch, problem.fixed_points, problem.fixed_normals)),
           own_history_(history_depth),
-          anderson_(work.keeps_factor ? kept_history() : own_history_) {}
+          anderson_(work.keeps_factor ? kept_history() : own_history_),
+          unfinished_before_(work.normal->unfinished()) {}
 
     Solution run(Points start) {
         state_.points = std::move(start);
@@ -122,6 +123,7 @@ public:
             move(std::move(d));
         }
         store_best();
+        solution_.unfinished_solves = work_.normal->unfinished() - unfinished_before_;
         return std::move(solution_);
     }
 
@@ -273,6 +275,7 @@ private:
     Points conormals_;
     Anderson own_history_;
     Anderson& anderson_;
+    const int unfinished_before_;
     SurfaceState state_;
     VectorX outer_;
     double residual_ = 0.0;

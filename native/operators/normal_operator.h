@@ -24,6 +24,8 @@ public:
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs, const Accuracy& accuracy = {}) const {
         return solve_to(rhs, accuracy);
     }
+    // Solves so far that left more than their accuracy allows.
+    [[nodiscard]] virtual int unfinished() const { return 0; }
 
 private:
     [[nodiscard]] virtual Eigen::MatrixXd solve_to(const Eigen::MatrixXd& rhs, const Accuracy& accuracy) const = 0;

@@ -20,6 +20,7 @@ public:
     SplitBiharmonicOperator(const Patch& patch, const Points& fixed_points, Points layout);
     void prepare() override { laplace_.prepare(); }
     [[nodiscard]] bool update(const Stiffness& stiffness, const Progress& progress) override;
+    [[nodiscard]] int unfinished() const override { return known_.unfinished(); }
 
 private:
     [[nodiscard]] Eigen::MatrixXd solve_to(const Eigen::MatrixXd& rhs, const Accuracy& accuracy) const override;
