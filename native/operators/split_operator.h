@@ -20,10 +20,10 @@ public:
     SplitBiharmonicOperator(const Patch& patch, const Points& fixed_points, Points layout);
     void prepare() override { laplace_.prepare(); }
     [[nodiscard]] bool update(const Stiffness& stiffness, const Progress& progress) override;
-    [[nodiscard]] int unfinished() const override { return known_.unfinished(); }
 
 private:
     [[nodiscard]] Eigen::MatrixXd solve_to(const Eigen::MatrixXd& rhs, const Accuracy& accuracy) const override;
+    [[nodiscard]] int unfinished_solves() const override { return known_.unfinished(); }
     [[nodiscard]] VectorX solve_column(const VectorX& rhs, const Accuracy& accuracy) const;
 
     LaplaceOperator laplace_;
