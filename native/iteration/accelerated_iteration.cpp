@@ -69,7 +69,8 @@ public:
           damping_(damping),
           progress_(progress),
           own_history_(history_depth),
-          anderson_(work.keeps_factor ? kept_history() : own_history_) {}
+          anderson_(work.keeps_factor ? kept_history() : own_history_),
+          unfinished_before_(work.normal->unfinished()) {}
 
     Solution run(Points start) {
         state_.points = std::move(start);
@@ -117,6 +118,7 @@ public:
             move(std::move(d));
         }
         store_best();
+        solution_.unfinished_solves = work_.normal->unfinished() - unfinished_before_;
         return std::move(solution_);
     }
 
@@ -258,6 +260,7 @@ private:
     const Progress& progress_;
     Anderson own_history_;
     Anderson& anderson_;
+    const int unfinished_before_;
     SurfaceState state_;
     VectorX outer_;
     double residual_ = 0.0;

@@ -72,6 +72,7 @@ struct Solution {
     Termination termination = Termination::stalled;
     bool polished = true;  // the equation holds on the patch's own connectivity
     int iterations = 0;
+    int unfinished_solves = 0;      // of its steps along the normals: systems that ended at a limit of cycles
     double residual = 0.0;          // largest |Δ_B H| (|H| for minimal) at free vertices
     double initial_residual = 0.0;  // of the fill
     double reached_load = 0.0;      // share of the load for which `points` solve the equation, where not the whole
