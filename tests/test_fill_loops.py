@@ -97,12 +97,14 @@ def test_the_outside_of_a_sheet_is_left_open_and_named() -> None:
     vertices, triangles = holes.sheet(wavy, (30, 30), holes.disc)
     inner, outer = sorted(fairing.boundary_loops(triangles), key=len)
     result = fairing.fill(vertices, triangles)
-    np.testing.assert_array_equal(result.vertices, fairing.fill(vertices, triangles, [inner]).vertices)
+    alone = fairing.fill(vertices, triangles, [inner])
+    np.testing.assert_allclose(result.vertices, alone.vertices, atol=1e-5)  # fits along both borders, or along one
     (left,), (warning,) = result.left_open, result.warnings
     assert {*left} == {*warning.elements} == {*outer}
     assert (warning.code, warning.figures["loops"]) == ("NOT_A_HOLE", 1.0)
-    alone = fairing.fill(vertices, triangles, longest=len(inner))
-    assert (alone.converged, alone.left_open, alone.warnings) == (True, (), ())
+    short = fairing.fill(vertices, triangles, longest=len(inner))
+    for other in (alone, short):
+        assert (other.converged, other.left_open, other.warnings) == (True, (), ())
 
 
 def test_a_mesh_without_holes_is_refused_at_once() -> None:

@@ -226,7 +226,7 @@ def _spacing(world: MeshArrays, loops: list[Ints], options: FillOptions) -> floa
 
 def _notes(result: fairing.FillResult, slopes: tuple[fairing.Diagnostic, ...], origin: Origin) -> tuple[str, ...]:
     """Tell what was taken in place of the surface asked for, and where its curvature is not continued."""
-    told = [warning for warning in result.warnings if warning.code == "NO_SOLUTION"]
+    told = [warning for warning in result.warnings if warning.code in ("NO_SOLUTION", "NOT_TANGENT")]
     known = [replace(each, elements=each.elements[each.elements < len(origin.vertices)]) for each in told]
     return sentences((*known, *slopes), origin)
 
@@ -249,6 +249,7 @@ def _joining(options: FillOptions, outline: Ints, loops: int) -> Iterator[None]:
     try:
         yield
     except fairing.MeshError as error:
-        if error.code != "LOOPS_NOT_JOINED" or (loops == 2 and "turned" in error.diagnostic.figures):
+        tells_why = {"turned", "between"} & error.diagnostic.figures.keys()
+        if error.code != "LOOPS_NOT_JOINED" or (loops == 2 and tells_why):
             raise
         raise BorderRefusal(f"No surface joins these outlines. {joining_advice(loops)}", outline) from error

@@ -115,10 +115,27 @@ WORDS: dict[str, tuple[Words, ...]] = {
             "Vertex Limit"
         ),
     ),
+    "NOT_TANGENT": (
+        Words(
+            "The surface turns back by {degrees:.0f}° at {n} vertex of the outline: unfold the faces there",
+            "The surface turns back by up to {degrees:.0f}° at {n} vertices of the outline: unfold the faces there",
+            when="folded_back",
+        ),
+        Words(
+            "The surface has a kink of {degrees:.0f}° at {n} vertex of the outline, where its edges are longer than "
+            "the wall is thick: subdivide it",
+            "The surface has kinks of up to {degrees:.0f}° at {n} vertices of the outline, where its edges are longer "
+            "than the wall is thick: subdivide it",
+        ),
+    ),
     "LOOPS_NOT_JOINED": (
         Words(
             "The faces around the outline through vertex {first} are turned over, seen from the others: flip them",
             when="turned",
+        ),
+        Words(
+            "The faces around the outline through vertex {first} lie between it and the others: delete some of them",
+            when="between",
         ),
         Words("No surface joins these outlines"),
     ),

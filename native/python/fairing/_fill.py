@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _holes, _loops, _options, _sides
+from fairing import _arguments, _core, _holes, _loops, _options, _short_edges, _sides
 from fairing._fair import fair
 from fairing._measure import boundary_loops
 from fairing._new_mesh import FillResult, NewMeshResult, Origin
 from fairing._proportion import Limit
+from fairing._tangency import not_tangent
 from fairing._types import FairResult, FloatArray, IntArray, MeshError
 
 LEAST_COUNT = 1000
@@ -112,6 +113,7 @@ def fill(
         _holes.flat_count([points[loop] for loop in outline.loops], length.length, bool(bridge)), max_vertices
     )
     most.check(most.flat, outline.vertices)
+    normals = _short_edges.with_shared_normals(outline, points, normals)
     if fixed_curvatures is not None:
         options["fixed_curvatures"] = _loops.loop_curvatures(fixed_curvatures, outline, len(points))
     watch = Watch(progress)
@@ -119,7 +121,7 @@ def fill(
     watch.lap("first")
     patch = Patch(np.concatenate([points, first["vertices"]]), first["triangles"], outline.vertices, normals)
     count = patch.expected_count(length)
-    most.check(count, outline.vertices)
+    most.check(count, outline.vertices, first["converged"])
     fine, _ = patch.remeshed(len(points), length, LEAST_COUNT, options, watch.part(0.2, 0.4))
     watch.lap("mesh")
     _loops.check_doubles(fine.triangles, around)
@@ -127,6 +129,7 @@ def fill(
     chosen = options if first["converged"] else {**options, "otherwise": "stop"}  # it was sought in vain once
     report = fine.faired(_start(first["start"], options), around, chosen, watch.part(0.4, 0.9 if coarser else 1.0))
     values = report_fields(report, len(points))
+    values["warnings"] += not_tangent(report)
     if coarser:
         solved = Patch(report.vertices, fine.triangles, outline.vertices, normals)
         coarse, origin = solved.remeshed(len(points), length, 0, options, watch.part(0.9, 1.0))
@@ -153,9 +156,11 @@ def _first_surface(
     progress: Progress | None,
 ) -> Any:
     """On a coarse mesh: `vertices`, `triangles`, `converged`, and how the solve on a fine one `start`s."""
-    rows = outline.split(normals)
+    thin = _short_edges.thinned(outline, points, normals)
+    rows = thin.outline.split(thin.normals)
     try:
-        return _core.fill_loops(points, list(outline.loops), rows, bridge, _first_equation(options), progress)
+        found = _core.fill_loops(points, list(thin.outline.loops), rows, bridge, _first_equation(options), progress)
+        return {**found, "triangles": thin.with_all(found["triangles"])}
     except MeshError as error:
         if not bridge or error.code != "NONMANIFOLD_EDGE":
             raise

@@ -65,8 +65,12 @@ def not_joined(outline: Outline, vertices: FloatArray, normals: FloatArray) -> M
     if ways[worst] > _ACROSS:
         text = "loops: no surface joins them; they cross or are linked, face away from each other, or are too many"
         return _refusal("LOOPS_NOT_JOINED", f"{text}: join fewer", outline.vertices, {})
-    what = "the surface would lead away from the others there"
-    return _refused(outline, worst, what, "turn its normals or its direction")
+    loop = outline.loops[worst]
+    if outline.bare[worst]:
+        what = "the surface would lead away from the others there"
+        return _refused(outline, worst, what, "turn its normals or its direction")
+    text = f"loops: no surface joins loop {worst} ({listed(loop)}) with the others: the triangles around it lie between"
+    return _refusal("LOOPS_NOT_JOINED", f"{text}: cut them back, or leave it out", loop, {"between": float(len(loop))})
 
 
 def _check_sides(outline: Outline, vertices: FloatArray, normals: FloatArray) -> None:
