@@ -49,7 +49,7 @@ def test_caps_of_other_heights(half_angle: float) -> None:
 @pytest.mark.parametrize("stretch", [(1.0, 1.0, 1.6), (1.0, 1.0, 0.6), (0.7, 1.0, 1.3)])
 def test_what_bulges_out_far_is_found_although_it_is_no_ball(stretch: tuple[float, float, float]) -> None:
     vertices, triangles = holes.bowl(48, 150)
-    result = fairing.fill(vertices * stretch, triangles)
+    result = fairing.fill(vertices * stretch, triangles, [np.arange(48)])
     assert (result.converged, result.equation, result.warnings) == (True, "harmonic", ())
 
 
