@@ -51,8 +51,13 @@ def refuse_unusable(name: str, pieces: list[Piece], options: FillOptions) -> Non
         raise NotUsable(bad.verdict, bad.result)
 
 
-def make_fill_report(named: Named, options: FillOptions, seconds: float, added: Sequence[Added] = ()) -> Report:
-    """Sum up the surfaces of one run, by object name; added: what was written, if anything was."""
+def make_fill_report(
+    named: Named, options: FillOptions, seconds: float, added: Sequence[Added] = (), notes: tuple[str, ...] = ()
+) -> Report:
+    """Sum up the surfaces of one run, by object name.
+
+    added: what was written, if anything was; notes: what else there is to tell.
+    """
     pieces = [piece for _, of_object in named for piece in of_object]
     results = [piece.result for piece in pieces]
     joins = [piece.join for piece in pieces]
@@ -68,7 +73,8 @@ def make_fill_report(named: Named, options: FillOptions, seconds: float, added: 
         seconds=seconds,
         checks=(*kink_checks(joins), *_checks(pieces, added, distortion)),
         warnings=tuple(dict.fromkeys(note for piece in pieces for note in piece.notes))
-        + tuple(note for each in added for note in each.notes),
+        + tuple(note for each in added for note in each.notes)
+        + notes,
         verdict=_named_worst(named),
         written=is_written(named, options),
         join=(worst_join.typical, worst_join.worst),

@@ -14,7 +14,7 @@ import fairing
 from .around import nearby
 from .arrays import Floats, Ints
 from .border import BorderRefusal
-from .checked import refuse_other_kinds, refuse_unknown
+from .checked import refuse_negative, refuse_other_kinds, refuse_unknown
 from .engine import Progress, sub_range
 from .faces import Faces, faces_of, paired_faces
 from .fill_verdict import Surface, judge
@@ -45,6 +45,7 @@ class FillOptions:
     spacing: float = 1.0  # of new edges, as a factor of the outline's
     inner: str = "OUTLINE"  # in proportion to the outline's nearby; EVEN: of one length
     quads: bool = False  # triangles are written in pairs, as far as they can be
+    max_vertices: int = 0  # more new ones for a surface are refused; 0: twenty times as many as over flat ones
     accept: str = "USABLE"  # ALL: written whatever it is worth
 
     def __post_init__(self) -> None:
@@ -59,6 +60,7 @@ class FillOptions:
         refuse_other_kinds(self)
         if not self.spacing >= LEAST_SPACING:
             raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
+        refuse_negative(self, "max_vertices")
 
     @classmethod
     def named(cls, properties: dict[str, Any]) -> FillOptions:
@@ -169,7 +171,8 @@ def _piece(
         result = fairing.fill(
             world.positions[vertices], around, given, bridge=options.bridge, spacing=_spacing(world, loops, options),
             inner=options.inner.lower(), equation=options.equation.lower(),
-            continuity="G2" if options.joins_curvature else "G1", progress=progress,
+            continuity="G2" if options.joins_curvature else "G1", max_vertices=options.max_vertices,
+            progress=progress,
         )  # fmt: skip
     number = np.full(len(vertices) + len(result.vertices), -1, dtype=np.int64)
     number[np.concatenate(given)] = np.arange(len(outline))
@@ -223,7 +226,7 @@ def _spacing(world: MeshArrays, loops: list[Ints], options: FillOptions) -> floa
 
 def _notes(result: fairing.FillResult, slopes: tuple[fairing.Diagnostic, ...], origin: Origin) -> tuple[str, ...]:
     """Tell what was taken in place of the surface asked for, and where its curvature is not continued."""
-    told = [warning for warning in result.warnings if warning.code == "NO_SOLUTION"]
+    told = [warning for warning in result.warnings if warning.code in ("NO_SOLUTION", "NOT_TANGENT")]
     known = [replace(each, elements=each.elements[each.elements < len(origin.vertices)]) for each in told]
     return sentences((*known, *slopes), origin)
 
@@ -246,6 +249,7 @@ def _joining(options: FillOptions, outline: Ints, loops: int) -> Iterator[None]:
     try:
         yield
     except fairing.MeshError as error:
-        if error.code != "LOOPS_NOT_JOINED" or (loops == 2 and "turned" in error.diagnostic.figures):
+        tells_why = {"turned", "between"} & error.diagnostic.figures.keys()
+        if error.code != "LOOPS_NOT_JOINED" or (loops == 2 and tells_why):
             raise
         raise BorderRefusal(f"No surface joins these outlines. {joining_advice(loops)}", outline) from error

@@ -6,7 +6,7 @@ import json
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from .checked import refuse_other_kinds, refuse_unknown
+from .checked import refuse_negative, refuse_other_kinds, refuse_unknown
 
 EQUATIONS = ("HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION")
 OTHERWISE = ("LEAST_VARIATION", "STOP")
@@ -78,6 +78,7 @@ class FairOptions:
     spacing: float = 1.0  # of a new mesh, as a factor of the outline's edges
     inner: str = "OUTLINE"  # new edges are in proportion to the outline's nearby; EVEN: of one length
     quads: bool = False  # a new mesh has quads, as far as pairs of triangles make some
+    max_vertices: int = 0  # more new ones are refused; 0: twenty times as many as the old surface would have
 
     def __post_init__(self) -> None:
         for name, choices in _CHOICES.items():
@@ -94,6 +95,7 @@ class FairOptions:
             raise ValueError(f"detail_face_set: expected 0 or a number of a face set, got {self.detail_face_set!r}")
         if not self.spacing >= LEAST_SPACING:
             raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
+        refuse_negative(self, "max_vertices")
 
     @classmethod
     def named(cls, properties: dict[str, Any]) -> FairOptions:
@@ -183,6 +185,7 @@ class FairOptions:
             "spacing": self.mesh == "NEW",
             "inner": self.mesh == "NEW",
             "quads": self.mesh == "NEW",
+            "max_vertices": self.mesh == "NEW",
             "detail_size": self.detail > 0.0,
             "detail_from": self.detail > 0.0,
             "detail_face_set": self.detail > 0.0,

@@ -165,7 +165,8 @@ def _solved(problem: Problem, kept: Ints, options: FairOptions, progress: Progre
     with in_mesh_words(problem.origin):
         return fairing.remesh(
             problem.own_points, patch.triangles, fixed=patch.fixed, fixed_normals=problem.normals,
-            kept=kept, spacing=_spacing(problem, options), inner=options.inner.lower(), progress=progress, **arguments,
+            kept=kept, spacing=_spacing(problem, options), inner=options.inner.lower(),
+            max_vertices=options.max_vertices, progress=progress, **arguments,
         )  # fmt: skip
 
 

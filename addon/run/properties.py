@@ -142,6 +142,13 @@ class SurfaceProperties:
         items=_INNER,
         default="OUTLINE",
     )
+    max_vertices: IntProperty(
+        name="Vertex Limit",
+        description="More new vertices than that are refused; 0: twenty times as many as a flat surface would have, "
+        "for a new mesh as the old one would have, and 50,000 at least",
+        default=0,
+        min=0,
+    )
     quads: BoolProperty(
         name="Quads",
         description="New faces are quads, as far as pairs of triangles make some. None runs across a border of "

@@ -47,6 +47,7 @@ def _draw_vertices(group: Any, options: Any) -> None:
     if options.mesh == "NEW":  # new vertices lie evenly
         group.prop(options, "spacing")
         group.prop(options, "inner")
+        group.prop(options, "max_vertices")
         group.prop(options, "quads")
     else:
         group.prop(options, "inner_fairness")
