@@ -45,6 +45,7 @@ class FillOptions:
     spacing: float = 1.0  # of new edges, as a factor of the outline's
     inner: str = "OUTLINE"  # in proportion to the outline's nearby; EVEN: of one length
     quads: bool = False  # triangles are written in pairs, as far as they can be
+    limit_total: int = 0  # vertex groups of bones of a new vertex; 0: as many as one vertex of the outline has
     accept: str = "USABLE"  # ALL: written whatever it is worth
 
     def __post_init__(self) -> None:
@@ -59,6 +60,8 @@ class FillOptions:
         refuse_other_kinds(self)
         if not self.spacing >= LEAST_SPACING:
             raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
+        if self.limit_total < 0:
+            raise ValueError(f"limit_total: expected 0 or a number of vertex groups, got {self.limit_total!r}")
 
     @classmethod
     def named(cls, properties: dict[str, Any]) -> FillOptions:
@@ -90,6 +93,7 @@ class Piece:
     join: Join
     around: Surroundings
     quads: bool = False  # whether triangles are written in pairs
+    limit_total: int = 0  # as FillOptions has it
     notes: tuple[str, ...] = field(default=())
 
     def faces(self, kinds: Ints, lines: Ints) -> Faces:
@@ -190,6 +194,7 @@ def _piece(
         join=join,
         around=_keyed_from(vertices, around, outline, matrix),
         quads=options.quads,
+        limit_total=options.limit_total,
         notes=_notes(result, slopes, origin),
     )
 

@@ -78,6 +78,7 @@ class FairOptions:
     spacing: float = 1.0  # of a new mesh, as a factor of the outline's edges
     inner: str = "OUTLINE"  # new edges are in proportion to the outline's nearby; EVEN: of one length
     quads: bool = False  # a new mesh has quads, as far as pairs of triangles make some
+    limit_total: int = 0  # vertex groups of bones of a new vertex; 0: as many as one vertex of the old mesh has
 
     def __post_init__(self) -> None:
         for name, choices in _CHOICES.items():
@@ -94,6 +95,8 @@ class FairOptions:
             raise ValueError(f"detail_face_set: expected 0 or a number of a face set, got {self.detail_face_set!r}")
         if not self.spacing >= LEAST_SPACING:
             raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
+        if self.limit_total < 0:
+            raise ValueError(f"limit_total: expected 0 or a number of vertex groups, got {self.limit_total!r}")
 
     @classmethod
     def named(cls, properties: dict[str, Any]) -> FairOptions:
@@ -183,6 +186,7 @@ class FairOptions:
             "spacing": self.mesh == "NEW",
             "inner": self.mesh == "NEW",
             "quads": self.mesh == "NEW",
+            "limit_total": self.mesh == "NEW",
             "detail_size": self.detail > 0.0,
             "detail_from": self.detail > 0.0,
             "detail_face_set": self.detail > 0.0,

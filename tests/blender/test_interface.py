@@ -43,6 +43,7 @@ DEFAULTS = {
     "spacing": 1.0,
     "inner": "OUTLINE",
     "quads": False,
+    "limit_total": 0,
 }
 CHOICES = {
     "equation": ["HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION"],
