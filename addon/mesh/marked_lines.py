@@ -23,6 +23,7 @@ _WIDTHS = {
     "INT16_2D": ("value", 2, np.int32),
     "INT32_2D": ("value", 2, np.int32),
 }  # fmt: skip
+_WHITE = {"FLOAT_COLOR", "BYTE_COLOR"}  # what edges have that nobody has coloured; of all else they have zeros
 _OWN = {".sculpt_face_set"}  # of Blender's own attributes, which begin with a point, the one that counts
 _NOT_MARKS = {"custom_normal", "sharp_face"}  # what new faces have of their own, and shading
 
@@ -35,7 +36,8 @@ def lines(mesh: bpy.types.Mesh, arrays: MeshArrays) -> dict[str, Mask]:
         if hidden or attribute.name in _NOT_MARKS or attribute.data_type not in _WIDTHS:
             continue
         if attribute.domain == "EDGE":
-            found[attribute.name] = (_values(attribute, len(arrays.edges)) != 0.0).any(axis=1)
+            unmarked = 1.0 if attribute.data_type in _WHITE else 0.0
+            found[attribute.name] = (_values(attribute, len(arrays.edges)) != unmarked).any(axis=1)
         elif attribute.domain == "CORNER":
             found[attribute.name] = parting_edges(arrays, _values(attribute, len(arrays.corner_vertices)))
         elif attribute.domain == "FACE":

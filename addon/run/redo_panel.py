@@ -15,7 +15,7 @@ def draw_options(layout: Any, options: Any, obj: bpy.types.Object, manager: Any)
     layout.use_property_split = True
     layout.prop(options, "factor")
     _draw_shape(_group(layout, "Shape"), options)
-    _draw_vertices(_group(layout, "Vertices"), options, obj)
+    _draw_vertices(_group(layout, "Vertices"), options)
     _draw_skin(_group(layout, "Skin"), options)
     _draw_outline(_group(layout, "At the Outline"), options)
     for name, (_, _, draw) in FOLDS.items():
@@ -42,14 +42,13 @@ def _draw_shape(group: Any, options: Any) -> None:
         group.prop(options, "bulge", slider=True)
 
 
-def _draw_vertices(group: Any, options: Any, obj: bpy.types.Object) -> None:
+def _draw_vertices(group: Any, options: Any) -> None:
     group.prop(options, "mesh")
     if options.mesh == "NEW":  # new vertices lie evenly
         group.prop(options, "spacing")
         group.prop(options, "inner")
         group.prop(options, "quads")
-        if obj.vertex_groups:
-            group.prop(options, "limit_total")
+        group.prop(options, "limit_total")
     else:
         group.prop(options, "inner_fairness")
 

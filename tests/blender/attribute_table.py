@@ -15,8 +15,8 @@ import meshes
 import numpy as np
 
 CUT = 0.3  # the cap above this height is what is filled, faired or meshed anew
-SIDE = 0.15  # nearer to x = 0 than this, either side's category is right
-NEAR = 0.06  # between the means and the field that they are means of: the field varies by 0.5 over the cap
+SIDE = 0.6  # nearer to x = 0 than this, either side's category is right: faces are 0.26 wide and take one
+NEAR = 0.15  # of the spread of the values: means, and the field that they are means of
 STEP = 0.01  # colours of bytes are rounded
 DOMAINS = ("POINT", "EDGE", "FACE", "CORNER")
 SIZES = {"POINT": "vertices", "EDGE": "edges", "FACE": "polygons", "CORNER": "loops"}
@@ -108,13 +108,14 @@ def subject(way: str, size: int = 24) -> Any:
 
 
 def dress(mesh: Any, domain: str, kind: str) -> None:
+    """Give it an attribute by the name of its domain."""
     values = field(kind, places(mesh, domain), stepped=domain == "FACE")
     if domain == "EDGE":  # marks: only outside, or they would all stay
-        default = read(mesh.attributes.new("x", kind, domain))
+        default = read(mesh.attributes.new(domain, kind, domain))
         values = np.where(outside(mesh, domain)[:, None], values, default)
     else:
-        mesh.attributes.new("x", kind, domain)
-    write(mesh.attributes["x"], values)
+        mesh.attributes.new(domain, kind, domain)
+    write(mesh.attributes[domain], values)
 
 
 def apply(
@@ -141,21 +142,41 @@ def apply(
         meshes.leave()
 
 
-def complaint(obj: Any, kept: Any, domain: str, kind: str) -> str:
+def names(mesh: Any, domain: str) -> list[bytes]:
+    """Return what tells an element that stays from all others: where it is, a corner's face, too."""
+    found = places(mesh, domain)
+    if domain == "CORNER":
+        sizes = [len(face.vertices) for face in mesh.polygons]
+        found = np.concatenate([found, np.repeat(places(mesh, "FACE"), sizes, axis=0)], axis=1)
+    return [row.tobytes() for row in found.astype(np.float32)]
+
+
+def kept_values(mesh: Any, domain: str, stays: Any) -> dict[bytes, Any]:
+    """Return the values of the elements in the mask by their names."""
+    values = read(mesh.attributes[domain])
+    return {name: value for name, value, stay in zip(names(mesh, domain), values, stays, strict=True) if stay}
+
+
+def complaint(mesh: Any, kept: dict[bytes, Any], domain: str, kind: str) -> str:
     """Say what is wrong with the attribute, kept: the values outside before; empty where nothing is."""
-    mesh = obj.data
-    if "x" not in mesh.attributes or (mesh.attributes["x"].data_type, mesh.attributes["x"].domain) != (kind, domain):
+    attribute = mesh.attributes.get(domain)
+    if attribute is None or (attribute.data_type, attribute.domain) != (kind, domain):
         return "is gone"
-    values = read(mesh.attributes["x"])
-    if not _same(values[: len(kept)], kept):
+    values, now = read(attribute), names(mesh, domain)
+    still = [k for k, name in enumerate(now) if name in kept]
+    if len(still) != len(kept) or not all(_same(values[k], kept[now[k]]) for k in still):
         return "other values outside"
-    new, at = values[len(kept) :], places(mesh, domain)[len(kept) :]
+    new, at = np.delete(values, still, axis=0), np.delete(places(mesh, domain), still, axis=0)
     if not len(new):
-        return "nothing new"
+        return ""
     if domain == "EDGE":
-        mesh.attributes.new("default", kind, domain)
-        default = read(mesh.attributes["default"])[len(kept) :]
-        return "" if _same(new, default) else "new edges have values"
+        default = read(mesh.attributes.new("default", kind, domain))
+        mesh.attributes.remove(mesh.attributes["default"])
+        return "" if _same(new, default[: len(new)]) else "new edges have values"
+    return _off_the_field(new, at, domain, kind)
+
+
+def _off_the_field(new: Any, at: Any, domain: str, kind: str) -> str:
     whole = kind == "STRING" or meshes.LAYOUT[kind][2] is not np.float32
     stepped = whole or domain == "FACE"
     expected = field(kind, at, stepped)
@@ -163,7 +184,7 @@ def complaint(obj: Any, kept: Any, domain: str, kind: str) -> str:
     if whole:
         return "" if (new[sure] == expected[sure]).all() else "not the nearest value"
     off = np.abs(new[sure] - expected[sure]).max()
-    return "" if off < (STEP if stepped else NEAR) else f"off by {off:.3f}"
+    return "" if off < (STEP if stepped else NEAR * np.ptp(expected, axis=0).max()) else f"off by {off:.3f}"
 
 
 def _same(one: Any, other: Any) -> bool:
@@ -175,18 +196,17 @@ def complaints(way: str, mode: str) -> list[str]:
     """Return what is wrong, one line for each type and domain."""
     found = []
     for kind in kinds():
+        bpy.ops.wm.read_homefile(use_empty=True)
+        bpy.context.tool_settings.mesh_select_mode = (False, False, True)
+        obj = subject(way)
         for domain in DOMAINS:
-            bpy.ops.wm.read_homefile(use_empty=True)
-            bpy.context.tool_settings.mesh_select_mode = (False, False, True)
-            obj = subject(way)
             dress(obj.data, domain, kind)
-            stays = outside(obj.data, domain) if way != "fill" else np.ones(len(obj.data.attributes["x"].data), bool)
-            kept = read(obj.data.attributes["x"])[stays]
-            if way == "fair":
-                kept = read(obj.data.attributes["x"])
-            print(kind, domain, flush=True)
-            apply(obj, way, mode)
-            wrong = complaint(obj, kept, domain, kind)
-            if wrong and not (way == "fair" and wrong == "nothing new"):
-                found.append(f"{kind} {domain}: {wrong}")
+        stays = {domain: outside(obj.data, domain) | (way != "remesh") for domain in DOMAINS}
+        kept = {domain: kept_values(obj.data, domain, stays[domain]) for domain in DOMAINS}
+        count = len(obj.data.vertices)
+        print(kind, flush=True)
+        apply(obj, way, mode)
+        assert (len(obj.data.vertices) == count) == (way == "fair")
+        wrong = {domain: complaint(obj.data, kept[domain], domain, kind) for domain in DOMAINS}
+        found += [f"{kind} {domain}: {text}" for domain, text in wrong.items() if text]
     return found
