@@ -172,8 +172,11 @@ def test_a_new_mesh_keeps_edges_without_faces(mode: str, every: int) -> None:
     np.testing.assert_allclose(on_ball, 1.0, atol=0.01)
 
 
-def dressed(way: str, matrices: bool) -> bpy.types.Object:
-    """Add a sphere with weights, a shape key on a shape key and UVs, with matrices on points and corners or without."""
+def dressed(way: str, turns: bool) -> bpy.types.Object:
+    """Add a sphere with weights, a shape key on a shape key and UVs, with turns on points and corners or without.
+
+    No matrices: where they are not set aside Blender ends, and all other tests with it.
+    """
     obj = ball(way, 24)
     obj.vertex_groups.new(name="Half").add([v.index for v in obj.data.vertices if v.co.x > 0.0], 0.5, "REPLACE")
     obj.data.uv_layers.new(name="UV").uv.foreach_set(
@@ -184,21 +187,21 @@ def dressed(way: str, matrices: bool) -> bpy.types.Object:
     for point in wide.data:
         point.co.x *= 1.5
     obj.shape_key_add(name="Wider").relative_key = wide
-    if matrices:
+    if turns:
         for domain in ("POINT", "CORNER"):
-            obj.data.attributes.new(domain.lower(), "FLOAT4X4", domain)
-            write(obj.data.attributes[domain.lower()], field("FLOAT4X4", places(obj.data, domain), stepped=False))
+            obj.data.attributes.new(domain.lower(), "QUATERNION", domain)
+            write(obj.data.attributes[domain.lower()], field("QUATERNION", places(obj.data, domain), stepped=False))
     return obj
 
 
 @pytest.mark.parametrize("key", [0, 1])
 @pytest.mark.parametrize(("way", "mode"), [(way, mode) for way in ("fill", "remesh") for mode in MODES])
 def test_all_else_is_as_without_what_is_set_aside(way: str, mode: str, key: int) -> None:
-    """Matrices are taken out and put back, in edit mode by loading the mesh anew: nothing else may tell."""
+    """Turns are taken out and put back, in edit mode by loading the mesh anew: nothing else may tell."""
     found = []
-    for matrices in (False, True):
+    for turns in (False, True):
         bpy.ops.wm.read_homefile(use_empty=True)
-        obj = dressed(way, matrices)
+        obj = dressed(way, turns)
         obj.active_shape_key_index = key if mode == "edit" else 0
         apply(obj, way, mode)
         meshes.edit(obj)  # leaving moves keys that are relative to what was edited
@@ -212,7 +215,7 @@ def test_all_else_is_as_without_what_is_set_aside(way: str, mode: str, key: int)
 
 @pytest.mark.parametrize("way", ["fill", "remesh"])
 def test_one_step_of_undo_takes_a_reloaded_mesh_back(way: str) -> None:
-    obj = dressed(way, matrices=True)
+    obj = dressed(way, turns=True)
     bpy.context.preferences.edit.use_global_undo = True
     before = meshes.in_edit_mode_once(obj, high(obj))
     apply(obj, way, "edit", after=lambda: bpy.ops.ed.undo(), before=lambda: bpy.ops.ed.undo_push())
