@@ -28,7 +28,7 @@ WAYS, MODES = ("fill", "fair", "remesh"), ("edit", "object")
 @pytest.mark.parametrize("way", WAYS)
 def test_every_type_on_every_domain(way: str, mode: str, tmp_path: Path) -> None:
     """In a process of its own: what is not set aside may end Blender."""
-    ended = own_process.run(TABLE.format(way=way, mode=mode), tmp_path)
+    ended = own_process.run(TABLE.format(way=way, mode=mode), tmp_path, timeout=600.0)
     assert ended.stdout.rstrip().endswith("done")
 
 
