@@ -46,6 +46,7 @@ class FillOptions:
     inner: str = "OUTLINE"  # in proportion to the outline's nearby; EVEN: of one length
     quads: bool = False  # triangles are written in pairs, as far as they can be
     max_vertices: int = 0  # more new ones for a surface are refused; 0: twenty times as many as over flat ones
+    limit_total: int = 0  # vertex groups of bones of a new vertex; 0: as many as one vertex of the outline has
     accept: str = "USABLE"  # ALL: written whatever it is worth
 
     def __post_init__(self) -> None:
@@ -61,6 +62,7 @@ class FillOptions:
         if not self.spacing >= LEAST_SPACING:
             raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
         refuse_negative(self, "max_vertices")
+        refuse_negative(self, "limit_total")
 
     @classmethod
     def named(cls, properties: dict[str, Any]) -> FillOptions:
@@ -92,6 +94,7 @@ class Piece:
     join: Join
     around: Surroundings
     quads: bool = False  # whether triangles are written in pairs
+    limit_total: int = 0  # as FillOptions has it
     notes: tuple[str, ...] = field(default=())
 
     def faces(self, kinds: Ints, lines: Ints) -> Faces:
@@ -193,6 +196,7 @@ def _piece(
         join=join,
         around=_keyed_from(vertices, around, outline, matrix),
         quads=options.quads,
+        limit_total=options.limit_total,
         notes=_notes(result, slopes, origin),
     )
 

@@ -79,6 +79,7 @@ class FairOptions:
     inner: str = "OUTLINE"  # new edges are in proportion to the outline's nearby; EVEN: of one length
     quads: bool = False  # a new mesh has quads, as far as pairs of triangles make some
     max_vertices: int = 0  # more new ones are refused; 0: twenty times as many as the old surface would have
+    limit_total: int = 0  # vertex groups of bones of a new vertex; 0: as many as one vertex of the old mesh has
 
     def __post_init__(self) -> None:
         for name, choices in _CHOICES.items():
@@ -96,6 +97,7 @@ class FairOptions:
         if not self.spacing >= LEAST_SPACING:
             raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
         refuse_negative(self, "max_vertices")
+        refuse_negative(self, "limit_total")
 
     @classmethod
     def named(cls, properties: dict[str, Any]) -> FairOptions:
@@ -186,6 +188,7 @@ class FairOptions:
             "inner": self.mesh == "NEW",
             "quads": self.mesh == "NEW",
             "max_vertices": self.mesh == "NEW",
+            "limit_total": self.mesh == "NEW",
             "detail_size": self.detail > 0.0,
             "detail_from": self.detail > 0.0,
             "detail_face_set": self.detail > 0.0,

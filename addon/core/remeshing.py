@@ -40,6 +40,7 @@ class Remeshed(Fairing):
     new_positions: Floats  # (k, 3) of the new vertices, in the mesh's own coordinates
     points: Floats  # (r + k, 3) of all vertices of the part, in world space
     quads: bool  # whether triangles are written in pairs
+    limit_total: int  # as FairOptions has it
 
     def faces(self, kinds: Ints) -> Faces:
         """Return what is written; kinds: (m,) of the triangles, only those of one kind are paired."""
@@ -115,6 +116,7 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
         new_positions=local[stay:],
         points=points,
         quads=options.quads,
+        limit_total=options.limit_total,
     )
 
 

@@ -107,7 +107,7 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay the options out."""
         self.layout.use_property_split = True
-        for name in ("equation", "continuity", "bridge", "spacing", "inner", "max_vertices", "quads", "accept"):
+        for name in ("equation", "continuity", "bridge", "spacing", "inner", "max_vertices", "quads", "limit_total", "accept"):
             row = self.layout.row()
             row.active = name != "continuity" or self.equation == "HARMONIC"
             row.prop(self, name)

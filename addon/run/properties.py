@@ -155,6 +155,14 @@ class SurfaceProperties:
         "materials or face sets",
         default=False,
     )
+    limit_total: IntProperty(
+        name="Limit Total",
+        description="In how many vertex groups of bones each new vertex is at most: those with the largest weights, "
+        "with the same sum. 0: as many as one of the vertices around is in",
+        default=0,
+        min=0,
+        soft_max=8,
+    )
     accept: EnumProperty(
         name="Write",
         description="Which results are written",

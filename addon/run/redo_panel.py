@@ -49,6 +49,7 @@ def _draw_vertices(group: Any, options: Any) -> None:
         group.prop(options, "inner")
         group.prop(options, "max_vertices")
         group.prop(options, "quads")
+        group.prop(options, "limit_total")
     else:
         group.prop(options, "inner_fairness")
 

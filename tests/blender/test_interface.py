@@ -44,6 +44,7 @@ DEFAULTS = {
     "inner": "OUTLINE",
     "quads": False,
     "max_vertices": 0,
+    "limit_total": 0,
 }
 CHOICES = {
     "equation": ["HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION"],
