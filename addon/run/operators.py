@@ -99,8 +99,6 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
             self.report({"WARNING"}, warning)
         for idle in labels.idle_in(report):
             self.report({"INFO"}, f"{labels.IDLE} with these options: {idle}")
-        for idle in labels.idle_in(report):
-            self.report({"INFO"}, f"{labels.IDLE} with these options: {idle}")
         self.report({"INFO"}, summary(report))
         return {"FINISHED"}
 
