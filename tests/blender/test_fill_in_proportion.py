@@ -109,9 +109,14 @@ def test_more_vertices_than_allowed_are_refused() -> None:
 
 def test_a_new_mesh_is_refused_likewise() -> None:
     obj = sheet(90.0, ())
-    select_all(obj)
-    bpy.ops.mesh.select_less()
-    bpy.ops.mesh.select_less()
+
+    def select_inside() -> None:
+        select_all(obj)
+        bpy.ops.mesh.select_less()
+        bpy.ops.mesh.select_less()
+
+    select_inside()
     with pytest.raises(RuntimeError, match="new vertices, and 20 are accepted: raise Spacing, or Vertex Limit"):
         bpy.ops.mesh.fair_region("EXEC_DEFAULT", True, mesh="NEW", max_vertices=20)
+    select_inside()
     assert bpy.ops.mesh.fair_region("EXEC_DEFAULT", True, mesh="NEW", max_vertices=500) == {"FINISHED"}

@@ -129,7 +129,7 @@ def fill(
     chosen = options if first["converged"] else {**options, "otherwise": "stop"}  # it was sought in vain once
     report = fine.faired(_start(first["start"], options), around, chosen, watch.part(0.4, 0.9 if coarser else 1.0))
     values = report_fields(report, len(points))
-    values["warnings"] += not_tangent(report)
+    values["warnings"] += not_tangent(report, outline, points, around)
     if coarser:
         solved = Patch(report.vertices, fine.triangles, outline.vertices, normals)
         coarse, origin = solved.remeshed(len(points), length, 0, options, watch.part(0.9, 1.0))
