@@ -12,7 +12,7 @@ from ..core.border import NO_BORDER, border_loops
 from ..core.engine import REFUSALS, Progress, sub_range
 from ..core.fill_report import Added, make_fill_report
 from ..core.filling import FillOptions, Piece, fill
-from ..core.options import FairOptions
+from ..core.options import OF_CURVATURE, FairOptions
 from ..core.region import MeshArrays
 from ..core.report import summary
 from ..host.context import edited_objects
@@ -97,7 +97,7 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
         self.layout.use_property_split = True
         for name in ("equation", "continuity", "bridge", "spacing", "inner", "quads", "accept"):
             row = self.layout.row()
-            row.active = name != "continuity" or self.equation == "HARMONIC"
+            row.active = name != "continuity" or self.equation in OF_CURVATURE
             row.prop(self, name)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
