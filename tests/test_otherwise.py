@@ -43,9 +43,7 @@ def test_a_pipe_without_a_harmonic_surface_has_even_curvature() -> None:
 @pytest.mark.parametrize(
     ("length", "lean", "girth"), [(5.0, 2.0, (0.83, 1.0)), (3.0, 10.0, (0.82, 1.0)), (7.0, -10.0, (1.0, 1.73))]
 )
-def test_an_accepted_surface_is_returned_with_its_girth(
-    length: float, lean: float, girth: tuple[float, float]
-) -> None:
+def test_an_accepted_surface_is_returned_with_its_girth(length: float, lean: float, girth: tuple[float, float]) -> None:
     """Waists and balloons solve the equation: nothing replaces them, and a figure says what they are."""
     tube = tubes.pipe(length, lean, seed=3)
     result = tube.faired(equation="harmonic")

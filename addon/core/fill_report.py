@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .filling import FillOptions, Piece
-from .report import Check, Report, distortion_text, kink_checks
+from .report import Check, Report, distortion_text, kink_checks, shape_checks
 from .verdict import GRADES, UNUSABLE, NotUsable, Verdict
 from .words import counted
 
@@ -71,7 +71,7 @@ def make_fill_report(
         boundary_angle=max((float(result.boundary_angle.max(initial=0.0)) for result in results), default=0.0),
         distortion=distortion,
         seconds=seconds,
-        checks=(*kink_checks(joins), *_checks(pieces, added, distortion)),
+        checks=(*shape_checks(results, options.equation), *kink_checks(joins), *_checks(pieces, added, distortion)),
         warnings=tuple(dict.fromkeys(note for piece in pieces for note in piece.notes))
         + tuple(note for each in added for note in each.notes)
         + notes,

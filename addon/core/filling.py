@@ -21,7 +21,7 @@ from .fill_verdict import Surface, judge
 from .findings import Origin
 from .harmonic import harmonic, nearest
 from .key_surface import NewSurface, Surroundings, key_surfaces
-from .options import ACCEPT, CONTINUITIES, INNER, LEAST_SPACING
+from .options import ACCEPT, CONTINUITIES, INNER, LEAST_SPACING, OF_CURVATURE
 from .quality import Join, visible_from
 from .region import MeshArrays, nothing, to_local
 from .verdict import UNUSABLE, Verdict
@@ -29,7 +29,7 @@ from .words import in_mesh_words, sentences
 
 _TOO_MANY = "Bridge joins all {} selected outlines in one surface: select only those that belong together"
 _TWO = "Bridge needs two outlines that face each other: switch it off to close each of them by itself"
-SHAPES = ("HARMONIC", "MINIMAL_ENERGY", "LEAST_VARIATION")
+SHAPES = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY", "LEAST_VARIATION")
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class FillOptions:
     Raises ValueError for a value it does not know, TypeError for one of another kind.
     """
 
-    equation: str = "HARMONIC"
+    equation: str = "AUTOMATIC"
     continuity: str = "G1"  # G2: the curvature around is continued, too
     bridge: bool = False  # all loops of an object are joined
     spacing: float = 1.0  # of new edges, as a factor of the outline's
@@ -78,7 +78,7 @@ class FillOptions:
     @property
     def joins_curvature(self) -> bool:
         """Whether the curvature around counts: only for the harmonic shape."""
-        return self.continuity == "G2" and self.equation == "HARMONIC"
+        return self.continuity == "G2" and self.equation in OF_CURVATURE
 
 
 @dataclass(frozen=True)

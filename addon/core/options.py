@@ -8,7 +8,8 @@ from typing import Any
 
 from .checked import refuse_negative, refuse_other_kinds, refuse_unknown
 
-EQUATIONS = ("HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION")
+EQUATIONS = ("AUTOMATIC", "HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION")
+OF_CURVATURE = ("AUTOMATIC", "HARMONIC")  # equations that can continue the curvature outside
 OTHERWISE = ("LEAST_VARIATION", "STOP")
 INNER_FAIRNESS = ("AUTOMATIC", "UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING")
 BOUNDARY_NORMALS = ("SURROUNDING", "AVERAGE", "CUSTOM")
@@ -50,7 +51,7 @@ class FairOptions:
     """
 
     factor: float = 1.0  # 0 keeps the original, 1 is fair
-    equation: str = "HARMONIC"
+    equation: str = "AUTOMATIC"  # LEAST_VARIATION for long tubes, HARMONIC for all else; the engine decides
     otherwise: str = "LEAST_VARIATION"  # where the equation has no surface
     bulge: float = 0.0  # for CONSTANT: 1 lifts a flat disc by a quarter of its radius
     inner_fairness: str = "AUTOMATIC"  # CONFORMAL for a patch with a texture, UNIFORM for others
@@ -130,7 +131,7 @@ class FairOptions:
     @property
     def joins_curvature(self) -> bool:
         """Whether the curvature outside counts: only for the harmonic shape of the fast solver."""
-        return self.continuity == "G2" and self.equation == "HARMONIC" and self.method == "GLOBAL"
+        return self.continuity == "G2" and self.equation in OF_CURVATURE and self.method == "GLOBAL"
 
     @property
     def slope_at_pinned_edges(self) -> str:
@@ -181,7 +182,7 @@ class FairOptions:
         """The names of options that are set, but that nothing looks at beside the others."""
         only = {
             "bulge": self.equation == "CONSTANT",
-            "continuity": self.equation == "HARMONIC" and self.method == "GLOBAL",
+            "continuity": self.equation in OF_CURVATURE and self.method == "GLOBAL",
             "boundary_normals": self.equation != "MINIMAL",
             "levels": self.method == "PAPER",
             "spacing": self.mesh == "NEW",

@@ -249,9 +249,6 @@ WORDS: dict[str, tuple[Words, ...]] = {
     ),
     "NO_SOLUTION": (
         Words(
-            "The surface asked for would be a bulb between these outlines: even curvature was used", when="variation"
-        ),
-        Words(
             "No surface meets these jagged outlines: it follows them smoothly, up to {distance:.1%} of its size off",
             when="distance",
         ),

@@ -13,7 +13,7 @@ from ..core.engine import REFUSALS, Progress, sub_range
 from ..core.fill_report import Added, make_fill_report
 from ..core.filling import FillOptions, Piece, fill
 from ..core.holes import Borders, expected_vertices, holes_among
-from ..core.options import FairOptions
+from ..core.options import OF_CURVATURE, FairOptions
 from ..core.region import MeshArrays
 from ..core.report import summary
 from ..host.context import edited_objects
@@ -107,9 +107,19 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay the options out."""
         self.layout.use_property_split = True
-        for name in ("equation", "continuity", "bridge", "spacing", "inner", "max_vertices", "quads", "limit_total", "accept"):
+        for name in (
+            "equation",
+            "continuity",
+            "bridge",
+            "spacing",
+            "inner",
+            "max_vertices",
+            "quads",
+            "limit_total",
+            "accept",
+        ):
             row = self.layout.row()
-            row.active = name != "continuity" or self.equation == "HARMONIC"
+            row.active = name != "continuity" or self.equation in OF_CURVATURE
             row.prop(self, name)
 
     def execute(self, context: bpy.types.Context) -> set[str]:

@@ -88,15 +88,20 @@ def test_all_runs_are_stopped_and_joined() -> None:
 
 EXIT = """
 import sys, time
-sys.path[:0] = [{addon!r}, {tests!r}]
-import shapes, fairing
+sys.path.insert(0, {addon!r})
+import numpy as np
+import fairing
 from core.runner import Run
 
-cap = shapes.cap(20000)
+size = 60
+y, x = np.mgrid[-1.0 : 1.0 : size * 1j, -1.0 : 1.0 : size * 1j].reshape(2, -1)
+corners = (np.arange(size - 1)[:, None] * size + np.arange(size - 1)).ravel()
+triangles = np.concatenate([corners[:, None] + [0, 1, size + 1], corners[:, None] + [0, size + 1, size]])
+bowl = np.stack([x, y, x**2 + y**2], axis=1)
 
 def work(progress):
     while True:  # whenever the process ends, it ends in the engine
-        fairing.fair(cap.vertices, cap.triangles, fixed=cap.fixed, fixed_normals=cap.fixed_normals, progress=progress)
+        fairing.fair(bowl, triangles, progress=progress)
 
 run = Run(work)
 while run.fraction == 0.0:
@@ -108,9 +113,8 @@ assert not run.finished
 
 
 @pytest.mark.parametrize("last", ["", "run.cancel()"], ids=["during", "cancelled"])
-@pytest.mark.parametrize("seconds", [0.0, 0.1, 0.2])
+@pytest.mark.parametrize("seconds", [0.0, 0.1])
 def test_a_process_ends_well_during_a_run(last: str, seconds: float) -> None:
-    tests = Path(__file__).parents[1]
-    lines = EXIT.format(addon=str(tests.parent / "addon"), tests=str(tests), seconds=seconds, last=last)
-    ended = subprocess.run([sys.executable, "-c", lines], capture_output=True, text=True, timeout=60.0, check=False)
+    lines = EXIT.format(addon=str(Path(__file__).parents[2] / "addon"), seconds=seconds, last=last)
+    ended = subprocess.run([sys.executable, "-c", lines], capture_output=True, text=True, timeout=120.0, check=False)
     assert (ended.returncode, ended.stderr) == (0, "")

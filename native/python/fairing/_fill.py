@@ -276,8 +276,13 @@ def spacing_of(value: Any, inner: str | None) -> Spacing:
 
 
 def _start(first: str, options: dict[str, Any]) -> str:
-    """Where the solve on the fine mesh begins; ``first``: what suits the first surface, which is a harmonic one."""
-    same = options.get("equation", "harmonic") in ("harmonic", "automatic") and options.get("otherwise") != "stop"
+    """Where the solve on the fine mesh begins; ``first``: what suits the first surface, which is a harmonic one.
+
+    Automatic chooses that of least variation by itself: there it stands in for nothing.
+    """
+    equation = options.get("equation", "harmonic")
+    chosen = equation == "automatic" and first == "least_variation"
+    same = equation in ("harmonic", "automatic") and options.get("otherwise") != "stop" and not chosen
     return first if same else "given"
 
 
