@@ -97,7 +97,7 @@ TEST_CASE("threads: a nested solve is cancelled at every checkpoint") {
     for (const int threads : {1, 4}) {
         const Threads team(threads);
         const int places = cancel_everywhere(solve);
-            CHECK(places > 100);
+        CHECK(places > 100);
     }
 }
 
