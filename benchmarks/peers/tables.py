@@ -1,4 +1,4 @@
-"""The tables of docs/performance.md."""
+"""The tables of docs/performance.md and docs/dev/performance_log.md."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 import tools
 from measured import Measured, Row
 from problems import CAPS
-from tools import OURS, SMOOTHING_STEPS
+from tools import CONFORMAL, LIBIGL, MESHLIB, OURS, SMOOTHING_STEPS
 
 
 def _table(head: list[str], rows: Iterable[list[str]]) -> str:
@@ -24,10 +24,24 @@ def machine(done: Measured) -> str:
     )
 
 
-def times(done: Measured) -> str:
-    """Wall and processor seconds; one table for each shape, a column for each size."""
-    shapes = list(dict.fromkeys(row["shape"] for row in done.times))
-    return "\n\n".join(f"**{shape}**\n\n{_times_of(done, shape)}" for shape in shapes if len(_sizes(done, shape)) > 1)
+def main_times(done: Measured) -> str:
+    """Wall and processor seconds of the first shape, a column for each size."""
+    return _titled(done, _timed_shapes(done)[:1])
+
+
+def other_times(done: Measured) -> str:
+    """The same of the other shapes."""
+    return _titled(done, _timed_shapes(done)[1:])
+
+
+def _timed_shapes(done: Measured) -> list[str]:
+    """Those of more than one size."""
+    shapes = dict.fromkeys(row["shape"] for row in done.times)
+    return [shape for shape in shapes if len(_sizes(done, shape)) > 1]
+
+
+def _titled(done: Measured, shapes: list[str]) -> str:
+    return "\n\n".join(f"**{shape}**\n\n{_times_of(done, shape)}" for shape in shapes)
 
 
 def _sizes(done: Measured, shape: str) -> list[int]:
@@ -94,16 +108,34 @@ COLUMNS: list[Cell] = [
 ]
 
 
+SHOWN = (OURS, CONFORMAL, MESHLIB, LIBIGL)  # the other linear tools' answers are libigl's
+
+
 def quality(done: Measured) -> str:
     """A block of rows for each shape."""
-    shapes = list(dict.fromkeys(row["shape"] for row in done.quality))
-    order = [*CAPS, *(shape for shape in shapes if shape not in CAPS)]
     rows = []
-    for shape in order:
-        for row in (row for row in done.quality if row["shape"] == shape):
+    for shape in _judged_shapes(done):
+        for row in (row for row in done.quality if row["shape"] == shape and row["tool"] in SHOWN):
             cells = [text(row).replace("nan", "–") for _, text in COLUMNS]
             rows.append([f"{shape}: {row['tool']}", *cells])
     return _table(["patch: tool", *(name for name, _ in COLUMNS)], rows)
+
+
+def errors(done: Measured) -> str:
+    """A row for each shape whose exact surface is known: ours beside the nearest of the linear tools."""
+    rows = []
+    for shape in _judged_shapes(done):
+        found = {row["tool"]: row["error"] for row in done.quality if row["shape"] == shape}
+        peers = {name: error for name, error in found.items() if tools.BY_NAME[name].kind == "peer"}
+        nearest = min(peers, key=lambda name: peers[name])
+        if found[OURS] == found[OURS]:  # not nan
+            rows.append([shape, f"{found[OURS]:.1e}", f"{peers[nearest]:.1e}, {nearest}"])
+    return _table(["patch", "ours", "nearest linear tool"], rows)
+
+
+def _judged_shapes(done: Measured) -> list[str]:
+    shapes = list(dict.fromkeys(row["shape"] for row in done.quality))
+    return [*CAPS, *(shape for shape in shapes if shape not in CAPS)]
 
 
 def repeated(done: Measured) -> str:
@@ -151,7 +183,8 @@ def quality_size(done: Measured) -> str:
 
 
 BY_NAME: dict[str, Callable[[Measured], str]] = {
-    "machine": machine, "times": times, "small": small, "live": live, "graded": graded, "real": real, "memory": memory,
+    "machine": machine, "main_times": main_times, "other_times": other_times,
+    "small": small, "live": live, "graded": graded, "real": real, "memory": memory,
     "repeated": repeated,
-    "quality": quality, "quality_size": quality_size, "steps": steps,
+    "quality": quality, "errors": errors, "quality_size": quality_size, "steps": steps,
 }  # fmt: skip
