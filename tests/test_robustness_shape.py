@@ -200,7 +200,7 @@ def test_a_creased_outline_is_told(method: str, kind: str) -> None:
 
 @pytest.mark.parametrize(("length", "lean"), [(6, 30), (6, -15), (12, 30)])
 def test_without_a_solution_the_answer_is_a_plain_surface(length: float, lean: float) -> None:
-    """Pipes whose end normals lean too far have none (docs/accuracy.md): no iterate that went astray is written.
+    """Pipes whose end normals lean too far have none (docs/dev/accuracy_log.md): no iterate that went astray is written.
 
     What is least bent bulges, on the way to a sphere: no wider than it is long.
     """
