@@ -20,7 +20,7 @@ class Wing:
     fixed: IntArray
 
     def faired(self, **options: str) -> fairing.FairResult:
-        """With the interior thrown about, the normals of the surroundings, and the shape before not told."""
+        """With a random interior, the normals of the surroundings, and no old shape."""
         start = self.vertices.copy()
         free = np.setdiff1d(self.inside, self.fixed)
         start[free] += 0.3 * np.random.default_rng(1).normal(size=(len(free), 3))
