@@ -169,7 +169,7 @@ def real(done: Measured) -> str:
         [row["mesh"], f"{row['free']:,}", f"{row['cpu']:.3g}", f"{row['cpu'] / row['clean']:.2f}", row["state"]]
         for row in done.real
     ]  # fmt: skip
-    return _table(["mesh", "free", "s of the processor", "÷ clean patch", "way"], rows)
+    return _table(["mesh", "free", "s of the processor", "÷ clean patch", "strategies"], rows)
 
 
 def steps(_: Measured) -> str:
