@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 import tools
 from measured import Measured, Row
 from problems import CAPS
-from tools import CONFORMAL, LIBIGL, MESHLIB, OURS, SMOOTHING_STEPS
+from tools import CONFORMAL, LIBIGL, OURS, SMOOTHING_STEPS
 
 
 def _table(head: list[str], rows: Iterable[list[str]]) -> str:
@@ -63,31 +63,6 @@ def _seconds(row: Row) -> str:
     return f"{row['wall']:.3g} ({row['cpu']:.3g})" if "wall" in row else row["failure"]
 
 
-def small(done: Measured) -> str:
-    """All shapes at the smallest size: ours, the fastest peer, steps and state."""
-    size = min(row["size"] for row in done.times)
-    rows = []
-    for shape in dict.fromkeys(row["shape"] for row in done.times):
-        found = {r["tool"]: r for r in done.times if (r["shape"], r["size"]) == (shape, size) and "wall" in r}
-        peers = [row for name, row in found.items() if tools.BY_NAME[name].kind == "peer"]
-        fastest = min(peers, key=lambda row: row["wall"])
-        ours = found[OURS]
-        rows.append([
-            shape, f"{ours['free']:,}", f"{ours['wall']:.3f} ({ours['cpu']:.3f})", str(ours["steps"]), ours["state"],
-            f"{fastest['wall']:.3f} ({fastest['cpu']:.3f}), {fastest['tool']}",
-        ])  # fmt: skip
-    return _table(["shape", "free", "ours, s", "outer steps", "ended", "fastest peer, s"], rows)
-
-
-def live(done: Measured) -> str:
-    """Ours on small patches."""
-    rows = [
-        [row["shape"], f"{row['free']:,}", f"{1000 * row['wall']:.1f} ({1000 * row['cpu']:.1f})", str(row["steps"])]
-        for row in done.live
-    ]  # fmt: skip
-    return _table(["shape", "free", "milliseconds by the wall (of the processor)", "outer steps"], rows)
-
-
 def memory(done: Measured) -> str:
     """MB above the input."""
     sizes = sorted({row["size"] for row in done.memory})
@@ -103,12 +78,11 @@ COLUMNS: list[Cell] = [
     ("from the right surface", lambda row: f"{row['error_from_right']:.1e}"),
     ("between two meshes / D", lambda row: f"{row['between']:.1e}"),
     ("boundary angle", lambda row: f"{row['angle']:.2g}°"),
-    ("flipped", lambda row: str(row["flipped"])),
     ("distortion: median, 95 %", lambda row: f"{row['distortion']:.2f}, {row['worst']:.2f}"),
 ]
 
 
-SHOWN = (OURS, CONFORMAL, MESHLIB, LIBIGL)  # the other linear tools' answers are libigl's
+SHOWN = (OURS, CONFORMAL, LIBIGL)  # the other linear tools' answers are nearly libigl's
 
 
 def quality(done: Measured) -> str:
@@ -184,7 +158,6 @@ def quality_size(done: Measured) -> str:
 
 BY_NAME: dict[str, Callable[[Measured], str]] = {
     "machine": machine, "main_times": main_times, "other_times": other_times,
-    "small": small, "live": live, "graded": graded, "real": real, "memory": memory,
-    "repeated": repeated,
+    "graded": graded, "real": real, "memory": memory, "repeated": repeated,
     "quality": quality, "errors": errors, "quality_size": quality_size, "steps": steps,
 }  # fmt: skip
