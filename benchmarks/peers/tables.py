@@ -24,24 +24,11 @@ def machine(done: Measured) -> str:
     )
 
 
-def main_times(done: Measured) -> str:
-    """Wall and processor seconds of the first shape, a column for each size."""
-    return _titled(done, _timed_shapes(done)[:1])
-
-
-def other_times(done: Measured) -> str:
-    """The same of the other shapes."""
-    return _titled(done, _timed_shapes(done)[1:])
-
-
-def _timed_shapes(done: Measured) -> list[str]:
-    """Those of more than one size."""
+def times(done: Measured) -> str:
+    """Wall and processor seconds of the first shape that has several sizes, a column for each size."""
     shapes = dict.fromkeys(row["shape"] for row in done.times)
-    return [shape for shape in shapes if len(_sizes(done, shape)) > 1]
-
-
-def _titled(done: Measured, shapes: list[str]) -> str:
-    return "\n\n".join(f"**{shape}**\n\n{_times_of(done, shape)}" for shape in shapes)
+    shape = next(shape for shape in shapes if len(_sizes(done, shape)) > 1)
+    return f"**{shape}**\n\n{_times_of(done, shape)}"
 
 
 def _sizes(done: Measured, shape: str) -> list[int]:
@@ -82,13 +69,14 @@ COLUMNS: list[Cell] = [
 ]
 
 
+JUDGED = ("hemisphere", "catenoid", "three-cylinder blend")
 SHOWN = (OURS, CONFORMAL, LIBIGL)  # the other linear tools' answers are nearly libigl's
 
 
 def quality(done: Measured) -> str:
-    """A block of rows for each shape."""
+    """A block of rows for each of some shapes."""
     rows = []
-    for shape in _judged_shapes(done):
+    for shape in JUDGED:
         for row in (row for row in done.quality if row["shape"] == shape and row["tool"] in SHOWN):
             cells = [text(row).replace("nan", "–") for _, text in COLUMNS]
             rows.append([f"{shape}: {row['tool']}", *cells])
@@ -157,7 +145,7 @@ def quality_size(done: Measured) -> str:
 
 
 BY_NAME: dict[str, Callable[[Measured], str]] = {
-    "machine": machine, "main_times": main_times, "other_times": other_times,
+    "machine": machine, "times": times,
     "graded": graded, "real": real, "memory": memory, "repeated": repeated,
     "quality": quality, "errors": errors, "quality_size": quality_size, "steps": steps,
 }  # fmt: skip
