@@ -5,8 +5,7 @@ from typing import Any
 
 import bpy
 
-from . import translations
-from .core import runner
+from . import file_owned, translations
 from .follow import copies, live, undone, watch
 from .follow.live_operators import (
     FairLive,
@@ -17,7 +16,7 @@ from .follow.live_operators import (
 from .follow.taking import MESH_OT_fair_live_region
 from .host import handlers
 from .preferences import FairPreferences
-from .run import cli, compare, job, last_run, redo_panel
+from .run import cli, compare, redo_panel
 from .run.again import MESH_OT_fair_again, MESH_OT_fair_reselect, MESH_OT_fair_spots
 from .run.curvature import MESH_OT_fair_curvature
 from .run.fill import MESH_OT_fair_fill
@@ -55,7 +54,6 @@ _register_classes, _unregister_classes = bpy.utils.register_classes_factory(
         *ui.PANELS,
     )
 )
-LONGEST_STEP = 10.0  # seconds that a cancelled engine may take to hear of it
 _commands: list[Any] = []  # handles that Blender wants back at unregistering
 _folder = str(Path(__file__).parent)  # holds presets/operator/mesh.fair_region
 
@@ -79,6 +77,7 @@ def register() -> None:
     copies.register()
     marks.register()
     undone.register()
+    file_owned.register()
     translations.register()
     bpy.utils.register_preset_path(_folder)
     _commands.append(bpy.utils.register_cli_command("fair", cli.execute))
@@ -89,6 +88,7 @@ def unregister() -> None:
     bpy.utils.unregister_cli_command(_commands.pop())
     bpy.utils.unregister_preset_path(_folder)
     translations.unregister()
+    file_owned.unregister()
     undone.unregister()
     marks.unregister()
     copies.unregister()
@@ -96,11 +96,6 @@ def unregister() -> None:
     overlay.unregister()
     watch.unregister()
     handlers.unregister()
-    runner.wait_for_all(LONGEST_STEP)
-    compare.forget()
-    last_run.forget()
-    job.memory.clear()
-    job.solvers.clear()
     bpy.types.VIEW3D_MT_face_sets.remove(ui.draw_face_set_menu)
     bpy.types.VIEW3D_MT_mask.remove(ui.draw_mask_menu)
     bpy.types.VIEW3D_MT_edit_mesh_context_menu.remove(ui.draw_context_menu)

@@ -93,18 +93,28 @@ def wavy(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArr
     return u, v, 0.1 * np.sin(9 * u) * np.cos(9 * v)
 
 
-def test_the_outside_of_a_sheet_is_refused_at_once() -> None:
+def test_the_outside_of_a_sheet_is_left_open_and_named() -> None:
     vertices, triangles = holes.sheet(wavy, (30, 30), holes.disc)
     inner, outer = sorted(fairing.boundary_loops(triangles), key=len)
+    result = fairing.fill(vertices, triangles)
+    alone = fairing.fill(vertices, triangles, [inner])
+    np.testing.assert_allclose(result.vertices, alone.vertices, atol=1e-5)  # fits along both borders, or along one
+    (left,), (warning,) = result.left_open, result.warnings
+    assert {*left} == {*warning.elements} == {*outer}
+    assert (warning.code, warning.figures["loops"]) == ("NOT_A_HOLE", 1.0)
+    short = fairing.fill(vertices, triangles, longest=len(inner))
+    for other in (alone, short):
+        assert (other.converged, other.left_open, other.warnings) == (True, (), ())
+
+
+def test_a_mesh_without_holes_is_refused_at_once() -> None:
+    vertices, triangles = holes.sheet(wavy, (30, 30), lambda u, v: np.zeros(u.shape, dtype=bool))
     told: list[str] = []
-    for loops in (None, [outer], [outer[::-1]]):
-        with pytest.raises(fairing.MeshError, match="around the outside of a sheet") as caught:
-            fairing.fill(vertices, triangles, loops, progress=lambda _, stage: told.append(stage))
-        assert caught.value.code == "NOT_A_HOLE"
-        assert {*caught.value.elements} == {*outer}
+    with pytest.raises(fairing.MeshError, match="around the outside of a sheet") as caught:
+        fairing.fill(vertices, triangles, progress=lambda _, stage: told.append(stage))
+    assert caught.value.code == "NOT_A_HOLE"
+    assert {*caught.value.elements} == {*fairing.boundary_loops(triangles)[0]}
     assert not told
-    assert fairing.fill(vertices, triangles, longest=len(inner)).converged
-    assert fairing.fill(vertices, triangles, [inner]).converged
 
 
 def refused(code: str, elements: set[int], turned: bool, vertices: FloatArray, loops: Any, normals: FloatArray) -> str:

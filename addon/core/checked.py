@@ -28,6 +28,13 @@ def refuse_unknown(known: Iterable[str], given: Iterable[str]) -> None:
             raise TypeError(f"There is no property {name!r}: {hint}")
 
 
+def refuse_negative(options: Any, name: str) -> None:
+    """Raise ValueError where a number for which 0 stands for a choice of its own is less."""
+    value = getattr(options, name)
+    if value < 0:
+        raise ValueError(f"{name}: expected 0 or a positive number, got {value!r}")
+
+
 def refuse_other_kinds(options: Any) -> None:
     """Raise TypeError for a value of a dataclass that is of another kind than its default."""
     for field in fields(options):

@@ -86,6 +86,12 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
         )
 
 
+def go_on(progress: Progress | None) -> None:
+    """Ask between steps of the add-on's own, which ask nobody meanwhile; raises fairing.Cancelled."""
+    if progress is not None and progress(1.0, "measurement") is False:
+        raise fairing.Cancelled("cancelled between two measurements")
+
+
 def _held_inside(patch: Patch, options: FairOptions) -> dict[str, Any]:
     """Return what holds inside the patch with a slope that the surface finds."""
     return {

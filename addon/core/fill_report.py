@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .filling import FillOptions, Piece
-from .report import Check, Report, distortion_text, kink_checks
+from .report import Check, Report, distortion_text, kink_checks, shape_checks
 from .verdict import GRADES, UNUSABLE, NotUsable, Verdict
 from .words import counted
 
@@ -51,8 +51,13 @@ def refuse_unusable(name: str, pieces: list[Piece], options: FillOptions) -> Non
         raise NotUsable(bad.verdict, bad.result)
 
 
-def make_fill_report(named: Named, options: FillOptions, seconds: float, added: Sequence[Added] = ()) -> Report:
-    """Sum up the surfaces of one run, by object name; added: what was written, if anything was."""
+def make_fill_report(
+    named: Named, options: FillOptions, seconds: float, added: Sequence[Added] = (), notes: tuple[str, ...] = ()
+) -> Report:
+    """Sum up the surfaces of one run, by object name.
+
+    added: what was written, if anything was; notes: what else there is to tell.
+    """
     pieces = [piece for _, of_object in named for piece in of_object]
     results = [piece.result for piece in pieces]
     joins = [piece.join for piece in pieces]
@@ -66,9 +71,10 @@ def make_fill_report(named: Named, options: FillOptions, seconds: float, added: 
         boundary_angle=max((float(result.boundary_angle.max(initial=0.0)) for result in results), default=0.0),
         distortion=distortion,
         seconds=seconds,
-        checks=(*kink_checks(joins), *_checks(pieces, added, distortion)),
+        checks=(*shape_checks(results, options.equation), *kink_checks(joins), *_checks(pieces, added, distortion)),
         warnings=tuple(dict.fromkeys(note for piece in pieces for note in piece.notes))
-        + tuple(note for each in added for note in each.notes),
+        + tuple(note for each in added for note in each.notes)
+        + notes,
         verdict=_named_worst(named),
         written=is_written(named, options),
         join=(worst_join.typical, worst_join.worst),

@@ -12,7 +12,7 @@ from .around import nearby
 from .arrays import Floats, Ints
 from .bends import bends
 from .hard_chains import chains
-from .looks import SUBSTITUTES, kink_reason, slope_reason
+from .looks import SUBSTITUTES, girth_reason, kink_reason, slope_reason
 from .piercing import Sheet, crossing, near
 from .quality import Join
 from .region import MeshArrays, nothing
@@ -53,6 +53,10 @@ def judge(world: MeshArrays, outline: Ints, surface: Surface) -> Verdict:
         return Verdict(LOOK, f"Hard edges end at the hole, at {text}: the surface over it has none", ends)
     if result.equation in SUBSTITUTES:
         return Verdict(LOOK, SUBSTITUTES[result.equation], np.unique(outline))
+    uneven = girth_reason(result)
+    if uneven:
+        hint = "" if result.equation == "least_variation" else ": choose the shape Even Curvature"
+        return Verdict(LOOK, uneven + hint, np.unique(outline))
     if len(surface.tangent_only):
         return Verdict(LOOK, slope_reason(surface.tangent_only), surface.tangent_only)
     return Verdict(GOOD)

@@ -14,14 +14,14 @@ import fairing
 from .around import nearby
 from .arrays import Floats, Ints
 from .border import BorderRefusal
-from .checked import refuse_other_kinds, refuse_unknown
+from .checked import refuse_negative, refuse_other_kinds, refuse_unknown
 from .engine import Progress, sub_range
 from .faces import Faces, faces_of, paired_faces
 from .fill_verdict import Surface, judge
 from .findings import Origin
 from .harmonic import harmonic, nearest
 from .key_surface import NewSurface, Surroundings, key_surfaces
-from .options import ACCEPT, CONTINUITIES, INNER, LEAST_SPACING
+from .options import ACCEPT, CONTINUITIES, INNER, LEAST_SPACING, OF_CURVATURE
 from .quality import Join, visible_from
 from .region import MeshArrays, nothing, to_local
 from .verdict import UNUSABLE, Verdict
@@ -29,7 +29,7 @@ from .words import in_mesh_words, sentences
 
 _TOO_MANY = "Bridge joins all {} selected outlines in one surface: select only those that belong together"
 _TWO = "Bridge needs two outlines that face each other: switch it off to close each of them by itself"
-SHAPES = ("HARMONIC", "MINIMAL_ENERGY", "LEAST_VARIATION")
+SHAPES = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY", "LEAST_VARIATION")
 
 
 @dataclass(frozen=True)
@@ -39,12 +39,14 @@ class FillOptions:
     Raises ValueError for a value it does not know, TypeError for one of another kind.
     """
 
-    equation: str = "HARMONIC"
+    equation: str = "AUTOMATIC"
     continuity: str = "G1"  # G2: the curvature around is continued, too
     bridge: bool = False  # all loops of an object are joined
     spacing: float = 1.0  # of new edges, as a factor of the outline's
     inner: str = "OUTLINE"  # in proportion to the outline's nearby; EVEN: of one length
     quads: bool = False  # triangles are written in pairs, as far as they can be
+    max_vertices: int = 0  # more new ones for a surface are refused; 0: twenty times as many as over flat ones
+    limit_total: int = 0  # vertex groups of bones of a new vertex; 0: as many as one vertex of the outline has
     accept: str = "USABLE"  # ALL: written whatever it is worth
 
     def __post_init__(self) -> None:
@@ -59,6 +61,8 @@ class FillOptions:
         refuse_other_kinds(self)
         if not self.spacing >= LEAST_SPACING:
             raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
+        refuse_negative(self, "max_vertices")
+        refuse_negative(self, "limit_total")
 
     @classmethod
     def named(cls, properties: dict[str, Any]) -> FillOptions:
@@ -74,7 +78,7 @@ class FillOptions:
     @property
     def joins_curvature(self) -> bool:
         """Whether the curvature around counts: only for the harmonic shape."""
-        return self.continuity == "G2" and self.equation == "HARMONIC"
+        return self.continuity == "G2" and self.equation in OF_CURVATURE
 
 
 @dataclass(frozen=True)
@@ -90,6 +94,7 @@ class Piece:
     join: Join
     around: Surroundings
     quads: bool = False  # whether triangles are written in pairs
+    limit_total: int = 0  # as FillOptions has it
     notes: tuple[str, ...] = field(default=())
 
     def faces(self, kinds: Ints, lines: Ints) -> Faces:
@@ -169,7 +174,8 @@ def _piece(
         result = fairing.fill(
             world.positions[vertices], around, given, bridge=options.bridge, spacing=_spacing(world, loops, options),
             inner=options.inner.lower(), equation=options.equation.lower(),
-            continuity="G2" if options.joins_curvature else "G1", progress=progress,
+            continuity="G2" if options.joins_curvature else "G1", max_vertices=options.max_vertices,
+            progress=progress,
         )  # fmt: skip
     number = np.full(len(vertices) + len(result.vertices), -1, dtype=np.int64)
     number[np.concatenate(given)] = np.arange(len(outline))
@@ -190,6 +196,7 @@ def _piece(
         join=join,
         around=_keyed_from(vertices, around, outline, matrix),
         quads=options.quads,
+        limit_total=options.limit_total,
         notes=_notes(result, slopes, origin),
     )
 
@@ -223,7 +230,7 @@ def _spacing(world: MeshArrays, loops: list[Ints], options: FillOptions) -> floa
 
 def _notes(result: fairing.FillResult, slopes: tuple[fairing.Diagnostic, ...], origin: Origin) -> tuple[str, ...]:
     """Tell what was taken in place of the surface asked for, and where its curvature is not continued."""
-    told = [warning for warning in result.warnings if warning.code == "NO_SOLUTION"]
+    told = [warning for warning in result.warnings if warning.code in ("NO_SOLUTION", "NOT_TANGENT")]
     known = [replace(each, elements=each.elements[each.elements < len(origin.vertices)]) for each in told]
     return sentences((*known, *slopes), origin)
 
@@ -246,6 +253,7 @@ def _joining(options: FillOptions, outline: Ints, loops: int) -> Iterator[None]:
     try:
         yield
     except fairing.MeshError as error:
-        if error.code != "LOOPS_NOT_JOINED" or (loops == 2 and "turned" in error.diagnostic.figures):
+        tells_why = {"turned", "between"} & error.diagnostic.figures.keys()
+        if error.code != "LOOPS_NOT_JOINED" or (loops == 2 and tells_why):
             raise
         raise BorderRefusal(f"No surface joins these outlines. {joining_advice(loops)}", outline) from error

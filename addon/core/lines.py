@@ -6,8 +6,9 @@ import numpy as np
 
 from .arrays import Floats, Mask
 from .outline import two_sided_edges
-from .region import MeshArrays
+from .region import MeshArrays, free_vertices
 
+WIRES = "edges without faces"  # in MeshArrays.lines
 SAME = 1e-6  # of values that are meant to be one
 _WORDS = {
     "sharp_edge": "Mark Sharp",
@@ -34,6 +35,27 @@ def parting_edges(mesh: MeshArrays, values: Floats) -> Mask:
     differs = same_edge & (np.abs(both[1:] - both[:-1]) > SAME).any(axis=1)
     found = np.zeros(len(mesh.edges), dtype=bool)
     found[edges[1:][differs]] = True
+    return found
+
+
+def edges_at_wires(mesh: MeshArrays) -> Mask:
+    """Return the (e,) mask of one edge of the patch at each vertex inside that edges without faces hang on.
+
+    A line keeps its vertices, and so these edges. Of those at the vertex it is the one of median length: a short or a
+    long one would leave its mark on the new mesh.
+    """
+    used = np.zeros(len(mesh.edges), dtype=bool)
+    used[mesh.corner_edges] = True
+    hung = np.zeros(len(mesh.positions), dtype=bool)
+    hung[mesh.edges[~used]] = True
+    hung &= free_vertices(mesh)
+    edges, side = np.nonzero(hung[mesh.edges] & used[:, None])
+    vertices = mesh.edges[edges, side]
+    lengths = np.linalg.norm(np.diff(mesh.positions[mesh.edges[edges]], axis=1)[:, 0], axis=1)
+    order = np.lexsort((lengths, vertices))
+    _, starts, counts = np.unique(vertices[order], return_index=True, return_counts=True)
+    found = np.zeros(len(mesh.edges), dtype=bool)
+    found[edges[order][starts + counts // 2]] = True
     return found
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from .arrays import Floats, Ints
 from .bends import bends
+from .engine import Result
 from .evidence import NOTHING, Evidence, Found, corners_of
 from .options import FairOptions
 from .quality import Join
@@ -16,6 +17,10 @@ from .words import counted
 STEEP = 40.0  # degrees from which a kink at the outline is worse than a hard edge that was rounded off
 TURNED = 90.0  # and from which it is no kink any more
 FLAT = 1.0  # degrees between the neighbours of a needle, below which it is not seen
+# Radii of the thinnest and of the thickest cross-section over those of the ends, from which a tube has a waist or a
+# balloon. An elbow of 70° with .85 was sent back, pipes of two and a half radii with .94 were not; three arms that
+# meet have 1.3, and so have pipes of three radii whose ends lean outwards by 15°.
+THIN, THICK = 0.9, 1.4
 MANY_LEFT_OUT = 3  # faces that a careless lasso leaves out; one or two may be meant
 MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
 _KNOT = "Seams and marks inside, which stay, are squeezed to a knot at {}"
@@ -162,6 +167,21 @@ def _substituted(evidence: Evidence, _options: FairOptions) -> Found:
     return NOTHING
 
 
+def _uneven(evidence: Evidence, options: FairOptions) -> Found:
+    reason = girth_reason(evidence.result)
+    if not reason or not judges_join(options) or _is_meant_to_swell(options):
+        return NOTHING
+    return reason, _most_bent(evidence)
+
+
+def girth_reason(result: Result) -> str:
+    """Return the sentence for a surface between outlines that is too thin or too thick; empty where it is neither."""
+    least, largest = result.girth or (1.0, 1.0)
+    if least < THIN:
+        return f"The tube narrows to {least:.0%} of its ends"
+    return f"The tube swells to {largest:.0%} of its ends" if largest > THICK else ""
+
+
 def _most_bent(evidence: Evidence) -> Ints:
     """Return the mesh vertices of the free ones where edges bend most, the worst first."""
     patch = evidence.problem.patch
@@ -223,7 +243,7 @@ def _that_show(evidence: Evidence, needles: Ints) -> Ints:
 # The first that finds something gives the reason.
 _LOOKS = (
     *(_holed, _pierced, _seamed, _rounded, _eaten, _kinked, _pointed, _swollen, _flanked),
-    *(_substituted, _refused, _squeezed, _needles),
+    *(_substituted, _uneven, _refused, _squeezed, _needles),
 )
 
 

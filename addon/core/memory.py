@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import hashlib
 from collections import OrderedDict
-from dataclasses import fields
+from collections.abc import Mapping, Sequence
+from dataclasses import fields, is_dataclass
 from threading import Lock
 from typing import Any, Generic, TypeVar
 
@@ -53,20 +54,35 @@ class Memory(Generic[Value]):
 
 
 def digest(*inputs: Any) -> str:
-    """Return one hash of arrays, of dataclasses of arrays, and of values with a repr of their own."""
+    """Return one hash of arrays, numbers, strings, None, and of dataclasses, mappings and sequences of these.
+
+    Raises TypeError for anything else: what looks the same when printed may differ.
+    """
     state = hashlib.blake2b(digest_size=20)
-    for given in inputs:
-        _feed(state, given)
+    _feed(state, inputs)
     return state.hexdigest()
 
 
 def _feed(state: Any, given: Any) -> None:
-    if isinstance(given, np.ndarray):
-        state.update(f"{given.dtype}{given.shape}".encode())
+    """Feed a value after its kind and size, so that no two values feed the same bytes."""
+    if isinstance(given, np.ndarray) and not given.dtype.hasobject:
+        state.update(f"array {given.dtype}{given.shape};".encode())
         state.update(np.ascontiguousarray(given).reshape(-1).view(np.uint8))
-    elif hasattr(given, "__dataclass_fields__"):
-        for field in fields(given):
-            state.update(field.name.encode())
-            _feed(state, getattr(given, field.name))
+    elif is_dataclass(given) and not isinstance(given, type):
+        state.update(f"{type(given).__qualname__};".encode())
+        _feed(state, {field.name: getattr(given, field.name) for field in fields(given)})
+    elif isinstance(given, Mapping):
+        _feed_all(state, "mapping", [part for pair in given.items() for part in pair])
+    elif isinstance(given, (tuple, list)):
+        _feed_all(state, "sequence", given)
+    elif given is None or isinstance(given, (bool, int, float, str)):
+        text = repr(given)
+        state.update(f"{type(given).__name__} {len(text)} {text};".encode())
     else:
-        state.update(f"{given!r};".encode())
+        raise TypeError(f"{type(given).__name__} has no digest")
+
+
+def _feed_all(state: Any, kind: str, parts: Sequence[Any]) -> None:
+    state.update(f"{kind} {len(parts)};".encode())
+    for part in parts:
+        _feed(state, part)

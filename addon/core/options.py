@@ -6,9 +6,10 @@ import json
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from .checked import refuse_other_kinds, refuse_unknown
+from .checked import refuse_negative, refuse_other_kinds, refuse_unknown
 
-EQUATIONS = ("HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION")
+EQUATIONS = ("AUTOMATIC", "HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION")
+OF_CURVATURE = ("AUTOMATIC", "HARMONIC")  # equations that can continue the curvature outside
 OTHERWISE = ("LEAST_VARIATION", "STOP")
 INNER_FAIRNESS = ("AUTOMATIC", "UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING")
 BOUNDARY_NORMALS = ("SURROUNDING", "AVERAGE", "CUSTOM")
@@ -50,7 +51,7 @@ class FairOptions:
     """
 
     factor: float = 1.0  # 0 keeps the original, 1 is fair
-    equation: str = "HARMONIC"
+    equation: str = "AUTOMATIC"  # LEAST_VARIATION for long tubes, HARMONIC for all else; the engine decides
     otherwise: str = "LEAST_VARIATION"  # where the equation has no surface
     bulge: float = 0.0  # for CONSTANT: 1 lifts a flat disc by a quarter of its radius
     inner_fairness: str = "AUTOMATIC"  # CONFORMAL for a patch with a texture, UNIFORM for others
@@ -78,6 +79,8 @@ class FairOptions:
     spacing: float = 1.0  # of a new mesh, as a factor of the outline's edges
     inner: str = "OUTLINE"  # new edges are in proportion to the outline's nearby; EVEN: of one length
     quads: bool = False  # a new mesh has quads, as far as pairs of triangles make some
+    max_vertices: int = 0  # more new ones are refused; 0: twenty times as many as the old surface would have
+    limit_total: int = 0  # vertex groups of bones of a new vertex; 0: as many as one vertex of the old mesh has
 
     def __post_init__(self) -> None:
         for name, choices in _CHOICES.items():
@@ -94,6 +97,8 @@ class FairOptions:
             raise ValueError(f"detail_face_set: expected 0 or a number of a face set, got {self.detail_face_set!r}")
         if not self.spacing >= LEAST_SPACING:
             raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
+        refuse_negative(self, "max_vertices")
+        refuse_negative(self, "limit_total")
 
     @classmethod
     def named(cls, properties: dict[str, Any]) -> FairOptions:
@@ -126,7 +131,7 @@ class FairOptions:
     @property
     def joins_curvature(self) -> bool:
         """Whether the curvature outside counts: only for the harmonic shape of the fast solver."""
-        return self.continuity == "G2" and self.equation == "HARMONIC" and self.method == "GLOBAL"
+        return self.continuity == "G2" and self.equation in OF_CURVATURE and self.method == "GLOBAL"
 
     @property
     def slope_at_pinned_edges(self) -> str:
@@ -177,12 +182,14 @@ class FairOptions:
         """The names of options that are set, but that nothing looks at beside the others."""
         only = {
             "bulge": self.equation == "CONSTANT",
-            "continuity": self.equation == "HARMONIC" and self.method == "GLOBAL",
+            "continuity": self.equation in OF_CURVATURE and self.method == "GLOBAL",
             "boundary_normals": self.equation != "MINIMAL",
             "levels": self.method == "PAPER",
             "spacing": self.mesh == "NEW",
             "inner": self.mesh == "NEW",
             "quads": self.mesh == "NEW",
+            "max_vertices": self.mesh == "NEW",
+            "limit_total": self.mesh == "NEW",
             "detail_size": self.detail > 0.0,
             "detail_from": self.detail > 0.0,
             "detail_face_set": self.detail > 0.0,

@@ -11,7 +11,7 @@ import fairing
 from . import quality
 from .arrays import Floats, Ints
 from .eaten import Eaten, eaten_edges
-from .engine import Problem, islands
+from .engine import Problem, Progress, go_on, islands
 from .evidence import Evidence
 from .flank import Flank, flank
 from .options import FairOptions
@@ -45,10 +45,12 @@ class Fairing:
     free_count: int  # of the patch; `vertices` beyond it belong to a mended outline or a band
 
 
-def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solved) -> Fairing:
-    """Blend the answer with the mesh that it is for, measure both, and judge.
+def outcome(
+    mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solved, progress: Progress | None = None
+) -> Fairing:
+    """Blend the answer with the mesh that it is for, measure both, and judge: as long as the solution takes.
 
-    Raises fairing.SolverError where the answer is not finite in the mesh's own coordinates.
+    Raises fairing.SolverError where the answer is not finite in the mesh's own coordinates, and fairing.Cancelled.
     """
     problem, result = solved.problem, solved.result
     patch, before = problem.patch, problem.points
@@ -61,17 +63,22 @@ def outcome(mesh: MeshArrays, matrix: Floats, options: FairOptions, solved: Solv
     own = len(patch.vertices)
     as_solved = options.factor == 1.0 and not options.takes_base
     clear = as_solved and not mesh.mirror_x and _is_clear(patch, result)
+    go_on(progress)
     quality_before, quality_after = quality.compare(patch, (before[:own], after[:own]), clear)
     join = quality.join(problem, after)
+    go_on(progress)
     pieces = discs(patch)
     swollen = patch.vertices[swellings(pieces, after[:own], waviness(pieces, before[:own]))]
     odd = _rounded(problem, after, moving, options), swollen, _eaten(mesh, problem, after)
+    go_on(progress)
     through = _pierced(mesh, matrix, problem, after)
     seams = seam_kinks(patch, after[:own], join.limit)
+    go_on(progress)
     evidence = Evidence(
         problem, result, solved.failures, quality_before, quality_after, join, *odd, pierced=through, points=after,
         flank=_flank(mesh, matrix, problem, after, pieces), left_out=left_out(mesh), seams=seams,
     )  # fmt: skip
+    go_on(progress)
     verdict = judge(evidence, options.resolved(mesh.textured))
     tunnels = () if verdict.grade == GOOD else tunnel_hint(patch)
     verdict = because_of(verdict, tunnels)

@@ -40,6 +40,7 @@ class Remeshed(Fairing):
     new_positions: Floats  # (k, 3) of the new vertices, in the mesh's own coordinates
     points: Floats  # (r + k, 3) of all vertices of the part, in world space
     quads: bool  # whether triangles are written in pairs
+    limit_total: int  # as FairOptions has it
 
     def faces(self, kinds: Ints) -> Faces:
         """Return what is written; kinds: (m,) of the triangles, only those of one kind are paired."""
@@ -115,6 +116,7 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
         new_positions=local[stay:],
         points=points,
         quads=options.quads,
+        limit_total=options.limit_total,
     )
 
 
@@ -165,7 +167,8 @@ def _solved(problem: Problem, kept: Ints, options: FairOptions, progress: Progre
     with in_mesh_words(problem.origin):
         return fairing.remesh(
             problem.own_points, patch.triangles, fixed=patch.fixed, fixed_normals=problem.normals,
-            kept=kept, spacing=_spacing(problem, options), inner=options.inner.lower(), progress=progress, **arguments,
+            kept=kept, spacing=_spacing(problem, options), inner=options.inner.lower(),
+            max_vertices=options.max_vertices, progress=progress, **arguments,
         )  # fmt: skip
 
 

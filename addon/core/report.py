@@ -18,6 +18,7 @@ from .words import counted
 
 MET, MISSED, TOLD = "MET", "MISSED", "TOLD"
 MOST_DISTORTED = 10.0  # of texture distortion; beyond, more of it means nothing
+SHAPES = {"harmonic": "Harmonic", "least_variation": "Even Curvature"}  # that Automatic takes, by the engine's names
 GRADE_NAMES = {GOOD: "Good", LOOK: "Look here", UNUSABLE: "Not usable"}
 
 Named = tuple[str, Fairing]
@@ -121,8 +122,15 @@ def _bulge_note(named: list[Named], options: FairOptions) -> tuple[str, ...]:
     )
 
 
+def shape_checks(results: Sequence[Result], equation: str) -> tuple[Check, ...]:
+    """Return the line on the shapes that Automatic has taken; none where the shape was asked for."""
+    taken = dict.fromkeys(SHAPES[result.equation] for result in results if result.equation in SHAPES)
+    return (Check("Shape", ", ".join(taken)),) if equation == "AUTOMATIC" and taken else ()
+
+
 def _checks(outcomes: list[Fairing], options: FairOptions) -> tuple[Check, ...]:
     return (
+        *shape_checks([outcome.result for outcome in outcomes], options.equation),
         *(kink_checks([outcome.join for outcome in outcomes]) if judges_join(options) else ()),
         _count_check("Folded faces", outcomes, lambda quality: quality.folded),
         _count_check("Faces that cross", outcomes, lambda quality: quality.crossing),

@@ -1,4 +1,9 @@
-"""Work in a thread of its own, watched from outside. Knows nothing of Blender."""
+"""Work in a thread of its own, watched from outside. Knows nothing of Blender.
+
+Every thread is known here, from its begin on, so that `stop_all` can end them all. None of them is a daemon: Python
+kills a daemon when the process ends, in the middle of the engine, and that aborts the process. Python joins the
+other threads instead, and a run gives up by itself as soon as the main thread has come to its end.
+"""
 
 from __future__ import annotations
 
@@ -6,24 +11,30 @@ import threading
 from collections.abc import Callable
 from typing import Generic, TypeVar
 
+import fairing
+
 Result = TypeVar("Result")
 Progress = Callable[[float, str], "bool | None"]
 
+NAME = "fairing"  # of each thread
 
-_unfinished: set[threading.Thread] = set()
+# Threads, each with what stops it; those that have ended as well, until the next one begins. Main thread only.
+_begun: list[tuple[threading.Thread, threading.Event]] = []
 
 
-def wait_for_all(seconds: float) -> bool:
-    """Wait for the threads of all runs, cancelled ones too, each at most so long; tell whether all ended."""
-    for thread in tuple(_unfinished):
-        thread.join(seconds)
-    return not any(thread.is_alive() for thread in tuple(_unfinished))
+def stop_all() -> None:
+    """Cancel every run, and return when all threads have ended: a step of the engine later, half a second at most."""
+    for _, stop in _begun:
+        stop.set()
+    while _begun:
+        _begun.pop()[0].join()
 
 
 class Run(Generic[Result]):
     """One call of `work(progress)` in the background.
 
-    `work` must touch nothing that the caller changes meanwhile: arrays of its own, never bpy data.
+    `work` must touch nothing that the caller changes meanwhile: arrays of its own, never bpy data. It must ask
+    `progress` now and then, and end soon once that returns False.
     """
 
     def __init__(self, work: Callable[[Progress], Result]) -> None:
@@ -33,9 +44,9 @@ class Run(Generic[Result]):
         self._stage = ""
         self._result: Result | None = None
         self._error: BaseException | None = None
-        # A daemon: a cancelled engine may finish its step while Blender closes.
-        self._thread = threading.Thread(target=self._main, name="fairing", daemon=True)
-        _unfinished.add(self._thread)
+        self._thread = threading.Thread(target=self._main, name=NAME, daemon=False)
+        _begun[:] = [known for known in _begun if known[0].is_alive()]
+        _begun.append((self._thread, self._stop))
         self._thread.start()
 
     @property
@@ -53,8 +64,13 @@ class Run(Generic[Result]):
         """Whether `result` would return at once."""
         return not self._thread.is_alive()
 
+    @property
+    def cancelled(self) -> bool:
+        """Whether it was asked to stop, by `cancel` or by `stop_all`."""
+        return self._stop.is_set()
+
     def cancel(self) -> None:
-        """Ask the work to stop; returns at once. Its result, should there be one, is of no use then."""
+        """Ask the work to stop; returns at once. It has no result from then on, whatever it came to."""
         self._stop.set()
 
     def wait(self, seconds: float | None = None) -> bool:
@@ -63,8 +79,10 @@ class Run(Generic[Result]):
         return self.finished
 
     def result(self) -> Result:
-        """Wait for the end; return what the work returned, or raise what it raised."""
+        """Wait for the end; return what the work returned, or raise what it raised, or Cancelled where it was."""
         self._thread.join()
+        if self.cancelled:
+            raise fairing.Cancelled("the run was cancelled")
         if self._error is not None:
             raise self._error
         assert self._result is not None
@@ -75,9 +93,8 @@ class Run(Generic[Result]):
             self._result = self._work(self._progress)
         except BaseException as error:  # handed over to whoever asks for the result
             self._error = error
-        finally:
-            _unfinished.discard(self._thread)
 
     def _progress(self, fraction: float, stage: str) -> bool:
         self._fraction, self._stage = fraction, stage
-        return not self._stop.is_set()
+        # Python declares the main thread dead before it joins the others at the end of the process.
+        return not self._stop.is_set() and threading.main_thread().is_alive()

@@ -12,7 +12,7 @@ from .arrays import Ints
 from .engine import Result
 from .evidence import Evidence
 from .failings import failing
-from .looks import are_many, judges_join, visible
+from .looks import are_many, girth_reason, judges_join, visible
 from .options import FairOptions
 from .region import nothing
 
@@ -23,6 +23,7 @@ GRADES = (GOOD, LOOK, UNUSABLE)
 GROW, SMOOTH_OUTLINE, AS_SELECTED, HOLD_BORDER = "GROW", "SMOOTH_OUTLINE", "AS_SELECTED", "HOLD_BORDER"
 EVEN_CURVATURE, EVEN_SPREAD, WRITE, GROW_OVER = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE", "GROW_OVER"
 ADD_LEFT_OUT = "ADD_LEFT_OUT"
+_UNEVEN = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY")  # equations that Even Curvature may do better than
 
 
 @dataclass(frozen=True)
@@ -83,8 +84,8 @@ def _once(spots: Ints) -> Ints:
 
 
 def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str, ...]:
-    has_outside = len(evidence.problem.outside) > 0
-    was_tried = any(name == "variation" for name, _ in evidence.result.way)
+    result, has_outside = evidence.result, len(evidence.problem.outside) > 0
+    was_tried = any(name == "variation" for name, _ in result.way) or result.equation == "least_variation"
     offered = {
         GROW_OVER: not bad and evidence.flank is not None and judges_join(options),
         ADD_LEFT_OUT: are_many(evidence.left_out),
@@ -93,7 +94,7 @@ def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str,
         EVEN_SPREAD: bad and _is_folded(evidence) and options.mesh == "KEEP" and options.inner_fairness != "UNIFORM",
         AS_SELECTED: len(evidence.rounded) > 0,
         HOLD_BORDER: bad and options.fairs_border,
-        EVEN_CURVATURE: bad and not was_tried and options.equation in ("HARMONIC", "MINIMAL_ENERGY"),
+        EVEN_CURVATURE: (bad or bool(girth_reason(result))) and not was_tried and options.equation in _UNEVEN,
         WRITE: bad and options.accept != "ALL",
     }
     return tuple(name for name, offer in offered.items() if offer)

@@ -30,6 +30,7 @@ class Words:
 
 
 _DOUBLED = "The new surface doubles back onto faces that stick out into the outline: delete these first, or select them"
+_DISSOLVE = "dissolve it, or split that edge there and use Merge by Distance"
 SPREAD_EVENLY = "The way to spread vertices turns faces over here: they were spread evenly instead"
 _SLOPE_ONLY = (
     "{vertices:.0f} of the outline's {outline_vertices:.0f} vertices are met in slope only, not in curvature. "
@@ -58,6 +59,21 @@ WORDS: dict[str, tuple[Words, ...]] = {
             "{n} vertices of the outline, {first} among them, share their place with another one: use Merge by "
             "Distance where the mesh is torn, move them apart where the outline touches itself",
             when="meeting",
+        ),
+        Words("A vertex of the outline lies on its edge {ends} (a T-junction): " + _DISSOLVE, when="on_edge"),
+        Words(
+            "{on_edges:.0f} vertices of the outline lie on edges of it, {ends} among them (T-junctions): "
+            "dissolve them, or split these edges there and use Merge by Distance",
+            when="on_edges",
+        ),
+        Words(
+            "Edges of the outline cross each other at {n} vertices, {first} among them: move them apart",
+            when="crossing",
+        ),
+        Words(
+            "The outline touches itself or another one at vertex {first}: split it",
+            "The outline touches itself or another one at {n} vertices, {first} among them: split them",
+            when="pinches",
         ),
         Words(
             "Free vertex {first} joins several fans of faces: split it, or pin it",
@@ -89,14 +105,37 @@ WORDS: dict[str, tuple[Words, ...]] = {
     "NOT_A_LOOP": (Words("The outline to be filled is no loop of border edges: look at vertex {first}"),),
     "NOT_A_HOLE": (
         Words(
-            "The border of {n} edges through vertex {first} goes around the outside of a sheet of faces: "
-            "select holes only"
+            "The border of {n} edges through vertex {first} runs around the outside of a sheet of faces: "
+            "to fill it all the same, select it alone"
+        ),
+    ),
+    "OUT_OF_PROPORTION": (
+        Words(
+            "The surface would take about {count:,.0f} new vertices, and {limit:,.0f} are accepted: raise Spacing, or "
+            "Vertex Limit"
+        ),
+    ),
+    "NOT_TANGENT": (
+        Words(
+            "The surface turns back by {degrees:.0f}° at {n} vertex of the outline: unfold the faces there",
+            "The surface turns back by up to {degrees:.0f}° at {n} vertices of the outline: unfold the faces there",
+            when="folded_back",
+        ),
+        Words(
+            "The surface has a kink of {degrees:.0f}° at {n} vertex of the outline, where its edges are longer than "
+            "the wall is thick: subdivide it",
+            "The surface has kinks of up to {degrees:.0f}° at {n} vertices of the outline, where its edges are longer "
+            "than the wall is thick: subdivide it",
         ),
     ),
     "LOOPS_NOT_JOINED": (
         Words(
             "The faces around the outline through vertex {first} are turned over, seen from the others: flip them",
             when="turned",
+        ),
+        Words(
+            "The faces around the outline through vertex {first} lie between it and the others: delete some of them",
+            when="between",
         ),
         Words("No surface joins these outlines"),
     ),
@@ -209,9 +248,6 @@ WORDS: dict[str, tuple[Words, ...]] = {
         ),
     ),
     "NO_SOLUTION": (
-        Words(
-            "The surface asked for would be a bulb between these outlines: even curvature was used", when="variation"
-        ),
         Words(
             "No surface meets these jagged outlines: it follows them smoothly, up to {distance:.1%} of its size off",
             when="distance",

@@ -285,10 +285,6 @@ def _on_step(*_arguments: object) -> None:
     live.doubt()
 
 
-def _on_load(_path: str) -> None:
-    live.forget()
-
-
 def switched(context: bpy.types.Context) -> None:
     """Start or stop following, as the switch says."""
     if context.window_manager.fairing_live.on:
@@ -325,13 +321,11 @@ def stop() -> None:
 
 
 def register() -> None:
-    """Follow the switch and the opening of files."""
+    """Follow the switch."""
     signals.listeners["live"] = switched
-    listen(bpy.app.handlers.load_post, _on_load)
 
 
 def unregister() -> None:
     """Leave nothing behind."""
     stop()
     signals.listeners.pop("live", None)
-    unlisten(bpy.app.handlers.load_post, _on_load)

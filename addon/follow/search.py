@@ -16,12 +16,15 @@ class Search:
 
     def __init__(self, region: LiveRegion, positions: Floats, matrix: Floats) -> None:
         """Begin at once. positions: (n, 3) of region.vertices; matrix: (4, 4) to world space."""
-        self.stopped = False
         self._run = Run(lambda progress: sought(region, positions, matrix, progress))
+
+    @property
+    def stopped(self) -> bool:
+        """Whether it was asked to end, here or with all other runs."""
+        return self._run.cancelled
 
     def stop(self) -> None:
         """Ask it to end; what it finds counts no more. Returns at once."""
-        self.stopped = True
         self._run.cancel()
 
     def wait(self, seconds: float | None) -> bool:

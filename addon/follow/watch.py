@@ -72,10 +72,6 @@ def _on_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
         watch.stale, watch.changed_at = True, time.monotonic()
 
 
-def _on_load(_path: str) -> None:
-    watch.forget()
-
-
 class MESH_OT_fair_inspect(bpy.types.Operator):
     """Look at the selection: what is free to move, and what would be refused"""
 
@@ -97,12 +93,9 @@ class MESH_OT_fair_inspect(bpy.types.Operator):
 def register() -> None:
     """Start listening."""
     listen(bpy.app.handlers.depsgraph_update_post, _on_change)
-    listen(bpy.app.handlers.load_post, _on_load)
 
 
 def unregister() -> None:
     """Stop listening."""
-    unlisten(bpy.app.handlers.load_post, _on_load)
     unlisten(bpy.app.handlers.depsgraph_update_post, _on_change)
     call_off(_look_later)
-    watch.forget()

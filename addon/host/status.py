@@ -18,10 +18,10 @@ def show_progress(context: bpy.types.Context, fraction: float, stage: str) -> No
 
 
 def hide_progress(context: bpy.types.Context) -> None:
-    """Take the signs away again."""
+    """Take the signs away again, in all windows: where a file is opened or a timer runs, the context has none."""
     context.window_manager.fairing_progress.running = False
-    if context.workspace is not None:
-        context.workspace.status_text_set(None)
+    for window in context.window_manager.windows:
+        window.workspace.status_text_set(None)
     redraw_sidebars(context)
 
 

@@ -38,3 +38,8 @@ def flags(mesh: bpy.types.Mesh, attribute: str, items: Any) -> Mask:
         return np.zeros(len(items), dtype=bool)
     found: Mask = column(mesh.attributes[attribute].data, "value", 1, bool)
     return found
+
+
+def elements_of(table: Any, numbers: Ints) -> list[Any]:
+    """Return the elements of a bmesh's sequence, whose lookup table is up to date."""
+    return [table[number] for number in numbers.tolist()]

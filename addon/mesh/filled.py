@@ -17,9 +17,11 @@ from ..core.fill_report import Added
 from ..core.filling import Piece
 from ..core.unwrapping import SAME, RimUVs, Surface, unwrapped
 from ..core.uv_overlap import covering
-from .layers import OF_CORNERS, MeanLayers, Shapes, in_object_mode
+from .free_normals import renew
+from .layers import OF_CORNERS, MeanLayers, Shapes
 from .new_faces import FaceData, VertexData, kinds, make_faces, make_vertices, refuse_doubles
 from .selecting import select_new_faces
+from .target import Target, in_edit_mode, in_object_mode
 from .texture import triangles_near
 
 
@@ -41,29 +43,27 @@ def border_seeds(mesh: bpy.types.Mesh) -> Mask:
 
 def add_to_edit_mesh(obj: bpy.types.Object, pieces: list[Piece]) -> Added:
     """Add the surfaces to a mesh in edit mode and select them alone; nothing else about the mesh changes."""
-    bm = bmesh.from_edit_mesh(obj.data)
-    added = _add(bm, Shapes(bm, obj.data.shape_keys, obj.active_shape_key), pieces)
-    bmesh.update_edit_mesh(obj.data)
-    return added
+    with in_edit_mode(obj) as target:
+        return _add(target, pieces)
 
 
 def add_to_mesh(mesh: bpy.types.Mesh, pieces: list[Piece]) -> Added:
     """Add the surfaces to a mesh in object mode, to its Basis where it has shape keys."""
-    with in_object_mode(mesh) as (bm, shapes):
-        return _add(bm, shapes, pieces)
+    with in_object_mode(mesh) as target:
+        return _add(target, pieces)
 
 
-def _add(bm: Any, shapes: Shapes, pieces: list[Piece]) -> Added:
-    bm.verts.ensure_lookup_table()
-    # All are read before the first is written: tables of vertices don't last.
-    rims = [_Rim(bm, piece) for piece in pieces]
-    new = [rim.data(bm) for rim in rims]
-    for data in new:
-        refuse_doubles(bm, data)
+def _add(target: Target, pieces: list[Piece]) -> Added:
+    bm = target.bm
+    rims, new = _read(target, pieces)
     covered = _covering(bm, rims)
-    faces = [face for rim, data in zip(rims, new, strict=True) for face in rim.fill(bm, shapes, data)]
+    if target.open():
+        rims, new = _read(target, pieces)
+    made = [rim.fill(target, data) for rim, data in zip(rims, new, strict=True)]
+    faces = [face for _, of_one in made for face in of_one]
     select_new_faces(bm, faces)
     bm.normal_update()
+    renew(bm, [vertex for of_one, _ in made for vertex in of_one], faces)
     return Added(
         faces=len(faces),
         mixed=sum(rim.mixed for rim in rims),
@@ -71,6 +71,18 @@ def _add(bm: Any, shapes: Shapes, pieces: list[Piece]) -> Added:
         distortion=max((rim.distortion for rim in rims), default=0.0),
         covering=covered,
     )
+
+
+def _read(target: Target, pieces: list[Piece]) -> tuple[list[_Rim], list[FaceData]]:
+    """Read all before the first is written, as tables of vertices don't last; raises MeshRefusal."""
+    bm = target.bm
+    bm.verts.ensure_lookup_table()
+    bm.faces.index_update()
+    rims = [_Rim(bm, piece) for piece in pieces]
+    new = [rim.data(target) for rim in rims]
+    for data in new:
+        refuse_doubles(bm, data)
+    return rims, new
 
 
 def _covering(bm: Any, rims: list[_Rim]) -> int:
@@ -119,27 +131,27 @@ class _Rim:
         """The new triangles there, (m, 3, 2); none without a map."""
         return np.empty((0, 3, 2)) if self._active is None else self._active.corners.reshape(-1, 3, 2)
 
-    def fill(self, bm: Any, shapes: Shapes, data: FaceData) -> list[Any]:
-        """Make vertices, then faces; return the faces."""
+    def fill(self, target: Target, data: FaceData) -> tuple[list[Any], list[Any]]:
+        """Make vertices, then faces; return both."""
         piece = self._piece
         near, _ = piece.examples()
         examples = [self._vertices[number] for number in near.tolist()]
-        new = VertexData(piece.positions, self._vertices, piece.carried, examples, keyed=self._keyed)
-        vertices = make_vertices(bm, shapes, new)
-        made = make_faces(bm, vertices, data)
+        new = VertexData(piece.positions, self._vertices, piece.carried, examples, None, self._keyed, piece.limit_total)
+        vertices = make_vertices(target, new)
+        made = make_faces(target, vertices, data)
         table = [*self._vertices, *vertices]
         for rim, flat in zip(self._rims, self._maps, strict=True):
             if self._is_marked(rim):
                 for a, b in flat.seams.tolist():
-                    bm.edges.get((table[a], table[b])).seam = True
-        return made
+                    target.bm.edges.get((table[a], table[b])).seam = True
+        return vertices, made
 
-    def data(self, bm: Any) -> FaceData:
+    def data(self, target: Target) -> FaceData:
         """Tell what the new faces are made of."""
         piece = self._piece
         _, of_face = piece.examples()
         seams = np.concatenate([np.empty((0, 2), dtype=np.int64), *(flat.seams for flat in self._maps)])
-        faces = piece.faces(kinds(bm, self._faces, self._after)[of_face], seams)
+        faces = piece.faces(kinds(target, self._faces, self._after)[of_face], seams)
         return FaceData(
             stay=self._vertices,
             polygons=faces.polygons,

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from typing import Any
 
-import bmesh
-import bpy
 import numpy as np
 
 from ..core.arrays import Floats
+from ..core.limited import limited_like
+from .free_normals import NAME as _OWN_NORMALS
 
 _COPIED = ("int", "bool", "string")  # kinds of layers without a mean; BMLoop.copy_from takes Python's handle along
-_OWN_NORMALS = "custom_normal"  # directions, which have no mean: new corners have none of their own
 OF_VERTICES = ("float", "float_vector", "float_color", "color")
 OF_CORNERS = ("uv", *OF_VERTICES)
 
@@ -85,6 +83,14 @@ class Weights:
         rows = [[vertex[self._layer].get(group, 0.0) for group in self._groups] for vertex in vertices]
         return np.array(rows, dtype=np.float64).reshape(len(vertices), self.width)
 
+    def limited(self, rows: Floats, sources: Floats, bones: Sequence[int], most: int) -> Floats:
+        """Return rows (k, width) with `most` groups of bones each, 0: as many as one of the sources (n, width) has.
+
+        Where no group is of a bone all groups count.
+        """
+        counted = np.isin(self._groups, bones)
+        return limited_like(rows, sources, counted if counted.any() else ~counted, most)
+
     def write(self, vertices: Sequence[Any], rows: Floats) -> None:
         """Write them; a weight of 0 is no member."""
         if not self._groups:
@@ -128,17 +134,3 @@ class Shapes:
         if self._shown is not None:
             for vertex in vertices:
                 vertex[self._shown] = vertex.co
-
-
-@contextmanager
-def in_object_mode(mesh: bpy.types.Mesh) -> Iterator[tuple[Any, Shapes]]:
-    """Give a mesh in object mode as a bmesh, its Basis shown, and write that back."""
-    bm = bmesh.new()
-    try:
-        bm.from_mesh(mesh)
-        keys = mesh.shape_keys
-        yield bm, Shapes(bm, keys, None if keys is None else keys.reference_key)
-        bm.to_mesh(mesh)
-    finally:
-        bm.free()
-    mesh.update()

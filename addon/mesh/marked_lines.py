@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 
 from ..core.arrays import Floats, Mask
-from ..core.lines import parting_edges
+from ..core.lines import WIRES, edges_at_wires, parting_edges
 from ..core.region import MeshArrays
 
 _WIDTHS = {
@@ -20,20 +20,24 @@ _WIDTHS = {
     "FLOAT_VECTOR": ("vector", 3, np.float32),
     "FLOAT_COLOR": ("color", 4, np.float32),
     "BYTE_COLOR": ("color", 4, np.float32),
+    "INT16_2D": ("value", 2, np.int32),
+    "INT32_2D": ("value", 2, np.int32),
 }  # fmt: skip
+_WHITE = {"FLOAT_COLOR", "BYTE_COLOR"}  # what edges have that nobody has coloured; of all else they have zeros
 _OWN = {".sculpt_face_set"}  # of Blender's own attributes, which begin with a point, the one that counts
 _NOT_MARKS = {"custom_normal", "sharp_face"}  # what new faces have of their own, and shading
 
 
 def lines(mesh: bpy.types.Mesh, arrays: MeshArrays) -> dict[str, Mask]:
-    """Return (e,) masks of edges with marks, and where UVs, colours, materials or face sets part, by attribute."""
-    found = {}
+    """Return (e,) masks, by attribute: edges with marks, those where UVs, colours or face sets part, those at wires."""
+    found = {WIRES: edges_at_wires(arrays)}
     for attribute in mesh.attributes:
         hidden = attribute.name.startswith(".") and attribute.name not in _OWN
         if hidden or attribute.name in _NOT_MARKS or attribute.data_type not in _WIDTHS:
             continue
         if attribute.domain == "EDGE":
-            found[attribute.name] = (_values(attribute, len(arrays.edges)) != 0.0).any(axis=1)
+            unmarked = 1.0 if attribute.data_type in _WHITE else 0.0
+            found[attribute.name] = (_values(attribute, len(arrays.edges)) != unmarked).any(axis=1)
         elif attribute.domain == "CORNER":
             found[attribute.name] = parting_edges(arrays, _values(attribute, len(arrays.corner_vertices)))
         elif attribute.domain == "FACE":

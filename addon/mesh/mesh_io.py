@@ -17,9 +17,11 @@ from ..core.region import MeshArrays, free_vertices
 from ..core.selection import enclosed_faces
 from ..core.spiked import is_spoilt
 from ..core.symmetry import with_image
-from .columns import column, flags, indices, stored
+from .columns import column, elements_of, flags, indices, stored
+from .free_normals import put_at, renew_at, renew_mesh
 from .marked_lines import lines
 from .mirrored import reflections
+from .set_aside import has_unreached
 from .weights import group_index, members, weighed
 
 FEW = 8  # times as many vertices as were moved: normals of the whole mesh take longer than theirs, one by one
@@ -102,6 +104,8 @@ def writable_key(obj: bpy.types.Object) -> str:
 
 def check_new_faces(obj: bpy.types.Object | None) -> None:
     """Raise ValueError where an object has something that new faces can't be given."""
+    if obj is not None:
+        has_unreached(obj.data)
     if obj is not None and any(modifier.type == "MULTIRES" for modifier in obj.modifiers):
         raise ValueError("A Multiresolution modifier can't be kept: apply or remove it first")
 
@@ -246,17 +250,24 @@ def _marked_edges(mesh: bpy.types.Mesh, kind: str) -> Mask:
     return positive
 
 
-def write_edit_mesh(mesh: bpy.types.Mesh, vertices: Ints, positions: Floats) -> None:
-    """Move the vertices (k,) of a mesh in edit mode to `positions` (k, 3), and only them."""
+def write_edit_mesh(mesh: bpy.types.Mesh, vertices: Ints, positions: Floats, normals: Floats | None = None) -> None:
+    """Move the vertices (k,) of a mesh in edit mode to `positions` (k, 3), and only them.
+
+    normals: free custom normals of the whole mesh, from which those there are taken; None: those of the new surface.
+    """
     bm = bmesh.from_edit_mesh(mesh)
     bm.verts.ensure_lookup_table()
-    table = bm.verts
-    for vertex, position in zip(vertices.tolist(), positions.tolist(), strict=True):
-        table[vertex].co = position
-    if FEW * len(vertices) < len(table):
-        _update_normals_at([table[vertex] for vertex in vertices.tolist()])
+    moved = elements_of(bm.verts, vertices)
+    for vertex, position in zip(moved, positions.tolist(), strict=True):
+        vertex.co = position
+    if FEW * len(moved) < len(bm.verts):
+        _update_normals_at(moved)
     else:
         bm.normal_update()
+    if normals is None:
+        renew_at(bm, moved)
+    else:
+        put_at(bm, moved, normals)
     bmesh.update_edit_mesh(mesh, destructive=False)
 
 
@@ -281,6 +292,7 @@ def write_mesh(mesh: bpy.types.Mesh, vertices: Ints, positions: Floats) -> None:
     mesh.vertices.foreach_set("co", after.ravel())
     if mesh.shape_keys is not None:
         _move_keys(mesh.shape_keys, vertices, after[vertices] - before[vertices], after)
+    renew_mesh(mesh, vertices)
     mesh.update()
 
 

@@ -12,6 +12,8 @@ from ..core.arrays import Floats, Ints
 from ..core.words import doubled
 from .layers import OF_CORNERS, OF_VERTICES, MeanLayers, Shapes, Weights, copied_layers, copy
 from .live_mesh import LAYER
+from .set_aside import ROW
+from .target import Target
 
 Carrier = Callable[[Floats], Floats]  # from values at the sources (n, w) to values at new elements
 
@@ -26,6 +28,7 @@ class VertexData:
     examples: Sequence[Any]  # (k,) vertices
     before: Floats | None = None  # (k, 3) where they were on an old surface, which other shape keys than a Basis keep
     keyed: Callable[[Shapes, Floats, Floats], Floats] | None = None  # better offsets than those carried, from starts
+    limit: int = 0  # of vertex groups of bones; 0: as many as one of the sources is in
 
 
 @dataclass(frozen=True)
@@ -42,20 +45,23 @@ class FaceData:
     in_live: bool = False  # whether new faces are in the live region where their examples are
 
 
-def make_vertices(bm: Any, shapes: Shapes, data: VertexData) -> list[Any]:
-    """Make them; return them."""
-    layers = MeanLayers(bm.verts.layers, OF_VERTICES)
+def make_vertices(target: Target, data: VertexData) -> list[Any]:
+    """Make them in an open target; return them."""
+    bm, shapes = target.bm, target.shapes
+    layers, aside = MeanLayers(bm.verts.layers, OF_VERTICES), target.aside.part(bm, "POINT")
     weights = Weights(bm, data.sources)
-    read = (layers.read(data.sources), weights.read(data.sources), shapes.offsets(data.sources))
+    members = weights.read(data.sources)
+    read = (layers.read(data.sources), aside.read(data.sources), members, shapes.offsets(data.sources))
     values = data.carry(np.concatenate(read, axis=1))
     made = []
     for position, example in zip(data.positions.tolist(), data.examples, strict=True):
         vertex = bm.verts.new(position, example)
         vertex.hide = False
         made.append(vertex)
-    own, groups, offsets = np.split(values, [layers.width, layers.width + weights.width], axis=1)
+    own, more, groups, offsets = np.split(values, np.cumsum([part.shape[1] for part in read[:-1]]), axis=1)
     layers.write(made, own)
-    weights.write(made, groups)
+    aside.write(made, more)
+    weights.write(made, weights.limited(groups, members, target.bones, data.limit))
     # As Blender keeps them.
     starts: Floats = data.positions.astype(np.float32).astype(np.float64)
     if data.before is not None and not shapes.follow:
@@ -66,10 +72,11 @@ def make_vertices(bm: Any, shapes: Shapes, data: VertexData) -> list[Any]:
     return made
 
 
-def make_faces(bm: Any, vertices: Sequence[Any], data: FaceData) -> list[Any]:
-    """Make them over data.stay and these new vertices; return them."""
-    layers = MeanLayers(bm.loops.layers, OF_CORNERS)
-    values = data.carry(layers.read(data.sources))
+def make_faces(target: Target, vertices: Sequence[Any], data: FaceData) -> list[Any]:
+    """Make them in an open target, over data.stay and these new vertices; return them."""
+    bm = target.bm
+    layers, aside = MeanLayers(bm.loops.layers, OF_CORNERS), target.aside.part(bm, "CORNER")
+    values = data.carry(np.concatenate([layers.read(data.sources), aside.read(data.sources)], axis=1))
     live = None if data.in_live else bm.faces.layers.int.get(LAYER)
     table = [*data.stay, *vertices]
     made = []
@@ -84,7 +91,8 @@ def make_faces(bm: Any, vertices: Sequence[Any], data: FaceData) -> list[Any]:
     if copied:
         copy(copied, data.corner_examples, corners)
     if layers.width:
-        layers.write(corners, values, data.numbers)
+        layers.write(corners, values[:, : layers.width], data.numbers)
+    aside.write(corners, values[data.numbers, layers.width :])
     return made
 
 
@@ -98,18 +106,21 @@ def refuse_doubles(bm: Any, data: FaceData) -> None:
             raise doubled([vertex.index for vertex in face.verts])
 
 
-def kinds(bm: Any, faces: Sequence[Any], corners: Sequence[Any] = ()) -> Ints:
-    """Return (n,): equal numbers for faces that are equal in all that has no mean, and so are corners beside them."""
-    layers = [layer for layer in copied_layers(bm.faces.layers) if layer.name != LAYER]
-    keys = [(face.material_index, face.smooth, *(face[layer] for layer in layers)) for face in faces]
-    of_corners = copied_layers(bm.loops.layers)
+def kinds(target: Target, faces: Sequence[Any], corners: Sequence[Any] = ()) -> Ints:
+    """Return (n,): equal numbers for faces that are equal in all that has no mean, and so are corners beside them.
+
+    Faces have their indices.
+    """
+    bm = target.bm
+    layers = [layer for layer in copied_layers(bm.faces.layers) if layer.name not in (LAYER, ROW + "FACE")]
+    aside = target.aside.part(bm, "FACE").keys(np.array([face.index for face in faces], dtype=np.int64))
+    keys = [
+        (face.material_index, face.smooth, key, *(face[layer] for layer in layers))
+        for face, key in zip(faces, aside, strict=True)
+    ]
+    of_corners = [layer for layer in copied_layers(bm.loops.layers) if layer.name != ROW + "CORNER"]
     if of_corners and corners:
         beside = [tuple(corner[layer] for layer in of_corners) for corner in corners]
         keys = [key + more for key, more in zip(keys, beside, strict=True)]
     numbers: dict[Any, int] = {}
     return np.array([numbers.setdefault(key, len(numbers)) for key in keys], dtype=np.int64)
-
-
-def elements_of(table: Any, numbers: Ints) -> list[Any]:
-    """Return the elements of a bmesh's sequence, whose lookup table is up to date."""
-    return [table[number] for number in numbers.tolist()]

@@ -9,12 +9,13 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Ints
-from ..core.new_part import NewPart
+from ..core.arrays import Ints
 from ..core.remeshing import Remeshed
-from .layers import Shapes, in_object_mode
-from .new_faces import FaceData, VertexData, elements_of, kinds, make_faces, make_vertices, refuse_doubles
+from .columns import elements_of
+from .free_normals import renew
+from .new_faces import FaceData, VertexData, kinds, make_faces, make_vertices, refuse_doubles
 from .selecting import select_new_faces
+from .target import Target, in_edit_mode, in_object_mode
 
 
 @dataclass(frozen=True)
@@ -28,68 +29,98 @@ class Written:
 
 def write_edit_mesh(obj: bpy.types.Object, outcome: Remeshed) -> Written:
     """Replace the patch of an object in edit mode and select what is new."""
-    bm = bmesh.from_edit_mesh(obj.data)
-    written = _replace(bm, Shapes(bm, obj.data.shape_keys, obj.active_shape_key), outcome)
-    bmesh.update_edit_mesh(obj.data)
-    return written
+    with in_edit_mode(obj) as target:
+        return _replace(target, outcome)
 
 
 def write_mesh(mesh: bpy.types.Mesh, outcome: Remeshed) -> None:
     """Replace the patch of a mesh in object mode: that of its Basis, which the keys relative to it follow."""
-    with in_object_mode(mesh) as (bm, shapes):
+    with in_object_mode(mesh) as target:
+        bm, shapes = target.bm, target.shapes
         bm.verts.ensure_lookup_table()
         moved = elements_of(bm.verts, outcome.vertices)
         offsets = shapes.offsets(moved)
-        _replace(bm, shapes, outcome)
+        _replace(target, outcome)
         if shapes.follow:
             shapes.write(moved, offsets, np.array([vertex.co[:] for vertex in moved]).reshape(-1, 3))
 
 
-def _replace(bm: Any, shapes: Shapes, outcome: Remeshed) -> Written:
+@dataclass(frozen=True)
+class _Old:
+    """Elements of the mesh as it was, and what the new faces are made of."""
+
+    spots: list[Any]
+    gone: list[Any]  # faces
+    edges: set[Any]  # of these
+    lost: list[Any]  # vertices
+    stay: list[Any]  # vertices
+    new: FaceData
+
+
+def _read(target: Target, outcome: Remeshed) -> _Old:
+    """Look all of them up; raises MeshRefusal."""
+    bm, part = target.bm, outcome.part
     for table in (bm.verts, bm.faces):
         table.ensure_lookup_table()
         table.index_update()
-    part = outcome.part
-    spots = elements_of(bm.verts, np.setdiff1d(outcome.verdict.spots, part.gone_vertices))
-    gone = elements_of(bm.faces, part.gone_faces)
-    lost = elements_of(bm.verts, part.gone_vertices)
-    old_edges = {edge for face in gone for edge in face.edges}
-    stay = elements_of(bm.verts, part.stay)
-    new = _face_data(bm, outcome, stay)
+    gone, stay = elements_of(bm.faces, part.gone_faces), elements_of(bm.verts, part.stay)
+    new = _face_data(target, outcome, stay)
     refuse_doubles(bm, new)
-    vertices = make_vertices(bm, shapes, _vertex_data(bm, part, outcome.new_positions))
-    for vertex, place in zip(stay[part.fixed_count :], outcome.positions.tolist(), strict=True):
+    return _Old(
+        spots=elements_of(bm.verts, np.setdiff1d(outcome.verdict.spots, part.gone_vertices)),
+        gone=gone,
+        edges={edge for face in gone for edge in face.edges},
+        lost=elements_of(bm.verts, part.gone_vertices),
+        stay=stay,
+        new=new,
+    )
+
+
+def _replace(target: Target, outcome: Remeshed) -> Written:
+    bm, old = target.bm, _read(target, outcome)
+    if target.open():
+        old = _read(target, outcome)
+    on_lines = old.stay[outcome.part.fixed_count :]
+    vertices = make_vertices(target, _vertex_data(bm, outcome))
+    for vertex, place in zip(on_lines, outcome.positions.tolist(), strict=True):
         vertex.co = place
-    faces = make_faces(bm, vertices, new)
-    bmesh.ops.delete(bm, geom=gone, context="FACES_ONLY")
-    bmesh.ops.delete(bm, geom=lost, context="VERTS")
-    bare = [edge for edge in old_edges if edge.is_valid and not edge.link_faces]
-    bmesh.ops.delete(bm, geom=bare, context="EDGES")
+    faces = make_faces(target, vertices, old.new)
+    _delete(bm, old)
     select_new_faces(bm, faces)
     bm.normal_update()
+    renew(bm, [*vertices, *on_lines], faces)
     bm.verts.index_update()
     bm.faces.index_update()
     numbers = np.array([face.index for face in faces], dtype=np.int64)
-    return Written(len(bm.faces), numbers, np.array([vertex.index for vertex in spots], dtype=np.int64))
+    return Written(len(bm.faces), numbers, np.array([vertex.index for vertex in old.spots], dtype=np.int64))
 
 
-def _vertex_data(bm: Any, part: NewPart, positions: Floats) -> VertexData:
+def _delete(bm: Any, old: _Old) -> None:
+    bmesh.ops.delete(bm, geom=old.gone, context="FACES_ONLY")
+    bmesh.ops.delete(bm, geom=old.lost, context="VERTS")
+    bare = [edge for edge in old.edges if edge.is_valid and not edge.link_faces]
+    bmesh.ops.delete(bm, geom=bare, context="EDGES")
+
+
+def _vertex_data(bm: Any, outcome: Remeshed) -> VertexData:
     """Tell what the new vertices are made of: the vertices of the triangles that they lie on."""
+    part = outcome.part
     used, local = np.unique(part.vertices.sources, return_inverse=True)
     stencil = type(part.vertices)(local.reshape(part.vertices.sources.shape), part.vertices.weights)
     sources = elements_of(bm.verts, used)
     before = stencil.mean(np.array([vertex.co[:] for vertex in sources]).reshape(-1, 3))
-    return VertexData(positions, sources, stencil.mean, elements_of(bm.verts, part.vertices.heaviest), before)
+    examples = elements_of(bm.verts, part.vertices.heaviest)
+    return VertexData(outcome.new_positions, sources, stencil.mean, examples, before, limit=outcome.limit_total)
 
 
-def _face_data(bm: Any, outcome: Remeshed, stay: list[Any]) -> FaceData:
+def _face_data(target: Target, outcome: Remeshed, stay: list[Any]) -> FaceData:
     """Tell what the new faces are made of: the corners of the triangles that they lie on."""
-    part = outcome.part
+    bm, part = target.bm, outcome.part
     used, local = np.unique(part.corners.sources, return_inverse=True)
     corners = _corners(bm, used)
     stencil = type(part.corners)(local.reshape(part.corners.sources.shape), part.corners.weights)
     old, of_old = np.unique(part.faces, return_inverse=True)
-    faces = outcome.faces(kinds(bm, elements_of(bm.faces, old))[of_old])
+    faces = outcome.faces(kinds(target, elements_of(bm.faces, old))[of_old])
     return FaceData(
         stay=stay,
         polygons=faces.polygons,

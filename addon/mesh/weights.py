@@ -25,6 +25,15 @@ def group_index(obj: bpy.types.Object | None, name: str, option: str) -> int | N
     return int(obj.vertex_groups[name].index)
 
 
+def bone_groups(obj: bpy.types.Object | None) -> list[int]:
+    """Return the numbers of the vertex groups by which an armature deforms an object; empty without one."""
+    armature = None if obj is None else obj.find_armature()
+    if obj is None or armature is None:
+        return []
+    bones = {bone.name for bone in armature.data.bones if bone.use_deform}
+    return [int(group.index) for group in obj.vertex_groups if group.name in bones]
+
+
 def members(mesh: bpy.types.Mesh, vertices: Ints, group: int) -> list[int]:
     """Return those of the vertices that are in the vertex group with a weight above zero."""
     return [

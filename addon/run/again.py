@@ -128,4 +128,6 @@ class MESH_OT_fair_again(bpy.types.Operator):
         except (last_run.Changed, RuntimeError) as error:  # RuntimeError: what the run has reported
             self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
             return {"CANCELLED"}
+        finally:
+            last_run.try_way("")  # a run that did not begin has not taken it
         return {"CANCELLED"} if "CANCELLED" in status else {"FINISHED"}

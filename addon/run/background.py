@@ -7,10 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-import fairing
-
+from ..core import runner
 from ..core.engine import Progress
-from ..core.runner import Run
 from ..host.status import hide_progress, show_progress
 from ..translations import translated
 from . import job
@@ -44,6 +42,42 @@ def at_once(context: bpy.types.Context, work: Work) -> Any:
         manager.progress_end()
 
 
+class Signs:
+    """What shows that a run is under way: the timer that looks at it, the pointer's counter, status bar and sidebar.
+
+    Ended once, by whoever comes first: the run's operator, or `stop_all` without it.
+    """
+
+    def __init__(self, context: bpy.types.Context) -> None:
+        manager = context.window_manager
+        self._timer = manager.event_timer_add(TICK, window=context.window)
+        manager.progress_begin(0.0, 1.0)
+        show_progress(context, 0.0, "")
+        _shown.append(self)
+
+    def end(self) -> None:
+        """Take them away, unless that has been done."""
+        if self in _shown:
+            _shown.remove(self)
+            manager = bpy.context.window_manager
+            manager.event_timer_remove(self._timer)
+            manager.progress_end()
+            hide_progress(bpy.context)
+
+
+_shown: list[Signs] = []
+
+
+def stop_all() -> None:
+    """Give up every run, watched by an operator or not; returns when all their threads have ended.
+
+    An operator that Blender still calls finds its run cancelled. Blender may also have freed it without a word.
+    """
+    while _shown:
+        _shown[-1].end()
+    runner.stop_all()
+
+
 class Watched:
     """What an operator needs besides `_read`, `_apply`, `_refuse` and `_is_current` to begin and watch a run.
 
@@ -57,8 +91,8 @@ class Watched:
         _refuse: Callable[[bpy.types.Context, job.Refused], set[str]]
         _is_current: Callable[[bpy.types.Context], bool]
 
-    _run: Run[Any] | None = None
-    _timer: Any = None
+    _run: runner.Run[Any] | None = None
+    _signs: Signs | None = None
 
     def _begin_with(self, context: bpy.types.Context, go_on: Callable[[bpy.types.Context], set[str]]) -> set[str]:
         """Read, and go on at once or in the background."""
@@ -69,8 +103,11 @@ class Watched:
             return self._refuse(context, refusal)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Watch the thread; Esc leaves the mesh as it is."""
+        """Watch the thread; Esc leaves the mesh as it is, and so does what calls `stop_all`."""
         assert self._run is not None
+        if self._run.cancelled:
+            self.cancel(context)
+            return {"CANCELLED"}
         if event.type == "ESC" and event.value == "PRESS":
             self.cancel(context)
             self.report({"INFO"}, translated(CANCELLED))
@@ -81,46 +118,39 @@ class Watched:
             show_progress(context, self._run.fraction, self._run.stage)
         return {"PASS_THROUGH"} if event.type in _VIEW_EVENTS else {"RUNNING_MODAL"}
 
-    def cancel(self, context: bpy.types.Context) -> None:
+    def cancel(self, _context: bpy.types.Context) -> None:
         """Give the run up; Blender calls this too, when it closes a window."""
         if self._run is not None:
             self._run.cancel()
-        self._stop_watching(context)
+        self._stop_watching()
 
     def _start(self, context: bpy.types.Context, work: Work, large: bool) -> set[str]:
         """Begin; return when done where that takes but a moment, but for large ones at once."""
         if not has_events(context):
             return self._apply(context, at_once(context, work))
-        self._run = Run(work)
+        self._run = runner.Run(work)
         if not large and self._run.wait(MOMENT):
             return self._apply(context, self._run.result())
         self._start_watching(context)
         return {"RUNNING_MODAL"}
 
     def _collect(self, context: bpy.types.Context) -> set[str]:
+        """Write what the run came to, if its mesh is still there as it was read."""
         assert self._run is not None
-        self._stop_watching(context)
+        self._stop_watching()
+        if not self._is_current(context):
+            self.report({"ERROR"}, "The mesh changed meanwhile; the result was dropped")
+            return {"CANCELLED"}
         try:
             outcomes = self._run.result()
         except job.Refused as refusal:
             return self._refuse(context, refusal)
-        except fairing.Cancelled:
-            return {"CANCELLED"}
-        if not self._is_current(context):
-            self.report({"ERROR"}, "The mesh changed meanwhile; the result was dropped")
-            return {"CANCELLED"}
         return self._apply(context, outcomes)
 
     def _start_watching(self, context: bpy.types.Context) -> None:
-        manager = context.window_manager
-        self._timer = manager.event_timer_add(TICK, window=context.window)
-        manager.progress_begin(0.0, 1.0)
-        manager.modal_handler_add(self)
-        show_progress(context, 0.0, "")
+        self._signs = Signs(context)
+        context.window_manager.modal_handler_add(self)
 
-    def _stop_watching(self, context: bpy.types.Context) -> None:
-        if self._timer is not None:
-            context.window_manager.event_timer_remove(self._timer)
-            context.window_manager.progress_end()
-            self._timer = None
-        hide_progress(context)
+    def _stop_watching(self) -> None:
+        if self._signs is not None:
+            self._signs.end()

@@ -147,7 +147,7 @@ def _filled(chosen: Any) -> Report:
     begin = time.perf_counter()
     done = fill_borders(obj.data, vertices, _matrix(obj), options, _Progress())
     added = [] if done.added is None else [done.added]
-    return make_fill_report([(obj.name, done.pieces)], options, time.perf_counter() - begin, added)
+    return make_fill_report([(obj.name, done.pieces)], options, time.perf_counter() - begin, added, done.notes)
 
 
 def _matrix(obj: bpy.types.Object) -> Floats:

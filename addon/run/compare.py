@@ -12,6 +12,7 @@ from ..core.outcome import Fairing
 from ..core.remeshing import Remeshed
 from ..host.polling import require, require_edit_mode
 from ..mesh import mesh_io, selecting
+from ..mesh.free_normals import free_normals
 from .job import Task, objects_in_mode
 
 
@@ -24,6 +25,7 @@ class Pair:
     vertices: Ints  # (k,)
     before: Floats  # (k, 3)
     after: Floats  # (k, 3)
+    normals: Floats | None = None  # free custom normals of the whole mesh, before
 
 
 class _Last:
@@ -37,28 +39,34 @@ _last = _Last()
 
 
 def remember(tasks: list[Task], outcomes: list[Fairing]) -> None:
-    """Keep both states of a run that was written."""
-    _remember([(task.object_name, task.mesh.positions, outcome) for task, outcome in zip(tasks, outcomes, strict=True)])
+    """Keep both states of a run that will be written now."""
+    _remember(
+        [
+            (task.object_name, task.mesh.positions, outcome, free_normals(bpy.data.objects[task.object_name].data))
+            for task, outcome in zip(tasks, outcomes, strict=True)
+        ]
+    )
 
 
-def remember_one(object_name: str, before: Floats, outcome: Fairing) -> None:
-    """Keep both states of a run outside edit mode; before: the positions (n, 3) of the whole mesh."""
-    _remember([(object_name, before, outcome)])
+def remember_one(object_name: str, before: Floats, outcome: Fairing, normals: Floats | None) -> None:
+    """Keep both states of a run outside edit mode; before: positions (n, 3) of the whole mesh, normals: free ones."""
+    _remember([(object_name, before, outcome, normals)])
 
 
-def _remember(runs: list[tuple[str, Floats, Fairing]]) -> None:
+def _remember(runs: list[tuple[str, Floats, Fairing, Floats | None]]) -> None:
     _last.pairs = tuple(_pair(*run) for run in runs)
-    if any(isinstance(outcome, Remeshed) for _, _, outcome in runs):
+    if any(isinstance(outcome, Remeshed) for _, _, outcome, _ in runs):
         forget()  # there are no pairs
 
 
-def _pair(object_name: str, before: Floats, outcome: Fairing) -> Pair:
+def _pair(object_name: str, before: Floats, outcome: Fairing, normals: Floats | None) -> Pair:
     return Pair(
         object_name=object_name,
         vertex_count=len(before),
         vertices=outcome.vertices,
         before=before[outcome.vertices],
         after=outcome.positions.astype(np.float32).astype(np.float64),
+        normals=normals,
     )
 
 
@@ -101,8 +109,8 @@ def toggle(context: bpy.types.Context) -> bool:
         shown.append(_is_after(objects[pair.object_name].data, pair))
     show_after = not all(shown)
     for pair in _last.pairs:
-        positions = pair.after if show_after else pair.before
-        mesh_io.write_edit_mesh(objects[pair.object_name].data, pair.vertices, positions)
+        shown_now = (pair.after, None) if show_after else (pair.before, pair.normals)
+        mesh_io.write_edit_mesh(objects[pair.object_name].data, pair.vertices, *shown_now)
     return show_after
 
 

@@ -38,7 +38,7 @@ def fair_arrays(
 def _on_old_mesh(
     mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None, kept: Kept | None
 ) -> Fairing:
-    found = outcome(mesh, matrix, options, solve(mesh, matrix, options, progress, kept))
+    found = outcome(mesh, matrix, options, solve(mesh, matrix, options, progress, kept), progress)
     return _evenly(mesh, matrix, options, progress, kept) or found if _texture_folds(mesh, options, found) else found
 
 
@@ -53,5 +53,5 @@ def _evenly(
 ) -> Fairing | None:
     """Fair with vertices spread evenly; None where that isn't usable either."""
     even = replace(options, inner_fairness="UNIFORM")
-    found = outcome(mesh, matrix, even, solve(mesh, matrix, even, progress, kept))
+    found = outcome(mesh, matrix, even, solve(mesh, matrix, even, progress, kept), progress)
     return None if found.verdict.grade == UNUSABLE else replace(found, warnings=(SPREAD_EVENLY, *found.warnings))

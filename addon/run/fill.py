@@ -12,7 +12,8 @@ from ..core.border import NO_BORDER, border_loops
 from ..core.engine import REFUSALS, Progress, sub_range
 from ..core.fill_report import Added, make_fill_report
 from ..core.filling import FillOptions, Piece, fill
-from ..core.options import FairOptions
+from ..core.holes import Borders, expected_vertices, holes_among
+from ..core.options import OF_CURVATURE, FairOptions
 from ..core.region import MeshArrays
 from ..core.report import summary
 from ..host.context import edited_objects
@@ -34,13 +35,17 @@ class Task:
     object_name: str
     mesh: MeshArrays
     matrix: Floats  # (4, 4) to world space
-    loops: list[Ints]
+    borders: Borders
     key: str  # the shape key that was read, as mesh_io.writable_key names it
 
     @property
-    def size(self) -> int:
-        """About how many vertices will be new."""
-        return sum(len(loop) ** 2 for loop in self.loops) // 12
+    def loops(self) -> list[Ints]:
+        """Those that are to be filled."""
+        return self.borders.loops
+
+    def expected_vertices(self, options: FillOptions) -> float:
+        """Return about how many vertices will be new."""
+        return expected_vertices(self.mesh, self.matrix, self.loops, options.bridge) / options.spacing**2
 
 
 def read(context: bpy.types.Context) -> list[Task]:
@@ -54,11 +59,18 @@ def read(context: bpy.types.Context) -> list[Task]:
             mesh_io.check_new_faces(obj)
             key = mesh_io.writable_key(obj)
             mesh = mesh_io.read_own_mesh(obj, FairOptions())
-            loops = border_loops(mesh, seeds)
+            matrix = np.array(obj.matrix_world, dtype=np.float64)
+            borders = _chosen(obj.data, mesh, matrix, border_loops(mesh, seeds))
         except ValueError as cause:
             raise Refused(obj.name, cause) from cause
-        tasks.append(Task(obj.name, mesh, np.array(obj.matrix_world, dtype=np.float64), loops, key))
+        tasks.append(Task(obj.name, mesh, matrix, borders, key))
     return tasks
+
+
+def _chosen(data: bpy.types.Mesh, mesh: MeshArrays, matrix: Floats, loops: list[Ints]) -> Borders:
+    """Return the borders that are meant: the holes where all faces are selected, too, as no border was chosen then."""
+    every_face = data.count_selected_items()[2] == len(mesh.in_patch)
+    return holes_among(mesh, matrix, loops) if every_face else Borders(loops)
 
 
 def solve(tasks: list[Task], options: FillOptions, progress: Progress) -> list[list[Piece]]:
@@ -95,9 +107,19 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay the options out."""
         self.layout.use_property_split = True
-        for name in ("equation", "continuity", "bridge", "spacing", "inner", "quads", "accept"):
+        for name in (
+            "equation",
+            "continuity",
+            "bridge",
+            "spacing",
+            "inner",
+            "max_vertices",
+            "quads",
+            "limit_total",
+            "accept",
+        ):
             row = self.layout.row()
-            row.active = name != "continuity" or self.equation == "HARMONIC"
+            row.active = name != "continuity" or self.equation in OF_CURVATURE
             row.prop(self, name)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -122,7 +144,7 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
         return self._apply(context, at_once(context, partial(solve, self._tasks, self._options)))
 
     def _solve_or_start(self, context: bpy.types.Context) -> set[str]:
-        expected = sum(task.size for task in self._tasks) / self._options.spacing**2
+        expected = sum(task.expected_vertices(self._options) for task in self._tasks)
         large = expected >= background_from(context)
         return self._start(context, partial(solve, self._tasks, self._options), large)
 
@@ -142,7 +164,8 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
             return self._leave(context, report.verdict.spots, summary(report))
         compare.forget()
         added = self._write(context, named)
-        report = make_fill_report(named, self._options, time.perf_counter() - self._begin, added)
+        left = tuple(note for task in self._tasks for note in task.borders.notes)
+        report = make_fill_report(named, self._options, time.perf_counter() - self._begin, added, left)
         store(context.window_manager.fairing_report, report)
         for warning in report.warnings:
             self.report({"WARNING"}, warning)

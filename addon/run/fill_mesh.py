@@ -15,6 +15,7 @@ from ..core.border import border_loops
 from ..core.engine import Progress
 from ..core.fill_report import Added, is_written, refuse_unusable
 from ..core.filling import FillOptions, Piece, fill
+from ..core.holes import Borders, holes_among
 from ..core.options import FairOptions
 from ..core.places import as_indices
 from ..mesh import filled, mesh_io
@@ -26,6 +27,7 @@ class Filled:
 
     pieces: list[Piece]
     added: Added | None  # None: nothing was written
+    notes: tuple[str, ...] = ()  # about borders that were left open
 
 
 def fill_mesh(
@@ -33,7 +35,8 @@ def fill_mesh(
 ) -> list[fairing.FillResult]:
     """Fill the holes of `mesh`, or join their outlines, with the fair surface that continues their surroundings.
 
-    vertices: one or more of each border that is meant, or a mask of all vertices; default: all borders.
+    vertices: one or more of each border that is meant, or a mask of all vertices; default: all holes, that is all
+    borders but those around the outside of a sheet (`fairing.outer_borders`).
     matrix: 4×4, to the space in which the surface is fair; default: the mesh's own.
     properties: those of `mesh.fair_fill`, with the same names and defaults.
     Returns the `fairing` result for each surface, in the space of `matrix`; the new faces come last in the mesh.
@@ -66,6 +69,7 @@ def fill_borders(
     world = np.eye(4) if matrix is None else np.array(matrix, dtype=np.float64)
     if world.shape != (4, 4):
         raise ValueError(f"matrix: expected 4×4 numbers, got shape {world.shape}")
-    pieces = fill(arrays, world, loops, options, progress)
+    borders = holes_among(arrays, world, loops) if vertices is None else Borders(loops)
+    pieces = fill(arrays, world, borders.loops, options, progress)
     written = is_written([(mesh.name, pieces)], options)
-    return Filled(pieces, filled.add_to_mesh(mesh, pieces) if written else None)
+    return Filled(pieces, filled.add_to_mesh(mesh, pieces) if written else None, borders.notes)

@@ -77,6 +77,7 @@ def renumber(written: list[Written | None]) -> None:
 def forget() -> None:
     """Drop what was kept."""
     _last.regions = _last.seen = ()
+    _last.way = ""
 
 
 def try_way(way: str) -> None:

@@ -19,6 +19,7 @@ from ..host.context import active_object
 from ..host.picking import face_under_mouse
 from ..host.polling import require
 from ..mesh import painted
+from ..mesh.free_normals import free_normals
 from . import compare, last_run
 from .fair_mesh import fair_faces
 from .labels import told, with_idle
@@ -125,6 +126,7 @@ class MESH_OT_fair_masked(FairProperties, bpy.types.Operator):
         if not len(faces):
             raise ValueError(_nothing(self.source, self.face_set))
         options, before = FairOptions.of(self), painted.positions(obj.data)
+        normals = free_normals(obj.data)
         outcome = fair_faces(obj.data, faces.tolist(), np.array(obj.matrix_world, dtype=np.float64), options)
         report = with_idle(make_report([(obj.name, outcome)], options, time.perf_counter() - begin), options)
         store(context.window_manager.fairing_report, report)
@@ -132,7 +134,7 @@ class MESH_OT_fair_masked(FairProperties, bpy.types.Operator):
         if not report.written:
             self.report({"ERROR"}, summary(report))
             return {"CANCELLED"}
-        compare.remember_one(obj.name, before, outcome)
+        compare.remember_one(obj.name, before, outcome, normals)
         self.report({"INFO"}, summary(report))
         return {"FINISHED"}
 

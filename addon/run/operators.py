@@ -93,12 +93,10 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
         last_run.remember(self._tasks, outcomes, self._options, report)
         if not report.written:
             return self._leave(context, summary(report))
-        last_run.renumber(job.write(context, self._tasks, outcomes))
         compare.remember(self._tasks, outcomes)
+        last_run.renumber(job.write(context, self._tasks, outcomes))
         for warning in report.warnings:
             self.report({"WARNING"}, warning)
-        for idle in labels.idle_in(report):
-            self.report({"INFO"}, f"{labels.IDLE} with these options: {idle}")
         for idle in labels.idle_in(report):
             self.report({"INFO"}, f"{labels.IDLE} with these options: {idle}")
         self.report({"INFO"}, summary(report))

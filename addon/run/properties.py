@@ -13,6 +13,11 @@ from .skin_properties import SkinProperties
 
 EQUATIONS = (
     (
+        "AUTOMATIC",
+        "Automatic",
+        "Even Curvature for a tube of more than two radii between two outlines, Harmonic for all else",
+    ),
+    (
         "HARMONIC",
         "Harmonic",
         "Curvature runs evenly from outline to outline. Restores spheres and pipes",
@@ -38,9 +43,9 @@ _OTHERWISE = (
     (
         "LEAST_VARIATION",
         "Even Curvature",
-        "Where no surface of that shape fits the outlines, or only a bulb does, even curvature is used instead",
+        "Where no surface of that shape fits the outlines, even curvature is used instead",
     ),
-    ("STOP", "Stop", "Keeps the best surface of that shape that was found, bulbs too; the report says so"),
+    ("STOP", "Stop", "Keeps the best surface of that shape that was found; the report says so"),
 )
 _INNER_FAIRNESS = (
     ("AUTOMATIC", "Automatic", "Keep Texture where the selection has a UV map, Even where it has none"),
@@ -142,11 +147,26 @@ class SurfaceProperties:
         items=_INNER,
         default="OUTLINE",
     )
+    max_vertices: IntProperty(
+        name="Vertex Limit",
+        description="More new vertices than that are refused; 0: twenty times as many as a flat surface would have, "
+        "for a new mesh as the old one would have, and 50,000 at least",
+        default=0,
+        min=0,
+    )
     quads: BoolProperty(
         name="Quads",
         description="New faces are quads, as far as pairs of triangles make some. None runs across a border of "
         "materials or face sets",
         default=False,
+    )
+    limit_total: IntProperty(
+        name="Limit Total",
+        description="In how many vertex groups of bones each new vertex is at most: those with the largest weights, "
+        "with the same sum. 0: as many as one of the vertices around is in",
+        default=0,
+        min=0,
+        soft_max=8,
     )
     accept: EnumProperty(
         name="Write",
@@ -159,7 +179,7 @@ class SurfaceProperties:
 
 def equation_property(items: tuple[tuple[str, str, str], ...]) -> Any:
     """Return the property of the shape; items: those of EQUATIONS that are to be had."""
-    return EnumProperty(name="Shape", description="Which surface spans the outline", items=items, default="HARMONIC")
+    return EnumProperty(name="Shape", description="Which surface spans the outline", items=items, default="AUTOMATIC")
 
 
 def continuity_property() -> Any:

@@ -5,6 +5,8 @@ from typing import Any
 
 import bpy
 
+from ..core.options import OF_CURVATURE
+
 _SOLVER = ("otherwise", "method", "levels", "tolerance", "max_iterations", "accept")
 
 Draw = Callable[[Any, Any, bpy.types.Object], None]
@@ -47,7 +49,9 @@ def _draw_vertices(group: Any, options: Any) -> None:
     if options.mesh == "NEW":  # new vertices lie evenly
         group.prop(options, "spacing")
         group.prop(options, "inner")
+        group.prop(options, "max_vertices")
         group.prop(options, "quads")
+        group.prop(options, "limit_total")
     else:
         group.prop(options, "inner_fairness")
 
@@ -66,7 +70,7 @@ def _draw_outline(group: Any, options: Any) -> None:
     row.active = options.equation != "MINIMAL"  # meets positions only
     row.prop(options, "boundary_normals")
     row = group.row()
-    row.active = options.equation == "HARMONIC" and options.method == "GLOBAL"
+    row.active = options.equation in OF_CURVATURE and options.method == "GLOBAL"
     row.prop(options, "continuity")
     group.prop(options, "outline")
 

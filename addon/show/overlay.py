@@ -146,17 +146,15 @@ def _measure_later() -> None:
         redraw_views(context)
 
 
-def _on_load(_path: str) -> None:
-    """Another file: what was measured belonged to the last one."""
-    overlay.clear()
+def refresh() -> None:
+    """Measure what the settings ask for in another file."""
     if bpy.context.window_manager.fairing_overlay.show:
         overlay.measure(bpy.context)
 
 
 def register() -> None:
-    """Follow the settings and the opening of files."""
+    """Follow the settings."""
     signals.listeners.update(content=settings_changed, look=redraw_views)
-    listen(bpy.app.handlers.load_post, _on_load)
 
 
 def unregister() -> None:
@@ -164,4 +162,3 @@ def unregister() -> None:
     stop()
     for kind in ("content", "look"):
         signals.listeners.pop(kind, None)
-    unlisten(bpy.app.handlers.load_post, _on_load)

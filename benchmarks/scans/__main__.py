@@ -98,7 +98,11 @@ def cell(rows: list[Row]) -> str:
     if not rows:
         return "not run"
     ratios = [row.ratio for row in rows]
-    counts = [sum(r.converged and r.ratio <= GOAL for r in rows), sum(r.polished for r in rows), sum(r.converged for r in rows)]
+    counts = [
+        sum(r.converged and r.ratio <= GOAL for r in rows),
+        sum(r.polished for r in rows),
+        sum(r.converged for r in rows),
+    ]
     return f"{statistics.median(ratios):.1f} ({max(ratios):.1f}); {', '.join(map(str, counts))} of {len(rows)}"
 
 

@@ -335,10 +335,9 @@ Diagnostic no_solution(const Problem& problem, const Solution& solution) {
     if (is_loft(solution.provenance)) figures["loft"] = 1.0;
     if (solution.provenance == Provenance::old_shape) figures["smoothed"] = 1.0;
     const std::string text = "no " + name + " fits the outlines of a component of " + free;
-    if (lies_beside_boundary(solution.provenance)) {
+    if (solution.provenance == Provenance::low_passed) {
         figures["distance"] = eased_by(problem);
-        const std::string what = is_loft(solution.provenance) ? "a loft" : "it";
-        return {Code::no_solution, text + " as they are: " + what + " follows them smoothly, and they stay beside it",
+        return {Code::no_solution, text + " as they are: it follows them smoothly, and they stay beside it",
                 Indices(free_vertices(patch).begin(), free_vertices(patch).end()), ElementKind::vertex, figures};
     }
     const auto all = free_vertices(patch);

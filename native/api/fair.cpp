@@ -68,7 +68,9 @@ public:
             add_failure(end, failures_of(patch, solution, end, angles));
         }
         diagnose(patch, solution, prescribed, result_.warnings);
+        const Stopwatch watch;
         note_girth(girth_range(patch, solution.points, prescribed));
+        result_.seconds["girth"] += watch.seconds();
     }
 
     FairResult finish() {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/beside.h"
+#include "base/background_task.h"
 #include "base/errors.h"
 #include "mesh/pieces.h"
 
@@ -42,7 +42,7 @@ std::unique_ptr<PreparedMesh> prepare(const MeshInput& input, const CallOptions&
     auto prepared = std::make_unique<PreparedMesh>();
     prepared->mesh = {check_topology(input), {}, {}, {}};
     // Neither looks at what the other makes. Coordinates are complained about first.
-    Beside patching([&] { prepared->patches = solvable_patches(prepared->mesh, prepared->closed_components); });
+    BackgroundTask patching([&] { prepared->patches = solvable_patches(prepared->mesh, prepared->closed_components); });
     check_geometry(input, prepared->mesh);
     prepared->finite = input.vertices.allFinite();
     patching.finish();

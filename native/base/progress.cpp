@@ -1,31 +1,80 @@
 #include "base/progress.h"
 
 #include <algorithm>
-#include <chrono>
+#include <exception>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "base/errors.h"
 
 namespace fairing {
 
-struct Progress::Shared {
-    ProgressCallback callback;
-    double last = 0.0;
-    std::string stage = {};
+namespace {
+
+constinit thread_local Checkpoints::Watch watch;
+
+}  // namespace
+
+class Progress::Run {
+public:
+    explicit Run(ProgressCallback callback) : callback_(std::move(callback)), stop_(stop_flag()) {}
+
+    [[nodiscard]] const StopFlag& stop() const noexcept { return stop_; }
+
+    // An empty range leaves the fraction where it is.
+    void report(double fraction, std::string_view stage) {
+        if (is_mine() && !stop_.is_raised()) {
+            last_ = std::max(last_, fraction);
+            stage_ = stage;
+            ask();
+        }
+        throw_if_stopped();
+    }
+
+    void ask_in_time() noexcept {
+        if (is_mine() && !stop_.is_raised() && Clock::now() - asked_ >= callback_.between_) ask();
+    }
+
+    void throw_if_stopped() const {
+        if (!stop_.is_raised()) return;
+        if (is_mine() && failure_) std::rethrow_exception(failure_);
+        throw Cancelled();
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    // Whether this thread calls back. Others pass here too: a factorisation of a helper reports.
+    [[nodiscard]] bool is_mine() const noexcept { return std::this_thread::get_id() == thread_; }
+
+    void ask() noexcept {
+        const Checkpoints in_callback(&stop_);  // what it calls of the engine doesn't call it again
+        try {
+            if (!callback_.function_(last_, stage_)) stop_.raise();
+        } catch (...) {
+            failure_ = std::current_exception();
+            stop_.raise();
+        }
+        asked_ = Clock::now();
+    }
+
+    const ProgressCallback callback_;
+    StopFlag stop_;
+    const std::thread::id thread_ = std::this_thread::get_id();
+    std::exception_ptr failure_;  // what the callback has thrown
+    double last_ = 0.0;
+    std::string stage_;
+    Clock::time_point asked_ = Clock::now();
 };
 
 Progress::Progress(ProgressCallback callback) {
-    if (callback) shared_ = std::make_shared<Shared>(Shared{std::move(callback)});
+    if (callback.function_) run_ = std::make_shared<Run>(std::move(callback));
 }
 
 void Progress::report(double fraction, std::string_view stage) const {
-    if (!shared_) return;
-    const double inside = begin_ + (end_ - begin_) * std::clamp(fraction, 0.0, 1.0);
-    // A stage that only asks (an empty range) leaves the fraction where it is.
-    shared_->last = std::max(shared_->last, inside);
-    shared_->stage = stage;
-    if (!shared_->callback(shared_->last, stage)) throw Cancelled();
+    if (!run_) return throw_if_stopped();
+    run_->report(begin_ + (end_ - begin_) * std::clamp(fraction, 0.0, 1.0), stage);
 }
 
 Progress Progress::range(double begin, double end) const {
@@ -37,33 +86,29 @@ Progress Progress::range(double begin, double end) const {
 
 Progress Progress::here() const { return range(0.0, 0.0); }
 
-void Progress::ask() const {
-    if (shared_ && !shared_->callback(shared_->last, shared_->stage)) throw Cancelled();
+Checkpoints::Checkpoints(const Progress& progress) noexcept : previous_(watch) {
+    if (progress.run_) watch = {&progress.run_->stop(), progress.run_.get()};
 }
 
-struct Checkpoints::Watch {
-    using Clock = std::chrono::steady_clock;
-    const Progress& progress;
-    Clock::time_point asked = Clock::now();
-};
+Checkpoints::Checkpoints(const StopFlag* stop) noexcept : previous_(std::exchange(watch, {stop, nullptr})) {}
 
-thread_local Checkpoints::Watch* Checkpoints::current = nullptr;
+Checkpoints::~Checkpoints() { watch = previous_; }
 
-Checkpoints::Checkpoints(const Progress& progress)
-    : watch_(std::make_unique<Watch>(Watch{progress})), previous_(current) {
-    current = watch_.get();
+const StopFlag* stop_flag() noexcept { return watch.stop; }
+
+void ask_whether_to_stop() noexcept {
+    if (watch.run) watch.run->ask_in_time();
 }
 
-Checkpoints::~Checkpoints() { current = previous_; }
+void throw_if_stopped() {
+    if (!watch.stop || !watch.stop->is_raised()) return;
+    if (watch.run) watch.run->throw_if_stopped();
+    throw Cancelled();
+}
 
 void checkpoint() {
-    constexpr std::chrono::milliseconds between{50};
-    Checkpoints::Watch* const watch = Checkpoints::current;
-    if (!watch) return;
-    const auto now = Checkpoints::Watch::Clock::now();
-    if (now - watch->asked < between) return;
-    watch->asked = now;
-    watch->progress.ask();
+    ask_whether_to_stop();
+    throw_if_stopped();
 }
 
 }  // namespace fairing

@@ -1,14 +1,33 @@
-// Progress reports and cancellation.
+// Progress reports and cancellation. A run stops where its flag is raised: by the answer of its callback, or from
+// outside. Only the thread that made the Progress calls back; every thread sees the flag.
 #pragma once
 
+#include <chrono>
+#include <concepts>
 #include <functional>
 #include <memory>
 #include <string_view>
 
+#include "base/stop_flag.h"
+
 namespace fairing {
 
-// Receives the finished fraction in [0, 1] and the name of the stage; returning false asks to stop.
-using ProgressCallback = std::function<bool(double fraction, std::string_view stage)>;
+// Receives the finished fraction in [0, 1] and the name of the stage; returning false asks to stop. Anything that can
+// be called so converts to it. It is not called again once it has returned false or thrown.
+class ProgressCallback {
+public:
+    ProgressCallback() = default;  // nobody to ask
+    // `between`: checkpoints ask again after so long; at zero, each of them does.
+    template <std::predicate<double, std::string_view> Function>
+        requires(!std::same_as<std::remove_cvref_t<Function>, ProgressCallback>)
+    ProgressCallback(Function function, std::chrono::milliseconds between = std::chrono::milliseconds{50})  // NOLINT
+        : function_(std::move(function)), between_(between) {}
+
+private:
+    std::function<bool(double fraction, std::string_view stage)> function_;
+    std::chrono::milliseconds between_{};
+    friend class Progress;
+};
 
 // A view of a callback that maps [0, 1] onto a sub-range of the whole run, so that a stage need not know its place.
 // The fraction that callers see never decreases. Asked at every outer step, around each factorisation and at
@@ -18,44 +37,54 @@ public:
     Progress() = default;
     explicit Progress(ProgressCallback callback);
 
-    // Reports and throws Cancelled when the callback says so.
+    // Reports, and throws what checkpoint() throws.
     void report(double fraction, std::string_view stage) const;
     [[nodiscard]] Progress range(double begin, double end) const;
     // For work inside a step: asks whether to stop, without moving the fraction.
     [[nodiscard]] Progress here() const;
 
-    // Asks whether to stop; fraction and stage stay what they are.
-    void ask() const;
-
 private:
-    struct Shared;
-    std::shared_ptr<Shared> shared_;
+    class Run;
+    friend class Checkpoints;
+    std::shared_ptr<Run> run_;
     double begin_ = 0.0;
     double end_ = 1.0;
 };
 
-// While it lives, checkpoint() in its thread asks this progress.
+// While it lives, checkpoint() in its thread looks at a flag, and asks a progress if there is one.
 class Checkpoints {
 public:
-    explicit Checkpoints(const Progress& progress);
+    explicit Checkpoints(const Progress& progress) noexcept;
+    explicit Checkpoints(const StopFlag* stop) noexcept;
     ~Checkpoints();
     Checkpoints(const Checkpoints&) = delete;
     Checkpoints& operator=(const Checkpoints&) = delete;
 
+    struct Watch {
+        const StopFlag* stop = nullptr;
+        Progress::Run* run = nullptr;
+    };
+
 private:
-    struct Watch;
-    static thread_local Watch* current;
-    std::unique_ptr<Watch> watch_;
-    Watch* previous_;
-    friend void checkpoint();
+    Watch previous_;
 };
 
-// For every loop that may take long: asks, every 50 ms at most, whether to stop, and throws Cancelled then.
+// The flag that checkpoint() looks at in this thread; null where there is none.
+[[nodiscard]] const StopFlag* stop_flag() noexcept;
+
+// For every loop that may take long: asks, every 50 ms at most, whether to stop. Throws Cancelled where the run is to
+// stop, or what the callback has thrown.
 void checkpoint();
 
 // The same for loops of many short steps: `step` counts them.
 inline void checkpoint(int step) {
     if (step % 4096 == 0) checkpoint();
 }
+
+// For who waits: asks as checkpoint() does. The flag is raised then; nothing is thrown.
+void ask_whether_to_stop() noexcept;
+
+// Throws what checkpoint() throws, without asking.
+void throw_if_stopped();
 
 }  // namespace fairing

@@ -2,7 +2,7 @@
 
 #include "api/fair_solver.h"
 #include "base/errors.h"
-#include "bindings/python_progress.h"
+#include "bindings/python_run.h"
 #include "bindings/topics.h"
 #include "bindings/words.h"
 #include "problem/solution.h"
@@ -116,6 +116,7 @@ py::dict fair_arrays(const DoubleArray& vertices, const py::array& triangles, co
                      const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
                      const std::optional<IntArray>& outside, const std::optional<IntArray>& sample,
                      const Options& options, const PaperOptions& paper, const py::object& callback) {
+    PythonRun run(callback);
     MeshInput input{view_points(vertices),
                     to_triangles(IntArray::ensure(triangles)),
                     to_optional(fixed, to_indices),
@@ -126,9 +127,8 @@ py::dict fair_arrays(const DoubleArray& vertices, const py::array& triangles, co
                     sample ? to_triangles(*sample) : Triangles(3, 0)};
     const auto m0 = to_optional(reference, view_points);
     const FairOptions fair_options = to_fair_options(options, paper, {neighbours, weights});
-    return to_dict(without_gil(callback, [&](const ProgressCallback& progress) {
-        return fair(std::move(input), m0, fair_options, progress);
-    }));
+    return to_dict(run.without_gil(
+        [&](const ProgressCallback& progress) { return fair(std::move(input), m0, fair_options, progress); }));
 }
 
 // fairing.Solver's engine. A second call while one is running (from another thread, or from `progress`) is refused.
@@ -150,12 +150,13 @@ public:
     py::dict solve(const DoubleArray& vertices, const std::optional<DoubleArray>& fixed_normals,
                    const std::optional<DoubleArray>& fixed_curvatures, const std::optional<DoubleArray>& reference,
                    const py::object& callback) {
+        PythonRun run(callback);
         const Hold hold(busy_);
         Points points = to_points(vertices);
         auto normals = to_optional(fixed_normals, to_points);
         auto curvatures = to_optional(fixed_curvatures, to_vector);
         const auto m0 = to_optional(reference, view_points);
-        return to_dict(without_gil(callback, [&](const ProgressCallback& progress) {
+        return to_dict(run.without_gil([&](const ProgressCallback& progress) {
             return solver_.solve(std::move(points), std::move(normals), std::move(curvatures), m0, progress);
         }));
     }

@@ -2,7 +2,7 @@
 
 #include "api/fill.h"
 #include "api/interpolate.h"
-#include "bindings/python_progress.h"
+#include "bindings/python_run.h"
 #include "bindings/topics.h"
 #include "bindings/words.h"
 #include "fill/conformal_map.h"
@@ -21,13 +21,14 @@ Start start_after(Provenance provenance) {
 py::dict fill_arrays(const DoubleArray& vertices, const std::vector<IntArray>& loops,
                      const std::vector<DoubleArray>& normals, bool bridge, const std::string& equation,
                      const py::object& callback) {
+    PythonRun run(callback);
     OpenLoops input{to_points(vertices), {}, {}};
     for (const IntArray& loop : loops) input.loops.push_back(to_indices(loop));
     for (const DoubleArray& of_loop : normals) input.normals.push_back(to_points(of_loop));
     SolverOptions options;
     options.equation = equation_words.value(equation);
-    const NewSurface result = without_gil(
-        callback, [&](const ProgressCallback& progress) { return fill_loops(input, bridge, options, progress); });
+    const NewSurface result =
+        run.without_gil([&](const ProgressCallback& progress) { return fill_loops(input, bridge, options, progress); });
     py::dict dict;
     dict["vertices"] = from_points(result.vertices);
     dict["triangles"] = from_triangles(result.triangles);
@@ -53,10 +54,10 @@ MeshInput to_input(const DoubleArray& vertices, const IntArray& triangles, const
 py::dict remesh_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
                        const std::optional<DoubleArray>& fixed_normals, const VertexPairs& kept, const Wanted& wanted,
                        int threads, const py::object& callback) {
+    PythonRun run(callback);
     const MeshInput input = to_input(vertices, triangles, fixed, fixed_normals);
-    const NewMesh result = without_gil(callback, [&](const ProgressCallback& progress) {
-        return remesh(input, kept, to_lengths(wanted), threads, progress);
-    });
+    const NewMesh result = run.without_gil(
+        [&](const ProgressCallback& progress) { return remesh(input, kept, to_lengths(wanted), threads, progress); });
     py::dict dict;
     dict["vertices"] = from_points(result.vertices);
     dict["normals"] = from_points(result.normals);
@@ -85,14 +86,10 @@ py::array from_matrix(const Eigen::MatrixXd& matrix) {
 
 py::array interpolated(const DoubleArray& vertices, const IntArray& triangles, const IntArray& fixed,
                        const DoubleArray& values) {
+    PythonRun run;
     const MeshInput input{view_points(vertices), to_triangles(triangles), to_indices(fixed), std::nullopt};
     const Eigen::MatrixXd columns = to_matrix(values);
-    Eigen::MatrixXd result;
-    {
-        const py::gil_scoped_release released;
-        result = interpolate(input, columns);
-    }
-    return from_matrix(result);
+    return from_matrix(run.without_gil([&](const ProgressCallback&) { return interpolate(input, columns); }));
 }
 
 py::array conformal_map_of(const DoubleArray& vertices, const IntArray& triangles, const IntArray& fixed,

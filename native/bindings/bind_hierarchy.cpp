@@ -1,5 +1,5 @@
 #include "api/levels.h"
-#include "bindings/convert.h"
+#include "bindings/python_run.h"
 #include "bindings/topics.h"
 
 namespace fairing::bindings {
@@ -8,12 +8,10 @@ namespace {
 
 py::list hierarchy_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
                           int levels) {
+    PythonRun run;
     const MeshInput input{view_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices), {}};
-    std::vector<MeshLevel> result;
-    {
-        const py::gil_scoped_release released;
-        result = mesh_hierarchy(input, levels);
-    }
+    const std::vector<MeshLevel> result =
+        run.without_gil([&](const ProgressCallback&) { return mesh_hierarchy(input, levels); });
     py::list list;
     for (const MeshLevel& level : result) {
         list.append(py::make_tuple(from_indices(level.vertices), from_triangles(level.triangles)));

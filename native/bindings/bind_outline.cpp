@@ -1,6 +1,6 @@
 #include "api/soft_base.h"
 #include "base/parallel.h"
-#include "bindings/python_progress.h"
+#include "bindings/python_run.h"
 #include "bindings/topics.h"
 #include "outline/bad_outline.h"
 #include "outline/creased.h"
@@ -70,12 +70,13 @@ std::pair<py::array, py::array> soft_base_arrays(const DoubleArray& vertices, co
                                                  const py::array_t<bool>& faired,
                                                  const std::tuple<double, double, double>& sizes, int threads,
                                                  const py::object& callback) {
+    PythonRun run(callback);
     const MeshInput mesh{view_points(vertices), to_triangles(triangles), to_indices(fixed), {}};
     const Points fair = to_points(base);
     const std::vector<char> marks(faired.data(), faired.data() + faired.size());
     const auto [detail, diameter, width] = sizes;
     const SoftBaseSizes lengths{detail, diameter, width};
-    const SoftBase result = without_gil(callback, [&](const ProgressCallback& progress) {
+    const SoftBase result = run.without_gil([&](const ProgressCallback& progress) {
         const Threads team(threads);
         return soft_base({mesh, fair, marks}, lengths, progress);
     });

@@ -1,4 +1,5 @@
 #include "bindings/convert.h"
+#include "bindings/python_run.h"
 #include "bindings/topics.h"
 
 PYBIND11_MODULE(_core, module) {
@@ -8,6 +9,7 @@ PYBIND11_MODULE(_core, module) {
     for (const std::string_view name : fairing::code_names()) codes.append(pybind11::str(name.data(), name.size()));
     module.attr("CODES") = pybind11::tuple(codes);
     fairing::bindings::register_errors();
+    fairing::bindings::end_runs_at_exit();
     fairing::bindings::bind_fair(module);
     fairing::bindings::bind_fill(module);
     fairing::bindings::bind_hierarchy(module);

@@ -37,13 +37,11 @@ inline constexpr Words<Start, 5> solve_start_words{"start",
                                                      {"least_variation", Start::least_variation},
                                                      {"loft", Start::loft},
                                                      {"smoothed", Start::smoothed}}}};
-inline constexpr Words<Provenance, 8> provenance_words{"provenance",
+inline constexpr Words<Provenance, 6> provenance_words{"provenance",
                                                        {{{"equation", Provenance::equation},
                                                          {"low_passed", Provenance::low_passed},
                                                          {"least_variation", Provenance::least_variation},
                                                          {"loft", Provenance::loft},
-                                                         {"creased_loft", Provenance::creased_loft},
-                                                         {"low_passed_loft", Provenance::low_passed_loft},
                                                          {"swept_tube", Provenance::swept_tube},
                                                          {"old_shape", Provenance::old_shape}}}};
 inline constexpr Words<NormalKind, 2> normal_words{

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "base/progress.h"
 #include "mesh/edges.h"
@@ -105,8 +106,8 @@ void IntrinsicTriangulation::make_delaunay() {
     for (int h = 0; h < static_cast<int>(tail_.size()); ++h) {
         if (twin_[at(h)] > h) queue.push_back(h);
     }
-    const long most_steps = 20L * static_cast<long>(tail_.size());
-    for (long step = 0; step < most_steps && !queue.empty(); ++step) {
+    const auto most_steps = std::int64_t{20} * static_cast<std::int64_t>(tail_.size());
+    for (std::int64_t step = 0; step < most_steps && !queue.empty(); ++step) {
         checkpoint(static_cast<int>(step % 4096));
         const int h = queue.back();
         queue.pop_back();

@@ -1,8 +1,10 @@
 #include "fill/first_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "fill/ball_start.h"
 #include "fill/edge_lengths.h"
@@ -50,6 +52,18 @@ double agreement(const OpenOutline& outline, const Triangles& triangles) {
     return whole > 0.0 ? along / whole : 1.0;
 }
 
+// Whether no edge has more than two triangles, nor two of the same direction. A triangulation that follows the normals
+// of two walls caps both of them and has the link between the caps four times.
+bool is_surface(const Triangles& triangles) {
+    std::set<std::array<int, 2>> sides;
+    for (const auto corners : triangles.colwise()) {
+        for (int k = 0; k < 3; ++k) {
+            if (!sides.insert({corners[k], corners[(k + 1) % 3]}).second) return false;
+        }
+    }
+    return true;
+}
+
 // Of least area. Where that closes a limb instead of going around it: the one that follows the normals.
 Triangles triangulated(const OpenOutline& outline) {
     constexpr double crosswise = 0.8;  // mean cosine
@@ -58,7 +72,7 @@ Triangles triangulated(const OpenOutline& outline) {
     const double before = agreement(outline, least);
     if (before > crosswise) return least;
     const Triangles along = joined_loops(outline.points, outline.loops, &outline.normals);
-    return agreement(outline, along) > before + better ? along : least;
+    return agreement(outline, along) > before + better && is_surface(along) ? along : least;
 }
 
 // The triangulation. A lone triangle has no chord to split: it gets a vertex in its middle.

@@ -8,7 +8,6 @@
 #include "linear/anderson.h"
 #include "linear/shrinking_steps.h"
 #include "problem/surface_state.h"
-#include "problem/willmore.h"
 
 namespace fairing {
 
@@ -24,10 +23,7 @@ constexpr double damped = 0.4;
 constexpr double hopeless_growth = 1e4;
 constexpr int growth_patience = 2;    // iterations without a shorter step
 constexpr double last_digits = 1e-5;  // units of D; shorter steps shrink unevenly where a surface is found, too
-// Of the Willmore energy; a whole sphere has 16 π.
-constexpr double explosion_factor = 4.0;
-constexpr double explosion_rise = 60.0;
-constexpr double slow = 0.5;  // contraction over `refresh_after` iterations that asks for a new factor
+constexpr double slow = 0.5;          // contraction over `refresh_after` iterations that asks for a new factor
 constexpr int refresh_after = 6;
 // The iteration ends before a step of this share of the tolerance, which is not taken: up to three times as much may be
 // left. It ends with a step after which the next one would be as short, by the ratio of the last two, and within the
@@ -72,9 +68,9 @@ public:
           work_(work),
           damping_(damping),
           progress_(progress),
-          conormals_(conormals(problem.patch, problem.fixed_points, problem.fixed_normals)),
           own_history_(history_depth),
-          anderson_(work.keeps_factor ? kept_history() : own_history_) {}
+          anderson_(work.keeps_factor ? kept_history() : own_history_),
+          unfinished_before_(work.normal->unfinished()) {}
 
     Solution run(Points start) {
         state_.points = std::move(start);
@@ -122,6 +118,7 @@ public:
             move(std::move(d));
         }
         store_best();
+        solution_.unfinished_solves = work_.normal->unfinished() - unfinished_before_;
         return std::move(solution_);
     }
 
@@ -177,18 +174,9 @@ private:
             solution_.termination = Termination::stalled;
             return false;
         }
-        if (residual_ < best_residual_ && !exploded()) keep();
+        if (residual_ < best_residual_) keep();
         if (best_ == Best::one_back) store_best();
         return true;
-    }
-
-    // An iterate that diverged may have a small residual by accident; its energy gives it away.
-    bool exploded() {
-        if (problem_.options.equation == Equation::minimal) return false;
-        const double energy = willmore_energy(
-            mixed_curvature_vectors(patch_, state_.stiffness, state_.points, conormals_), state_.stiffness);
-        if (start_energy_ < 0.0) start_energy_ = energy;
-        return energy > explosion_factor * start_energy_ + explosion_rise;
     }
 
     void keep() {
@@ -270,16 +258,15 @@ private:
     Workspace& work_;
     double damping_;
     const Progress& progress_;
-    Points conormals_;
     Anderson own_history_;
     Anderson& anderson_;
+    const int unfinished_before_;
     SurfaceState state_;
     VectorX outer_;
     double residual_ = 0.0;
     double residual_before_ = 0.0;  // the last step
     bool arrived_ = false;          // the last step was within the tolerance
     bool arrives_ = false;          // the next step would be
-    double start_energy_ = -1.0;    // not known yet
     double best_residual_ = std::numeric_limits<double>::infinity();
     Best best_ = Best::here;
     double last_step_ = 0.0;

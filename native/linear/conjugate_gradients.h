@@ -18,6 +18,8 @@ template <typename Field>
 struct GradientSolution {
     Field x;
     bool positive = true;  // A was positive definite in all directions looked at
+    Field left = {};       // r − A x
+    int cycles = 0;
 };
 
 // x with A x ≈ r from x = 0, until the residual in the preconditioner's norm has fallen to `relative_tolerance` or
@@ -34,17 +36,18 @@ GradientSolution<Field> conjugate_gradients(Field r, double relative_tolerance, 
     Field p = z;
     double rz = inner_product(r, z);
     const double target = relative_tolerance * relative_tolerance * rz;
-    for (int cycle = 0; cycle < max_cycles && rz > target; ++cycle) {
+    int cycle = 0;
+    while (cycle < max_cycles && rz > target) {
         apply(p, product);
         const double curvature = inner_product(p, product);
-        if (!(curvature > 0.0)) return {std::move(x), false};
+        if (!(curvature > 0.0)) return {std::move(x), false, std::move(r), cycle};
         const auto alpha = static_cast<typename Field::Scalar>(rz / curvature);
         for_ranges(count, coarse_grain, [&](int begin, int end) {
             const int size = end - begin;
             x.middleCols(begin, size) += alpha * p.middleCols(begin, size);
             r.middleCols(begin, size) -= alpha * product.middleCols(begin, size);
         });
-        if (cycle + 1 == max_cycles) break;
+        if (++cycle == max_cycles) break;
         precondition(r, z);
         const double next = inner_product(r, z);
         const auto beta = static_cast<typename Field::Scalar>(next / rz);
@@ -54,7 +57,7 @@ GradientSolution<Field> conjugate_gradients(Field r, double relative_tolerance, 
         });
         rz = next;
     }
-    return {std::move(x)};
+    return {std::move(x), true, std::move(r), cycle};
 }
 
 }  // namespace fairing

@@ -1,6 +1,7 @@
 #include "linear/elimination.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 
 #include <Eigen/OrderingMethods>
@@ -116,12 +117,12 @@ Indices column_counts(const UpperPattern& upper, const Indices& parent) {
 struct Group {
     int first;
     int columns;
-    long zeros;  // explicit zeros in its panel
+    std::int64_t zeros;  // explicit zeros in its panel
 };
 
 // Whether a supernode may take in the one just before it, its last child, at the price of explicit zeros.
 // Large factors have no room for many.
-bool worth_merging(long columns, long zeros, long entries, int order) {
+bool worth_merging(std::int64_t columns, std::int64_t zeros, std::int64_t entries, int order) {
     constexpr int large = 5000;
     if (columns <= 4) return true;
     const double share = static_cast<double>(zeros) / static_cast<double>(entries);
@@ -134,8 +135,8 @@ bool worth_merging(long columns, long zeros, long entries, int order) {
 Indices supernode_starts(const Indices& parent, const Indices& counts) {
     const int n = static_cast<int>(parent.size());
     std::vector<Group> groups;
-    const auto panel = [&](long columns, int last) {
-        return columns * (columns + 1) / 2 + columns * (counts[at(last)] - 1L);
+    const auto panel = [&](std::int64_t columns, int last) {
+        return columns * (columns + 1) / 2 + columns * (counts[at(last)] - 1);
     };
     for (int j = 0; j < n; ++j) {
         groups.push_back({j, 1, 0});
@@ -145,11 +146,12 @@ Indices supernode_starts(const Indices& parent, const Indices& counts) {
             const int lower_last = upper.first - 1;
             // Only while `upper` still ends at j may it grow downwards; its last child must be `lower`.
             if (parent[at(lower_last)] < upper.first || parent[at(lower_last)] > j) break;
-            const long columns = lower.columns + upper.columns;
-            const long own = panel(lower.columns, lower_last) - lower.zeros + panel(upper.columns, j) - upper.zeros;
-            const long zeros = panel(columns, j) - own;
+            const int columns = lower.columns + upper.columns;
+            const std::int64_t own =
+                panel(lower.columns, lower_last) - lower.zeros + panel(upper.columns, j) - upper.zeros;
+            const std::int64_t zeros = panel(columns, j) - own;
             if (zeros > 0 && !worth_merging(columns, zeros, panel(columns, j), n)) break;
-            groups[groups.size() - 2] = {lower.first, static_cast<int>(columns), zeros};
+            groups[groups.size() - 2] = {lower.first, columns, zeros};
             groups.pop_back();
         }
     }

@@ -47,6 +47,7 @@ private:
 
 VectorX gmres(const LinearMap& apply, const LinearMap& precondition, const VectorX& b, double relative_tolerance,
               int most_steps) {
+    constexpr double round_off = 1e-14;
     const double size = b.norm();
     if (!(size > 0.0)) return VectorX::Zero(b.size());
     Eigen::MatrixXd basis(b.size(), most_steps + 1);
@@ -55,6 +56,7 @@ VectorX gmres(const LinearMap& apply, const LinearMap& precondition, const Vecto
     int steps = 0;
     for (double left = size; steps < most_steps && left > relative_tolerance * size;) {
         VectorX w = apply(precondition(basis.col(steps)));
+        const double whole = w.norm();
         VectorX column = VectorX::Zero(most_steps + 1);
         // Twice is enough for orthogonality to round-off.
         for (int pass = 0; pass < 2; ++pass) {
@@ -63,7 +65,7 @@ VectorX gmres(const LinearMap& apply, const LinearMap& precondition, const Vecto
             w -= basis.leftCols(steps + 1) * h;
         }
         column[steps + 1] = w.norm();
-        const bool exhausted = !(column[steps + 1] > 1e-14 * size);
+        const bool exhausted = !(column[steps + 1] > round_off * whole);  // A takes the directions to themselves
         left = projected.add(column);
         ++steps;
         if (exhausted) break;

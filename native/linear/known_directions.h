@@ -20,8 +20,8 @@ public:
     // Another matrix follows.
     void forget() { pairs_.clear(); }
 
-    // x with A x ≈ r, until no more of r is left than `accuracy` allows or after `max_cycles`; `apply` and
-    // `precondition` as conjugate_gradients has them.
+    // x with A x ≈ r, until no more of r is left than `accuracy` allows or after `max_cycles`, which `unfinished`
+    // counts; `apply` and `precondition` as conjugate_gradients has them.
     template <typename Apply, typename Precondition>
     [[nodiscard]] Row solve(Row r, const Accuracy& accuracy, int max_cycles, const Apply& apply,
                             const Precondition& precondition) {
@@ -44,9 +44,15 @@ public:
             precondition(residual, result);
             for (std::size_t k = 0; k < before; ++k) result -= pairs_[k].product.dot(result) * pairs_[k].direction;
         };
-        x += conjugate_gradients(std::move(r), most_left / left, max_cycles, apply_and_keep, precondition_beside).x;
-        return x;
+        auto rest =
+            conjugate_gradients(std::move(r), most_left / left, max_cycles, apply_and_keep, precondition_beside);
+        r = std::move(rest.left);
+        if (!rest.positive || (rest.cycles == max_cycles && !(size() <= most_left))) ++unfinished_;
+        return x + rest.x;
     }
+
+    // Solves so far that left more than they were allowed to.
+    [[nodiscard]] int unfinished() const { return unfinished_; }
 
 private:
     static constexpr std::size_t most = 40;
@@ -75,6 +81,7 @@ private:
     }
 
     std::vector<Pair> pairs_;
+    int unfinished_ = 0;
 };
 
 }  // namespace fairing

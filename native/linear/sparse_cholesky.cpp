@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <limits>
 #include <thread>
 #include <type_traits>
@@ -24,9 +25,10 @@ public:
         : progress_(progress), what_(what), total_(total) {}
 
     void add(double operations) {
-        constexpr long between_reports = 10'000'000;
-        const long done = done_ += static_cast<long>(operations);
-        if (std::this_thread::get_id() != caller_ || done - reported_ < between_reports) return;
+        constexpr std::int64_t between_reports = 10'000'000;
+        const std::int64_t done = done_ += static_cast<std::int64_t>(operations);
+        if (std::this_thread::get_id() != caller_) return throw_if_stopped();
+        if (done - reported_ < between_reports) return;
         reported_ = done;
         progress_.report(std::min(1.0, static_cast<double>(done) / total_), what_);
     }
@@ -36,8 +38,8 @@ private:
     const char* what_;
     const double total_;
     const std::thread::id caller_ = std::this_thread::get_id();
-    std::atomic<long> done_ = 0;
-    long reported_ = 0;
+    std::atomic<std::int64_t> done_ = 0;
+    std::int64_t reported_ = 0;
 };
 
 // One factorisation in either precision.

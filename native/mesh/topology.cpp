@@ -4,7 +4,7 @@
 #include <iterator>
 #include <string>
 
-#include "base/beside.h"
+#include "base/background_task.h"
 #include "base/errors.h"
 #include "base/progress.h"
 #include "base/text.h"
@@ -158,7 +158,7 @@ struct Joints {
 
 Joints join_triangles(const Triangles& triangles, const EdgeTable& edges, const std::vector<char>& cut) {
     Joints joints{twins_across(edges, cut), {}, {UnionFind(0), UnionFind(0), {}}};
-    Beside winding([&] { joints.windings = join_windings(triangles, edges, cut); });
+    BackgroundTask winding([&] { joints.windings = join_windings(triangles, edges, cut); });
     joints.fans = join_corners(triangles, joints.twins);
     winding.finish();
     return joints;

@@ -75,7 +75,7 @@ Indices flips_of(const Problem& problem, Solution& solution) {
     if (!solution.polished) return {};
     solution.flipped = flipped_triangles(problem.patch, solution.points);
     Indices flipped = with_free_corner(problem.patch, *solution.flipped);
-    if (lies_beside_boundary(solution.provenance)) flipped = inside(problem.patch, std::move(flipped));
+    if (solution.provenance == Provenance::low_passed) flipped = inside(problem.patch, std::move(flipped));
     if (keeps_shape(problem, solution)) flipped = without(flipped, flipped_by_solution(problem.patch, *problem.before));
     return flipped;
 }
@@ -86,7 +86,6 @@ Indices crossings_of(const Problem& problem, Solution& solution) {
     const Triangles& triangles = problem.patch.triangles;
     if (!solution.crossings) solution.crossings = crossing_triangles(triangles, solution.points);
     if (solution.provenance == Provenance::low_passed) return crossings_beside(problem, solution);
-    if (lies_beside_boundary(solution.provenance)) return crossings_inside(problem.patch, solution.points);
     if (!keeps_shape(problem, solution)) return *solution.crossings;
     return without(*solution.crossings, crossing_triangles(triangles, *problem.before));
 }

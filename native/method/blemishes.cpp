@@ -49,18 +49,6 @@ BlemishFinder::BlemishFinder(const Problem& problem, const Points& before, const
     blunt_before_ = protrusions_->bluntness(before);
 }
 
-const BlemishFinder* BlemishSearch::finder() {
-    if (!asked_ && joins_outlines(problem_)) {
-        if (const auto before = shape_before(problem_, progress_)) finder_.emplace(problem_, *before, progress_);
-    }
-    asked_ = true;
-    return finder_ ? &*finder_ : nullptr;
-}
-
-bool BlemishSearch::is_blemished(const Points& points) {
-    return finder() != nullptr && (!finder()->in(points).absent() || finder()->lies_aside(points));
-}
-
 Indices Blemishes::all() const {
     Indices result = torn;
     for (const Indices* more : {&bent, &narrow, &wide, &thin}) result.insert(result.end(), more->begin(), more->end());
@@ -77,8 +65,6 @@ Blemishes BlemishFinder::in(const Points& points) const {
     found.wide = corners_of(problem_.patch, girths_->wide(points, most_girth));
     return found;
 }
-
-bool BlemishFinder::lies_aside(const Points& points) const { return girths_ && girths_->lies_aside(points); }
 
 Indices BlemishFinder::torn(const Points& points) const {
     const Patch& patch = problem_.patch;

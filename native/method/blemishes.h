@@ -32,9 +32,6 @@ public:
     BlemishFinder(const Problem& problem, const Points& before, const Progress& progress);
 
     [[nodiscard]] Blemishes in(const Points& points) const;
-    // Whether a cross-section's middle is farther from where it was than half its radius: webs between limbs, dents.
-    // Smoothing may move it so, a surface that knows nothing of the shape before should not.
-    [[nodiscard]] bool lies_aside(const Points& points) const;
 
 private:
     [[nodiscard]] Indices torn(const Points& points) const;
@@ -49,24 +46,6 @@ private:
     std::optional<Protrusions> protrusions_;
     VectorX reaches_before_;
     VectorX blunt_before_;
-};
-
-// A finder for the shape that a problem's patch had. It is made when it is first asked for, which takes as long as a
-// solve between the outlines, and kept.
-class BlemishSearch {
-public:
-    BlemishSearch(const Problem& problem, const Progress& progress) : problem_(problem), progress_(progress) {}
-
-    // Nothing for one outline, or where no shape before is known.
-    [[nodiscard]] const BlemishFinder* finder();
-    // Whether a surface has blemishes, or lies aside of the shape before, so that smoothing that is worth trying.
-    [[nodiscard]] bool is_blemished(const Points& points);
-
-private:
-    const Problem& problem_;
-    const Progress& progress_;
-    bool asked_ = false;
-    std::optional<BlemishFinder> finder_;
 };
 
 }  // namespace fairing

@@ -11,7 +11,6 @@ namespace {
 // π times the width over the length: 1 for circles, π / 2 at most. Ellipses of 2.3 : 1 have as much; wings had 1.33 to
 // 1.43, a head between an eye and the neck 1.31.
 constexpr double least_flatness = 1.33;
-constexpr double most_aside = 0.5;  // of a radius: lofts that an artist keeps had .15 to .40, webs and dents .51 to 2.3
 
 VectorX between_ends(const VectorX& lengths) {
     return VectorX::LinSpaced(lengths.size(), lengths[0], lengths[lengths.size() - 1]);
@@ -42,8 +41,6 @@ std::optional<Girths> Girths::of(const Patch& patch, const Points& before, const
         const VectorX wide = result.sections_.widths(k, before);
         const auto is_flat = wide.array() * std::numbers::pi > least_flatness * own.array();
         result.slimmer_.emplace_back(is_flat.select(wide.cwiseMin(between_ends(wide)), 0.0));
-        result.radii_.emplace_back(own / (2.0 * std::numbers::pi));
-        result.middles_.push_back(result.sections_.middles(k, before));
     }
     return result;
 }
@@ -71,16 +68,5 @@ Indices Girths::wide(const Points& points, double times) const {
         add_where(sections_, k, sections_.lengths(k, points), larger_[at(k)], is_more, triangles);
     return triangles;
 }
-
-double Girths::aside(const Points& points) const {
-    double farthest = 0.0;
-    for (int k = 0; k < sections_.outline_count(); ++k) {
-        const VectorX away = (sections_.middles(k, points) - middles_[at(k)]).colwise().norm().transpose();
-        farthest = std::max(farthest, away.cwiseQuotient(radii_[at(k)]).maxCoeff());
-    }
-    return farthest;
-}
-
-bool Girths::lies_aside(const Points& points) const { return aside(points) > most_aside; }
 
 }  // namespace fairing

@@ -25,10 +25,6 @@ public:
     [[nodiscard]] Indices slim(const Points& points, double share) const;
     // Those of the cross-sections that are longer than both `times` over.
     [[nodiscard]] Indices wide(const Points& points, double times) const;
-    // How far the middle of a cross-section lies at most from where it was, over the radius that it had: L / 2π.
-    [[nodiscard]] double aside(const Points& points) const;
-    // Whether that is more than half: webs between limbs, dents, swellings to one side.
-    [[nodiscard]] bool lies_aside(const Points& points) const;
 
 private:
     explicit Girths(CrossSections sections) : sections_(std::move(sections)) {}
@@ -37,8 +33,6 @@ private:
     std::vector<VectorX> lesser_;  // of the two lengths, for each outline
     std::vector<VectorX> larger_;
     std::vector<VectorX> slimmer_;  // of the two widths
-    std::vector<VectorX> radii_;
-    std::vector<Points> middles_;
 };
 
 }  // namespace fairing

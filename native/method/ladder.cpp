@@ -33,10 +33,6 @@ bool takes_direct(const Problem& problem, const Situation& situation) {
     return is_fourth_order(problem) && problem.patch.free_count <= largest_direct && !refused;
 }
 
-bool takes_patience(const Problem& problem, const Situation& situation) {
-    return is_fourth_order(problem) && problem.patch.free_count > largest_direct && !situation.produced("nested");
-}
-
 // Where the noise of the outline may be what stands in the way; vertices that fold because of their weights need
 // others. Between several outlines of small patches only where next to nothing is left without that noise: of eight
 // that cut limbs across none was found, in half as much time again.
@@ -71,27 +67,12 @@ Found evenly(const Problem& problem, Situation& /*situation*/, const Progress& p
     return solve_evenly(problem, progress);
 }
 
-Found with_uniform_weights(const Problem& problem, Situation& /*situation*/, const Progress& progress) {
-    Problem even = problem;
-    even.weights = uniform_weights(problem.patch);
-    even.tolerated_folds = 0;
-    Solution solution = solve_global(even, progress);
-    if (solution.flaw != Flaw::absent) return std::nullopt;
-    solution.even_weights = true;
-    return solution;
-}
-
-bool is_folded(const Situation& situation) {
-    return std::any_of(situation.found.begin(), situation.found.end(),
-                       [](const Solution& s) { return s.flaw == Flaw::folded || s.flaw == Flaw::crossing; });
-}
-
 }  // namespace
 
 Solution solve_global(const Problem& problem, const Progress& progress) {
     const Way direct = directly();
     const Way proxy = on_proxy();
-    const std::array<Way, 12> ways{{
+    const std::array<Way, 10> ways{{
         {"minimal", [](const Problem& p, const Situation&) { return is_minimal(p); },
          [](const Problem& p, Situation&, const Progress& part) { return Found(solve_directly(p, part)); }, 0.0, 1.0},
         {"variation", [](const Problem& p, const Situation&) { return is_least_variation(p); },
@@ -109,15 +90,10 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
         {proxy.name, takes_proxy, proxy.solve, proxy.begin, proxy.end},
         {eased_way, [](const Problem& p, const Situation& s) { return is_large(p) && takes_eased(p, s); },
          on_eased_outline, 0.9, 1.0},
-        {"patient", takes_patience,
-         [](const Problem& p, Situation&, const Progress& part) { return Found(solve_directly(p, part)); }, 0.8, 0.9},
         {"even", [](const Problem& p, const Situation& s) { return takes_even(p, s) && !is_large(p); }, evenly, 0.9,
          1.0},
         {eased_way, [](const Problem& p, const Situation& s) { return !is_large(p) && takes_eased(p, s); },
          on_eased_outline, 0.9, 1.0},
-        // λ may turn triangles over although the surface is smooth: uniform ones then.
-        {"uniform", [](const Problem& p, const Situation& s) { return !is_uniform(p.weights) && is_folded(s); },
-         with_uniform_weights, 0.9, 1.0},
     }};
     return run_ways(ways, problem, progress);
 }

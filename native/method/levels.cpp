@@ -111,8 +111,8 @@ std::unique_ptr<FactorisedLaplacian> Levels::factorised(std::size_t k, const Pro
 void Levels::prepare_beside() {
     for (std::size_t k = coarsest() + 1; k-- > 0;) {
         Level& level = levels_[k];
-        level.preparing = is_factorised(k) ? Beside([&, k] { level.factor = factorised(k, Progress()); })
-                                           : Beside([&, k] { level.restriction.emplace(transfer(k)); });
+        level.preparing = is_factorised(k) ? BackgroundTask([&, k] { level.factor = factorised(k, Progress()); })
+                                           : BackgroundTask([&, k] { level.restriction.emplace(transfer(k)); });
     }
 }
 

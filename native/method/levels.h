@@ -1,7 +1,7 @@
 // The user's own connectivity, ever coarser, with what is solved on each level.
 #pragma once
 
-#include "base/beside.h"
+#include "base/background_task.h"
 #include "base/progress.h"
 #include "multigrid/coarsening.h"
 #include "multigrid/tangential_multigrid.h"
@@ -59,7 +59,7 @@ private:
         const LaplaceCycle* tangential_cycle = nullptr;  // in `work`
         std::unique_ptr<FactorisedLaplacian> factor = {};
         std::optional<Restriction> restriction = {};
-        Beside preparing = {};
+        BackgroundTask preparing = {};  // makes `factor` or `restriction`; ends before them
     };
 
     [[nodiscard]] bool is_factorised(std::size_t k) const;

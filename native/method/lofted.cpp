@@ -4,13 +4,10 @@
 #include <array>
 
 #include "base/stopwatch.h"
-#include "geometry/flips.h"
 #include "geometry/outline_angles.h"
 #include "geometry/spikes.h"
 #include "geometry/surface_fit.h"
 #include "method/accept.h"
-#include "method/eased.h"
-#include "placement/follow_outline.h"
 #include "placement/refill.h"
 #include "problem/surface_state.h"
 #include "proxy/proxy_solver.h"
@@ -30,46 +27,26 @@ struct Kind {
 };
 constexpr std::array kinds{Kind{0.6, 1.0}, Kind{1.5, 1.0}, Kind{4.0, 1.3}};
 
-// A share of the bulge over an outline, which may lie beside the problem's; nothing where it is a balloon.
-std::optional<Points> surface(const Problem& problem, const Problem& outline, const Fill& fill, double share) {
+// A share of the bulge; nothing where it is a balloon.
+std::optional<Points> surface(const Problem& problem, const Fill& fill, double share) {
     const Patch& patch = problem.patch;
     Points points(3, patch.vertex_count());
-    points.rightCols(outline.fixed_points.cols()) = outline.fixed_points;
+    points.rightCols(problem.fixed_points.cols()) = problem.fixed_points;
     points.leftCols(patch.free_count) = fill.flat;
     const double least_area = total_area(points, patch.triangles);
     points.leftCols(patch.free_count) += share * fill.bulge;
     if (total_area(points, patch.triangles) > largest_growth * least_area) return std::nullopt;
-    if (&outline != &problem) follow_outline(patch, problem.fixed_points - outline.fixed_points, points);
-    points.rightCols(problem.fixed_points.cols()) = problem.fixed_points;
     return points;
 }
 
 // For the log of ways.
-const char* name_of(Provenance provenance) {
-    switch (provenance) {
-        case Provenance::creased_loft: return "creased loft";
-        case Provenance::low_passed_loft: return "eased loft";
-        case Provenance::swept_tube: return "swept loft";
-        default: return "loft";
-    }
-}
+const char* name_of(Provenance provenance) { return provenance == Provenance::loft ? "loft" : "swept loft"; }
 
 struct Candidate {
     Points points;
     double merit;
     Provenance provenance;
 };
-
-using Lofts = std::vector<std::pair<double, Loft>>;  // with their handicaps
-
-Lofts lofts_of(const Problem& problem, const Progress& progress) {
-    Lofts lofts;
-    for (const Kind& kind : kinds) {
-        if (auto loft = Loft::of(problem, kind.roundness, progress))
-            lofts.emplace_back(kind.handicap, std::move(*loft));
-    }
-    return lofts;
-}
 
 // The tube between two outlines along a wide bend.
 std::optional<Candidate> swept(const Problem& problem, const Progress& progress) {
@@ -80,16 +57,17 @@ std::optional<Candidate> swept(const Problem& problem, const Progress& progress)
     return Candidate{std::move(*points), merit, Provenance::swept_tube};
 }
 
-std::vector<Candidate> candidates(const Problem& problem, const Problem& outline, const Lofts& lofts) {
+std::vector<Candidate> candidates(const Problem& problem, const Progress& progress) {
     std::vector<Candidate> found;
-    for (const auto& [handicap, loft] : lofts) {
-        const Fill fill = loft.over(outline);
+    for (const Kind& kind : kinds) {
+        const auto loft = Loft::of(problem, kind.roundness, progress);
+        if (!loft) continue;
+        const Fill fill = loft->over(problem);
         for (const double share : {1.0, 0.75, 0.5, 0.25, 0.0}) {
-            auto points = surface(problem, outline, fill, share);
+            auto points = surface(problem, fill, share);
             if (!points) continue;
-            const double merit = handicap * willmore_energy(problem, *points);
-            found.push_back(
-                {std::move(*points), merit, &outline == &problem ? Provenance::loft : Provenance::low_passed_loft});
+            const double merit = kind.handicap * willmore_energy(problem, *points);
+            found.push_back({std::move(*points), merit, Provenance::loft});
         }
     }
     return found;
@@ -160,58 +138,21 @@ std::optional<Solution> best_of(const Problem& problem, std::vector<Candidate> c
     return std::nullopt;
 }
 
-// Whether triangles are turned over elsewhere than beside creases: a wedge of 16° counts as a fold.
-bool folds_beside(const Patch& patch, const CreasedStart& start) {
-    const Indices flipped = flipped_by_solution(patch, start.points);
-    return std::any_of(flipped.begin(), flipped.end(), [&](int t) {
-        const auto corners = patch.triangles.col(t);
-        return std::none_of(corners.begin(), corners.end(), [&](int v) { return start.on_crease[at(v)] != 0; });
-    });
-}
-
-// Where both outlines cross the same creases, these run along, as the edges of a wing, and the sections with them.
-std::optional<Solution> along_creases(const Problem& problem, BlemishSearch& search, const Progress& progress) {
-    const auto start = creased_start(problem, progress);
-    if (!start || folds_beside(problem.patch, *start)) return std::nullopt;
-    Solution solution;
-    solution.points = start->points;
-    solution.mean_curvature = measured_surface(problem, start->points).curvature.mean;
-    solution.boundary_normals = one_sided_normals(problem.patch, start->points);
-    solution.termination = Termination::converged;
-    solution.iterations = 1;
-    solution.provenance = Provenance::creased_loft;
-    solution.polished = false;  // its folds are the creases'
-    solution.flaw = flaw_of(problem, solution);
-    solution.polished = true;
-    const bool is_good = is_accepted(problem, solution) && !search.is_blemished(solution.points);
-    return is_good ? std::optional(std::move(solution)) : std::nullopt;
-}
-
-// The outline as it is comes first.
-std::optional<Solution> best_loft(const Problem& problem, BlemishSearch& search, const Progress& progress) {
-    if (auto creased = along_creases(problem, search, progress)) return creased;
-    const Lofts lofts = lofts_of(problem, progress);
-    std::vector<Candidate> found = candidates(problem, problem, lofts);
+std::optional<Solution> best_loft(const Problem& problem, const Progress& progress) {
+    std::vector<Candidate> found = candidates(problem, progress);
     if (auto tube = swept(problem, progress)) found.push_back(std::move(*tube));
-    auto solution = best_of(problem, std::move(found));
-    return solution ? std::move(solution) : best_of(problem, candidates(problem, eased(problem), lofts));
+    return best_of(problem, std::move(found));
 }
 
 }  // namespace
 
-std::optional<Solution> lofted(const Problem& problem, const Solution& first, BlemishSearch& search,
-                               const Progress& progress) {
+std::optional<Solution> lofted(const Problem& problem, const Solution& first, const Progress& progress) {
     const Stopwatch watch;
-    auto solution = best_loft(problem, search, progress);
+    auto solution = best_loft(problem, progress);
     if (!solution) return std::nullopt;
     solution->ways = first.ways;
     solution->ways.push_back({name_of(solution->provenance), watch.seconds()});
     return solution;
-}
-
-std::optional<Solution> lofted(const Problem& problem, const Solution& first, const Progress& progress) {
-    BlemishSearch search(problem, progress);
-    return lofted(problem, first, search, progress);
 }
 
 }  // namespace fairing

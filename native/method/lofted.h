@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "base/progress.h"
-#include "method/blemishes.h"
 #include "problem/problem.h"
 #include "problem/solution.h"
 
@@ -14,9 +13,6 @@ namespace fairing {
 // let go as far as that takes. `first`: what was tried before. Nothing for one outline, or where no share is accepted.
 // Where both outlines face each other along a wide bend, the sections swept along it (start/swept_start), where these
 // are bent less.
-std::optional<Solution> lofted(const Problem& problem, const Solution& first, BlemishSearch& search,
-                               const Progress& progress);
-// With a search of its own.
 std::optional<Solution> lofted(const Problem& problem, const Solution& first, const Progress& progress);
 
 }  // namespace fairing

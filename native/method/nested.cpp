@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/beside.h"
+#include "base/background_task.h"
 #include "base/stopwatch.h"
 #include "geometry/flips.h"
 #include "geometry/surface_fit.h"
@@ -133,7 +133,7 @@ private:
         operators_.resize(from);
         for (std::size_t k = operators_.size(); k-- > 0;) {
             if (levels_.problem(k).patch.free_count > largest_prepared) continue;
-            operators_[k].preparing = Beside([this, k, from, surface] {
+            operators_[k].preparing = BackgroundTask([this, k, from, surface] {
                 const Problem& problem = levels_.problem(k);
                 operators_[k].made = make_normal_operator(problem, levels_.layout(k, from, surface), Solves::few);
                 operators_[k].made->prepare();
@@ -251,7 +251,7 @@ private:
     Levels levels_;
     struct Operator {
         std::unique_ptr<NormalOperator> made;
-        Beside preparing;
+        BackgroundTask preparing;  // makes it, from the levels; ends before both
     };
     std::vector<Operator> operators_;  // of levels to come
 };

@@ -35,10 +35,6 @@ bool has_else(const Problem& problem) {
 
 bool is_answer(const Solution& solution) { return end_of(solution) == Termination::converged; }
 
-// Over outlines as jagged as those of noisy scans no surface of least variation was found, in 25 to 160 times the time
-// of a clean patch.
-bool is_worth_trying(const Problem& problem) { return !is_large(problem) || !is_jagged(problem); }
-
 // On large patches the first attempt decides. Coarse meshes of those that end well show 1 to 10, of the others 2e4 and
 // more.
 VariationLimits limits_for(const Problem& problem, double most_product) {
@@ -59,7 +55,8 @@ VariationLimits limits_near(const Points& near, double most_product, bool roughl
 // Solved as a way of its own, after those that the first solution tells of.
 std::optional<Solution> least_variation(const Problem& problem, const Solution& first, const VariationLimits& limits,
                                         const Progress& progress) {
-    if (!is_worth_trying(problem)) return std::nullopt;
+    // None was found between loops as jagged as those of scans: of 570 random patches it decides none.
+    if (is_jagged(problem)) return std::nullopt;
     const Stopwatch watch;
     std::optional<Solution> even;
     try {
@@ -116,13 +113,10 @@ bool is_tried_enough(const Problem& problem, const Solution& solution) {
     return solution.termination != Termination::iteration_limit || problem.options.max_iterations >= usual_iterations;
 }
 
-// A loft without blemishes, or the shape before as smooth as it can be, or any loft.
+// The shape before as smooth as it can be, where one is known, or a loft.
 std::optional<Solution> without_equation(const Problem& problem, const Solution& first, const Progress& progress) {
-    BlemishSearch search(problem, progress);
-    auto loft = lofted(problem, first, search, progress);
-    if (loft && !search.is_blemished(loft->points)) return loft;
-    auto shape = smoothed(problem, loft ? *loft : first, search, progress);
-    return shape ? std::move(shape) : std::move(loft);
+    auto shape = smoothed(problem, first, progress);
+    return shape ? std::move(shape) : lofted(problem, first, progress);
 }
 
 Solution instead_of_failure(const Problem& problem, Solution solution, const Progress& progress) {

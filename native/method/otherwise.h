@@ -10,9 +10,9 @@
 namespace fairing {
 
 // Solves as solve_global does (method/ladder). What that accepts is the answer. Where it accepts nothing, the surface
-// of least variation with tangent joins stands in. Where that is not accepted either, several boundary loops are joined
-// by a loft (method/lofted) or, where the loft has blemishes, by the shape before as smooth as it can be
-// (method/smoothed). Nothing stands in with Otherwise::stop, where the iterations allowed ran out, and where part of a
+// of least variation with tangent joins stands in. Where that is not accepted either, several boundary loops
+// keep the shape before, as smooth as it can be (method/smoothed), or are joined by a loft where none is known
+// (method/lofted). Nothing stands in with Otherwise::stop, where the iterations allowed ran out, and where part of a
 // load was solved. Where nothing is accepted, the better of the first two comes back with its flaw: fewer crossings
 // first, then less variation. `Solution::provenance` says which surface it is. Throws SolverError, Cancelled.
 Solution solve_or_else(const Problem& problem, const Progress& progress);

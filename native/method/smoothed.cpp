@@ -7,7 +7,9 @@
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
 #include "method/accept.h"
+#include "method/blemishes.h"
 #include "problem/surface_state.h"
+#include "start/several_outlines.h"
 #include "start/shape_before.h"
 
 namespace fairing {
@@ -60,25 +62,18 @@ Solution solution_at(const Problem& problem, const Points& points) {
 
 }  // namespace
 
-std::optional<Solution> smoothed(const Problem& problem, const Solution& first, BlemishSearch& search,
-                                 const Progress& progress) {
+std::optional<Solution> smoothed(const Problem& problem, const Solution& first, const Progress& progress) {
     const Stopwatch watch;
-    const BlemishFinder* finder = search.finder();
-    if (!finder) return std::nullopt;
+    if (!joins_outlines(problem)) return std::nullopt;
     auto shape = ShapeBefore::of(problem, progress);
     if (!shape) return std::nullopt;
-    const auto points = smoothest(problem, *shape, *finder, progress);
+    const auto points = smoothest(problem, *shape, BlemishFinder(problem, shape->points(), progress), progress);
     if (!points) return std::nullopt;
     Solution solution = solution_at(problem, *points);
     if (end_of(solution) != Termination::converged) return std::nullopt;
     solution.ways = first.ways;
     solution.ways.push_back({"smoothed", watch.seconds()});
     return solution;
-}
-
-std::optional<Solution> smoothed(const Problem& problem, const Solution& first, const Progress& progress) {
-    BlemishSearch search(problem, progress);
-    return smoothed(problem, first, search, progress);
 }
 
 }  // namespace fairing

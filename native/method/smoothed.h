@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "base/progress.h"
-#include "method/blemishes.h"
 #include "problem/problem.h"
 #include "problem/solution.h"
 
@@ -13,9 +12,6 @@ namespace fairing {
 // All of the shape before is smoothed (start/shape_before), between the tangent planes given. Around its blemishes
 // (method/blemishes) what is longer than D stays, then D/2, …, and a unit longer with each unit of way from there,
 // until there are none. Nothing for one outline, where no shape before is known, or none is accepted.
-std::optional<Solution> smoothed(const Problem& problem, const Solution& first, BlemishSearch& search,
-                                 const Progress& progress);
-// With a search of its own.
 std::optional<Solution> smoothed(const Problem& problem, const Solution& first, const Progress& progress);
 
 }  // namespace fairing

@@ -1,6 +1,6 @@
 #include "multigrid/coarsening.h"
 
-#include "base/beside.h"
+#include "base/background_task.h"
 
 namespace fairing {
 
@@ -40,7 +40,7 @@ std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights
                                  int coarsest) {
     std::vector<CoarseLevel> levels;
     levels.reserve(most_levels);
-    std::vector<Beside> patching;  // the rings of a level, while collapses go on
+    std::vector<BackgroundTask> patching;  // the rings of levels, while collapses go on; end before `levels`
     CollapseMesh mesh(patch, weights, outline);
     Indices fine_local(at(patch.vertex_count()));  // vertex of the patch → of the level above
     for (std::size_t v = 0; v < fine_local.size(); ++v) fine_local[v] = static_cast<int>(v);
@@ -76,7 +76,7 @@ std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights
         };
         patching.emplace_back(std::move(make));
     }
-    for (Beside& work : patching) work.finish();
+    for (BackgroundTask& work : patching) work.finish();
     return levels;
 }
 

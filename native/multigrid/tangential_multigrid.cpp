@@ -113,10 +113,10 @@ MultigridStep::Moves MultigridStep::solve(const Points& pull, const Planes* plan
         cycle(residual, z);
         if (planes) project_across(z, planes->normals);
     };
-    const auto [x, positive] = conjugate_gradients(to_single(pull, pull.cols(), unit), effort.tolerance,
-                                                   effort.max_cycles, apply, precondition);
+    const auto found = conjugate_gradients(to_single(pull, pull.cols(), unit), effort.tolerance, effort.max_cycles,
+                                           apply, precondition);
     fine_.resize(4, 0);  // others need the room until the next solve
-    return {unit * x.topLeftCorner(3, patch_.free_count).cast<double>(), positive};
+    return {unit * found.x.topLeftCorner(3, patch_.free_count).cast<double>(), found.positive};
 }
 
 // What single precision leaves is solved for again.

@@ -24,9 +24,12 @@ public:
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs, const Accuracy& accuracy = {}) const {
         return solve_to(rhs, accuracy);
     }
+    // Solves so far that left more than their accuracy allows.
+    [[nodiscard]] int unfinished() const { return unfinished_solves(); }
 
 private:
     [[nodiscard]] virtual Eigen::MatrixXd solve_to(const Eigen::MatrixXd& rhs, const Accuracy& accuracy) const = 0;
+    [[nodiscard]] virtual int unfinished_solves() const { return 0; }
 };
 
 // What an operator is made for: a few solves with a factor that is needed once, or many more or new factors now and

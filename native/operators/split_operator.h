@@ -23,6 +23,7 @@ public:
 
 private:
     [[nodiscard]] Eigen::MatrixXd solve_to(const Eigen::MatrixXd& rhs, const Accuracy& accuracy) const override;
+    [[nodiscard]] int unfinished_solves() const override { return known_.unfinished(); }
     [[nodiscard]] VectorX solve_column(const VectorX& rhs, const Accuracy& accuracy) const;
 
     LaplaceOperator laplace_;

@@ -47,8 +47,6 @@ enum class Provenance {
     low_passed,       // the same between loops without their short waves, beside which the real ones lie (method/eased)
     least_variation,  // the surface of least variation, where another equation was asked for
     loft,
-    creased_loft,     // a loft whose creases run from loop to loop
-    low_passed_loft,  // a loft between loops without their short waves
     swept_tube,       // cross-sections swept along a bend (start/swept_start)
     old_shape,        // the shape before, as smooth as it can be (method/smoothed)
 };
@@ -56,14 +54,9 @@ enum class Provenance {
 // Whether another surface than the equation's was taken.
 constexpr bool stands_in(Provenance provenance) { return provenance > Provenance::low_passed; }
 
-// Whether the surface meets other loops than the problem's, beside which those lie.
-constexpr bool lies_beside_boundary(Provenance provenance) {
-    return provenance == Provenance::low_passed || provenance == Provenance::low_passed_loft;
-}
-
 // Whether curves join the loops, without an equation.
 constexpr bool is_loft(Provenance provenance) {
-    return provenance >= Provenance::loft && provenance <= Provenance::swept_tube;
+    return provenance == Provenance::loft || provenance == Provenance::swept_tube;
 }
 
 // A way that was tried (method/ways), and how long it took.
@@ -79,6 +72,7 @@ struct Solution {
     Termination termination = Termination::stalled;
     bool polished = true;  // the equation holds on the patch's own connectivity
     int iterations = 0;
+    int unfinished_solves = 0;      // of its steps along the normals: systems that ended at a limit of cycles
     double residual = 0.0;          // largest |Δ_B H| (|H| for minimal) at free vertices
     double initial_residual = 0.0;  // of the fill
     double reached_load = 0.0;      // share of the load for which `points` solve the equation, where not the whole

@@ -98,7 +98,11 @@ struct Fineness {
     double share_of_outline;  // longest edge of the fine proxy, in edges of the outline
 };
 
-constexpr Fineness first_fineness{0.5, 0.0};
+// Of the meshes that were tried on 153 patches this one leads to most surfaces in the least time: all those of the mesh
+// whose edges are as short as they can be, and a tenth more.
+constexpr Fineness first_fineness{0.5, 0.35};
+// Found nine more of 115.
+constexpr Fineness second_fineness{0.12, 0.35};
 
 class ProxySolve {
 public:
@@ -116,13 +120,14 @@ public:
     // it and a fine interior may keep the iteration from converging: then the interior is coarse, too.
     SolvedProxy from_membrane(const Points& membrane) {
         std::optional<SolvedProxy> least_bent;
-        for (const Fineness& fineness : {first_fineness, Fineness{0.25, 0.35}, Fineness{0.12, 0.35}}) {
+        for (const Fineness& fineness : {first_fineness, second_fineness}) {
             SolvedProxy proxy = fine(coarse(membrane, fineness), fineness);
             if (proxy.refused) return proxy;
             if (proxy.converged()) return proxy;
             if (!least_bent || proxy.energy < least_bent->energy) least_bent.emplace(std::move(proxy));
-            // Of 23 regions of scans that were solved none needed another proxy, and those that fail are dearer each.
-            if (!is_small(shown_)) break;
+            // Of large patches none needed another mesh, and between several loops they find four of 129 in as much time
+            // again as all else takes.
+            if (!pays_patience(problem_, shown_)) break;
         }
         return std::move(*least_bent);
     }

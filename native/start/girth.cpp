@@ -78,12 +78,6 @@ VectorX CrossSections::widths(int outline, const Points& points) const {
     return result;
 }
 
-Points CrossSections::middles(int outline, const Points& points) const {
-    Points result = Points::Zero(3, line_count);
-    for (int line = 0; line < line_count; ++line) result.col(line) = middle_of(pieces(outline, line, points));
-    return result;
-}
-
 Indices CrossSections::triangles(int outline, int line) const {
     Indices found;
     for (int t = 0; t < patch_.triangle_count(); ++t) {

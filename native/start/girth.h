@@ -24,8 +24,6 @@ public:
     // How far apart two places of each line are, as far as two steps find the farthest: from the middle to the first,
     // from there to the second. Noise hardly adds to it, as it does to the length.
     [[nodiscard]] VectorX widths(int outline, const Points& points) const;
-    // The lines' centroids, 3 × as many.
-    [[nodiscard]] Points middles(int outline, const Points& points) const;
     // The triangles that a line around an outline runs through.
     [[nodiscard]] Indices triangles(int outline, int line) const;
 

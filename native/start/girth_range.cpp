@@ -100,8 +100,11 @@ public:
     LevelLines(const Patch& patch, const Points& points, const VectorX& values) : steps_(line_count) {
         for (int t = 0; t < patch.triangle_count(); ++t) {
             const Vector3 here = values(patch.triangles.col(t));
+            const double lowest = here.minCoeff();
+            const double highest = here.maxCoeff();
+            if (lowest == highest) continue;  // within one cell
             for (int line = 0; line < line_count; ++line) {
-                if (here.minCoeff() < level_of(line) && here.maxCoeff() >= level_of(line))
+                if (lowest < level_of(line) && highest >= level_of(line))
                     steps_[at(line)].push_back(step(patch, points, here, t, level_of(line)));
             }
         }

@@ -6,11 +6,13 @@
 
 #include "operators/laplace_operator.h"
 #include "start/clamped_fill.h"
-#include "start/cylinder_map.h"
 
 namespace fairing {
 
 namespace {
+
+// Where vertices lie on a cylinder. Rows: s from the first end to the last, then turns around.
+using CylinderMap = Eigen::Matrix2Xd;
 
 // Loops as columns of the outline's points.
 std::vector<Indices> outline_loops(const Patch& patch) {
@@ -95,36 +97,21 @@ void untwist(const Patch& patch, const Stiffness& stiffness, const VectorX& jump
     map.row(1) -= std::round(twist / along) * map.row(0);
 }
 
-int vertex_at(const Patch& patch, const TubeSection& section, double share) {
-    std::size_t best = 0;
-    for (std::size_t k = 1; k < section.vertices().size(); ++k) {
-        if (std::abs(section.share(k) - share) < std::abs(section.share(best) - share)) best = k;
-    }
-    return patch.free_count + section.vertices()[best];
-}
-
-std::vector<CreaseLine> crease_lines(const Patch& patch, const SweptTube& tube) {
-    std::vector<CreaseLine> lines;
-    for (const double share : tube.creases())
-        lines.push_back({vertex_at(patch, tube.first(), share), vertex_at(patch, tube.last(), share), share});
-    return lines;
-}
-
 // Harmonic on triangles that are all equilateral, and so one to one (Tutte's theorem on a cylinder).
-std::optional<Unrolled> unrolled(const Patch& patch, const SweptTube& tube, const Progress& progress) {
+std::optional<CylinderMap> unrolled(const Patch& patch, const SweptTube& tube, const Progress& progress) {
     const Stiffness even = uniform_stiffness(patch);
     LaplaceOperator laplace(patch);
     if (!laplace.update(even, progress)) return std::nullopt;
     const Indices way = seam(patch, tube);
-    Unrolled result{CylinderMap::Zero(2, patch.vertex_count()), jumps(patch, way)};
-    CylinderMap& map = result.map;
+    const VectorX jump = jumps(patch, way);
+    CylinderMap map = CylinderMap::Zero(2, patch.vertex_count());
     write(tube.first(), 0.0, way.front(), patch.free_count, map);
     write(tube.last(), 1.0, way.back(), patch.free_count, map);
     CylinderMap flux = even.apply(patch, map, patch.free_count);
-    flux.row(1) += jump_flux(patch, even, result.jumps);
+    flux.row(1) += jump_flux(patch, even, jump);
     map.leftCols(patch.free_count) = -laplace.solve(flux.transpose()).transpose();
-    untwist(patch, even, result.jumps, map);
-    return result;
+    untwist(patch, even, jump, map);
+    return map;
 }
 
 Points laid(const Problem& problem, const SweptTube& tube, const CylinderMap& map) {
@@ -143,15 +130,7 @@ std::optional<SweptTube> tube_between(const Problem& problem) {
 
 std::optional<Points> swept_start(const Problem& problem, const SweptTube& tube, const Progress& progress) {
     const auto flat = unrolled(problem.patch, tube, progress);
-    return flat ? std::optional(laid(problem, tube, flat->map)) : std::nullopt;
-}
-
-std::optional<CreasedStart> creased_start(const Problem& problem, const Progress& progress) {
-    const auto tube = SweptTube::creased(outline_loops(problem.patch), problem.fixed_points, problem.fixed_normals);
-    auto flat = tube ? unrolled(problem.patch, *tube, progress) : std::nullopt;
-    if (!flat) return std::nullopt;
-    std::vector<char> on_crease = keep_creases(problem.patch, crease_lines(problem.patch, *tube), *flat);
-    return CreasedStart{laid(problem, *tube, flat->map), std::move(on_crease)};
+    return flat ? std::optional(laid(problem, tube, *flat)) : std::nullopt;
 }
 
 }  // namespace fairing

@@ -15,13 +15,4 @@ std::optional<SweptTube> tube_between(const Problem& problem);
 // is no such map.
 std::optional<Points> swept_start(const Problem& problem, const SweptTube& tube, const Progress& progress);
 
-// Local vertices on a tube along which creases run, and which of them lie on these, from outline to outline.
-struct CreasedStart {
-    Points points;
-    std::vector<char> on_crease;
-};
-
-// Nothing where the outlines don't cross the same creases, as far as these stand out, or don't face along one tube.
-std::optional<CreasedStart> creased_start(const Problem& problem, const Progress& progress);
-
 }  // namespace fairing

@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 
 #include "base/direction.h"
-#include "start/outline_creases.h"
 
 namespace fairing {
 
@@ -53,53 +52,6 @@ std::optional<TwoRims> two_rims(const std::vector<Indices>& loops, const Points&
     const auto last = rim_at(loops[1], points, normals);
     if (!first || !last || !(first->outward * last->outward > 0.0)) return std::nullopt;
     return TwoRims{*first, *last};
-}
-
-// Into the gap along both tangent planes of each crease.
-Vector3 along_creases(const Indices& loop, const Indices& creases, const Points& normals, const Vector3& into) {
-    const auto size = static_cast<int>(loop.size());
-    Vector3 sum = Vector3::Zero();
-    for (const int k : creases) {
-        const Vector3 before = normals.col(loop[at((k + size - 1) % size)]);
-        const Vector3 way = before.cross(Vector3(normals.col(loop[at((k + 1) % size)])));
-        sum += way.dot(into) < 0.0 ? Vector3(-way) : way;
-    }
-    return sum.norm() > 0.0 ? direction(sum) : into;
-}
-
-// Which crease of the other outline continues the first one of this: the places of all lie nearest then.
-std::size_t best_partner(const std::vector<Vector3>& here, const std::vector<Vector3>& there) {
-    double least = std::numeric_limits<double>::infinity();
-    std::size_t best = 0;
-    for (std::size_t first = 0; first < there.size(); ++first) {
-        double sum = 0.0;
-        for (std::size_t k = 0; k < here.size(); ++k)
-            sum += (here[k] - there[(first + k) % there.size()]).squaredNorm();
-        if (sum >= least) continue;
-        least = sum;
-        best = first;
-    }
-    return best;
-}
-
-// Of creases (places in a loop), in the frame of the axis.
-std::vector<Vector3> places_of(const Indices& creases, const Indices& loop, const Points& points, const TubeAxis& axis,
-                               double s) {
-    std::vector<Vector3> places;
-    for (const int k : creases)
-        places.emplace_back(axis.frame(s).transpose() * (points.col(loop[at(k)]) - axis.place(s)));
-    return places;
-}
-
-// Of creases in the order around from the one at which the section begins.
-std::vector<double> shares_of(const Indices& creases, std::size_t first, const TubeSection& section) {
-    const auto size = static_cast<int>(section.vertices().size());
-    std::vector<double> shares;
-    for (std::size_t k = 0; k < creases.size(); ++k) {
-        const int along = creases[(first + k) % creases.size()] - creases[first];
-        shares.push_back(section.share(at((along + size) % size)));
-    }
-    return shares;
 }
 
 double distance(const TubeSection& a, const TubeSection& b, int samples) {
@@ -168,17 +120,6 @@ Vector3 TubeSection::at_share(double u) const {
     return (1.0 - part) * locals_[k - 1] + part * locals_[k];
 }
 
-void TubeSection::stretch(const std::vector<double>& from, const std::vector<double>& to) {
-    for (double& share : shares_) {
-        const auto after = std::upper_bound(from.begin(), from.end(), share);
-        const auto k = static_cast<std::size_t>(after - from.begin());
-        const double begin = from[k - 1];
-        const double end = k < from.size() ? from[k] : 1.0;
-        const double wanted = k < to.size() ? to[k] : 1.0;
-        share = to[k - 1] + (share - begin) / std::max(end - begin, least_share) * (wanted - to[k - 1]);
-    }
-}
-
 std::optional<SweptTube> SweptTube::between(const std::vector<Indices>& loops, const Points& points,
                                             const Points& normals) {
     const auto rims = two_rims(loops, points, normals);
@@ -189,33 +130,6 @@ std::optional<SweptTube> SweptTube::between(const std::vector<Indices>& loops, c
     std::reverse(turned.begin(), turned.end());  // around the axis as the first one
     TubeSection above(turned, best_beginning(turned, points, axis, below), points, axis, 1.0);
     return SweptTube(std::move(axis), std::move(below), std::move(above));
-}
-
-std::optional<SweptTube> SweptTube::creased(const std::vector<Indices>& loops, const Points& points,
-                                            const Points& normals) {
-    auto rims = two_rims(loops, points, normals);
-    if (!rims) return std::nullopt;
-    const Indices turned(loops[1].rbegin(), loops[1].rend());  // around the axis as the first one
-    Indices here = outline_creases(loops[0], normals);
-    Indices there = outline_creases(turned, normals);
-    const std::size_t count = std::min(here.size(), there.size());
-    if (count == 0) return std::nullopt;
-    for (Indices* creases : {&here, &there}) {
-        creases->resize(count);
-        std::sort(creases->begin(), creases->end());
-    }
-    rims->first.end.into = along_creases(loops[0], here, normals, rims->first.end.into);
-    rims->last.end.into = along_creases(turned, there, normals, rims->last.end.into);
-    TubeAxis axis(rims->first.end, rims->last.end);
-    const std::size_t partner =
-        best_partner(places_of(here, loops[0], points, axis, 0.0), places_of(there, turned, points, axis, 1.0));
-    TubeSection below(loops[0], at(here[0]), points, axis, 0.0);
-    TubeSection above(turned, at(there[partner]), points, axis, 1.0);
-    above.stretch(shares_of(there, partner, above), shares_of(here, 0, below));
-    std::vector<double> creases = shares_of(here, 0, below);
-    SweptTube tube(std::move(axis), std::move(below), std::move(above));
-    tube.creases_ = std::move(creases);
-    return tube;
 }
 
 SweptTube::SweptTube(TubeAxis axis, TubeSection first, TubeSection last)

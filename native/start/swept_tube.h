@@ -37,8 +37,6 @@ public:
     [[nodiscard]] const Indices& vertices() const { return vertices_; }
     [[nodiscard]] double share(std::size_t k) const { return shares_[k]; }
     [[nodiscard]] double girth() const { return girth_; }
-    // Shares are stretched so that those of `from` (ascending, the first one 0) become those of `to`.
-    void stretch(const std::vector<double>& from, const std::vector<double>& to);
 
 private:
     Indices vertices_;
@@ -55,17 +53,10 @@ public:
     static std::optional<SweptTube> between(const std::vector<Indices>& loops, const Points& points,
                                             const Points& normals);
 
-    // The same where both outlines cross as many creases (start/outline_creases; the sharpest of them where one has
-    // more): leaves along these, and they run from one outline to the other.
-    static std::optional<SweptTube> creased(const std::vector<Indices>& loops, const Points& points,
-                                            const Points& normals);
-
     // `s`: 0 at the first outline, 1 at the second one; `u`: share around.
     [[nodiscard]] Vector3 place(double s, double u) const;
     [[nodiscard]] const TubeSection& first() const { return first_; }
     [[nodiscard]] const TubeSection& last() const { return last_; }
-    // Shares at which creases run along the tube.
-    [[nodiscard]] const std::vector<double>& creases() const { return creases_; }
     [[nodiscard]] double length() const { return axis_.length(); }
     [[nodiscard]] double turn() const { return axis_.turn(); }  // radians
 
@@ -75,7 +66,6 @@ private:
     TubeAxis axis_;
     TubeSection first_;
     TubeSection last_;
-    std::vector<double> creases_;
 };
 
 }  // namespace fairing

@@ -77,8 +77,8 @@ Points SymmetricStep::displacement(const Points& points, const TangentPlanes& pl
     Points r = -gradient(points);
     const ShapeOperators turns = turning(planes, r);
     project_across(r, planes.normals);
-    auto [d, positive] = solve_across(r, planes.normals, turns, effort);
-    if (positive || turns.cols() == 0) return std::move(d);
+    auto solution = solve_across(r, planes.normals, turns, effort);
+    if (solution.positive || turns.cols() == 0) return std::move(solution.x);
     return solve_across(r, planes.normals, {}, effort).x;
 }
 

@@ -235,3 +235,16 @@ def test_knobs_are_looked_for_in_the_answer(monkeypatch: pytest.MonkeyPatch) -> 
     assert verdict.grade == LOOK
     assert "knob" in verdict.reason
     assert np.isin(verdict.spots, pose(mesh, EYE, FairOptions())[0].patch.vertices).all()
+
+
+def test_measuring_can_be_cancelled() -> None:
+    """It takes as long as the solution, and a process that ends waits for it."""
+    mesh = spoilt_sphere()
+    solved = solve(mesh, EYE, FairOptions())
+    asked: list[str] = []
+    outcome(mesh, EYE, FairOptions(), solved, lambda _, stage: asked.append(stage))
+    assert set(asked) == {"measurement"}
+    for last in range(len(asked)):
+        left = iter([True] * last + [False])
+        with pytest.raises(fairing.Cancelled):
+            outcome(mesh, EYE, FairOptions(), solved, lambda *_, left=left: next(left))

@@ -178,12 +178,24 @@ def test_the_outside_of_a_sheet_is_refused() -> None:
     assert len(error.value.elements) == 32
 
 
+def test_a_waist_is_worth_a_look_and_names_the_shape_without_one() -> None:
+    points, join = disc(3)[0], Join(np.arange(2), np.zeros(2))
+    assert judged(points, join, girth=(0.95, 1.3)).grade == GOOD
+    thin = judged(points, join, girth=(0.86, 1.0))
+    assert (thin.grade, thin.reason) == (
+        LOOK,
+        "The tube narrows to 86% of its ends: choose the shape Even Curvature",
+    )
+    assert judged(points, join, girth=(0.86, 1.0), equation="least_variation").reason.endswith("of its ends")
+
+
 def judged(points: Floats, join: Join, *tangent_only: int, **of_result: object) -> Verdict:
     """The verdict on a disc with these points, whose outline comes first, and nothing around it."""
     flat, triangles, rim = disc(3)
     sheet = polygon_mesh(flat, triangles.tolist(), np.zeros(len(triangles), dtype=bool))
     empty = replace(sheet, triangles=sheet.triangles[:0])
     usual = {"converged": True, "termination": "converged", "equation": "harmonic", "loops": (np.arange(rim),)}
+    usual["girth"] = None
     result = SimpleNamespace(**{**usual, **of_result})
     only_tangent = np.array(tangent_only, dtype=np.int64)
     return judge(empty, np.arange(rim), Surface(points, triangles, result, join, only_tangent))  # type: ignore[arg-type]

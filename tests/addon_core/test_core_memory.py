@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import pytest
 
 from core.memory import Memory, digest
 from core.options import FairOptions
@@ -42,7 +43,50 @@ def test_digest_tells_inputs_apart() -> None:
         (zeros, FairOptions()),
         (zeros, FairOptions(tolerance=1e-7)),
         (zeros, "a"),
+        (zeros, "a", "b"),
+        (zeros, ("a", "b")),
+        (zeros, (("a",), "b")),
+        (zeros, {"a": "b"}),
+        (zeros, 1),
+        (zeros, 1.0),
+        (zeros, True),
+        (zeros, None),
+        (zeros, "None"),
     ]
     assert len({digest(*given) for given in inputs}) == len(inputs)
     assert digest(zeros, FairOptions()) == digest(np.zeros((2, 3)), FairOptions())
     assert digest(zeros[::-1]) == digest(zeros)  # the same values, laid out otherwise
+
+
+def long_array(change: float) -> np.ndarray[Any, Any]:
+    """Return more numbers than numpy prints, with one in their middle that counts."""
+    numbers = np.zeros(3000)
+    numbers[1500] = change
+    return numbers
+
+
+@pytest.mark.parametrize(
+    "wrapped",
+    [
+        lambda array: {"seam": array},
+        lambda array: (array,),
+        lambda array: [[array]],
+        lambda array: {"seam": ({"more": array},)},
+    ],
+    ids=["mapping", "tuple", "lists", "nested"],
+)
+def test_digest_looks_into_mappings_and_sequences(wrapped: Any) -> None:
+    assert repr(wrapped(long_array(0.0))) == repr(wrapped(long_array(1.0)))
+    assert digest(wrapped(long_array(0.0))) != digest(wrapped(long_array(1.0)))
+    assert digest(wrapped(long_array(0.0))) == digest(wrapped(long_array(0.0)))
+
+
+@pytest.mark.parametrize(
+    "odd",
+    [object(), {1, 2}, np.array([object()]), FairOptions, len],
+    ids=["object", "set", "objects", "class", "function"],
+)
+def test_digest_refuses_what_it_does_not_know(odd: Any) -> None:
+    for given in (odd, (odd,), {"a": odd}):
+        with pytest.raises(TypeError, match="no digest"):
+            digest(given)

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import fairing
-from core.filling import FillOptions
+from core.filling import SHAPES, FillOptions
 from core.options import EQUATIONS, INNER_FAIRNESS, METHODS, OTHERWISE, FairOptions, option_names
 from fairing import _core
 
@@ -104,7 +104,6 @@ def test_every_argument_for_the_engine_is_one_that_it_knows() -> None:
     known = inspect.signature(fairing.fair).parameters
     given = FairOptions().resolved(False).engine_arguments()
     assert set(given) <= set(known)
-    assert given["equation"] == "harmonic"
     assert FairOptions(tolerance=1e-3, levels=4).engine_arguments()["tolerance"] == 1e-3
     assert FairOptions(levels=4).engine_arguments()["levels"] == 4
 
@@ -116,7 +115,7 @@ def test_the_words_are_the_engines() -> None:
     """
     words = _core.WORDS
     for option, choices in (
-        ("equation", EQUATIONS),
+        ("equation", (*EQUATIONS[1:], EQUATIONS[0])),  # the default comes first in Blender's menu
         ("otherwise", OTHERWISE),
         ("inner_fairness", INNER_FAIRNESS[1:]),
         ("method", METHODS),
@@ -124,7 +123,7 @@ def test_the_words_are_the_engines() -> None:
         assert tuple(choice.lower() for choice in choices) == words[option]
     defaults = {name: value.default for name, value in inspect.signature(fairing.fair).parameters.items()}
     given = FairOptions().resolved(False).engine_arguments()
-    assert given == {name: defaults[name] for name in given}
+    assert given == {name: defaults[name] for name in given} | {"equation": "automatic"}
 
 
 def test_options_are_read_from_any_object_by_name() -> None:
@@ -137,3 +136,11 @@ def test_options_are_read_from_any_object_by_name() -> None:
 def test_automatic_keeps_a_texture(textured: bool, stands_for: str) -> None:
     assert FairOptions().resolved(textured).inner_fairness == stands_for
     assert FairOptions(inner_fairness="INVERSE_DISTANCE").resolved(textured).inner_fairness == "INVERSE_DISTANCE"
+
+
+def test_automatic_is_the_shape_that_nobody_chose_and_the_engine_decides() -> None:
+    assert FairOptions().equation == FillOptions().equation == "AUTOMATIC"
+    assert FairOptions().engine_arguments()["equation"] == "automatic"
+    for kind in (FairOptions, FillOptions):
+        joined = {shape: kind(equation=shape, continuity="G2").joins_curvature for shape in SHAPES}
+        assert joined == {shape: shape in ("AUTOMATIC", "HARMONIC") for shape in SHAPES}

@@ -82,6 +82,30 @@ def test_a_knob_deserves_a_look(fine: Evidence) -> None:
         assert judged(knob, **meant).grade == GOOD, meant
 
 
+@pytest.mark.parametrize(
+    ("girth", "reason"),
+    [
+        ((0.86, 1.0), "The tube narrows to 86% of its ends"),
+        ((1.0, 1.55), "The tube swells to 155% of its ends"),
+        ((0.94, 1.31), ""),
+        (None, ""),
+    ],
+)
+def test_a_waist_and_a_balloon_deserve_a_look_and_even_curvature(
+    fine: Evidence, girth: tuple[float, float] | None, reason: str
+) -> None:
+    tube = replace(fine, result=replace(fine.result, girth=girth))
+    for equation in ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY"):
+        verdict = judged(tube, equation=equation)
+        assert (verdict.grade, verdict.reason) == (LOOK if reason else GOOD, reason)
+        assert (EVEN_CURVATURE in verdict.remedies) == bool(reason)
+        assert bool(len(verdict.spots)) == bool(reason)
+    taken = replace(tube, result=replace(tube.result, equation="least_variation"))
+    assert EVEN_CURVATURE not in judged(taken).remedies  # it is what Automatic has taken
+    for meant in ({"detail": 0.5}, {"equation": "CONSTANT", "bulge": 1.0}, {"factor": 0.5}, {"equation": "MINIMAL"}):
+        assert judged(tube, **meant).grade == GOOD, meant
+
+
 def test_an_outline_on_a_slope_deserves_a_look_and_offers_the_way_over_it(fine: Evidence) -> None:
     outline = fine.problem.patch.outline[:3]
     for is_bump, kind in ((True, "bump"), (False, "dent")):

@@ -17,7 +17,7 @@ bpy.ops.extensions.package_install_files(
 """
 
 
-def run(lines: str, scratch: Path, before: str = "") -> subprocess.CompletedProcess[str]:
+def run(lines: str, scratch: Path, before: str = "", timeout: float = 120.0) -> subprocess.CompletedProcess[str]:
     """Run `before`, install and enable, run the lines; return what was printed, after a good end."""
     path = os.pathsep.join([str(Path(__file__).parent), os.environ.get("PYTHONPATH", "")])  # bpy may be found by it
     environment = {**os.environ, "PYTHONPATH": path, "TMPDIR": str(scratch)}
@@ -26,7 +26,7 @@ def run(lines: str, scratch: Path, before: str = "") -> subprocess.CompletedProc
         env=environment,
         capture_output=True,
         text=True,
-        timeout=120.0,
+        timeout=timeout,
         check=False,
     )
     assert ended.returncode == 0, ended.stdout + ended.stderr

@@ -119,7 +119,9 @@ def test_what_has_no_usable_surface_is_refused() -> None:
     assert not obj.hide_render
     copy = copy_of(obj)
     options = copy[module("follow.copies").OPTIONS]
-    options = options.replace("HARMONIC", "CONSTANT").replace('"bulge": 0.0', '"bulge": 0.3')
+    options = options.replace('"equation": "AUTOMATIC"', '"equation": "CONSTANT"').replace(
+        '"bulge": 0.0', '"bulge": 0.3'
+    )
     copy[module("follow.copies").OPTIONS] = options
     bpy.ops.object.fair_copies_update()
     np.testing.assert_allclose(meshes.positions(copy), meshes.positions(obj), atol=1e-6)  # shows the original

@@ -44,7 +44,12 @@ def test_the_redo_panel_has_every_option() -> None:
 
 
 def test_the_join_is_greyed_out_for_shapes_that_have_none() -> None:
-    for equation, active in (("HARMONIC", True), ("LEAST_VARIATION", False), ("MINIMAL_ENERGY", False)):
+    for equation, active in (
+        ("AUTOMATIC", True),
+        ("HARMONIC", True),
+        ("LEAST_VARIATION", False),
+        ("MINIMAL_ENERGY", False),
+    ):
         rows = redo_panel(equation=equation)
         states = dict(zip(rows.told, (row.active for row in rows.rows), strict=True))
         assert states.pop("continuity") == active

@@ -15,7 +15,7 @@ from extension import module
 
 DEFAULTS = {
     "factor": 1.0,
-    "equation": "HARMONIC",
+    "equation": "AUTOMATIC",
     "otherwise": "LEAST_VARIATION",
     "bulge": 0.0,
     "inner_fairness": "AUTOMATIC",
@@ -43,9 +43,11 @@ DEFAULTS = {
     "spacing": 1.0,
     "inner": "OUTLINE",
     "quads": False,
+    "max_vertices": 0,
+    "limit_total": 0,
 }
 CHOICES = {
-    "equation": ["HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION"],
+    "equation": ["AUTOMATIC", "HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION"],
     "otherwise": ["LEAST_VARIATION", "STOP"],
     "inner_fairness": ["AUTOMATIC", "UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING"],
     "boundary_normals": ["SURROUNDING", "AVERAGE", "CUSTOM"],

@@ -39,7 +39,7 @@ def gate(monkeypatch: pytest.MonkeyPatch) -> Iterator[Gate]:
     yield found
     found.go.set()
     switch(False)
-    assert module("core.runner").wait_for_all(10.0)
+    module("core.runner").stop_all()
 
 
 def clicked() -> Any:
@@ -50,10 +50,9 @@ def clicked() -> Any:
         def report(self, kinds: set[str], text: str) -> None:
             told.append((kinds, text))
 
-        def _start_watching(self, _context: Any) -> None:
-            pass
+        def _start_watching(self, context: Any) -> None:
+            self._signs = module("run.background").Signs(context)
 
-    Stand._timer = None
     for name in ("invoke", "_begin_with", "_read", "_solve_or_start", "_start", "_is_current", "_apply", "_refuse"):
         setattr(Stand, name, getattr(original, name))
     for name in ("modal", "cancel", "_collect", "_stop_watching"):
@@ -249,7 +248,7 @@ def test_a_session_put_aside_is_not_taken_for_another(live: Any) -> None:
     session = live.sessions[mesh.name]
     assert home.is_of(session, mesh)
     kept = mesh["fair_live_options"]
-    mesh["fair_live_options"] = kept.replace("HARMONIC", "MINIMAL_ENERGY")
+    mesh["fair_live_options"] = kept.replace('"equation": "AUTOMATIC"', '"equation": "MINIMAL_ENERGY"')
     assert not home.is_of(session, mesh)
     mesh["fair_live_options"] = kept
     mesh["fair_live_key"] = "Smile"

@@ -18,6 +18,8 @@ def event(kind: str, value: str = "PRESS") -> Any:
 
 def started(obj: bpy.types.Object, faces: Any, go_on: threading.Event) -> Any:
     """Return an operator whose run has begun and waits for `go_on`; a stand-in with its methods."""
+    import fairing
+
     job, options = module("run.job"), module("core.options").FairOptions()
     original = module("run.operators").MESH_OT_fair_region
 
@@ -25,7 +27,7 @@ def started(obj: bpy.types.Object, faces: Any, go_on: threading.Event) -> Any:
         modal, cancel = original.modal, original.cancel
         _collect, _apply, _refuse = original._collect, original._apply, original._refuse
         _stop_watching, _is_current = original._stop_watching, original._is_current
-        _timer, _begin, _options, _notes, _way = None, 0.0, options, (), ""
+        _begin, _options, _notes, _way = 0.0, options, (), ""
 
         def report(self, kinds: set[str], text: str) -> None:
             told.append((kinds, text))
@@ -37,11 +39,14 @@ def started(obj: bpy.types.Object, faces: Any, go_on: threading.Event) -> Any:
     tasks = job.read(bpy.context, options)
 
     def work(progress: Any) -> Any:
-        assert go_on.wait(10.0)
+        while not go_on.wait(0.01):
+            if not progress(0.0, ""):
+                raise fairing.Cancelled
         return job.solve(tasks, options, progress)
 
     stand = Stand()
     stand.told, stand._tasks = told, tasks
+    stand._signs = module("run.background").Signs(bpy.context)
     stand._run = module("core.runner").Run(work)
     return stand
 
@@ -51,7 +56,7 @@ def go_on() -> Any:
     gate = threading.Event()
     yield gate
     gate.set()
-    assert module("core.runner").wait_for_all(10.0)
+    module("run.background").stop_all()
 
 
 def test_escape_leaves_every_bit(go_on: threading.Event) -> None:
@@ -91,10 +96,11 @@ def test_few_vertices_go_to_the_background_when_they_take_long(
     class Stand:
         invoke, _begin_with, _solve_or_start = original.invoke, original._begin_with, original._solve_or_start
         modal, cancel, _collect, _apply = original.modal, original.cancel, original._collect, original._apply
-        _stop_watching, _refuse, _timer = original._stop_watching, original._refuse, None
+        _stop_watching, _refuse = original._stop_watching, original._refuse
         _start, _read, _is_current, _way = original._start, original._read, original._is_current, ""
 
-        def _start_watching(self, _context: Any) -> None:
+        def _start_watching(self, context: Any) -> None:
+            self._signs = background.Signs(context)
             watched.append(self)
 
         def report(self, _kinds: set[str], _text: str) -> None:

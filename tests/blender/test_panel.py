@@ -213,7 +213,7 @@ def test_redo_panel_shows_what_is_set_often() -> None:
     ("chosen", "shown"),
     [
         ({"equation": "CONSTANT"}, {"bulge"}),
-        ({"mesh": "NEW"}, {"spacing", "inner", "quads"}),
+        ({"mesh": "NEW"}, {"spacing", "inner", "max_vertices", "quads", "limit_total"}),
         ({"detail": 0.5}, {"detail_size"}),
         ({"pin_group": "Pin"}, {"pin_radius"}),
         ({"pin_edges": "SEAM"}, {"pin_slope"}),

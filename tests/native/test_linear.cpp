@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <random>
-#include <thread>
 
 #include "base/errors.h"
 #include "base/parallel.h"
@@ -176,13 +175,10 @@ TEST_CASE("the LU factor refuses a singular matrix") {
 TEST_CASE("an LU factorisation can be cancelled between its fronts and done again") {
     SparseLu factor;
     const SparseMatrix matrix = grid_rows(60);
-    // So slow that a question is due at every checkpoint; those before the fronts are fewer.
-    constexpr int most_calls = 30;
+    constexpr int most_calls = 30;  // those before the fronts are fewer
     int calls = 0;
-    const Progress progress([&](double, std::string_view) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(51));
-        return ++calls < most_calls;
-    });
+    const Progress progress(
+        ProgressCallback([&](double, std::string_view) { return ++calls < most_calls; }, std::chrono::milliseconds(0)));
     const auto factorise = [&] {
         const Checkpoints checkpoints(progress);
         static_cast<void>(factor.factorise(matrix, "x", progress));
@@ -222,6 +218,26 @@ TEST_CASE("a solve that knows what the last ones found has less to find") {
     products = 0;
     (void)known.solve(diagonal, {1e-10}, 100, apply, precondition);
     CHECK(products > 12);
+}
+
+TEST_CASE("solves that end at the limit of their cycles, or on a matrix that is not positive, are counted") {
+    using Row = KnownDirections::Row;
+    Row diagonal = Row::LinSpaced(4, 1.0, 4.0);  // as many cycles as there are eigenvalues
+    const auto apply = [&](const Row& p, Row& product) { product = p.cwiseProduct(diagonal); };
+    const auto precondition = [](const Row& r, Row& z) { z = r; };
+    const auto unfinished_after = [&](int most_cycles) {
+        KnownDirections known;
+        (void)known.solve(Row::Ones(4), {1e-8}, most_cycles, apply, precondition);
+        return known.unfinished();
+    };
+    CHECK(unfinished_after(3) == 1);
+    CHECK(unfinished_after(4) == 0);  // the last cycle is enough
+    CHECK(unfinished_after(5) == 0);
+    KnownDirections known;
+    for (int times = 0; times < 3; ++times) (void)known.solve(Row::Random(4), {1e-8}, 1, apply, precondition);
+    CHECK(known.unfinished() == 3);
+    diagonal[2] = -3.0;
+    CHECK(unfinished_after(50) == 1);
 }
 
 TEST_CASE("Anderson acceleration ends a linear iteration within its dimension") {
@@ -320,4 +336,32 @@ TEST_CASE("GMRES keeps its directions at right angles where the system is nearly
     };
     const LinearMap same = [](const VectorX& x) { return x; };
     CHECK((apply(gmres(apply, same, b, 0.0, n)) - b).norm() < 1e-6 * b.norm());
+}
+
+TEST_CASE("GMRES takes the same steps in any units, and ends where no direction is left") {
+    const int n = 30;
+    std::srand(7);
+    const Eigen::MatrixXd full = Eigen::MatrixXd::Random(n, n) + 3.0 * Eigen::MatrixXd::Identity(n, n);
+    const Eigen::MatrixXd spectrum = VectorX::LinSpaced(n, 1.0, 2.0).asDiagonal();
+    const VectorX any = VectorX::Random(n);
+    VectorX few = VectorX::Zero(n);
+    few.head(3).setOnes();
+    const VectorX wanted = full.lu().solve(any);
+    const LinearMap same = [](const VectorX& x) { return x; };
+    for (const double of_matrix : {1e-25, 1.0, 1e25}) {
+        for (const double of_load : {1e-25, 1.0, 1e25}) {
+            int steps = 0;
+            const auto apply = [&](const Eigen::MatrixXd& matrix) -> LinearMap {
+                return [&](const VectorX& x) { return ++steps, VectorX(of_matrix * (matrix * x)); };
+            };
+            CAPTURE(of_matrix);
+            CAPTURE(of_load);
+            const VectorX found = gmres(apply(full), same, of_load * any, 0.0, n) * of_matrix / of_load;
+            CHECK((found - wanted).norm() < 1e-10 * wanted.norm());
+            CHECK(steps == n);
+            steps = 0;
+            gmres(apply(spectrum), same, of_load * few, 0.0, n);
+            CHECK(steps == 3);
+        }
+    }
 }

@@ -57,3 +57,46 @@ TEST_CASE("checkpoints ask again where the last report was, in their own thread 
     wait();
     CHECK_NOTHROW(checkpoint());
 }
+
+TEST_CASE("without an interval every checkpoint asks, and no one is asked after a no") {
+    int calls = 0;
+    const Progress progress(
+        ProgressCallback([&](double, std::string_view) { return ++calls < 3; }, std::chrono::milliseconds(0)));
+    const Checkpoints checkpoints(progress);
+    checkpoint();
+    checkpoint();
+    CHECK(calls == 2);
+    for (int k = 0; k < 3; ++k) CHECK_THROWS_AS(checkpoint(), Cancelled);
+    CHECK_THROWS_AS(progress.report(0.5, "a stage"), Cancelled);
+    CHECK(calls == 3);
+}
+
+TEST_CASE("a flag from outside stops a run that is never asked, and one whose callback has nothing against it") {
+    StopFlag flag;
+    const Checkpoints outside(&flag);
+    CHECK_NOTHROW(checkpoint());
+    int calls = 0;
+    const Progress progress([&](double, std::string_view) { return ++calls > 0; });
+    {
+        const Checkpoints inside(progress);
+        progress.report(0.1, "a stage");
+        flag.raise();
+        CHECK_THROWS_AS(checkpoint(), Cancelled);
+    }
+    CHECK_THROWS_AS(progress.report(0.2, "a stage"), Cancelled);
+    CHECK_THROWS_AS(Progress().report(0.2, "a stage"), Cancelled);
+    CHECK_THROWS_AS(checkpoint(), Cancelled);
+    CHECK(calls == 1);
+}
+
+TEST_CASE("what a callback calls does not call it again") {
+    int calls = 0;
+    const auto call = [&](double, std::string_view) {
+        checkpoint();
+        return ++calls > 0;
+    };
+    const Progress progress(ProgressCallback(call, std::chrono::milliseconds(0)));
+    const Checkpoints checkpoints(progress);
+    checkpoint();
+    CHECK(calls == 1);
+}

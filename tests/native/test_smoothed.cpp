@@ -64,18 +64,6 @@ Points waved(const Known& pipe, double height) {
     return pipe.shaped([=](double t) { return 1.0 + 0.5 * height * (1.0 - std::cos(2.0 * std::numbers::pi * t)); });
 }
 
-// Cross-sections moved to one side, those in the middle by that way.
-Points moved_aside(const Known& pipe, Points points, double way) {
-    for (auto point : points.colwise())
-        point[0] += 0.5 * way * (1.0 - std::cos(2.0 * std::numbers::pi * point[2] / pipe.length()));
-    return points;
-}
-
-bool is_blemished(const Problem& problem, const Points& points) {
-    const Progress progress;
-    return BlemishSearch(problem, progress).is_blemished(points);
-}
-
 BlemishFinder finder(const Known& pipe) { return {pipe.problem, *pipe.problem.before, Progress()}; }
 
 // A wall that bulges through the wall across from it, without folds.
@@ -256,7 +244,7 @@ TEST_CASE("a smoothed shape may keep the crossings that were there, and no other
     CHECK(flaw_at(pierced(pipe, 0.25), Provenance::old_shape) == Flaw::crossing);
 }
 
-TEST_CASE("a loft with a waist gives way to the shape before") {
+TEST_CASE("the shape before stands in where it is known, a loft where it is not") {
     Known pipe(30);
     const Patch& patch = pipe.single.patch();
     Points twisted = pipe.single.points;
@@ -281,23 +269,6 @@ TEST_CASE("a loft with a waist gives way to the shape before") {
     pipe.problem.before = Points(3, 0);
     const Solution alone = or_else(pipe.problem, failed, Progress());
     CHECK(is_loft(alone.provenance));
-}
-
-TEST_CASE("a loft beside the shape before gives way where it is off by half a radius") {
-    const Known pipe(40);
-    const auto moved = [&](double way) { return moved_aside(pipe, pipe.single.points, way); };
-    const auto girths = Girths::of(pipe.single.patch(), *pipe.problem.before, Progress());
-    REQUIRE(girths);
-    CHECK(girths->aside(pipe.single.points) < 1e-12);
-    CHECK(girths->aside(moved(0.3)) == doctest::Approx(0.3).epsilon(0.01));
-    for (const double way : {0.4, 0.6}) {
-        const Solution loft = taken(moved(way), Provenance::loft);
-        CHECK(finder(pipe).in(loft.points).absent());
-        CHECK(is_blemished(pipe.problem, loft.points) == (way > 0.5));
-    }
-    Known bent = pipe;
-    bent.problem.before = moved(0.6);
-    CHECK_FALSE(is_blemished(bent.problem, moved(0.6)));
 }
 
 TEST_CASE("a surface beside its boundary that crosses itself where the shape before did not gives way to that") {

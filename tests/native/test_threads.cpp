@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "api/fair.h"
-#include "base/beside.h"
 #include "base/errors.h"
 #include "base/parallel.h"
 #include "base/progress.h"
@@ -179,42 +178,6 @@ TEST_CASE("threads: a nested solve has the same bits for any number of them") {
         wanted.threads = threads;
         CHECK(same_bits(fair(cap.input, {}, wanted, {}), alone));
     }
-}
-
-TEST_CASE("threads: work beside a thread is done once, and its exception comes through when it is asked for") {
-    for (const int threads : {1, 2, 4}) {
-        const Threads team(threads);
-        std::atomic<int> calls = 0;
-        Beside first([&] { ++calls; });
-        Beside second([&] { run_pieces(10, [&](int) { ++calls; }); });
-        Beside failing([] { throw std::runtime_error("beside"); });
-        std::atomic<int> sum = 0;
-        run_pieces(50, [&](int k) { sum += k; });
-        CHECK(sum == 49 * 25);
-        CHECK_THROWS_AS(failing.finish(), std::runtime_error);
-        second.finish();
-        first.finish();
-        first.finish();
-        CHECK(calls == 11);
-    }
-}
-
-TEST_CASE("threads: work beside a thread that no one asks for stops at its next checkpoint") {
-    const Threads team(2);
-    std::atomic<bool> begun = false;
-    std::atomic<bool> ended = false;
-    {
-        const Beside work([&] {
-            begun = true;
-            for (int k = 0; k < 3000; ++k) {
-                checkpoint();
-                std::this_thread::sleep_for(std::chrono::milliseconds(1));
-            }
-            ended = true;
-        });
-        while (!begun) std::this_thread::yield();
-    }
-    CHECK(!ended);
 }
 
 TEST_CASE("threads: a solve on levels has the same bits with and without work beside it") {

@@ -1,10 +1,11 @@
 """Intrinsic fairing of triangle meshes: Δ_B H = 0 with G1 boundary data (Schneider & Kobbelt 2001)."""
 
+from fairing._borders import expected_vertices, outer_borders
 from fairing._conformal_map import conformal_map
 from fairing._core import __version__
 from fairing._fair import fair
 from fairing._feather import feather_weights
-from fairing._fill import fill, remesh
+from fairing._fill import fill
 from fairing._growing import GrownOutline, grown_outline
 from fairing._hierarchy import hierarchy
 from fairing._interpolate import interpolate
@@ -31,6 +32,7 @@ from fairing._outline import (
 )
 from fairing._paper import PaperOptions
 from fairing._quads import PairedQuads, paired_quads
+from fairing._remesh import remesh
 from fairing._solver import Solver
 from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, SolverError
 
@@ -58,6 +60,7 @@ __all__ = [
     "conformal_map",
     "cotan_laplacian",
     "edges_with_uses",
+    "expected_vertices",
     "fair",
     "feather_weights",
     "fill",
@@ -67,6 +70,7 @@ __all__ = [
     "interpolate",
     "mean_curvature",
     "mend_outline",
+    "outer_borders",
     "paired_quads",
     "remesh",
     "self_intersections",

@@ -1,14 +1,16 @@
-"""Edges of an outline that touch or cross each other."""
+"""Edges of an outline that touch or cross each other, and vertices that lie on its edges or on each other."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from fairing._types import FloatArray, IntArray
 
 _TOUCHING = 1e-9  # of the outline's extent
+_ON_EDGE = 1e-5  # of an edge: what single precision leaves where coordinates are as large as a hundred edges
 _TINY = 1e-300
 
 
@@ -22,6 +24,43 @@ def crossing_edges(loops: Sequence[IntArray], vertices: FloatArray) -> IntArray:
     met = _distances(vertices[edges[one]], vertices[edges[other]]) <= slack
     found: IntArray = np.hstack([edges[one[met]], edges[other[met]]])
     return found
+
+
+@dataclass(frozen=True)
+class Touches:
+    """Where vertices of an outline lie on others of its edges or vertices."""
+
+    on_edges: IntArray
+    """(t, 3) the ends of an edge and a vertex that lies on it between them."""
+    pairs: IntArray
+    """(p, 2) vertices that lie on each other."""
+
+
+def touches(loops: Sequence[IntArray], vertices: FloatArray) -> Touches:
+    """Vertices nearer than 1e-5 of an edge to that edge, or to an end of it that no edge joins to them."""
+    edges = np.concatenate([np.column_stack([loop, np.roll(loop, -1)]) for loop in loops])
+    segments = vertices[edges]
+    slack = _ON_EDGE * float(np.linalg.norm(segments[:, 1] - segments[:, 0], axis=1).max())
+    one, other = _near_pairs(segments, slack)
+    at = np.concatenate([other, other, one, one])
+    ends = np.concatenate([edges[one, 0], edges[one, 1], edges[other, 0], edges[other, 1]])
+    apart = (edges[at] != ends[:, None]).all(axis=1)
+    at, ends = at[apart], ends[apart]
+    near = _ON_EDGE * np.linalg.norm(segments[at, 1] - segments[at, 0], axis=1)
+    touching = _from_segment(vertices[ends], segments[at]) <= near
+    ends, at, near = ends[touching], at[touching], near[touching]
+    to_ends = np.linalg.norm(segments[at] - vertices[ends][:, None], axis=2)
+    between = to_ends.min(axis=1) > 2.0 * near
+    pairs = np.column_stack([ends, edges[at, to_ends.argmin(axis=1)]])[~between]
+    on_edges = np.column_stack([np.sort(edges[at], axis=1), ends])[between]
+    return Touches(np.unique(on_edges, axis=0), _not_joined(pairs, edges))
+
+
+def _not_joined(pairs: IntArray, edges: IntArray) -> IntArray:
+    """Pairs of vertices, each once, that are not the ends of one of the edges."""
+    joined = {tuple(edge) for edge in np.sort(edges, axis=1).tolist()}
+    found = [pair for pair in np.unique(np.sort(pairs, axis=1), axis=0).tolist() if tuple(pair) not in joined]
+    return np.array(found, dtype=edges.dtype).reshape(-1, 2)
 
 
 def _near_pairs(segments: FloatArray, slack: float) -> tuple[IntArray, IntArray]:

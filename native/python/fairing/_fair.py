@@ -86,8 +86,8 @@ def fair(
     otherwise : "least_variation" | "stop"
         What is taken where ``equation`` has no surface that is accepted (method "global", all but "minimal"); one that
         is accepted is always returned. By default it is that of least variation. Several outlines that have none of it
-        either are joined by a loft, which may leave the tangent planes given, or, where the loft has threads, waists,
-        sharp bends or crossings or there is none, keep the shape of ``reference``, smoothed as far as it goes:
+        either keep the shape of ``reference``, smoothed as far as it goes, or are joined by a loft where no such shape
+        is known, which may leave the tangent planes given:
         docs/least_variation.md. ``result.equation`` names what holds, and the warning NO_SOLUTION says so. "stop": the
         best surface found, not ``converged``. A solve that ran out of fewer than 200 ``max_iterations``, or has part of
         its load, is never replaced.

@@ -10,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments
-from fairing._crossings import crossing_edges
+from fairing._crossings import crossing_edges, touches
+from fairing._holes import is_outer
 from fairing._measure import boundary_loops
 from fairing._outline import surrounding_normals
 from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
@@ -59,6 +60,32 @@ def border_loops(triangles: IntArray, longest: int) -> Outline:
     return Outline(tuple(chosen), (False,) * len(chosen), (False,) * len(chosen))
 
 
+def without_outer(
+    outline: Outline, vertices: FloatArray, normals: FloatArray
+) -> tuple[Outline, FloatArray, tuple[IntArray, ...]]:
+    """The holes among all border loops, their normals (Σ k, 3), and the outer borders that are left out.
+
+    MeshError (NOT_A_HOLE) where no hole is left.
+    """
+    parts = outline.split(normals)
+    outer = [is_outer(vertices[loop], part) for loop, part in zip(outline.loops, parts, strict=True)]
+    left = tuple(loop for loop, out in zip(outline.loops, outer, strict=True) if out)
+    if all(outer):
+        raise MeshError(not_holes(left))
+    holes = tuple(loop for loop, out in zip(outline.loops, outer, strict=True) if not out)
+    kept = np.concatenate([part for part, out in zip(parts, outer, strict=True) if not out])
+    return Outline(holes, (False,) * len(holes), (False,) * len(holes)), kept, left
+
+
+def not_holes(loops: Sequence[IntArray]) -> Diagnostic:
+    """Tells of outer borders that were left open; name them in `loops` to have them filled all the same."""
+    edges = np.sort(np.concatenate(loops)).astype(np.int32)
+    what = "1 border loop goes" if len(loops) == 1 else f"{len(loops)} border loops go"
+    text = f"{what} around the outside of a sheet, at {listed(edges)}, and stay{'s' * (len(loops) == 1)} open"
+    text += ": name a loop in `loops` to have it filled all the same"
+    return Diagnostic("NOT_A_HOLE", text, edges, "vertex", {"loops": float(len(loops)), "vertices": float(len(edges))})
+
+
 def given_loops(loops: Any, vertices: FloatArray, triangles: IntArray) -> Outline:
     """The caller's loops, in range; those along the mesh turned so that the new surface lies on their left."""
     if isinstance(loops, np.ndarray) and loops.ndim == 1 and loops.dtype != object:
@@ -85,11 +112,10 @@ def check(outline: Outline, vertices: FloatArray, joined: bool) -> None:
         if len(np.unique(loop)) < 3:
             _refuse("NOT_A_LOOP", f"a loop of {len(loop)} vertices bounds nothing: three are needed", loop)
         if len(np.unique(loop)) < len(loop):
-            twice = _repeated(loop)
-            _refuse("NONMANIFOLD_VERTEX", f"a loop touches itself at {listed(twice)}: split these vertices", twice)
+            _refuse_pinch("a loop touches itself", _repeated(loop))
     twice = _repeated(seen)
     if len(twice):
-        _refuse("NONMANIFOLD_VERTEX", f"two loops touch each other at {listed(twice)}: split these vertices", twice)
+        _refuse_pinch("two loops touch each other", twice)
     broken = seen[~np.isfinite(vertices[seen]).all(axis=1)]
     if len(broken):
         _refuse("NONFINITE", f"coordinates are not finite at {listed(broken)}", broken)
@@ -99,22 +125,37 @@ def check(outline: Outline, vertices: FloatArray, joined: bool) -> None:
         if len(same):
             _refuse("NOT_A_LOOP", f"an edge of a loop has no length at {listed(same)}: merge these vertices", same)
     for loops in [outline.loops] if joined else [(loop,) for loop in outline.loops]:
-        _refuse_places_passed_twice(np.concatenate(loops), vertices)
+        _refuse_touches(loops, vertices)
         crossing = np.unique(crossing_edges(loops, vertices))
         if len(crossing):
-            text = f"edges of an outline touch or cross each other at {listed(crossing)}: move them apart"
-            _refuse("NONMANIFOLD_VERTEX", text, crossing)
+            text = f"edges of an outline cross each other at {listed(crossing)}: move them apart"
+            _refuse("NONMANIFOLD_VERTEX", text, crossing, crossing=float(len(crossing)))
 
 
-def _refuse_places_passed_twice(outline: IntArray, vertices: FloatArray) -> None:
-    """MeshError where different vertices of one surface's outline lie in the same place: a figure eight, a slit."""
-    _, place, count = np.unique(vertices[outline], axis=0, return_inverse=True, return_counts=True)
-    meeting = outline[count[place.ravel()] > 1]
+def _refuse_pinch(what: str, twice: IntArray) -> None:
+    text = f"{what} at {listed(twice)}: split these vertices"
+    _refuse("NONMANIFOLD_VERTEX", text, twice, pinches=float(len(twice)))
+
+
+def _refuse_touches(loops: Sequence[IntArray], vertices: FloatArray) -> None:
+    """MeshError where vertices of one surface's outline lie on its edges, or on each other."""
+    found = touches(loops, vertices)
+    if len(found.on_edges):
+        edge, on_edge = found.on_edges[0, :2], found.on_edges[:, 2]
+        here = on_edge[(found.on_edges[:, :2] == edge).all(axis=1)]
+        lying = float(len(np.unique(on_edge)))
+        what, them = ("lies on its", "it") if len(here) == 1 else ("lie on its", "them")
+        more = f" ({lying:.0f} on edges in all)" if lying > len(here) else ""
+        text = f"{listed(here)} of an outline {what} edge {edge[0]}-{edge[1]}{more}: dissolve {them}"
+        figures = {"on_edge" if lying == 1.0 else "on_edges": lying}
+        _refuse(
+            "NONMANIFOLD_VERTEX", f"{text}, or split that edge there and merge", np.append(edge, on_edge), **figures
+        )
+    meeting = np.unique(found.pairs)
     if len(meeting):
         advice = "merge them where the mesh is torn, move them apart where the outline touches itself"
         text = f"an outline passes through one place several times, with {listed(meeting)}: {advice}"
-        figures = {"meeting": float(len(meeting))}
-        raise MeshError(Diagnostic("NONMANIFOLD_VERTEX", text, np.sort(meeting).astype(np.int32), "vertex", figures))
+        _refuse("NONMANIFOLD_VERTEX", text, meeting, meeting=float(len(meeting)))
 
 
 def loop_normals(normals: Any, outline: Outline, vertices: FloatArray, triangles: IntArray) -> FloatArray:
@@ -216,8 +257,9 @@ def listed(indices: IntArray) -> str:
     return f"vertex {shown}" if len(indices) == 1 else f"vertices {shown}{more}"
 
 
-def _refuse(code: str, text: str, elements: IntArray) -> None:
-    raise MeshError(Diagnostic(code, text, np.asarray(elements, np.int32), "vertex", {"vertices": len(elements)}))
+def _refuse(code: str, text: str, elements: IntArray, **figures: float) -> None:
+    told = {"vertices": float(len(elements)), **figures}
+    raise MeshError(Diagnostic(code, text, np.asarray(elements, np.int32), "vertex", told))
 
 
 def check_doubles(new: IntArray, triangles: IntArray) -> None:

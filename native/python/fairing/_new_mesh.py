@@ -56,6 +56,8 @@ class FillResult(NewMeshResult):
 
     loops: tuple[IntArray, ...]
     """The loops that were filled, each in the direction that has the new surface on its left."""
+    left_open: tuple[IntArray, ...]
+    """Border loops around the outside of a sheet, left open where no ``loops`` were named (see NOT_A_HOLE)."""
 
 
 @dataclass(frozen=True, eq=False)

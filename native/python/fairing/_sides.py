@@ -19,16 +19,11 @@ _TINY = 1e-300
 def settled(outline: Outline, vertices: FloatArray, normals: FloatArray, joined: bool) -> tuple[Outline, FloatArray]:
     """The loops and their normals (Σ k, 3), those turned that no triangle holds and whose surface would lead away.
 
-    MeshError: NOT_A_HOLE where a loop that triangles hold goes around a sheet, LOOPS_NOT_JOINED where the normals of
-    two loops that face each other point to different sides.
+    MeshError: LOOPS_NOT_JOINED where the normals of two loops that face each other point to different sides.
     """
     joined = joined and len(outline.loops) > 1
     rims = _rims(outline, vertices, normals)
     away = [rim.way_to_others < _AWAY if joined else leads_outside(rim.points, rim.normals) for rim in rims]
-    for loop, bare, is_away in zip(outline.loops, outline.bare, away, strict=True):
-        if is_away and not bare and not joined:
-            text = f"a loop of {len(loop)} edges goes around the outside of a sheet, at {listed(loop)}: name the holes"
-            raise _refusal("NOT_A_HOLE", f"{text} in `loops`, or bound their length by `longest`", loop, {})
     turns = [is_away and bare for is_away, bare in zip(away, outline.bare, strict=True)]
     result = replace(
         outline,
@@ -70,8 +65,12 @@ def not_joined(outline: Outline, vertices: FloatArray, normals: FloatArray) -> M
     if ways[worst] > _ACROSS:
         text = "loops: no surface joins them; they cross or are linked, face away from each other, or are too many"
         return _refusal("LOOPS_NOT_JOINED", f"{text}: join fewer", outline.vertices, {})
-    what = "the surface would lead away from the others there"
-    return _refused(outline, worst, what, "turn its normals or its direction")
+    loop = outline.loops[worst]
+    if outline.bare[worst]:
+        what = "the surface would lead away from the others there"
+        return _refused(outline, worst, what, "turn its normals or its direction")
+    text = f"loops: no surface joins loop {worst} ({listed(loop)}) with the others: the triangles around it lie between"
+    return _refusal("LOOPS_NOT_JOINED", f"{text}: cut them back, or leave it out", loop, {"between": float(len(loop))})
 
 
 def _check_sides(outline: Outline, vertices: FloatArray, normals: FloatArray) -> None:

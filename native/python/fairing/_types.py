@@ -13,7 +13,8 @@ from fairing import _core
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int32]
 CODES: tuple[str, ...] = (  # all that a `Diagnostic` may have
-    *_core.CODES, "OUTLINE_KEPT", "NOT_A_LOOP", "NOT_A_HOLE", "LOOPS_NOT_JOINED",
+    *_core.CODES, "OUTLINE_KEPT", "NOT_A_LOOP", "NOT_A_HOLE", "LOOPS_NOT_JOINED", "OUT_OF_PROPORTION",
+    "NOT_TANGENT",
 )  # fmt: skip
 FOLDS = ("FOLDED", "FLIPPED_TRIANGLES", "SELF_INTERSECTION")  # codes of warnings about the surface itself
 
@@ -81,7 +82,7 @@ class FairResult:
     provenance: str
     """Where the surface comes from: "equation"; "low_passed", the same between boundary loops without their short
     waves, beside which the real ones lie; or what stands in for a surface that the equation does not have:
-    "least_variation", "loft", "creased_loft", "low_passed_loft", "swept_tube" or "old_shape". Of several components the last in this
+    "least_variation", "loft", "swept_tube" or "old_shape". Of several components the last in this
     order. All but the first come with the warning NO_SOLUTION."""
     vertices: FloatArray
     """(n, 3) positions; vertices that are neither free nor in ``moved`` keep their bits."""
@@ -132,9 +133,9 @@ class FairResult:
     """Name and seconds of each way that was tried, in order. The last one led to the result, unless none was accepted.
 
     "warm" starts from the last answer, "nested" goes from coarse to fine, "direct" stays on the mesh given, "proxy"
-    takes a mesh of the engine's own, "eased" does so over the smoothed outline, "even" and "uniform" take uniform
-    weights first or only. "minimal", "variation", "loft", "smoothed" and "paper" belong to the surfaces and the method
-    of that name, "patient" is a direct solve with all iterations. Several components follow each other."""
+    takes a mesh of the engine's own, "eased" does so over the smoothed outline, "even" takes uniform weights
+    first. "minimal", "variation", "loft", "smoothed" and "paper" belong to the surfaces and the method of that name.
+    Several components follow each other."""
     warnings: tuple[Diagnostic, ...]
     moved: IntArray = field(default_factory=lambda: np.empty(0, np.int32))
     """Fixed and outside vertices that ``outline="mended"``, ``feather`` or ``weights`` have moved, ascending."""

@@ -119,4 +119,4 @@ def play(story: Callable[[], Story]) -> None:
             screenshot("failure")
             os._exit(1)
 
-    bpy.app.timers.register(step, first_interval=1.0)
+    bpy.app.timers.register(step, first_interval=1.0, persistent=True)  # in the next file, too

@@ -12,6 +12,14 @@ import bpy
 import numpy as np
 import scenes
 from driver import Story, click, in_view, middle, play, press, screenshot, tell, type_text
+from ends_chapters import (
+    another_file_ends_a_run,
+    disabling_ends_a_run,
+    quits_after_a_cancel,
+    quits_during_a_run,
+    quits_during_a_search,
+    undo_and_removal_end_a_run,
+)
 from held_chapters import (
     copies_fairly,
     fairs_an_open_border,
@@ -228,20 +236,25 @@ CHAPTERS = (
     live_finds_no_surface,
     live_is_left_while_it_searches,
     live_begins_in_the_background,
+    undo_and_removal_end_a_run,
+    disabling_ends_a_run,
+    another_file_ends_a_run,
 )
+# Each ends Blender, so that it has one of its own; they are played only where they are named.
+ENDINGS = (quits_during_a_run, quits_after_a_cancel, quits_during_a_search)
 
 
 def story() -> Story:
     """Play every chapter, or those that FAIRING_CHAPTERS names."""
     chosen = os.environ.get("FAIRING_CHAPTERS", "").split()
-    unknown = set(chosen) - {chapter.__name__ for chapter in CHAPTERS}
+    unknown = set(chosen) - {chapter.__name__ for chapter in (*CHAPTERS, *ENDINGS)}
     assert not unknown, f"there is no chapter {', '.join(sorted(unknown))}"
     extension()
     yield 1.0
     press("ESC", *middle())  # the splash screen of a first start
     yield 0.5
-    for chapter in CHAPTERS:
-        if chosen and chapter.__name__ not in chosen:
+    for chapter in (*CHAPTERS, *ENDINGS):
+        if chapter.__name__ not in (chosen or [kept.__name__ for kept in CHAPTERS]):
             continue
         tell(f"== {chapter.__name__}")
         yield from chapter()

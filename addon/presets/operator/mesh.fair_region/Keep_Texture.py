@@ -3,6 +3,6 @@ import bpy
 op = bpy.context.active_operator
 
 op.inner_fairness = "CONFORMAL"
-op.equation = "HARMONIC"
+op.equation = "AUTOMATIC"
 op.factor = 1.0
 op.boundary_normals = "SURROUNDING"

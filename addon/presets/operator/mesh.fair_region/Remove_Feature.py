@@ -2,7 +2,7 @@ import bpy
 
 op = bpy.context.active_operator
 
-op.equation = "HARMONIC"
+op.equation = "AUTOMATIC"
 op.inner_fairness = "UNIFORM"
 op.boundary_normals = "SURROUNDING"
 op.factor = 1.0

@@ -1,0 +1,52 @@
+"""What belongs to the file that is open. It ends when another file is opened, and when the extension is disabled.
+
+Whatever keeps something about meshes or objects between two calls has its line in `forget`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from .follow.live import live
+from .follow.watch import watch
+from .host.handlers import listen, unlisten
+from .run import background, compare, job, last_run, report_properties
+from .show import overlay
+
+
+def forget() -> None:
+    """Stop all runs first, so that none of them leaves anything behind; then drop what is kept."""
+    background.stop_all()
+    live.forget()
+    watch.forget()
+    overlay.overlay.clear()
+    compare.forget()
+    last_run.forget()
+    job.memory.clear()
+    job.solvers.clear()
+    report_properties.clear(bpy.context.window_manager.fairing_report)
+
+
+def _before_load(*_arguments: Any) -> None:
+    """A run must not outlive its file: the next one may have an object of the same name and shape."""
+    background.stop_all()
+
+
+def _after_load(*_arguments: Any) -> None:
+    forget()
+    overlay.refresh()
+
+
+def register() -> None:
+    """Follow the opening of files."""
+    listen(bpy.app.handlers.load_pre, _before_load)
+    listen(bpy.app.handlers.load_post, _after_load)
+
+
+def unregister() -> None:
+    """Forget all, and follow no more."""
+    unlisten(bpy.app.handlers.load_post, _after_load)
+    unlisten(bpy.app.handlers.load_pre, _before_load)
+    forget()

@@ -1,0 +1,110 @@
+"""A mesh that new vertices and faces are written to, as a bmesh, in either mode."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+import bmesh
+import bpy
+
+from .layers import Shapes
+from .mesh_io import user_of
+from .set_aside import SetAside, has_unreached
+from .weights import bone_groups
+
+
+@dataclass(frozen=True)
+class Target:
+    """The bmesh, and what belongs to it beside its layers."""
+
+    bm: Any
+    shapes: Shapes
+    aside: SetAside
+    bones: list[int]  # vertex groups of bones
+    edited: bpy.types.Mesh | None  # the mesh whose edit mode shows the bmesh
+
+    def open(self) -> bool:
+        """Take out what must not be there when elements are made; before, nothing about the mesh has changed.
+
+        Returns whether there was something: elements that were looked up before are of no use then.
+        """
+        if self.edited is None or not self.aside:
+            return False
+        self.aside.take_out(self.edited)
+        self.aside.number(self.bm)
+        return True
+
+
+@contextmanager
+def in_edit_mode(obj: bpy.types.Object) -> Iterator[Target]:
+    """Give the mesh of an object in edit mode, and show what was done."""
+    mesh = obj.data
+    bm = bmesh.from_edit_mesh(mesh)
+    shapes = Shapes(bm, mesh.shape_keys, obj.active_shape_key)
+    aside = _read_edit_mesh(mesh, bm)
+    try:
+        yield Target(bm, shapes, aside, bone_groups(obj), mesh)
+    finally:
+        bmesh.update_edit_mesh(mesh)
+        if aside.is_numbered:  # they come back whatever has happened
+            _reload(obj, bm, aside)
+
+
+@contextmanager
+def in_object_mode(mesh: bpy.types.Mesh) -> Iterator[Target]:
+    """Give a mesh in object mode, its Basis shown, and write that back."""
+    aside = SetAside(mesh)
+    bm = bmesh.new()
+    try:
+        _load(bm, mesh, aside)
+        keys = mesh.shape_keys
+        shapes = Shapes(bm, keys, None if keys is None else keys.reference_key)
+        yield Target(bm, shapes, aside, bone_groups(user_of(mesh)), None)
+        bm.to_mesh(mesh)
+        aside.put_back(mesh)
+    finally:
+        bm.free()
+    mesh.update()
+
+
+def _read_edit_mesh(mesh: bpy.types.Mesh, bm: Any) -> SetAside:
+    copy = bpy.data.meshes.new("fairing attributes")
+    try:
+        if has_unreached(mesh):
+            bm.to_mesh(copy)
+        return SetAside(copy)
+    finally:
+        bpy.data.meshes.remove(copy)
+
+
+def _load(bm: Any, mesh: bpy.types.Mesh, aside: SetAside) -> None:
+    """Read a mesh in object mode into a bmesh, without what is set aside."""
+    if not aside:
+        bm.from_mesh(mesh)
+        return
+    copy = mesh.copy()  # with shape keys
+    try:
+        aside.take_out(copy)
+        bm.from_mesh(copy)
+        aside.number(bm)
+    finally:
+        bpy.data.meshes.remove(copy)
+
+
+def _reload(obj: bpy.types.Object, bm: Any, aside: SetAside) -> None:
+    """Put the attributes back where Blender allows it, in a mesh in object mode, and edit that."""
+    obj.update_from_editmode()  # moves shape keys, too, as at the end of edit mode
+    modes = set(bm.select_mode)
+    copy = obj.data.copy()
+    try:
+        aside.put_back(copy)
+        bm.clear()
+        bm.from_mesh(copy, use_shape_key=True, shape_key_index=obj.active_shape_key_index)
+    finally:
+        bpy.data.meshes.remove(copy)
+    bm.select_mode = modes
+    bm.normal_update()
+    bmesh.update_edit_mesh(obj.data)

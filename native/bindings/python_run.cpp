@@ -1,0 +1,147 @@
+#include "bindings/python_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+namespace fairing::bindings {
+
+// The runs under way in this process.
+class Runs {
+public:
+    void enter(PythonRun& run) {
+        const std::scoped_lock lock(mutex_);
+        if (ends_in_ && *ends_in_ != run.thread_) throw Cancelled();
+        runs_.push_back(&run);
+    }
+
+    void leave(PythonRun& run) noexcept {
+        const std::scoped_lock lock(mutex_);
+        std::erase(runs_, &run);
+        left_.notify_all();
+    }
+
+    // Without the GIL. Later runs of other threads are refused.
+    void end() {
+        // A callback takes less, unless it waits for this very thread, and so for ever. It is left to CPython.
+        constexpr std::chrono::seconds patience{2};
+        constexpr std::chrono::milliseconds between{10};
+        std::unique_lock lock(mutex_);
+        ends_in_ = std::this_thread::get_id();
+        for (PythonRun* run : runs_) run->stop_.raise();
+        left_.wait_for(lock, patience, [this] { return !any([](const PythonRun&) { return true; }); });
+        while (any([](const PythonRun& run) { return !run.in_callback_; })) left_.wait_for(lock, between);
+    }
+
+private:
+    // Of the other threads.
+    template <typename Condition>
+    [[nodiscard]] bool any(const Condition& condition) const {
+        return std::any_of(runs_.begin(), runs_.end(),
+                           [&](const PythonRun* run) { return run->thread_ != *ends_in_ && condition(*run); });
+    }
+
+    std::mutex mutex_;
+    std::condition_variable left_;
+    std::vector<PythonRun*> runs_;
+    std::optional<std::thread::id> ends_in_;  // the thread that ends the interpreter
+};
+
+namespace {
+
+// Never destroyed: threads may outlive the interpreter. Replaced in a fork's child.
+Runs* all_runs = new Runs;
+
+bool is_finalizing() {
+#if PY_VERSION_HEX >= 0x030D0000
+    return Py_IsFinalizing() != 0;
+#else
+    return _Py_IsFinalizing() != 0;
+#endif
+}
+
+// Until the process ends, as CPython itself does from 3.14 on.
+[[noreturn]] void sleep_for_ever() noexcept {
+    while (true) std::this_thread::sleep_for(std::chrono::hours{1});
+}
+
+// python(), where CPython may end the thread because the interpreter has ended. Up to 3.13 glibc does that by an
+// exception, which no destructor lets through and no `catch (...)` may keep: std::terminate. No one needs the thread
+// any more, so it stays.
+template <typename Python>
+auto or_for_ever(const Python& python) noexcept {
+    try {
+        return python();
+    } catch (...) {
+        sleep_for_ever();
+    }
+}
+
+// A callback that returns its fraction would cancel at 0: truth is asked of nothing but booleans, NumPy's included.
+bool goes_on(const py::object& answer) {
+    if (answer.is_none()) return true;
+    py::detail::make_caster<bool> boolean;
+    constexpr bool convert = false;
+    if (!boolean.load(answer, convert)) {
+        throw py::type_error("progress: the callback returned " + std::string(py::repr(answer)) +
+                             "; False cancels, None or True goes on");
+    }
+    return py::detail::cast_op<bool>(boolean);
+}
+
+}  // namespace
+
+PythonRun::PythonRun(py::object callback) : callback_(std::move(callback)), runs_(*all_runs), stop_(stop_flag()) {
+    runs_.enter(*this);
+}
+
+PythonRun::~PythonRun() { runs_.leave(*this); }
+
+void PythonRun::release_gil() { state_ = PyEval_SaveThread(); }
+
+void PythonRun::take_gil() noexcept {
+    if (is_finalizing()) sleep_for_ever();
+    or_for_ever([this] { PyEval_RestoreThread(state_); });
+}
+
+bool PythonRun::report(double fraction, std::string_view stage) {
+    in_callback_ = true;
+    take_gil();
+    const bool answer = ask(fraction, stage);
+    release_gil();
+    in_callback_ = false;
+    return answer;
+}
+
+bool PythonRun::ask(double fraction, std::string_view stage) {
+    try {
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        if (callback_.is_none()) return true;
+        const py::float_ first(fraction);
+        const py::str second(stage.data(), stage.size());
+        PyObject* const answer = or_for_ever(
+            [&] { return PyObject_CallFunctionObjArgs(callback_.ptr(), first.ptr(), second.ptr(), nullptr); });
+        if (!answer) throw py::error_already_set();
+        return goes_on(py::reinterpret_steal<py::object>(answer));
+    } catch (...) {
+        failure_ = std::current_exception();
+        return false;
+    }
+}
+
+void end_runs_at_exit() {
+    const auto end = [] {
+        const py::gil_scoped_release released;
+        all_runs->end();
+    };
+    py::module_::import("atexit").attr("register")(py::cpp_function(end));
+    const py::module_ os = py::module_::import("os");
+    if (!py::hasattr(os, "register_at_fork")) return;
+    const auto forget = [] { all_runs = new Runs; };
+    os.attr("register_at_fork")(py::arg("after_in_child") = py::cpp_function(forget));
+}
+
+}  // namespace fairing::bindings

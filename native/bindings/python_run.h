@@ -1,0 +1,67 @@
+// A call of the engine from Python: without the GIL, with a callback, and over before the interpreter is.
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <thread>
+
+#include "base/progress.h"
+#include "bindings/convert.h"
+
+namespace fairing::bindings {
+
+class Runs;
+
+// Made and left with the GIL held; declared before all else in a bound function, so that it lives as long as the call.
+class PythonRun {
+public:
+    // Throws Cancelled where the interpreter has begun to end.
+    explicit PythonRun(py::object callback = py::none());
+    ~PythonRun();
+    PythonRun(const PythonRun&) = delete;
+    PythonRun& operator=(const PythonRun&) = delete;
+
+    // work(ProgressCallback) without the GIL; only its own thread calls back. A Python exception of the callback,
+    // KeyboardInterrupt included, comes out in place of the Cancelled that it became.
+    template <typename Work>
+    auto without_gil(const Work& work) {
+        try {
+            const Released released(*this);
+            const Checkpoints checkpoints(&stop_);
+            return work([this](double fraction, std::string_view stage) { return report(fraction, stage); });
+        } catch (const Cancelled&) {
+            if (failure_) std::rethrow_exception(failure_);
+            throw;
+        }
+    }
+
+private:
+    friend class Runs;
+
+    struct Released {
+        explicit Released(PythonRun& released_run) : run(released_run) { run.release_gil(); }
+        ~Released() { run.take_gil(); }
+        Released(const Released&) = delete;
+        Released& operator=(const Released&) = delete;
+        PythonRun& run;
+    };
+
+    void release_gil();
+    void take_gil() noexcept;
+    bool report(double fraction, std::string_view stage);
+    bool ask(double fraction, std::string_view stage);
+
+    py::object callback_;
+    Runs& runs_;
+    StopFlag stop_;
+    const std::thread::id thread_ = std::this_thread::get_id();
+    PyThreadState* state_ = nullptr;  // while the GIL is released
+    std::atomic<bool> in_callback_ = false;
+    std::exception_ptr failure_;  // a Python exception: destroyed with the GIL held
+};
+
+// Has the interpreter stop all runs when it ends, those of daemon threads, and wait until they have left the engine.
+// Threads that are no daemons it has waited for by then. A fork's child knows none of its parent's runs.
+void end_runs_at_exit();
+
+}  // namespace fairing::bindings

@@ -1,0 +1,95 @@
+"""New meshes for patches."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from fairing import _arguments, _core
+from fairing._fill import (
+    LEAST_COUNT,
+    Patch,
+    Progress,
+    Spacing,
+    Watch,
+    carried,
+    cut_fields,
+    read_only,
+    refuse_made_here,
+    report_fields,
+    spacing_of,
+)
+from fairing._new_mesh import RemeshResult
+from fairing._proportion import Limit
+from fairing._types import MeshError
+
+
+def remesh(
+    vertices: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    *,
+    fixed: npt.ArrayLike | None = None,
+    fixed_normals: npt.ArrayLike | None = None,
+    kept: npt.ArrayLike | None = None,
+    spacing: float = 0.0,
+    inner: str | None = None,
+    max_vertices: int = 0,
+    progress: Progress | None = None,
+    **options: Any,
+) -> RemeshResult:
+    """Fair a patch on a new mesh: :func:`fairing.fair`, and then other vertices and triangles for its surface.
+
+    Fixed vertices and the outline's edges stay. ``origin`` says where each new vertex lies on the old patch, so that
+    what belongs to its vertices or corners can be carried over: what :func:`fairing.fair` makes of the old mesh, with
+    ``inner_fairness="conformal"`` by default, takes them there. ``spacing`` and ``inner`` are those of
+    :func:`fairing.fill`, the other parameters those of :func:`fairing.fair`. Where the new mesh is coarser than the
+    old one and has less than 1000 vertices, it is cut from the surface of the old one, and not solved again.
+
+    ``kept``, (e, 2): edges of the old mesh that the new one has, too, between new vertices at the same places of the
+    surface, which ``result.old`` names: seams of a texture.
+
+    ``max_vertices``: more new vertices than that are refused (OUT_OF_PROPORTION), by the old surface before anything is
+    solved, and by the faired one. 0: 20 times as many as the old surface would have with that spacing, or 50 000 where
+    that is less, 4 000 000 at most.
+    """
+    points = _arguments.floats("vertices", vertices)
+    faces = _arguments.triangles_within(triangles, len(points))
+    held, given_normals = _arguments.boundary(fixed, fixed_normals)
+    lines = _arguments.edges_of("kept", kept, faces)
+    length = spacing_of(spacing, inner)
+    outside = options.pop("outside", None)
+    refuse_made_here(options, progress)
+    watch = Watch(progress)
+    old = Patch(points, faces, held, given_normals)
+    most = Limit.of(_count_on(old, length), max_vertices)
+    border = old.border()
+    most.check(most.flat, border)
+    report = old.faired("outline", outside, options, watch.part(0, 0.4))
+    watch.lap("first")
+    if given_normals is None:
+        averaged = _core.vertex_normals(points, faces, "averaged")
+        held, given_normals = report.fixed, averaged[report.fixed]
+    solved = Patch(report.vertices, faces, held, given_normals)
+    most.check(solved.expected_count(length), border)
+    new, origin, old_vertex = solved.meshed_anew(len(points), lines, (length, 0), options, watch.part(0.4, 0.6))
+    watch.lap("mesh")
+    values = report_fields(report, len(points))
+    added = len(new.vertices) - len(points)
+    if added >= min(LEAST_COUNT, len(np.setdiff1d(faces, report.fixed))):
+        values = report_fields(new.faired("given", outside, options, watch.part(0.6, 1.0)), len(points))
+        values["triangles"] = new.triangles
+    else:
+        values.update(cut_fields(new, len(points)))
+        values["mean_curvature"] = carried(report.mean_curvature, faces, origin)
+    values["seconds"] = {**values["seconds"], **watch.seconds}
+    return RemeshResult(**values, origin=origin, old=read_only(old_vertex))
+
+
+def _count_on(old: Patch, spacing: Spacing) -> float:
+    """About how many vertices the new mesh would have on the old surface; 0 where `fair` will say why there is none."""
+    try:
+        return old.expected_count(spacing)
+    except MeshError:
+        return 0.0

@@ -1,0 +1,122 @@
+"""Which borders Fair Fill takes for holes, and what it refuses before it is made."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bmesh
+import bpy
+import meshes
+import numpy as np
+import pytest
+from extension import module
+
+SIZE = 12
+
+
+def sheet(degrees: float, holes: tuple[tuple[int, int], ...] = ((5, 5),)) -> bpy.types.Object:
+    """A square bent along one direction, with holes of four faces that begin at these."""
+    whole = np.radians(degrees)
+    turns = (np.arange(SIZE + 1) / SIZE - 0.5) * whole
+    points = [(np.sin(t) / whole, k / SIZE, np.cos(t) / whole) for t in turns for k in range(SIZE + 1)]
+    gone = {(i + a, j + b) for i, j in holes for a in (0, 1) for b in (0, 1)}
+    faces = [
+        [a, a + SIZE + 1, a + SIZE + 2, a + 1]
+        for i in range(SIZE)
+        for j in range(SIZE)
+        if (i, j) not in gone
+        for a in (i * (SIZE + 1) + j,)
+    ]
+    return meshes.add(points, faces, "Sheet")
+
+
+def select_all(obj: bpy.types.Object) -> None:
+    bpy.context.tool_settings.mesh_select_mode = (True, False, False)
+    meshes.edit(obj)
+    bpy.ops.mesh.select_all(action="SELECT")
+
+
+def select_loop(obj: bpy.types.Object, at: int) -> None:
+    """One border vertex alone, which stands for its loop."""
+    bpy.context.tool_settings.mesh_select_mode = (True, False, False)
+    meshes.select(obj, np.zeros(len(obj.data.polygons), dtype=bool))
+    meshes.edit(obj)
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    bm.verts[at].select = True
+    bmesh.update_edit_mesh(obj.data)
+
+
+def open_edges(obj: bpy.types.Object) -> int:
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    count = sum(edge.is_boundary for edge in bm.edges)
+    bm.free()
+    return count
+
+
+def fill(**properties: Any) -> set[str]:
+    status: set[str] = bpy.ops.mesh.fair_fill("EXEC_DEFAULT", True, **properties)
+    return status
+
+
+def warnings() -> list[str]:
+    told: list[str] = bpy.context.window_manager.fairing_report.warnings.splitlines()
+    return told
+
+
+@pytest.mark.parametrize("degrees", [10.0, 180.0])
+def test_with_everything_selected_holes_are_filled_and_the_outer_border_is_named(degrees: float) -> None:
+    obj = sheet(degrees, ((2, 2), (8, 7)))
+    select_all(obj)
+    assert fill() == {"FINISHED"}
+    (told,) = warnings()
+    assert told.startswith("1 border runs around the outside of a sheet of faces and stays open (48 edges")
+    assert open_edges(obj) == 4 * SIZE
+
+
+def test_a_sheet_without_a_hole_is_refused_at_once() -> None:
+    obj = sheet(30.0, ())
+    select_all(obj)
+    with pytest.raises(RuntimeError, match="around the outside of a sheet of faces, there is no hole"):
+        fill()
+    assert open_edges(obj) == 4 * SIZE
+
+
+def test_a_border_that_is_selected_is_filled() -> None:
+    obj = sheet(120.0, ())
+    select_loop(obj, 0)
+    assert fill(accept="ALL") == {"FINISHED"}
+    assert open_edges(obj) == 0
+
+
+def test_a_script_fills_holes_alone() -> None:
+    obj = sheet(90.0)
+    assert len(module().fill_mesh(obj.data)) == 1
+    assert open_edges(obj) == 4 * SIZE
+    with pytest.raises(ValueError, match="there is no hole"):
+        module().fill_mesh(obj.data)
+
+
+def test_more_vertices_than_allowed_are_refused() -> None:
+    obj = sheet(90.0, ((2, 2), (3, 3), (4, 4)))
+    select_loop(obj, 2 * (SIZE + 1) + 2)
+    with pytest.raises(RuntimeError, match="new vertices, and 1 are accepted: raise Spacing, or Vertex Limit"):
+        fill(spacing=0.2, max_vertices=1)
+    assert fill(spacing=0.2, max_vertices=2000) == {"FINISHED"}
+
+
+def test_a_new_mesh_is_refused_likewise() -> None:
+    obj = sheet(90.0, ())
+
+    def select_inside() -> None:
+        select_all(obj)
+        bpy.ops.mesh.select_less()
+        bpy.ops.mesh.select_less()
+
+    select_inside()
+    with pytest.raises(RuntimeError, match="new vertices, and 20 are accepted: raise Spacing, or Vertex Limit"):
+        bpy.ops.mesh.fair_region("EXEC_DEFAULT", True, mesh="NEW", max_vertices=20)
+    select_inside()
+    assert bpy.ops.mesh.fair_region("EXEC_DEFAULT", True, mesh="NEW", max_vertices=500) == {"FINISHED"}

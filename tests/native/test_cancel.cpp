@@ -1,0 +1,170 @@
+// A call that is cancelled at any of its checkpoints: every one asks, and the callback says no at its k-th call, for
+// each k there is. Under the address and the thread sanitizer too.
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <functional>
+#include <numbers>
+#include <string>
+
+#include "api/fair_solver.h"
+#include "api/fill.h"
+#include "api/soft_base.h"
+#include "base/errors.h"
+#include "base/parallel.h"
+#include "meshes.h"
+#include "method/nested.h"
+
+using namespace fairing;
+
+namespace {
+
+constexpr std::chrono::milliseconds always{0};
+
+// Whether the run is cancelled by a no at the k-th call; after it there is no other one.
+bool is_cancelled(int k, const std::function<void(const ProgressCallback&)>& run) {
+    int calls = 0;
+    bool cancelled = false;
+    try {
+        run(ProgressCallback([&](double, std::string_view) { return ++calls < k; }, always));
+    } catch (const Cancelled&) {
+        cancelled = true;
+    }
+    REQUIRE(calls <= k);
+    REQUIRE(cancelled == (calls == k));
+    return cancelled;
+}
+
+// How often the run can be cancelled.
+int cancel_everywhere(const std::function<void(const ProgressCallback&)>& run) {
+    int k = 1;
+    while (is_cancelled(k, run)) ++k;
+    return k - 1;
+}
+
+bool same_bits(const Points& one, const Points& other) {
+    return one.cols() == other.cols() && one.cwiseEqual(other).all();
+}
+
+struct Cap {
+    explicit Cap(int n)
+        : mesh(test::grid(n, 0.2, test::sphere)), before(mesh), input{mesh.points, mesh.triangles, {}, {}} {}
+    [[nodiscard]] bool is_untouched() const {
+        return same_bits(mesh.points, before.points) && mesh.triangles.cwiseEqual(before.triangles).all();
+    }
+    test::Mesh mesh;
+    test::Mesh before;
+    MeshInput input;
+};
+
+FairOptions with_threads(int threads, FairOptions options = {}) {
+    options.threads = threads;
+    return options;
+}
+
+// Cancelled everywhere, the call leaves its input as it is, and gives afterwards what it gave before.
+void check_fair(int n, const FairOptions& options, int least) {
+    const Cap cap(n);
+    const Points wanted = fair(cap.input, {}, options, {}).vertices;
+    const int places = cancel_everywhere([&](const ProgressCallback& stop) { fair(cap.input, {}, options, stop); });
+    CHECK(places > least);
+    CHECK(cap.is_untouched());
+    CHECK(same_bits(fair(cap.input, {}, options, {}).vertices, wanted));
+}
+
+}  // namespace
+
+TEST_CASE("threads: a small solve is cancelled at every checkpoint") {
+    for (const int threads : {1, 2}) check_fair(6, with_threads(threads), 10);
+}
+
+// More threads than cores: the caller waits for helpers that have begun and don't run.
+TEST_CASE("threads: a nested solve is cancelled at every checkpoint") {
+    const test::Single single = test::single_patch(test::grid(19, 0.2, test::sphere));
+    const Patch& patch = single.patch();
+    const Points fixed = single.points.rightCols(patch.vertex_count() - patch.free_count);
+    const Problem problem{patch, fixed, fixed, uniform_weights(patch), {}};
+    Points wanted;
+    const auto solve = [&](const ProgressCallback& stop) {
+        const Progress progress(stop);
+        const Checkpoints checkpoints(progress);
+        const auto solution = solve_nested(problem, progress);
+        REQUIRE(solution);
+        REQUIRE(solution->levels.size() > 1);
+        if (wanted.cols() == 0) wanted = solution->points;
+        CHECK(same_bits(solution->points, wanted));
+    };
+    for (const int threads : {1, 4}) {
+        const Threads team(threads);
+        const int places = cancel_everywhere(solve);
+        CHECK(places > 100);
+    }
+}
+
+TEST_CASE("threads: a solve of least variation is cancelled at every checkpoint") {
+    FairOptions options;
+    options.solver.equation = Equation::least_variation;
+    check_fair(4, with_threads(2, options), 10);
+}
+
+TEST_CASE("threads: a solve that keeps detail is cancelled at every checkpoint") {
+    FairOptions options;
+    options.detail = {1.0, 0.5};
+    check_fair(7, with_threads(2, options), 10);
+}
+
+TEST_CASE("threads: the paper's method is cancelled at every checkpoint") {
+    FairOptions options;
+    options.method = Method::paper;
+    check_fair(5, with_threads(2, options), 10);
+}
+
+TEST_CASE("threads: a fill is cancelled at every checkpoint") {
+    constexpr int count = 8;
+    OpenLoops hole{Points(3, count), {Indices(count)}, {Points(3, count)}};
+    for (int k = 0; k < count; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / count;
+        hole.loops[0][at(k)] = k;
+        hole.vertices.col(k) << std::cos(angle), std::sin(angle), 0.0;
+        hole.normals[0].col(k) << 0.6 * std::cos(angle), 0.6 * std::sin(angle), 0.8;
+    }
+    const NewSurface wanted = fill_loops(hole, false, {}, {});
+    const Threads team(2);
+    const int places = cancel_everywhere([&](const ProgressCallback& stop) { fill_loops(hole, false, {}, stop); });
+    CHECK(places > 10);
+    CHECK(same_bits(fill_loops(hole, false, {}, {}).vertices, wanted.vertices));
+}
+
+TEST_CASE("threads: a new mesh is cancelled at every checkpoint") {
+    const Cap cap(6);
+    const NewMesh wanted = remesh(cap.input, {}, {}, 2, {});
+    const int places = cancel_everywhere([&](const ProgressCallback& stop) { remesh(cap.input, {}, {}, 2, stop); });
+    CHECK(places > 10);
+    CHECK(cap.is_untouched());
+    CHECK(same_bits(remesh(cap.input, {}, {}, 2, {}).vertices, wanted.vertices));
+}
+
+TEST_CASE("threads: a Solver that was cancelled at any checkpoint goes on as if it had not been asked") {
+    const Cap cap(5);
+    Points moved = cap.mesh.points;
+    moved.row(0) *= 1.05;
+    const FairOptions options = with_threads(2);
+    const auto after = [&](const std::function<void(FairSolver&)>& between) {
+        FairSolver solver(cap.mesh.triangles, {}, {}, options);
+        solver.solve(cap.mesh.points, {}, {}, {}, {});
+        between(solver);
+        return solver.solve(moved, {}, {}, {}, {}).vertices;
+    };
+    const Points wanted = after([](FairSolver&) {});
+    int k = 0;
+    bool cancelled = true;
+    while (cancelled) {
+        ++k;
+        const auto cancel = [&](FairSolver& solver) {
+            cancelled = is_cancelled(k, [&](const ProgressCallback& stop) { solver.solve(moved, {}, {}, {}, stop); });
+        };
+        const Points found = after(cancel);
+        if (cancelled) REQUIRE(same_bits(found, wanted));
+    }
+    CHECK(k > 10);
+}

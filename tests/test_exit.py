@@ -1,0 +1,162 @@
+"""An interpreter that ends while the engine is at work in another thread: always in order, never by abort."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+BEGIN = """
+import atexit, os, sys, threading, time
+sys.path.insert(0, sys.argv[1])
+import numpy as np, fairing, shapes
+cap = shapes.cap(10_000)
+goes_on = threading.Event(); goes_on.set()
+begun = threading.Event()
+
+def progress(fraction, stage):
+    begun.set()
+    return goes_on.is_set()
+
+def fair(**options):
+    return fairing.fair(cap.vertices, cap.triangles, fixed=cap.fixed, fixed_normals=cap.fixed_normals, **options)
+
+def start(work, daemon=True):
+    threading.Thread(target=work, daemon=daemon).start()
+"""
+
+
+def ended(program: str, *arguments: str) -> subprocess.CompletedProcess[str]:
+    """The program, run to its end by an interpreter of its own; it must end in order."""
+    command = [sys.executable, "-c", BEGIN + program, str(Path(__file__).parent), *arguments]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=180, check=False)
+    assert done.returncode == 0, done.stderr
+    return done
+
+
+DURING_A_RUN = """
+start(lambda: fair(progress=progress))
+begun.wait()
+time.sleep(float(sys.argv[2]))
+if sys.argv[3] == "cancelled":
+    goes_on.clear()
+"""
+
+
+@pytest.mark.parametrize("delay", [0.0, 0.1, 0.25])
+@pytest.mark.parametrize("state", ["running", "cancelled"])
+def test_a_daemon_at_work_does_not_abort_the_process(state: str, delay: float) -> None:
+    ended(DURING_A_RUN, str(delay), state)
+
+
+def test_a_daemon_that_calls_again_and_again_does_not_abort_the_process() -> None:
+    ended("""
+def work():
+    while True:
+        try:
+            fair(progress=progress)
+        except fairing.Cancelled:
+            pass
+start(work)
+start(work)
+begun.wait()
+""")
+
+
+def test_a_thread_that_is_no_daemon_comes_to_its_end() -> None:
+    done = ended("""
+start(lambda: print(fair(progress=progress).converged), daemon=False)
+begun.wait()
+""")
+    assert done.stdout.split() == ["True"]
+
+
+def test_work_without_a_callback_stops_too() -> None:
+    done = ended("""
+small = shapes.cap(3000)
+
+def work():
+    begun.set()
+    while True:
+        fairing.hierarchy(small.vertices, small.triangles, fixed=small.fixed)
+
+start(work)
+begun.wait()
+time.sleep(0.1)
+""")
+    assert "Cancelled" in done.stderr  # what ends the thread is Python's own, as in any call
+
+
+def test_a_callback_that_never_returns_does_not_hold_the_process() -> None:
+    ended("""
+held = threading.Lock()
+held.acquire()
+
+def wait(fraction, stage):
+    begun.set()
+    with held:
+        return True
+
+start(lambda: fair(progress=wait))
+begun.wait()
+""")
+
+
+def test_a_callback_that_is_still_asleep_when_the_interpreter_is_gone_does_not_abort_it() -> None:
+    """It comes back after the end has stopped to wait, and while the interpreter takes its time to go."""
+    ended("""
+class Slow:
+    def __del__(self, sleep=time.sleep):
+        sleep(2)
+
+def wait(fraction, stage):
+    begun.set()
+    time.sleep(3)
+    return True
+
+sys.modules["slow"] = Slow()
+start(lambda: fair(progress=wait))
+begun.wait()
+""")
+
+
+def test_the_thread_that_ends_may_still_call() -> None:
+    done = ended("""
+def last():
+    print(fair().converged)
+
+atexit.unregister(last)
+from fairing import _core
+atexit._run_exitfuncs()  # those of the module, which refuse other threads from now on
+atexit.register(last)
+refused = []
+
+def work():
+    try:
+        fair()
+    except fairing.Cancelled:
+        refused.append(True)
+
+other = threading.Thread(target=work)
+other.start()
+other.join()
+print(refused)
+""")
+    assert done.stdout.split() == ["[True]", "True"]
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system")
+def test_a_forked_child_does_not_wait_for_the_runs_of_its_parent() -> None:
+    done = ended("""
+start(lambda: fair(progress=progress))
+begun.wait()
+child = os.fork()
+if child == 0:
+    print(fair(threads=1).converged, flush=True)
+    sys.exit()
+print(os.waitpid(child, 0)[1])
+""")
+    assert done.stdout.split() == ["True", "0"]

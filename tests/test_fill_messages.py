@@ -1,0 +1,137 @@
+"""What fairing.fill says where an outline is odd: what, where, and what helps."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+
+import fairing
+import holes
+from fairing import _loops, _sides
+from holes import FloatArray, Mesh
+
+
+def t_junctions(bend: float, extra: int) -> tuple[FloatArray, Any, list[int]]:
+    """Two rows of faces; where they part, one has vertices on the other one's edge 5-6. And these vertices."""
+    turn, places = np.radians(bend), [0.0, 1.0, 2.0, 3.0]
+    middle = [(0.0, 1.0 + (k + 1) / (extra + 1), 0.0) for k in range(extra)]
+    vertices = [(-1.0, y, 0.0) for y in places] + [(0.0, y, 0.0) for y in places] + middle
+    vertices += [(np.cos(turn), y, -np.sin(turn)) for y in places]
+    last = 8 + extra
+    faces = [face for k in range(3) for face in ((k, 4 + k, 5 + k), (k, 5 + k, k + 1))]
+    faces += [face for k in (0, 2) for face in ((4 + k, last + k, last + k + 1), (4 + k, last + k + 1, 5 + k))]
+    chain = [5, *range(8, 8 + extra), 6]
+    faces += [(a, last + 1, b) for a, b in pairwise(chain)] + [(6, last + 1, last + 2)]
+    return np.array(vertices), np.array(faces), list(range(8, 8 + extra))
+
+
+def single(points: FloatArray) -> FloatArray:
+    """What single precision leaves of coordinates some hundred edges away from the origin."""
+    return (points + 100.0).astype(np.float32).astype(np.float64)
+
+
+@pytest.mark.parametrize("bend", [0.0, 90.0])
+@pytest.mark.parametrize("extra", [1, 2, 3])
+@pytest.mark.parametrize("placed", [np.array, single])
+def test_a_t_junction_is_named_with_its_edge(bend: float, extra: int, placed: Any) -> None:
+    vertices, triangles, lying = t_junctions(bend, extra)
+    loop = min(fairing.boundary_loops(triangles), key=len)
+    with pytest.raises(fairing.MeshError, match=r"of an outline (lies|lie) on its edge 5-6: dissolve") as caught:
+        fairing.fill(placed(vertices), triangles, [loop])
+    assert caught.value.code == "NONMANIFOLD_VERTEX"
+    assert caught.value.elements.tolist() == [5, 6, *lying]
+    assert caught.value.diagnostic.figures["on_edge" if extra == 1 else "on_edges"] == extra
+
+
+@pytest.mark.parametrize("gap", [0.0, 1e-7])
+def test_a_tear_of_no_width_is_to_be_merged(gap: float) -> None:
+    vertices, triangles = holes.sheet(lambda u, v: (u, v, 0 * u), (12, 12), lambda u, v: np.zeros(u.shape, dtype=bool))
+    torn = [13 * 6 + k for k in range(4, 9)]
+    number = np.arange(len(vertices))
+    number[torn] = len(vertices) + np.arange(len(torn))
+    upper = vertices[triangles].mean(axis=1)[:, 0] > 0.5
+    opened = np.where(upper[:, None], number[triangles], triangles)
+    opened = np.where(np.isin(triangles, [torn[0], torn[-1]]), triangles, opened)
+    points = np.concatenate([vertices, vertices[torn] + [gap, 0.0, 0.0]])
+    loop = min(fairing.boundary_loops(opened), key=len)
+    with pytest.raises(fairing.MeshError, match="merge them where the mesh is torn") as caught:
+        fairing.fill(points, opened, [loop])
+    assert {*caught.value.elements} == {*loop} - {torn[0], torn[-1]}
+
+
+def test_a_crack_that_is_narrow_but_open_is_none_of_these() -> None:
+    turn = 2.0 * np.pi * np.arange(24) / 24
+    points = np.column_stack([np.cos(turn), 0.02 * np.sin(turn), 0.0 * turn])
+    assert fairing.fill(points, np.empty((0, 3), int), [np.arange(24)], normals=np.tile([0.0, 0.0, 1.0], (24, 1))).loops
+
+
+def rings(deepest: float, folded: int) -> tuple[FloatArray, Any, Any]:
+    """A flat ring around a hole, the faces at its first vertices folded back; and the rim."""
+    turn, back = 2.0 * np.pi * np.arange(32) / 32, np.arange(32) < folded
+    deep = np.radians(deepest)
+    radius, height = np.where(back, 1.0 - 0.2 * np.cos(deep), 0.8), np.where(back, 0.2 * np.sin(deep), 0.0)
+    flat = [np.column_stack([r * np.cos(turn), r * np.sin(turn), 0.0 * turn]) for r in (2.0, 1.75, 1.5, 1.25, 1.0)]
+    points = np.concatenate([*flat, np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])])
+    k, i = (index.ravel() for index in np.mgrid[:5, :32])
+    a, b = 32 * k + i, 32 * k + (i + 1) % 32
+    return (
+        points,
+        np.concatenate([np.column_stack([a, b, b + 32]), np.column_stack([a, b + 32, a + 32])]),
+        range(160, 192),
+    )
+
+
+def test_a_rim_that_folds_back_is_named() -> None:
+    points, triangles, rim = rings(170.0, 2)
+    result = fairing.fill(points, triangles, [np.array(rim)])
+    assert result.join.max() > 90.0
+    (warning,) = [warning for warning in result.warnings if warning.code == "NOT_TANGENT"]
+    assert "folded_back" in warning.figures
+    assert {*warning.elements} <= {191, 160, 161, 162}
+    assert warning.figures["degrees"] == pytest.approx(result.join.max())
+    plain = fairing.fill(*rings(0.0, 0)[:2], [np.array(rim)])
+    assert plain.warnings == ()
+
+
+def shell(thickness: float, half_angle: float) -> Mesh:
+    """Both walls of a hollow ball without the same cap."""
+    outer, faces = holes.bowl(24, half_angle)
+    return np.concatenate([outer, (1.0 - thickness) * outer]), np.concatenate([faces, faces[:, ::-1] + len(outer)])
+
+
+def test_a_hole_through_both_walls_is_bridged() -> None:
+    vertices, triangles = shell(0.3, 30.0)
+    result = fairing.fill(vertices, triangles, fairing.boundary_loops(triangles), bridge=True)
+    assert (result.converged, result.warnings) == (True, ())
+    assert result.boundary_angle.max() < 10.0
+    height = np.linalg.norm(result.vertices, axis=1)
+    assert height.min() > 0.65 and height.max() < 1.05
+
+
+def test_a_wall_thinner_than_the_edges_of_its_rim_is_named() -> None:
+    vertices, triangles = shell(0.05, 30.0)
+    loops = fairing.boundary_loops(triangles)
+    result = fairing.fill(vertices, triangles, loops, bridge=True)
+    (warning,) = [warning for warning in result.warnings if warning.code == "NOT_TANGENT"]
+    assert "coarse" in warning.figures
+    assert {*warning.elements} <= {*np.concatenate(loops)}
+    assert warning.figures["degrees"] > 45.0
+
+
+def test_triangles_that_lie_between_the_rims_are_not_to_be_flipped() -> None:
+    """Flipped they would lie there, too. Two discs above each other: each border leads away from the other one."""
+    turn = 2.0 * np.pi * np.arange(24) / 24
+    disc = np.column_stack([np.cos(turn), np.sin(turn), 0.0 * turn])
+    points = np.concatenate([disc, disc + np.array([0.0, 0.0, 1.0])])
+    up = np.tile([0.0, 0.0, 1.0], (24, 1))
+    loops = (np.arange(23, -1, -1, dtype=np.int32), np.arange(24, 48, dtype=np.int32))
+    held = _loops.Outline(loops, (False, False), (False, False))
+    error = _sides.not_joined(held, points, np.concatenate([up, -up]))
+    assert error.code == "LOOPS_NOT_JOINED"
+    assert "between" in error.diagnostic.figures
+    assert "flip" not in str(error)
+    bare = _loops.Outline(loops, (False, False), (True, True))
+    assert "turned" in _sides.not_joined(bare, points, np.concatenate([up, -up])).diagnostic.figures
