@@ -59,7 +59,7 @@ def rows_from_outline(cap: shapes.Patch) -> np.ndarray:
     ("edges", "radians", "seed", "free"), [(0.25, 0.3, 0, 8000), (0.25, 0.3, 1, 3000), (0.4, 0.5, 0, 8000)]
 )
 def test_coarse_levels_have_the_outline_without_its_noise(edges: float, radians: float, seed: int, free: int) -> None:
-    """Over every second vertex of it the last two ended nowhere, and a proxy had to stand in."""
+    """Coarse levels converge over the low-passed outline, so that no proxy is needed."""
     result = faired(rough_cap(edges, radians, seed, free=free))
     assert result.converged
     assert result.polished
@@ -82,11 +82,11 @@ def test_noise_that_no_surface_meets_is_passed_by(seed: int) -> None:
     assert np.abs(np.linalg.norm(inside, axis=1) - 1).max() < 0.2  # normals are off by a radian
     flipped = fairing.flipped_triangles(result.vertices, cap.triangles, fixed=cap.fixed)
     assert (rows_from_outline(cap)[cap.triangles[flipped]].min(axis=1) == 0).all()
-    assert len(flipped) <= 3  # 7, 5 and 12 before their corners were tried elsewhere, then 1, 1 and 2
+    assert len(flipped) <= 3  # folds that the outline itself forces
 
 
 def test_what_folds_beside_a_rough_outline_is_put_right() -> None:
-    """Triangles with a free corner that are turned over or pass through others: 21, 6 and 14 before, of 2,500."""
+    """Few of 2,500 triangles with a free corner are turned over or pass through others."""
     left = 0
     for seed in (0, 3, 2):
         cap = rough_cap(1.0, 0.6, seed)
@@ -136,7 +136,7 @@ def test_what_no_proxy_would_meet_is_passed_by_at_once(radians: float, ways: lis
 
 
 def test_over_an_outline_beyond_reach_no_proxy_is_tried_where_the_eased_one_has_none() -> None:
-    """Of 5,000 vertices and more. Half of the time before."""
+    """On patches of 5,000 vertices and more."""
     rim = fine_rim(5120, 0.2, 4.0)
     result = fairing.fair(rim.vertices, rim.triangles, fixed=rim.fixed, fixed_normals=rim.normals, threads=1)
     names = [name for name, _ in result.way]
@@ -145,13 +145,13 @@ def test_over_an_outline_beyond_reach_no_proxy_is_tried_where_the_eased_one_has_
 
 
 def test_the_eased_outline_is_asked_once() -> None:
-    """By the proxy, whose coarse surface was not found; then the way over that outline takes no time."""
+    """The proxy asks once; a strategy that repeats its question takes no time."""
     seconds = dict(faired(rough_cap(1.0, 6.0, 0, free=6000)).way)
-    assert seconds["eased"] < 0.1 * seconds["proxy"]  # 0.5 to 3 times as long before
+    assert seconds["eased"] < 0.1 * seconds["proxy"]  # seconds of a repeated question
 
 
 def test_small_patches_pass_noise_by_as_well() -> None:
-    """Of these six two converged before."""
+    """Most small patches with a noisy outline converge beside it."""
     rough = [
         roughened(shapes.cap(800), edges, radians, seed, 8.0)
         for edges, radians in ((3.0, 1.5), (2.0, 2.0))
@@ -161,7 +161,7 @@ def test_small_patches_pass_noise_by_as_well() -> None:
 
 
 def test_so_do_small_tubes_between_noisy_rims() -> None:
-    """Of these four one was harmonic before; the old shape, smoothed, stood in for the others."""
+    """Most tubes between noisy rims have a harmonic surface beside them."""
     rough = [roughened(shapes.cylinder(900), edges, radians, 0) for edges, radians in ((0.8, 1.0), (1.0, 0.6))]
     rough += [roughened(shapes.cylinder(900), 0.8, 1.0, seed) for seed in (1, 2)]
     assert sum(faired(patch).equation == "harmonic" for patch in rough) >= 3

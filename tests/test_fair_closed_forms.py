@@ -1,4 +1,4 @@
-"""The outline and its normals alone bring back the exact surface, at the first release's figures.
+"""The outline and its normals alone bring back the exact surface.
 
 Distances are over D. With averaged normals instead of fitted ones the errors are 1e-4 and more,
 at any size.

@@ -218,7 +218,7 @@ def rims_of_elbow(vertices: FloatArray, triangles: IntArray) -> list[IntArray]:
 
 @pytest.mark.parametrize("otherwise", ["least_variation", "stop"])
 def test_an_elbow_keeps_its_width(otherwise: str) -> None:
-    """The harmonic one has a waist of two thirds. That is seen on the first surface: the fine mesh is solved once."""
+    """The harmonic one has a waist of two thirds, which the first surface shows: the fine mesh is solved once."""
     vertices, triangles = elbow(0.4)
     loops = [
         loop for loop in fairing.boundary_loops(triangles) if (np.abs(vertices[loop, :2]).min(axis=1) < 1e-9).all()
@@ -290,10 +290,7 @@ def test_an_s_bend_is_solved_from_its_first_surface() -> None:
     ("radius", "bend", "off"), [(0.4, 120.0, 0.1), (0.25, 120.0, 0.1), (0.25, 135.0, 0.1), (0.4, 180.0, 0.15)]
 )
 def test_a_bridge_leads_around_a_wide_bend(radius: float, bend: float, off: float) -> None:
-    """In straight steps the first took 52, the second found its surface by way of one more mesh, the others a loft.
-
-    The torus, from which it is so many radii off at most, does not have the least variation.
-    """
+    """A tube of least variation, a few tenths of a radius at most off the torus, whose variation is not the least."""
     vertices, triangles = elbow(radius, bend)
     result = fairing.fill(vertices, triangles, rims_of_elbow(vertices, triangles), bridge=True)
     away = np.hypot(np.hypot(result.vertices[:, 0], result.vertices[:, 1]) - 1, result.vertices[:, 2])
@@ -303,7 +300,7 @@ def test_a_bridge_leads_around_a_wide_bend(radius: float, bend: float, off: floa
 
 
 def test_a_thin_u_is_bridged_by_the_tube_along_it() -> None:
-    """Descents of least variation end nowhere there: with 16 edges around nothing was found, in 4 s."""
+    """Descents of least variation do not converge there; the swept tube is the answer."""
     vertices, triangles = elbow(0.25, 180.0, around=16)
     result = fairing.fill(vertices, triangles, rims_of_elbow(vertices, triangles), bridge=True)
     away = np.hypot(np.hypot(result.vertices[:, 0], result.vertices[:, 1]) - 1, result.vertices[:, 2])
@@ -415,7 +412,7 @@ def test_the_new_part_closes_the_mesh_and_leaves_the_rest() -> None:
 
 
 def test_what_was_sought_in_vain_is_not_sought_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The surface of least variation, where the first mesh has found none."""
+    """A surface of least variation that the first mesh lacks is not sought on the fine one."""
     find, fair = _core.fill_loops, _fill.fair
     ways = []
 
@@ -643,7 +640,7 @@ def ball_and_limb() -> tuple[FloatArray, IntArray]:
 
 
 def test_a_bridge_without_a_harmonic_surface_is_one_of_least_variation() -> None:
-    """As good as if it had been asked for; what the solve in vain leaves is no start for it."""
+    """It equals the one of `equation="least_variation"`: a failed solve leaves no guess."""
     vertices, triangles = ball_and_limb()
     loops = [loop for loop in fairing.boundary_loops(triangles) if vertices[loop, 0].max() < 2.5]
     assert len(loops) == 2

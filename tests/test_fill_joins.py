@@ -131,12 +131,12 @@ def two_tubes() -> tuple[FloatArray, IntArray, list[IntArray]]:
 
 
 def test_least_variation_is_sought_from_the_first_surface() -> None:
-    """From the outline alone a straight tube took 12 s."""
+    """The first surface is its initial surface, not the outline alone."""
     vertices, triangles, loops = two_tubes()
     result = fairing.fill(vertices, triangles, loops, bridge=True, equation="least_variation")
     assert (result.converged, result.equation, result.warnings) == (True, "least_variation", ())
     assert [way for way, _ in result.way] == ["variation"]
-    assert "fill" not in result.seconds  # no start was made of the outline alone
+    assert "fill" not in result.seconds  # no initial surface from the outline alone
     assert abs(np.linalg.norm(result.vertices[:, :2], axis=1) - 1).max() < 1e-4
 
 

@@ -30,7 +30,7 @@ def _off_the_sphere(result: fairing.FairResult) -> float:
 
 @pytest.mark.parametrize(("size", "count", "rows", "jitter"), [(600, 4, 42, 0.3), (300, 7, 42, 0.0)])
 def test_a_hand_becomes_a_hemisphere_without_folds(size: int, count: int, rows: int, jitter: float) -> None:
-    """3,600 free vertices at most, most of them in limbs of 42 rows: both were folded, 48 to 600 times."""
+    """3,600 free vertices at most, most of them in limbs of 42 rows, are placed without a fold."""
     result = _faired(size, count, rows, Style(jitter=jitter))
     assert result.converged
     assert not codes(result) & FOLDED

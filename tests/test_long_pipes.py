@@ -27,7 +27,7 @@ def even(length: float) -> Patch:
 
 
 def test_a_large_pipe_of_eight_radii_is_straight_on_its_own_levels() -> None:
-    """Its coarse levels had no surface before tangential steps were Newton's."""
+    """Its coarse levels have a surface, since tangential steps are Newton's."""
     pipe = even(8.0)
     result = solved(pipe)
     assert result.converged

@@ -95,7 +95,7 @@ def test_nor_do_twins_at_corners() -> None:
     "region", [voxels.post(0.05, 0.5, 0.2), voxels.post(0.04, 0.4, 0.13), voxels.post(0.05, 0.4, 0.15, 0.0003)]
 )
 def test_fillets_of_voxel_meshes_are_fair(region: Region) -> None:
-    """Lofts after 0.3 to 2.2 s before."""
+    """Outline vertices that nearly coincide leave the surface harmonic."""
     result = faired(region)
     assert result.equation == "harmonic"
     assert result.polished

@@ -94,7 +94,7 @@ def test_a_solver_keeps_the_equation_that_automatic_chose_while_a_tube_is_dragge
 
 
 def test_a_straight_graded_pipe_is_not_compared_with_another_surface() -> None:
-    """Over chords of its coarse end it was taken for a bulb, and solved in six times the time."""
+    """The chords of its coarse end are no balloon."""
     pipe = graded.regraded(shapes.cylinder(800, shapes.Style(jitter=0.0), length=11.0), 1600)
     stages: set[str] = set()
     result = fairing.fair(
@@ -141,7 +141,7 @@ def rough_pipe(around: int, noise: float) -> tubes.Tube:
 
 
 def test_a_large_patch_with_a_jagged_outline_is_not_tried_for_long() -> None:
-    """Curvature varies most at such an outline, wherever the surface goes: 23 s went into trying, all in vain."""
+    """Curvature varies most at such an outline, wherever the surface goes: further descents are in vain."""
     tried: dict[float, set[str]] = {0.0: set(), 0.1: set()}
     for noise, stages in tried.items():
         result = rough_pipe(44, noise).faired(equation="harmonic", progress=lambda _, stage, to=stages: to.add(stage))
@@ -154,7 +154,7 @@ def test_a_large_patch_with_a_jagged_outline_is_not_tried_for_long() -> None:
 
 @pytest.mark.parametrize("seed", [0, 1])
 def test_a_small_patch_with_a_hopeless_outline_is_given_up_at_the_first_coarse_mesh(seed: int) -> None:
-    """Four beginnings took as long again as all that was tried before, and none ended."""
+    """No further initial surface is tried for it."""
     cap = shapes.cap(300)
     rng, count = np.random.default_rng(seed), len(cap.fixed)
     vertices, normals = cap.vertices.copy(), cap.fixed_normals + 3.0 * rng.normal(size=(count, 3)) / np.sqrt(3)
@@ -273,7 +273,7 @@ def test_a_wide_bend_is_swept_where_its_descent_stalls() -> None:
 
 @pytest.mark.parametrize(("bend", "degrees", "seed"), [(1.7, 180.0, 4), (2.5, 180.0, 2), (3.0, 160.0, 4)])
 def test_an_elbow_is_found_from_a_swept_tube(bend: float, degrees: float, seed: int) -> None:
-    """From the membrane no descent ends beside these; they ended as lofts, one radius off."""
+    """From the membrane no descent converges near these; from the swept tube it does."""
     result = tubes.elbow(bend, degrees, seed=seed).faired(equation="harmonic")
     assert result.converged
     assert result.equation == "least_variation"

@@ -71,7 +71,7 @@ def test_zigzag_rims_of_a_sphere_are_exact() -> None:
 
 @pytest.mark.parametrize("noise", [0.012, 0.058, 0.144])
 def test_normals_of_noisy_surroundings(noise: float) -> None:
-    """Medians of 0.27°, 1.4°, 4.2° were measured; a surface through the vertices themselves gives 0.72°, 3.5°, 9.8°."""
+    """Medians are 0.27°, 1.4°, 4.2°; a surface through the vertices themselves gives 0.72°, 3.5°, 9.8°."""
     angles, errors = [], []
     for seed in range(4):
         case = ball(noise, seed)
@@ -123,7 +123,7 @@ def options_of(case: Ball) -> dict[str, Any]:
 
 
 def test_a_mended_rim_is_smooth() -> None:
-    """Means of 8.5° and 3.6° were measured."""
+    """Means are 8.5° and 3.6°."""
     before, after = [], []
     for seed in range(4):
         case = ball(0.1, seed)

@@ -20,7 +20,7 @@ def solved(patch: Patch, weights: str = "uniform") -> fairing.FairResult:
 
 @pytest.mark.parametrize("half_angle", [130.0, 140.0])
 def test_deep_caps_are_polished(half_angle: float) -> None:
-    """Their vertices slide by .1 to .2 D along the sphere: 2e-10 at most, where placed ones were off by 1.5e-5.
+    """Their vertices slide by .1 to .2 D along the sphere: 2e-10 off at most, where placed ones are 1.5e-5 off.
 
     Some find no harmonic surface from their outline alone, and take the sphere as that of least variation: of 15 of
     130° none, of 15 of 140° two. Which ones changes with the last digits, and so from one processor to another.

@@ -205,7 +205,7 @@ def test_interrupted_at_every_call(method: str, kind: str, raises: bool) -> None
         except (MineError, fairing.Cancelled) as error:
             assert isinstance(error, MineError) == raises
             assert len(calls) == last
-        else:  # questions depend on the time too: there were fewer than at first
+        else:  # questions depend on the time too: there may be fewer than at first
             assert last > 1
             assert calls[-1] == "done"
             assert len(calls) < last
@@ -226,7 +226,7 @@ def test_other_answers_are_refused(answer: Any) -> None:
 
 @pytest.mark.parametrize("tolerance", [1e-15, 1e-16, 3e-17, 1e-30, 5e-324])
 def test_tolerances_below_rounding(tolerance: float) -> None:
-    """They count as 1e-15, which is met on this cap; without that, some left the mesh for the engine's own."""
+    """They count as 1e-15, which is met on this cap's own mesh."""
     result = call(tolerance=tolerance)
     assert result.converged
     assert result.polished
@@ -379,7 +379,7 @@ def test_renumbered_input_gives_the_same_shape(method: str, kind: str) -> None:
     """Vertices, triangles and corners in another order: 1e-6 D apart where polished, 1e-4 D otherwise.
 
     The published iteration moves vertices one after the other and stops within about three tolerances of its
-    limit: 3e-6 D apart were measured at the default one.
+    limit: 3e-6 D apart at the default one.
     """
     tight = {"tolerance": 1e-7, "max_iterations": 1000} if method == "paper" else {}
     control = CLEAN.fair(method=method, inner_fairness=kind, **tight)

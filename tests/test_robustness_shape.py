@@ -165,7 +165,7 @@ def test_needles_in_the_reference(ratio: float, method: str, kind: str) -> None:
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("grading", [1e2, 1e4])
 def test_graded_meshes(grading: float, kind: str) -> None:
-    """Edges along the outline differ by that ratio; 3.5e-4 D from the exact cylinder were measured."""
+    """Edges along the outline differ by that ratio; the result is 3.5e-4 D from the exact cylinder."""
     patch = shapes.cylinder(150, Style(grading=grading), shape="rectangle")
     item = hard_inputs.of_patch(patch)
     result = item.fair(inner_fairness=kind)
@@ -200,7 +200,7 @@ def test_a_creased_outline_is_told(method: str, kind: str) -> None:
 
 @pytest.mark.parametrize(("length", "lean"), [(6, 30), (6, -15), (12, 30)])
 def test_without_a_solution_the_answer_is_a_plain_surface(length: float, lean: float) -> None:
-    """Pipes whose end normals lean too far have none (docs/accuracy.md): no iterate that went astray is written.
+    """Pipes whose end normals lean too far have none (docs/dev/accuracy_log.md): no diverged iterate is written.
 
     What is least bent bulges, on the way to a sphere: no wider than it is long.
     """

@@ -79,7 +79,7 @@ def test_tubes_of_long_and_short_quads() -> None:
 
 @pytest.mark.parametrize(("around", "across", "bound"), [(48, 12, 2.0), (48, 24, 2.0), (96, 24, 0.5), (96, 48, 0.3)])
 def test_bands_and_windows_of_a_torus(around: int, across: int, bound: float) -> None:
-    """Blender's own torus is the first of these; a cubic of the 22 nearest points was 11 to 55 degrees off."""
+    """Blender's own torus is the first of these; a cubic of the 22 nearest points is 11 to 55 degrees off."""
     angle = 2 * np.pi * np.arange(around)[:, None] / around
     turn = 2 * np.pi * np.arange(across)[None, :] / across
     outward = np.stack(
@@ -108,7 +108,7 @@ def test_a_vertex_asked_for_twice_has_one_normal() -> None:
 
 
 def test_other_families() -> None:
-    """Rims of smooth patches, seen from the patch: at 2000 vertices 0.05° were measured."""
+    """Rims of smooth patches, seen from the patch: 0.05° at 2000 vertices."""
     for name in ("cylinder", "catenoid", "linear_flux", "clothoid"):
         patch = getattr(shapes, name)(2000)
         normals = fairing.surrounding_normals(patch.vertices, patch.triangles, patch.fixed).normals
@@ -124,7 +124,7 @@ def test_follows_the_winding() -> None:
 
 @pytest.mark.parametrize("size", [1e-300, 1e-160, 3e-162, 1e160, 1e300])
 def test_size_does_not_matter(size: float) -> None:
-    """Products of such edges are denormal, zero or infinite: found by the fuzzer."""
+    """Products of such edges are denormal, zero or infinite."""
     vertices, triangles, equator = outside_of_a_hemisphere(60)
     found = fairing.surrounding_normals(size * vertices, triangles, equator)
     assert found.fitted.all()
@@ -132,7 +132,7 @@ def test_size_does_not_matter(size: float) -> None:
 
 
 def test_a_sliver_has_a_unit_normal() -> None:
-    """Its area is denormal beside the largest coordinate: found by the fuzzer."""
+    """Its area is denormal beside the largest coordinate."""
     vertices = np.array([[0, 0, 0], [1e-160, 0, 0], [0, 1e-162, 0], [1, 1, 1], [1, 2, 1], [2, 1, 1]])
     normals = fairing.surrounding_normals(vertices, np.array([[0, 1, 2], [3, 5, 4]]), np.arange(6)).normals
     assert np.abs(np.linalg.norm(normals, axis=1) - 1).max() < 1e-12

@@ -52,7 +52,7 @@ def apart(made: Blend, vertices: FloatArray, kind: str) -> float:
 @pytest.mark.parametrize("seed", [0, 1, 3])
 @pytest.mark.parametrize("kind", list(MAKE))
 def test_every_vertex_keeps_its_sheet(kind: str, seed: int) -> None:
-    """2 % of D at 1,000 vertices, chords included; half of these ended as double covers, 30 % off, and *converged*."""
+    """2 % of D at 1,000 vertices, chords included; a double cover would be 30 % off."""
     made = MAKE[kind](1000, seed=seed)
     result = solved(made)
     assert result.converged

@@ -18,7 +18,6 @@ Variant = tuple[int, str]  # vertices, weights
 METHODS: dict[str, dict[str, Any]] = {
     "global, fitted normals": {},
     "global, averaged normals": {"normals": "averaged"},
-    "paper": {"method": "paper", "max_iterations": 1000},
 }
 
 

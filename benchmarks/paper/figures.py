@@ -170,7 +170,7 @@ def figure_9(folder: Path, ear: Case) -> str:
     gap = np.linalg.norm(linear - result.vertices, axis=1).max() / ear.diameter
     return (
         f"Vertices of the linear bilaplacian and ours lie up to {gap:.0%} of D apart; "
-        f"our largest angle at the outline is {result.boundary_angle.max():.1f}°."
+        f"our largest angle at the boundary is {result.boundary_angle.max():.1f}°."
     )
 
 

@@ -5,8 +5,8 @@
     python benchmarks/peers --parts memory,quality | --page
 
 Needs fairing, igl, meshlib, pymeshlab, numpy, scipy, matplotlib and the driver that `run` builds. Measurements go to
-build/peers/measured.json, the page with its plots to docs/performance.md. --parts measures some tables anew and keeps
-the others, --page only writes the page.
+build/peers/measured.json, the page with its plots to docs/performance.md, its log to docs/dev/performance_log.md.
+--parts measures some tables anew and keeps the others, --page only writes both pages.
 """
 
 from __future__ import annotations
@@ -33,31 +33,34 @@ def arguments() -> argparse.Namespace:
     parser.add_argument(
         "--parts", default="times,live,graded,real,repeated,memory,quality", help="measure only these anew"
     )
-    parser.add_argument("--page", action="store_true", help="measure nothing, write the page from the last run")
+    parser.add_argument("--page", action="store_true", help="measure nothing, write the pages from the last run")
     parser.add_argument("--measured", type=Path, default=BUILD / "measured.json", help="file of the measurements")
-    parser.add_argument("--out", type=Path, default=ROOT / "docs", help="folder of performance.md and pictures/")
+    parser.add_argument("--out", type=Path, default=ROOT / "docs", help="folder of performance.md, dev/ and pictures/")
     return parser.parse_args()
 
 
-def write_page(path: Path, out: Path) -> None:
-    """Fills the placeholders of page.md and draws the plots."""
+def write_pages(path: Path, out: Path) -> None:
+    """Fills the placeholders of page.md and log.md and draws the plots."""
     import charts
     import goals
     import tables
     from measured import Measured
 
     done = Measured.load(path)
-    page = (Path(__file__).parent / "page.md").read_text()
-    page = page.replace("{{goals}}", goals.table(done))
-    for name, make in tables.BY_NAME.items():
-        page = page.replace("{{" + name + "}}", make(done))
-    (out / "performance.md").write_text(page)
+    made = {"goals": goals.table, **tables.BY_NAME}
+    for template, name in (("page.md", "performance.md"), ("log.md", "dev/performance_log.md")):
+        page = (Path(__file__).parent / template).read_text()
+        for placeholder, make in made.items():
+            if "{{" + placeholder + "}}" in page:
+                page = page.replace("{{" + placeholder + "}}", make(done))
+        (out / name).parent.mkdir(parents=True, exist_ok=True)
+        (out / name).write_text(page)
     charts.save(done, out / "pictures")
     print(goals.table(done))
 
 
 def main() -> int:
-    """Measures, then writes the page."""
+    """Measures, then writes the pages."""
     options = arguments()
     if missing := [name for name in NEEDED if find_spec(name) is None]:
         print(f"missing: {', '.join(missing)}; benchmarks/peers/run installs and builds them", file=sys.stderr)
@@ -68,7 +71,7 @@ def main() -> int:
         sizes = [int(word) for word in options.sizes.split(",")] + [1_000_000] * options.million
         parts = tuple(options.parts.split(","))
         run(Plan(sizes, options.limit, BUILD / "inputs", options.calls, parts), options.measured)
-    write_page(options.measured, options.out)
+    write_pages(options.measured, options.out)
     return 0
 
 

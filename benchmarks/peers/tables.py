@@ -1,4 +1,4 @@
-"""The tables of docs/performance.md."""
+"""The tables of docs/performance.md and docs/dev/performance_log.md."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 import tools
 from measured import Measured, Row
 from problems import CAPS
-from tools import OURS, SMOOTHING_STEPS
+from tools import CONFORMAL, LIBIGL, OURS, SMOOTHING_STEPS
 
 
 def _table(head: list[str], rows: Iterable[list[str]]) -> str:
@@ -25,9 +25,10 @@ def machine(done: Measured) -> str:
 
 
 def times(done: Measured) -> str:
-    """Wall and processor seconds; one table for each shape, a column for each size."""
-    shapes = list(dict.fromkeys(row["shape"] for row in done.times))
-    return "\n\n".join(f"**{shape}**\n\n{_times_of(done, shape)}" for shape in shapes if len(_sizes(done, shape)) > 1)
+    """Wall and processor seconds of the first shape that has several sizes, a column for each size."""
+    shapes = dict.fromkeys(row["shape"] for row in done.times)
+    shape = next(shape for shape in shapes if len(_sizes(done, shape)) > 1)
+    return f"**{shape}**\n\n{_times_of(done, shape)}"
 
 
 def _sizes(done: Measured, shape: str) -> list[int]:
@@ -49,31 +50,6 @@ def _seconds(row: Row) -> str:
     return f"{row['wall']:.3g} ({row['cpu']:.3g})" if "wall" in row else row["failure"]
 
 
-def small(done: Measured) -> str:
-    """All shapes at the smallest size: ours, the fastest peer, steps and state."""
-    size = min(row["size"] for row in done.times)
-    rows = []
-    for shape in dict.fromkeys(row["shape"] for row in done.times):
-        found = {r["tool"]: r for r in done.times if (r["shape"], r["size"]) == (shape, size) and "wall" in r}
-        peers = [row for name, row in found.items() if tools.BY_NAME[name].kind == "peer"]
-        fastest = min(peers, key=lambda row: row["wall"])
-        ours = found[OURS]
-        rows.append([
-            shape, f"{ours['free']:,}", f"{ours['wall']:.3f} ({ours['cpu']:.3f})", str(ours["steps"]), ours["state"],
-            f"{fastest['wall']:.3f} ({fastest['cpu']:.3f}), {fastest['tool']}",
-        ])  # fmt: skip
-    return _table(["shape", "free", "ours, s", "outer steps", "ended", "fastest peer, s"], rows)
-
-
-def live(done: Measured) -> str:
-    """Ours on small patches."""
-    rows = [
-        [row["shape"], f"{row['free']:,}", f"{1000 * row['wall']:.1f} ({1000 * row['cpu']:.1f})", str(row["steps"])]
-        for row in done.live
-    ]  # fmt: skip
-    return _table(["shape", "free", "milliseconds by the wall (of the processor)", "outer steps"], rows)
-
-
 def memory(done: Measured) -> str:
     """MB above the input."""
     sizes = sorted({row["size"] for row in done.memory})
@@ -89,21 +65,39 @@ COLUMNS: list[Cell] = [
     ("from the right surface", lambda row: f"{row['error_from_right']:.1e}"),
     ("between two meshes / D", lambda row: f"{row['between']:.1e}"),
     ("boundary angle", lambda row: f"{row['angle']:.2g}°"),
-    ("flipped", lambda row: str(row["flipped"])),
     ("distortion: median, 95 %", lambda row: f"{row['distortion']:.2f}, {row['worst']:.2f}"),
 ]
 
 
+JUDGED = ("hemisphere", "catenoid", "three-cylinder blend")
+SHOWN = (OURS, CONFORMAL, LIBIGL)  # the other linear tools' answers are nearly libigl's
+
+
 def quality(done: Measured) -> str:
-    """A block of rows for each shape."""
-    shapes = list(dict.fromkeys(row["shape"] for row in done.quality))
-    order = [*CAPS, *(shape for shape in shapes if shape not in CAPS)]
+    """A block of rows for each of some shapes."""
     rows = []
-    for shape in order:
-        for row in (row for row in done.quality if row["shape"] == shape):
+    for shape in JUDGED:
+        for row in (row for row in done.quality if row["shape"] == shape and row["tool"] in SHOWN):
             cells = [text(row).replace("nan", "–") for _, text in COLUMNS]
             rows.append([f"{shape}: {row['tool']}", *cells])
     return _table(["patch: tool", *(name for name, _ in COLUMNS)], rows)
+
+
+def errors(done: Measured) -> str:
+    """A row for each shape whose exact surface is known: ours beside the nearest of the linear tools."""
+    rows = []
+    for shape in _judged_shapes(done):
+        found = {row["tool"]: row["error"] for row in done.quality if row["shape"] == shape}
+        peers = {name: error for name, error in found.items() if tools.BY_NAME[name].kind == "peer"}
+        nearest = min(peers, key=lambda name: peers[name])
+        if found[OURS] == found[OURS]:  # not nan
+            rows.append([shape, f"{found[OURS]:.1e}", f"{peers[nearest]:.1e}, {nearest}"])
+    return _table(["patch", "ours", "nearest linear tool"], rows)
+
+
+def _judged_shapes(done: Measured) -> list[str]:
+    shapes = list(dict.fromkeys(row["shape"] for row in done.quality))
+    return [*CAPS, *(shape for shape in shapes if shape not in CAPS)]
 
 
 def repeated(done: Measured) -> str:
@@ -137,7 +131,7 @@ def real(done: Measured) -> str:
         [row["mesh"], f"{row['free']:,}", f"{row['cpu']:.3g}", f"{row['cpu'] / row['clean']:.2f}", row["state"]]
         for row in done.real
     ]  # fmt: skip
-    return _table(["mesh", "free", "s of the processor", "÷ clean patch", "way"], rows)
+    return _table(["mesh", "free", "s of the processor", "÷ clean patch", "strategies"], rows)
 
 
 def steps(_: Measured) -> str:
@@ -151,7 +145,7 @@ def quality_size(done: Measured) -> str:
 
 
 BY_NAME: dict[str, Callable[[Measured], str]] = {
-    "machine": machine, "times": times, "small": small, "live": live, "graded": graded, "real": real, "memory": memory,
-    "repeated": repeated,
-    "quality": quality, "quality_size": quality_size, "steps": steps,
+    "machine": machine, "times": times,
+    "graded": graded, "real": real, "memory": memory, "repeated": repeated,
+    "quality": quality, "errors": errors, "quality_size": quality_size, "steps": steps,
 }  # fmt: skip

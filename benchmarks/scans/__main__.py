@@ -3,7 +3,7 @@
     python benchmarks/scans                    # writes scans.csv; prints the table
     python benchmarks/scans --sizes 3000 10000
     python benchmarks/scans --at ict_head:700 demosthenes-low-res:2700 --calls 1 \
-        --page docs/performance.md benchmarks/peers/page.md
+        --page docs/dev/performance_log.md benchmarks/peers/log.md
 
 A head and a bust of shared/data, their triangles cut in four two and three times, noise of 0, 0.1 and ¼ of an edge on
 all vertices; discs grown round a seed vertex. The clean patch is a jittered half sphere. Both run in turns, one

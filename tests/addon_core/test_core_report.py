@@ -1,4 +1,4 @@
-"""A run as a verdict and figures, each met, missed or told, by made-up outcomes."""
+"""A run as a verdict and figures, each met, missed or reported, by made-up outcomes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""New faces that lie over others in the texture are told."""
+"""New faces that lie over others in the texture are reported."""
 
 from __future__ import annotations
 

@@ -357,7 +357,7 @@ def test_how_a_search_ended_is_told_without_a_figure_that_says_nothing(
 
 
 def test_where_multigrid_fails_the_other_method_is_named(fine: Evidence) -> None:
-    """It uses up its steps on most real meshes, and how many there were tells an artist nothing."""
+    """It uses up its steps on most real meshes; their number says nothing to an artist."""
     result = replace(fine.result, converged=False, termination="iteration_limit", iterations=200)
     reason = judged(replace(fine, result=result), method="PAPER").reason
     assert "Method: Global" in reason

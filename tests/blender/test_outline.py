@@ -1,4 +1,4 @@
-"""What is odd about an outline is told, with the largest angle."""
+"""What is odd about an outline is reported, with the largest angle."""
 
 from __future__ import annotations
 

@@ -62,7 +62,7 @@ def test_the_skin_comes_back_and_the_dent_goes() -> None:
     assert np.abs(base).max() < 0.1 * NOISE
     assert np.corrcoef(kept - base, noise[free])[0, 1] > 0.85
     assert (kept - base).std() == pytest.approx(noise[free].std(), rel=0.25)
-    assert (kept - noise[free])[meshes.positions(rough)[free, 2].argmax()] > -0.05  # the dent was 0.25 deep
+    assert (kept - noise[free])[meshes.positions(rough)[free, 2].argmax()] > -0.05  # of a dent 0.25 deep
 
 
 def test_detail_is_the_engines() -> None:

@@ -151,7 +151,7 @@ TEST_CASE("where steps shrink fast the iteration ends without a last one that is
 }
 
 TEST_CASE("steps that shrank by luck end no iteration whose residual says otherwise") {
-    // By the steps alone these ended 2.4 to 5.2 tolerances off.
+    // By the steps alone these end 2.4 to 5.2 tolerances off.
     struct Case {
         int n;
         double jitter;
