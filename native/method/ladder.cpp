@@ -67,12 +67,27 @@ Found evenly(const Problem& problem, Situation& /*situation*/, const Progress& p
     return solve_evenly(problem, progress);
 }
 
+Found with_uniform_weights(const Problem& problem, Situation& /*situation*/, const Progress& progress) {
+    Problem even = problem;
+    even.weights = uniform_weights(problem.patch);
+    even.tolerated_folds = 0;
+    Solution solution = solve_global(even, progress);
+    if (solution.flaw != Flaw::absent) return std::nullopt;
+    solution.even_weights = true;
+    return solution;
+}
+
+bool is_folded(const Situation& situation) {
+    return std::any_of(situation.found.begin(), situation.found.end(),
+                       [](const Solution& s) { return s.flaw == Flaw::folded || s.flaw == Flaw::crossing; });
+}
+
 }  // namespace
 
 Solution solve_global(const Problem& problem, const Progress& progress) {
     const Way direct = directly();
     const Way proxy = on_proxy();
-    const std::array<Way, 10> ways{{
+    const std::array<Way, 11> ways{{
         {"minimal", [](const Problem& p, const Situation&) { return is_minimal(p); },
          [](const Problem& p, Situation&, const Progress& part) { return Found(solve_directly(p, part)); }, 0.0, 1.0},
         {"variation", [](const Problem& p, const Situation&) { return is_least_variation(p); },
@@ -94,6 +109,9 @@ Solution solve_global(const Problem& problem, const Progress& progress) {
          1.0},
         {eased_way, [](const Problem& p, const Situation& s) { return !is_large(p) && takes_eased(p, s); },
          on_eased_outline, 0.9, 1.0},
+        // λ may turn triangles over although the surface is smooth: uniform ones then.
+        {"uniform", [](const Problem& p, const Situation& s) { return !is_uniform(p.weights) && is_folded(s); },
+         with_uniform_weights, 0.9, 1.0},
     }};
     return run_ways(ways, problem, progress);
 }
