@@ -257,3 +257,13 @@ def test_short_edges_in_a_row_come_back_in_their_order() -> None:
     for a, b in zip(loop.tolist(), np.roll(loop, -1).tolist(), strict=True):
         assert (a, b) in borders
     assert len(whole) == 15
+
+
+def test_a_flat_sheet_is_not_closed_by_its_own_back() -> None:
+    """Over its border lies no surface but the other side of a pillow without height, named or not."""
+    vertices, triangles = holes.sheet(lambda u, v: (u, v, 0 * u), (12, 12), whole)
+    (border,) = fairing.boundary_loops(triangles)
+    with pytest.raises(fairing.MeshError, match="flat sheet: no surface closes it") as caught:
+        fairing.fill(vertices, triangles, [border])
+    assert caught.value.code == "NOT_A_HOLE"
+    assert {*caught.value.elements} == {*border}

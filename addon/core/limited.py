@@ -16,7 +16,8 @@ def limited(weights: Floats, most: int) -> Floats:
     np.put_along_axis(kept, order[:, most:], 0.0, axis=1)
     before, after = weights.sum(axis=1), kept.sum(axis=1)
     scale = np.divide(before, after, out=np.ones_like(before), where=after > 0.0)
-    return np.minimum(kept * scale[:, None], 1.0)
+    result: Floats = np.minimum(kept * scale[:, None], 1.0)
+    return result
 
 
 def limited_like(weights: Floats, sources: Floats, counted: Mask, most: int) -> Floats:

@@ -85,7 +85,8 @@ def _once(spots: Ints) -> Ints:
 
 def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str, ...]:
     result, has_outside = evidence.result, len(evidence.problem.outside) > 0
-    was_tried = any(name == "variation" for name, _ in result.way) or result.equation == "least_variation"
+    stands_in = result.provenance not in ("equation", "low_passed")
+    was_tried = stands_in or result.equation == "least_variation"
     offered = {
         GROW_OVER: not bad and evidence.flank is not None and judges_join(options),
         ADD_LEFT_OUT: are_many(evidence.left_out),

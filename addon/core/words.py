@@ -105,6 +105,11 @@ WORDS: dict[str, tuple[Words, ...]] = {
     "NOT_A_LOOP": (Words("The outline to be filled is no loop of border edges: look at vertex {first}"),),
     "NOT_A_HOLE": (
         Words(
+            "The border of {n} edges through vertex {first} goes around the outside of a flat sheet: "
+            "no surface closes it",
+            when="endless",
+        ),
+        Words(
             "The border of {n} edges through vertex {first} runs around the outside of a sheet of faces: "
             "to fill it all the same, select it alone"
         ),

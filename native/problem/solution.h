@@ -47,8 +47,8 @@ enum class Provenance {
     low_passed,       // the same between loops without their short waves, beside which the real ones lie (method/eased)
     least_variation,  // the surface of least variation, where another equation was asked for
     loft,
-    swept_tube,       // cross-sections swept along a bend (start/swept_start)
-    old_shape,        // the shape before, as smooth as it can be (method/smoothed)
+    swept_tube,  // cross-sections swept along a bend (start/swept_start)
+    old_shape,   // the shape before, as smooth as it can be (method/smoothed)
 };
 
 // Whether another surface than the equation's was taken.

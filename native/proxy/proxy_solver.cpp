@@ -125,8 +125,8 @@ public:
             if (proxy.refused) return proxy;
             if (proxy.converged()) return proxy;
             if (!least_bent || proxy.energy < least_bent->energy) least_bent.emplace(std::move(proxy));
-            // Of large patches none needed another mesh, and between several loops they find four of 129 in as much time
-            // again as all else takes.
+            // Of large patches none needed another mesh, and between several loops they find four of 129 in as much
+            // time again as all else takes.
             if (!pays_patience(problem_, shown_)) break;
         }
         return std::move(*least_bent);

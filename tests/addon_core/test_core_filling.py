@@ -173,7 +173,9 @@ def test_a_surface_through_the_mesh_is_unusable() -> None:
 def test_the_outside_of_a_sheet_is_refused() -> None:
     """Its surface would be the other side of a pillow without any height."""
     flat = polygon_mesh(grid_points(SIZE), grid_quads(SIZE), np.zeros(SIZE * SIZE, dtype=bool))
-    with pytest.raises(MeshRefusal, match="border of 32 edges through vertex 0 goes around the outside") as error:
+    with pytest.raises(
+        MeshRefusal, match="border of 32 edges through vertex 0 goes around the outside of a flat sheet"
+    ) as error:
         filled(flat, 0)
     assert len(error.value.elements) == 32
 

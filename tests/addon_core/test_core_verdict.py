@@ -145,7 +145,7 @@ def test_no_answer_is_not_usable(fine: Evidence, termination: Any) -> None:
     assert HOLD_BORDER in border.remedies
     assert border.reason.startswith("Why: a fair border may not exist where it is rough beside the selection")
     assert HOLD_BORDER not in judged(fine, open_border="FAIRED").remedies
-    tried = replace(lost, result=replace(lost.result, way=(("direct", 0.1), ("variation", 0.4))))
+    tried = replace(lost, result=replace(lost.result, provenance="loft"))
     assert judged(tried).remedies == (GROW, SMOOTH_OUTLINE, WRITE)
     assert judged(lost, factor=0.5).grade == UNUSABLE
 

@@ -89,7 +89,8 @@ def fill(
     MeshError
         NOT_A_LOOP, NO_BOUNDARY, NONMANIFOLD_VERTEX (loops that touch or cross, or vertices of one outline in one place
         or on its edges), NONMANIFOLD_EDGE (also where the surface would double back onto a triangle that sticks out
-        into a loop), NOT_A_HOLE (there are none but outer borders), OUT_OF_PROPORTION (``max_vertices``),
+        into a loop), NOT_A_HOLE (there are none but outer borders; or one that was named
+        lies around a flat sheet, which no surface closes), OUT_OF_PROPORTION (``max_vertices``),
         LOOPS_NOT_JOINED (one is turned; loops that no surface joins), ZERO_NORMAL, NORMALS_OPPOSE_WINDING, NONFINITE or
         INDEX_RANGE; ``elements`` are the vertices.
     ValueError, Cancelled, SolverError, MemoryError
@@ -109,6 +110,8 @@ def fill(
     if loops is None:
         outline, normals, outer = _loops.without_outer(outline, points, normals)
     outline, normals = _sides.settled(outline, points, normals, bool(bridge))
+    if not bridge:
+        _loops.refuse_endless(outline, points, normals)
     most = Limit.of(
         _holes.flat_count([points[loop] for loop in outline.loops], length.length, bool(bridge)), max_vertices
     )

@@ -18,12 +18,18 @@ PROPORTION = 20.0
 """A surface so many times as large as a flat one is out of proportion: more of a ball than a 25° cap leaves open."""
 _PER_SQUARE = 2.0 / np.sqrt(3.0)  # vertices of a mesh of equilateral triangles, per square of their edge
 _TINY = 1e-300
-_WHOLE = 1e-3  # 1 + τ of what is a whole ball in all but name
+_WHOLE = 1e-3  # 1 + τ of what is a whole ball in all but name, and how unlike the normals of a flat sheet may be
 
 
 def is_outer(points: FloatArray, normals: FloatArray) -> bool:
     """Whether a loop (k, 3) with the new surface on its left goes around the outside of a sheet."""
     return times_flat(points, normals) > PROPORTION
+
+
+def is_endless(points: FloatArray, normals: FloatArray) -> bool:
+    """Whether a loop with the new surface on its left goes around the outside of a flat sheet, which nothing closes."""
+    is_flat = float(np.linalg.norm(normals.mean(axis=0))) >= 1.0 - _WHOLE
+    return is_flat and 1.0 + turning(points, normals) <= _WHOLE
 
 
 def times_flat(points: FloatArray, normals: FloatArray) -> float:

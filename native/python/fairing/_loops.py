@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from fairing import _arguments
 from fairing._crossings import crossing_edges, touches
-from fairing._holes import is_outer
+from fairing._holes import is_endless, is_outer
 from fairing._measure import boundary_loops
 from fairing._outline import surrounding_normals
 from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
@@ -84,6 +84,16 @@ def not_holes(loops: Sequence[IntArray]) -> Diagnostic:
     text = f"{what} around the outside of a sheet, at {listed(edges)}, and stay{'s' * (len(loops) == 1)} open"
     text += ": name a loop in `loops` to have it filled all the same"
     return Diagnostic("NOT_A_HOLE", text, edges, "vertex", {"loops": float(len(loops)), "vertices": float(len(edges))})
+
+
+def refuse_endless(outline: Outline, vertices: FloatArray, normals: FloatArray) -> None:
+    """MeshError (NOT_A_HOLE) for a loop over which lies no surface but the other side of a sheet without height."""
+    for loop, part in zip(outline.loops, outline.split(normals), strict=True):
+        if not is_endless(vertices[loop], part):
+            continue
+        text = f"the border loop at {listed(loop)} goes around the outside of a flat sheet: no surface closes it"
+        figures = {"loops": 1.0, "vertices": float(len(loop)), "endless": 1.0}
+        raise MeshError(Diagnostic("NOT_A_HOLE", text, np.sort(loop).astype(np.int32), "vertex", figures))
 
 
 def given_loops(loops: Any, vertices: FloatArray, triangles: IntArray) -> Outline:
