@@ -133,8 +133,8 @@ class FairResult:
     """Name and seconds of each way that was tried, in order. The last one led to the result, unless none was accepted.
 
     "warm" starts from the last answer, "nested" goes from coarse to fine, "direct" stays on the mesh given, "proxy"
-    takes a mesh of the engine's own, "eased" does so over the smoothed outline, "even" takes uniform weights
-    first. "minimal", "variation", "loft", "smoothed" and "paper" belong to the surfaces and the method of that name.
+    takes a mesh of the engine's own, "eased" does so over the smoothed outline, "even" and "uniform" take uniform
+    weights first or only. "minimal", "variation", "loft", "smoothed" and "paper" belong to the surfaces and the method of that name.
     Several components follow each other."""
     warnings: tuple[Diagnostic, ...]
     moved: IntArray = field(default_factory=lambda: np.empty(0, np.int32))
