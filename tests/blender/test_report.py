@@ -47,6 +47,7 @@ def test_report_of_a_restored_hemisphere() -> None:
     found = checks()
     assert meshes.report().verdict == "GOOD"
     assert [name for name in found if not details()[name]] == [
+        "Shape",
         "Kink at the outline",
         "Kinks show from",
         "Folded faces",
@@ -54,6 +55,7 @@ def test_report_of_a_restored_hemisphere() -> None:
         "Needles",
         "Texture distortion",
     ]
+    assert found["Shape"] == ("Harmonic", "TOLD")
     assert found["Equation solved"] == ("yes", "TOLD")
     assert found["Kink at the outline"][1] == "MET"
     # H = −1 inside and out: the maximum principle is met with equality

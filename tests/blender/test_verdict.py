@@ -176,9 +176,9 @@ def test_automatic_refuses_where_even_vertices_are_not_usable_either(monkeypatch
     pulled_pin()
     home, tried = module("run.fair_arrays"), []
 
-    def unusable(mesh: Any, matrix: Any, options: Any, solved: Any) -> Any:
+    def unusable(mesh: Any, matrix: Any, options: Any, solved: Any, progress: Any) -> Any:
         tried.append(options.inner_fairness)
-        found = module("core.outcome").outcome(mesh, matrix, options, solved)
+        found = module("core.outcome").outcome(mesh, matrix, options, solved, progress)
         return replace(found, verdict=replace(found.verdict, grade="UNUSABLE"))
 
     monkeypatch.setattr(home, "outcome", unusable)

@@ -134,8 +134,8 @@ class FairResult:
 
     "warm" starts from the last answer, "nested" goes from coarse to fine, "direct" stays on the mesh given, "proxy"
     takes a mesh of the engine's own, "eased" does so over the smoothed outline, "even" and "uniform" take uniform
-    weights first or only. "minimal", "variation", "loft", "smoothed" and "paper" belong to the surfaces and the method of that name.
-    Several components follow each other."""
+    weights first or only. "minimal", "variation", "loft", "smoothed" and "paper" belong to the surfaces and the method
+    of that name. Several components follow each other."""
     warnings: tuple[Diagnostic, ...]
     moved: IntArray = field(default_factory=lambda: np.empty(0, np.int32))
     """Fixed and outside vertices that ``outline="mended"``, ``feather`` or ``weights`` have moved, ascending."""
