@@ -158,10 +158,25 @@ public:
         const double longest =
             std::clamp(fineness.share_of_outline * mean_outline_edge(problem_), longest_fine, longest_coarse);
         const Sizing sizing{std::min(fineness.growth, finest_growth), longest, free_limit_};
-        return solve_fine(std::move(coarse.mesh), sizing, coarse.end == CoarseEnd::converged);
+        SolvedProxy found = solve_fine(std::move(coarse.mesh), sizing, coarse.end == CoarseEnd::converged);
+        return found.converged() && longest > longest_fine ? refined(std::move(found)) : found;
     }
 
 private:
+    // A surface that was found with long edges, with short ones: a few steps more, and as accurate as these.
+    SolvedProxy refined(SolvedProxy found) const {
+        ProxyMesh mesh = found.history;
+        mesh.read_back(found.mesh.patch, found.mesh.points);
+        mesh.adapt({finest_growth, longest_fine, free_limit_});
+        auto snapshot = mesh.snapshot();
+        const Problem problem = proxy_problem(problem_, shown_, snapshot.patch);
+        Workspace work = make_workspace(problem, progress_);
+        Solution solution = solve_equation(problem, work, snapshot.points, progress_.here());
+        if (solution.termination != Termination::converged) return found;
+        const Points points = solution.points;
+        return measured(std::move(mesh), snapshot, problem, points, std::move(solution));
+    }
+
     void lay_over_outline(ProxyMesh& mesh) const {
         auto snapshot = mesh.snapshot();
         snapshot.points.rightCols(problem_.fixed_points.cols()) = problem_.fixed_points;
