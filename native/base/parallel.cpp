@@ -21,12 +21,12 @@ int wanted_threads(int count) {
 // The team of this thread, taken away for as long as it works on a loop.
 class Taken {
 public:
-    Taken() : team(ThreadTeam::current) { ThreadTeam::current = nullptr; }
+    Taken() { ThreadTeam::current = nullptr; }
     ~Taken() { ThreadTeam::current = team; }
     Taken(const Taken&) = delete;
     Taken& operator=(const Taken&) = delete;
 
-    ThreadTeam* const team;
+    ThreadTeam* const team = ThreadTeam::current;
 };
 
 }  // namespace

@@ -53,7 +53,10 @@ private:
 namespace {
 
 // Never destroyed: threads may outlive the interpreter. Replaced in a fork's child.
-Runs* all_runs = new Runs;
+Runs*& all_runs() {
+    static Runs* runs = new Runs;
+    return runs;
+}
 
 bool is_finalizing() {
 #if PY_VERSION_HEX >= 0x030D0000
@@ -94,7 +97,7 @@ bool goes_on(const py::object& answer) {
 
 }  // namespace
 
-PythonRun::PythonRun(py::object callback) : callback_(std::move(callback)), runs_(*all_runs), stop_(stop_flag()) {
+PythonRun::PythonRun(py::object callback) : callback_(std::move(callback)), runs_(*all_runs()), stop_(stop_flag()) {
     runs_.enter(*this);
 }
 
@@ -135,12 +138,12 @@ bool PythonRun::ask(double fraction, std::string_view stage) {
 void end_runs_at_exit() {
     const auto end = [] {
         const py::gil_scoped_release released;
-        all_runs->end();
+        all_runs()->end();
     };
     py::module_::import("atexit").attr("register")(py::cpp_function(end));
     const py::module_ os = py::module_::import("os");
     if (!py::hasattr(os, "register_at_fork")) return;
-    const auto forget = [] { all_runs = new Runs; };
+    const auto forget = [] { all_runs() = new Runs; };
     os.attr("register_at_fork")(py::arg("after_in_child") = py::cpp_function(forget));
 }
 

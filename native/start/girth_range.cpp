@@ -29,19 +29,20 @@ class Cells {
 public:
     Cells(const Patch& patch, const std::vector<Indices>& loops) : cell_(at(patch.vertex_count()), none) {
         Indices queue;
-        const auto begin = [&](int v, int cell) {
-            cell_[at(v)] = cell;
-            queue.push_back(v);
-        };
         for (const Indices& loop : loops) {
             for (const int v : loop) cell_[at(v)] = count_;
             ++count_;
         }
         const int stride = (patch.free_count + most_cells - 1) / most_cells;
-        for (int v = 0; v < patch.free_count; v += stride) begin(v, count_++);
+        for (int v = 0; v < patch.free_count; v += stride) {
+            cell_[at(v)] = count_++;
+            queue.push_back(v);
+        }
         for (std::size_t k = 0; k < queue.size(); ++k) {
             for (const int u : patch.ring(queue[k]).vertices) {
-                if (cell_[at(u)] == none) begin(u, cell_[at(queue[k])]);
+                if (cell_[at(u)] != none) continue;
+                cell_[at(u)] = cell_[at(queue[k])];
+                queue.push_back(u);
             }
         }
     }
