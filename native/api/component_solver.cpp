@@ -17,6 +17,7 @@
 #include "outline/fair_border.h"
 #include "problem/free_slopes.h"
 #include "start/automatic_equation.h"
+#include "start/swept_start.h"
 
 namespace fairing {
 
@@ -77,11 +78,7 @@ double load_in_units(const Patch& patch, const Points& fixed_points, double diam
 
 // By the boundary loops alone.
 Equation chosen_for(const Problem& problem) {
-    std::vector<Indices> loops = problem.patch.loops();
-    for (Indices& loop : loops) {
-        for (int& v : loop) v -= problem.patch.free_count;
-    }
-    return automatic_equation(loops, problem.fixed_points, problem.fixed_normals);
+    return automatic_equation(outline_loops(problem.patch), problem.fixed_points, problem.fixed_normals);
 }
 
 // Open borders that become fair do so as curves; the surface then moves them along its normals.

@@ -7,8 +7,6 @@
 #include "geometry/self_intersection.h"
 #include "mesh/corners.h"
 #include "problem/surface_state.h"
-#include "start/several_outlines.h"
-#include "start/shape_before.h"
 
 namespace fairing {
 

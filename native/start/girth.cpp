@@ -9,11 +9,6 @@ namespace fairing {
 
 namespace {
 
-constexpr int line_count = 17;
-constexpr double first_level = 0.1;  // the last one as far from the other end
-
-double level_of(int line) { return first_level + (1.0 - 2.0 * first_level) * line / (line_count - 1); }
-
 // By length; the origin where there is none.
 Vector3 middle_of(const std::vector<LevelPiece>& pieces) {
     Vector3 sum = Vector3::Zero();

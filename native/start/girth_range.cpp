@@ -10,19 +10,16 @@
 #include <Eigen/SparseCholesky>
 
 #include "mesh/union_find.h"
+#include "start/level_lines.h"
 #include "start/swept_tube.h"
 
 namespace fairing {
 
 namespace {
 
-constexpr int line_count = 17;
-constexpr double first_level = 0.1;  // the last one as far from the other end
 // Cells that vertices are gathered in. A line that follows borders of cells has the same shadow as one that does not,
 // so that more of them only cost time: a solve with these takes 3 ms.
 constexpr int most_cells = 1500;
-
-double level_of(int line) { return first_level + (1.0 - 2.0 * first_level) * line / (line_count - 1); }
 
 // Cells of neighbouring vertices, around equally many of them each: one for each boundary loop, then those inside.
 class Cells {

@@ -14,15 +14,6 @@ namespace {
 // Where vertices lie on a cylinder. Rows: s from the first end to the last, then turns around.
 using CylinderMap = Eigen::Matrix2Xd;
 
-// Loops as columns of the outline's points.
-std::vector<Indices> outline_loops(const Patch& patch) {
-    std::vector<Indices> loops = patch.loops();
-    for (Indices& loop : loops) {
-        for (int& v : loop) v -= patch.free_count;
-    }
-    return loops;
-}
-
 // Vertices of a shortest way from the first section to the last.
 Indices seam(const Patch& patch, const SweptTube& tube) {
     Indices before(at(patch.vertex_count()), none);
@@ -123,6 +114,14 @@ Points laid(const Problem& problem, const SweptTube& tube, const CylinderMap& ma
 }
 
 }  // namespace
+
+std::vector<Indices> outline_loops(const Patch& patch) {
+    std::vector<Indices> loops = patch.loops();
+    for (Indices& loop : loops) {
+        for (int& v : loop) v -= patch.free_count;
+    }
+    return loops;
+}
 
 std::optional<SweptTube> tube_between(const Problem& problem) {
     return SweptTube::between(outline_loops(problem.patch), problem.fixed_points, problem.fixed_normals);

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "base/progress.h"
 #include "problem/problem.h"
 #include "start/swept_tube.h"
 
 namespace fairing {
+
+// Boundary loops as columns of a problem's fixed points, the surface on their left.
+std::vector<Indices> outline_loops(const Patch& patch);
 
 // Nothing where the outlines don't face each other along one tube.
 std::optional<SweptTube> tube_between(const Problem& problem);
