@@ -75,7 +75,7 @@ begun.wait()
 
 
 def test_work_without_a_callback_stops_too() -> None:
-    done = ended("""
+    ended("""
 small = shapes.cap(3000)
 
 def work():
@@ -87,7 +87,6 @@ start(work)
 begun.wait()
 time.sleep(0.1)
 """)
-    assert "Exception in thread" in done.stderr  # Python's own words, which the end of the process may cut short
 
 
 def test_a_callback_that_never_returns_does_not_hold_the_process() -> None:
