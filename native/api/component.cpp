@@ -14,10 +14,12 @@ namespace {
 class LocalNumbers {
 public:
     explicit LocalNumbers(const Patch& patch)
-        : local_(at(*std::max_element(patch.to_input.begin(), patch.to_input.end())) + 1, none) {
-        for (int v = 0; v < patch.vertex_count(); ++v) local_[at(patch.to_input[at(v)])] = v;
+        : local_((*std::max_element(patch.to_input.begin(), patch.to_input.end())) + 1, none) {
+        for (int v = 0; v < patch.vertex_count(); ++v) local_[patch.to_input[v]] = v;
     }
-    [[nodiscard]] int operator()(int input) const { return at(input) < local_.size() ? local_[at(input)] : none; }
+    [[nodiscard]] int operator()(int input) const {
+        return static_cast<std::size_t>(input) < local_.size() ? local_[input] : none;
+    }
 
 private:
     Indices local_;
@@ -27,13 +29,13 @@ private:
 std::vector<std::array<int, 2>> local_edges(const Patch& patch, const std::vector<std::array<int, 2>>& edges) {
     const LocalNumbers find(patch);
     std::vector<std::array<int, 2>> result;
-    std::vector<char> reached(at(patch.free_count), 0);
+    std::vector<char> reached(patch.free_count, 0);
     for (const auto& [a, b] : edges) {
         const std::array ends{find(a), find(b)};
         if (ends[0] == none || ends[1] == none || ends[0] == ends[1]) continue;
         result.push_back(ends);
         for (int v : ends) {
-            if (patch.is_free(v)) reached[at(v)] = 1;
+            if (patch.is_free(v)) reached[v] = 1;
         }
     }
     const auto missing = std::find(reached.begin(), reached.end(), 0);
@@ -58,17 +60,17 @@ void weigh_by_distance(InnerWeights& weights, const Points& reference) {
 Indices outline_vertices(const Patch& patch) {
     std::map<std::array<int, 2>, int> copies;
     const auto in_input = [&](int e) {
-        const auto [a, b] = patch.edge_ends[at(e)];
-        return std::array{std::min(patch.to_input[at(a)], patch.to_input[at(b)]),
-                          std::max(patch.to_input[at(a)], patch.to_input[at(b)])};
+        const auto [a, b] = patch.edge_ends[e];
+        return std::array{std::min(patch.to_input[a], patch.to_input[b]),
+                          std::max(patch.to_input[a], patch.to_input[b])};
     };
     for (int e = 0; e < patch.edge_count(); ++e) {
-        if (patch.edge_triangles[at(e)][1] == none) ++copies[in_input(e)];
+        if (patch.edge_triangles[e][1] == none) ++copies[in_input(e)];
     }
     std::map<int, int> column_of;  // by input vertex
     for (int e = 0; e < patch.edge_count(); ++e) {
-        if (patch.edge_triangles[at(e)][1] != none || copies[in_input(e)] != 1) continue;
-        for (int v : patch.edge_ends[at(e)]) column_of.emplace(patch.to_input[at(v)], v - patch.free_count);
+        if (patch.edge_triangles[e][1] != none || copies[in_input(e)] != 1) continue;
+        for (int v : patch.edge_ends[e]) column_of.emplace(patch.to_input[v], v - patch.free_count);
     }
     Indices columns;
     for (const auto& [vertex, column] : column_of) columns.push_back(column);
@@ -98,11 +100,9 @@ double outline_radius(const Patch& patch, const Points& fixed_points) {
     return std::sqrt((points.colwise() - centre).colwise().squaredNorm().mean());
 }
 
-std::span<const int> free_vertices(const Patch& patch) { return std::span(patch.to_input).first(at(patch.free_count)); }
+std::span<const int> free_vertices(const Patch& patch) { return std::span(patch.to_input).first(patch.free_count); }
 
-std::span<const int> fixed_vertices(const Patch& patch) {
-    return std::span(patch.to_input).subspan(at(patch.free_count));
-}
+std::span<const int> fixed_vertices(const Patch& patch) { return std::span(patch.to_input).subspan(patch.free_count); }
 
 Lambda make_lambda(const Patch& patch, const Points& reference, const FairOptions& options) {
     const bool by_rows =

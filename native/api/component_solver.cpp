@@ -85,7 +85,7 @@ Equation chosen_for(const Problem& problem) {
 void hold_border(const std::vector<char>& faired, Problem& problem) {
     const Patch& patch = problem.patch;
     std::vector<char> edge;
-    for (int v : fixed_vertices(patch)) edge.push_back(faired[at(v)]);
+    for (int v : fixed_vertices(patch)) edge.push_back(faired[v]);
     if (std::find(edge.begin(), edge.end(), 1) == edge.end()) return;
     problem.free_edge = std::move(edge);
     for (Indices& loop : patch.loops()) {

@@ -42,12 +42,12 @@ void warn_of_sharp_outline(const Patch& patch, const Points& prescribed, Diagnos
     Indices sharp;
     double widest = 0.0;
     for (int e = 0; e < patch.edge_count(); ++e) {
-        if (patch.edge_triangles[at(e)][1] != none) continue;
-        const auto [a, b] = patch.edge_ends[at(e)];
-        if (patch.pin[at(a)] || patch.pin[at(b)]) continue;
+        if (patch.edge_triangles[e][1] != none) continue;
+        const auto [a, b] = patch.edge_ends[e];
+        if (patch.pin[a] || patch.pin[b]) continue;
         const double turn = degrees_between(prescribed.col(a - patch.free_count), prescribed.col(b - patch.free_count));
         widest = std::max(widest, turn);
-        if (turn > widest_turn) sharp.insert(sharp.end(), {patch.to_input[at(a)], patch.to_input[at(b)]});
+        if (turn > widest_turn) sharp.insert(sharp.end(), {patch.to_input[a], patch.to_input[b]});
     }
     if (sharp.empty()) return;
     warnings.push_back({Code::sharp_boundary,
@@ -141,16 +141,16 @@ std::string_view reason_of(Pins pins) {
 }  // namespace
 
 Indices input_numbers(const Patch& patch, Indices triangles) {
-    for (int& t : triangles) t = patch.input_triangle[at(t)];
+    for (int& t : triangles) t = patch.input_triangle[t];
     std::sort(triangles.begin(), triangles.end());
     return triangles;
 }
 
 bool has_collapsed_fan(const Patch& patch, const Points& points) {
-    std::vector<char> has_area(at(patch.vertex_count()), 0);
+    std::vector<char> has_area(patch.vertex_count(), 0);
     for (const auto corners : patch.triangles.colwise()) {
         if (!(triangle_shape(points.col(corners[0]), points.col(corners[1]), points.col(corners[2])) > 0.0)) continue;
-        for (int v : corners) has_area[at(v)] = 1;
+        for (int v : corners) has_area[v] = 1;
     }
     const auto end = has_area.begin() + patch.free_count;
     return std::find(has_area.begin(), end, 0) != end;
@@ -164,7 +164,7 @@ bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostic
         const auto corners = patch.triangles.col(t);
         const double shape =
             triangle_shape(reference.col(corners[0]), reference.col(corners[1]), reference.col(corners[2]));
-        if (!(shape >= needle)) bad.push_back(patch.input_triangle[at(t)]);
+        if (!(shape >= needle)) bad.push_back(patch.input_triangle[t]);
     }
     // A vertex whose whole neighbourhood is a point or a line hangs on nothing.
     const bool collapsed = has_collapsed_fan(patch, reference);
@@ -208,9 +208,9 @@ void warn_of_precision(const Patch& patch, const View<Points>& input, const Prec
     double length = 0.0;
     int count = 0;
     for (int e = 0; e < patch.edge_count(); ++e) {
-        if (patch.edge_triangles[at(e)][1] != none) continue;
-        const auto [a, b] = patch.edge_ends[at(e)];
-        length += (input.col(patch.to_input[at(a)]) - input.col(patch.to_input[at(b)])).stableNorm();
+        if (patch.edge_triangles[e][1] != none) continue;
+        const auto [a, b] = patch.edge_ends[e];
+        length += (input.col(patch.to_input[a]) - input.col(patch.to_input[b])).stableNorm();
         ++count;
     }
     double farthest = 0.0;
@@ -231,7 +231,7 @@ Diagnostics failures_of(const Patch& patch, const Solution& solution, Terminatio
     Reason reason = folds ? reason_of_folds(solution) : reason_of(solution, angles);
     reason.figures["free_vertices"] = patch.free_count;
     const std::string text =
-        "a component of " + counted(at(patch.free_count), "free vertex ", "free vertices ") + reason.text;
+        "a component of " + counted(patch.free_count, "free vertex ", "free vertices ") + reason.text;
     Figures not_converged =
         folds ? Figures{{"free_vertices", patch.free_count}, {"folds", size_of(solution.bad_triangles)}}
               : reason.figures;
@@ -249,7 +249,7 @@ void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& war
     const auto fixed = fixed_vertices(patch);
     Indices vertices;
     if (solution.join == Join::partly_curvature) {
-        for (int place : solution.tangent_only) vertices.push_back(fixed[at(place)]);
+        for (int place : solution.tangent_only) vertices.push_back(fixed[place]);
     } else {
         vertices.assign(fixed.begin(), fixed.end());
     }
@@ -269,7 +269,7 @@ namespace {
 void warn_of_sharp_pins(const Patch& patch, const Solution& solution, Diagnostics& warnings) {
     Indices pins = sharp_pins(patch, solution.points);
     if (pins.empty()) return;
-    for (int& place : pins) place = fixed_vertices(patch)[at(place)];
+    for (int& place : pins) place = fixed_vertices(patch)[place];
     warnings.push_back({Code::pins_not_spread,
                         counted(pins.size(), "pin is the tip of a needle", "pins are tips of needles") +
                             ": the surface rises far within a short way",
@@ -284,7 +284,7 @@ void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& war
     warn_of_sharp_pins(patch, solution, warnings);
     if (solution.pins == Pins::absent || solution.pins == Pins::spread) return;
     Indices pins = isolated_pins(patch);
-    for (int& place : pins) place = fixed_vertices(patch)[at(place)];
+    for (int& place : pins) place = fixed_vertices(patch)[place];
     Figures figures{{"pins", size_of(pins)}};
     if (solution.pins == Pins::too_close) figures["close"] = 1.0;
     warnings.push_back({Code::pins_not_spread,
@@ -302,7 +302,7 @@ Indices kinks_of(const Problem& problem, const Solution& solution) {
     const VectorX angles = boundary_angles(problem.patch, solution.boundary_normals, problem.fixed_normals);
     Indices kinks;
     for (int k = 0; k < angles.size(); ++k) {
-        if (angles[k] > visible) kinks.push_back(fixed_vertices(problem.patch)[at(k)]);
+        if (angles[k] > visible) kinks.push_back(fixed_vertices(problem.patch)[k]);
     }
     return kinks;
 }
@@ -327,7 +327,7 @@ void add_kinks(const Problem& problem, const Solution& solution, Diagnostic& dia
 
 Diagnostic no_solution(const Problem& problem, const Solution& solution) {
     const Patch& patch = problem.patch;
-    const std::string free = counted(at(patch.free_count), "free vertex", "free vertices");
+    const std::string free = counted(patch.free_count, "free vertex", "free vertices");
     const bool harmonic = problem.options.equation == Equation::harmonic;
     const std::string name = harmonic ? "harmonic surface" : "surface of that equation";
     Figures figures{{"free_vertices", patch.free_count}};

@@ -96,14 +96,14 @@ private:
         if (result_.base.cols() > 0) result_.base(Eigen::all, free) = points.leftCols(patch.free_count);
         const std::vector<char>& moved = answer.problem.free_edge;
         for (int k = 0; k < static_cast<int>(moved.size()); ++k) {
-            if (moved[at(k)]) result_.vertices.col(fixed_vertices(patch)[at(k)]) = points.col(patch.free_count + k);
+            if (moved[k]) result_.vertices.col(fixed_vertices(patch)[k]) = points.col(patch.free_count + k);
         }
         if (answer.dressed) write_dressed(patch, *answer.dressed);
         // The paper's method leaves H to be measured.
         const VectorX& H = answer.solution.mean_curvature;
         for (int v = 0; v < H.size(); ++v) {
-            solved_curvature_[patch.to_input[at(v)]] += H[v] / answer.unit.diameter;
-            solved_sides_[patch.to_input[at(v)]] += 1.0;
+            solved_curvature_[patch.to_input[v]] += H[v] / answer.unit.diameter;
+            solved_sides_[patch.to_input[v]] += 1.0;
         }
     }
 
@@ -139,7 +139,7 @@ private:
     // `values`: at the patch's fixed vertices; `largest`: of all sides so far, at input vertices.
     static void add_largest(const Patch& patch, const VectorX& values, VectorX& largest) {
         for (int k = 0; k < values.size(); ++k) {
-            double& here = largest[fixed_vertices(patch)[at(k)]];
+            double& here = largest[fixed_vertices(patch)[k]];
             here = std::max(here, values[k]);
         }
     }
@@ -150,7 +150,7 @@ private:
         const std::vector<char>& used = prepared_.mesh.roles.used;
         bool all_known = true;
         for (int v = 0; v < solved_sides_.size(); ++v) {
-            all_known = all_known && (!used[at(v)] || solved_sides_[v] > 0.0);
+            all_known = all_known && (!used[v] || solved_sides_[v] > 0.0);
         }
         if (all_known) {
             result_.mean_curvature.setZero(solved_sides_.size());

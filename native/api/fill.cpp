@@ -30,11 +30,11 @@ OutlineData gathered(const OpenLoops& input, std::span<const int> chosen) {
     std::vector<Vector3> normals;
     for (const int l : chosen) {
         Indices& loop = data.loops.emplace_back();
-        const Indices& given = input.loops[at(l)];
+        const Indices& given = input.loops[l];
         for (std::size_t k = 0; k < given.size(); ++k) {
             loop.push_back(static_cast<int>(data.to_input.size()));
             data.to_input.push_back(given[k]);
-            normals.emplace_back(input.normals[at(l)].col(static_cast<Eigen::Index>(k)));
+            normals.emplace_back(input.normals[l].col(static_cast<Eigen::Index>(k)));
         }
     }
     data.points = gather(input.vertices, data.to_input);
@@ -56,7 +56,7 @@ public:
         for (const auto corners : triangles.colwise()) {
             Eigen::Vector3i& added = triangles_.emplace_back();
             for (int k = 0; k < 3; ++k)
-                added[k] = corners[k] < free_count ? first + corners[k] : to_input[at(corners[k] - free_count)];
+                added[k] = corners[k] < free_count ? first + corners[k] : to_input[corners[k] - free_count];
         }
     }
     void keep(const Eigen::Vector3i& triangle) { triangles_.push_back(triangle); }
@@ -111,7 +111,7 @@ KeptEdges edges_among(const Patch& patch, const EdgeSet& pairs) {
     KeptEdges kept;
     if (pairs.empty()) return kept;
     for (const auto& [a, b] : patch.edge_ends) {
-        const auto [low, high] = std::minmax(patch.to_input[at(a)], patch.to_input[at(b)]);
+        const auto [low, high] = std::minmax(patch.to_input[a], patch.to_input[b]);
         kept.push_back(pairs.contains({low, high}) ? 1 : 0);
     }
     return kept;
@@ -179,12 +179,12 @@ NewMesh remesh(const MeshInput& input, const VertexPairs& kept, const WantedLeng
         const EvenMesh::Result made = even.result();
         assembly.add(made.triangles, old.unit.from_unit(made.points), fixed_vertices(patch));
         for (const SurfacePoint& where : made.where) {
-            result.triangle.push_back(patch.input_triangle[at(where.triangle)]);
+            result.triangle.push_back(patch.input_triangle[where.triangle]);
             weights.push_back(where.weights);
             normals.push_back(surface.normal(where));
         }
-        for (const int v : made.old) result.old.push_back(v == none ? none : patch.to_input[at(v)]);
-        for (const int t : patch.input_triangle) replaced[at(t)] = 1;
+        for (const int v : made.old) result.old.push_back(v == none ? none : patch.to_input[v]);
+        for (const int t : patch.input_triangle) replaced[t] = 1;
     }
     for (Eigen::Index t = 0; t < input.triangles.cols(); ++t) {
         if (!replaced[static_cast<std::size_t>(t)]) assembly.keep(input.triangles.col(t));

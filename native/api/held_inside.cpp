@@ -8,7 +8,7 @@ namespace fairing {
 
 std::vector<char> marks_of(const MeshInput& input, const Indices& vertices, const char* name) {
     const auto count = static_cast<int>(input.vertices.cols());
-    std::vector<char> marks(at(count), 0);
+    std::vector<char> marks(count, 0);
     for (int v : vertices) {
         if (v < 0 || v >= count) {
             throw MeshError({Code::index_range,
@@ -18,7 +18,7 @@ std::vector<char> marks_of(const MeshInput& input, const Indices& vertices, cons
                              ElementKind::vertex,
                              {{"vertex", v}, {"vertices", count}}});
         }
-        marks[at(v)] = 1;
+        marks[v] = 1;
     }
     return marks;
 }

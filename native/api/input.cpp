@@ -36,7 +36,7 @@ void check_indices(const MeshInput& input) {
 
 std::vector<char> mark_fixed(const MeshInput& input) {
     const auto count = static_cast<int>(input.vertices.cols());
-    std::vector<char> fixed(at(count), 0);
+    std::vector<char> fixed(count, 0);
     if (!input.fixed) return fixed;
     for (int v : *input.fixed) {
         if (v < 0 || v >= count) {
@@ -46,8 +46,8 @@ std::vector<char> mark_fixed(const MeshInput& input) {
                              ElementKind::vertex,
                              {{"vertex", v}, {"vertices", count}}});
         }
-        if (fixed[at(v)]) throw std::invalid_argument("fixed names vertex " + std::to_string(v) + " twice");
-        fixed[at(v)] = 1;
+        if (fixed[v]) throw std::invalid_argument("fixed names vertex " + std::to_string(v) + " twice");
+        fixed[v] = 1;
     }
     return fixed;
 }
@@ -61,12 +61,12 @@ Triangles drop_unbounded_triangles(const MeshInput& input, const Triangles& tria
     Indices kept_input;
     for (int t = 0; t < triangles.cols(); ++t) {
         const auto c = triangles.col(t);
-        const bool held = given_fixed[at(c[0])] && given_fixed[at(c[1])] && given_fixed[at(c[2])];
+        const bool held = given_fixed[c[0]] && given_fixed[c[1]] && given_fixed[c[2]];
         if (held && !input.vertices(Eigen::all, c).allFinite()) {
-            dropped.push_back(kept[at(t)]);
+            dropped.push_back(kept[t]);
         } else {
             kept_columns.push_back(t);
-            kept_input.push_back(kept[at(t)]);
+            kept_input.push_back(kept[t]);
         }
     }
     kept = std::move(kept_input);
@@ -86,7 +86,7 @@ Triangles drop_unbounded_triangles(const MeshInput& input, const Triangles& tria
 void check_finite(const MeshInput& input, const VertexRoles& roles) {
     Indices offenders;
     for (int v = 0; v < input.vertices.cols(); ++v) {
-        if (roles.used[at(v)] && !input.vertices.col(v).allFinite()) offenders.push_back(v);
+        if (roles.used[v] && !input.vertices.col(v).allFinite()) offenders.push_back(v);
     }
     if (!offenders.empty()) {
         throw MeshError({Code::nonfinite,
@@ -100,10 +100,10 @@ void check_finite(const MeshInput& input, const VertexRoles& roles) {
 Indices all_fixed(const MeshInput& input, const VertexRoles& roles, Diagnostics& warnings) {
     Indices fixed = input.fixed.value_or(Indices{});
     std::vector<char> given(roles.fixed.size(), 0);
-    for (int v : fixed) given[at(v)] = 1;
+    for (int v : fixed) given[v] = 1;
     Indices added;
     for (int v = 0; v < static_cast<int>(roles.fixed.size()); ++v) {
-        if (roles.border[at(v)] && !roles.faired[at(v)] && !given[at(v)]) added.push_back(v);
+        if (roles.border[v] && !roles.faired[v] && !given[v]) added.push_back(v);
     }
     fixed.insert(fixed.end(), added.begin(), added.end());
     if (input.fixed && !added.empty()) {
@@ -123,8 +123,8 @@ Indices all_fixed(const MeshInput& input, const VertexRoles& roles, Diagnostics&
 Points averaged_triangle_normals(const View<Points>& points, const CutMesh& mesh, const VertexRoles& roles) {
     Points sums = Points::Zero(3, points.cols());
     for (const auto t : mesh.triangles.colwise()) {
-        const auto v = [&](int k) { return mesh.input_vertex[at(t[k])]; };
-        if (!roles.fixed[at(v(0))] && !roles.fixed[at(v(1))] && !roles.fixed[at(v(2))]) continue;
+        const auto v = [&](int k) { return mesh.input_vertex[t[k]]; };
+        if (!roles.fixed[v(0)] && !roles.fixed[v(1)] && !roles.fixed[v(2)]) continue;
         const Vector3 a = points.col(v(0));
         const Vector3 ab = points.col(v(1)) - a;
         const Vector3 cross = ab.stableNormalized().cross(Vector3(points.col(v(2)) - a).stableNormalized());
@@ -133,7 +133,7 @@ Points averaged_triangle_normals(const View<Points>& points, const CutMesh& mesh
         for (int k = 0; k < 3; ++k) sums.col(v(k)) += cross / length;
     }
     for (int v = 0; v < sums.cols(); ++v) {
-        sums.col(v) = roles.fixed[at(v)] ? direction(sums.col(v)) : Vector3(Vector3::Zero());
+        sums.col(v) = roles.fixed[v] ? direction(sums.col(v)) : Vector3(Vector3::Zero());
     }
     return sums;
 }
@@ -150,7 +150,7 @@ void refuse_zero_normal(std::size_t row, int vertex) {
 void copy_given_normals(const MeshInput& input, CheckedMesh& mesh) {
     for (std::size_t k = 0; k < input.fixed->size(); ++k) {
         const int v = (*input.fixed)[k];
-        if (!mesh.roles.used[at(v)] || mesh.roles.pin[at(v)]) continue;
+        if (!mesh.roles.used[v] || mesh.roles.pin[v]) continue;
         const Vector3 n = input.fixed_normals->col(static_cast<Eigen::Index>(k));
         if (!n.allFinite()) {
             throw MeshError({Code::nonfinite,
@@ -177,7 +177,7 @@ void warn_of_normals(const MeshInput& input, CheckedMesh& mesh) {
     Indices pins;
     for (std::size_t k = 0; k < input.fixed->size(); ++k) {
         const int v = (*input.fixed)[k];
-        if (mesh.roles.pin[at(v)] && !mesh.roles.free_slope[at(v)] &&
+        if (mesh.roles.pin[v] && !mesh.roles.free_slope[v] &&
             input.fixed_normals->col(static_cast<Eigen::Index>(k)).norm() > 0.0)
             pins.push_back(v);
     }

@@ -22,12 +22,12 @@ Eigen::MatrixXd rows_at(const Eigen::MatrixXd& values, std::span<const int> vert
 Eigen::MatrixXd interpolate(const MeshInput& input, const Eigen::MatrixXd& given) {
     const CheckedMesh mesh = check_mesh(input);
     Eigen::MatrixXd values = Eigen::MatrixXd::Zero(input.vertices.cols(), given.cols());
-    for (Eigen::Index k = 0; k < given.rows(); ++k) values.row((*input.fixed)[at(static_cast<int>(k))]) = given.row(k);
+    for (Eigen::Index k = 0; k < given.rows(); ++k) values.row((*input.fixed)[static_cast<int>(k)]) = given.row(k);
     for (const Patch& patch : make_patches(mesh.cut, mesh.roles)) {
         const Points points = gather(input.vertices, patch.to_input);
         const auto inside = harmonic_values(patch, points, rows_at(values, fixed_vertices(patch)));
         if (!inside) throw SolverError("the values could not be continued: the mesh has triangles without area");
-        for (int v = 0; v < patch.free_count; ++v) values.row(patch.to_input[at(v)]) = inside->row(v);
+        for (int v = 0; v < patch.free_count; ++v) values.row(patch.to_input[v]) = inside->row(v);
     }
     return values;
 }

@@ -17,10 +17,10 @@ namespace {
 // The places in `fixed` of the vertices that triangles outside touch.
 Indices places_at_rim(std::span<const int> fixed, const Triangles& outside, Eigen::Index count) {
     std::vector<char> touched(static_cast<std::size_t>(count), 0);
-    for (int v : outside.reshaped()) touched[at(v)] = 1;
+    for (int v : outside.reshaped()) touched[v] = 1;
     Indices places;
     for (std::size_t k = 0; k < fixed.size(); ++k) {
-        if (touched[at(fixed[k])]) places.push_back(static_cast<int>(k));
+        if (touched[fixed[k]]) places.push_back(static_cast<int>(k));
     }
     return places;
 }
@@ -108,7 +108,7 @@ BaseOutline KeptSkin::low_pass_outline(const ComponentData& data, const View<Poi
     const Indices places = places_at_rim(fixed, data.outside, positions.cols());
     if (places.empty() || !positions(Eigen::all, data.outside.reshaped()).allFinite()) return result;
     Indices rim;
-    for (int k : places) rim.push_back(fixed[at(k)]);
+    for (int k : places) rim.push_back(fixed[k]);
     const double length = wavelength_ * normalise(result.points).diameter;
     const LowPass smooth = low_pass(positions, data.outside, rim, length);
     result.points(Eigen::all, places) = smooth.points;

@@ -13,12 +13,12 @@ namespace {
 using Corners = std::vector<int>;
 
 void append(Corners& corners, const Triangles& triangles, const Indices& numbers) {
-    for (int v : triangles.reshaped()) corners.push_back(numbers[at(v)]);
+    for (int v : triangles.reshaped()) corners.push_back(numbers[v]);
 }
 
 Indices compose(const Indices& first, const Indices& then) {
     Indices result;
-    for (int v : first) result.push_back(then[at(v)]);
+    for (int v : first) result.push_back(then[v]);
     return result;
 }
 

@@ -59,8 +59,8 @@ public:
         const Points normals = vertex_normals(patch, local, faces, at_fixed, kind);
         const VectorX H = patch_curvature(patch, local, std::move(faces), normals, kind).mean;
         for (int v = 0; v < patch.vertex_count(); ++v) {
-            sum_[patch.to_input[at(v)]] += H[v];
-            sides_[patch.to_input[at(v)]] += 1.0;
+            sum_[patch.to_input[v]] += H[v];
+            sides_[patch.to_input[v]] += 1.0;
         }
     }
 
@@ -111,14 +111,14 @@ Indices component_of_triangles(const Triangles& triangles, const std::optional<I
     const Points anywhere = Points::Zero(3, vertex_count);
     const MeshTopology mesh = check_topology({anywhere, triangles, fixed, {}});
     const Pieces pieces(mesh.cut, mesh.roles);
-    Indices number(at(pieces.size()), none);
+    Indices number(pieces.size(), none);
     int count = 0;
     for (int k = 0; k < pieces.size(); ++k) {
-        if (pieces.has_free_vertex(k)) number[at(k)] = count++;
+        if (pieces.has_free_vertex(k)) number[k] = count++;
     }
-    Indices result(at(static_cast<int>(triangles.cols())), none);
+    Indices result(static_cast<int>(triangles.cols()), none);
     for (std::size_t t = 0; t < mesh.cut.piece.size(); ++t) {
-        result[at(mesh.cut.input_triangle[t])] = number[at(mesh.cut.piece[t])];
+        result[mesh.cut.input_triangle[t]] = number[mesh.cut.piece[t]];
     }
     return result;
 }
@@ -141,7 +141,7 @@ Points vertex_normals(const MeshInput& input, NormalKind kind) {
             OneRingBuffer buffer;
             normals.col(v) = averaged_normal(buffer.gather(patch, local, v));
         }
-        for (int v = 0; v < patch.vertex_count(); ++v) sum.col(patch.to_input[at(v)]) += normals.col(v);
+        for (int v = 0; v < patch.vertex_count(); ++v) sum.col(patch.to_input[v]) += normals.col(v);
     });
     for (auto column : sum.colwise()) column = direction(column);
     return sum;
@@ -152,7 +152,7 @@ MatrixEntries cotan_laplacian(const Points& points, const Triangles& triangles) 
     const EdgeTable edges = make_edges(triangles, static_cast<int>(points.cols()));
     VectorX weights = VectorX::Zero(edges.size());
     for (int s = 0; s < 3 * triangles.cols(); ++s) {
-        weights[edges.edge_of_side[at(s)]] += cotangent((s + 2) % 3, s / 3);
+        weights[edges.edge_of_side[s]] += cotangent((s + 2) % 3, s / 3);
     }
     VectorX diagonal = VectorX::Zero(points.cols());
     MatrixEntries entries;
@@ -162,7 +162,7 @@ MatrixEntries cotan_laplacian(const Points& points, const Triangles& triangles) 
         entries.values.push_back(value);
     };
     for (int e = 0; e < edges.size(); ++e) {
-        const auto [a, b] = edges.ends[at(e)];
+        const auto [a, b] = edges.ends[e];
         add(a, b, -weights[e]);
         add(b, a, -weights[e]);
         diagonal[a] += weights[e];

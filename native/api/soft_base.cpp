@@ -44,7 +44,7 @@ void soften(const FairedSurface& surface, const Patch& patch, const SoftBaseSize
     Points base = without(filter, places, detail, progress);
     const Points fair = unit.to_unit(gather(surface.base, patch.to_input));
     for (int v = 0; v < patch.free_count; ++v) {
-        if (surface.faired[at(patch.to_input[at(v)])]) base.col(v) = fair.col(v);
+        if (surface.faired[patch.to_input[v]]) base.col(v) = fair.col(v);
     }
     const Points soft = without(filter, base, softened_length(sizes, detail), progress);
     const auto free = free_vertices(patch);

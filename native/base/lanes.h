@@ -87,7 +87,7 @@ inline Vector3Of<Lanes> gathered(const Points& field, LaneIndices columns) {
 
 inline void scatter(const Vector3Of<Lanes>& vectors, LaneIndices columns, Points& field) {
     for (int k = 0; k < Lanes::count; ++k) {
-        field.col(columns[at(k)]) << vectors[0][k], vectors[1][k], vectors[2][k];
+        field.col(columns[k]) << vectors[0][k], vectors[1][k], vectors[2][k];
     }
 }
 

@@ -8,13 +8,13 @@ namespace fairing {
 
 // The numbers of the keys in the order of these, ascending among the same; keys lie in 0 … count − 1. A counting sort.
 inline Indices sorted_by(const Indices& keys, int count) {
-    Indices begin(at(count) + 1, 0);
-    for (const int key : keys) ++begin[at(key) + 1];
+    Indices begin(count + 1, 0);
+    for (const int key : keys) ++begin[key + 1];
     for (std::size_t k = 1; k < begin.size(); ++k) begin[k] += begin[k - 1];
     Indices order(keys.size());
     for (int k = 0; k < static_cast<int>(keys.size()); ++k) {
         checkpoint(k);
-        order[at(begin[at(keys[at(k)])]++)] = k;
+        order[begin[keys[k]]++] = k;
     }
     return order;
 }
@@ -22,7 +22,7 @@ inline Indices sorted_by(const Indices& keys, int count) {
 // The place of each number 0 … count − 1 in an order; `none` for those that it lacks.
 inline Indices places_in(const Indices& order, std::size_t count) {
     Indices places(count, none);
-    for (std::size_t k = 0; k < order.size(); ++k) places[at(order[k])] = static_cast<int>(k);
+    for (std::size_t k = 0; k < order.size(); ++k) places[order[k]] = static_cast<int>(k);
     return places;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <vector>
 
 namespace fairing {
@@ -18,9 +17,6 @@ using Points = Eigen::Matrix3Xd;
 using Triangles = Eigen::Matrix3Xi;
 
 using Indices = std::vector<int>;
-
-// A non-negative index as the standard containers want it.
-inline std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // "No such element" in index tables (the missing neighbour of a border edge).
 inline constexpr int none = -1;

@@ -41,14 +41,14 @@ py::dict surrounding_normal_arrays(const DoubleArray& vertices, const IntArray& 
     BrokenSurface broken = broken_along(to_triangles(triangles), static_cast<int>(points.cols()), edges);
     std::vector<int> copy(static_cast<std::size_t>(points.cols()), none);
     for (int v = 0; v < static_cast<int>(broken.input_vertex.size()); ++v) {
-        if (int& first = copy[at(broken.input_vertex[at(v)])]; first == none) first = v;
+        if (int& first = copy[broken.input_vertex[v]]; first == none) first = v;
     }
     for (int& place : places) {
-        if (copy[at(place)] == none) {
-            copy[at(place)] = static_cast<int>(broken.input_vertex.size());
+        if (copy[place] == none) {
+            copy[place] = static_cast<int>(broken.input_vertex.size());
             broken.input_vertex.push_back(place);
         }
-        place = copy[at(place)];
+        place = copy[place];
     }
     return to_dict(surrounding_normals(points(Eigen::all, broken.input_vertex), broken.triangles, places));
 }
@@ -56,7 +56,7 @@ py::dict surrounding_normal_arrays(const DoubleArray& vertices, const IntArray& 
 py::array bad_outline_array(const DoubleArray& vertices, const IntArray& triangles, const IntArray& outline) {
     const Indices vertices_of_outline = to_indices(outline);
     Indices bad = bad_vertices(fit_surroundings(to_points(vertices), to_triangles(triangles), vertices_of_outline));
-    for (int& place : bad) place = vertices_of_outline[at(place)];
+    for (int& place : bad) place = vertices_of_outline[place];
     return from_indices(bad);
 }
 

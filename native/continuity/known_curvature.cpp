@@ -91,12 +91,12 @@ KnownCurvature known_curvature(const Patch& patch, const Points& points, const V
     std::vector<char> covered(static_cast<std::size_t>(curvatures.size()), 0);
     for (OutlineCurve& curve : known.curves) {
         for (int place : curve.places) {
-            curve.skipped.push_back(corners[at(place)]);
-            covered[at(place)] = 1;
+            curve.skipped.push_back(corners[place]);
+            covered[place] = 1;
             known.values[place] = filled[place];
         }
     }
-    std::erase_if(known.unknown, [&](int place) { return covered[at(place)] != 0; });
+    std::erase_if(known.unknown, [&](int place) { return covered[place] != 0; });
     std::sort(known.unknown.begin(), known.unknown.end());
     return known;
 }

@@ -52,7 +52,7 @@ std::pair<double, double> nearest(const OutlineCurve& curve, const VectorX& give
         const int there = place + direction * away;
         if (!curve.closed && (there < 0 || there >= count)) break;
         const int k = (there + count) % count;
-        if (!curve.skipped[at(k)]) return {given[k], away};
+        if (!curve.skipped[k]) return {given[k], away};
     }
     return {0.0, HUGE_VAL};
 }
@@ -64,7 +64,7 @@ VectorX values_along(const OutlineCurve& curve, const VectorX& values) {
     if (curve.skipped.empty()) return given;
     VectorX result = given;
     for (int k = 0; k < static_cast<int>(given.size()); ++k) {
-        if (!curve.skipped[at(k)]) continue;
+        if (!curve.skipped[k]) continue;
         const auto [before, back] = nearest(curve, given, k, -1);
         const auto [after, on] = nearest(curve, given, k, 1);
         const double weight = 1.0 / back + 1.0 / on;

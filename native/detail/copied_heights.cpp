@@ -25,16 +25,15 @@ constexpr std::mt19937_64::result_type seed = 23;
 // Middles of discs that cover the surface, from what is known inwards.
 Indices middles(const BareSurface& surface, const VertexAdjacency& around, double distance) {
     Indices order;
-    std::vector<char> met(at(static_cast<int>(surface.points.cols())), 0);
+    std::vector<char> met(static_cast<int>(surface.points.cols()), 0);
     const auto meet = [&](int v) {
-        if (met[at(v)]) return;
-        met[at(v)] = 1;
+        if (met[v]) return;
+        met[v] = 1;
         order.push_back(v);
     };
     const auto spread = [&](std::size_t begin) {
         for (std::size_t k = begin; k < order.size(); ++k) {
-            for (int j = around.begin[at(order[k])]; j < around.begin[at(order[k]) + 1]; ++j)
-                meet(around.neighbours[at(j)]);
+            for (int j = around.begin[order[k]]; j < around.begin[order[k] + 1]; ++j) meet(around.neighbours[j]);
         }
     };
     for (int v = 0; v < static_cast<int>(surface.known.size()); ++v) {
@@ -50,9 +49,9 @@ Indices middles(const BareSurface& surface, const VertexAdjacency& around, doubl
     std::vector<char> covered(met.size(), 0);
     Indices result;
     for (int v : order) {
-        if (covered[at(v)]) continue;
+        if (covered[v]) continue;
         result.push_back(v);
-        for (int near : walk.gather(v, distance)) covered[at(near)] = 1;
+        for (int near : walk.gather(v, distance)) covered[near] = 1;
     }
     return result;
 }

@@ -29,11 +29,11 @@ Discs::Discs(const Points& points, const Points& normals, const Triangles& trian
       triangles_(triangles),
       around_(triangles, static_cast<int>(points.cols())),
       walk_(around_, points),
-      triangles_at_(at(static_cast<int>(points.cols()))),
+      triangles_at_(static_cast<int>(points.cols())),
       places_(2, points.cols()),
-      cut_(at(static_cast<int>(points.cols())), none) {
+      cut_(static_cast<int>(points.cols()), none) {
     for (int t = 0; t < static_cast<int>(triangles.cols()); ++t) {
-        for (int v : triangles.col(t)) triangles_at_[at(v)].push_back(t);
+        for (int v : triangles.col(t)) triangles_at_[v].push_back(t);
     }
 }
 
@@ -44,11 +44,11 @@ void Discs::cut(int centre, double radius) {
     const Indices& reached = walk_.gather(centre, radius);
     const Points offsets = tangent_offsets(points_, normals_.col(centre), reached);
     boxes_ = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(reached.size()) / vertices_per_box)));
-    in_box_.assign(at(boxes_ * boxes_), {});
+    in_box_.assign(boxes_ * boxes_, {});
     for (std::size_t k = 0; k < reached.size(); ++k) {
         const Plane place = flat(offsets.col(static_cast<Eigen::Index>(k)));
         places_.col(reached[k]) = place;
-        cut_[at(reached[k])] = stamp_;
+        cut_[reached[k]] = stamp_;
         in_box_[box(box_of(place, 0), box_of(place, 1))].push_back(reached[k]);
     }
 }
@@ -102,9 +102,9 @@ double Discs::value(const VectorX& field, const Vector3& offset) const {
     const Plane place = flat(offset);
     double inside = -std::numeric_limits<double>::infinity();
     double result = field[vertex];
-    for (int t : triangles_at_[at(vertex)]) {
+    for (int t : triangles_at_[vertex]) {
         const auto corners = triangles_.col(t);
-        if (std::any_of(corners.begin(), corners.end(), [&](int v) { return cut_[at(v)] != stamp_; })) continue;
+        if (std::any_of(corners.begin(), corners.end(), [&](int v) { return cut_[v] != stamp_; })) continue;
         const Vector3 weights = corner_weights(t, place);
         if (!(weights.minCoeff() > inside)) continue;
         inside = weights.minCoeff();

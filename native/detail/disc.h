@@ -26,7 +26,7 @@ private:
     using Plane = Eigen::Vector2d;
     [[nodiscard]] Plane flat(const Vector3& offset) const { return {frame_.u.dot(offset), frame_.v.dot(offset)}; }
     [[nodiscard]] int box_of(const Plane& place, int axis) const;
-    [[nodiscard]] std::size_t box(int x, int y) const { return at(y * boxes_ + x); }
+    [[nodiscard]] std::size_t box(int x, int y) const { return (y * boxes_ + x); }
     [[nodiscard]] Vector3 corner_weights(int triangle, const Plane& place) const;
 
     const Points& points_;

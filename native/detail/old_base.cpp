@@ -22,14 +22,14 @@ double mass_factor(double wavelength) {
 // c of the slopes at which the old patch meets its outline, fitted to its own side. Those prescribed for the new base
 // would make detail of a crease along the outline, which is what has to go.
 Points own_conormals(const Patch& patch, const OldPatch& old, double wavelength) {
-    Indices fixed(at(patch.vertex_count() - patch.free_count));
+    Indices fixed(patch.vertex_count() - patch.free_count);
     std::iota(fixed.begin(), fixed.end(), patch.free_count);
     const LowPass smooth = low_pass(old.points, patch.triangles, fixed, wavelength);
     Points normals = smooth.normals;
     if (std::count(smooth.found.begin(), smooth.found.end(), 0) > 0) {
         const Points narrow = one_sided_normals(patch, old.points);
         for (int k = 0; k < static_cast<int>(fixed.size()); ++k) {
-            if (!smooth.found[at(k)]) normals.col(k) = narrow.col(k);
+            if (!smooth.found[k]) normals.col(k) = narrow.col(k);
         }
     }
     return conormals(patch, old.outline, normals);

@@ -47,17 +47,17 @@ Eigen::Matrix3d Skin::pull(int t, const Points& field) const {
 Points Skin::sources(const Points& new_base, const Points& at_outline) const {
     Points known = Points::Zero(3, patch_.vertex_count());
     known.rightCols(at_outline.cols()) = at_outline;
-    std::vector<Eigen::Matrix3d> pulls(at(patch_.triangle_count()));  // column k: at corner k
+    std::vector<Eigen::Matrix3d> pulls(patch_.triangle_count());  // column k: at corner k
     for_ranges(patch_.triangle_count(), coarse_grain, [&](int begin, int end) {
         for (int t = begin; t < end; ++t) {
             const Eigen::Matrix3d turn =
                 turn_of_triangle(corners_of(patch_, base_, t), corners_of(patch_, new_base, t));
-            pulls[at(t)] = turn * pull(t, detail_) - pull(t, known);
+            pulls[t] = turn * pull(t, detail_) - pull(t, known);
         }
     });
     Points sum = Points::Zero(3, patch_.vertex_count());
     for (int t = 0; t < patch_.triangle_count(); ++t) {
-        for (int k = 0; k < 3; ++k) sum.col(patch_.triangles(k, t)) += pulls[at(t)].col(k);
+        for (int k = 0; k < 3; ++k) sum.col(patch_.triangles(k, t)) += pulls[t].col(k);
     }
     return sum;
 }

@@ -17,20 +17,20 @@ namespace {
 VectorX distances_from_edge(const Points& points, const Triangles& triangles, const Indices& edge) {
     const VertexAdjacency around(triangles, static_cast<int>(points.cols()));
     VectorX distance = VectorX::Constant(points.cols(), std::numeric_limits<double>::infinity());
-    Indices source(at(static_cast<int>(points.cols())), none);
+    Indices source(static_cast<int>(points.cols()), none);
     Indices queue = edge;
     for (int v : edge) {
         distance[v] = 0.0;
-        source[at(v)] = v;
+        source[v] = v;
     }
     for (std::size_t k = 0; k < queue.size(); ++k) {
         const int v = queue[k];
-        for (int j = around.begin[at(v)]; j < around.begin[at(v) + 1]; ++j) {
-            const int other = around.neighbours[at(j)];
-            const double straight = (points.col(other) - points.col(source[at(v)])).norm();
+        for (int j = around.begin[v]; j < around.begin[v + 1]; ++j) {
+            const int other = around.neighbours[j];
+            const double straight = (points.col(other) - points.col(source[v])).norm();
             if (!(straight < distance[other])) continue;
             distance[other] = straight;
-            source[at(other)] = source[at(v)];
+            source[other] = source[v];
             queue.push_back(other);
         }
     }
@@ -47,7 +47,7 @@ double mean_edge(const Patch& patch, const Points& points) {
 
 std::optional<SkinSample> sample_of(const Patch& patch, const Points& points, double wavelength,
                                     const Progress& progress) {
-    Indices edge(at(patch.vertex_count() - patch.free_count));
+    Indices edge(patch.vertex_count() - patch.free_count);
     std::iota(edge.begin(), edge.end(), patch.free_count);
     const Points outline = low_pass(points, patch.triangles, edge, wavelength).points;
     const auto skin = Skin::read(patch, {points, outline}, wavelength, progress);

@@ -15,7 +15,7 @@ namespace {
 
 template <typename Entry>
 std::span<const Entry> row_of(const Indices& begin, const std::vector<Entry>& entries, int row) {
-    return std::span(entries).subspan(at(begin[at(row)]), at(begin[at(row) + 1] - begin[at(row)]));
+    return std::span(entries).subspan(begin[row], begin[row + 1] - begin[row]);
 }
 
 void append(RowWeights& rows, int column, double value) {
@@ -25,24 +25,24 @@ void append(RowWeights& rows, int column, double value) {
 
 // The first free vertex from which no chain of positive weights leads to a fixed one; `none` if there is none.
 int first_adrift(const Patch& patch, const RowWeights& rows) {
-    std::vector<Indices> pulled_by(at(patch.vertex_count()));
+    std::vector<Indices> pulled_by(patch.vertex_count());
     for (int i = 0; i < patch.free_count; ++i) {
         checkpoint(i);
         const auto columns = rows.columns_of(i);
         const auto values = rows.values_of(i);
         for (std::size_t k = 0; k < columns.size(); ++k) {
-            if (values[k] > 0.0) pulled_by[at(columns[k])].push_back(i);
+            if (values[k] > 0.0) pulled_by[columns[k]].push_back(i);
         }
     }
-    std::vector<char> held(at(patch.vertex_count()), 0);
+    std::vector<char> held(patch.vertex_count(), 0);
     Indices front;
     for (int v = patch.free_count; v < patch.vertex_count(); ++v) front.push_back(v);
     while (!front.empty()) {
         const int j = front.back();
         front.pop_back();
-        for (int i : pulled_by[at(j)]) {
-            if (held[at(i)]) continue;
-            held[at(i)] = 1;
+        for (int i : pulled_by[j]) {
+            if (held[i]) continue;
+            held[i] = 1;
             front.push_back(i);
         }
     }
@@ -61,14 +61,14 @@ std::span<const double> RowWeights::values_of(int row) const { return row_of(beg
 
 Vector3 RowWeights::mean(int row, const Points& points) const {
     Vector3 sum = Vector3::Zero();
-    for (int k = begin[at(row)]; k < begin[at(row) + 1]; ++k) sum += values[at(k)] * points.col(columns[at(k)]);
+    for (int k = begin[row]; k < begin[row + 1]; ++k) sum += values[k] * points.col(columns[k]);
     return sum;
 }
 
 RowWeights row_weights(const Patch& patch, const std::vector<DirectedWeight>& weights, const char* what) {
-    std::vector<std::vector<std::pair<int, double>>> rows(at(patch.free_count));
+    std::vector<std::vector<std::pair<int, double>>> rows(patch.free_count);
     for (const DirectedWeight& entry : weights) {
-        if (patch.is_free(entry.i) && entry.i != entry.j) rows[at(entry.i)].emplace_back(entry.j, entry.weight);
+        if (patch.is_free(entry.i) && entry.i != entry.j) rows[entry.i].emplace_back(entry.j, entry.weight);
     }
     RowWeights result;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -84,7 +84,7 @@ RowWeights row_weights(const Patch& patch, const std::vector<DirectedWeight>& we
     }
     if (const int adrift = first_adrift(patch, result); adrift != none) {
         throw std::invalid_argument(std::string(what) + ": no chain of positive weights leads from vertex " +
-                                    std::to_string(patch.to_input[at(adrift)]) + " to a fixed one");
+                                    std::to_string(patch.to_input[adrift]) + " to a fixed one");
     }
     return result;
 }

@@ -37,8 +37,7 @@ ComplexMatrix energy(const Points& points, const Triangles& triangles) {
     for (const auto corners : triangles.colwise()) {
         const auto sides = sides_of(points.col(corners[0]), points.col(corners[1]), points.col(corners[2]));
         for (int i = 0; i < 3; ++i) {
-            for (int k = 0; k < 3; ++k)
-                entries.emplace_back(corners[i], corners[k], std::conj(sides[at(i)]) * sides[at(k)]);
+            for (int k = 0; k < 3; ++k) entries.emplace_back(corners[i], corners[k], std::conj(sides[i]) * sides[k]);
         }
     }
     ComplexMatrix form(points.cols(), points.cols());
@@ -49,10 +48,10 @@ ComplexMatrix energy(const Points& points, const Triangles& triangles) {
 // A column for each vertex that is not fixed, with a one in its row.
 ComplexMatrix free_ones(Eigen::Index count, const Indices& fixed) {
     std::vector<char> is_fixed(static_cast<std::size_t>(count), 0);
-    for (const int v : fixed) is_fixed[at(v)] = 1;
+    for (const int v : fixed) is_fixed[v] = 1;
     std::vector<Eigen::Triplet<Complex>> ones;
     for (int v = 0; v < count; ++v) {
-        if (is_fixed[at(v)] == 0) ones.emplace_back(v, static_cast<int>(ones.size()), 1.0);
+        if (is_fixed[v] == 0) ones.emplace_back(v, static_cast<int>(ones.size()), 1.0);
     }
     ComplexMatrix matrix(count, static_cast<Eigen::Index>(ones.size()));
     matrix.setFromTriplets(ones.begin(), ones.end());
@@ -75,7 +74,7 @@ Eigen::VectorXcd solved(const ComplexMatrix& form, const Eigen::VectorXcd& rhs) 
 Eigen::MatrixXd conformal_map(const Points& points, const Triangles& triangles, const Indices& fixed,
                               const Eigen::MatrixXd& given) {
     Eigen::VectorXcd places = Eigen::VectorXcd::Zero(points.cols());
-    for (Eigen::Index k = 0; k < given.rows(); ++k) places[fixed[at(static_cast<int>(k))]] = {given(k, 0), given(k, 1)};
+    for (Eigen::Index k = 0; k < given.rows(); ++k) places[fixed[static_cast<int>(k)]] = {given(k, 0), given(k, 1)};
     const ComplexMatrix free = free_ones(points.cols(), fixed);
     if (free.cols() > 0) {
         const ComplexMatrix form = energy(points, triangles);

@@ -22,8 +22,8 @@ VectorX border_lengths(const Patch& patch, const Points& points, const KeptEdges
     VectorX lengths = VectorX::Zero(patch.vertex_count());
     VectorX counts = VectorX::Zero(patch.vertex_count());
     for (int e = 0; e < patch.edge_count(); ++e) {
-        if (patch.edge_triangles[at(e)][1] != none && (kept.empty() || kept[at(e)] == 0)) continue;
-        const auto [a, b] = patch.edge_ends[at(e)];
+        if (patch.edge_triangles[e][1] != none && (kept.empty() || kept[e] == 0)) continue;
+        const auto [a, b] = patch.edge_ends[e];
         for (const int v : {a, b}) {
             lengths[v] += (points.col(a) - points.col(b)).norm();
             counts[v] += 1.0;
@@ -37,8 +37,8 @@ double mean_border_edge(const Patch& patch, const Points& points) {
     double length = 0.0;
     double count = 0.0;
     for (int e = 0; e < patch.edge_count(); ++e) {
-        if (patch.edge_triangles[at(e)][1] != none) continue;
-        const auto [a, b] = patch.edge_ends[at(e)];
+        if (patch.edge_triangles[e][1] != none) continue;
+        const auto [a, b] = patch.edge_ends[e];
         length += (points.col(a) - points.col(b)).norm();
         count += 1.0;
     }

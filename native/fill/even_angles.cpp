@@ -20,7 +20,7 @@ constexpr int most_rounds = 12;
 
 // Of the star around v if v were there; negative where a triangle turns away from the surface.
 double EvenMesh::worst_angle_around(Vertex v, const Vector3& position) const {
-    const Vector3 normal = surface_->normal(where_[at(v.idx())]);
+    const Vector3 normal = surface_->normal(where_[v.idx()]);
     double worst = 180.0;
     for (const Halfedge spoke : mesh_.voh_range(v)) {
         if (mesh_.is_boundary(spoke)) continue;
@@ -64,18 +64,18 @@ int EvenMesh::improve_places(const std::vector<int>& vertices) {
         const Vertex v(k);
         double best = worst_angle_around(v, point(v));
         for (int halvings = 0; halvings < most_halvings; ++halvings) {
-            const double step = std::ldexp(0.25 * wanted_[at(k)], -halvings);
-            const Vector3 normal = surface_->normal(where_[at(k)]);
+            const double step = std::ldexp(0.25 * wanted_[k], -halvings);
+            const Vector3 normal = surface_->normal(where_[k]);
             const Vector3 along = normal.unitOrthogonal();
             const Vector3 across = normal.cross(along);
             for (int j = 0; j < 6; ++j) {
                 const double turn = j * std::numbers::pi / 3.0;
                 const Vector3 goal = point(v) + step * (std::cos(turn) * along + std::sin(turn) * across);
-                const SurfacePoint where = surface_->project(goal, where_[at(k)].triangle);
+                const SurfacePoint where = surface_->project(goal, where_[k].triangle);
                 const double worst = worst_angle_around(v, surface_->position(where));
                 if (worst <= best + gain) continue;
                 best = worst;
-                put(v, goal, where_[at(k)].triangle);
+                put(v, goal, where_[k].triangle);
                 ++moves;
                 break;
             }
@@ -95,8 +95,8 @@ void EvenMesh::improve() {
             const auto [a, b, c] = std::array{point(corners[0]), point(corners[1]), point(corners[2])};
             if (!may_be_sharper(a, b, c, wanted_cosine) || least_angle(a, b, c) >= wanted_angle) continue;
             for (const Vertex v : corners) {
-                if (fixed(v) || listed[at(v.idx())] != 0) continue;
-                listed[at(v.idx())] = 1;
+                if (fixed(v) || listed[v.idx()] != 0) continue;
+                listed[v.idx()] = 1;
                 vertices.push_back(v.idx());
             }
         }

@@ -49,14 +49,14 @@ EvenMesh::EvenMesh(const Patch& patch, const Points& points, const TargetSurface
     }
     kept_.resize(mesh_.n_edges(), 0);
     for (int e = 0; e < patch.edge_count(); ++e) {
-        if (kept_[at(e)] == 0) continue;
-        for (const int v : patch.edge_ends[at(e)]) fixed_[at(v)] = 1;
+        if (kept_[e] == 0) continue;
+        for (const int v : patch.edge_ends[e]) fixed_[v] = 1;
     }
 }
 
 double EvenMesh::relative_length(Edge e) const {
     const Halfedge h = mesh_.halfedge_handle(e, 0);
-    const double wanted = wanted_[at(mesh_.from_vertex_handle(h).idx())] + wanted_[at(mesh_.to_vertex_handle(h).idx())];
+    const double wanted = wanted_[mesh_.from_vertex_handle(h).idx()] + wanted_[mesh_.to_vertex_handle(h).idx()];
     return 2.0 * mesh_.calc_edge_length(e) / wanted;
 }
 
@@ -85,9 +85,9 @@ bool EvenMesh::cuts_sharp_corner(Edge e, const Points& normals) const {
 // The place on the surface that a walk from `triangle` finds.
 void EvenMesh::put(Vertex v, const Vector3& position, int triangle) {
     const SurfacePoint where = surface_->project(position, triangle);
-    where_[at(v.idx())] = where;
+    where_[v.idx()] = where;
     mesh_.set_point(v, surface_->position(where));
-    wanted_[at(v.idx())] = surface_->interpolate(*lengths_, where);
+    wanted_[v.idx()] = surface_->interpolate(*lengths_, where);
 }
 
 // A triangle of the surface on this side of all kept edges. Only an edge that was always there has none but fixed
@@ -96,9 +96,9 @@ int EvenMesh::triangle_beside(Edge e) const {
     const Halfedge h = mesh_.halfedge_handle(e, 0);
     for (const Vertex v :
          {mesh_.to_vertex_handle(h), mesh_.from_vertex_handle(h), apex(h), apex(mesh_.halfedge_handle(e, 1))}) {
-        if (!fixed(v)) return where_[at(v.idx())].triangle;
+        if (!fixed(v)) return where_[v.idx()].triangle;
     }
-    return patch_->edge_triangles[at(e.idx())][0];
+    return patch_->edge_triangles[e.idx()][0];
 }
 
 EvenMesh::Vertex EvenMesh::split(Edge e) {
@@ -148,7 +148,7 @@ bool EvenMesh::makes_long_edges(Halfedge h) const {
     const Vertex kept = mesh_.to_vertex_handle(h);
     const Vector3 place = point(kept);
     for (const Vertex other : mesh_.vv_range(mesh_.from_vertex_handle(h))) {
-        const double longest = longest_after * 0.5 * (wanted_[at(other.idx())] + wanted_[at(kept.idx())]);
+        const double longest = longest_after * 0.5 * (wanted_[other.idx()] + wanted_[kept.idx()]);
         if (other != kept && (place - point(other)).squaredNorm() > longest * longest) return true;
     }
     return false;
@@ -162,7 +162,7 @@ bool EvenMesh::may_collapse(Halfedge h) {
     if (static_cast<int>(mesh_.valence(gone) + mesh_.valence(kept)) - 4 > highest_valence) return false;
     if (!mesh_.is_collapse_ok(h)) return false;
     const Vector3 place = point(kept);
-    const Vector3 normal = surface_->normal(where_[at(kept.idx())]);
+    const Vector3 normal = surface_->normal(where_[kept.idx()]);
     for (const Halfedge spoke : mesh_.voh_range(gone)) {
         const Vertex other = mesh_.to_vertex_handle(spoke);
         const Vertex next = apex(spoke);
@@ -228,13 +228,13 @@ int EvenMesh::flip_edges() {
         const int before = flips;
         for (const Edge e : mesh_.edges()) {
             checkpoint(e.idx());
-            if (pending[at(e.idx())] == 0) continue;
+            if (pending[e.idx()] == 0) continue;
             if (stays(e) || diagonal(e).is_delaunay()) {
-                pending[at(e.idx())] = 0;
+                pending[e.idx()] = 0;
             } else if (may_flip(e)) {
                 mesh_.flip(e);
                 ++flips;
-                for (const Edge side : sides_around(e)) pending[at(side.idx())] = 1;
+                for (const Edge side : sides_around(e)) pending[side.idx()] = 1;
             }
         }
         if (flips == before) break;
@@ -258,7 +258,7 @@ std::array<EvenMesh::Edge, 4> EvenMesh::sides_around(Edge e) const {
 // units of the wanted length.
 void EvenMesh::smooth(int sweeps) {
     const int count = static_cast<int>(mesh_.n_vertices());
-    std::vector<SurfacePoint> moved(at(count));
+    std::vector<SurfacePoint> moved(count);
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         for_ranges(count, coarse_grain, [&](int begin, int end) {
             for (int k = begin; k < end; ++k) {
@@ -269,22 +269,22 @@ void EvenMesh::smooth(int sweeps) {
                 for (const Halfedge spoke : mesh_.voh_range(v)) {
                     const Vertex b = mesh_.to_vertex_handle(spoke);
                     const Vertex c = apex(spoke);
-                    const double wanted = wanted_[at(k)] + wanted_[at(b.idx())] + wanted_[at(c.idx())];
+                    const double wanted = wanted_[k] + wanted_[b.idx()] + wanted_[c.idx()];
                     const double weight =
                         cross_product(point(v), point(b), point(c)).norm() / (wanted * wanted * wanted);
                     sum += weight / 3.0 * (point(v) + point(b) + point(c));
                     total += weight;
                 }
                 const Vector3 goal = total > 0.0 ? Vector3(sum / total) : point(v);
-                moved[at(k)] = surface_->project(goal, where_[at(k)].triangle);
+                moved[k] = surface_->project(goal, where_[k].triangle);
             }
         });
         for (int k = 0; k < count; ++k) {
             const Vertex v(k);
             if (fixed(v) || mesh_.status(v).deleted()) continue;
-            where_[at(k)] = moved[at(k)];
-            mesh_.set_point(v, surface_->position(moved[at(k)]));
-            wanted_[at(k)] = surface_->interpolate(*lengths_, moved[at(k)]);
+            where_[k] = moved[k];
+            mesh_.set_point(v, surface_->position(moved[k]));
+            wanted_[k] = surface_->interpolate(*lengths_, moved[k]);
         }
     }
 }

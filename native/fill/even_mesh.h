@@ -42,9 +42,9 @@ private:
     using Halfedge = SurfaceMesh::HalfedgeHandle;
     using Edge = SurfaceMesh::EdgeHandle;
     using Face = SurfaceMesh::FaceHandle;
-    [[nodiscard]] bool fixed(Vertex v) const { return fixed_[at(v.idx())] != 0; }
+    [[nodiscard]] bool fixed(Vertex v) const { return fixed_[v.idx()] != 0; }
     [[nodiscard]] bool fixed_in_patch(Vertex v) const;
-    [[nodiscard]] bool stays(Edge e) const { return mesh_.is_boundary(e) || kept_[at(e.idx())] != 0; }
+    [[nodiscard]] bool stays(Edge e) const { return mesh_.is_boundary(e) || kept_[e.idx()] != 0; }
     [[nodiscard]] Vector3 point(Vertex v) const { return mesh_.point(v); }
     [[nodiscard]] Vertex apex(Halfedge h) const { return mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)); }
     [[nodiscard]] double relative_length(Edge e) const;

@@ -10,22 +10,21 @@ EvenMesh::Result EvenMesh::result() const {
     Indices number(mesh_.n_vertices(), none);
     for (const Vertex v : mesh_.vertices()) {
         if (fixed_in_patch(v)) continue;
-        number[at(v.idx())] = static_cast<int>(result.where.size());
-        result.where.push_back(where_[at(v.idx())]);
+        number[v.idx()] = static_cast<int>(result.where.size());
+        result.where.push_back(where_[v.idx()]);
         result.old.push_back(fixed(v) ? v.idx() : none);
     }
     const int free_count = static_cast<int>(result.where.size());
-    for (int v = patch_->free_count; v < patch_->vertex_count(); ++v)
-        number[at(v)] = free_count + v - patch_->free_count;
+    for (int v = patch_->free_count; v < patch_->vertex_count(); ++v) number[v] = free_count + v - patch_->free_count;
     result.points.resize(3, free_count);
     for (const Vertex v : mesh_.vertices()) {
-        if (!fixed_in_patch(v)) result.points.col(number[at(v.idx())]) = point(v);
+        if (!fixed_in_patch(v)) result.points.col(number[v.idx()]) = point(v);
     }
     std::vector<Eigen::Vector3i> triangles;
     for (const SurfaceMesh::FaceHandle f : mesh_.faces()) {
         Eigen::Vector3i corners;
         int k = 0;
-        for (const Vertex v : mesh_.fv_ccw_range(f)) corners[k++] = number[at(v.idx())];
+        for (const Vertex v : mesh_.fv_ccw_range(f)) corners[k++] = number[v.idx()];
         triangles.push_back(corners);
     }
     result.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));

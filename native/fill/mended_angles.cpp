@@ -72,7 +72,7 @@ void EvenMesh::centre(std::span<const Vertex> vertices) {
         if (fixed(v)) continue;
         Vector3 sum = Vector3::Zero();
         for (const Vertex u : mesh_.vv_range(v)) sum += point(u);
-        put(v, sum / static_cast<double>(mesh_.valence(v)), where_[at(v.idx())].triangle);
+        put(v, sum / static_cast<double>(mesh_.valence(v)), where_[v.idx()].triangle);
     }
 }
 

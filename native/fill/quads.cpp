@@ -54,16 +54,16 @@ class Pairing {
 public:
     Pairing(const Points& points, const Triangles& triangles, const std::vector<std::array<int, 2>>& kept)
         : triangles_(triangles), edges_(make_edges(triangles, static_cast<int>(points.cols()))) {
-        possible_.resize(at(static_cast<int>(triangles.cols())));
+        possible_.resize(static_cast<int>(triangles.cols()));
         diagonal_.assign(possible_.size(), none);
         before_.assign(possible_.size(), none);
         for (int e = 0; e < edges_.size(); ++e) {
-            if (!std::binary_search(kept.begin(), kept.end(), edges_.ends[at(e)])) collect(points, e);
+            if (!std::binary_search(kept.begin(), kept.end(), edges_.ends[e])) collect(points, e);
         }
         std::stable_sort(candidates_.begin(), candidates_.end(),
                          [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
         for (const Candidate& each : candidates_)
-            for (int k = 0; k < 2; ++k) possible_[at(edges_.side(each.edge, k) / 3)].push_back(each.edge);
+            for (int k = 0; k < 2; ++k) possible_[edges_.side(each.edge, k) / 3].push_back(each.edge);
     }
 
     void pair_the_best() {
@@ -83,7 +83,7 @@ public:
     [[nodiscard]] PairedQuads result() const;
 
 private:
-    [[nodiscard]] bool is_free(int t) const { return diagonal_[at(t)] == none; }
+    [[nodiscard]] bool is_free(int t) const { return diagonal_[t] == none; }
 
     [[nodiscard]] int across(int e, int t) const {
         const int first = edges_.side(e, 0) / 3;
@@ -91,7 +91,7 @@ private:
     }
 
     void join(int e) {
-        for (int k = 0; k < 2; ++k) diagonal_[at(edges_.side(e, k) / 3)] = e;
+        for (int k = 0; k < 2; ++k) diagonal_[edges_.side(e, k) / 3] = e;
     }
 
     void collect(const Points& points, int e) {
@@ -120,31 +120,31 @@ bool Pairing::augmented(int root) {
     Indices seen;
     int end = none;
     for (std::size_t k = 0; k < outer.size() && end == none && k < most_visited; ++k) {
-        for (const int e : possible_[at(outer[k])]) {
+        for (const int e : possible_[outer[k]]) {
             const int next = across(e, outer[k]);
-            if (next == root || before_[at(next)] != none || diagonal_[at(next)] == e) continue;
-            before_[at(next)] = e;
+            if (next == root || before_[next] != none || diagonal_[next] == e) continue;
+            before_[next] = e;
             seen.push_back(next);
             if (is_free(next)) {
                 end = next;
                 break;
             }
-            const int partner = across(diagonal_[at(next)], next);
-            before_[at(partner)] = diagonal_[at(next)];
+            const int partner = across(diagonal_[next], next);
+            before_[partner] = diagonal_[next];
             seen.push_back(partner);
             outer.push_back(partner);
         }
     }
     if (end != none) flip_path(end);
-    for (const int t : seen) before_[at(t)] = none;
+    for (const int t : seen) before_[t] = none;
     return end != none;
 }
 
 void Pairing::flip_path(int end) {
     for (int t = end;;) {
-        const int e = before_[at(t)];
+        const int e = before_[t];
         const int outer = across(e, t);
-        const int old = diagonal_[at(outer)];
+        const int old = diagonal_[outer];
         join(e);
         if (old == none) return;
         t = across(old, outer);
@@ -159,7 +159,7 @@ PairedQuads Pairing::result() const {
             result.rest.push_back(t);
             continue;
         }
-        const int e = diagonal_[at(t)];
+        const int e = diagonal_[t];
         const int first = edges_.side(e, 0);
         const int second = edges_.side(e, 1);
         if (std::min(first, second) / 3 != t) continue;

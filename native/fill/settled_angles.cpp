@@ -47,7 +47,7 @@ EvenMesh::Side EvenMesh::side_of(Halfedge h) const {
     side.normal.setZero();
     for (std::size_t k = 0; k < 3; ++k) {
         const Vertex corner = mesh_.from_vertex_handle(around[k]);
-        side.normal += surface_->normal(where_[at(corner.idx())]);
+        side.normal += surface_->normal(where_[corner.idx()]);
         side.forced[k] = stays(mesh_.edge_handle(around[k])) && stays(mesh_.edge_handle(around[(k + 2) % 3]));
     }
     side.b = point(mesh_.to_vertex_handle(h));
@@ -94,14 +94,14 @@ int EvenMesh::settle_place(Vertex v) {
     double best = penalty_at(point(v));
     int moves = 0;
     for (int halvings = 0; halvings < most_halvings && best > 0.0; ++halvings) {
-        const double step = std::ldexp(0.5 * wanted_[at(v.idx())], -halvings);
-        const Vector3 normal = surface_->normal(where_[at(v.idx())]);
+        const double step = std::ldexp(0.5 * wanted_[v.idx()], -halvings);
+        const Vector3 normal = surface_->normal(where_[v.idx()]);
         const Vector3 along = normal.unitOrthogonal();
         const Vector3 across = normal.cross(along);
         for (int j = 0; j < 6; ++j) {
             const double turn = j * std::numbers::pi / 3.0;
             const Vector3 goal = point(v) + step * (std::cos(turn) * along + std::sin(turn) * across);
-            const int triangle = where_[at(v.idx())].triangle;
+            const int triangle = where_[v.idx()].triangle;
             const double reached = penalty_at(surface_->position(surface_->project(goal, triangle)));
             if (reached >= settled * best) continue;
             best = reached;

@@ -14,14 +14,14 @@ template <class T>
 std::vector<T> picked(const std::vector<T>& values, const Indices& order) {
     std::vector<T> result;
     result.reserve(order.size());
-    for (const int k : order) result.push_back(values[at(k)]);
+    for (const int k : order) result.push_back(values[k]);
     return result;
 }
 
 // The numbers below `first`, and then those from there on that pass, by key.
 template <class Passes, class Key>
 Indices sorted(int first, int count, const Passes& passes, const Key& key) {
-    Indices order(at(first));
+    Indices order(first);
     std::iota(order.begin(), order.end(), 0);
     std::vector<std::pair<int, int>> rest;
     for (int k = first; k < count; ++k) {
@@ -39,12 +39,12 @@ Indices sorted(int first, int count, const Passes& passes, const Key& key) {
 void EvenMesh::sort() {
     const Indices vertices = sorted(
         patch_->vertex_count(), static_cast<int>(mesh_.n_vertices()),
-        [&](int v) { return !mesh_.status(Vertex(v)).deleted(); }, [&](int v) { return where_[at(v)].triangle; });
+        [&](int v) { return !mesh_.status(Vertex(v)).deleted(); }, [&](int v) { return where_[v].triangle; });
     Indices place(mesh_.n_vertices(), 0);
-    for (std::size_t k = 0; k < vertices.size(); ++k) place[at(vertices[k])] = static_cast<int>(k);
+    for (std::size_t k = 0; k < vertices.size(); ++k) place[vertices[k]] = static_cast<int>(k);
     const auto last_end = [&](int e) {
         const Halfedge h = mesh_.halfedge_handle(Edge(e), 0);
-        return std::max(place[at(mesh_.from_vertex_handle(h).idx())], place[at(mesh_.to_vertex_handle(h).idx())]);
+        return std::max(place[mesh_.from_vertex_handle(h).idx()], place[mesh_.to_vertex_handle(h).idx()]);
     };
     const Indices edges = sorted(
         patch_->edge_count(), static_cast<int>(mesh_.n_edges()),

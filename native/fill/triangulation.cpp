@@ -20,11 +20,13 @@ constexpr double share_of_edges = 1e-3;
 // Chord (i, k) of n corners, i < k.
 class Chords {
 public:
-    explicit Chords(int n) : n_(n), cost_(at(n) * at(n), 0.0), apex_(at(n) * at(n), none) {}
-    [[nodiscard]] double& cost(int i, int k) { return cost_[at(i) * at(n_) + at(k)]; }
-    [[nodiscard]] int& apex(int i, int k) { return apex_[at(i) * at(n_) + at(k)]; }
+    explicit Chords(int n) : n_(n), cost_(place(n, 0), 0.0), apex_(place(n, 0), none) {}
+    [[nodiscard]] double& cost(int i, int k) { return cost_[place(i, k)]; }
+    [[nodiscard]] int& apex(int i, int k) { return apex_[place(i, k)]; }
 
 private:
+    [[nodiscard]] std::size_t place(int i, int k) const { return static_cast<std::size_t>(i) * n_ + k; }
+
     int n_;
     std::vector<double> cost_;  // of the cheapest triangulation beyond the chord
     Indices apex_;              // of its triangle at the chord
@@ -42,7 +44,7 @@ void cut_exactly(const Indices& polygon, const TriangleCost& cost, std::vector<E
             for (int j = i + 1; j < k; ++j) {
                 const double sum = chords.cost(i, j) + chords.cost(j, k);
                 if (sum >= least) continue;
-                const double whole = sum + cost(polygon[at(i)], polygon[at(j)], polygon[at(k)]);
+                const double whole = sum + cost(polygon[i], polygon[j], polygon[k]);
                 if (whole >= least) continue;
                 least = whole;
                 chords.apex(i, k) = j;
@@ -56,7 +58,7 @@ void cut_exactly(const Indices& polygon, const TriangleCost& cost, std::vector<E
         open.pop_back();
         if (k - i < 2) continue;
         const int j = chords.apex(i, k);
-        triangles.emplace_back(polygon[at(i)], polygon[at(j)], polygon[at(k)]);
+        triangles.emplace_back(polygon[i], polygon[j], polygon[k]);
         open.emplace_back(i, j);
         open.emplace_back(j, k);
     }
@@ -83,10 +85,10 @@ void cut(const Indices& polygon, const TriangleCost& cost, std::vector<Eigen::Ve
     if (kept.size() == polygon.size()) return cut_exactly(polygon, cost, triangles);
     Indices coarse;
     for (std::size_t k = 0; k < kept.size(); ++k) {
-        coarse.push_back(polygon[at(kept[k])]);
+        coarse.push_back(polygon[kept[k]]);
         Indices between;
-        const std::size_t end = k + 1 < kept.size() ? at(kept[k + 1]) : polygon.size() + at(kept[0]);
-        for (std::size_t place = at(kept[k]); place <= end; ++place) between.push_back(polygon[place % polygon.size()]);
+        const std::size_t end = k + 1 < kept.size() ? (kept[k + 1]) : polygon.size() + kept[0];
+        for (std::size_t place = kept[k]; place <= end; ++place) between.push_back(polygon[place % polygon.size()]);
         cut(between, cost, triangles);
     }
     cut(coarse, cost, triangles);

@@ -72,7 +72,7 @@ void sort_many(std::span<Key> keys) {
     std::span<Key> to = other;
     for (unsigned pass = 0; pass < passes; ++pass) {
         std::partial_sum(begin[pass].begin(), begin[pass].end(), begin[pass].begin());
-        for (const Key& key : from) to[at(begin[pass][digit(key, pass)]++)] = key;
+        for (const Key& key : from) to[begin[pass][digit(key, pass)]++] = key;
         std::swap(from, to);
     }
 }
@@ -90,7 +90,7 @@ void sort_along_curve(std::span<Key> keys, const Points& centres) {
     const Cube cube(centres, keys);
     if (!(cube.edge > 0.0 && cube.edge < infinite)) return;
     for_ranges(static_cast<int>(keys.size()), coarse_grain, [&](int begin, int end) {
-        for (int k = begin; k < end; ++k) keys[at(k)].place = cube.place(centres.col(keys[at(k)].triangle));
+        for (int k = begin; k < end; ++k) keys[k].place = cube.place(centres.col(keys[k].triangle));
     });
     (keys.size() < many ? sort_few : sort_many)(keys);
     for (auto begin = keys.begin(); begin != keys.end();) {
@@ -103,17 +103,17 @@ void sort_along_curve(std::span<Key> keys, const Points& centres) {
 
 Indices along_curve(const Triangles& triangles, const Points& points) {
     const auto count = static_cast<int>(triangles.cols());
-    std::vector<Key> keys(at(count));
+    std::vector<Key> keys(count);
     Points centres(3, count);
     for_ranges(count, coarse_grain, [&](int begin, int end) {
         for (int t = begin; t < end; ++t) {
             const auto corners = triangles.col(t);
             centres.col(t) = points.col(corners[0]) + points.col(corners[1]) + points.col(corners[2]);
-            keys[at(t)].triangle = t;
+            keys[t].triangle = t;
         }
     });
     sort_along_curve(keys, centres);
-    Indices order(at(count));
+    Indices order(count);
     std::transform(keys.begin(), keys.end(), order.begin(), [](const Key& key) { return key.triangle; });
     return order;
 }
@@ -129,13 +129,13 @@ public:
     }
 
     [[nodiscard]] bool has(int level, int node) const {
-        return levels_[at(level)][at(node)].load(std::memory_order_relaxed) != 0;
+        return levels_[level][node].load(std::memory_order_relaxed) != 0;
     }
 
     // With the nodes above it that have nothing else.
     void add(int leaf) {
-        levels_[0][at(leaf)] = 1;
-        std::size_t node = at(leaf);
+        levels_[0][leaf] = 1;
+        std::size_t node = leaf;
         for (std::size_t level = 1; level < levels_.size(); ++level) {
             const std::vector<std::atomic<char>>& below = levels_[level - 1];
             node /= 4;
@@ -158,13 +158,13 @@ BoxTree::BoxTree(const Triangles& triangles, const Points& points) : order_(alon
 
 void BoxTree::add_triangles(const Triangles& triangles, const Points& points) {
     const auto count = static_cast<int>(order_.size());
-    std::vector<Boxes>& leaves = levels_.emplace_back(at((count + 3) / 4));
+    std::vector<Boxes>& leaves = levels_.emplace_back((count + 3) / 4);
     for_ranges(static_cast<int>(leaves.size()), coarse_grain / 4, [&](int begin, int end) {
         for (int k = 4 * begin; k < 4 * end; ++k) {
             Vector3 least = Vector3::Constant(infinite);
             Vector3 most = -least;
             if (k < count) {
-                const auto corners = triangles.col(order_[at(k)]);
+                const auto corners = triangles.col(order_[k]);
                 const Vector3 a = points.col(corners[0]);
                 const Vector3 b = points.col(corners[1]);
                 const Vector3 c = points.col(corners[2]);
@@ -174,8 +174,8 @@ void BoxTree::add_triangles(const Triangles& triangles, const Points& points) {
                 }
             }
             for (int axis = 0; axis < 3; ++axis) {
-                leaves[at(k / 4)].least[at(axis)][k % 4] = least[axis];
-                leaves[at(k / 4)].most[at(axis)][k % 4] = most[axis];
+                leaves[k / 4].least[axis][k % 4] = least[axis];
+                leaves[k / 4].most[axis][k % 4] = most[axis];
             }
         }
     });
@@ -198,8 +198,8 @@ void BoxTree::add_level() {
 // directions, negative where boxes overlap.
 template <typename Take>
 void BoxTree::compare(int level, const Pair& pair, const Take& take) const {
-    const Boxes& first = levels_[at(level)][at(pair.first)];
-    const Boxes& second = levels_[at(level)][at(pair.second)];
+    const Boxes& first = levels_[level][pair.first];
+    const Boxes& second = levels_[level][pair.second];
     for (int k = 0; k < 4; ++k) {
         Four gaps = Four::Constant(-infinite);
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -242,9 +242,9 @@ void BoxTree::visit_triangles(const Pair& pair, const Walk& walk) const {
         std::array<int, 4> others;
         std::size_t count = 0;
         for (int l = pair.first == pair.second ? k + 1 : 0; l < 4; ++l) {
-            if (gaps[l] < 0.0) others[count++] = order_[at(4 * pair.second + l)];
+            if (gaps[l] < 0.0) others[count++] = order_[4 * pair.second + l];
         }
-        if (count > 0 && walk.visit(order_[at(4 * pair.first + k)], std::span(others).first(count))) settles = true;
+        if (count > 0 && walk.visit(order_[4 * pair.first + k], std::span(others).first(count))) settles = true;
     });
     if (!settles) return;
     for (const int leaf : {pair.first, pair.second}) {
@@ -263,12 +263,12 @@ void BoxTree::for_overlaps(const Visit& visit, const IsSettled& is_settled) cons
     const Walk walk{visit, is_settled, nodes};
     int level = static_cast<int>(levels_.size()) - 1;
     std::vector<Pair> pairs{{0, 0}};
-    for (; level > 0 && levels_[at(level)].size() < least_pieces; --level) {
+    for (; level > 0 && levels_[level].size() < least_pieces; --level) {
         std::vector<Pair> parts;
         for (const Pair& pair : pairs) split(level, pair, [&](const Pair& part) { parts.push_back(part); });
         pairs = std::move(parts);
     }
-    run_pieces(static_cast<int>(pairs.size()), [&](int k) { descend(level, pairs[at(k)], walk); });
+    run_pieces(static_cast<int>(pairs.size()), [&](int k) { descend(level, pairs[k], walk); });
 }
 
 }  // namespace fairing

@@ -55,7 +55,7 @@ void Stiffness::update(const FaceGeometry& faces, const Patch& patch) {
     weights.resize(patch.edge_count());
     for_ranges(patch.edge_count(), coarse_grain, [&](int begin, int end) {
         for (int e = begin; e < end; ++e) {
-            const auto [left, right] = patch.edge_triangles[at(e)];
+            const auto [left, right] = patch.edge_triangles[e];
             weights[e] = cotangent_opposite(faces, patch, e, left);
             if (right != none) weights[e] += cotangent_opposite(faces, patch, e, right);
         }
@@ -65,7 +65,7 @@ void Stiffness::update(const FaceGeometry& faces, const Patch& patch) {
         for (int i = begin; i < end; ++i) {
             double twice = 0.0;  // each triangle is met at two of its edges
             for (const int edge : patch.ring(i).spokes) {
-                const auto [left, right] = patch.edge_triangles[at(edge)];
+                const auto [left, right] = patch.edge_triangles[edge];
                 twice += faces.areas[left] + (right != none ? faces.areas[right] : 0.0);
             }
             mass[i] = twice / 6.0;

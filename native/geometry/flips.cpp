@@ -32,13 +32,13 @@ bool is_turned(const Points& points, const Points& normals, const Eigen::Vector3
 Indices flipped_triangles(const Patch& patch, const Points& points) {
     const Points no_normals = Points::Zero(3, patch.vertex_count() - patch.free_count);
     const Points normals = max_normals(patch, points, no_normals);
-    std::vector<char> turned(at(patch.triangle_count()));
+    std::vector<char> turned(patch.triangle_count());
     for_ranges(patch.triangle_count(), coarse_grain, [&](int begin, int end) {
-        for (int t = begin; t < end; ++t) turned[at(t)] = is_turned(points, normals, patch.triangles.col(t));
+        for (int t = begin; t < end; ++t) turned[t] = is_turned(points, normals, patch.triangles.col(t));
     });
     Indices flipped;
     for (int t = 0; t < patch.triangle_count(); ++t) {
-        if (turned[at(t)]) flipped.push_back(t);
+        if (turned[t]) flipped.push_back(t);
     }
     return flipped;
 }
@@ -52,7 +52,7 @@ bool is_flipped(const Patch& patch, const Points& points, int triangle) {
     Vector3 around = Vector3::Zero();
     OneRingBuffer buffer;
     for (const int v : corners) {
-        if (patch.is_free(v) || patch.pin[at(v)]) around += max_normal(buffer.gather(patch, points, v));
+        if (patch.is_free(v) || patch.pin[v]) around += max_normal(buffer.gather(patch, points, v));
     }
     const Vector3 first = points.col(corners[1]) - points.col(corners[0]);
     const Vector3 second = points.col(corners[2]) - points.col(corners[0]);

@@ -10,15 +10,15 @@ constexpr std::size_t most_points = 60;
 
 }  // namespace
 
-VertexAdjacency::VertexAdjacency(const Triangles& triangles, int vertex_count) : begin(at(vertex_count) + 1, 0) {
-    for (int v : triangles.reshaped()) begin[at(v) + 1] += 2;
+VertexAdjacency::VertexAdjacency(const Triangles& triangles, int vertex_count) : begin(vertex_count + 1, 0) {
+    for (int v : triangles.reshaped()) begin[v + 1] += 2;
     for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
-    neighbours.resize(at(begin.back()));
+    neighbours.resize(begin.back());
     Indices cursor(begin.begin(), begin.end());
     for (const auto triangle : triangles.colwise()) {
         for (int k = 0; k < 3; ++k) {
-            neighbours[at(cursor[at(triangle[k])]++)] = triangle[(k + 1) % 3];
-            neighbours[at(cursor[at(triangle[k])]++)] = triangle[(k + 2) % 3];
+            neighbours[cursor[triangle[k]]++] = triangle[(k + 1) % 3];
+            neighbours[cursor[triangle[k]]++] = triangle[(k + 2) % 3];
         }
     }
 }
@@ -29,12 +29,12 @@ BallWalk::BallWalk(const VertexAdjacency& adjacency, const Points& points)
 const Indices& BallWalk::gather(int centre, double radius) {
     ++stamp_;
     reached_.assign(1, centre);
-    seen_[at(centre)] = stamp_;
+    seen_[centre] = stamp_;
     for (std::size_t k = 0; k < reached_.size(); ++k) {
-        for (int j = adjacency_.begin[at(reached_[k])]; j < adjacency_.begin[at(reached_[k]) + 1]; ++j) {
-            const int v = adjacency_.neighbours[at(j)];
-            if (seen_[at(v)] == stamp_ || !((points_.col(v) - points_.col(centre)).norm() <= radius)) continue;
-            seen_[at(v)] = stamp_;
+        for (int j = adjacency_.begin[reached_[k]]; j < adjacency_.begin[reached_[k] + 1]; ++j) {
+            const int v = adjacency_.neighbours[j];
+            if (seen_[v] == stamp_ || !((points_.col(v) - points_.col(centre)).norm() <= radius)) continue;
+            seen_[v] = stamp_;
             reached_.push_back(v);
         }
     }
@@ -47,7 +47,7 @@ Neighbourhood::Neighbourhood(const VertexAdjacency& adjacency, const Points& poi
 void Neighbourhood::gather(int vertex) {
     ++stamp_;
     visited_.assign(1, vertex);
-    mark_[at(vertex)] = stamp_;
+    mark_[vertex] = stamp_;
     size_of_rings_.assign(1, 0);
     std::size_t ring_begin = 0;
     while (static_cast<int>(size_of_rings_.size()) <= reach_.rings ||
@@ -63,7 +63,7 @@ void Neighbourhood::gather(int vertex) {
 }
 
 std::span<const Vector3> Neighbourhood::rings(int count) const {
-    return std::span(by_ring_).first(std::min(size_of_rings_[at(count)], most_points));
+    return std::span(by_ring_).first(std::min(size_of_rings_[count], most_points));
 }
 
 std::span<const Vector3> Neighbourhood::nearest(std::size_t count) const {
@@ -71,10 +71,10 @@ std::span<const Vector3> Neighbourhood::nearest(std::size_t count) const {
 }
 
 void Neighbourhood::visit_neighbours(int vertex) {
-    for (int k = adjacency_.begin[at(vertex)]; k < adjacency_.begin[at(vertex) + 1]; ++k) {
-        const int other = adjacency_.neighbours[at(k)];
-        if (mark_[at(other)] == stamp_) continue;
-        mark_[at(other)] = stamp_;
+    for (int k = adjacency_.begin[vertex]; k < adjacency_.begin[vertex + 1]; ++k) {
+        const int other = adjacency_.neighbours[k];
+        if (mark_[other] == stamp_) continue;
+        mark_[other] = stamp_;
         visited_.push_back(other);
     }
 }

@@ -19,7 +19,7 @@ VectorX boundary_angles(const Patch& patch, const Points& actual, const Points& 
     VectorX angles = VectorX::Zero(prescribed.cols());
     for (int k = 0; k < prescribed.cols(); ++k) {
         const int v = patch.free_count + k;
-        if (patch.pin[at(v)] || !touches_free(patch, v)) continue;
+        if (patch.pin[v] || !touches_free(patch, v)) continue;
         angles[k] = degrees_between(prescribed.col(k), actual.col(k));
     }
     return angles;

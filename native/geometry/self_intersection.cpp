@@ -94,7 +94,7 @@ public:
                           [&](int t) { return is_known(t); });
         Indices result;
         for (int t = 0; t < static_cast<int>(crossing_.size()); ++t) {
-            if (crossing_[at(t)]) result.push_back(t);
+            if (crossing_[t]) result.push_back(t);
         }
         return result;
     }
@@ -110,16 +110,16 @@ private:
         const Vector3 area = area_vector(a.corners);
         bool found = false;
         for (const int other : others) {
-            if (!asked_[at(t)] && !asked_[at(other)]) continue;
+            if (!asked_[t] && !asked_[other]) continue;
             if (is_known(t) && is_known(other)) continue;
             if (!cross(a, area, face(other))) continue;
-            crossing_[at(t)] = crossing_[at(other)] = 1;
+            crossing_[t] = crossing_[other] = 1;
             found = true;
         }
         return found;
     }
 
-    [[nodiscard]] bool is_known(int t) const { return crossing_[at(t)].load(std::memory_order_relaxed) != 0; }
+    [[nodiscard]] bool is_known(int t) const { return crossing_[t].load(std::memory_order_relaxed) != 0; }
 
     static bool cross(const Face& a, const Vector3& area, const Face& b) {
         const Heights above_a = heights(b, a, area);
@@ -158,19 +158,19 @@ Indices around_few(const Triangles& triangles, const Points& points, const Indic
     for (const int t : few) all.extend(boxes.emplace_back(box_around(corners_of(triangles, points, t))));
     const Eigen::KdBVH<double, 3, Box> tree(boxes.begin(), boxes.end(), boxes.begin(), boxes.end());
     const auto count = static_cast<int>(triangles.cols());
-    std::vector<char> meets(at(count), 0);
+    std::vector<char> meets(count, 0);
     for_ranges(count, coarse_grain, [&](int begin, int end) {
         for (int t = begin; t < end; ++t) {
             const Box box = box_around(corners_of(triangles, points, t));
             if (!box.intersects(all)) continue;
             Meeting meeting{box};
             Eigen::BVIntersect(tree, meeting);
-            meets[at(t)] = meeting.found ? 1 : 0;
+            meets[t] = meeting.found ? 1 : 0;
         }
     });
     Indices found;
     for (int t = 0; t < count; ++t) {
-        if (meets[at(t)]) found.push_back(t);
+        if (meets[t]) found.push_back(t);
     }
     return found;
 }
@@ -179,21 +179,21 @@ Indices around_few(const Triangles& triangles, const Points& points, const Indic
 
 Indices crossing_triangles(const Triangles& triangles, const Points& points) {
     if (triangles.cols() == 0) return {};
-    const std::vector<char> asked(at(static_cast<int>(triangles.cols())), 1);
+    const std::vector<char> asked(static_cast<int>(triangles.cols()), 1);
     return Crossings(triangles, points, asked).find();
 }
 
 Indices crossings_with(const Triangles& triangles, const Points& points, const Indices& few) {
     if (few.empty()) return {};
     const Indices around = around_few(triangles, points, few);
-    std::vector<char> is_few(at(static_cast<int>(triangles.cols())), 0);
-    for (const int t : few) is_few[at(t)] = 1;
+    std::vector<char> is_few(static_cast<int>(triangles.cols()), 0);
+    for (const int t : few) is_few[t] = 1;
     std::vector<char> asked;
     asked.reserve(around.size());
-    for (const int t : around) asked.push_back(is_few[at(t)]);
+    for (const int t : around) asked.push_back(is_few[t]);
     const Triangles chosen = triangles(Eigen::all, around);
     Indices found = Crossings(chosen, points, asked).find();
-    for (int& k : found) k = around[at(k)];
+    for (int& k : found) k = around[k];
     return found;
 }
 

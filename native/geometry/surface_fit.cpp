@@ -77,7 +77,7 @@ UnitSized to_unit_size(const Points& points, const Triangles& triangles) {
 
 Points one_sided_normals(const Patch& patch, const Points& points) {
     const int count = patch.vertex_count() - patch.free_count;
-    Indices fixed(at(count));
+    Indices fixed(count);
     std::iota(fixed.begin(), fixed.end(), patch.free_count);
     const Strip strip = strip_around(patch, fixed, Neighbourhood::most_rings - 1);
     const UnitSized unit = to_unit_size(strip.gather(points), strip.triangles);
@@ -88,7 +88,7 @@ Points one_sided_normals(const Patch& patch, const Points& points) {
         Neighbourhood around = fits.walk();
         for (int k = begin; k < end; ++k) {
             checkpoint();
-            const int vertex = strip.local[at(patch.free_count + k)];
+            const int vertex = strip.local[patch.free_count + k];
             const auto fit = fits.at_vertex(vertex, around);
             normals.col(k) = fit ? fit->normal : fits.averaged(vertex);
         }

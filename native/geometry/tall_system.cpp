@@ -42,13 +42,13 @@ void reflect_columns(const Reflector& reflector, double* columns, Index stride, 
     sums.fill(Four::Zero());
     for (Index k = 0; k < 4 * fours; k += 4) {
         const Four part = ConstPlace(v + k);
-        for (int c = 0; c < Count; ++c) sums[at(c)] += part * ConstPlace(columns + c * stride + k);
+        for (int c = 0; c < Count; ++c) sums[c] += part * ConstPlace(columns + c * stride + k);
     }
     std::array<double, Count> shares;
-    for (int c = 0; c < Count; ++c) shares[at(c)] = sums[at(c)].sum() * inverse;
+    for (int c = 0; c < Count; ++c) shares[c] = sums[c].sum() * inverse;
     for (Index k = 0; k < 4 * fours; k += 4) {
         const Four part = ConstPlace(v + k);
-        for (int c = 0; c < Count; ++c) Place(columns + c * stride + k) -= shares[at(c)] * part;
+        for (int c = 0; c < Count; ++c) Place(columns + c * stride + k) -= shares[c] * part;
     }
     for (Index c = 0; c < Count; ++c) {
         row[c * TallSystem::most_columns] = columns[c * stride + place];

@@ -33,8 +33,8 @@ Vector3 border_weights(const Vector3& p, const std::array<Vector3, 3>& corners) 
     double least = (p - corners[0]).squaredNorm();
     for (int k = 0; k < 3; ++k) {
         const int l = (k + 1) % 3;
-        const double s = segment_weight(p, corners[at(k)], corners[at(l)]);
-        const double distance = (p - (1.0 - s) * corners[at(k)] - s * corners[at(l)]).squaredNorm();
+        const double s = segment_weight(p, corners[k], corners[l]);
+        const double distance = (p - (1.0 - s) * corners[k] - s * corners[l]).squaredNorm();
         if (distance >= least) continue;
         least = distance;
         best.setZero();
@@ -51,8 +51,8 @@ TargetSurface::TargetSurface(const Patch& patch, const Points& points, const Poi
 
 // The triangle on the other side, or none.
 int TargetSurface::across(int edge, int triangle) const {
-    if (!walls_.empty() && walls_[at(edge)] != 0) return none;
-    const auto [left, right] = patch_.edge_triangles[at(edge)];
+    if (!walls_.empty() && walls_[edge] != 0) return none;
+    const auto [left, right] = patch_.edge_triangles[edge];
     return left == triangle ? right : left;
 }
 
@@ -106,18 +106,18 @@ Vector3 TargetSurface::position(const SurfacePoint& where) const {
     std::array<Vector3, 3> p;
     std::array<Vector3, 3> n;
     for (int k = 0; k < 3; ++k) {
-        p[at(k)] = points_.col(corners[k]);
-        n[at(k)] = normals_.col(corners[k]);
+        p[k] = points_.col(corners[k]);
+        n[k] = normals_.col(corners[k]);
     }
     // Control point a third of the way from corner i to corner j, on the tangent plane at i.
     const auto third = [&](int i, int j) {
-        return Vector3((2.0 * p[at(i)] + p[at(j)] - (p[at(j)] - p[at(i)]).dot(n[at(i)]) * n[at(i)]) / 3.0);
+        return Vector3((2.0 * p[i] + p[j] - (p[j] - p[i]).dot(n[i]) * n[i]) / 3.0);
     };
     Vector3 edge_mean = Vector3::Zero();
     Vector3 sum = Vector3::Zero();
     for (int i = 0; i < 3; ++i) {
         const double w = where.weights[i];
-        sum += w * w * w * p[at(i)];
+        sum += w * w * w * p[i];
         for (int j = 0; j < 3; ++j) {
             if (i == j) continue;
             const Vector3 control = third(i, j);
@@ -150,7 +150,7 @@ double TargetSurface::interpolate(const VectorX& values, const SurfacePoint& whe
 SurfacePoint TargetSurface::at_vertex(int vertex) const {
     int last = none;
     for (const int edge : patch_.ring(vertex).spokes)
-        for (const int t : patch_.edge_triangles[at(edge)]) last = std::max(last, t);
+        for (const int t : patch_.edge_triangles[edge]) last = std::max(last, t);
     SurfacePoint where{last, Vector3::Zero()};
     for (int k = 0; k < 3; ++k) {
         if (patch_.triangles(k, where.triangle) == vertex) where.weights[k] = 1.0;

@@ -41,8 +41,8 @@ Vector3Of<Scalar> virtual_point_of(const NormalChordOf<Scalar>& chord) {
 // The chord of an edge of a patch.
 NormalChord chord_of(const Patch& patch, const Points& points, const FaceGeometry& faces, const Points& normals,
                      int edge) {
-    const auto [a, b] = patch.edge_ends[at(edge)];
-    const auto [left, right] = patch.edge_triangles[at(edge)];
+    const auto [a, b] = patch.edge_ends[edge];
+    const auto [left, right] = patch.edge_triangles[edge];
     Vector3 triangle_normals = faces.normals.col(left);
     if (right != none) triangle_normals += faces.normals.col(right);
     return {points.col(a), points.col(b), normals.col(a), normals.col(b), triangle_normals};
@@ -50,10 +50,10 @@ NormalChord chord_of(const Patch& patch, const Points& points, const FaceGeometr
 
 NormalChordOf<Lanes> chords_of(const Patch& patch, const Points& points, const FaceGeometry& faces,
                                const Points& normals, LaneIndices edges) {
-    const auto [a0, b0] = patch.edge_ends[at(edges[0])];
-    const auto [a1, b1] = patch.edge_ends[at(edges[1])];
-    const auto [left0, right0] = patch.edge_triangles[at(edges[0])];
-    const auto [left1, right1] = patch.edge_triangles[at(edges[1])];
+    const auto [a0, b0] = patch.edge_ends[edges[0]];
+    const auto [a1, b1] = patch.edge_ends[edges[1]];
+    const auto [left0, right0] = patch.edge_triangles[edges[0]];
+    const auto [left1, right1] = patch.edge_triangles[edges[1]];
     const Vector3 absent = Vector3::Zero();
     const auto normal = [&](int triangle) {
         return triangle == none ? absent.data() : faces.normals.col(triangle).data();

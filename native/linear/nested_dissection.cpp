@@ -20,8 +20,8 @@ class Dissection {
 public:
     Dissection(const SparseMatrix& lower, const Points& points)
         : points_(points),
-          begin_(at(static_cast<int>(lower.cols())) + 1, 0),
-          part_(at(static_cast<int>(lower.cols())), 0),
+          begin_((static_cast<int>(lower.cols())) + 1, 0),
+          part_(static_cast<int>(lower.cols()), 0),
           mate_(part_.size(), none),
           seen_(part_.size(), 0) {
         const auto visit = [&](auto action) {
@@ -35,11 +35,11 @@ public:
                 }
             }
         };
-        visit([&](int i, int) { ++begin_[at(i) + 1]; });
+        visit([&](int i, int) { ++begin_[i + 1]; });
         std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-        neighbours_.resize(at(begin_.back()));
+        neighbours_.resize(begin_.back());
         Indices cursor(begin_.begin(), begin_.end() - 1);
-        visit([&](int i, int j) { neighbours_[at(cursor[at(i)]++)] = j; });
+        visit([&](int i, int j) { neighbours_[cursor[i]++] = j; });
         order_.resize(part_.size());
         std::iota(order_.begin(), order_.end(), 0);
     }
@@ -49,11 +49,11 @@ public:
         std::vector<Range> ranges{{order_.begin(), order_.end()}};
         for (int depth = 0; depth < shared_depth; ++depth) {
             std::vector<std::array<Range, 2>> halves(ranges.size());
-            run_pieces(static_cast<int>(ranges.size()), [&](int k) { halves[at(k)] = cut(ranges[at(k)]); });
+            run_pieces(static_cast<int>(ranges.size()), [&](int k) { halves[k] = cut(ranges[k]); });
             ranges.clear();
             for (const auto& pair : halves) ranges.insert(ranges.end(), pair.begin(), pair.end());
         }
-        run_pieces(static_cast<int>(ranges.size()), [&](int k) { dissect(ranges[at(k)]); });
+        run_pieces(static_cast<int>(ranges.size()), [&](int k) { dissect(ranges[k]); });
         return std::move(order_);
     }
 
@@ -94,16 +94,16 @@ private:
         });
         const int left = ++parts_;
         const int right = ++parts_;
-        for (auto v = first; v != last; ++v) part_[at(*v)] = v < middle ? left : right;
+        for (auto v = first; v != last; ++v) part_[*v] = v < middle ? left : right;
         const int separator = ++parts_;
-        for (const int v : least_cover({first, middle}, right)) part_[at(v)] = separator;
-        const auto end = std::stable_partition(first, last, [&](int v) { return part_[at(v)] != separator; });
-        const auto between = std::stable_partition(first, end, [&](int v) { return part_[at(v)] == left; });
+        for (const int v : least_cover({first, middle}, right)) part_[v] = separator;
+        const auto end = std::stable_partition(first, last, [&](int v) { return part_[v] != separator; });
+        const auto between = std::stable_partition(first, end, [&](int v) { return part_[v] == left; });
         return {Range{first, between}, Range{between, end}};
     }
 
     [[nodiscard]] std::span<const int> neighbours(int v) const {
-        return std::span(neighbours_).subspan(at(begin_[at(v)]), at(begin_[at(v) + 1] - begin_[at(v)]));
+        return std::span(neighbours_).subspan(begin_[v], begin_[v + 1] - begin_[v]);
     }
 
     // The fewest unknowns of both halves that all couplings between them have an end in: by a largest matching
@@ -114,26 +114,26 @@ private:
         for (auto v = half.first; v != half.last; ++v) {
             bool coupled = false;
             for (const int u : neighbours(*v)) {
-                if (part_[at(u)] != right) continue;
+                if (part_[u] != right) continue;
                 coupled = true;
                 beyond.push_back(u);
-                mate_[at(u)] = none;
+                mate_[u] = none;
             }
             if (!coupled) continue;
             beside.push_back(*v);
-            mate_[at(*v)] = none;
+            mate_[*v] = none;
         }
         for (const int v : beside) find_mate(v, right, ++parts_);
         const int reached = ++parts_;
         for (const int v : beside) {
-            if (mate_[at(v)] == none) reach(v, right, reached);
+            if (mate_[v] == none) reach(v, right, reached);
         }
         Indices cover;
         for (const int v : beside) {
-            if (seen_[at(v)] != reached) cover.push_back(v);
+            if (seen_[v] != reached) cover.push_back(v);
         }
         for (const int u : beyond) {
-            if (seen_[at(u)] == reached) cover.push_back(u);
+            if (seen_[u] == reached) cover.push_back(u);
         }
         return cover;
     }
@@ -141,11 +141,11 @@ private:
     // An alternating path from v to one beyond without a mate; all on it change mates.
     bool find_mate(int v, int right, int search) {
         for (const int u : neighbours(v)) {
-            if (part_[at(u)] != right || seen_[at(u)] == search) continue;
-            seen_[at(u)] = search;
-            if (mate_[at(u)] != none && !find_mate(mate_[at(u)], right, search)) continue;
-            mate_[at(u)] = v;
-            mate_[at(v)] = u;
+            if (part_[u] != right || seen_[u] == search) continue;
+            seen_[u] = search;
+            if (mate_[u] != none && !find_mate(mate_[u], right, search)) continue;
+            mate_[u] = v;
+            mate_[v] = u;
             return true;
         }
         return false;
@@ -154,16 +154,16 @@ private:
     // All that alternating paths lead to from v.
     void reach(int v, int right, int reached) {
         Indices stack{v};
-        seen_[at(v)] = reached;
+        seen_[v] = reached;
         while (!stack.empty()) {
             const int from = stack.back();
             stack.pop_back();
             for (const int u : neighbours(from)) {
-                if (part_[at(u)] != right || seen_[at(u)] == reached) continue;
-                seen_[at(u)] = reached;
-                const int next = mate_[at(u)];
-                if (next == none || seen_[at(next)] == reached) continue;
-                seen_[at(next)] = reached;
+                if (part_[u] != right || seen_[u] == reached) continue;
+                seen_[u] = reached;
+                const int next = mate_[u];
+                if (next == none || seen_[next] == reached) continue;
+                seen_[next] = reached;
                 stack.push_back(next);
             }
         }

@@ -46,11 +46,11 @@ private:
 template <typename Scalar>
 class FrontElimination {
 public:
-    explicit FrontElimination(const FrontTree& tree) : tree_(tree), updates_(at(tree.nodes().size())) {}
+    explicit FrontElimination(const FrontTree& tree) : tree_(tree), updates_(tree.nodes().size()) {}
 
     // Supernode s, whose children are done. False where a pivot is not positive.
     [[nodiscard]] bool eliminate(int s, Front<Scalar> front, const WorkDone& work_done) {
-        Dense<Scalar>& update = updates_[at(s)];
+        Dense<Scalar>& update = updates_[s];
         const auto below = static_cast<Eigen::Index>(tree_.below(s).size());
         update.setZero(below, below);
         for (int child : tree_.children(s)) add_child(child, s, front, update);
@@ -60,7 +60,7 @@ public:
 private:
     // Adds what a child passes on to the panel of its parent and to what the parent passes on itself (lower triangles).
     void add_child(int child, int parent, Front<Scalar>& front, Dense<Scalar>& parent_update) {
-        Dense<Scalar>& update = updates_[at(child)];
+        Dense<Scalar>& update = updates_[child];
         const auto target = tree_.below_in_parent(child);
         const int columns = tree_.nodes().column_count(parent);
         for (Eigen::Index b = 0; b < update.cols(); ++b) {
@@ -87,7 +87,7 @@ auto SparseCholesky::panel(Stored* panels, int s) const {
     using Matrix = Dense<std::remove_const_t<Stored>>;
     using Panel = Eigen::Map<std::conditional_t<std::is_const_v<Stored>, const Matrix, Matrix>>;
     const Supernodes& nodes = tree_.nodes();
-    return Panel(panels + panel_begin_[at(s)], nodes.row_count(s), nodes.column_count(s));
+    return Panel(panels + panel_begin_[s], nodes.row_count(s), nodes.column_count(s));
 }
 
 void SparseCholesky::analyse_pattern(const SparseMatrix& lower) {
@@ -100,22 +100,23 @@ void SparseCholesky::analyse_pattern(const SparseMatrix& lower) {
     const Supernodes& nodes = tree_.nodes();
     panel_begin_ = {0};
     for (int s = 0; s < nodes.size(); ++s) {
-        panel_begin_.push_back(panel_begin_.back() + at(nodes.row_count(s)) * at(nodes.column_count(s)));
+        panel_begin_.push_back(panel_begin_.back() +
+                               static_cast<std::size_t>(nodes.row_count(s)) * nodes.column_count(s));
     }
     if (kept_ == Kept::doubles) {
         entry_slot_.resize(static_cast<std::size_t>(lower.nonZeros()));
-        find_slots(lower, [&](int k, std::size_t slot) { entry_slot_[at(k)] = slot; });
+        find_slots(lower, [&](int k, std::size_t slot) { entry_slot_[k] = slot; });
     }
     analysed_ = true;
 }
 
 std::size_t SparseCholesky::slot_of(int row, int column) const {
     const Supernodes& nodes = tree_.nodes();
-    const auto [first, last] = std::minmax(position_[at(row)], position_[at(column)]);
-    const int s = nodes.column_to_supernode[at(first)];
+    const auto [first, last] = std::minmax(position_[row], position_[column]);
+    const int s = nodes.column_to_supernode[first];
     const int* rows = nodes.row_list(s);
     const auto place = std::lower_bound(rows, rows + nodes.row_count(s), last) - rows;
-    return panel_begin_[at(s)] + at(first - nodes.first[at(s)]) * at(nodes.row_count(s)) +
+    return panel_begin_[s] + static_cast<std::size_t>(first - nodes.first[s]) * nodes.row_count(s) +
            static_cast<std::size_t>(place);
 }
 
@@ -146,7 +147,7 @@ void SparseCholesky::scatter(const SparseMatrix& lower) {
     }
     clear(panels_.data());
     for_ranges(static_cast<int>(lower.nonZeros()), 8 * coarse_grain, [&](int first, int last) {
-        for (int k = first; k < last; ++k) panels_.data()[entry_slot_[at(k)]] = values[k];
+        for (int k = first; k < last; ++k) panels_.data()[entry_slot_[k]] = values[k];
     });
 }
 
@@ -181,7 +182,7 @@ bool SparseCholesky::eliminate_all(Stored* panels, const char* what, const Progr
     const auto eliminate = [&](int s) { return elimination.eliminate(s, panel(panels, s), work_done); };
     std::atomic<bool> positive = true;
     run_pieces(static_cast<int>(tree_.subtrees().size()), [&](int k) {
-        const Subtree& part = tree_.subtrees()[at(k)];
+        const Subtree& part = tree_.subtrees()[k];
         for (int s = part.begin; s < part.end && positive; ++s) {
             if (!eliminate(s)) positive = false;
         }
@@ -192,7 +193,7 @@ bool SparseCholesky::eliminate_all(Stored* panels, const char* what, const Progr
 
 FrontReach SparseCholesky::reach(const Indices& rows) const {
     Indices positions;
-    for (int row : rows) positions.push_back(position_[at(row)]);
+    for (int row : rows) positions.push_back(position_[row]);
     return {tree_, positions};
 }
 
@@ -212,7 +213,7 @@ VectorX SparseCholesky::solve_vector(const VectorX& rhs, const FrontReach& from,
         const double unit = is_exact ? 1.0 : std::max(rhs.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
         Vector x(rhs.size());
         for_ranges(static_cast<int>(rhs.size()), coarse_grain, [&](int begin, int end) {
-            for (int k = begin; k < end; ++k) x[k] = static_cast<Stored>(rhs[order_[at(k)]] / unit);
+            for (int k = begin; k < end; ++k) x[k] = static_cast<Stored>(rhs[order_[k]] / unit);
         });
         const auto up = [&](int s, Rows& b) { eliminate_vector(panel(panels, s), b.data()); };
         const auto down = [&](int s, Rows& b) { substitute_vector(panel(panels, s), b.data()); };
@@ -221,7 +222,7 @@ VectorX SparseCholesky::solve_vector(const VectorX& rhs, const FrontReach& from,
         solve.up(from);
         solve.down(to);
         for_ranges(static_cast<int>(rhs.size()), coarse_grain, [&](int begin, int end) {
-            for (int k = begin; k < end; ++k) result[order_[at(k)]] = unit * static_cast<double>(x[k]);
+            for (int k = begin; k < end; ++k) result[order_[k]] = unit * static_cast<double>(x[k]);
         });
     });
     return result;
@@ -240,7 +241,7 @@ Points SparseCholesky::solve_side_by_side(const Stored* panels, const Points& rh
     const int count = static_cast<int>(rhs.cols());
     Field x(count, lanes);
     for_ranges(count, coarse_grain, [&](int begin, int end) {
-        for (int k = begin; k < end; ++k) x.row(k) << rhs.col(order_[at(k)]).cast<Stored>().transpose(), Stored(0);
+        for (int k = begin; k < end; ++k) x.row(k) << rhs.col(order_[k]).cast<Stored>().transpose(), Stored(0);
     });
     const auto up = [&](int s, Rows& b) { eliminate_lanes(panel(panels, s), b.data()); };
     const auto down = [&](int s, Rows& b) { substitute_lanes(panel(panels, s), b.data()); };
@@ -251,7 +252,7 @@ Points SparseCholesky::solve_side_by_side(const Stored* panels, const Points& rh
     Points result(3, count);
     for_ranges(count, coarse_grain, [&](int begin, int end) {
         for (int k = begin; k < end; ++k)
-            result.col(order_[at(k)]) = x.row(k).template head<3>().transpose().template cast<double>();
+            result.col(order_[k]) = x.row(k).template head<3>().transpose().template cast<double>();
     });
     return result;
 }

@@ -25,20 +25,20 @@ Eigen::Index place_in(const Supernodes& nodes, int s, int position) {
 Eigen::MatrixXd SparseLu::gather(int s, const SparseMatrix& matrix, const SparseMatrix& transposed) {
     const Supernodes& nodes = tree_.nodes();
     Eigen::MatrixXd front = Eigen::MatrixXd::Zero(nodes.row_count(s), nodes.row_count(s));
-    const int begin = nodes.first[at(s)];
-    const int end = nodes.first[at(s) + 1];
+    const int begin = nodes.first[s];
+    const int end = nodes.first[s + 1];
     for (int own = begin; own < end; ++own) {
-        for (SparseMatrix::InnerIterator entry(matrix, order_[at(own)]); entry; ++entry) {
-            const int row = position_[at(static_cast<int>(entry.row()))];
+        for (SparseMatrix::InnerIterator entry(matrix, order_[own]); entry; ++entry) {
+            const int row = position_[static_cast<int>(entry.row())];
             if (row >= begin) front(place_in(nodes, s, row), own - begin) = entry.value();
         }
-        for (SparseMatrix::InnerIterator entry(transposed, order_[at(own)]); entry; ++entry) {
-            const int column = position_[at(static_cast<int>(entry.row()))];
+        for (SparseMatrix::InnerIterator entry(transposed, order_[own]); entry; ++entry) {
+            const int column = position_[static_cast<int>(entry.row())];
             if (column >= end) front(own - begin, place_in(nodes, s, column)) = entry.value();
         }
     }
     for (int child : tree_.children(s)) {
-        Eigen::MatrixXd& update = fronts_[at(child)].update;
+        Eigen::MatrixXd& update = fronts_[child].update;
         const auto places = tree_.below_in_parent(child);
         for (Eigen::Index b = 0; b < update.cols(); ++b) {
             for (Eigen::Index a = 0; a < update.rows(); ++a) {
@@ -52,7 +52,7 @@ Eigen::MatrixXd SparseLu::gather(int s, const SparseMatrix& matrix, const Sparse
 
 // False where the front is singular.
 bool SparseLu::eliminate(int s, const Eigen::MatrixXd& front) {
-    Front& result = fronts_[at(s)];
+    Front& result = fronts_[s];
     const Eigen::Index own = tree_.nodes().column_count(s);
     const Eigen::Index below = front.rows() - own;
     result.pivot.compute(front.topLeftCorner(own, own));
@@ -78,14 +78,14 @@ bool SparseLu::factorise(const SparseMatrix& matrix, const char* what, const Pro
     order_ = std::move(elimination.order);
     position_ = std::move(elimination.position);
     tree_ = FrontTree(std::move(elimination.supernodes));
-    fronts_.assign(at(tree_.nodes().size()), {});
+    fronts_.assign(tree_.nodes().size(), {});
     std::atomic<bool> regular = true;
     const auto eliminate_if_regular = [&](int s) {
         if (regular && !eliminate(s, gather(s, matrix, transposed))) regular = false;
         checkpoint();
     };
     run_pieces(static_cast<int>(tree_.subtrees().size()), [&](int k) {
-        const Subtree& part = tree_.subtrees()[at(k)];
+        const Subtree& part = tree_.subtrees()[k];
         for (int s = part.begin; s < part.end; ++s) eliminate_if_regular(s);
     });
     for (int s : tree_.top()) eliminate_if_regular(s);
@@ -95,13 +95,13 @@ bool SparseLu::factorise(const SparseMatrix& matrix, const char* what, const Pro
 Eigen::MatrixXd SparseLu::solve(const Eigen::MatrixXd& rhs) const {
     using Rows = Eigen::Map<Eigen::MatrixXd>;
     const auto up = [this](int s, Rows& b) {
-        const Front& front = fronts_[at(s)];
+        const Front& front = fronts_[s];
         auto own = b.topRows(front.upper.rows());
         own = front.pivot.solve(own).eval();
         b.bottomRows(front.lower.rows()).noalias() -= front.lower * own;
     };
     const auto down = [this](int s, Rows& b) {
-        const Front& front = fronts_[at(s)];
+        const Front& front = fronts_[s];
         b.topRows(front.upper.rows()).noalias() -= front.upper * b.bottomRows(front.lower.rows());
     };
     return solve_by_fronts(tree_, order_, rhs, FrontSweeps{up, down});

@@ -2,11 +2,11 @@
 
 namespace fairing {
 
-FrontReach::FrontReach(const FrontTree& tree, const Indices& positions) : marks_(at(tree.nodes().size()), 0) {
+FrontReach::FrontReach(const FrontTree& tree, const Indices& positions) : marks_(tree.nodes().size(), 0) {
     const Supernodes& nodes = tree.nodes();
     for (int position : positions) {
-        int s = nodes.column_to_supernode[at(position)];
-        for (; s != none && marks_[at(s)] == 0; s = nodes.parent[at(s)]) marks_[at(s)] = 1;
+        int s = nodes.column_to_supernode[position];
+        for (; s != none && marks_[s] == 0; s = nodes.parent[s]) marks_[s] = 1;
     }
 }
 

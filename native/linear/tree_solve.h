@@ -13,7 +13,7 @@ public:
     FrontReach() = default;  // all fronts
     // `positions`: of the unknowns in the factor.
     FrontReach(const FrontTree& tree, const Indices& positions);
-    [[nodiscard]] bool has(int supernode) const { return marks_.empty() || marks_[at(supernode)] != 0; }
+    [[nodiscard]] bool has(int supernode) const { return marks_.empty() || marks_[supernode] != 0; }
 
 private:
     std::vector<char> marks_;
@@ -38,12 +38,12 @@ public:
     void up(const FrontReach& reach) {
         const std::vector<Subtree>& parts = tree_.subtrees();
         run_pieces(static_cast<int>(parts.size()), [&](int k) {
-            const Subtree& part = parts[at(k)];
+            const Subtree& part = parts[k];
             if (!reach.has(part.root())) return;
-            outer_[at(k)].setZero(static_cast<Eigen::Index>(tree_.below(part.root()).size()), x_.cols());
+            outer_[k].setZero(static_cast<Eigen::Index>(tree_.below(part.root()).size()), x_.cols());
             Buffer buffer;
             for (int s = part.begin; s < part.end; ++s) {
-                if (reach.has(s)) up(s, buffer, outer_[at(k)]);
+                if (reach.has(s)) up(s, buffer, outer_[k]);
             }
         });
         for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -66,7 +66,7 @@ public:
         }
         run_pieces(static_cast<int>(parts.size()), [&](int k) {
             Buffer buffer;
-            for (int s = parts[at(k)].end; s-- > parts[at(k)].begin;) {
+            for (int s = parts[k].end; s-- > parts[k].begin;) {
                 if (reach.has(s)) down(s, buffer);
             }
         });
@@ -76,12 +76,12 @@ private:
     using Buffer = std::vector<typename Field::Scalar>;  // grows to the largest front that a thread meets
     using Rows = Eigen::Map<Field>;
 
-    auto own_rows(int s) { return x_.middleRows(tree_.nodes().first[at(s)], tree_.nodes().column_count(s)); }
+    auto own_rows(int s) { return x_.middleRows(tree_.nodes().first[s], tree_.nodes().column_count(s)); }
 
     // b of a front, its own rows filled in.
     Rows load(int s, Buffer& buffer) {
         const int rows = tree_.nodes().row_count(s);
-        const auto size = at(rows) * static_cast<std::size_t>(x_.cols());
+        const auto size = static_cast<std::size_t>(rows) * static_cast<std::size_t>(x_.cols());
         if (buffer.size() < size) buffer.resize(size);
         Rows b(buffer.data(), rows, x_.cols());
         b.topRows(tree_.nodes().column_count(s)) = own_rows(s);
@@ -128,14 +128,14 @@ Field solve_by_fronts(const FrontTree& tree, const Indices& order, const Field& 
     const int count = static_cast<int>(rhs.rows());
     Field x(rhs.rows(), rhs.cols());
     for_ranges(count, coarse_grain, [&](int begin, int end) {
-        for (int k = begin; k < end; ++k) x.row(k) = rhs.row(order[at(k)]);
+        for (int k = begin; k < end; ++k) x.row(k) = rhs.row(order[k]);
     });
     TreeSolve<Field, Sweeps> solve(tree, sweeps, x);
     solve.up(FrontReach());
     solve.down(FrontReach());
     Field result(rhs.rows(), rhs.cols());
     for_ranges(count, coarse_grain, [&](int begin, int end) {
-        for (int k = begin; k < end; ++k) result.row(order[at(k)]) = x.row(k);
+        for (int k = begin; k < end; ++k) result.row(order[k]) = x.row(k);
     });
     return result;
 }

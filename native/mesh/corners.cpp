@@ -32,7 +32,7 @@ Indices triangles_at(const Patch& patch, const Indices& vertices) {
     Indices triangles;
     for (const int v : vertices) {
         for (const int edge : patch.ring(v).spokes) {
-            for (const int t : patch.edge_triangles[at(edge)]) {
+            for (const int t : patch.edge_triangles[edge]) {
                 if (t != none) triangles.push_back(t);
             }
         }

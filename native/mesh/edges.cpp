@@ -29,11 +29,11 @@ void for_each_side(const Triangles& triangles, const Visit& visit) {
 // Sides bucketed by their smaller vertex: one pass of counting sort, linear in the number of triangles. Those of a
 // bucket as they are numbered.
 std::vector<Entry> bucket_sides(const Triangles& triangles, Indices& bucket_begin) {
-    for_each_side(triangles, [&](int, int low, int) { ++bucket_begin[at(low) + 1]; });
+    for_each_side(triangles, [&](int, int low, int) { ++bucket_begin[low + 1]; });
     for (std::size_t v = 1; v < bucket_begin.size(); ++v) bucket_begin[v] += bucket_begin[v - 1];
     std::vector<Entry> entries(static_cast<std::size_t>(triangles.size()));
     Indices cursor(bucket_begin.begin(), bucket_begin.end());
-    for_each_side(triangles, [&](int side, int low, int high) { entries[at(cursor[at(low)]++)] = {high, side}; });
+    for_each_side(triangles, [&](int side, int low, int high) { entries[cursor[low]++] = {high, side}; });
     return entries;
 }
 
@@ -65,15 +65,15 @@ EdgeTable make_edges(const Triangles& triangles, int vertex_count) {
     table.begin.reserve(entries.size() / 2 + 17);
     for (int low = 0; low < vertex_count; ++low) {
         checkpoint(low);
-        Entry* const first = entries.data() + bucket_begin[at(low)];
-        Entry* const last = entries.data() + bucket_begin[at(low) + 1];
+        Entry* const first = entries.data() + bucket_begin[low];
+        Entry* const last = entries.data() + bucket_begin[low + 1];
         sort_bucket(first, last);
         for (const Entry* entry = first; entry != last; ++entry) {
             if (entry == first || entry->high != (entry - 1)->high) {
                 table.begin.push_back(static_cast<int>(table.sides.size()));
                 table.ends.push_back({low, entry->high});
             }
-            table.edge_of_side[at(entry->side)] = table.size() - 1;
+            table.edge_of_side[entry->side] = table.size() - 1;
             table.sides.push_back(entry->side);
         }
     }

@@ -15,8 +15,8 @@ struct EdgeTable {
     Indices edge_of_side;
 
     [[nodiscard]] int size() const { return static_cast<int>(ends.size()); }
-    [[nodiscard]] int side_count(int edge) const { return begin[at(edge + 1)] - begin[at(edge)]; }
-    [[nodiscard]] int side(int edge, int k) const { return sides[at(begin[at(edge)] + k)]; }
+    [[nodiscard]] int side_count(int edge) const { return begin[edge + 1] - begin[edge]; }
+    [[nodiscard]] int side(int edge, int k) const { return sides[begin[edge] + k]; }
 };
 
 // Precondition: indices in [0, vertex_count), three different ones in each triangle.

@@ -19,12 +19,12 @@ public:
     void around(int corner, const Visit& visit) const {
         visit(corner);
         for (const int first : {corner, corner - corner % 3 + (corner + 2) % 3}) {
-            for (int twin = twins_[at(first)]; twin != none;) {
+            for (int twin = twins_[first]; twin != none;) {
                 const int triangle = twin - twin % 3;
                 const bool starts_here = vertex(twin) == vertex(corner);
                 const int next = starts_here ? twin : triangle + (twin + 1) % 3;
                 if (!visit(next)) break;
-                twin = twins_[at(starts_here ? triangle + (twin + 2) % 3 : next)];
+                twin = twins_[starts_here ? triangle + (twin + 2) % 3 : next];
             }
         }
     }
@@ -38,7 +38,7 @@ private:
 
 std::array<int, 3> sorted_fans(const Fans& fans, int triangle) {
     std::array<int, 3> result{};
-    for (int k = 0; k < 3; ++k) result[at(k)] = fans.of_corner[at(3 * triangle + k)];
+    for (int k = 0; k < 3; ++k) result[k] = fans.of_corner[3 * triangle + k];
     std::sort(result.begin(), result.end());
     return result;
 }
@@ -48,16 +48,16 @@ std::array<int, 3> sorted_fans(const Fans& fans, int triangle) {
 Fans join_corners(const Triangles& triangles, const Twins& twins) {
     Fans fans;
     const int corner_count = 3 * static_cast<int>(triangles.cols());
-    fans.of_corner.assign(at(corner_count), none);
+    fans.of_corner.assign(corner_count, none);
     const FanWalk walk(triangles, twins);
     for (int c = 0; c < corner_count; ++c) {
         checkpoint(c);
-        if (fans.of_corner[at(c)] != none) continue;
+        if (fans.of_corner[c] != none) continue;
         const auto fan = static_cast<int>(fans.input_vertex.size());
         fans.input_vertex.push_back(triangles(c % 3, c / 3));
         walk.around(c, [&](int corner) {
-            if (fans.of_corner[at(corner)] != none) return false;
-            fans.of_corner[at(corner)] = fan;
+            if (fans.of_corner[corner] != none) return false;
+            fans.of_corner[corner] = fan;
             return true;
         });
     }

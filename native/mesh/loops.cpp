@@ -15,7 +15,7 @@ int next_border_side(const Triangles& triangles, const EdgeTable& edges, int sid
     int next = 3 * (side / 3) + (side % 3 + 1) % 3;
     const int limit = 3 * static_cast<int>(triangles.cols());
     for (int guard = 0; guard < limit; ++guard) {
-        const int edge = edges.edge_of_side[at(next)];
+        const int edge = edges.edge_of_side[next];
         if (edges.side_count(edge) == 1) break;
         const int twin = edges.side(edge, 0) == next ? edges.side(edge, 1) : edges.side(edge, 0);
         next = 3 * (twin / 3) + (twin % 3 + 1) % 3;
@@ -26,8 +26,7 @@ int next_border_side(const Triangles& triangles, const EdgeTable& edges, int sid
 // The triangles in input vertices, wound as in the cut mesh. Cuts through the mesh are no border and stay closed.
 Triangles wound_triangles(const CutMesh& mesh) {
     Triangles result(3, mesh.triangles.cols());
-    for (int c = 0; c < 3 * result.cols(); ++c)
-        result(c % 3, c / 3) = mesh.input_vertex[at(mesh.triangles(c % 3, c / 3))];
+    for (int c = 0; c < 3 * result.cols(); ++c) result(c % 3, c / 3) = mesh.input_vertex[mesh.triangles(c % 3, c / 3)];
     return result;
 }
 
@@ -38,7 +37,7 @@ void check_windings(const Triangles& triangles, const EdgeTable& edges, const In
         if (edges.side_count(e) != 2) continue;
         const int side = edges.side(e, 0);
         if (side_tail(triangles, side) != side_tail(triangles, edges.side(e, 1))) continue;
-        offenders.push_back(input_triangle[at(side / 3)]);
+        offenders.push_back(input_triangle[side / 3]);
     }
     if (offenders.empty()) return;
     throw MeshError({Code::not_orientable,
@@ -55,7 +54,7 @@ std::vector<Indices> boundary_loops(const Triangles& input, int vertex_count) {
     Indices kept;
     const Triangles whole = drop_collapsed_triangles(input, kept, ignored);
     const EdgeTable given = make_edges(whole, vertex_count);
-    const VertexRoles roles = classify_vertices(given, {std::vector<char>(at(vertex_count), 0), {}, {}});
+    const VertexRoles roles = classify_vertices(given, {std::vector<char>(vertex_count, 0), {}, {}});
     const CutMesh mesh = cut_mesh(whole, given, kept, roles, ignored);
     const Triangles triangles = wound_triangles(mesh);
     const EdgeTable edges = make_edges(triangles, vertex_count);
@@ -64,10 +63,10 @@ std::vector<Indices> boundary_loops(const Triangles& input, int vertex_count) {
     std::vector<char> visited(edges.edge_of_side.size(), 0);
     std::vector<Indices> loops;
     for (int s = 0; s < static_cast<int>(visited.size()); ++s) {
-        if (visited[at(s)] || edges.side_count(edges.edge_of_side[at(s)]) != 1) continue;
+        if (visited[s] || edges.side_count(edges.edge_of_side[s]) != 1) continue;
         Indices loop;
-        for (int side = s; !visited[at(side)]; side = next_border_side(triangles, edges, side)) {
-            visited[at(side)] = 1;
+        for (int side = s; !visited[side]; side = next_border_side(triangles, edges, side)) {
+            visited[side] = 1;
             loop.push_back(side_tail(triangles, side));
         }
         std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());

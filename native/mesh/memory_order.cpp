@@ -21,8 +21,8 @@ constexpr double least_far = 400.0;  // what is nearer lies in the cache togethe
 constexpr double far_in_rows = 8.0;
 
 Indices least_corners(const Triangles& triangles) {
-    Indices least(at(static_cast<int>(triangles.cols())));
-    for (int t = 0; t < static_cast<int>(triangles.cols()); ++t) least[at(t)] = triangles.col(t).minCoeff();
+    Indices least(static_cast<int>(triangles.cols()));
+    for (int t = 0; t < static_cast<int>(triangles.cols()); ++t) least[t] = triangles.col(t).minCoeff();
     return least;
 }
 
@@ -31,7 +31,7 @@ void reorder(const Indices& order, Triangles& triangles, Indices& numbers) {
     Indices sorted_numbers(numbers.size());
     for (std::size_t k = 0; k < order.size(); ++k) {
         sorted.col(static_cast<Eigen::Index>(k)) = triangles.col(order[k]);
-        sorted_numbers[k] = numbers[at(order[k])];
+        sorted_numbers[k] = numbers[order[k]];
     }
     triangles = std::move(sorted);
     numbers = std::move(sorted_numbers);
@@ -57,14 +57,14 @@ Indices steps_from(int start, const Twins& twins) {
     Indices steps(twins.size() / 3, none);
     Indices queue{start};
     queue.reserve(steps.size());
-    steps[at(start)] = 0;
+    steps[start] = 0;
     for (std::size_t next = 0; next < queue.size(); ++next) {
         checkpoint(static_cast<int>(next));
         const int t = queue[next];
         for (int k = 0; k < 3; ++k) {
-            const int twin = twins[at(3 * t + k)];
-            if (twin == none || steps[at(twin / 3)] != none) continue;
-            steps[at(twin / 3)] = steps[at(t)] + 1;
+            const int twin = twins[3 * t + k];
+            if (twin == none || steps[twin / 3] != none) continue;
+            steps[twin / 3] = steps[t] + 1;
             queue.push_back(twin / 3);
         }
     }
@@ -75,7 +75,7 @@ Indices steps_from(int start, const Twins& twins) {
 Indices outline_triangles(const Twins& twins) {
     Indices found;
     for (int s = 0; s < static_cast<int>(twins.size()); ++s) {
-        if (twins[at(s)] == none) found.push_back(s / 3);
+        if (twins[s] == none) found.push_back(s / 3);
     }
     if (!found.empty()) return found;
     found.resize(twins.size() / 3);
@@ -107,7 +107,7 @@ std::vector<std::uint32_t> places_on_chart(const Twins& twins) {
     const Indices outline = outline_triangles(twins);
     const Indices east = steps_from(outline.front(), twins);
     const int farthest = *std::max_element(east.begin(), east.end());
-    const auto off_half = [&](int t) { return std::abs(2 * east[at(t)] - farthest); };
+    const auto off_half = [&](int t) { return std::abs(2 * east[t] - farthest); };
     const int aside =
         *std::min_element(outline.begin(), outline.end(), [&](int a, int b) { return off_half(a) < off_half(b); });
     const Indices north = steps_from(aside, twins);
@@ -123,16 +123,16 @@ std::vector<std::uint32_t> places_on_chart(const Twins& twins) {
 // Old number → new number: the free vertices by the place of their first triangle, the fixed ones as they are.
 Indices vertex_numbers(const PatchMembers& members, const Twins& twins) {
     const std::vector<std::uint32_t> places = places_on_chart(twins);
-    std::vector<std::pair<std::uint32_t, int>> sorted(at(members.free_count), {0, none});
+    std::vector<std::pair<std::uint32_t, int>> sorted(members.free_count, {0, none});
     for (int t = 0; t < static_cast<int>(places.size()); ++t) {
         for (const int v : members.triangles.col(t)) {
-            if (v < members.free_count && sorted[at(v)].second == none) sorted[at(v)] = {places[at(t)], v};
+            if (v < members.free_count && sorted[v].second == none) sorted[v] = {places[t], v};
         }
     }
     std::sort(sorted.begin(), sorted.end());
     Indices numbers(members.to_input.size());
     std::iota(numbers.begin(), numbers.end(), 0);
-    for (std::size_t k = 0; k < sorted.size(); ++k) numbers[at(sorted[k].second)] = static_cast<int>(k);
+    for (std::size_t k = 0; k < sorted.size(); ++k) numbers[sorted[k].second] = static_cast<int>(k);
     return numbers;
 }
 
@@ -140,10 +140,10 @@ void renumber_vertices(const Indices& numbers, PatchMembers& members) {
     const Indices to_input = members.to_input;
     const std::vector<char> pin = members.pin;
     for (std::size_t v = 0; v < numbers.size(); ++v) {
-        members.to_input[at(numbers[v])] = to_input[v];
-        members.pin[at(numbers[v])] = pin[v];
+        members.to_input[numbers[v]] = to_input[v];
+        members.pin[numbers[v]] = pin[v];
     }
-    for (int& v : members.triangles.reshaped()) v = numbers[at(v)];
+    for (int& v : members.triangles.reshaped()) v = numbers[v];
 }
 
 }  // namespace
@@ -163,8 +163,8 @@ void bring_neighbours_together(PatchMembers& members, Twins& twins) {
     Twins moved(twins.size());
     for (std::size_t k = 0; k < order.size(); ++k) {
         for (std::size_t c = 0; c < 3; ++c) {
-            const int twin = twins[3 * at(order[k]) + c];
-            moved[3 * k + c] = twin == none ? none : 3 * place[at(twin / 3)] + twin % 3;
+            const int twin = twins[3 * order[k] + c];
+            moved[3 * k + c] = twin == none ? none : 3 * place[twin / 3] + twin % 3;
         }
     }
     twins = std::move(moved);

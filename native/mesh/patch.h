@@ -64,8 +64,8 @@ private:
 
 inline RingView Patch::ring(int vertex) const {
     const auto view = [vertex](const Indices& begin, const Indices& items) {
-        const auto first = at(begin[at(vertex)]);
-        return std::span<const int>(items.data() + first, at(begin[at(vertex) + 1]) - first);
+        const auto first = begin[vertex];
+        return std::span<const int>(items.data() + first, (begin[vertex + 1]) - first);
     };
     return {view(ring_begin_, ring_vertices_), view(ring_begin_, ring_spokes_), view(rim_begin_, ring_rim_)};
 }

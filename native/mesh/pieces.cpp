@@ -12,11 +12,11 @@ Pieces::Pieces(const CutMesh& cut, const VertexRoles& roles) : cut_(cut), roles_
 }
 
 void Pieces::list_triangles() {
-    triangles_.resize(at(cut_.piece_count));
+    triangles_.resize(cut_.piece_count);
     place_.reserve(cut_.piece.size());
     for (int t = 0; t < static_cast<int>(cut_.piece.size()); ++t) {
         checkpoint(t);
-        Indices& triangles = triangles_[at(cut_.piece[at(t)])];
+        Indices& triangles = triangles_[cut_.piece[t]];
         place_.push_back(static_cast<int>(triangles.size()));
         triangles.push_back(t);
     }
@@ -27,7 +27,7 @@ void Pieces::number_vertices() {
     Indices piece_of(cut_.input_vertex.size(), none);
     for (int t = 0; t < static_cast<int>(cut_.piece.size()); ++t) {
         checkpoint(t);
-        for (int v : cut_.triangles.col(t)) piece_of[at(v)] = cut_.piece[at(t)];
+        for (int v : cut_.triangles.col(t)) piece_of[v] = cut_.piece[t];
     }
     // By their input vertices.
     const Indices sorted = sorted_by(cut_.input_vertex, static_cast<int>(roles_.fixed.size()));
@@ -36,11 +36,11 @@ void Pieces::number_vertices() {
     local_.assign(cut_.input_vertex.size(), none);
     for (const bool fixed : {false, true}) {
         for (int v : sorted) {
-            const int piece = piece_of[at(v)];
-            if (piece == none || (roles_.fixed[at(cut_.input_vertex[at(v)])] != 0) != fixed) continue;
-            local_[at(v)] = static_cast<int>(vertices_[at(piece)].size());
-            vertices_[at(piece)].push_back(v);
-            if (!fixed) ++free_count_[at(piece)];
+            const int piece = piece_of[v];
+            if (piece == none || (roles_.fixed[cut_.input_vertex[v]] != 0) != fixed) continue;
+            local_[v] = static_cast<int>(vertices_[piece].size());
+            vertices_[piece].push_back(v);
+            if (!fixed) ++free_count_[piece];
         }
         checkpoint();
     }
@@ -49,14 +49,14 @@ void Pieces::number_vertices() {
 // Twins lie in one piece.
 Twins Pieces::twins_of(int piece) const {
     if (cut_.twins.empty()) return {};
-    const Indices& triangles = triangles_[at(piece)];
+    const Indices& triangles = triangles_[piece];
     if (triangles.size() == cut_.piece.size()) return cut_.twins;
     Twins twins;
     twins.reserve(3 * triangles.size());
     for (const int t : triangles) {
         for (int k = 0; k < 3; ++k) {
-            const int twin = cut_.twins[at(3 * t + k)];
-            twins.push_back(twin == none ? none : 3 * place_[at(twin / 3)] + twin % 3);
+            const int twin = cut_.twins[3 * t + k];
+            twins.push_back(twin == none ? none : 3 * place_[twin / 3] + twin % 3);
         }
     }
     return twins;
@@ -64,23 +64,23 @@ Twins Pieces::twins_of(int piece) const {
 
 Patch Pieces::patch(int piece) const {
     PatchMembers members;
-    members.free_count = free_count_[at(piece)];
-    members.to_input.reserve(vertices_[at(piece)].size());
-    members.pin.reserve(vertices_[at(piece)].size());
-    for (int v : vertices_[at(piece)]) {
-        const int input = cut_.input_vertex[at(v)];
+    members.free_count = free_count_[piece];
+    members.to_input.reserve(vertices_[piece].size());
+    members.pin.reserve(vertices_[piece].size());
+    for (int v : vertices_[piece]) {
+        const int input = cut_.input_vertex[v];
         members.to_input.push_back(input);
-        members.pin.push_back(roles_.pin[at(input)]);
+        members.pin.push_back(roles_.pin[input]);
     }
-    const Indices& triangles = triangles_[at(piece)];
+    const Indices& triangles = triangles_[piece];
     Twins twins = twins_of(piece);
     members.input_triangle.reserve(triangles.size());
     members.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
     for (int k = 0; k < static_cast<int>(triangles.size()); ++k) {
         checkpoint(k);
-        const int t = triangles[at(k)];
-        members.input_triangle.push_back(cut_.input_triangle[at(t)]);
-        for (int c = 0; c < 3; ++c) members.triangles(c, k) = local_[at(cut_.triangles(c, t))];
+        const int t = triangles[k];
+        members.input_triangle.push_back(cut_.input_triangle[t]);
+        for (int c = 0; c < 3; ++c) members.triangles(c, k) = local_[cut_.triangles(c, t)];
     }
     bring_neighbours_together(members, twins);
     return Patch(std::move(members), std::move(twins));

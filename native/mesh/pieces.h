@@ -11,7 +11,7 @@ public:
     Pieces(const CutMesh& cut, const VertexRoles& roles);
 
     [[nodiscard]] int size() const { return static_cast<int>(triangles_.size()); }
-    [[nodiscard]] bool has_free_vertex(int piece) const { return free_count_[at(piece)] > 0; }
+    [[nodiscard]] bool has_free_vertex(int piece) const { return free_count_[piece] > 0; }
     // Free vertices first, each group in the order of the input, unless that leaves neighbours far apart in memory.
     [[nodiscard]] Patch patch(int piece) const;
 

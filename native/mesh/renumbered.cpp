@@ -36,8 +36,8 @@ public:
 
 private:
     [[nodiscard]] Halfedge out_of(Vertex v) const { return old_.halfedge_handle(v); }
-    [[nodiscard]] Vertex moved(Vertex v) const { return Vertex(vertex_number_[at(v.idx())]); }
-    [[nodiscard]] Halfedge moved(Halfedge h) const { return Halfedge(2 * edge_number_[at(h.idx() / 2)] + h.idx() % 2); }
+    [[nodiscard]] Vertex moved(Vertex v) const { return Vertex(vertex_number_[v.idx()]); }
+    [[nodiscard]] Halfedge moved(Halfedge h) const { return Halfedge(2 * edge_number_[h.idx() / 2] + h.idx() % 2); }
 
     void add(Vertex v) {
         const Vertex added = new_.new_vertex();
@@ -71,7 +71,7 @@ private:
 
     // Made where it is first met.
     Face moved(Face f) {
-        int& number = face_number_[at(f.idx())];
+        int& number = face_number_[f.idx()];
         if (number != none) return Face(number);
         const Face added = new_.new_face();
         new_.set_halfedge_handle(added, moved(old_.halfedge_handle(f)));

@@ -4,8 +4,8 @@ namespace fairing {
 
 SurfaceMesh surface_mesh(const Patch& patch) {
     SurfaceMesh mesh;
-    const auto vertices = at(patch.vertex_count());
-    mesh.reserve(vertices, at(patch.edge_count()), at(patch.triangle_count()));
+    const auto vertices = patch.vertex_count();
+    mesh.reserve(vertices, patch.edge_count(), patch.triangle_count());
     for (std::size_t v = 0; v < vertices; ++v) mesh.add_vertex(SurfaceMesh::Point::Zero());
     for (const auto corners : patch.triangles.colwise()) {
         const auto corner = [&](int k) { return mesh.vertex_handle(static_cast<unsigned>(corners[k])); };

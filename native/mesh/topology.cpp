@@ -17,46 +17,45 @@ namespace {
 
 bool has_free_corner(const Triangles& triangles, int side, const VertexRoles& roles) {
     const auto corners = triangles.col(side / 3);
-    return !(roles.fixed[at(corners[0])] && roles.fixed[at(corners[1])] && roles.fixed[at(corners[2])]);
+    return !(roles.fixed[corners[0]] && roles.fixed[corners[1]] && roles.fixed[corners[2]]);
 }
 
 bool is_between_fixed(const EdgeTable& edges, int edge, const VertexRoles& roles) {
-    const auto [a, b] = edges.ends[at(edge)];
-    return roles.fixed[at(a)] && roles.fixed[at(b)];
+    const auto [a, b] = edges.ends[edge];
+    return roles.fixed[a] && roles.fixed[b];
 }
 
 bool is_smooth(const EdgeTable& edges, int edge, const VertexRoles& roles) {
-    const auto [a, b] = edges.ends[at(edge)];
-    return roles.smooth[at(a)] || roles.smooth[at(b)];
+    const auto [a, b] = edges.ends[edge];
+    return roles.smooth[a] || roles.smooth[b];
 }
 
 // A two-sided edge between two border vertices with a triangle behind it that has no free vertex.
 bool is_corner_chord(const Triangles& triangles, const EdgeTable& edges, int edge, const VertexRoles& roles) {
-    const auto [a, b] = edges.ends[at(edge)];
-    if (!roles.border[at(a)] || !roles.border[at(b)]) return false;
+    const auto [a, b] = edges.ends[edge];
+    if (!roles.border[a] || !roles.border[b]) return false;
     return !has_free_corner(triangles, edges.side(edge, 0), roles) ||
            !has_free_corner(triangles, edges.side(edge, 1), roles);
 }
 
 void check_edge_is_manifold(const EdgeTable& edges, int edge, const VertexRoles& roles, Indices& offenders) {
     // The foot of a fin lies on the fin's own border, which must not excuse it.
-    const auto [a, b] = edges.ends[at(edge)];
-    if (edges.side_count(edge) <= 2 || (roles.given[at(a)] && roles.given[at(b)])) return;
-    offenders.insert(offenders.end(), edges.ends[at(edge)].begin(), edges.ends[at(edge)].end());
+    const auto [a, b] = edges.ends[edge];
+    if (edges.side_count(edge) <= 2 || (roles.given[a] && roles.given[b])) return;
+    offenders.insert(offenders.end(), edges.ends[edge].begin(), edges.ends[edge].end());
 }
 
 // Nothing opens along a single edge whose ends lie inside the mesh: both its ends would keep their whole ring.
 void keep_lone_edges(const EdgeTable& edges, const VertexRoles& roles, std::vector<char>& cut) {
     Indices degree(roles.fixed.size(), 0);
     for (int e = 0; e < edges.size(); ++e) {
-        if (!cut[at(e)]) continue;
-        for (int v : edges.ends[at(e)]) ++degree[at(v)];
+        if (!cut[e]) continue;
+        for (int v : edges.ends[e]) ++degree[v];
     }
     for (int e = 0; e < edges.size(); ++e) {
-        const auto [a, b] = edges.ends[at(e)];
-        const bool inside = !roles.border[at(a)] && !roles.border[at(b)];
-        if (cut[at(e)] && inside && degree[at(a)] == 1 && degree[at(b)] == 1 && edges.side_count(e) == 2)
-            cut[at(e)] = 0;
+        const auto [a, b] = edges.ends[e];
+        const bool inside = !roles.border[a] && !roles.border[b];
+        if (cut[e] && inside && degree[a] == 1 && degree[b] == 1 && edges.side_count(e) == 2) cut[e] = 0;
     }
 }
 
@@ -68,7 +67,7 @@ void check_fans(const Fans& fans, const VertexRoles& roles) {
     Indices count(roles.fixed.size(), 0);
     Indices offenders;
     for (int v : fans.input_vertex) {
-        if (++count[at(v)] == 2 && !roles.fixed[at(v)]) offenders.push_back(v);
+        if (++count[v] == 2 && !roles.fixed[v]) offenders.push_back(v);
     }
     if (offenders.empty()) return;
     throw MeshError({Code::nonmanifold_vertex,
@@ -93,7 +92,7 @@ Windings join_windings(const Triangles& triangles, const EdgeTable& edges, const
     for (const bool across_cuts : {false, true}) {
         for (int e = 0; e < edges.size(); ++e) {
             checkpoint(e);
-            if (edges.side_count(e) != 2 || (cut[at(e)] != 0) != across_cuts) continue;
+            if (edges.side_count(e) != 2 || (cut[e] != 0) != across_cuts) continue;
             const int a = edges.side(e, 0);
             const int b = edges.side(e, 1);
             if (!across_cuts) windings.pieces.join(a / 3, b / 3);
@@ -107,24 +106,24 @@ Windings join_windings(const Triangles& triangles, const EdgeTable& edges, const
 // Which triangles lie in a piece with a free vertex.
 std::vector<char> moving_triangles(const Triangles& triangles, Windings& windings, const VertexRoles& roles) {
     const auto count = static_cast<int>(triangles.cols());
-    std::vector<char> piece_moves(at(count), 0);
+    std::vector<char> piece_moves(count, 0);
     for (int t = 0; t < count; ++t) {
-        if (has_free_corner(triangles, 3 * t, roles)) piece_moves[at(windings.pieces.root(t))] = 1;
+        if (has_free_corner(triangles, 3 * t, roles)) piece_moves[windings.pieces.root(t)] = 1;
     }
-    std::vector<char> moves(at(count), 0);
-    for (int t = 0; t < count; ++t) moves[at(t)] = piece_moves[at(windings.pieces.root(t))];
+    std::vector<char> moves(count, 0);
+    for (int t = 0; t < count; ++t) moves[t] = piece_moves[windings.pieces.root(t)];
     return moves;
 }
 
 Indices select(const Indices& items, const std::vector<char>& marked) {
     Indices result;
-    std::copy_if(items.begin(), items.end(), std::back_inserter(result), [&](int item) { return marked[at(item)]; });
+    std::copy_if(items.begin(), items.end(), std::back_inserter(result), [&](int item) { return marked[item]; });
     return result;
 }
 
 void check_orientable(const Indices& twisted, const Indices& input_triangle) {
     Indices offenders;
-    for (int t : twisted) offenders.push_back(input_triangle[at(t)]);
+    for (int t : twisted) offenders.push_back(input_triangle[t]);
     if (offenders.empty()) return;
     std::sort(offenders.begin(), offenders.end());
     throw MeshError({Code::not_orientable,
@@ -168,12 +167,12 @@ Joints join_triangles(const Triangles& triangles, const EdgeTable& edges, const 
 void turn_round(CutMesh& mesh) {
     if (std::find(mesh.flipped.begin(), mesh.flipped.end(), 1) == mesh.flipped.end()) return;
     for (int& twin : mesh.twins) {
-        if (twin != none && mesh.flipped[at(twin / 3)]) twin += 2 - 2 * (twin % 3);
+        if (twin != none && mesh.flipped[twin / 3]) twin += 2 - 2 * (twin % 3);
     }
     for (int t = 0; t < mesh.triangles.cols(); ++t) {
-        if (!mesh.flipped[at(t)]) continue;
+        if (!mesh.flipped[t]) continue;
         std::swap(mesh.triangles(1, t), mesh.triangles(2, t));
-        std::swap(mesh.twins[at(3 * t)], mesh.twins[at(3 * t + 2)]);
+        std::swap(mesh.twins[3 * t], mesh.twins[3 * t + 2]);
     }
 }
 
@@ -191,10 +190,10 @@ Joints join_or_take_apart(const Triangles& triangles, const EdgeTable& edges, co
     const std::vector<char> moves = moving_triangles(triangles, joints.windings, roles);
     check_doubled(triangles, select(doubled, moves));
     check_orientable(select(joints.windings.conflicts, moves), input_triangle);
-    std::vector<char> hopeless(at(static_cast<int>(triangles.cols())), 0);
-    for (int t : defects) hopeless[at(joints.windings.pieces.root(t))] = 1;
+    std::vector<char> hopeless(static_cast<int>(triangles.cols()), 0);
+    for (int t : defects) hopeless[joints.windings.pieces.root(t)] = 1;
     for (std::size_t s = 0; s < edges.edge_of_side.size(); ++s) {
-        if (hopeless[at(joints.windings.pieces.root(static_cast<int>(s) / 3))]) cut[at(edges.edge_of_side[s])] = 1;
+        if (hopeless[joints.windings.pieces.root(static_cast<int>(s) / 3)]) cut[edges.edge_of_side[s]] = 1;
     }
     return join_triangles(triangles, edges, cut);
 }
@@ -203,7 +202,7 @@ Joints join_or_take_apart(const Triangles& triangles, const EdgeTable& edges, co
 std::vector<char> outline_triangles(const Triangles& triangles, const VertexRoles& roles) {
     std::vector<char> marks;
     for (const auto t : triangles.colwise()) {
-        const auto fixed = std::count_if(t.begin(), t.end(), [&](int v) { return roles.fixed[at(v)]; });
+        const auto fixed = std::count_if(t.begin(), t.end(), [&](int v) { return roles.fixed[v]; });
         marks.push_back(fixed == 2 ? 1 : 0);
     }
     return marks;
@@ -220,14 +219,14 @@ std::vector<char> minority_triangles(const std::vector<char>& vote, UnionFind& o
     std::vector<Balance> balances(vote.size());
     for (int t = 0; t < count; ++t) {
         const auto [root, opposite] = orientation.find(t);
-        Balance& balance = balances[at(root)];
+        Balance& balance = balances[root];
         balance.all += opposite ? -1 : 1;
-        if (vote[at(t)]) balance.voters += opposite ? -1 : 1;
+        if (vote[t]) balance.voters += opposite ? -1 : 1;
     }
     std::vector<char> flipped(vote.size(), 0);
     for (int t = 0; t < count; ++t) {
         const auto [root, opposite] = orientation.find(t);
-        flipped[at(t)] = balances[at(root)].reversed() != opposite;
+        flipped[t] = balances[root].reversed() != opposite;
     }
     return flipped;
 }
@@ -251,20 +250,20 @@ void warn_of_windings(const CutMesh& mesh, Diagnostics& warnings) {
 // By the lowest triangle of the input: here they may come in another order.
 void number_pieces(CutMesh& mesh, UnionFind& pieces) {
     const int count = static_cast<int>(mesh.triangles.cols());
-    Indices lowest(at(count), none);  // of the piece of this root
+    Indices lowest(count, none);  // of the piece of this root
     Indices roots;
     for (int t = 0; t < count; ++t) {
         const int root = pieces.root(t);
-        const int input = mesh.input_triangle[at(t)];
-        if (lowest[at(root)] == none) roots.push_back(root);
-        if (lowest[at(root)] == none || input < lowest[at(root)]) lowest[at(root)] = input;
+        const int input = mesh.input_triangle[t];
+        if (lowest[root] == none) roots.push_back(root);
+        if (lowest[root] == none || input < lowest[root]) lowest[root] = input;
     }
-    std::sort(roots.begin(), roots.end(), [&](int a, int b) { return lowest[at(a)] < lowest[at(b)]; });
+    std::sort(roots.begin(), roots.end(), [&](int a, int b) { return lowest[a] < lowest[b]; });
     mesh.piece_count = static_cast<int>(roots.size());
-    Indices number(at(count), none);
-    for (int k = 0; k < mesh.piece_count; ++k) number[at(roots[at(k)])] = k;
-    mesh.piece.resize(at(count));
-    for (int t = 0; t < count; ++t) mesh.piece[at(t)] = number[at(pieces.root(t))];
+    Indices number(count, none);
+    for (int k = 0; k < mesh.piece_count; ++k) number[roots[k]] = k;
+    mesh.piece.resize(count);
+    for (int t = 0; t < count; ++t) mesh.piece[t] = number[pieces.root(t)];
 }
 
 }  // namespace
@@ -294,15 +293,15 @@ VertexRoles classify_vertices(const EdgeTable& edges, const GivenRoles& given) {
     const std::vector<char> nowhere(count, 0);
     VertexRoles roles{given.fixed, given.fixed, nowhere, {}, nowhere, nowhere, nowhere, nowhere};
     for (int e = 0; e < edges.size(); ++e) {
-        for (int v : edges.ends[at(e)]) {
-            roles.used[at(v)] = 1;
-            if (edges.side_count(e) == 1) roles.fixed[at(v)] = roles.border[at(v)] = 1;
+        for (int v : edges.ends[e]) {
+            roles.used[v] = 1;
+            if (edges.side_count(e) == 1) roles.fixed[v] = roles.border[v] = 1;
         }
     }
     roles.pin = roles.fixed;
     for (int e = 0; e < edges.size(); ++e) {
         if (!is_between_fixed(edges, e, roles)) continue;
-        for (int v : edges.ends[at(e)]) roles.pin[at(v)] = 0;
+        for (int v : edges.ends[e]) roles.pin[v] = 0;
     }
     for (std::size_t v = 0; v < count; ++v) {
         roles.smooth[v] = !given.smooth.empty() && given.smooth[v] && roles.used[v];
@@ -315,7 +314,7 @@ VertexRoles classify_vertices(const EdgeTable& edges, const GivenRoles& given) {
 }
 
 std::vector<char> find_cut_edges(const Triangles& triangles, const EdgeTable& edges, const VertexRoles& roles) {
-    std::vector<char> cut(at(edges.size()), 0);
+    std::vector<char> cut(edges.size(), 0);
     Indices offenders;
     for (int e = 0; e < edges.size(); ++e) {
         check_edge_is_manifold(edges, e, roles, offenders);
@@ -323,8 +322,7 @@ std::vector<char> find_cut_edges(const Triangles& triangles, const EdgeTable& ed
         const bool many = edges.side_count(e) > 2;
         const bool beside_free =
             has_free_corner(triangles, edges.side(e, 0), roles) || has_free_corner(triangles, edges.side(e, 1), roles);
-        cut[at(e)] =
-            many || (beside_free && !is_smooth(edges, e, roles) && !is_corner_chord(triangles, edges, e, roles));
+        cut[e] = many || (beside_free && !is_smooth(edges, e, roles) && !is_corner_chord(triangles, edges, e, roles));
     }
     if (!offenders.empty()) {
         throw MeshError({Code::nonmanifold_edge,
@@ -351,7 +349,7 @@ CutMesh cut_mesh(const Triangles& triangles, const EdgeTable& edges, const Indic
     mesh.flipped = minority_triangles(along_outline, windings.orientation);
     warn_of_windings(mesh, warnings);
     mesh.triangles.resize(3, triangles.cols());
-    for (int c = 0; c < 3 * triangles.cols(); ++c) mesh.triangles(c % 3, c / 3) = fans.of_corner[at(c)];
+    for (int c = 0; c < 3 * triangles.cols(); ++c) mesh.triangles(c % 3, c / 3) = fans.of_corner[c];
     mesh.twins = std::move(twins);
     turn_round(mesh);
     checkpoint();

@@ -18,7 +18,7 @@ struct BorderSide {
 std::vector<BorderSide> border_sides(const Triangles& triangles, const Twins& twins) {
     std::vector<BorderSide> sides;
     for (int s = 0; s < static_cast<int>(twins.size()); ++s) {
-        if (twins[at(s)] != none) continue;
+        if (twins[s] != none) continue;
         const int tail = side_tail(triangles, s);
         const int head = side_head(triangles, s);
         sides.push_back({{std::min(tail, head), std::max(tail, head)}, s});
@@ -32,21 +32,21 @@ std::vector<BorderSide> border_sides(const Triangles& triangles, const Twins& tw
 // The sides that leave each vertex, as far as they were met.
 class Outgoing {
 public:
-    Outgoing(const Triangles& triangles, int vertex_count) : begin_(at(vertex_count) + 1, 0) {
-        for (const int v : triangles.reshaped()) ++begin_[at(v) + 1];
+    Outgoing(const Triangles& triangles, int vertex_count) : begin_(vertex_count + 1, 0) {
+        for (const int v : triangles.reshaped()) ++begin_[v + 1];
         for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
         end_.assign(begin_.begin(), begin_.end() - 1);
-        sides_.resize(at(begin_.back()));
+        sides_.resize(begin_.back());
     }
 
     [[nodiscard]] int find(int tail, int head) const {
-        for (int s = begin_[at(tail)]; s < end_[at(tail)]; ++s) {
-            if (sides_[at(s)].head == head) return sides_[at(s)].side;
+        for (int s = begin_[tail]; s < end_[tail]; ++s) {
+            if (sides_[s].head == head) return sides_[s].side;
         }
         return none;
     }
 
-    void add(int side, int tail, int head) { sides_[at(end_[at(tail)]++)] = {head, side}; }
+    void add(int side, int tail, int head) { sides_[end_[tail]++] = {head, side}; }
 
 private:
     struct Side {
@@ -65,9 +65,9 @@ Twins twins_across(const EdgeTable& edges, const std::vector<char>& cut) {
     Twins twins(edges.edge_of_side.size(), none);
     for (int e = 0; e < edges.size(); ++e) {
         checkpoint(e);
-        if (cut[at(e)] || edges.side_count(e) != 2) continue;
-        twins[at(edges.side(e, 0))] = edges.side(e, 1);
-        twins[at(edges.side(e, 1))] = edges.side(e, 0);
+        if (cut[e] || edges.side_count(e) != 2) continue;
+        twins[edges.side(e, 0)] = edges.side(e, 1);
+        twins[edges.side(e, 1)] = edges.side(e, 0);
     }
     return twins;
 }
@@ -78,9 +78,9 @@ Misfit join_borders(const Triangles& triangles, Twins& twins) {
         if (sides[k].ends != sides[k - 1].ends) continue;
         const int a = sides[k - 1].side;
         const int b = sides[k].side;
-        if (twins[at(a)] != none || side_tail(triangles, a) == side_tail(triangles, b)) return b;
-        twins[at(a)] = b;
-        twins[at(b)] = a;
+        if (twins[a] != none || side_tail(triangles, a) == side_tail(triangles, b)) return b;
+        twins[a] = b;
+        twins[b] = a;
     }
     return std::nullopt;
 }
@@ -93,10 +93,10 @@ Misfit find_twins(const Triangles& triangles, int vertex_count, Twins& twins) {
         const int tail = side_tail(triangles, side);
         const int head = side_head(triangles, side);
         const int twin = met.find(head, tail);
-        if (twin == none ? met.find(tail, head) != none : twins[at(twin)] != none) return side;
+        if (twin == none ? met.find(tail, head) != none : twins[twin] != none) return side;
         if (twin != none) {
-            twins[at(side)] = twin;
-            twins[at(twin)] = side;
+            twins[side] = twin;
+            twins[twin] = side;
         }
         met.add(side, tail, head);
     }

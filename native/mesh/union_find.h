@@ -16,13 +16,13 @@ public:
 
     // The set's representative, and whether `item` has the opposite parity to it.
     std::pair<int, bool> find(int item) {
-        const int above = parent_[at(item)];
-        if (parent_[at(above)] == above) return {above, parity_[at(item)] != 0};  // mostly; a root's own parity is none
+        const int above = parent_[item];
+        if (parent_[above] == above) return {above, parity_[item] != 0};  // mostly; a root's own parity is none
         int root = item;
         bool flipped = false;
-        while (parent_[at(root)] != root) {
-            flipped ^= parity_[at(root)] != 0;
-            root = parent_[at(root)];
+        while (parent_[root] != root) {
+            flipped ^= parity_[root] != 0;
+            root = parent_[root];
         }
         compress(item, root, flipped);
         return {root, flipped};
@@ -38,18 +38,18 @@ public:
         if (root_a == root_b) return !relative;
         // The smaller index leads, so that the outcome does not depend on the order of the calls.
         if (root_a > root_b) std::swap(root_a, root_b);
-        parent_[at(root_b)] = root_a;
-        parity_[at(root_b)] = relative ? 1 : 0;
+        parent_[root_b] = root_a;
+        parity_[root_b] = relative ? 1 : 0;
         return true;
     }
 
 private:
     void compress(int item, int root, bool flipped) {
         while (item != root) {
-            const int next = parent_[at(item)];
-            const bool own = parity_[at(item)] != 0;
-            parent_[at(item)] = root;
-            parity_[at(item)] = flipped ? 1 : 0;
+            const int next = parent_[item];
+            const bool own = parity_[item] != 0;
+            parent_[item] = root;
+            parity_[item] = flipped ? 1 : 0;
             flipped ^= own;
             item = next;
         }

@@ -51,11 +51,11 @@ bool keeps_shape(const Problem& problem, const Solution& solution) {
 
 // Of the triangles inside among each other.
 Indices crossings_inside(const Patch& patch, const Points& points) {
-    Indices all(at(patch.triangle_count()));
+    Indices all(patch.triangle_count());
     std::iota(all.begin(), all.end(), 0);
     const Indices kept = inside(patch, std::move(all));
     Indices crossing = crossing_triangles(patch.triangles(Eigen::all, kept), points);
-    for (int& t : crossing) t = kept[at(t)];
+    for (int& t : crossing) t = kept[t];
     return crossing;
 }
 

@@ -49,7 +49,7 @@ Indices Girths::narrow(const Points& points, double share) const {
     const auto is_less = [&](double found, double lesser) { return found < share * lesser; };
     Indices triangles;
     for (int k = 0; k < sections_.outline_count(); ++k)
-        add_where(sections_, k, sections_.lengths(k, points), lesser_[at(k)], is_less, triangles);
+        add_where(sections_, k, sections_.lengths(k, points), lesser_[k], is_less, triangles);
     return triangles;
 }
 
@@ -57,7 +57,7 @@ Indices Girths::slim(const Points& points, double share) const {
     const auto is_less = [&](double found, double slimmer) { return found < share * slimmer; };
     Indices triangles;
     for (int k = 0; k < sections_.outline_count(); ++k)
-        add_where(sections_, k, sections_.widths(k, points), slimmer_[at(k)], is_less, triangles);
+        add_where(sections_, k, sections_.widths(k, points), slimmer_[k], is_less, triangles);
     return triangles;
 }
 
@@ -65,7 +65,7 @@ Indices Girths::wide(const Points& points, double times) const {
     const auto is_more = [&](double found, double larger) { return found > times * larger; };
     Indices triangles;
     for (int k = 0; k < sections_.outline_count(); ++k)
-        add_where(sections_, k, sections_.lengths(k, points), larger_[at(k)], is_more, triangles);
+        add_where(sections_, k, sections_.lengths(k, points), larger_[k], is_more, triangles);
     return triangles;
 }
 

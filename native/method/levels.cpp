@@ -24,7 +24,7 @@ Problem finest(const Problem& problem) {
 // Columns of the vertices of a coarse level, in its order.
 Points pick(const Points& points, const Indices& columns, int first) {
     Points result(3, static_cast<Eigen::Index>(columns.size()) - first);
-    for (Eigen::Index k = 0; k < result.cols(); ++k) result.col(k) = points.col(columns[at(first) + std::size_t(k)]);
+    for (Eigen::Index k = 0; k < result.cols(); ++k) result.col(k) = points.col(columns[first + std::size_t(k)]);
     return result;
 }
 

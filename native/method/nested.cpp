@@ -44,7 +44,7 @@ constexpr double share_of_start = 0.3;
 // Of a level's start: the iteration irons single ones out.
 std::size_t tolerated_folds(const Problem& problem) {
     constexpr std::size_t share = 100;
-    return problem.tolerated_folds + at(problem.patch.triangle_count()) / share;
+    return problem.tolerated_folds + problem.patch.triangle_count() / share;
 }
 
 // The fraction of all that is done after level k: each level takes about a quarter of the next finer one.

@@ -64,7 +64,7 @@ private:
     [[nodiscard]] Points on_coarsest(const Points& points) const {
         const Patch& patch = levels_.problem(levels_.coarsest()).patch;
         Points result(3, patch.vertex_count());
-        for (int v = 0; v < patch.vertex_count(); ++v) result.col(v) = points.col(patch.to_input[at(v)]);
+        for (int v = 0; v < patch.vertex_count(); ++v) result.col(v) = points.col(patch.to_input[v]);
         return result;
     }
 
@@ -159,29 +159,29 @@ private:
         const Transfer& transfer = levels_.transfer(k);
         const Removals& removals = transfer.removals;
         Points points = with_fixed(fine.patch, fine.fixed_points);
-        std::vector<SurfacePoint> where(at(fine.patch.vertex_count()));
+        std::vector<SurfacePoint> where(fine.patch.vertex_count());
         const int first_fixed = target.vertex_count() - static_cast<int>(fine.fixed_points.cols());
         for (int v = fine.patch.free_count; v < fine.patch.vertex_count(); ++v)
-            where[at(v)] = target.at_vertex(first_fixed + v - fine.patch.free_count);
+            where[v] = target.at_vertex(first_fixed + v - fine.patch.free_count);
         for (int c = 0; c < transfer.coarse_free_count; ++c) {
-            where[at(transfer.coarse_in_fine[at(c)])] = coarse.where[at(c)];
-            points.col(transfer.coarse_in_fine[at(c)]) = coarse.points.col(c);
+            where[transfer.coarse_in_fine[c]] = coarse.where[c];
+            points.col(transfer.coarse_in_fine[c]) = coarse.points.col(c);
         }
         for (int r = removals.size(); r-- > 0;) {
             Vector3 mean = Vector3::Zero();
-            int nearest = removals.neighbours[at(removals.begin[at(r)])];
-            for (int j = removals.begin[at(r)]; j < removals.begin[at(r) + 1]; ++j)
-                mean += double{removals.weights[at(j)]} * points.col(removals.neighbours[at(j)]);
-            for (int j = removals.begin[at(r)]; j < removals.begin[at(r) + 1]; ++j) {
-                const int other = removals.neighbours[at(j)];
+            int nearest = removals.neighbours[removals.begin[r]];
+            for (int j = removals.begin[r]; j < removals.begin[r + 1]; ++j)
+                mean += double{removals.weights[j]} * points.col(removals.neighbours[j]);
+            for (int j = removals.begin[r]; j < removals.begin[r + 1]; ++j) {
+                const int other = removals.neighbours[j];
                 if ((points.col(other) - mean).squaredNorm() < (points.col(nearest) - mean).squaredNorm())
                     nearest = other;
             }
-            const int v = removals.vertex[at(r)];
-            where[at(v)] = target.project(mean, where[at(nearest)].triangle);
-            points.col(v) = target.position(where[at(v)]);
+            const int v = removals.vertex[r];
+            where[v] = target.project(mean, where[nearest].triangle);
+            points.col(v) = target.position(where[v]);
         }
-        where.resize(at(fine.patch.free_count));
+        where.resize(fine.patch.free_count);
         return {std::move(where), std::move(points)};
     }
 

@@ -42,7 +42,7 @@ Outline outline_of(const Problem& problem) {
     const Patch& patch = problem.patch;
     Outline result{problem.fixed_points, problem.fixed_normals};
     for (Eigen::Index k = 0; k < result.normals.cols(); ++k) {
-        if (patch.pin[at(patch.free_count + static_cast<int>(k))]) result.normals.col(k).setZero();
+        if (patch.pin[patch.free_count + static_cast<int>(k)]) result.normals.col(k).setZero();
     }
     return result;
 }

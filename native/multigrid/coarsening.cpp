@@ -42,7 +42,7 @@ std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights
     levels.reserve(most_levels);
     std::vector<BackgroundTask> patching;  // the rings of levels, while collapses go on; end before `levels`
     CollapseMesh mesh(patch, weights, outline);
-    Indices fine_local(at(patch.vertex_count()));  // vertex of the patch → of the level above
+    Indices fine_local(patch.vertex_count());  // vertex of the patch → of the level above
     for (std::size_t v = 0; v < fine_local.size(); ++v) fine_local[v] = static_cast<int>(v);
     int fine_count = patch.vertex_count();
     while (mesh.free_count() > 2 * coarsest && levels.size() < most_levels) {
@@ -51,22 +51,22 @@ std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights
         const int target = static_cast<int>(free_before / factor);
         transfer.removals = collapse_level(mesh, target);
         if (mesh.free_count() * least_factor > free_before) break;
-        for (int& v : transfer.removals.vertex) v = fine_local[at(v)];
-        for (int& v : transfer.removals.neighbours) v = fine_local[at(v)];
+        for (int& v : transfer.removals.vertex) v = fine_local[v];
+        for (int& v : transfer.removals.neighbours) v = fine_local[v];
         transfer.fine_count = fine_count;
         CoarseMesh coarse = mesh.mesh();
         transfer.coarse_free_count = coarse.members.free_count;
-        Indices local(at(patch.vertex_count()), none);
+        Indices local(patch.vertex_count(), none);
         const Indices& vertices = coarse.members.to_input;
         for (std::size_t c = 0; c < vertices.size(); ++c) {
             const int v = vertices[c];
-            transfer.coarse_in_fine.push_back(fine_local[at(v)]);
-            local[at(v)] = static_cast<int>(c);
+            transfer.coarse_in_fine.push_back(fine_local[v]);
+            local[v] = static_cast<int>(c);
         }
         InnerWeights level_weights = mesh.weights();
         for (auto& edge : level_weights) {
-            edge.i = local[at(edge.i)];
-            edge.j = local[at(edge.j)];
+            edge.i = local[edge.i];
+            edge.j = local[edge.j];
         }
         fine_count = static_cast<int>(vertices.size());
         fine_local = std::move(local);

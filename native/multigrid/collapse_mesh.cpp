@@ -38,14 +38,14 @@ CollapseMesh::CollapseMesh(const Patch& patch, const InnerWeights& weights, cons
       patch_free_count_(patch.free_count),
       free_count_(patch.free_count),
       pin_(patch.pin),
-      border_(at(patch.vertex_count()), 0),
-      dead_vertex_(at(patch.vertex_count()), 0),
-      dead_triangle_(at(patch.triangle_count()), 0),
-      blocked_(at(patch.vertex_count()), 0),
-      valence_(at(patch.vertex_count()), 0),
-      first_side_(at(patch.vertex_count()), none),
-      loop_(at(patch.vertex_count()), none),
-      alive_(at(patch.vertex_count())) {
+      border_(patch.vertex_count(), 0),
+      dead_vertex_(patch.vertex_count(), 0),
+      dead_triangle_(patch.triangle_count(), 0),
+      blocked_(patch.vertex_count(), 0),
+      valence_(patch.vertex_count(), 0),
+      first_side_(patch.vertex_count(), none),
+      loop_(patch.vertex_count(), none),
+      alive_(patch.vertex_count()) {
     std::iota(alive_.begin(), alive_.end(), 0);
     build_sides(patch);
     set_weights(patch, weights);
@@ -53,7 +53,7 @@ CollapseMesh::CollapseMesh(const Patch& patch, const InnerWeights& weights, cons
 }
 
 void CollapseMesh::build_sides(const Patch& patch) {
-    sides_.resize(at(3 * patch.triangle_count()));
+    sides_.resize(3 * patch.triangle_count());
     const auto side_along = [&](int edge, int triangle) {
         int corner = 0;  // opposite
         while (patch.triangle_edges(corner, triangle) != edge) ++corner;
@@ -62,22 +62,22 @@ void CollapseMesh::build_sides(const Patch& patch) {
     for_ranges(patch.triangle_count(), coarse_grain, [&](int begin, int end) {
         for (int s = 3 * begin; s < 3 * end; ++s) {
             const int edge = patch.triangle_edges((s + 2) % 3, s / 3);
-            const auto [left, right] = patch.edge_triangles[at(edge)];
+            const auto [left, right] = patch.edge_triangles[edge];
             const int other = left == s / 3 ? right : left;
-            sides_[at(s)] = {side_tail(patch.triangles, s), other == none ? none : side_along(edge, other), 0.0F};
+            sides_[s] = {side_tail(patch.triangles, s), other == none ? none : side_along(edge, other), 0.0F};
         }
     });
     for_ranges(patch.vertex_count(), coarse_grain, [&](int begin, int end) {
         for (int v = begin; v < end; ++v) {
             const RingView ring = patch.ring(v);
-            valence_[at(v)] = static_cast<int>(ring.valence());
-            border_[at(v)] = !ring.closed();
+            valence_[v] = static_cast<int>(ring.valence());
+            border_[v] = !ring.closed();
             // The ring of a border vertex begins at the side without a twin.
             const int spoke = ring.spokes.front();
-            for (const int triangle : patch.edge_triangles[at(spoke)]) {
+            for (const int triangle : patch.edge_triangles[spoke]) {
                 if (triangle == none) continue;
                 const int side = side_along(spoke, triangle);
-                if (sides_[at(side)].corner == v) first_side_[at(v)] = side;
+                if (sides_[side].corner == v) first_side_[v] = side;
             }
         }
     });
@@ -106,14 +106,14 @@ void CollapseMesh::set_weights(const Patch& patch, const InnerWeights& weights) 
     for_ranges(static_cast<int>(sides_.size()), coarse_grain, [&](int begin, int end) {
         for (int s = begin; s < end; ++s) {
             const double weight = of_edge[patch.triangle_edges((s + 2) % 3, s / 3)];
-            sides_[at(s)].weight = static_cast<float>(std::max(weight, least));
+            sides_[s].weight = static_cast<float>(std::max(weight, least));
         }
     });
 }
 
 void CollapseMesh::number_loops(const Patch& patch) {
     for (const Indices& loop : patch.loops()) {
-        for (const int v : loop) loop_[at(v)] = static_cast<int>(loop_size_.size());
+        for (const int v : loop) loop_[v] = static_cast<int>(loop_size_.size());
         loop_size_.push_back(static_cast<int>(loop.size()));
     }
 }
@@ -129,21 +129,21 @@ void CollapseMesh::gather(int v, Star& star) const {
     star.sides.clear();
     star.weights.clear();
     star.closed = true;
-    int s = first_side_[at(v)];
+    int s = first_side_[v];
     do {
-        star.vertices.push_back(sides_[at(next_side(s))].corner);
+        star.vertices.push_back(sides_[next_side(s)].corner);
         star.sides.push_back(s);
-        star.weights.push_back(sides_[at(s)].weight);
+        star.weights.push_back(sides_[s].weight);
         const int last = previous_side(s);
-        s = sides_[at(last)].twin;
+        s = sides_[last].twin;
         if (s == none) {
             star.closed = false;
-            star.vertices.push_back(sides_[at(last)].corner);
+            star.vertices.push_back(sides_[last].corner);
             star.sides.push_back(none);
-            star.weights.push_back(sides_[at(last)].weight);
+            star.weights.push_back(sides_[last].weight);
             return;
         }
-    } while (s != first_side_[at(v)]);
+    } while (s != first_side_[v]);
 }
 
 // Vertices begin … end − 1. A collapse changes nothing but the star of its centre and what its triangles tell each
@@ -160,8 +160,8 @@ struct CollapseMesh::Domain {
 };
 
 bool CollapseMesh::may_go(int v) const {
-    if (blocked_[at(v)] || valence_[at(v)] > hub) return false;
-    return !is_fixed(v) || (!pin_[at(v)] && border_[at(v)]);
+    if (blocked_[v] || valence_[v] > hub) return false;
+    return !is_fixed(v) || (!pin_[v] && border_[v]);
 }
 
 void CollapseMesh::pass_over(Domain& domain) {
@@ -182,28 +182,28 @@ void CollapseMesh::pass_over(Domain& domain) {
 Removals CollapseMesh::pass() {
     const int count = static_cast<int>(alive_.size());
     const int pieces = std::clamp(count / least_domain, 1, most_domains);
-    std::vector<Domain> domains(at(pieces));
+    std::vector<Domain> domains(pieces);
     for (int k = 0; k < pieces; ++k) {
         const auto begin = std::size_t(count) * std::size_t(k) / std::size_t(pieces);
         const auto end = std::size_t(count) * std::size_t(k + 1) / std::size_t(pieces);
-        domains[at(k)].alive = std::span(alive_).subspan(begin, end - begin);
+        domains[k].alive = std::span(alive_).subspan(begin, end - begin);
     }
-    for (const int v : alive_) blocked_[at(v)] = 0;
-    run_pieces(pieces, [&](int k) { pass_over(domains[at(k)]); });
+    for (const int v : alive_) blocked_[v] = 0;
+    run_pieces(pieces, [&](int k) { pass_over(domains[k]); });
     Removals removals = std::move(domains.front().removals);
     for (std::size_t k = 1; k < domains.size(); ++k) removals.append(std::exchange(domains[k].removals, {}));
     Star star;
     for (const Domain& domain : domains) {
         for (const int v : domain.waiting) {
             checkpoint(v);
-            if (blocked_[at(v)]) continue;
+            if (blocked_[v]) continue;
             gather(v, star);
             try_collapse(star, removals);
         }
     }
     free_count_ -= removals.size();
     removals.pass_begin.push_back(removals.size());
-    std::erase_if(alive_, [&](int v) { return dead_vertex_[at(v)] != 0; });
+    std::erase_if(alive_, [&](int v) { return dead_vertex_[v] != 0; });
     return removals;
 }
 
@@ -226,7 +226,7 @@ bool CollapseMesh::try_collapse(Star& star, Removals& removals) {
     const std::size_t best = cheapest_legal(star);
     if (best == star.size()) return false;
     if (is_fixed(v)) {
-        --loop_size_[at(loop_[at(v)])];
+        --loop_size_[loop_[v]];
         pass_fixed_weights_on(star, best);
     } else {
         const double sum = star.weight();
@@ -239,7 +239,7 @@ bool CollapseMesh::try_collapse(Star& star, Removals& removals) {
         pass_weights_on(star, best);
     }
     collapse(star, best);
-    for (const int u : star.vertices) blocked_[at(u)] = 1;
+    for (const int u : star.vertices) blocked_[u] = 1;
     return true;
 }
 
@@ -264,23 +264,23 @@ void CollapseMesh::pass_fixed_weights_on(Star& star, std::size_t k) const {
 }
 
 void CollapseMesh::set_first_side(int v, int side) {
-    if (border_[at(v)]) {
+    if (border_[v]) {
         // Clockwise to the end of the fan.
-        while (sides_[at(side)].twin != none) side = next_side(sides_[at(side)].twin);
+        while (sides_[side].twin != none) side = next_side(sides_[side].twin);
     }
-    first_side_[at(v)] = side;
+    first_side_[v] = side;
 }
 
 // Drops the triangle of `side`, an edge between the star's centre and the vertex kept, and joins what lies behind the
 // two other edges, which become one of the given weight.
 void CollapseMesh::drop_triangle(int side, double weight) {
-    const int a = sides_[at(next_side(side))].twin;
-    const int b = sides_[at(previous_side(side))].twin;
-    dead_triangle_[at(side / 3)] = 1;
+    const int a = sides_[next_side(side)].twin;
+    const int b = sides_[previous_side(side)].twin;
+    dead_triangle_[side / 3] = 1;
     for (const auto& [s, other] : {std::pair(a, b), std::pair(b, a)}) {
         if (s == none) continue;
-        sides_[at(s)].twin = other;
-        sides_[at(s)].weight = static_cast<float>(weight);
+        sides_[s].twin = other;
+        sides_[s].weight = static_cast<float>(weight);
     }
 }
 
@@ -290,8 +290,8 @@ void CollapseMesh::strengthen_rim(const Star& star, std::size_t k) {
         if (!star.has_triangle(j) || j == k || star.after(j) == k) continue;
         const auto more = static_cast<float>(star.weights[j] * star.weights[star.after(j)] / sum);
         const int rim = next_side(star.sides[j]);
-        sides_[at(rim)].weight += more;
-        if (sides_[at(rim)].twin != none) sides_[at(sides_[at(rim)].twin)].weight += more;
+        sides_[rim].weight += more;
+        if (sides_[rim].twin != none) sides_[sides_[rim].twin].weight += more;
     }
 }
 
@@ -300,12 +300,12 @@ void CollapseMesh::hand_over_spokes(const Star& star, int kept) {
         const auto weight = static_cast<float>(star.passed[j]);
         const int s = star.sides[j];
         if (s == none) {
-            sides_[at(previous_side(star.sides[j - 1]))].weight = weight;
+            sides_[previous_side(star.sides[j - 1])].weight = weight;
             continue;
         }
-        sides_[at(s)].corner = kept;
-        sides_[at(s)].weight = weight;
-        if (sides_[at(s)].twin != none) sides_[at(sides_[at(s)].twin)].weight = weight;
+        sides_[s].corner = kept;
+        sides_[s].weight = weight;
+        if (sides_[s].twin != none) sides_[sides_[s].twin].weight = weight;
     }
 }
 
@@ -313,25 +313,25 @@ void CollapseMesh::collapse(const Star& star, std::size_t k) {
     const int kept = star.vertices[k];
     if (!is_fixed(star.centre)) strengthen_rim(star, k);
     hand_over_spokes(star, kept);
-    dead_vertex_[at(star.centre)] = 1;
-    valence_[at(kept)] += static_cast<int>(star.size()) - (star.closed ? 4 : 3);
+    dead_vertex_[star.centre] = 1;
+    valence_[kept] += static_cast<int>(star.size()) - (star.closed ? 4 : 3);
     std::array<std::pair<int, std::size_t>, 2> dropped{{{none, 0}, {none, 0}}};  // side, apex
     if (star.has_triangle(k)) {
         const int side = star.sides[k];  // centre → kept → l → centre
         dropped[0] = {side, star.after(k)};
-        drop_triangle(side, sides_[at(next_side(side))].weight + star.passed[star.after(k)]);
+        drop_triangle(side, sides_[next_side(side)].weight + star.passed[star.after(k)]);
     }
     if (star.has_triangle(star.before(k))) {
         const int side = previous_side(star.sides[star.before(k)]);  // kept → centre → r → kept
         dropped[1] = {side, star.before(k)};
-        drop_triangle(side, sides_[at(previous_side(side))].weight + star.passed[star.before(k)]);
+        drop_triangle(side, sides_[previous_side(side)].weight + star.passed[star.before(k)]);
     }
     for (const auto& [side, j] : dropped) {
         if (side == none) continue;
         const int apex = star.vertices[j];
-        --valence_[at(apex)];
-        const int from_apex = sides_[at(next_side(side))].twin;
-        const int to_apex = sides_[at(previous_side(side))].twin;
+        --valence_[apex];
+        const int from_apex = sides_[next_side(side)].twin;
+        const int to_apex = sides_[previous_side(side)].twin;
         set_first_side(apex, from_apex != none ? from_apex : next_side(to_apex));
         set_first_side(kept, to_apex != none ? to_apex : next_side(from_apex));
     }
@@ -360,9 +360,9 @@ CoarseMesh CollapseMesh::mesh() const {
     for (std::size_t t = 0; t < members.input_triangle.size(); ++t) {
         for (int k = 0; k < 3; ++k) {
             const int side = 3 * members.input_triangle[t] + k;
-            const int twin = sides_[at(side)].twin;
-            members.triangles(k, static_cast<Eigen::Index>(t)) = local[at(sides_[at(side)].corner)];
-            twins.push_back(twin == none ? none : 3 * place[at(twin / 3)] + twin % 3);
+            const int twin = sides_[side].twin;
+            members.triangles(k, static_cast<Eigen::Index>(t)) = local[sides_[side].corner];
+            twins.push_back(twin == none ? none : 3 * place[twin / 3] + twin % 3);
         }
     }
     return result;
@@ -371,8 +371,8 @@ CoarseMesh CollapseMesh::mesh() const {
 InnerWeights CollapseMesh::weights() const {
     InnerWeights result;
     for (int s = 0; s < static_cast<int>(sides_.size()); ++s) {
-        if (dead_triangle_[at(s / 3)] || (sides_[at(s)].twin != none && sides_[at(s)].twin < s)) continue;
-        result.push_back({sides_[at(s)].corner, sides_[at(next_side(s))].corner, sides_[at(s)].weight});
+        if (dead_triangle_[s / 3] || (sides_[s].twin != none && sides_[s].twin < s)) continue;
+        result.push_back({sides_[s].corner, sides_[next_side(s)].corner, sides_[s].weight});
     }
     result.shrink_to_fit();
     return result;

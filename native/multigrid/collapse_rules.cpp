@@ -18,7 +18,7 @@ constexpr double parallel = 0.8;
 }  // namespace
 
 double CollapseMesh::valence_penalty(int v, int valence) const {
-    const double excess = valence - (border_[at(v)] ? 4 : 6);
+    const double excess = valence - (border_[v] ? 4 : 6);
     return excess * excess;
 }
 
@@ -26,14 +26,14 @@ double CollapseMesh::valence_penalty(int v, int valence) const {
 double CollapseMesh::cost(const Star& star, std::size_t k, double largest) const {
     constexpr double never = std::numeric_limits<double>::infinity();
     const int kept = star.vertices[k];
-    const int valence = valence_[at(kept)] + static_cast<int>(star.size()) - (star.closed ? 4 : 3);
-    if (valence > largest_valence && valence >= valence_[at(kept)]) return never;
-    double change = valence_penalty(kept, valence) - valence_penalty(kept, valence_[at(kept)]) -
+    const int valence = valence_[kept] + static_cast<int>(star.size()) - (star.closed ? 4 : 3);
+    if (valence > largest_valence && valence >= valence_[kept]) return never;
+    double change = valence_penalty(kept, valence) - valence_penalty(kept, valence_[kept]) -
                     valence_penalty(star.centre, static_cast<int>(star.size()));
     const auto lose_one = [&](std::size_t j) {
         const int u = star.vertices[j];
-        const int left = valence_[at(u)] - 1;
-        if (left < (border_[at(u)] ? 3 : least_valence)) change = never;
+        const int left = valence_[u] - 1;
+        if (left < (border_[u] ? 3 : least_valence)) change = never;
         change += valence_penalty(u, left) - valence_penalty(u, left + 1);
     };
     if (star.has_triangle(k)) lose_one(star.after(k));
@@ -44,7 +44,7 @@ double CollapseMesh::cost(const Star& star, std::size_t k, double largest) const
 
 bool CollapseMesh::may_thin(const Star& star, std::size_t k) const {
     const int v = star.centre;
-    if (star.closed || loop_size_[at(loop_[at(v)])] <= least_loop_size_[at(loop_[at(v)])]) return false;
+    if (star.closed || loop_size_[loop_[v]] <= least_loop_size_[loop_[v]]) return false;
     const int a = star.vertices.front();
     const int b = star.vertices.back();
     const int kept = star.vertices[k];
@@ -62,13 +62,13 @@ bool CollapseMesh::is_legal(Star& star, std::size_t k) const {
     const int kept = star.vertices[k];
     if (is_fixed(star.centre) && !may_thin(star, k)) return false;
     star.around.clear();
-    int s = first_side_[at(kept)];
+    int s = first_side_[kept];
     const int start = s;
     do {
-        star.around.push_back(sides_[at(next_side(s))].corner);
+        star.around.push_back(sides_[next_side(s)].corner);
         const int last = previous_side(s);
-        s = sides_[at(last)].twin;
-        if (s == none) star.around.push_back(sides_[at(last)].corner);
+        s = sides_[last].twin;
+        if (s == none) star.around.push_back(sides_[last].corner);
     } while (s != none && s != start);
     const bool left = star.has_triangle(k);
     const bool right = star.has_triangle(star.before(k));

@@ -10,9 +10,9 @@ namespace {
 // The row of each fine vertex; `none` at fixed ones.
 Indices rows_of(const Transfer& transfer) {
     const Removals& removals = transfer.removals;
-    Indices row(at(transfer.fine_count), none);
-    for (int k = 0; k < removals.size(); ++k) row[at(removals.vertex[at(k)])] = k;
-    for (int c = 0; c < transfer.coarse_free_count; ++c) row[at(transfer.coarse_in_fine[at(c)])] = removals.size() + c;
+    Indices row(transfer.fine_count, none);
+    for (int k = 0; k < removals.size(); ++k) row[removals.vertex[k]] = k;
+    for (int c = 0; c < transfer.coarse_free_count; ++c) row[transfer.coarse_in_fine[c]] = removals.size() + c;
     return row;
 }
 
@@ -21,29 +21,29 @@ Indices rows_of(const Transfer& transfer) {
 Restriction::Restriction(const Transfer& transfer) : transfer_(transfer) {
     const Removals& removals = transfer.removals;
     const Indices row = rows_of(transfer);
-    begin_.assign(at(removals.size() + transfer.coarse_free_count) + 1, 0);
+    begin_.assign((removals.size() + transfer.coarse_free_count) + 1, 0);
     for (const int v : removals.neighbours) {
-        if (row[at(v)] != none) ++begin_[at(row[at(v)]) + 1];
+        if (row[v] != none) ++begin_[row[v] + 1];
     }
     for (std::size_t k = 1; k < begin_.size(); ++k) begin_[k] += begin_[k - 1];
-    from_.resize(at(begin_.back()));
+    from_.resize(begin_.back());
     weights_.resize(from_.size());
     Indices cursor(begin_.begin(), begin_.end() - 1);
     for (int k = 0; k < removals.size(); ++k) {
         checkpoint(k);
-        for (int j = removals.begin[at(k)]; j < removals.begin[at(k) + 1]; ++j) {
-            const int target = row[at(removals.neighbours[at(j)])];
+        for (int j = removals.begin[k]; j < removals.begin[k + 1]; ++j) {
+            const int target = row[removals.neighbours[j]];
             if (target == none) continue;
-            const std::size_t place = at(cursor[at(target)]++);
+            const std::size_t place = cursor[target]++;
             from_[place] = k;
-            weights_[place] = removals.weights[at(j)];
+            weights_[place] = removals.weights[j];
         }
     }
 }
 
 Eigen::Vector4f Restriction::arrived(int row, const Eigen::Vector4f& own, const SingleField& sums) const {
     Eigen::Vector4f sum = own;
-    for (int j = begin_[at(row)]; j < begin_[at(row) + 1]; ++j) sum += weights_[at(j)] * sums.col(from_[at(j)]);
+    for (int j = begin_[row]; j < begin_[row + 1]; ++j) sum += weights_[j] * sums.col(from_[j]);
     return sum;
 }
 
@@ -54,13 +54,13 @@ void Restriction::apply(const SingleField& fine, float scale, SingleField& sums,
         const int first = removals.pass_begin[pass - 1];
         for_ranges(removals.pass_begin[pass] - first, coarse_grain, [&](int begin, int end) {
             for (int k = first + begin; k < first + end; ++k)
-                sums.col(k) = arrived(k, fine.col(removals.vertex[at(k)]), sums);
+                sums.col(k) = arrived(k, fine.col(removals.vertex[k]), sums);
         });
     }
     const int count = transfer_.coarse_free_count;
     for_ranges(count, coarse_grain, [&](int begin, int end) {
         for (int c = begin; c < end; ++c) {
-            const Eigen::Vector4f own = fine.col(transfer_.coarse_in_fine[at(c)]);
+            const Eigen::Vector4f own = fine.col(transfer_.coarse_in_fine[c]);
             coarse.col(c) = scale * arrived(removals.size() + c, own, sums);
         }
     });

@@ -7,16 +7,16 @@
 
 namespace fairing {
 
-RingMatrix::RingMatrix(int vertex_count, const InnerWeights& edges) : begin(at(vertex_count) + 1, 0) {
+RingMatrix::RingMatrix(int vertex_count, const InnerWeights& edges) : begin(vertex_count + 1, 0) {
     double most = 1e-300;
     for (const auto& edge : edges) {
         checkpoint(edge.i);
         most = std::max(most, edge.weight);
-        ++begin[at(edge.i) + 1];
-        ++begin[at(edge.j) + 1];
+        ++begin[edge.i + 1];
+        ++begin[edge.j + 1];
     }
     for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
-    columns.resize(at(begin.back()));
+    columns.resize(begin.back());
     diagonal.setZero(vertex_count);
     if (!edges.empty()) largest = most;
     const bool uniform =
@@ -24,9 +24,9 @@ RingMatrix::RingMatrix(int vertex_count, const InnerWeights& edges) : begin(at(v
     if (!uniform) weights.resize(begin.back());
     Indices cursor(begin.begin(), begin.end() - 1);
     const auto add = [&](int i, int j, float weight) {
-        columns[at(cursor[at(i)])] = j;
-        if (!uniform) weights[cursor[at(i)]] = weight;
-        ++cursor[at(i)];
+        columns[cursor[i]] = j;
+        if (!uniform) weights[cursor[i]] = weight;
+        ++cursor[i];
         diagonal[i] += weight;
     };
     for (const auto& [i, j, weight] : edges) {
@@ -42,9 +42,9 @@ namespace {
 void fill_in(const RingMatrix& weights, ShapeOperators& shapes) {
     for (int i = 0; i < static_cast<int>(shapes.cols()); ++i) {
         if (!std::isnan(shapes(0, i))) continue;
-        const int first = weights.begin[at(i)];
-        const int count = weights.begin[at(i) + 1] - first;
-        shapes.col(i) = mean_shape(shapes, &weights.columns[at(first)], weights.weights_from(first), count);
+        const int first = weights.begin[i];
+        const int count = weights.begin[i + 1] - first;
+        shapes.col(i) = mean_shape(shapes, &weights.columns[first], weights.weights_from(first), count);
     }
 }
 
@@ -55,9 +55,9 @@ void even_out(const RingMatrix& weights, int free_count, int sweeps, BentPoints&
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         for (int i = 0; i < free_count; ++i) {
             checkpoint(i);
-            const int first = weights.begin[at(i)];
-            const int count = weights.begin[at(i) + 1] - first;
-            const int* around = &weights.columns[at(first)];
+            const int first = weights.begin[i];
+            const int count = weights.begin[i + 1] - first;
+            const int* around = &weights.columns[first];
             const LiftedMean lifted = lifted_mean(points, around, weights.weights_from(first), count);
             points.points.col(i) = lifted.point;
             points.normals.col(i) = lifted.normal;

@@ -27,8 +27,7 @@ struct RingMatrix {
         for_ranges(rows, coarse_grain, [&](int first, int last) {
             for (int i = first; i < last; ++i) {
                 Vector3 sum = Vector3::Zero();
-                for (int k = begin[at(i)]; k < begin[at(i) + 1]; ++k)
-                    sum += double{weight(k)} * (x.col(i) - x.col(columns[at(k)]));
+                for (int k = begin[i]; k < begin[i + 1]; ++k) sum += double{weight(k)} * (x.col(i) - x.col(columns[k]));
                 write(i, sum);
             }
         });
@@ -39,7 +38,7 @@ struct RingMatrix {
     void apply_singles(const Field& x, int rows, const Write& write) const {
         for_ranges(rows, coarse_grain, [&](int first, int last) {
             for (int i = first; i < last; ++i)
-                write(i, Eigen::Vector4f(diagonal[i] * x(i) - weighted_sum(x, begin[at(i)], begin[at(i) + 1])));
+                write(i, Eigen::Vector4f(diagonal[i] * x(i) - weighted_sum(x, begin[i], begin[i + 1])));
         });
     }
 
@@ -48,9 +47,9 @@ private:
     [[nodiscard]] Eigen::Vector4f weighted_sum(const Field& x, int first, int last) const {
         Eigen::Vector4f sum = Eigen::Vector4f::Zero();
         if (weights.size() == 0) {
-            for (int k = first; k < last; ++k) sum += x(columns[at(k)]);
+            for (int k = first; k < last; ++k) sum += x(columns[k]);
         } else {
-            for (int k = first; k < last; ++k) sum += weights[k] * x(columns[at(k)]);
+            for (int k = first; k < last; ++k) sum += weights[k] * x(columns[k]);
         }
         return sum;
     }

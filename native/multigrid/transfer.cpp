@@ -30,13 +30,13 @@ void Transfer::prolong(const SingleField& coarse, SingleField& fine) const {
     const int free_count = coarse_free_count + removals.size();
     fine.rightCols(fine_count - free_count).setZero();  // a coarse level may lack some of the fixed vertices
     for_ranges(coarse_count(), coarse_grain, [&](int begin, int end) {
-        for (int c = begin; c < end; ++c) fine.col(coarse_in_fine[at(c)]) = coarse.col(c);
+        for (int c = begin; c < end; ++c) fine.col(coarse_in_fine[c]) = coarse.col(c);
     });
     in_reverse(removals, coarse_grain, [&](int k) {
         Eigen::Vector4f sum = Eigen::Vector4f::Zero();
-        for (int j = removals.begin[at(k)]; j < removals.begin[at(k) + 1]; ++j)
-            sum += removals.weights[at(j)] * fine.col(removals.neighbours[at(j)]);
-        fine.col(removals.vertex[at(k)]) = sum;
+        for (int j = removals.begin[k]; j < removals.begin[k + 1]; ++j)
+            sum += removals.weights[j] * fine.col(removals.neighbours[j]);
+        fine.col(removals.vertex[k]) = sum;
     });
 }
 
@@ -46,9 +46,9 @@ void Transfer::prolong_means(const Points& coarse, int fine_free_count, Points& 
     }
     in_reverse(removals, coarse_grain, [&](int k) {
         Vector3 sum = Vector3::Zero();
-        for (int j = removals.begin[at(k)]; j < removals.begin[at(k) + 1]; ++j)
-            sum += double{removals.weights[at(j)]} * fine.col(removals.neighbours[at(j)]);
-        fine.col(removals.vertex[at(k)]) = sum;
+        for (int j = removals.begin[k]; j < removals.begin[k + 1]; ++j)
+            sum += double{removals.weights[j]} * fine.col(removals.neighbours[j]);
+        fine.col(removals.vertex[k]) = sum;
     });
 }
 
@@ -102,11 +102,11 @@ void Transfer::prolong_surface(const BentPoints& coarse, int fine_free_count, Be
         fine.normals.col(v) = coarse.normals.col(column);
     }
     in_reverse(removals, fine_grain, [&](int k) {
-        const int first = removals.begin[at(k)];
-        const int count = removals.begin[at(k) + 1] - first;
-        const int v = removals.vertex[at(k)];
-        const int* around = &removals.neighbours[at(first)];
-        const float* weights = &removals.weights[at(first)];
+        const int first = removals.begin[k];
+        const int count = removals.begin[k + 1] - first;
+        const int v = removals.vertex[k];
+        const int* around = &removals.neighbours[first];
+        const float* weights = &removals.weights[first];
         const LiftedMean lifted = lifted_mean(fine, around, weights, count);
         fine.points.col(v) = lifted.point;
         fine.normals.col(v) = lifted.normal;

@@ -36,19 +36,19 @@ BiharmonicOperator::BiharmonicOperator(const Patch& patch, Points layout) : patc
 
 void BiharmonicOperator::build_pattern() {
     const int count = patch_.free_count;
-    std::vector<Indices> pieces(at(count / coarse_grain) + 1);
-    std::vector<int> sizes(at(count));
-    product_begin_.assign(at(count) + 1, 0);
+    std::vector<Indices> pieces((count / coarse_grain) + 1);
+    std::vector<int> sizes(count);
+    product_begin_.assign(count + 1, 0);
     for_ranges(count, coarse_grain, [&](int begin, int end) {
-        Indices& all = pieces[at(begin / coarse_grain)];
+        Indices& all = pieces[begin / coarse_grain];
         Indices row;
         for (int i = begin; i < end; ++i) {
             row.clear();
             for_each_product(patch_, i, [&](int j, int, int, int) { row.push_back(j); });
-            product_begin_[at(i) + 1] = row.size();
+            product_begin_[i + 1] = row.size();
             std::sort(row.begin(), row.end());
             row.erase(std::unique(row.begin(), row.end()), row.end());
-            sizes[at(i)] = static_cast<int>(row.size());
+            sizes[i] = static_cast<int>(row.size());
             all.insert(all.end(), row.begin(), row.end());
         }
     });
@@ -63,7 +63,7 @@ void BiharmonicOperator::build_pattern() {
 void BiharmonicOperator::find_slots() {
     slots_.resize(product_begin_.back());
     for_ranges(patch_.free_count, coarse_grain, [&](int begin, int end) {
-        auto slot = slots_.begin() + std::ptrdiff_t(product_begin_[at(begin)]);
+        auto slot = slots_.begin() + std::ptrdiff_t(product_begin_[begin]);
         for (int i = begin; i < end; ++i) {
             const int* first = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[i];
             const int* last = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[i + 1];
@@ -96,7 +96,7 @@ void BiharmonicOperator::assemble(const Stiffness& stiffness) {
     });
     const auto entry = [&](int k, int edge) { return edge == none ? diagonal[k] : -stiffness.weights[edge]; };
     for_ranges(patch_.free_count, coarse_grain, [&](int begin, int end) {
-        auto slot = slots_.begin() + std::ptrdiff_t(product_begin_[at(begin)]);
+        auto slot = slots_.begin() + std::ptrdiff_t(product_begin_[begin]);
         for (int i = begin; i < end; ++i) {
             const int first = matrix_.outerIndexPtr()[i];
             double* row = matrix_.valuePtr() + first;

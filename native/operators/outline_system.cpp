@@ -52,7 +52,7 @@ bool OutlineSystem::update(const VectorX& quarter_mass) {
     const double slowest = std::numbers::pi * c.mean() / length.sum();
     const double least = std::max(1e-14, slowest * slowest);
     std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(at(static_cast<int>(length.size())) + 3 * edges_.size());
+    entries.reserve((static_cast<int>(length.size())) + 3 * edges_.size());
     for (int k = 0; k < static_cast<int>(length.size()); ++k) entries.emplace_back(k, k, least);
     for (const Edge& edge : edges_) {
         const double a = factor[edge.a];

@@ -8,7 +8,7 @@ namespace fairing {
 
 BrokenSurface broken_along(const Triangles& triangles, int vertex_count, const std::vector<std::array<int, 2>>& edges) {
     const EdgeTable table = make_edges(triangles, vertex_count);
-    std::vector<char> cut(at(table.size()), 0);
+    std::vector<char> cut(table.size(), 0);
     for (const auto& [a, b] : edges) {
         const std::array wanted{std::min(a, b), std::max(a, b)};
         const auto found = std::lower_bound(table.ends.begin(), table.ends.end(), wanted);

@@ -58,11 +58,11 @@ DihedralBands::DihedralBands(const Points& points, const Triangles& triangles)
       normals_(3, triangles.cols()),
       begin_(static_cast<std::size_t>(points.cols()) + 1, 0),
       at_vertex_(static_cast<std::size_t>(triangles.size())) {
-    for (int v : triangles.reshaped()) ++begin_[at(v) + 1];
+    for (int v : triangles.reshaped()) ++begin_[v + 1];
     for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
     Indices cursor(begin_.begin(), begin_.end() - 1);
     for (int t = 0; t < triangles.cols(); ++t) {
-        for (int v : triangles.col(t)) at_vertex_[at(cursor[at(v)]++)] = t;
+        for (int v : triangles.col(t)) at_vertex_[cursor[v]++] = t;
         const Vector3 a = points.col(triangles(0, t));
         const Vector3 side = points.col(triangles(1, t)) - a;
         normals_.col(t) = direction(side.cross(Vector3(points.col(triangles(2, t)) - a)));
@@ -79,7 +79,7 @@ void DihedralBands::measure_edges() {
 }
 
 void DihedralBands::measure(int edge) {
-    const auto [a, b] = edges_.ends[at(edge)];
+    const auto [a, b] = edges_.ends[edge];
     lengths_[edge] = (points_.col(a) - points_.col(b)).norm();
     if (edges_.side_count(edge) != 2) return;
     const int side = edges_.side(edge, 1);
@@ -90,25 +90,25 @@ void DihedralBands::measure(int edge) {
 
 DihedralBands::Walk DihedralBands::walk() const {
     return {Indices(begin_.size() - 1, 0), Indices(static_cast<std::size_t>(triangles_.cols()), 0),
-            Indices(at(edges_.size()), 0)};
+            Indices(edges_.size(), 0)};
 }
 
 Indices DihedralBands::triangles_near(int a, int b, Walk& walk) const {
     ++walk.stamp;
     Indices found;
     Indices front{a, b};
-    for (const int v : front) walk.vertices[at(v)] = walk.stamp;
+    for (const int v : front) walk.vertices[v] = walk.stamp;
     for (int ring = 0; ring < rings; ++ring) {
         Indices next;
         for (int v : front) {
-            for (int k = begin_[at(v)]; k < begin_[at(v) + 1]; ++k) {
-                const int t = at_vertex_[at(k)];
-                if (walk.triangles[at(t)] == walk.stamp) continue;
-                walk.triangles[at(t)] = walk.stamp;
+            for (int k = begin_[v]; k < begin_[v + 1]; ++k) {
+                const int t = at_vertex_[k];
+                if (walk.triangles[t] == walk.stamp) continue;
+                walk.triangles[t] = walk.stamp;
                 found.push_back(t);
                 for (const int corner : triangles_.col(t)) {
-                    if (walk.vertices[at(corner)] == walk.stamp) continue;
-                    walk.vertices[at(corner)] = walk.stamp;
+                    if (walk.vertices[corner] == walk.stamp) continue;
+                    walk.vertices[corner] = walk.stamp;
                     next.push_back(corner);
                 }
             }
@@ -122,9 +122,9 @@ AngleRange DihedralBands::usual(int a, int b, Walk& walk) const {
     std::vector<WeightedAngle> near;
     for (int t : triangles_near(a, b, walk)) {
         for (int k = 0; k < 3; ++k) {
-            const int e = edges_.edge_of_side[at(3 * t + k)];
-            if (edges_.side_count(e) != 2 || walk.edges[at(e)] == walk.stamp) continue;
-            walk.edges[at(e)] = walk.stamp;
+            const int e = edges_.edge_of_side[3 * t + k];
+            if (edges_.side_count(e) != 2 || walk.edges[e] == walk.stamp) continue;
+            walk.edges[e] = walk.stamp;
             near.push_back({angles_[e], lengths_[e]});
         }
     }

@@ -27,7 +27,7 @@ struct Run {
 };
 
 std::vector<Run> runs_of(const Indices& loop, const std::vector<char>& marked) {
-    const auto is_marked = [&](std::size_t k) { return marked[at(loop[k % loop.size()])] != 0; };
+    const auto is_marked = [&](std::size_t k) { return marked[loop[k % loop.size()]] != 0; };
     std::size_t begin = 0;
     while (begin < loop.size() && is_marked(begin)) ++begin;
     if (begin == loop.size()) return {{loop, true}};
@@ -49,7 +49,7 @@ SparseMatrix third_differences(const Run& run) {
     const int rows = run.closed ? run.size() : run.size() - 3;
     std::vector<Eigen::Triplet<double>> entries;
     for (int r = 0; r < rows; ++r) {
-        for (int k = 0; k < 4; ++k) entries.emplace_back(r, (r + k) % run.size(), stencil[at(k)]);
+        for (int k = 0; k < 4; ++k) entries.emplace_back(r, (r + k) % run.size(), stencil[k]);
     }
     SparseMatrix result(rows, run.size());
     result.setFromTriplets(entries.begin(), entries.end());
@@ -156,7 +156,7 @@ void fair_border(const Indices& loop, const std::vector<char>& marked, Points& p
     for (const Run& run : runs_of(loop, marked)) {
         if (run.moving() < shortest_run) continue;
         const Points smoothed = Smoother(run, points).best();
-        for (int k = 0; k < run.moving(); ++k) points.col(run.columns[at(run.first_moving() + k)]) = smoothed.col(k);
+        for (int k = 0; k < run.moving(); ++k) points.col(run.columns[run.first_moving() + k]) = smoothed.col(k);
     }
 }
 

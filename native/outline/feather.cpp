@@ -55,7 +55,7 @@ public:
           edges_(std::move(edges)),
           distance_(VectorX::Constant(points.cols(), std::numeric_limits<double>::infinity())) {
         for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {
-            for (int v : edges_[at(e)]) edges_at_[v].push_back(e);
+            for (int v : edges_[e]) edges_at_[v].push_back(e);
         }
     }
 
@@ -67,8 +67,7 @@ public:
             if (distance > distance_[v]) continue;
             if (distance > farthest) break;
             checkpoint();
-            for (int k = around_.begin[at(v)]; k < around_.begin[at(v) + 1]; ++k)
-                spread(around_.neighbours[at(k)], edge);
+            for (int k = around_.begin[v]; k < around_.begin[v + 1]; ++k) spread(around_.neighbours[k], edge);
         }
         return std::move(distance_);
     }
@@ -84,13 +83,13 @@ private:
     };
 
     void spread(int vertex, int edge) {
-        for (int end : edges_[at(edge)]) {
+        for (int end : edges_[edge]) {
             for (int near : edges_at_[end]) reach(vertex, near);
         }
     }
 
     void reach(int vertex, int edge) {
-        const auto [a, b] = edges_[at(edge)];
+        const auto [a, b] = edges_[edge];
         const double distance = distance_to(points_.col(vertex), points_.col(a), points_.col(b));
         if (!(distance < distance_[vertex])) return;
         distance_[vertex] = distance;

@@ -23,8 +23,8 @@ struct Pair {
 };
 
 Pair make_pair(const SurroundingFit& fit, const VectorX& errors, int i, int j) {
-    const SlopeFit& first = *fit.fits[at(i)];
-    const SlopeFit& second = *fit.fits[at(j)];
+    const SlopeFit& first = *fit.fits[i];
+    const SlopeFit& second = *fit.fits[j];
     const Vector3 step = fit.centres.col(j) - fit.centres.col(i);
     const Vector3 turn_by_first = first.normal - first.normal_at(step);
     const Vector3 turn_by_second = second.normal_at(-step) - second.normal;
@@ -42,7 +42,7 @@ public:
             if (fit.fits[k]) errors_[static_cast<Eigen::Index>(k)] = std::max(fit.fits[k]->error, least_error);
         }
         for (const auto& [i, j] : fit.edges) {
-            if (!fit.fits[at(i)] || !fit.fits[at(j)]) continue;
+            if (!fit.fits[i] || !fit.fits[j]) continue;
             const Pair pair = make_pair(fit, errors_, i, j);
             pairs_.push_back(pair);
             diagonal_[i] += pair.weight * errors_[i] / errors_[j];
@@ -88,8 +88,8 @@ Points filtered_normals(const SurroundingFit& fit) {
     const Points turns = FilterSystem(fit).turns();
     Points normals = fit.averaged;
     for (Eigen::Index k = 0; k < normals.cols(); ++k) {
-        const auto& here = fit.fits[at(static_cast<int>(k))];
-        if (here) normals.col(k) = direction(here->normal + turns.col(fit.first[at(static_cast<int>(k))]));
+        const auto& here = fit.fits[static_cast<int>(k)];
+        if (here) normals.col(k) = direction(here->normal + turns.col(fit.first[static_cast<int>(k)]));
     }
     return normals;
 }

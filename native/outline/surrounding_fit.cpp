@@ -14,7 +14,7 @@ namespace {
 // The first place of each vertex in the list, `none` elsewhere.
 Indices first_places(const Indices& vertices, Eigen::Index count) {
     Indices place(static_cast<std::size_t>(count), none);
-    for (std::size_t k = vertices.size(); k-- > 0;) place[at(vertices[k])] = static_cast<int>(k);
+    for (std::size_t k = vertices.size(); k-- > 0;) place[vertices[k]] = static_cast<int>(k);
     return place;
 }
 
@@ -22,8 +22,8 @@ OutlineEdges border_edges(const Triangles& triangles, const Indices& place) {
     OutlineEdges sides;
     for (const auto t : triangles.colwise()) {
         for (int k = 0; k < 3; ++k) {
-            const int a = place[at(t[k])];
-            const int b = place[at(t[(k + 1) % 3])];
+            const int a = place[t[k]];
+            const int b = place[t[(k + 1) % 3]];
             if (a != none && b != none && a != b) sides.push_back({std::min(a, b), std::max(a, b)});
         }
     }
@@ -68,7 +68,7 @@ SurroundingFit fit_surroundings(const Points& given, const Triangles& triangles,
                           size};
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         checkpoint();
-        result.first.push_back(place[at(vertices[k])]);
+        result.first.push_back(place[vertices[k]]);
         result.fits.push_back(fits.at_vertex(vertices[k]));
         result.averaged.col(static_cast<Eigen::Index>(k)) = fits.averaged(vertices[k]);
     }
@@ -82,9 +82,9 @@ SurroundingNormals normals_of(const SurroundingFit& fit) {
                               VectorX::Constant(count, std::numeric_limits<double>::quiet_NaN()),
                               VectorX::Constant(count, std::numeric_limits<double>::infinity())};
     for (Eigen::Index k = 0; k < count; ++k) {
-        const auto& here = fit.fits[at(static_cast<int>(k))];
+        const auto& here = fit.fits[static_cast<int>(k)];
         if (!here) continue;
-        result.fitted[at(static_cast<int>(k))] = 1;
+        result.fitted[static_cast<int>(k)] = 1;
         result.errors[k] = here->error;
         result.curvatures[k] = here->mean_curvature / fit.size;
         result.curvature_errors[k] = here->curvature_error / fit.size;

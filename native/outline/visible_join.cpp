@@ -36,13 +36,13 @@ struct OutlineEdge {
 std::vector<OutlineEdge> shared_edges(const EdgeTable& inside, const EdgeTable& outside) {
     std::map<std::array<int, 2>, int> border;
     for (int e = 0; e < outside.size(); ++e) {
-        if (outside.side_count(e) == 1) border[outside.ends[at(e)]] = outside.side(e, 0);
+        if (outside.side_count(e) == 1) border[outside.ends[e]] = outside.side(e, 0);
     }
     std::vector<OutlineEdge> shared;
     for (int e = 0; e < inside.size(); ++e) {
-        const auto found = border.find(inside.ends[at(e)]);
+        const auto found = border.find(inside.ends[e]);
         if (inside.side_count(e) == 1 && found != border.end()) {
-            shared.push_back({inside.ends[at(e)], inside.side(e, 0), found->second});
+            shared.push_back({inside.ends[e], inside.side(e, 0), found->second});
         }
     }
     return shared;
@@ -97,8 +97,8 @@ Indices border_sides(const Patch& patch, const Strip& strip, const EdgeTable& ed
     Indices sides;
     for (int e = 0; e < edges.size(); ++e) {
         if (edges.side_count(e) != 1) continue;
-        const auto [a, b] = edges.ends[at(e)];
-        if (is_border(patch, {strip.vertices[at(a)], strip.vertices[at(b)]})) sides.push_back(edges.side(e, 0));
+        const auto [a, b] = edges.ends[e];
+        if (is_border(patch, {strip.vertices[a], strip.vertices[b]})) sides.push_back(edges.side(e, 0));
     }
     return sides;
 }
@@ -130,7 +130,7 @@ VectorX visible_join(const JoinedMesh& given, const Indices& outline) {
                   (mesh.vertices.col(a) - mesh.vertices.col(b)).norm());
     }
     VectorX join(static_cast<Eigen::Index>(outline.size()));
-    for (Eigen::Index k = 0; k < join.size(); ++k) join[k] = means[outline[at(static_cast<int>(k))]];
+    for (Eigen::Index k = 0; k < join.size(); ++k) join[k] = means[outline[static_cast<int>(k)]];
     return join;
 }
 
@@ -145,22 +145,22 @@ VectorX one_sided_join(const Patch& patch, const Points& points, const Points& p
     for_ranges(static_cast<int>(sides.size()), grain, [&](int begin, int end) {
         DihedralBands::Walk walk = bands.walk();
         for (int k = begin; k < end; ++k) {
-            const int side = sides[at(k)];
-            const auto [a, b] = bands.edges().ends[at(bands.edges().edge_of_side[at(side)])];
-            const Vector3 normal = prescribed.col(strip.vertices[at(a)] - patch.free_count) +
-                                   prescribed.col(strip.vertices[at(b)] - patch.free_count);
+            const int side = sides[k];
+            const auto [a, b] = bands.edges().ends[bands.edges().edge_of_side[side]];
+            const Vector3 normal = prescribed.col(strip.vertices[a] - patch.free_count) +
+                                   prescribed.col(strip.vertices[b] - patch.free_count);
             const double angle = mirrored_angle(strip.triangles, places, side, normal);
             excess[k] = bands.usual(a, b, walk).excess(angle);
         }
     });
     Means means(places.cols());
     for (Eigen::Index k = 0; k < excess.size(); ++k) {
-        const std::array<int, 2> ends = bands.edges().ends[at(bands.edges().edge_of_side[at(sides[std::size_t(k)])])];
+        const std::array<int, 2> ends = bands.edges().ends[bands.edges().edge_of_side[sides[std::size_t(k)]]];
         means.add(ends, excess[k], (places.col(ends[0]) - places.col(ends[1])).norm());
     }
     VectorX join = VectorX::Zero(prescribed.cols());
     for (int k = 0; k < static_cast<int>(join.size()); ++k) {
-        const int local = strip.local[at(patch.free_count + k)];
+        const int local = strip.local[patch.free_count + k];
         if (local != none) join[k] = means[local];
     }
     return join;

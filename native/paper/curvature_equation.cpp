@@ -17,9 +17,9 @@ CurvatureEquation::CurvatureEquation(const Patch& patch) : free_count_(patch.fre
 void CurvatureEquation::assemble(const Stiffness& stiffness) {
     diagonal_.setZero(free_count_);
     for (int i = 0; i < free_count_; ++i) {
-        for (int k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
-            weights_[at(k)] = stiffness.weights[edges_[at(k)]];
-            diagonal_[i] += weights_[at(k)];
+        for (int k = begin_[i]; k < begin_[i + 1]; ++k) {
+            weights_[k] = stiffness.weights[edges_[k]];
+            diagonal_[i] += weights_[k];
         }
     }
     // Positive unless a whole 1-disk has collapsed.
@@ -28,7 +28,7 @@ void CurvatureEquation::assemble(const Stiffness& stiffness) {
 
 double CurvatureEquation::neighbour_sum(int i, const VectorX& f) const {
     double sum = 0.0;
-    for (int k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) sum += weights_[at(k)] * f[columns_[at(k)]];
+    for (int k = begin_[i]; k < begin_[i + 1]; ++k) sum += weights_[k] * f[columns_[k]];
     return sum;
 }
 

@@ -31,12 +31,12 @@ SurfaceMesh decimation_mesh(const Patch& patch, const Points& positions) {
 
 // The level's connectivity as a patch whose input vertices are those of the fine one.
 Patch level_patch(const Patch& fine, const Triangles& triangles) {
-    const auto count = at(fine.vertex_count());
+    const auto count = fine.vertex_count();
     CutMesh cut;
     cut.triangles = triangles;
     cut.input_vertex.resize(count);
     std::iota(cut.input_vertex.begin(), cut.input_vertex.end(), 0);
-    cut.input_triangle.resize(at(static_cast<int>(triangles.cols())));
+    cut.input_triangle.resize(static_cast<int>(triangles.cols()));
     std::iota(cut.input_triangle.begin(), cut.input_triangle.end(), 0);
     cut.piece.assign(cut.input_triangle.size(), 0);
     cut.piece_count = 1;
@@ -74,7 +74,7 @@ Hierarchy build_hierarchy(const Patch& patch, const Points& positions, int level
     decimater.add(handle);
     CollapseModule& module = decimater.module(handle);
     std::vector<std::size_t> counts;
-    for (std::size_t k = sizes.size() - 1; k-- > 0;) counts.push_back(at(patch.free_count - sizes[k]));
+    for (std::size_t k = sizes.size() - 1; k-- > 0;) counts.push_back(patch.free_count - sizes[k]);
     const std::size_t most = counts.back();
     module.note_at(std::move(counts));
     decimater.initialize();

@@ -41,7 +41,7 @@ public:
 
 private:
     [[nodiscard]] const Patch& patch_of(int level) const {
-        return hierarchy_.is_finest(level) ? patch_ : hierarchy_.patches[at(level)];
+        return hierarchy_.is_finest(level) ? patch_ : hierarchy_.patches[level];
     }
 
     // Uniform λ know nothing of M0: the interior given then leaves no trace in the result.
@@ -62,7 +62,7 @@ private:
 
     [[nodiscard]] Indices numbers_of(int level) const {
         if (!hierarchy_.is_finest(level)) return patch_of(level).to_input;
-        Indices all(at(patch_.vertex_count()));
+        Indices all(patch_.vertex_count());
         std::iota(all.begin(), all.end(), 0);
         return all;
     }

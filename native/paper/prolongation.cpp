@@ -32,16 +32,16 @@ class Prolongation::Neighbourhood {
 public:
     Neighbourhood(const ProlongationSetting& setting, const Triangles& coarsest) : setting_(setting) {
         const int count = setting.patch.vertex_count();
-        mesh_.reserve(at(count), 3 * at(count), 2 * at(count));
+        mesh_.reserve(count, 3 * count, 2 * count);
         for (int v = 0; v < count; ++v) mesh_.add_vertex(SurfaceMesh::Point::Zero());
         for (const auto corners : coarsest.colwise())
             mesh_.add_face(handle(corners[0]), handle(corners[1]), handle(corners[2]));
-        slot_.assign(at(count), none);
+        slot_.assign(count, none);
         normals_.setZero(3, count);
         normals_.rightCols(setting.fixed_normals.cols()) = setting.fixed_normals;
         H_.setZero(count);
         arcs_.setZero(3, setting.patch.edge_count());
-        arc_round_.assign(at(setting.patch.edge_count()), 0);
+        arc_round_.assign(setting.patch.edge_count(), 0);
     }
 
     void insert(const Collapse& collapse, bool completed, Points& points) {
@@ -53,7 +53,7 @@ public:
             for_each_movable([&](std::size_t k) { points.col(stored_[k].centre) = weighted_mean(stored_[k], points); });
         }
         for (int round = 0; round < curvature_rounds; ++round) make_fair(completed, points);
-        for (std::size_t k = 0; k < stored_count_; ++k) slot_[at(stored_[k].centre)] = none;
+        for (std::size_t k = 0; k < stored_count_; ++k) slot_[stored_[k].centre] = none;
     }
 
 private:
@@ -91,8 +91,8 @@ private:
     }
 
     void store(int vertex) {
-        if (slot_[at(vertex)] != none) return;
-        slot_[at(vertex)] = static_cast<int>(stored_count_);
+        if (slot_[vertex] != none) return;
+        slot_[vertex] = static_cast<int>(stored_count_);
         if (stored_count_ == stored_.size()) stored_.emplace_back();
         StoredDisk& disk = stored_[stored_count_++];
         disk.centre = vertex;
@@ -150,8 +150,7 @@ private:
     }
 
     [[nodiscard]] bool prescribed(int v) const {
-        return setting_.solver.equation != Equation::minimal && !setting_.patch.is_free(v) &&
-               !setting_.patch.pin[at(v)];
+        return setting_.solver.equation != Equation::minimal && !setting_.patch.is_free(v) && !setting_.patch.pin[v];
     }
 
     [[nodiscard]] Disk disk_of(const StoredDisk& disk, bool completed) const {
@@ -180,8 +179,8 @@ private:
     void measure_arcs(const StoredDisk& disk, const Points& points) {
         const Vector3 centre = points.col(disk.centre);
         for (std::size_t k = 0; k < disk.rim.size(); ++k) {
-            if (arc_round_[at(disk.rim[k])] == round_) continue;
-            arc_round_[at(disk.rim[k])] = round_;
+            if (arc_round_[disk.rim[k]] == round_) continue;
+            arc_round_[disk.rim[k]] = round_;
             const int a = disk.neighbours[k];
             const int b = disk.neighbours[k + 1 < disk.neighbours.size() ? k + 1 : 0];
             Vector3 triangle_normals = unit_normal(centre, points.col(a), points.col(b));
@@ -241,7 +240,7 @@ namespace {
 Triangles coarsest_triangles(const Hierarchy& hierarchy, const Patch& patch) {
     if (hierarchy.patches.empty()) return patch.triangles;
     const Patch& coarsest = hierarchy.patches.front();
-    return coarsest.triangles.unaryExpr([&](int v) { return coarsest.to_input[at(v)]; });
+    return coarsest.triangles.unaryExpr([&](int v) { return coarsest.to_input[v]; });
 }
 
 }  // namespace
@@ -255,7 +254,7 @@ Prolongation::Prolongation(const Hierarchy& hierarchy, const ProlongationSetting
 Prolongation::~Prolongation() = default;
 
 void Prolongation::refine(int level, Points& points, const Progress& progress) {
-    const std::size_t target = hierarchy_.collapsed[at(level)];
+    const std::size_t target = hierarchy_.collapsed[level];
     const bool completed = paper_.virtual_points == VirtualPoints::everywhere ||
                            (paper_.virtual_points == VirtualPoints::coarse && !hierarchy_.is_finest(level));
     const auto total = static_cast<double>(collapsed_ - target);

@@ -12,11 +12,11 @@ constexpr int steps = 8;
 // M + t S / 2, lower triangle: one implicit step of heat.
 SparseMatrix heat_matrix(const Patch& patch, const Stiffness& stiffness, double time) {
     std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(at(patch.vertex_count() + patch.edge_count()));
+    entries.reserve(patch.vertex_count() + patch.edge_count());
     for (int v = 0; v < patch.vertex_count(); ++v)
         entries.emplace_back(v, v, stiffness.mass[v] + 0.5 * time * stiffness.diagonal(patch, v));
     for (int e = 0; e < patch.edge_count(); ++e) {
-        const auto [a, b] = patch.edge_ends[at(e)];
+        const auto [a, b] = patch.edge_ends[e];
         entries.emplace_back(std::max(a, b), std::min(a, b), -0.5 * time * stiffness.weights[e]);
     }
     SparseMatrix matrix(patch.vertex_count(), patch.vertex_count());

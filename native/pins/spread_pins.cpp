@@ -98,7 +98,7 @@ private:
     const Eigen::MatrixXd& weighted_bells() {
         if (bells_of_ >= first_surfaces) return bells_;
         ++bells_of_;
-        Indices centres(at(count_));
+        Indices centres(count_);
         std::iota(centres.begin(), centres.end(), given_.patch.free_count);
         bells_ = state_.stiffness.mass.head(problem_.patch.free_count).asDiagonal() *
                  bells(problem_.patch, state_.points, state_.stiffness, centres, radius_, progress_.here())
@@ -163,7 +163,7 @@ Indices isolated_pins(const Patch& patch) {
         const RingView ring = patch.ring(v);
         const bool alone =
             std::all_of(ring.vertices.begin(), ring.vertices.end(), [&](int u) { return patch.is_free(u); });
-        if (patch.pin[at(v)] && ring.closed() && alone) places.push_back(v - patch.free_count);
+        if (patch.pin[v] && ring.closed() && alone) places.push_back(v - patch.free_count);
     }
     return places;
 }

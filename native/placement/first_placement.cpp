@@ -17,7 +17,7 @@ public:
           surface_(surface),
           target_(target),
           normals_(max_normals(patch_, surface, problem.fixed_normals)),
-          where_(at(patch_.vertex_count()), SurfacePoint{none, Vector3::Zero()}) {
+          where_(patch_.vertex_count(), SurfacePoint{none, Vector3::Zero()}) {
         for (int k = 0; k < problem.fixed_points.cols(); ++k) {
             place(patch_.free_count + k, target.at_vertex(proxy.free_count + k));
         }
@@ -29,16 +29,16 @@ public:
         while (next < placed_.size()) {
             const int from = placed_[next++];
             for (const int v : patch_.ring(from).vertices) {
-                if (where_[at(v)].triangle == none) place(v, best_walk(v));
+                if (where_[v].triangle == none) place(v, best_walk(v));
             }
         }
-        where_.resize(at(patch_.free_count));
+        where_.resize(patch_.free_count);
         return std::move(where_);
     }
 
 private:
     void place(int vertex, const SurfacePoint& where) {
-        where_[at(vertex)] = where;
+        where_[vertex] = where;
         placed_.push_back(vertex);
     }
 
@@ -47,7 +47,7 @@ private:
         double least = std::numeric_limits<double>::infinity();
         Indices tried;
         for (const int neighbour : patch_.ring(vertex).vertices) {
-            const int start = where_[at(neighbour)].triangle;
+            const int start = where_[neighbour].triangle;
             if (start == none || std::find(tried.begin(), tried.end(), start) != tried.end()) continue;
             tried.push_back(start);
             const SurfacePoint where = target_.project(surface_.col(vertex), start);
@@ -82,13 +82,12 @@ Placement by_history(const Problem& problem, const ProxyMesh& mesh, const ProxyM
                      const TargetSurface& target) {
     // Of every vertex that the proxy mesh ever had; known where the triangle is.
     Points points(3, mesh.number_count());
-    std::vector<SurfacePoint> where(at(mesh.number_count()), SurfacePoint{none, Vector3::Zero()});
+    std::vector<SurfacePoint> where(mesh.number_count(), SurfacePoint{none, Vector3::Zero()});
     const auto put_number = [&](int number, const SurfacePoint& place) {
-        where[at(number)] = place;
+        where[number] = place;
         points.col(number) = target.position(place);
     };
-    for (int v = 0; v < snapshot.patch.vertex_count(); ++v)
-        put_number(snapshot.patch.to_input[at(v)], target.at_vertex(v));
+    for (int v = 0; v < snapshot.patch.vertex_count(); ++v) put_number(snapshot.patch.to_input[v], target.at_vertex(v));
     for (auto entry = mesh.removed().rbegin(); entry != mesh.removed().rend(); ++entry) {
         Vector3 mean = Vector3::Zero();
         for (int v : entry->ring) mean += points.col(v) / static_cast<double>(entry->ring.size());
@@ -96,9 +95,9 @@ Placement by_history(const Problem& problem, const ProxyMesh& mesh, const ProxyM
         const int nearest = *std::min_element(entry->ring.begin(), entry->ring.end(), [&](int a, int b) {
             return (points.col(a) - mean).squaredNorm() < (points.col(b) - mean).squaredNorm();
         });
-        put_number(entry->vertex, target.project(mean, where[at(nearest)].triangle));
+        put_number(entry->vertex, target.project(mean, where[nearest].triangle));
     }
-    where.resize(at(problem.patch.free_count));
+    where.resize(problem.patch.free_count);
     return placed_at(problem, target, std::move(where));
 }
 

@@ -30,22 +30,22 @@ bool is_folded(const Problem& problem, const TargetSurface& target, const Placem
     const auto corners = problem.patch.triangles.col(t);
     Vector3 around = Vector3::Zero();
     for (const int v : corners) {
-        if (problem.patch.is_free(v)) around += target.face_normal(placement.where[at(v)].triangle);
+        if (problem.patch.is_free(v)) around += target.face_normal(placement.where[v].triangle);
     }
     return area_vector(problem.patch, placement.points, t).dot(around) < 0.0;
 }
 
 std::vector<char> folded_mask(const Problem& problem, const TargetSurface& target, const Placement& placement) {
-    std::vector<char> folded(at(problem.patch.triangle_count()), 0);
+    std::vector<char> folded(problem.patch.triangle_count(), 0);
     for_ranges(problem.patch.triangle_count(), coarse_grain, [&](int begin, int end) {
-        for (int t = begin; t < end; ++t) folded[at(t)] = is_folded(problem, target, placement, t) ? 1 : 0;
+        for (int t = begin; t < end; ++t) folded[t] = is_folded(problem, target, placement, t) ? 1 : 0;
     });
     return folded;
 }
 
 Indices folded_triangles(const Problem& problem, const TargetSurface& target, const Placement& placement) {
     std::vector<char> folded = folded_mask(problem, target, placement);
-    for (const int t : flipped_by_solution(problem.patch, placement.points)) folded[at(t)] = 1;
+    for (const int t : flipped_by_solution(problem.patch, placement.points)) folded[t] = 1;
     return numbers(folded);
 }
 
@@ -53,7 +53,7 @@ Indices folds_of_placement(const Problem& problem, const TargetSurface& target, 
     std::vector<char> folded = folded_mask(problem, target, placement);
     for (const int t : flipped_by_solution(problem.patch, placement.points)) {
         const bool at_outline = problem.patch.triangles.col(t).maxCoeff() >= problem.patch.free_count;
-        if (!at_outline) folded[at(t)] = 1;
+        if (!at_outline) folded[t] = 1;
     }
     return numbers(folded);
 }

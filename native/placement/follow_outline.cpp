@@ -14,7 +14,7 @@ Vector3 mean_move(const Patch& patch, const Points& moves, const Indices& row, i
     Vector3 sum = Vector3::Zero();
     int count = 0;
     for (const int w : patch.ring(vertex).vertices) {
-        if (row[at(w)] != row[at(vertex)] - 1) continue;
+        if (row[w] != row[vertex] - 1) continue;
         sum += moves.col(w);
         ++count;
     }
@@ -27,16 +27,16 @@ Points following(const Patch& patch, const Points& offsets) {
     constexpr double share = 0.5;
     Points moves = Points::Zero(3, patch.vertex_count());
     moves.rightCols(offsets.cols()) = offsets;
-    Indices row(at(patch.vertex_count()), none);
+    Indices row(patch.vertex_count(), none);
     std::fill(row.begin() + patch.free_count, row.end(), 0);
-    Indices last(at(patch.vertex_count() - patch.free_count));
+    Indices last(patch.vertex_count() - patch.free_count);
     std::iota(last.begin(), last.end(), patch.free_count);
     for (int k = 1; k <= rows; ++k) {
         Indices next;
         for (const int v : last) {
             for (const int w : patch.ring(v).vertices) {
-                if (row[at(w)] != none) continue;
-                row[at(w)] = k;
+                if (row[w] != none) continue;
+                row[w] = k;
                 next.push_back(w);
             }
         }

@@ -13,19 +13,19 @@ Placement at_vertices(const Problem& problem, const TargetSurface& target, const
 Placement placed_at(const Problem& problem, const TargetSurface& target, std::vector<SurfacePoint> where) {
     Placement placement{std::move(where), Points(3, problem.patch.vertex_count())};
     placement.points.rightCols(problem.fixed_points.cols()) = problem.fixed_points;
-    for (int v = 0; v < problem.patch.free_count; ++v) put(placement, v, target, placement.where[at(v)]);
+    for (int v = 0; v < problem.patch.free_count; ++v) put(placement, v, target, placement.where[v]);
     return placement;
 }
 
 void put(Placement& placement, int vertex, const TargetSurface& target, const SurfacePoint& where) {
-    placement.where[at(vertex)] = where;
+    placement.where[vertex] = where;
     placement.points.col(vertex) = target.position(where);
 }
 
 Points normals_at(const Placement& placement, const TargetSurface& target) {
     Points normals(3, static_cast<Eigen::Index>(placement.where.size()));
     for_ranges(static_cast<int>(placement.where.size()), coarse_grain, [&](int begin, int end) {
-        for (int v = begin; v < end; ++v) normals.col(v) = target.normal(placement.where[at(v)]);
+        for (int v = begin; v < end; ++v) normals.col(v) = target.normal(placement.where[v]);
     });
     return normals;
 }
@@ -35,7 +35,7 @@ Placement moved(const Placement& placement, const TargetSurface& target, const P
     for_ranges(static_cast<int>(placement.where.size()), fine_grain, [&](int begin, int end) {
         for (int v = begin; v < end; ++v) {
             const Vector3 wanted = placement.points.col(v) + step.col(v);
-            put(result, v, target, target.project(wanted, placement.where[at(v)].triangle));
+            put(result, v, target, target.project(wanted, placement.where[v].triangle));
         }
     });
     return result;
@@ -45,7 +45,7 @@ VectorX carried_over(const Placement& placement, const TargetSurface& target, co
                      const Problem& problem) {
     VectorX result(problem.patch.vertex_count());
     for (int v = 0; v < problem.patch.free_count; ++v) {
-        result[v] = target.interpolate(values, placement.where[at(v)]);
+        result[v] = target.interpolate(values, placement.where[v]);
     }
     result.tail(problem.fixed_points.cols()) = values.tail(problem.fixed_points.cols());
     return result;

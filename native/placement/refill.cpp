@@ -12,21 +12,21 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 
 // The number of each free vertex near the triangles, none elsewhere.
 Indices unknowns_near(const Patch& patch, const Indices& triangles, int rings) {
-    std::vector<char> near(at(patch.vertex_count()), 0);
+    std::vector<char> near(patch.vertex_count(), 0);
     for (const int t : triangles) {
-        for (const int v : patch.triangles.col(t)) near[at(v)] = 1;
+        for (const int v : patch.triangles.col(t)) near[v] = 1;
     }
     for (int k = 0; k < rings; ++k) {
         const std::vector<char> before = near;
         for (int v = 0; v < patch.vertex_count(); ++v) {
-            if (!before[at(v)]) continue;
-            for (const int w : patch.ring(v).vertices) near[at(w)] = 1;
+            if (!before[v]) continue;
+            for (const int w : patch.ring(v).vertices) near[w] = 1;
         }
     }
-    Indices number(at(patch.vertex_count()), none);
+    Indices number(patch.vertex_count(), none);
     int count = 0;
     for (int v = 0; v < patch.free_count; ++v) {
-        if (near[at(v)]) number[at(v)] = count++;
+        if (near[v]) number[v] = count++;
     }
     return number;
 }
@@ -40,8 +40,8 @@ Points refilled(const Patch& patch, const Points& points, const Indices& triangl
     Triplets entries;
     Eigen::MatrixXd known = Eigen::MatrixXd::Zero(patch.vertex_count(), 3);
     const auto add = [&](int row, int vertex, double value) {
-        if (number[at(vertex)] != none)
-            entries.emplace_back(row, number[at(vertex)], value);
+        if (number[vertex] != none)
+            entries.emplace_back(row, number[vertex], value);
         else
             known.row(row) += value * points.col(vertex).transpose();
     };
@@ -57,7 +57,7 @@ Points refilled(const Patch& patch, const Points& points, const Indices& triangl
     const Eigen::MatrixXd solved = factor.solve(-umbrellas.transpose() * known);
     Points result = points;
     for (int v = 0; v < patch.free_count; ++v) {
-        if (number[at(v)] != none) result.col(v) = solved.row(number[at(v)]).transpose();
+        if (number[v] != none) result.col(v) = solved.row(number[v]).transpose();
     }
     return result;
 }

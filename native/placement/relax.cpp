@@ -79,7 +79,7 @@ private:
             const std::vector<char> folded = folded_mask(problem_, target_, trial);
             bool held = false;
             for (int t = 0; t < problem_.patch.triangle_count(); ++t) {
-                if (!folded[at(t)] || folded_[at(t)]) continue;
+                if (!folded[t] || folded_[t]) continue;
                 held = true;
                 hold(trial, t);
             }
@@ -91,7 +91,7 @@ private:
     void hold(Placement& trial, int t) const {
         for (const int v : problem_.patch.triangles.col(t)) {
             if (!problem_.patch.is_free(v)) continue;
-            trial.where[at(v)] = placement_.where[at(v)];
+            trial.where[v] = placement_.where[v];
             trial.points.col(v) = placement_.points.col(v);
         }
     }

@@ -66,7 +66,7 @@ private:
         constexpr int directions = 16;
         const Indices around = triangles_around(v);
         std::ptrdiff_t least = count_turned(around);
-        const SurfacePoint old = placement_.where[at(v)];
+        const SurfacePoint old = placement_.where[v];
         const Vector3 centre = placement_.points.col(v);
         const Frame frame(target_.normal(old));
         const double reach = ring_radius(v);
@@ -83,7 +83,7 @@ private:
                 best = place;
             }
         }
-        placement_.where[at(v)] = best.value_or(old);
+        placement_.where[v] = best.value_or(old);
         placement_.points.col(v) = best ? target_.position(*best) : centre;
         return best.has_value();
     }
@@ -101,7 +101,7 @@ private:
     // Those with a free corner.
     void add_triangles_at(int v, Indices& list) const {
         for (const int edge : patch_.ring(v).spokes) {
-            for (const int t : patch_.edge_triangles[at(edge)]) {
+            for (const int t : patch_.edge_triangles[edge]) {
                 if (t != none && has_free_corner(patch_, t)) list.push_back(t);
             }
         }

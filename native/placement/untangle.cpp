@@ -127,7 +127,7 @@ public:
           patch_(problem.patch),
           target_(target),
           placement_(placement),
-          awake_(at(patch_.vertex_count()), 1) {}
+          awake_(patch_.vertex_count(), 1) {}
 
     void run() {
         constexpr int fewest_rings = 3;
@@ -146,11 +146,11 @@ private:
     };
 
     [[nodiscard]] Region region(const Indices& folded, int rings) const {
-        std::vector<char> inside(at(patch_.vertex_count()), 0);
+        std::vector<char> inside(patch_.vertex_count(), 0);
         Indices front;
         const auto add = [&](int v) {
-            if (inside[at(v)] || !patch_.is_free(v)) return;
-            inside[at(v)] = 1;
+            if (inside[v] || !patch_.is_free(v)) return;
+            inside[v] = 1;
             front.push_back(v);
         };
         for (const int t : folded) {
@@ -165,11 +165,11 @@ private:
         }
         Region result;
         for (int v = 0; v < patch_.free_count; ++v) {
-            if (inside[at(v)]) result.vertices.push_back(v);
+            if (inside[v]) result.vertices.push_back(v);
         }
         for (int t = 0; t < patch_.triangle_count(); ++t) {
             const auto corners = patch_.triangles.col(t);
-            if (std::any_of(corners.begin(), corners.end(), [&](int v) { return inside[at(v)] != 0; }))
+            if (std::any_of(corners.begin(), corners.end(), [&](int v) { return inside[v] != 0; }))
                 result.triangles.push_back(t);
         }
         return result;
@@ -208,8 +208,8 @@ private:
         if (is_wide(where)) wake_folded(where);
         for (const int v : where.vertices) {
             checkpoint(v);
-            if (is_wide(where) && !awake_[at(v)]) continue;
-            awake_[at(v)] = 0;
+            if (is_wide(where) && !awake_[v]) continue;
+            awake_[v] = 0;
             if (move(v, area, epsilon) > still) wake_around(v);
         }
     }
@@ -225,8 +225,8 @@ private:
     }
 
     void wake_around(int v) {
-        awake_[at(v)] = 1;
-        for (const int w : patch_.ring(v).vertices) awake_[at(w)] = 1;
+        awake_[v] = 1;
+        for (const int w : patch_.ring(v).vertices) awake_[w] = 1;
     }
 
     [[nodiscard]] double count_folded(const Region& where) const {
@@ -253,7 +253,7 @@ private:
 
     // How far, in edges.
     double move(int v, double area, double epsilon) {
-        const SurfacePoint old = placement_.where[at(v)];
+        const SurfacePoint old = placement_.where[v];
         const Vector3 centre = placement_.points.col(v);
         LocalEnergy energy(Frame(target_.normal(old)), area, epsilon);
         const auto ring = patch_.ring(v).vertices;
@@ -272,7 +272,7 @@ private:
 
     // As is_folded measures it.
     [[nodiscard]] Vector3 upwards(int v) const {
-        return patch_.is_free(v) ? target_.face_normal(placement_.where[at(v)].triangle) : Vector3::Zero();
+        return patch_.is_free(v) ? target_.face_normal(placement_.where[v].triangle) : Vector3::Zero();
     }
 
     const Problem& problem_;

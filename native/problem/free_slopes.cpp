@@ -17,7 +17,7 @@ bool is_on_curve(const Patch& patch, int pin) {
 // A loop of pins, and no other fixed vertex.
 bool is_one_bare_loop(const Patch& patch) {
     for (int v = patch.free_count; v < patch.vertex_count(); ++v) {
-        if (!patch.pin[at(v)] || patch.ring(v).closed()) return false;
+        if (!patch.pin[v] || patch.ring(v).closed()) return false;
     }
     return patch.loop_count() == 1;
 }
@@ -28,7 +28,7 @@ Equation equation_for(const Patch& patch, Equation asked) {
     if (asked == Equation::minimal) return asked;
     bool curves = false;
     for (int v = patch.free_count; v < patch.vertex_count() && !curves; ++v)
-        curves = patch.pin[at(v)] && is_on_curve(patch, v);
+        curves = patch.pin[v] && is_on_curve(patch, v);
     if (!curves) return asked;
     return is_one_bare_loop(patch) ? Equation::minimal : Equation::least_variation;
 }
@@ -38,7 +38,7 @@ Problem with_slopes_of(const Problem& problem, const Points& points) {
     const Points normals = max_normals(problem.patch, points, problem.fixed_normals);
     for (int k = 0; k < result.fixed_normals.cols(); ++k) {
         const int v = problem.patch.free_count + k;
-        if (problem.patch.pin[at(v)]) result.fixed_normals.col(k) = normals.col(v);
+        if (problem.patch.pin[v]) result.fixed_normals.col(k) = normals.col(v);
     }
     return result;
 }

@@ -37,7 +37,7 @@ using ShortestFirst = std::priority_queue<QueuedEdge, std::vector<QueuedEdge>, s
 }  // namespace
 
 ProxyMesh::ProxyMesh(const Patch& patch, const Points& points)
-    : mesh_(surface_mesh(patch)), fixed_(at(patch.vertex_count()), 1), pin_(patch.pin), free_count_(patch.free_count) {
+    : mesh_(surface_mesh(patch)), fixed_(patch.vertex_count(), 1), pin_(patch.pin), free_count_(patch.free_count) {
     std::fill(fixed_.begin(), fixed_.begin() + patch.free_count, 0);
     mesh_.request_vertex_status();
     mesh_.request_edge_status();
@@ -88,10 +88,10 @@ void ProxyMesh::smooth() {
         Vector3 mean = Vector3::Zero();
         for (const Vector3& p : ring) mean += p;
         const Vector3 pull = mean / static_cast<double>(ring.size()) - one_ring.centre;
-        moved[at(v.idx())] = one_ring.centre + 0.5 * (pull - pull.dot(normal) * normal);
+        moved[v.idx()] = one_ring.centre + 0.5 * (pull - pull.dot(normal) * normal);
     }
     for (const Vertex v : mesh_.vertices()) {
-        if (!fixed(v)) mesh_.set_point(v, moved[at(v.idx())]);
+        if (!fixed(v)) mesh_.set_point(v, moved[v.idx()]);
     }
 }
 
@@ -133,8 +133,7 @@ bool ProxyMesh::keeps_shape(Halfedge h) const {
 }
 
 double ProxyMesh::relative_length(Halfedge h, const std::vector<double>& target) const {
-    const double wanted =
-        0.5 * (target[at(mesh_.from_vertex_handle(h).idx())] + target[at(mesh_.to_vertex_handle(h).idx())]);
+    const double wanted = 0.5 * (target[mesh_.from_vertex_handle(h).idx()] + target[mesh_.to_vertex_handle(h).idx()]);
     return mesh_.calc_edge_length(h) / wanted;
 }
 
@@ -143,7 +142,7 @@ bool ProxyMesh::makes_long(Halfedge h, const std::vector<double>& target) const 
     const Vertex kept = mesh_.to_vertex_handle(h);
     for (const Vertex other : mesh_.vv_range(mesh_.from_vertex_handle(h))) {
         if (other == kept) continue;
-        const double wanted = 0.5 * (target[at(kept.idx())] + target[at(other.idx())]);
+        const double wanted = 0.5 * (target[kept.idx()] + target[other.idx()]);
         if ((point(other) - point(kept)).norm() > split_above * wanted) return true;
     }
     return false;
@@ -188,17 +187,17 @@ std::vector<double> ProxyMesh::lengths_by_turn(const Sizing& sizing) const {
     if (!std::isfinite(sizing.turn)) return target;
     std::vector<Vector3> normals(mesh_.n_vertices(), Vector3::Zero());
     for (const Vertex v : mesh_.vertices()) {
-        if (!fixed(v)) normals[at(v.idx())] = normal(v);
+        if (!fixed(v)) normals[v.idx()] = normal(v);
     }
     for (const Edge e : mesh_.edges()) {
         const Vertex a = mesh_.to_vertex_handle(mesh_.halfedge_handle(e, 0));
         const Vertex b = mesh_.to_vertex_handle(mesh_.halfedge_handle(e, 1));
         if (fixed(a) || fixed(b)) continue;
-        const Vector3& n = normals[at(a.idx())];
-        const Vector3& m = normals[at(b.idx())];
+        const Vector3& n = normals[a.idx()];
+        const Vector3& m = normals[b.idx()];
         const double angle = radians_between(n, m);
         const double admitted = sizing.turn * mesh_.calc_edge_length(e) / std::max(angle, 1e-6);
-        for (const Vertex v : {a, b}) target[at(v.idx())] = std::min(target[at(v.idx())], admitted);
+        for (const Vertex v : {a, b}) target[v.idx()] = std::min(target[v.idx()], admitted);
     }
     for (double& length : target) length = std::max(length, 0.25 * sizing.longest);
     return target;
@@ -209,25 +208,25 @@ std::vector<double> ProxyMesh::target_lengths(const Sizing& sizing) const {
     using Entry = std::pair<double, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     for (const Vertex v : mesh_.vertices()) {
-        if (target[at(v.idx())] < sizing.longest) queue.emplace(target[at(v.idx())], v.idx());
+        if (target[v.idx()] < sizing.longest) queue.emplace(target[v.idx()], v.idx());
     }
     for (const Edge e : mesh_.edges()) {
         if (!mesh_.is_boundary(e)) continue;
         const double length = mesh_.calc_edge_length(e);
         for (const Vertex v : {mesh_.to_vertex_handle(mesh_.halfedge_handle(e, 0)),
                                mesh_.to_vertex_handle(mesh_.halfedge_handle(e, 1))}) {
-            if (length < target[at(v.idx())]) queue.emplace(target[at(v.idx())] = length, v.idx());
+            if (length < target[v.idx()]) queue.emplace(target[v.idx()] = length, v.idx());
         }
     }
     while (!queue.empty()) {
         checkpoint();
         const auto [length, v] = queue.top();
         queue.pop();
-        if (length > target[at(v)]) continue;
+        if (length > target[v]) continue;
         for (const Halfedge h : mesh_.voh_range(mesh_.vertex_handle(unsigned(v)))) {
             const int other = mesh_.to_vertex_handle(h).idx();
             const double reached = length + sizing.growth * mesh_.calc_edge_length(h);
-            if (reached < target[at(other)]) queue.emplace(target[at(other)] = reached, other);
+            if (reached < target[other]) queue.emplace(target[other] = reached, other);
         }
     }
     return target;
@@ -280,16 +279,16 @@ ProxyMesh::Snapshot ProxyMesh::snapshot() const {
     for (const bool wanted_fixed : {false, true}) {
         for (const Vertex v : mesh_.vertices()) {
             if (fixed(v) != wanted_fixed) continue;
-            local[at(v.idx())] = static_cast<int>(members.to_input.size());
+            local[v.idx()] = static_cast<int>(members.to_input.size());
             members.to_input.push_back(v.idx());
-            members.pin.push_back(pin_[at(v.idx())]);
+            members.pin.push_back(pin_[v.idx()]);
         }
     }
     std::vector<Eigen::Vector3i> triangles;
     for (const SurfaceMesh::FaceHandle f : mesh_.faces()) {
         Eigen::Vector3i corners;
         int k = 0;
-        for (const Vertex v : mesh_.fv_ccw_range(f)) corners[k++] = local[at(v.idx())];
+        for (const Vertex v : mesh_.fv_ccw_range(f)) corners[k++] = local[v.idx()];
         members.input_triangle.push_back(f.idx());
         triangles.push_back(corners);
     }
@@ -305,7 +304,7 @@ ProxyMesh::Snapshot ProxyMesh::snapshot() const {
 
 void ProxyMesh::read_back(const Patch& patch, const Points& points) {
     for (Eigen::Index v = 0; v < points.cols(); ++v) {
-        mesh_.set_point(mesh_.vertex_handle(unsigned(patch.to_input[at(static_cast<int>(v))])), points.col(v));
+        mesh_.set_point(mesh_.vertex_handle(unsigned(patch.to_input[static_cast<int>(v)])), points.col(v));
     }
 }
 

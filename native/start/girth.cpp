@@ -48,7 +48,7 @@ std::optional<CrossSections> CrossSections::of(const Patch& patch, const Progres
 std::vector<LevelPiece> CrossSections::pieces(int outline, int line, const Points& points) const {
     std::vector<LevelPiece> found;
     for (const auto triangle : patch_.triangles.colwise()) {
-        const LevelPiece piece = level_within(triangle, levels_[at(outline)], level_of(line), points);
+        const LevelPiece piece = level_within(triangle, levels_[outline], level_of(line), points);
         if (piece.length > 0.0) found.push_back(piece);
     }
     return found;
@@ -76,7 +76,7 @@ VectorX CrossSections::widths(int outline, const Points& points) const {
 Indices CrossSections::triangles(int outline, int line) const {
     Indices found;
     for (int t = 0; t < patch_.triangle_count(); ++t) {
-        const Vector3 values = levels_[at(outline)](patch_.triangles.col(t));
+        const Vector3 values = levels_[outline](patch_.triangles.col(t));
         if (values.minCoeff() < level_of(line) && values.maxCoeff() >= level_of(line)) found.push_back(t);
     }
     return found;

@@ -24,28 +24,28 @@ constexpr int most_cells = 1500;
 // Cells of neighbouring vertices, around equally many of them each: one for each boundary loop, then those inside.
 class Cells {
 public:
-    Cells(const Patch& patch, const std::vector<Indices>& loops) : cell_(at(patch.vertex_count()), none) {
+    Cells(const Patch& patch, const std::vector<Indices>& loops) : cell_(patch.vertex_count(), none) {
         Indices queue;
         for (const Indices& loop : loops) {
-            for (const int v : loop) cell_[at(v)] = count_;
+            for (const int v : loop) cell_[v] = count_;
             ++count_;
         }
         const int stride = (patch.free_count + most_cells - 1) / most_cells;
         for (int v = 0; v < patch.free_count; v += stride) {
-            cell_[at(v)] = count_++;
+            cell_[v] = count_++;
             queue.push_back(v);
         }
         for (std::size_t k = 0; k < queue.size(); ++k) {
             for (const int u : patch.ring(queue[k]).vertices) {
-                if (cell_[at(u)] != none) continue;
-                cell_[at(u)] = cell_[at(queue[k])];
+                if (cell_[u] != none) continue;
+                cell_[u] = cell_[queue[k]];
                 queue.push_back(u);
             }
         }
     }
 
     [[nodiscard]] int count() const { return count_; }
-    [[nodiscard]] int of(int vertex) const { return cell_[at(vertex)]; }
+    [[nodiscard]] int of(int vertex) const { return cell_[vertex]; }
 
 private:
     Indices cell_;
@@ -103,14 +103,14 @@ public:
             if (lowest == highest) continue;  // within one cell
             for (int line = 0; line < line_count; ++line) {
                 if (lowest < level_of(line) && highest >= level_of(line))
-                    steps_[at(line)].push_back(step(patch, points, here, t, level_of(line)));
+                    steps_[line].push_back(step(patch, points, here, t, level_of(line)));
             }
         }
     }
 
     // Sum over the closed curves of a line.
     [[nodiscard]] double area(int line) const {
-        const std::vector<Step>& steps = steps_[at(line)];
+        const std::vector<Step>& steps = steps_[line];
         std::unordered_map<int, int> numbers;  // of edges, in the order in which the line meets them
         const auto number = [&](int edge) {
             return numbers.try_emplace(edge, static_cast<int>(numbers.size())).first->second;
@@ -197,7 +197,7 @@ std::optional<GirthRange> girth_range(const Patch& patch, const Points& points, 
             const int cell = cells.of(v);
             values[v] = cell == none ? 0.0 : (*functions)(cell, k);
         }
-        range = worst_of(range, range_around(patch, points, values, areas[at(k)], whole - areas[at(k)]));
+        range = worst_of(range, range_around(patch, points, values, areas[k], whole - areas[k]));
     }
     return range;
 }

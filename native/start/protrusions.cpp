@@ -95,14 +95,14 @@ Protrusions::Size Protrusions::size_of(const Cap& cap, const Points& points) con
 
 VectorX Protrusions::reaches(const Points& points) const {
     VectorX result(count());
-    for (int k = 0; k < count(); ++k) result[k] = size_of(caps_[at(k)], points).reach;
+    for (int k = 0; k < count(); ++k) result[k] = size_of(caps_[k], points).reach;
     return result;
 }
 
 VectorX Protrusions::bluntness(const Points& points) const {
     VectorX result = VectorX::Zero(count());
     for (int k = 0; k < count(); ++k) {
-        const Size size = size_of(caps_[at(k)], points);
+        const Size size = size_of(caps_[k], points);
         if (size.reach > 0.0) result[k] = size.rim / (2.0 * std::numbers::pi * size.reach);
     }
     return result;

@@ -18,7 +18,7 @@ public:
 
     [[nodiscard]] int count() const { return static_cast<int>(caps_.size()); }
     // Triangles of a cap, those that its rim runs through included.
-    [[nodiscard]] const Indices& triangles(int cap) const { return caps_[at(cap)].triangles; }
+    [[nodiscard]] const Indices& triangles(int cap) const { return caps_[cap].triangles; }
     // How far each cap reaches from the middle of its rim on a surface (3 × local vertices).
     [[nodiscard]] VectorX reaches(const Points& points) const;
     // L / 2πR of each cap with rim L and reach R: 1 for flat discs and half balls, tan α for cones of half-angle α

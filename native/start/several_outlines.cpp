@@ -18,7 +18,7 @@ constexpr double lost_turn = 60.0;
 std::size_t touching(const Patch& patch, const std::vector<Indices>& loops) {
     std::size_t count = 0;
     for (Indices loop : loops) {
-        for (int& v : loop) v = patch.to_input[at(v)];
+        for (int& v : loop) v = patch.to_input[v];
         std::sort(loop.begin(), loop.end());
         count += loop.size() - static_cast<std::size_t>(std::unique(loop.begin(), loop.end()) - loop.begin());
     }
@@ -29,7 +29,7 @@ bool is_held_elsewhere(const Patch& patch, const std::vector<Indices>& loops) {
     std::size_t on_loops = 0;
     for (const Indices& loop : loops) on_loops += loop.size();
     const bool pinned = std::any_of(patch.pin.begin(), patch.pin.end(), [](char pin) { return pin != 0; });
-    return pinned || on_loops != at(patch.vertex_count() - patch.free_count);
+    return pinned || on_loops != patch.vertex_count() - patch.free_count;
 }
 
 struct Loop {

@@ -16,21 +16,21 @@ using CylinderMap = Eigen::Matrix2Xd;
 
 // Vertices of a shortest way from the first section to the last.
 Indices seam(const Patch& patch, const SweptTube& tube) {
-    Indices before(at(patch.vertex_count()), none);
+    Indices before(patch.vertex_count(), none);
     Indices queue;
     for (const int k : tube.first().vertices()) {
         queue.push_back(patch.free_count + k);
-        before[at(queue.back())] = queue.back();
+        before[queue.back()] = queue.back();
     }
     for (std::size_t k = 0; k < queue.size(); ++k) {
         for (const int u : patch.ring(queue[k]).vertices) {
-            if (before[at(u)] != none) continue;
-            before[at(u)] = queue[k];
+            if (before[u] != none) continue;
+            before[u] = queue[k];
             queue.push_back(u);
         }
     }
     Indices way{patch.free_count + tube.last().vertices().front()};
-    while (before[at(way.back())] != way.back()) way.push_back(before[at(way.back())]);
+    while (before[way.back()] != way.back()) way.push_back(before[way.back()]);
     std::reverse(way.begin(), way.end());
     return way;
 }
@@ -42,15 +42,14 @@ VectorX jumps(const Patch& patch, const Indices& seam) {
     for (std::size_t k = 0; k < seam.size(); ++k) {
         const RingView ring = patch.ring(seam[k]);
         const auto place_of = [&](int u) {
-            return at(
-                static_cast<int>(std::find(ring.vertices.begin(), ring.vertices.end(), u) - ring.vertices.begin()));
+            return (static_cast<int>(std::find(ring.vertices.begin(), ring.vertices.end(), u) - ring.vertices.begin()));
         };
         const std::size_t begin = k + 1 < seam.size() ? place_of(seam[k + 1]) + 1 : 0;
         const std::size_t last = k > 0 ? place_of(seam[k - 1]) : ring.valence();
         const std::size_t end = last < begin ? last + ring.valence() : last;
         for (std::size_t j = begin; j < end; ++j) {
             const int edge = ring.spokes[j % ring.valence()];
-            result[edge] = patch.edge_ends[at(edge)][0] == seam[k] ? 1.0 : -1.0;
+            result[edge] = patch.edge_ends[edge][0] == seam[k] ? 1.0 : -1.0;
         }
     }
     return result;
@@ -69,7 +68,7 @@ void write(const TubeSection& section, double s, int first, int free_count, Cyli
 VectorX jump_flux(const Patch& patch, const Stiffness& stiffness, const VectorX& jumps) {
     VectorX flux = VectorX::Zero(patch.vertex_count());
     for (int e = 0; e < patch.edge_count(); ++e) {
-        const auto [tail, head] = patch.edge_ends[at(e)];
+        const auto [tail, head] = patch.edge_ends[e];
         flux[tail] += stiffness.weights[e] * jumps[e];
         flux[head] -= stiffness.weights[e] * jumps[e];
     }
@@ -81,7 +80,7 @@ void untwist(const Patch& patch, const Stiffness& stiffness, const VectorX& jump
     double along = 0.0;
     double twist = 0.0;
     for (int e = 0; e < patch.edge_count(); ++e) {
-        const Eigen::Vector2d step = map.col(patch.edge_ends[at(e)][1]) - map.col(patch.edge_ends[at(e)][0]);
+        const Eigen::Vector2d step = map.col(patch.edge_ends[e][1]) - map.col(patch.edge_ends[e][0]);
         along += stiffness.weights[e] * step[0] * step[0];
         twist += stiffness.weights[e] * step[0] * (step[1] - jumps[e]);
     }

@@ -33,7 +33,7 @@ struct Sliding {
 void walk(Sliding& vertices) {
     for_ranges(static_cast<int>(vertices.where.size()), fine_grain, [&](int begin, int end) {
         for (int v = begin; v < end; ++v) {
-            SurfacePoint& where = vertices.where[at(v)];
+            SurfacePoint& where = vertices.where[v];
             where = vertices.target.project(vertices.points.col(v), where.triangle);
             vertices.points.col(v) = vertices.target.position(where);
             vertices.normals.col(v) = vertices.target.normal(where);
@@ -70,9 +70,9 @@ void slide(const Problem& problem, const TangentialStep& tangential, const Point
            int most_steps, Points& points) {
     const Points surface = points;
     const TargetSurface target(problem.patch, surface, normals);
-    std::vector<SurfacePoint> where(at(problem.patch.free_count));
+    std::vector<SurfacePoint> where(problem.patch.free_count);
     for_ranges(problem.patch.free_count, coarse_grain, [&](int begin, int end) {
-        for (int v = begin; v < end; ++v) where[at(v)] = target.at_vertex(v);
+        for (int v = begin; v < end; ++v) where[v] = target.at_vertex(v);
     });
     Sliding vertices{target, where, points, normals, std::move(shapes)};
     slide(vertices, tangential, most_steps);

@@ -69,7 +69,7 @@ public:
         }
         measure_triangle();
         for (const auto& [i, j] : stencil_pairs) {
-            if (present_[at(j)]) add_pair(i, j);
+            if (present_[j]) add_pair(i, j);
         }
         fit();
     }
@@ -88,8 +88,7 @@ public:
         result.stretching = 2.0 * factors.variation * J.transpose().lazyProduct(J);
         add_area(factors.area, result.stretching);
         const PairVector g = 2.0 * factors.variation * (by_derivative.transpose() * residual_);
-        for (int p = 0; p < count_; ++p)
-            add_bending(pairs_[at(p)], g[p] * scale(pairs_[at(p)]), frames, result.bending);
+        for (int p = 0; p < count_; ++p) add_bending(pairs_[p], g[p] * scale(pairs_[p]), frames, result.bending);
         return result;
     }
 
@@ -113,7 +112,7 @@ private:
     }
 
     void add_pair(int i, int j) {
-        Pair& pair = pairs_[at(count_)];
+        Pair& pair = pairs_[count_];
         pair = {i, j, x_.col(j) - x_.col(i), 0.0, {0.0, 0.0}, 0.0, 0.0};
         pair.length = pair.along.norm();
         pair.in_plane = {pair.along.dot(e1_), pair.along.dot(e2_)};
@@ -176,8 +175,8 @@ private:
         const ByPair by_angle = residual_by_angle();
         Jacobian J = residual_ * (area_by_motion() / (2.0 * area_)).transpose();
         for (int p = 0; p < count_; ++p) {
-            add_derivative(pairs_[at(p)], by_derivative.col(p), frames, J);
-            add_angle(pairs_[at(p)], by_angle.col(p), J);
+            add_derivative(pairs_[p], by_derivative.col(p), frames, J);
+            add_angle(pairs_[p], by_angle.col(p), J);
         }
         return J;
     }

@@ -48,7 +48,7 @@ public:
     double round(Points& points) const {
         Points pull = Points::Zero(3, patch_.free_count);
         for (int e = 0; e < patch_.edge_count(); ++e) {
-            const auto [i, j] = patch_.edge_ends[at(e)];
+            const auto [i, j] = patch_.edge_ends[e];
             const Vector3 edge = points.col(j) - points.col(i);
             const double wanted = share * std::sqrt(spacing_[i] * spacing_[j]);
             const Vector3 longer = (std::max(1.0, wanted / (edge.norm() + shortest)) - 1.0) * edge;

@@ -144,7 +144,7 @@ Solution placed(const Problem& given, const ProxyMesh& mesh, const SolvedSheet& 
     solution.points = placement.points;
     const Lift lift(solved.mesh.patch, solved.sheet);
     for (int v = 0; v < problem.patch.free_count; ++v)
-        solution.points.col(v) = lift.sample(target, placement.where[at(v)]).point;
+        solution.points.col(v) = lift.sample(target, placement.where[v]).point;
     solution.mean_curvature = carried_over(placement, target, state.curvature.mean, problem);
     solution.boundary_normals = one_sided_normals(solved.mesh.patch, solved.sheet.points);
     solution.polished = false;
@@ -308,7 +308,7 @@ private:
     void try_others(const Points& start, const Progress& progress) {
         for (int k = 1; k < limits_.most_beginnings && !has_ended(); ++k) {
             const Progress part = progress.range((k - 1) / 3.0, k / 3.0);
-            if (!takes(attempted(problem_, start, beginnings[at(k)], limits_.most_product, part))) break;
+            if (!takes(attempted(problem_, start, beginnings[k], limits_.most_product, part))) break;
         }
     }
 

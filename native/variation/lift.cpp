@@ -38,9 +38,9 @@ Motion fitted_motion(const SurfaceSample& sample, const Sheet& sheet, const Sten
 Lift::Lift(const Patch& patch, const Sheet& sheet) : sheet_(sheet), stencils_(stencils(patch)) {}
 
 SurfaceSample Lift::sample(const TargetSurface& target, const SurfacePoint& where) const {
-    const Stencil& stencil = stencils_[at(where.triangle)];
+    const Stencil& stencil = stencils_[where.triangle];
     for (int k = 0; k < 3; ++k) {
-        const int corner = stencil[at(k)];
+        const int corner = stencil[k];
         if (where.weights[k] > at_vertex) return {sheet_.points.col(corner), sheet_.normals.col(corner)};
     }
     const SurfaceSample first{target.position(where), target.normal(where)};

@@ -11,12 +11,14 @@ class VertexByNumber {
 public:
     explicit VertexByNumber(const Patch& patch) {
         for (int v = 0; v < patch.vertex_count(); ++v) {
-            const auto number = at(patch.to_input[at(v)]);
+            const auto number = patch.to_input[v];
             if (number >= vertex_.size()) vertex_.resize(number + 1, none);
             vertex_[number] = v;
         }
     }
-    [[nodiscard]] int operator()(int number) const { return at(number) < vertex_.size() ? vertex_[at(number)] : none; }
+    [[nodiscard]] int operator()(int number) const {
+        return static_cast<std::size_t>(number) < vertex_.size() ? vertex_[number] : none;
+    }
 
 private:
     Indices vertex_;
@@ -26,18 +28,18 @@ private:
 // there before.
 Indices triangles_nearby(const SolvedSheet& solved, const Patch& later, const TargetSurface& target) {
     const VertexByNumber before(solved.mesh.patch);
-    Indices triangle(at(later.vertex_count()), none);
+    Indices triangle(later.vertex_count(), none);
     Indices queue;
     for (int v = 0; v < later.vertex_count(); ++v) {
-        const int old = before(later.to_input[at(v)]);
+        const int old = before(later.to_input[v]);
         if (old == none) continue;
-        triangle[at(v)] = target.at_vertex(old).triangle;
+        triangle[v] = target.at_vertex(old).triangle;
         queue.push_back(v);
     }
     for (std::size_t k = 0; k < queue.size(); ++k) {
         for (int u : later.ring(queue[k]).vertices) {
-            if (triangle[at(u)] != none) continue;
-            triangle[at(u)] = triangle[at(queue[k])];
+            if (triangle[u] != none) continue;
+            triangle[u] = triangle[queue[k]];
             queue.push_back(u);
         }
     }
@@ -72,7 +74,7 @@ Sheet resampled(const SolvedSheet& solved, const ProxyMesh::Snapshot& later) {
     const Eigen::Index fixed = later.patch.vertex_count() - later.patch.free_count;
     sheet.normals.rightCols(fixed) = solved.sheet.normals.rightCols(fixed);
     for (int v = 0; v < later.patch.free_count; ++v) {
-        const SurfaceSample sample = lift.sample(target, target.project(later.points.col(v), triangle[at(v)]));
+        const SurfaceSample sample = lift.sample(target, target.project(later.points.col(v), triangle[v]));
         sheet.points.col(v) = sample.point;
         sheet.normals.col(v) = sample.normal;
     }

@@ -13,7 +13,7 @@ int apex(const Patch& patch, int triangle, int edge) {
 }
 
 int across(const Patch& patch, int triangle, int edge) {
-    const auto [first, second] = patch.edge_triangles[at(edge)];
+    const auto [first, second] = patch.edge_triangles[edge];
     const int other = first == triangle ? second : first;
     return other == none ? none : apex(patch, other, edge);
 }
@@ -22,12 +22,12 @@ int across(const Patch& patch, int triangle, int edge) {
 
 std::vector<Stencil> stencils(const Patch& patch) {
     std::vector<Stencil> result;
-    result.reserve(at(patch.triangle_count()));
+    result.reserve(patch.triangle_count());
     for (int t = 0; t < patch.triangle_count(); ++t) {
         Stencil stencil{};
         for (int k = 0; k < 3; ++k) {
-            stencil[at(k)] = patch.triangles(k, t);
-            stencil[at(3 + k)] = across(patch, t, patch.triangle_edges(k, t));
+            stencil[k] = patch.triangles(k, t);
+            stencil[3 + k] = across(patch, t, patch.triangle_edges(k, t));
         }
         result.push_back(stencil);
     }

@@ -11,31 +11,31 @@ Unknowns::Unknowns(const Freedom& freedom, const std::vector<Stencil>& stencils)
 }
 
 void Unknowns::number(const Freedom& freedom) {
-    index_.assign(3 * at(vertex_count_), none);
+    index_.assign(3 * vertex_count_, none);
     for (int v = 0; v < vertex_count_; ++v) {
         first_.push_back(count_);
-        if (freedom.rises[at(v)]) index_[3 * at(v)] = count_++;
-        if (freedom.turns[at(v)]) {
-            index_[3 * at(v) + 1] = count_++;
-            index_[3 * at(v) + 2] = count_++;
+        if (freedom.rises[v]) index_[3 * v] = count_++;
+        if (freedom.turns[v]) {
+            index_[3 * v + 1] = count_++;
+            index_[3 * v + 2] = count_++;
         }
-        vertex_of_.resize(at(count_), v);
+        vertex_of_.resize(count_, v);
     }
     first_.push_back(count_);
 }
 
 void Unknowns::connect(const std::vector<Stencil>& stencils) {
-    std::vector<Indices> later(at(vertex_count_));
+    std::vector<Indices> later(vertex_count_);
     for (const Stencil& stencil : stencils) {
         for (int i : stencil) {
             for (int j : stencil) {
-                if (i != none && j > i) later[at(i)].push_back(j);
+                if (i != none && j > i) later[i].push_back(j);
             }
         }
     }
     column_begin_ = {0};
     for (int v = 0; v < vertex_count_; ++v) {
-        Indices& list = later[at(v)];
+        Indices& list = later[v];
         std::sort(list.begin(), list.end());
         list.erase(std::unique(list.begin(), list.end()), list.end());
         list.insert(list.begin(), v);
@@ -44,10 +44,10 @@ void Unknowns::connect(const std::vector<Stencil>& stencils) {
         for (int u : list) {
             neighbours_.push_back(u);
             rows_before_.push_back(rows);
-            rows += first_[at(u) + 1] - first_[at(u)];
+            rows += first_[u + 1] - first_[u];
         }
-        for (int k = first_[at(v)]; k < first_[at(v) + 1]; ++k)
-            column_begin_.push_back(column_begin_.back() + rows - (k - first_[at(v)]));
+        for (int k = first_[v]; k < first_[v + 1]; ++k)
+            column_begin_.push_back(column_begin_.back() + rows - (k - first_[v]));
     }
     begin_.push_back(static_cast<int>(neighbours_.size()));
 }
@@ -55,13 +55,13 @@ void Unknowns::connect(const std::vector<Stencil>& stencils) {
 SparseMatrix Unknowns::pattern() const {
     SparseMatrix matrix(count_, count_);
     matrix.resizeNonZeros(column_begin_.back());
-    for (int column = 0; column <= count_; ++column) matrix.outerIndexPtr()[column] = column_begin_[at(column)];
+    for (int column = 0; column <= count_; ++column) matrix.outerIndexPtr()[column] = column_begin_[column];
     int place = 0;
     for (int column = 0; column < count_; ++column) {
-        const int v = vertex_of_[at(column)];
-        for (int k = begin_[at(v)]; k < begin_[at(v) + 1]; ++k) {
-            const int u = neighbours_[at(k)];
-            for (int row = std::max(first_[at(u)], column); row < first_[at(u) + 1]; ++row)
+        const int v = vertex_of_[column];
+        for (int k = begin_[v]; k < begin_[v + 1]; ++k) {
+            const int u = neighbours_[k];
+            for (int row = std::max(first_[u], column); row < first_[u + 1]; ++row)
                 matrix.innerIndexPtr()[place++] = row;
         }
     }
@@ -71,15 +71,15 @@ SparseMatrix Unknowns::pattern() const {
 
 int Unknowns::block_of(int vertex, int other) const {
     const int v = std::min(vertex, other);
-    const auto list = neighbours_.begin() + begin_[at(v)];
-    const auto found = std::lower_bound(list, neighbours_.begin() + begin_[at(v) + 1], std::max(vertex, other));
-    return rows_before_[at(begin_[at(v)] + static_cast<int>(found - list))];
+    const auto list = neighbours_.begin() + begin_[v];
+    const auto found = std::lower_bound(list, neighbours_.begin() + begin_[v + 1], std::max(vertex, other));
+    return rows_before_[begin_[v] + static_cast<int>(found - list)];
 }
 
 int Unknowns::slot(int row, int column, int block) const {
-    const int in_row = row - first_[at(vertex_of_[at(row)])];
-    const int in_column = column - first_[at(vertex_of_[at(column)])];
-    return column_begin_[at(column)] + block + in_row - in_column;
+    const int in_row = row - first_[vertex_of_[row]];
+    const int in_column = column - first_[vertex_of_[column]];
+    return column_begin_[column] + block + in_row - in_column;
 }
 
 }  // namespace fairing

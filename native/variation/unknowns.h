@@ -20,7 +20,7 @@ public:
 
     [[nodiscard]] int count() const { return count_; }
     // Of motion k (0 height, 1 and 2 turns) of a vertex; `none` where it is not sought.
-    [[nodiscard]] int of(int vertex, int k) const { return index_[at(3 * vertex + k)]; }
+    [[nodiscard]] int of(int vertex, int k) const { return index_[3 * vertex + k]; }
 
     // The lower triangle, all values zero.
     [[nodiscard]] SparseMatrix pattern() const;

@@ -15,19 +15,19 @@ ElementWeights element_weights(Measure measure) {
 }
 
 double normal_weight(const Problem& problem, Eigen::Index fixed) {
-    if (problem.patch.pin[at(problem.patch.free_count) + static_cast<std::size_t>(fixed)]) return 0.0;
+    if (problem.patch.pin[problem.patch.free_count + static_cast<std::size_t>(fixed)]) return 0.0;
     return problem.normal_weights.size() == 0 ? HUGE_VAL : problem.normal_weights[fixed];
 }
 
 Freedom freedom_of(const Problem& problem, Moving moving) {
     const Patch& patch = problem.patch;
-    Freedom freedom{std::vector<char>(at(patch.vertex_count()), 0), std::vector<char>(at(patch.vertex_count()), 1)};
-    for (int v = 0; v < patch.free_count; ++v) freedom.rises[at(v)] = moving == Moving::points_and_normals;
+    Freedom freedom{std::vector<char>(patch.vertex_count(), 0), std::vector<char>(patch.vertex_count(), 1)};
+    for (int v = 0; v < patch.free_count; ++v) freedom.rises[v] = moving == Moving::points_and_normals;
     for (Eigen::Index k = 0; k < problem.fixed_points.cols(); ++k) {
-        freedom.rises[at(patch.free_count) + static_cast<std::size_t>(k)] =
-            moving == Moving::points_and_normals && !problem.free_edge.empty() &&
-            problem.free_edge[static_cast<std::size_t>(k)];
-        freedom.turns[at(patch.free_count) + static_cast<std::size_t>(k)] = std::isfinite(normal_weight(problem, k));
+        freedom.rises[patch.free_count + static_cast<std::size_t>(k)] = moving == Moving::points_and_normals &&
+                                                                        !problem.free_edge.empty() &&
+                                                                        problem.free_edge[static_cast<std::size_t>(k)];
+        freedom.turns[patch.free_count + static_cast<std::size_t>(k)] = std::isfinite(normal_weight(problem, k));
     }
     return freedom;
 }
@@ -48,14 +48,14 @@ VariationEnergy::VariationEnergy(const Problem& problem, Moving moving, Measure 
 
 // Looked up once: each step adds to all of them.
 void VariationEnergy::find_entries(int element) {
-    const Stencil& stencil = stencils_[at(element)];
+    const Stencil& stencil = stencils_[element];
     const ElementUnknowns unknown = unknowns_of(element);
     for (int c = 0; c < 3 * stencil_size; ++c) {
         for (int r = 0; r < 3 * stencil_size; ++r) {
-            const int row = unknown[at(r)];
-            const int column = unknown[at(c)];
+            const int row = unknown[r];
+            const int column = unknown[c];
             if (column == none || row < column) continue;
-            const int block = unknowns_.block_of(stencil[at(r / 3)], stencil[at(c / 3)]);
+            const int block = unknowns_.block_of(stencil[r / 3], stencil[c / 3]);
             entries_.push_back({unknowns_.slot(row, column, block), 3 * stencil_size * c + r});
         }
     }
@@ -64,8 +64,8 @@ void VariationEnergy::find_entries(int element) {
 VariationEnergy::ElementUnknowns VariationEnergy::unknowns_of(int element) const {
     ElementUnknowns unknown{};
     for (int k = 0; k < 3 * stencil_size; ++k) {
-        const int vertex = stencils_[at(element)][at(k / 3)];
-        unknown[at(k)] = vertex == none ? none : unknowns_.of(vertex, k % 3);
+        const int vertex = stencils_[element][k / 3];
+        unknown[k] = vertex == none ? none : unknowns_.of(vertex, k % 3);
     }
     return unknown;
 }
@@ -73,8 +73,7 @@ VariationEnergy::ElementUnknowns VariationEnergy::unknowns_of(int element) const
 ElementSums VariationEnergy::sums(const Sheet& sheet) const {
     std::vector<ElementSums> parts(stencils_.size());
     for_ranges(static_cast<int>(stencils_.size()), fine_grain, [&](int begin, int end) {
-        for (int k = begin; k < end; ++k)
-            parts[at(k)] = element_sums(sheet, stencils_[at(k)], element_weights(measure_));
+        for (int k = begin; k < end; ++k) parts[k] = element_sums(sheet, stencils_[k], element_weights(measure_));
     });
     ElementSums total;
     for (const ElementSums& part : parts) {
@@ -109,27 +108,27 @@ void VariationEnergy::update(const Sheet& sheet, QuadraticModel& model) const {
 void VariationEnergy::add_elements(const Sheet& sheet, const ElementSums& factors, QuadraticModel& model) const {
     constexpr int at_once = 2048;
     const int count = static_cast<int>(stencils_.size());
-    std::vector<ElementTerms> terms(at(std::min(at_once, count)));
+    std::vector<ElementTerms> terms(std::min(at_once, count));
     for (int first = 0; first < count; first += at_once) {
         const int some = std::min(at_once, count - first);
         for_ranges(some, fine_grain, [&](int begin, int end) {
             for (int k = begin; k < end; ++k)
-                terms[at(k)] = element_terms(sheet, stencils_[at(first + k)], element_weights(measure_), factors);
+                terms[k] = element_terms(sheet, stencils_[first + k], element_weights(measure_), factors);
         });
-        for (int k = 0; k < some; ++k) add(terms[at(k)], first + k, model);
+        for (int k = 0; k < some; ++k) add(terms[k], first + k, model);
     }
 }
 
 void VariationEnergy::add(const ElementTerms& terms, int element, QuadraticModel& model) const {
     const ElementUnknowns unknown = unknowns_of(element);
     for (int k = 0; k < 3 * stencil_size; ++k) {
-        if (unknown[at(k)] == none) continue;
-        model.gradient[unknown[at(k)]] += terms.gradient[k];
-        model.area[unknown[at(k)]] += terms.area_gradient[k];
+        if (unknown[k] == none) continue;
+        model.gradient[unknown[k]] += terms.gradient[k];
+        model.area[unknown[k]] += terms.area_gradient[k];
     }
     double* bending = model.bending.valuePtr();
     double* stretching = model.stretching.data();
-    for (std::size_t k = entries_begin_[at(element)]; k < entries_begin_[at(element) + 1]; ++k) {
+    for (std::size_t k = entries_begin_[element]; k < entries_begin_[element + 1]; ++k) {
         const auto [slot, place] = entries_[k];
         bending[slot] += terms.bending.data()[place];
         stretching[slot] += terms.stretching.data()[place];
@@ -159,7 +158,7 @@ void VariationEnergy::add_outline(const Sheet& sheet, QuadraticModel& model) con
         const std::array<double, 2> slope{frame.u.dot(wanted), frame.v.dot(wanted)};
         for (int m = 0; m < 2; ++m) {
             const int unknown = unknowns_.of(v, m + 1);
-            model.gradient[unknown] -= 2.0 * weight * slope[at(m)];
+            model.gradient[unknown] -= 2.0 * weight * slope[m];
             model.stretching[unknowns_.slot(unknown, unknown, 0)] += 2.0 * weight * std::max(normal.dot(wanted), 0.0);
         }
     }
@@ -175,16 +174,16 @@ VectorX VariationEnergy::acceleration_load(const Sheet& sheet, const VectorX& mo
             const ElementUnknowns unknown = unknowns_of(e);
             ElementVector own = ElementVector::Zero();
             for (int k = 0; k < 3 * stencil_size; ++k) {
-                if (unknown[at(k)] != none) own[k] = motions[unknown[at(k)]];
+                if (unknown[k] != none) own[k] = motions[unknown[k]];
             }
-            loads[at(e)] = element_acceleration(sheet, there, stencils_[at(e)], element_weights(measure_), own, share);
+            loads[e] = element_acceleration(sheet, there, stencils_[e], element_weights(measure_), own, share);
         }
     });
     VectorX result = VectorX::Zero(unknowns_.count());
     for (int e = 0; e < count; ++e) {
         const ElementUnknowns unknown = unknowns_of(e);
         for (int k = 0; k < 3 * stencil_size; ++k) {
-            if (unknown[at(k)] != none) result[unknown[at(k)]] += factor * loads[at(e)][k];
+            if (unknown[k] != none) result[unknown[k]] += factor * loads[e][k];
         }
     }
     return result;

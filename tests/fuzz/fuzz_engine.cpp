@@ -62,8 +62,7 @@ void fuzz_fair(FuzzedDataProvider& bytes) {
         check_fair(result, mesh, options);
         if (twice) check_same(result, fair(mesh, reference, options, {}));
     });
-    require(std::memcmp(kept.vertices.data(), mesh.vertices.data(),
-                        sizeof(double) * at(3) * at(static_cast<int>(mesh.vertices.cols()))) == 0,
+    require(std::memcmp(kept.vertices.data(), mesh.vertices.data(), sizeof(double) * 3 * mesh.vertices.cols()) == 0,
             "the input stays");
 }
 
@@ -158,7 +157,7 @@ void fuzz_boundary_loops(FuzzedDataProvider& bytes) {
 void fuzz_surrounding_normals(FuzzedDataProvider& bytes) {
     MeshInput mesh = random_mesh(bytes, true);
     if (!mesh.vertices.allFinite()) return;
-    Indices where(at(static_cast<int>(mesh.vertices.cols())));
+    Indices where(static_cast<int>(mesh.vertices.cols()));
     for (std::size_t v = 0; v < where.size(); ++v) where[v] = static_cast<int>(v);
     const SurroundingNormals result = surrounding_normals(mesh.vertices, mesh.triangles, where);
     require(result.fitted.size() == where.size(), "an answer per vertex");

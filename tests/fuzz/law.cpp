@@ -15,8 +15,8 @@ bool same_bits(const Points& one, const Points& other, int column) {
 }
 
 std::vector<char> used_vertices(const MeshInput& mesh) {
-    std::vector<char> used(at(static_cast<int>(mesh.vertices.cols())), 0);
-    for (int v : mesh.triangles.reshaped()) used[at(v)] = 1;
+    std::vector<char> used(static_cast<int>(mesh.vertices.cols()), 0);
+    for (int v : mesh.triangles.reshaped()) used[v] = 1;
     return used;
 }
 
@@ -47,10 +47,10 @@ void check_fair(const FairResult& result, const MeshInput& mesh, const FairOptio
     std::vector<char> used = used_vertices(mesh);
     for (int v : result.fixed) {
         require(same_bits(result.vertices, mesh.vertices, v), "fixed vertices stay");
-        used[at(v)] = 0;
+        used[v] = 0;
     }
     for (int v = 0; v < static_cast<int>(used.size()); ++v) {
-        require(used[at(v)] ? result.vertices.col(v).allFinite() : same_bits(result.vertices, mesh.vertices, v),
+        require(used[v] ? result.vertices.col(v).allFinite() : same_bits(result.vertices, mesh.vertices, v),
                 "free vertices are finite, unused ones stay");
     }
     require(result.mean_curvature.allFinite(), "H is finite");

@@ -126,7 +126,7 @@ TEST_CASE("threads: a fill is cancelled at every checkpoint") {
     OpenLoops hole{Points(3, count), {Indices(count)}, {Points(3, count)}};
     for (int k = 0; k < count; ++k) {
         const double angle = 2.0 * std::numbers::pi * k / count;
-        hole.loops[0][at(k)] = k;
+        hole.loops[0][k] = k;
         hole.vertices.col(k) << std::cos(angle), std::sin(angle), 0.0;
         hole.normals[0].col(k) << 0.6 * std::cos(angle), 0.6 * std::sin(angle), 0.8;
     }

@@ -21,7 +21,7 @@ using namespace fairing;
 namespace {
 
 Indices first_numbers(int n, int begin = 0) {
-    Indices numbers(at(n));
+    Indices numbers(n);
     std::iota(numbers.begin(), numbers.end(), begin);
     return numbers;
 }
@@ -166,9 +166,9 @@ TEST_CASE("lengths are the outline's at the outline and grow by half of the way"
     for (const double spacing : {0.25 * edge, 4.0 * edge}) {
         const VectorX lengths = edge_lengths(patch, single.points, {spacing, 0, Spread::even});
         for (int e = 0; e < patch.edge_count(); ++e) {
-            const auto [a, b] = patch.edge_ends[at(e)];
+            const auto [a, b] = patch.edge_ends[e];
             const double length = (single.points.col(a) - single.points.col(b)).norm();
-            if (patch.edge_triangles[at(e)][1] == none) CHECK(lengths[a] > 0.0);
+            if (patch.edge_triangles[e][1] == none) CHECK(lengths[a] > 0.0);
             CHECK(std::abs(lengths[a] - lengths[b]) <= 0.5 * length + 1e-12);
         }
         const double middle = spacing < edge ? lengths.minCoeff() : lengths.maxCoeff();
@@ -195,13 +195,13 @@ struct Stretched {
 
 Stretched stretched_square(int n) {
     const auto is_border = [n](int v) { return v / (n + 1) % n == 0 || v % (n + 1) % n == 0; };
-    Indices number(at((n + 1) * (n + 1)));
+    Indices number((n + 1) * (n + 1));
     PatchMembers members;
     Indices order;
     for (const bool border : {false, true}) {
         for (int v = 0; v < (n + 1) * (n + 1); ++v) {
             if (is_border(v) != border) continue;
-            number[at(v)] = static_cast<int>(order.size());
+            number[v] = static_cast<int>(order.size());
             order.push_back(v);
             if (!border) ++members.free_count;
         }
@@ -211,8 +211,8 @@ Stretched stretched_square(int n) {
     for (int row = 0; row < n; ++row) {
         for (int column = 0; column < n; ++column) {
             const int a = row * (n + 1) + column;
-            members.triangles.col(t++) << number[at(a)], number[at(a + 1)], number[at(a + n + 2)];
-            members.triangles.col(t++) << number[at(a)], number[at(a + n + 2)], number[at(a + n + 1)];
+            members.triangles.col(t++) << number[a], number[a + 1], number[a + n + 2];
+            members.triangles.col(t++) << number[a], number[a + n + 2], number[a + n + 1];
         }
     }
     members.to_input = first_numbers(static_cast<int>(order.size()));

@@ -40,11 +40,11 @@ Indices everything(int count) {
 Patch with_pins(const test::Single& single, const Indices& pins) {
     const Patch& given = single.patch();
     Indices order;
-    std::vector<char> is_pin(at(given.vertex_count()), 0);
-    for (int v : pins) is_pin[at(v)] = 1;
+    std::vector<char> is_pin(given.vertex_count(), 0);
+    for (int v : pins) is_pin[v] = 1;
     for (const char wanted : {0, 1}) {
         for (int v = 0; v < given.free_count; ++v) {
-            if (is_pin[at(v)] == wanted) order.push_back(v);
+            if (is_pin[v] == wanted) order.push_back(v);
         }
     }
     for (int v = given.free_count; v < given.vertex_count(); ++v) order.push_back(v);
@@ -52,12 +52,12 @@ Patch with_pins(const test::Single& single, const Indices& pins) {
     PatchMembers members;
     members.free_count = given.free_count - static_cast<int>(pins.size());
     for (int k = 0; k < static_cast<int>(order.size()); ++k) {
-        to[at(order[at(k)])] = k;
-        members.to_input.push_back(order[at(k)]);
-        members.pin.push_back(is_pin[at(order[at(k)])]);
+        to[order[k]] = k;
+        members.to_input.push_back(order[k]);
+        members.pin.push_back(is_pin[order[k]]);
     }
     members.input_triangle = given.input_triangle;
-    members.triangles = given.triangles.unaryExpr([&](int v) { return to[at(v)]; });
+    members.triangles = given.triangles.unaryExpr([&](int v) { return to[v]; });
     return Patch(std::move(members));
 }
 
@@ -83,7 +83,7 @@ TEST_CASE("noise leaves a closed border, and most of an open one") {
         const double before = (given - exact).norm();
         CHECK((points - exact).norm() < (closed ? 0.35 : 0.65) * before);
         for (int k = 0; k < count; ++k) {
-            if (!marked[at(k)]) CHECK(points.col(k) == given.col(k));
+            if (!marked[k]) CHECK(points.col(k) == given.col(k));
         }
     }
 }
@@ -114,8 +114,8 @@ TEST_CASE("released pins come behind the free vertices, and the way back is know
     const Released free = released(pinned, pins);
     CHECK(free.patch.free_count == pinned.free_count + 2);
     for (int v = 0; v < pinned.vertex_count(); ++v) {
-        CHECK(free.to[at(free.from[at(v)])] == v);
-        CHECK(free.patch.to_input[at(v)] == pinned.to_input[at(free.from[at(v)])]);
+        CHECK(free.to[free.from[v]] == v);
+        CHECK(free.patch.to_input[v] == pinned.to_input[free.from[v]]);
     }
     CHECK(isolated_pins(free.patch).empty());
 }
@@ -142,5 +142,5 @@ TEST_CASE("triangles broken along an edge have a copy of its ends for each fan")
     const BrokenSurface halves = broken_along(triangles, 5, {{4, 0}, {2, 4}});
     CHECK(halves.input_vertex.size() == 8);
     for (Eigen::Index c = 0; c < triangles.size(); ++c)
-        CHECK(halves.input_vertex[at(halves.triangles(c % 3, c / 3))] == triangles(c % 3, c / 3));
+        CHECK(halves.input_vertex[halves.triangles(c % 3, c / 3)] == triangles(c % 3, c / 3));
 }

@@ -46,7 +46,7 @@ struct Ball {
 
 Points of_level(const CoarseLevel& level, const Points& finest) {
     Points result(3, level.patch.vertex_count());
-    for (int v = 0; v < level.patch.vertex_count(); ++v) result.col(v) = finest.col(level.patch.to_input[at(v)]);
+    for (int v = 0; v < level.patch.vertex_count(); ++v) result.col(v) = finest.col(level.patch.to_input[v]);
     return result;
 }
 
@@ -97,7 +97,7 @@ TEST_CASE("levels shrink evenly and keep the topology, the outline and which ver
             CHECK(level.patch.loop_count() == 1);
             CHECK(level.patch.vertex_count() - level.patch.free_count >= 8);
             for (int v = 0; v < level.patch.vertex_count(); ++v) {
-                CHECK(level.patch.is_free(v) == ball.patch().is_free(level.patch.to_input[at(v)]));
+                CHECK(level.patch.is_free(v) == ball.patch().is_free(level.patch.to_input[v]));
                 CHECK(level.patch.ring(v).closed() == level.patch.is_free(v));
             }
             for (const WeightedEdge& edge : level.weights) CHECK(edge.weight > 0.0);
@@ -137,8 +137,8 @@ TEST_CASE("restriction is the transpose of interpolation, whose weights sum to o
     const Ball ball(30);
     const Transfer& transfer = ball.levels.front().transfer;
     for (int k = 0; k < transfer.removals.size(); ++k) {
-        const auto first = transfer.removals.weights.begin() + transfer.removals.begin[at(k)];
-        const auto last = transfer.removals.weights.begin() + transfer.removals.begin[at(k) + 1];
+        const auto first = transfer.removals.weights.begin() + transfer.removals.begin[k];
+        const auto last = transfer.removals.weights.begin() + transfer.removals.begin[k + 1];
         CHECK(std::accumulate(first, last, 0.0) == doctest::Approx(1.0).epsilon(1e-6));
     }
     SingleField coarse = SingleField::Random(4, ball.levels.front().patch.vertex_count());
@@ -160,15 +160,15 @@ TEST_CASE("no vertex that a pass removes hangs on another one of it, and values 
     const Removals& removals = transfer.removals;
     REQUIRE(removals.pass_begin.size() > 2);
     CHECK(removals.pass_begin.back() == removals.size());
-    Indices pass_of(at(transfer.fine_count), none);
+    Indices pass_of(transfer.fine_count, none);
     for (std::size_t pass = 1; pass < removals.pass_begin.size(); ++pass) {
         for (int k = removals.pass_begin[pass - 1]; k < removals.pass_begin[pass]; ++k)
-            pass_of[at(removals.vertex[at(k)])] = static_cast<int>(pass);
+            pass_of[removals.vertex[k]] = static_cast<int>(pass);
     }
     for (int k = 0; k < removals.size(); ++k) {
-        const int own = pass_of[at(removals.vertex[at(k)])];
-        for (int j = removals.begin[at(k)]; j < removals.begin[at(k) + 1]; ++j) {
-            const int other = pass_of[at(removals.neighbours[at(j)])];
+        const int own = pass_of[removals.vertex[k]];
+        for (int j = removals.begin[k]; j < removals.begin[k + 1]; ++j) {
+            const int other = pass_of[removals.neighbours[j]];
             CHECK((other == none || other > own));
         }
     }
@@ -252,9 +252,9 @@ TEST_CASE("before and after the coarse level a cycle smooths by the Chebyshev po
         const RingMatrix laplacian(count, uniform ? ball.weights : weights);
         Eigen::MatrixXd L = Eigen::MatrixXd::Zero(count, count);
         for (int i = 0; i < count; ++i) {
-            for (int k = laplacian.begin[at(i)]; k < laplacian.begin[at(i) + 1]; ++k) {
+            for (int k = laplacian.begin[i]; k < laplacian.begin[i + 1]; ++k) {
                 L(i, i) += laplacian.weight(k);
-                L(i, laplacian.columns[at(k)]) -= laplacian.weight(k);
+                L(i, laplacian.columns[k]) -= laplacian.weight(k);
             }
         }
         const Eigen::MatrixXd A = L.topLeftCorner(free, free);

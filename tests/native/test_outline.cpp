@@ -27,7 +27,7 @@ SurroundingFit row_of_planes(const std::vector<double>& angles, const std::vecto
     fit.averaged = Vector3::UnitZ().replicate(1, count);
     fit.lengths = VectorX::Ones(count);
     for (int k = 0; k < static_cast<int>(angles.size()); ++k) {
-        fit.fits.emplace_back(SlopeFit{.normal = leaning(angles[at(k)]), .error = errors[at(k)]});
+        fit.fits.emplace_back(SlopeFit{.normal = leaning(angles[k]), .error = errors[k]});
         fit.centres(1, k) = k;
         fit.first.push_back(k);
         if (k > 0) fit.edges.push_back({k - 1, k});
@@ -107,7 +107,7 @@ TEST_CASE("fits that predict each other's normals are left alone") {
     const double curvature = 0.2;  // around x: y² terms, in units of scale 1
     SurroundingFit fit = row_of_planes({0.0, 0.0, 0.0}, {0.1, 0.03, 0.2});
     for (int k = 0; k < 3; ++k) {
-        SlopeFit& here = *fit.fits[at(k)];
+        SlopeFit& here = *fit.fits[k];
         const double turn = std::asin(curvature * (k - 1.0));
         fit.centres.col(k) = Vector3(0.0, std::sin(turn), std::cos(turn)) / curvature;
         here.normal = Vector3(0.0, std::sin(turn), std::cos(turn));
@@ -116,7 +116,7 @@ TEST_CASE("fits that predict each other's normals are left alone") {
         here.terms[0] = -0.5 * curvature;
     }
     const Points filtered = filtered_normals(fit);
-    for (int k = 0; k < 3; ++k) CHECK((filtered.col(k) - fit.fits[at(k)]->normal).norm() < 1e-12);
+    for (int k = 0; k < 3; ++k) CHECK((filtered.col(k) - fit.fits[k]->normal).norm() < 1e-12);
 }
 
 TEST_CASE("fits that predict different turns have less to tell each other") {
@@ -140,7 +140,7 @@ TEST_CASE("bad is what stands out by four medians and by an absolute bound, the 
     errors[7] = 0.16;
     CHECK(bad_vertices(row_of_planes(angles, errors)) == Indices{7});
     CHECK(bad_vertices(row_of_planes(angles, std::vector<double>(20, 0.5))).empty());  // noise everywhere
-    for (int k = 0; k < 5; ++k) errors[at(k)] = 0.3 + 0.1 * k;
+    for (int k = 0; k < 5; ++k) errors[k] = 0.3 + 0.1 * k;
     CHECK(bad_vertices(row_of_planes(angles, errors)) == Indices{2, 3, 4});
 }
 
@@ -276,8 +276,8 @@ struct Ring {
         for (Eigen::Index k = 0; k < count; ++k) {
             const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(count);
             const Vector3 out(std::cos(angle), std::sin(angle), 0.0);
-            result.points.col(loop[at(k)]) = r(angle) * out + z(angle) * Vector3::UnitZ();
-            result.normals.col(loop[at(k)]) = (0.5 * out + Vector3::UnitZ()).normalized();
+            result.points.col(loop[k]) = r(angle) * out + z(angle) * Vector3::UnitZ();
+            result.normals.col(loop[k]) = (0.5 * out + Vector3::UnitZ()).normalized();
         }
         return result;
     }

@@ -70,7 +70,7 @@ std::multiset<std::array<int, 3>> triangles_of(const SurfaceMesh& mesh, const In
     for (const auto f : mesh.faces()) {
         std::array<int, 3> corners{};
         std::size_t k = 0;
-        for (const auto v : mesh.fv_ccw_range(f)) corners[k++] = old_numbers[at(v.idx())];
+        for (const auto v : mesh.fv_ccw_range(f)) corners[k++] = old_numbers[v.idx()];
         std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
         found.insert(corners);
     }
@@ -106,7 +106,7 @@ TEST_CASE("a half-edge mesh that is numbered anew is the same mesh, also where p
     CHECK(other.n_edges() + 3 == mesh.n_edges());
     CHECK(triangles_of(other, vertices) == triangles_of(mesh, numbers_below(mesh.n_vertices())));
     for (const auto v : other.all_vertices()) {
-        const SurfaceMesh::VertexHandle old(vertices[at(v.idx())]);
+        const SurfaceMesh::VertexHandle old(vertices[v.idx()]);
         CHECK(other.status(v).deleted() == mesh.status(old).deleted());
         CHECK(other.point(v) == mesh.point(old));
         if (other.status(v).deleted()) continue;
@@ -116,6 +116,6 @@ TEST_CASE("a half-edge mesh that is numbered anew is the same mesh, also where p
     for (std::size_t k = 0; k < edges.size(); ++k) {
         const auto h = mesh.halfedge_handle(SurfaceMesh::EdgeHandle(edges[k]), 0);
         const auto g = other.halfedge_handle(SurfaceMesh::EdgeHandle(static_cast<int>(k)), 0);
-        CHECK(vertices[at(other.to_vertex_handle(g).idx())] == mesh.to_vertex_handle(h).idx());
+        CHECK(vertices[other.to_vertex_handle(g).idx()] == mesh.to_vertex_handle(h).idx());
     }
 }

@@ -35,7 +35,7 @@ struct Square {
     [[nodiscard]] Placement placed(const Points& points) const {
         Placement placement = at_vertices(problem, target, single.points);
         for (int v = 0; v < patch().free_count; ++v)
-            put(placement, v, target, target.project(points.col(v), placement.where[at(v)].triangle));
+            put(placement, v, target, target.project(points.col(v), placement.where[v].triangle));
         return placement;
     }
 
@@ -76,7 +76,7 @@ TEST_CASE("vertices slide on a surface to where their springs balance") {
     CHECK(largest_length(off) < 1e-3);
     CHECK(placement.points.row(2).cwiseAbs().maxCoeff() < 1e-12);
     for (int v = 0; v < square.patch().free_count; ++v)
-        CHECK((square.target.position(placement.where[at(v)]) - placement.points.col(v)).norm() < 1e-12);
+        CHECK((square.target.position(placement.where[v]) - placement.points.col(v)).norm() < 1e-12);
 }
 
 TEST_CASE("a sheet that lies on the other one is folded, although no triangle differs from its neighbours") {
@@ -106,7 +106,7 @@ TEST_CASE("untangling turns all folds back and leaves the vertices on the surfac
         untangle(square.problem, square.target, placement);
         CHECK(square.folds(placement) == 0);
         for (int v = 0; v < square.patch().free_count; ++v)
-            CHECK((placement.points.col(v) - square.target.position(placement.where[at(v)])).norm() == 0.0);
+            CHECK((placement.points.col(v) - square.target.position(placement.where[v])).norm() == 0.0);
     }
 }
 
@@ -135,7 +135,7 @@ TEST_CASE("springs that hold folds back get less than all they pull for, and fol
     const double before = tangential->merit(start.points, normals_at(start, square.target));
     const double after = relax(problem, *tangential, square.target, held, Folds::held_back);
     CHECK(after < before);
-    CHECK(folded_mask(problem, square.target, held) == std::vector<char>(at(square.patch().triangle_count()), 0));
+    CHECK(folded_mask(problem, square.target, held) == std::vector<char>(square.patch().triangle_count(), 0));
 }
 
 TEST_CASE("a refill restores a plane around a vertex pulled out of it, and nothing else moves") {

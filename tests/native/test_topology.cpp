@@ -127,8 +127,8 @@ namespace {
 
 // A permutation of 0 … count − 1 that leaves few neighbours together; `count` is no multiple of 7919.
 Indices scattered(int count) {
-    Indices order(at(count));
-    for (int k = 0; k < count; ++k) order[at(k)] = static_cast<int>(7919LL * k % count);
+    Indices order(count);
+    for (int k = 0; k < count; ++k) order[k] = static_cast<int>(7919LL * k % count);
     return order;
 }
 
@@ -144,16 +144,16 @@ TEST_CASE("triangles that come in any order lie in that of the vertices, and are
     for (const int t : turned) triangles.col(t).reverseInPlace();
     const MeshTopology topology = check_topology({mesh.points, triangles, {}, {}});
     const CutMesh& cut = topology.cut;
-    Indices seen(at(static_cast<int>(triangles.cols())), 0);
+    Indices seen(static_cast<int>(triangles.cols()), 0);
     int last = 0;
     bool same = true;
     bool ascending = true;
     for (int t = 0; t < cut.triangles.cols(); ++t) {
-        Eigen::Vector3i corners = cut.triangles.col(t).unaryExpr([&](int v) { return cut.input_vertex[at(v)]; });
+        Eigen::Vector3i corners = cut.triangles.col(t).unaryExpr([&](int v) { return cut.input_vertex[v]; });
         ascending = ascending && corners.minCoeff() >= last;
         last = corners.minCoeff();
-        Eigen::Vector3i given = triangles.col(cut.input_triangle[at(t)]);
-        ++seen[at(cut.input_triangle[at(t)])];
+        Eigen::Vector3i given = triangles.col(cut.input_triangle[t]);
+        ++seen[cut.input_triangle[t]];
         std::sort(corners.begin(), corners.end());
         std::sort(given.begin(), given.end());
         same = same && corners == given;
@@ -211,7 +211,7 @@ TEST_CASE("neighbours that a shuffled mesh leaves far apart come together, and n
         shuffled.points.col(number[std::size_t(v)]) = mesh.points.col(v);
     for (std::size_t t = 0; t < order.size(); ++t) {
         for (int k = 0; k < 3; ++k)
-            shuffled.triangles(k, static_cast<Eigen::Index>(t)) = number[at(mesh.triangles(k, order[t]))];
+            shuffled.triangles(k, static_cast<Eigen::Index>(t)) = number[mesh.triangles(k, order[t])];
     }
     const test::Single single = test::single_patch(shuffled);
     const Patch& patch = single.patch();
@@ -225,8 +225,8 @@ TEST_CASE("neighbours that a shuffled mesh leaves far apart come together, and n
     CHECK(all);
     bool same = true;
     for (int t = 0; t < patch.triangle_count(); ++t) {
-        const Eigen::Vector3i corners = patch.triangles.col(t).unaryExpr([&](int v) { return patch.to_input[at(v)]; });
-        same = same && corners == shuffled.triangles.col(patch.input_triangle[at(t)]);
+        const Eigen::Vector3i corners = patch.triangles.col(t).unaryExpr([&](int v) { return patch.to_input[v]; });
+        same = same && corners == shuffled.triangles.col(patch.input_triangle[t]);
     }
     CHECK(same);
     CHECK(patch.edge_count() == ordered.patch().edge_count());
@@ -242,7 +242,7 @@ TEST_CASE("a tube and a closed surface held by one pin are brought together as w
         int t = 0;
         for (int i = 0; i < n - open; ++i) {
             for (int j = 0; j < n; ++j) {
-                const auto v = [&](int a, int b) { return number[at((i + a) % n * n + (j + b) % n)]; };
+                const auto v = [&](int a, int b) { return number[(i + a) % n * n + (j + b) % n]; };
                 triangles.col(t++) << v(0, 0), v(1, 0), v(1, 1);
                 triangles.col(t++) << v(0, 0), v(1, 1), v(0, 1);
             }

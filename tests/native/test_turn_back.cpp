@@ -35,7 +35,7 @@ struct Square {
         const int other = single.patch().ring(vertex).vertices[0];
         const Vector3 there =
             placement.points.col(vertex) + 1.7 * (placement.points.col(other) - placement.points.col(vertex));
-        put(placement, vertex, target, target.project(there, placement.where[at(vertex)].triangle));
+        put(placement, vertex, target, target.project(there, placement.where[vertex].triangle));
         return placement;
     }
 };
@@ -44,7 +44,7 @@ struct Square {
 struct Star {
     explicit Star(const std::array<int, 6>& heights) {
         for (Eigen::Index k = 0; k < 6; ++k)
-            problem.fixed_points(2, k) = heights[at(single.patch().to_input[static_cast<std::size_t>(k) + 1])];
+            problem.fixed_points(2, k) = heights[single.patch().to_input[static_cast<std::size_t>(k) + 1]];
     }
 
     static test::Mesh hexagon() {
@@ -77,7 +77,7 @@ TEST_CASE("one vertex across its neighbour is brought back, and no other moves")
     int moved = 0;
     for (int v = 0; v < square.single.patch().free_count; ++v) {
         moved += placement.points.col(v) != before.col(v) ? 1 : 0;
-        CHECK((placement.points.col(v) - square.target.position(placement.where[at(v)])).norm() == 0.0);
+        CHECK((placement.points.col(v) - square.target.position(placement.where[v])).norm() == 0.0);
     }
     CHECK(moved <= 3);
 }
@@ -94,9 +94,9 @@ TEST_CASE("a vertex across a sharp ridge is brought back where untangling folds 
     for (const int pick : {0, 1, 3, 4, 5}) {
         Placement start = at_vertices(problem, target, single.points);
         const int vertex = patch.free_count / 3 + 7 * pick;
-        const int other = patch.ring(vertex).vertices[at(pick % 4)];
+        const int other = patch.ring(vertex).vertices[pick % 4];
         const Vector3 there = start.points.col(vertex) + 1.7 * (start.points.col(other) - start.points.col(vertex));
-        put(start, vertex, target, target.project(there, start.where[at(vertex)].triangle));
+        put(start, vertex, target, target.project(there, start.where[vertex].triangle));
         REQUIRE(folds_of_placement(problem, target, start).size() > 10);
         CHECK(place_settled(problem, *springs, target, start, {}).folded.empty());
     }
@@ -111,7 +111,7 @@ TEST_CASE("nothing is tried where nothing is folded, or a whole sheet") {
     for (int v = 0; v < square.single.patch().free_count; ++v) {
         Vector3 there = square.single.points.col(v);
         there.x() = 1.0 - there.x();
-        put(mirrored, v, square.target, square.target.project(there, mirrored.where[at(v)].triangle));
+        put(mirrored, v, square.target, square.target.project(there, mirrored.where[v].triangle));
     }
     const Points before = mirrored.points;
     REQUIRE(square.folds(mirrored) > few_folds);

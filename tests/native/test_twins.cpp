@@ -20,7 +20,7 @@ PatchMembers members_of(const Triangles& triangles, int vertex_count) {
     PatchMembers members;
     for (int v = 0; v < vertex_count; ++v) members.to_input.push_back(v);
     for (int t = 0; t < static_cast<int>(triangles.cols()); ++t) members.input_triangle.push_back(t);
-    members.pin.assign(at(vertex_count), 0);
+    members.pin.assign(vertex_count, 0);
     members.triangles = triangles;
     return members;
 }
@@ -41,12 +41,12 @@ TEST_CASE("twins lie on each other, the other way round, and borders have none")
     const Twins twins = found(triangles, 36);
     int borders = 0;
     for (int s = 0; s < static_cast<int>(twins.size()); ++s) {
-        const int twin = twins[at(s)];
+        const int twin = twins[s];
         if (twin == none) {
             ++borders;
             continue;
         }
-        CHECK(twins[at(twin)] == s);
+        CHECK(twins[twin] == s);
         CHECK(side_tail(triangles, s) == side_head(triangles, twin));
         CHECK(side_head(triangles, s) == side_tail(triangles, twin));
     }
@@ -142,11 +142,11 @@ TEST_CASE("a strip has the triangles within some edges of its seeds, in the patc
     Eigen::Index next = 0;
     for (int t = 0; t < patch.triangle_count() && next < strip.triangles.cols(); ++t) {
         Eigen::Vector3i named;
-        for (int k = 0; k < 3; ++k) named[k] = strip.vertices[at(strip.triangles(k, next))];
+        for (int k = 0; k < 3; ++k) named[k] = strip.vertices[strip.triangles(k, next)];
         if (named == patch.triangles.col(t)) ++next;
     }
     CHECK(next == strip.triangles.cols());
     for (std::size_t k = 0; k < strip.vertices.size(); ++k)
-        CHECK(strip.local[at(strip.vertices[k])] == static_cast<int>(k));
+        CHECK(strip.local[strip.vertices[k]] == static_cast<int>(k));
     CHECK(strip.gather(single.points).isApprox(single.points(Eigen::all, strip.vertices)));
 }
