@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "accept/accept.h"
 #include "api/diagnose.h"
 #include "base/errors.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
+#include "continuity/joined.h"
 #include "detail/relaid.h"
 #include "geometry/flips.h"
 #include "geometry/surface_fit.h"
-#include "method/accept.h"
-#include "method/joined.h"
-#include "method/otherwise.h"
 #include "method/pinned.h"
+#include "method/solve.h"
 #include "outline/fair_border.h"
 #include "problem/free_slopes.h"
 #include "start/automatic_equation.h"
@@ -226,7 +226,7 @@ Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Componen
     const bool joins = problem.fixed_curvatures.size() > 0;
     const std::optional<NearStart> start = given_start(answer, data);
     Solution solution = solve_tangent(problem, start, joins ? progress.range(0.0, share_of_tangent) : progress);
-    if (solution.even_weights) warn_of_even_weights(answer.warnings);
+    if (solution.uniform_weights) warn_of_even_weights(answer.warnings);
     solution = with_spread_pins(problem, options().pin_radius, std::move(solution), progress.here());
     if (!joins) return solution;
     return joined(problem, std::move(solution), progress.range(share_of_tangent, 1.0));
@@ -234,21 +234,15 @@ Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Componen
 
 Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optional<NearStart>& start,
                                         const Progress& progress) {
-    std::optional<Solution> near_last = keeps() ? solve_near_last(problem, progress) : std::nullopt;
-    if (!near_last && start && options().start == Start::given)
-        near_last = solve_near(problem, *start, progress.range(0.0, 0.4));
-    if (!near_last && start && options().start == Start::least_variation)
-        near_last = solve_else(problem, Provenance::least_variation, progress, &start->points);
-    if (!near_last && options().start == Start::loft) near_last = solve_else(problem, Provenance::loft, progress);
-    if (!near_last && options().start == Start::smoothed)
-        near_last = solve_else(problem, Provenance::old_shape, progress);
-    Solution solution = near_last ? std::move(*near_last) : solve_pinned(problem, options().pin_radius, progress);
+    std::optional<Solution> near = keeps() ? solve_near_last(problem, progress) : std::nullopt;
+    if (!near) near = solve_from(problem, start, progress);
+    Solution solution = near ? std::move(*near) : fairing::solve(problem, options().pin_radius, progress);
     if (!keeps()) return solution;
     replaced_.reset();
     if (stands_in(solution.provenance) && end_of(solution) == Termination::converged)
         replaced_ = Replaced{outline_of(problem), solution.provenance};
     // Other weights than those asked for were used: the next solve has to try again.
-    if (solution.even_weights) {
+    if (solution.uniform_weights) {
         warm_.forget();
     } else {
         warm_.remember(problem, solution, progress.here());
@@ -256,10 +250,23 @@ Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optio
     return solution;
 }
 
+// The surface that the caller wants to begin with.
+std::optional<Solution> ComponentSolver::solve_from(const Problem& problem, const std::optional<NearStart>& start,
+                                                    const Progress& progress) const {
+    switch (options().start) {
+        case Start::given: return start ? solve_near(problem, *start, progress.range(0.0, 0.4)) : std::nullopt;
+        case Start::least_variation:
+            return solve_stand_in(problem, Provenance::least_variation, progress, &start->points);
+        case Start::loft: return solve_stand_in(problem, Provenance::loft, progress);
+        case Start::smoothed: return solve_stand_in(problem, Provenance::old_shape, progress);
+        default: return std::nullopt;
+    }
+}
+
 // The kind of surface stays what it was while an outline is dragged.
 std::optional<Solution> ComponentSolver::solve_near_last(const Problem& problem, const Progress& progress) {
     if (!replaced_ || !small_rotation(replaced_->outline, outline_of(problem))) return warm_.solve(problem, progress);
-    return solve_else(problem, replaced_->kind, progress);
+    return solve_stand_in(problem, replaced_->kind, progress);
 }
 
 // Needles across a curvature count as turned over in the reference already.

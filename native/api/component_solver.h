@@ -2,10 +2,10 @@
 #pragma once
 
 #include "api/kept_skin.h"
-#include "method/near_start.h"
-#include "method/outline_move.h"
-#include "method/warm_start.h"
 #include "problem/solution.h"
+#include "reuse/near_start.h"
+#include "reuse/outline_move.h"
+#include "reuse/warm_start.h"
 
 namespace fairing {
 
@@ -71,6 +71,8 @@ private:
                                          const Progress& progress);
     // While a boundary is dragged, the equation stays what it was.
     [[nodiscard]] Equation equation_of(const Problem& problem, const ComponentData& data);
+    [[nodiscard]] std::optional<Solution> solve_from(const Problem& problem, const std::optional<NearStart>& start,
+                                                     const Progress& progress) const;
     [[nodiscard]] std::optional<Solution> solve_near_last(const Problem& problem, const Progress& progress);
     [[nodiscard]] std::size_t tolerated_folds() const;
 

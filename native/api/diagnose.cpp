@@ -14,8 +14,8 @@
 #include "geometry/flips.h"
 #include "geometry/outline_angles.h"
 #include "geometry/self_intersection.h"
-#include "method/eased.h"
-#include "method/joined.h"
+#include "method/traits.h"
+#include "continuity/joined.h"
 #include "pins/sharp_pins.h"
 #include "pins/spread_pins.h"
 
@@ -336,7 +336,7 @@ Diagnostic no_solution(const Problem& problem, const Solution& solution) {
     if (solution.provenance == Provenance::old_shape) figures["smoothed"] = 1.0;
     const std::string text = "no " + name + " fits the outlines of a component of " + free;
     if (solution.provenance == Provenance::low_passed) {
-        figures["distance"] = eased_by(problem);
+        figures["distance"] = distance_of_low_passed(problem);
         return {Code::no_solution, text + " as they are: it follows them smoothly, and they stay beside it",
                 Indices(free_vertices(patch).begin(), free_vertices(patch).end()), ElementKind::vertex, figures};
     }

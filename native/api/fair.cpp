@@ -12,7 +12,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "geometry/outline_angles.h"
-#include "method/accept.h"
+#include "accept/accept.h"
 #include "outline/visible_join.h"
 
 namespace fairing {

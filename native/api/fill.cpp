@@ -11,7 +11,7 @@
 #include "fill/even_mesh.h"
 #include "fill/first_surface.h"
 #include "mesh/pieces.h"
-#include "method/accept.h"
+#include "accept/accept.h"
 
 namespace fairing {
 

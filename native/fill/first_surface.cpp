@@ -6,17 +6,17 @@
 #include <numeric>
 #include <set>
 
+#include "accept/accept.h"
 #include "fill/ball_start.h"
 #include "fill/edge_lengths.h"
 #include "fill/even_mesh.h"
 #include "fill/joined_loops.h"
 #include "fill/tube_start.h"
-#include "method/accept.h"
 #include "method/lofted.h"
-#include "method/near_start.h"
-#include "method/otherwise.h"
+#include "method/solve.h"
 #include "problem/surface_state.h"
 #include "proxy/proxy_mesh.h"
+#include "reuse/near_start.h"
 #include "start/automatic_equation.h"
 
 namespace fairing {
@@ -175,7 +175,7 @@ FirstSurface on_even_mesh(const OpenOutline& outline, const FirstSurface& last, 
     Problem problem = problem_on(outline, even.patch, options);
     // What was sought in vain once, in 1 to 5 s, is not found on another mesh either.
     if (!has_converged(last)) problem.options.otherwise = Otherwise::stop;
-    Solution solution = solve_or_else(problem, progress.range(0.3, 1.0));
+    Solution solution = solve(problem, 0.0, progress.range(0.3, 1.0));
     return {std::move(even.patch), std::move(solution)};
 }
 
@@ -213,10 +213,8 @@ std::optional<FirstSurface> from_tube(const OpenOutline& outline, const SolverOp
     std::optional<Solution> solution;
     if (options.equation != Equation::least_variation)
         solution = solve_near(problem, {even.points, true}, progress.range(0.0, 0.3));
-    solution = solution ? or_else(problem, std::move(*solution), progress.range(0.3, 1.0))
-                        : solve_else_roughly(problem, even.points, progress.range(0.3, 1.0));
-    if (!solution && swept->turn() > wide_bend && may_be_replaced(options))
-        solution = lofted(problem, {}, progress.here());
+    if (!solution) solution = solve_stand_in_roughly(problem, even.points, progress.range(0.3, 1.0));
+    if (!solution && swept->turn() > wide_bend && may_be_replaced(options)) solution = lofted(problem, progress.here());
     if (!solution) return std::nullopt;
     return FirstSurface{std::move(even.patch), std::move(*solution)};
 }
@@ -226,7 +224,7 @@ FirstSurface from_flat(const OpenOutline& outline, const SolverOptions& options,
     Meshed flat = first_mesh(outline);
     std::optional<FirstSurface> found = from_ball(outline, flat, options, progress.range(0.0, 0.2));
     if (found) return std::move(*found);
-    Solution solution = solve_or_else(problem_on(outline, flat.patch, options), progress.range(0.2, 1.0));
+    Solution solution = solve(problem_on(outline, flat.patch, options), 0.0, progress.range(0.2, 1.0));
     return {std::move(flat.patch), std::move(solution)};
 }
 
@@ -252,11 +250,10 @@ FirstSurface with_loft(const OpenOutline& outline, const SolverOptions& options,
                        const Progress& progress) {
     if (const auto swept = SweptTube::between(outline.loops, outline.points, outline.normals)) {
         Meshed even = tube_mesh(outline, *swept, options);
-        if (auto loft = lofted(problem_on(outline, even.patch, options), {}, progress))
+        if (auto loft = lofted(problem_on(outline, even.patch, options), progress))
             return {std::move(even.patch), std::move(*loft)};
     }
-    if (auto loft = lofted(problem_on(outline, last.patch, options), last.solution, progress))
-        last.solution = std::move(*loft);
+    if (auto loft = lofted(problem_on(outline, last.patch, options), progress)) last.solution = std::move(*loft);
     return last;
 }
 

@@ -7,7 +7,6 @@
 #include "geometry/face_geometry.h"
 #include "geometry/surface_fit.h"
 #include "iteration/continuation.h"
-#include "method/least_bent.h"
 #include "operators/workspace.h"
 #include "placement/relax.h"
 #include "problem/surface_state.h"
@@ -74,7 +73,23 @@ Start make_start(const Problem& problem, Workspace& work, const Progress& progre
     return start;
 }
 
+// The candidate instead where the solution did not converge, which may end anywhere, and is more bent. Solutions of
+// part of a load and minimal surfaces stay as they are: bending does not compare them.
+void keep_less_bent(const Problem& problem, const Points& candidate, Solution& solution) {
+    if (problem.options.equation == Equation::minimal || solution.termination == Termination::converged) return;
+    if (solution.reached_load > 0.0) return;
+    if (willmore_energy(problem, solution.points) <= willmore_energy(problem, candidate)) return;
+    const SurfaceState state = measured_surface(problem, candidate);
+    solution.points = candidate;
+    solution.mean_curvature = state.curvature.mean;
+    solution.residual = largest_residual(problem, state, outer_residual(problem, state));
+}
+
 }  // namespace
+
+bool less_bent(const Problem& problem, const Solution& a, const Solution& b) {
+    return !(willmore_energy(problem, b.points) <= willmore_energy(problem, a.points));
+}
 
 Solution solve_directly(const Problem& problem, const Progress& progress) {
     Stopwatch watch;

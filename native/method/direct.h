@@ -14,4 +14,7 @@ Solution solve_directly(const Problem& problem, const Progress& progress);
 // The same as a fast path: left at the first sign of trouble, since other ways come next.
 Solution try_directly(const Problem& problem, const Progress& progress);
 
+// Whether the surface of `a` has less Willmore energy than that of `b`; no number counts as most.
+bool less_bent(const Problem& problem, const Solution& a, const Solution& b);
+
 }  // namespace fairing

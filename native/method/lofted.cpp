@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "base/stopwatch.h"
-#include "geometry/outline_angles.h"
+#include "accept/accept.h"
 #include "geometry/spikes.h"
 #include "geometry/surface_fit.h"
-#include "method/accept.h"
 #include "placement/refill.h"
 #include "problem/surface_state.h"
 #include "proxy/proxy_solver.h"
@@ -38,9 +36,6 @@ std::optional<Points> surface(const Problem& problem, const Fill& fill, double s
     if (total_area(points, patch.triangles) > largest_growth * least_area) return std::nullopt;
     return points;
 }
-
-// For the log of ways.
-const char* name_of(Provenance provenance) { return provenance == Provenance::loft ? "loft" : "swept loft"; }
 
 struct Candidate {
     Points points;
@@ -91,17 +86,7 @@ Solution solution_at(const Problem& problem, const Candidate& candidate) {
     return solution;
 }
 
-// Met from the other side, where a surface without slopes runs back inside its surroundings.
-bool is_turned_in(const Problem& problem, const Solution& solution) {
-    constexpr double behind = 90.0;  // degrees
-    constexpr double most = 0.05;    // of the outline
-    const VectorX angles = boundary_angles(problem.patch, solution.boundary_normals, problem.fixed_normals);
-    return static_cast<double>((angles.array() > behind).count()) > most * static_cast<double>(angles.size());
-}
-
-bool is_accepted(const Problem& problem, const Solution& solution) {
-    return end_of(solution) == Termination::converged && !is_turned_in(problem, solution);
-}
+bool is_accepted(const Solution& solution) { return end_of(solution) == Termination::converged; }
 
 Solution measured(const Problem& problem, Solution solution) {
     solution.mean_curvature = measured_surface(problem, solution.points).curvature.mean;
@@ -117,7 +102,7 @@ std::optional<Solution> mended(const Problem& problem, const Candidate& candidat
     for (const int reach : rings) {
         trial.points = refilled(problem.patch, candidate.points, flawed.bad_triangles, reach);
         Solution solution = solution_at(problem, trial);
-        if (is_accepted(problem, solution)) return measured(problem, std::move(solution));
+        if (is_accepted(solution)) return measured(problem, std::move(solution));
     }
     return std::nullopt;
 }
@@ -129,7 +114,7 @@ std::optional<Solution> best_of(const Problem& problem, std::vector<Candidate> c
     std::vector<std::pair<Candidate, Solution>> flawed;
     for (Candidate& candidate : candidates) {
         Solution solution = solution_at(problem, candidate);
-        if (is_accepted(problem, solution)) return measured(problem, std::move(solution));
+        if (is_accepted(solution)) return measured(problem, std::move(solution));
         flawed.emplace_back(std::move(candidate), std::move(solution));
     }
     for (const auto& [candidate, solution] : flawed) {
@@ -138,21 +123,12 @@ std::optional<Solution> best_of(const Problem& problem, std::vector<Candidate> c
     return std::nullopt;
 }
 
-std::optional<Solution> best_loft(const Problem& problem, const Progress& progress) {
+}  // namespace
+
+std::optional<Solution> lofted(const Problem& problem, const Progress& progress) {
     std::vector<Candidate> found = candidates(problem, progress);
     if (auto tube = swept(problem, progress)) found.push_back(std::move(*tube));
     return best_of(problem, std::move(found));
-}
-
-}  // namespace
-
-std::optional<Solution> lofted(const Problem& problem, const Solution& first, const Progress& progress) {
-    const Stopwatch watch;
-    auto solution = best_loft(problem, progress);
-    if (!solution) return std::nullopt;
-    solution->ways = first.ways;
-    solution->ways.push_back({name_of(solution->provenance), watch.seconds()});
-    return solution;
 }
 
 }  // namespace fairing

@@ -10,9 +10,9 @@
 namespace fairing {
 
 // The loft (start/loft) with as much of its bulge as makes neither folds nor crossings nor a balloon; its slopes are
-// let go as far as that takes. `first`: what was tried before. Nothing for one outline, or where no share is accepted.
+// let go as far as that takes. Nothing for one outline, or where no share is accepted.
 // Where both outlines face each other along a wide bend, the sections swept along it (start/swept_start), where these
 // are bent less.
-std::optional<Solution> lofted(const Problem& problem, const Solution& first, const Progress& progress);
+std::optional<Solution> lofted(const Problem& problem, const Progress& progress);
 
 }  // namespace fairing

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "accept/accept.h"
 #include "base/background_task.h"
 #include "base/stopwatch.h"
 #include "geometry/flips.h"
 #include "geometry/surface_fit.h"
 #include "iteration/accelerated_iteration.h"
-#include "method/eased.h"
+#include "method/direct.h"
 #include "method/levels.h"
-#include "method/one_level.h"
-#include "method/sizes.h"
 #include "problem/surface_state.h"
 #include "start/several_outlines.h"
 #include "tangential/slide.h"
@@ -25,7 +24,6 @@ namespace {
 constexpr int smallest_coarsest = 150;
 constexpr double small_tolerance = 7e-4;    // units of D, there: triangles are too large for more
 constexpr int most_alone = 10;              // iterations there; single poor triangles keep steps at 1e-3
-constexpr int smallest_smooth = 500;        // free vertices from which on that pays
 constexpr double between_tolerance = 1e-4;  // units of D, of levels that are only starts
 // A level that starts at the coarser one's surface needs 3 to 8 iterations. Those between are good enough as starts
 // even where single poor triangles of a coarse level keep them from converging.
@@ -50,33 +48,27 @@ std::size_t tolerated_folds(const Problem& problem) {
 // The fraction of all that is done after level k: each level takes about a quarter of the next finer one.
 double done_after(std::size_t k) { return begin + (1.0 - begin) * std::pow(0.25, static_cast<double>(k)); }
 
-bool begins_small(const Problem& problem) {
-    const Patch& patch = problem.patch;
-    if (patch.loop_count() > 2 || is_jagged(problem)) return false;
-    return straight_length_between(patch, with_fixed(patch, problem.fixed_points)) <= longest_single;
-}
-
 // No coarse mesh can show short waves of an outline: taken from every second vertex of a jagged one they would be noise
 // as large and twice as long. Coarse levels have the eased outline; only the finest one meets the outline as it is.
-Levels levels_of(const Problem& problem, int coarsest) {
-    if (!is_jagged(problem)) return {problem, Outlines::thinned, coarsest};
-    return {problem, eased(problem), Outlines::thinned, coarsest};
+Levels levels_of(const Problem& problem, const Traits& traits, int coarsest) {
+    if (!traits.is_jagged) return {problem, Outlines::thinned, coarsest};
+    return {problem, traits.low_passed(), Outlines::thinned, coarsest};
 }
 
 class NestedSolve {
 public:
     // `coarsest`: free vertices of the level to begin on.
-    NestedSolve(const Problem& problem, int coarsest, const Progress& progress)
+    NestedSolve(const Problem& problem, const Traits& traits, int coarsest, const Progress& progress)
         : problem_(problem),
+          traits_(traits),
           progress_(progress),
-          is_rough_(is_jagged(problem)),
           begins_small_(coarsest < coarsest_size),
-          levels_(levels_of(problem, coarsest)) {
+          levels_(levels_of(problem, traits, coarsest)) {
         for (std::size_t k = 0; k <= levels_.coarsest(); ++k) {
             SolverOptions& options = levels_.problem(k).options;
             options.max_iterations = std::min(most_on(k), problem.options.max_iterations);
             options.patience = patience;
-            options.contracts = is_rough_ && k == 0;
+            options.contracts = traits_.is_jagged && k == 0;
             options.begins_near = k == 0;
             if (k == 0) continue;
             options.tolerance = std::max(between_tolerance, problem.options.tolerance);
@@ -106,7 +98,7 @@ public:
 private:
     [[nodiscard]] int most_on(std::size_t k) const {
         if (k > 0) return most_between;
-        return is_large(problem_) ? most_iterations : most_small;
+        return traits_.is_large ? most_iterations : most_small;
     }
 
     // From the outline alone.
@@ -118,7 +110,9 @@ private:
             problem.options.tolerance = std::max(problem.options.tolerance, small_tolerance);
             problem.options.max_iterations = std::min(problem.options.max_iterations, most_alone);
         }
-        return solve_on_own_mesh(problem, progress_.range(begin, done_after(k)));
+        Solution solution = try_directly(problem, progress_.range(begin, done_after(k)));
+        solution.flaw = flaw_of(problem, solution);
+        return solution;
     }
 
     // Whether a level has fewer vertices than tell any surface.
@@ -154,12 +148,9 @@ private:
         levels_.set_up_tangential(from, progress_);
         for (std::size_t k = from; k-- > 0;) {
             const Points coarser = solution.points;
-            const bool leads = is_rough_ && solution.last_step <= near_step;
             solution = refine(k, coarser, progress_.range(done_after(k + 1), done_after(k)));
             if (is_good(k, solution)) continue;
-            solution = given_up(k + 1, coarser);
-            solution.leads = leads;
-            return solution;
+            return given_up(k + 1, coarser);
         }
         solution.boundary_normals = one_sided_normals(problem_.patch, solution.points);
         return solution;
@@ -227,7 +218,7 @@ private:
         return solution;
     }
 
-    [[nodiscard]] Turning turning() const { return is_rough_ ? Turning::unknown : Turning::known; }
+    [[nodiscard]] Turning turning() const { return traits_.is_jagged ? Turning::unknown : Turning::known; }
 
     [[nodiscard]] BentPoints interpolated(std::size_t k, const Points& coarse, const RingMatrix& laplacian) const {
         const Problem& fine = levels_.problem(k);
@@ -243,8 +234,8 @@ private:
     }
 
     const Problem& problem_;
+    const Traits& traits_;
     const Progress& progress_;
-    const bool is_rough_;
     const bool begins_small_;
     double reaction_ = 0.0;  // of the level before
     Stopwatch watch_;
@@ -258,18 +249,13 @@ private:
 
 }  // namespace
 
-bool takes_levels(const Problem& problem) {
-    if (is_large(problem)) return true;
-    return problem.options.nested && problem.patch.free_count > smallest_smooth && begins_small(problem);
-}
-
-std::optional<Solution> solve_nested(const Problem& problem, const Progress& progress) {
-    if (begins_small(problem)) {
-        auto solution = NestedSolve(problem, smallest_coarsest, progress).run();
+std::optional<Solution> solve_nested(const Problem& problem, const Traits& traits, const Progress& progress) {
+    if (traits.begins_small) {
+        auto solution = NestedSolve(problem, traits, smallest_coarsest, progress).run();
         if (solution && solution->termination == Termination::converged) return solution;
-        if (!is_large(problem)) return std::nullopt;
+        if (!traits.is_large) return std::nullopt;
     }
-    return NestedSolve(problem, coarsest_size, progress).run();
+    return NestedSolve(problem, traits, coarsest_size, progress).run();
 }
 
 }  // namespace fairing

@@ -4,19 +4,16 @@
 #include <optional>
 
 #include "base/progress.h"
-#include "problem/problem.h"
+#include "method/traits.h"
 #include "problem/solution.h"
 
 namespace fairing {
 
-// Whether a patch is large enough for levels: over smooth outlines small ones are, too.
-bool takes_levels(const Problem& problem);
-
-// Solves the coarsest level (method/one_level) and refines: each level starts at the surface of the one before and
+// Solves the coarsest level (method/direct) and refines: each level starts at the surface of the one before and
 // needs a few accelerated iterations, whose linear systems are solved by multigrid. The way ends at a level that
 // starts folded or stays far from a surface, before the larger ones cost time, and on the finest one as soon as its
 // steps hardly shrink. The solution then has not converged, and its positions are those of the last good level,
 // interpolated; nothing is measured there. No solution where the patch is too small for levels.
-std::optional<Solution> solve_nested(const Problem& problem, const Progress& progress);
+std::optional<Solution> solve_nested(const Problem& problem, const Traits& traits, const Progress& progress);
 
 }  // namespace fairing

@@ -1,11 +1,10 @@
 #include "method/pinned.h"
 
+#include "accept/accept.h"
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
-#include "method/accept.h"
-#include "method/ladder.h"
-#include "method/led_pins.h"
-#include "method/otherwise.h"
+#include "method/solve.h"
+#include "pins/led_pins.h"
 #include "pins/released.h"
 #include "pins/sharp_pins.h"
 #include "pins/spread_pins.h"
@@ -33,14 +32,10 @@ bool are_close(const Problem& problem, const Indices& pins, double distance) {
     return false;
 }
 
-// By the rules for all surfaces.
 Solution judged(const Problem& problem, Solution found) {
     found.from_surface = true;
-    found.flaw = flaw_of(problem, found);
-    // Far pins have spurious surfaces, too: a needle on one ring of triangles, whatever the radius.
-    if (found.flaw == Flaw::absent && !sharp_pins(problem.patch, found.points).empty())
-        found.flaw = Flaw::poor_triangles;
     found.pins = Pins::spread;
+    found.flaw = flaw_of(problem, found);
     return found;
 }
 
@@ -50,11 +45,18 @@ Solution spread_from(const Problem& problem, double radius, const Points& start,
     return judged(problem, std::move(found));
 }
 
-// From the surface without pins, on the patch's own mesh or else step by step. `guess`: of vertices with their pins.
-std::optional<Solution> lifted(const Problem& problem, double radius, std::optional<Points> guess,
-                               const Progress& progress) {
+}  // namespace
+
+Indices pins_to_spread(const Problem& problem) {
+    Indices pins = isolated_pins(problem.patch);
+    if (static_cast<Eigen::Index>(pins.size()) == problem.fixed_points.cols()) pins.clear();
+    return pins;
+}
+
+std::optional<Solution> lift_pins(const Problem& problem, double radius, std::optional<Points> guess,
+                                  const Progress& progress) {
     const Released free = released(problem.patch, isolated_pins(problem.patch));
-    const Solution without = solve_global(on_released(problem, free), progress.range(0.0, 0.5));
+    const Solution without = solve_equation_alone(on_released(problem, free), progress.range(0.0, 0.5));
     if (end_of(without) != Termination::converged) return std::nullopt;
     const Points start = without.points(Eigen::all, free.to);
     Solution found = spread_from(problem, radius, start, progress.range(0.5, 0.6));
@@ -69,29 +71,6 @@ std::optional<Solution> lifted(const Problem& problem, double radius, std::optio
     return found;
 }
 
-// Those that may have a radius: not where nothing else holds the patch.
-Indices pins_to_spread(const Problem& problem) {
-    Indices pins = isolated_pins(problem.patch);
-    if (static_cast<Eigen::Index>(pins.size()) == problem.fixed_points.cols()) pins.clear();
-    return pins;
-}
-
-}  // namespace
-
-Solution solve_pinned(const Problem& problem, double radius, const Progress& progress) {
-    Solution first = solve_global(problem, progress);
-    const bool fits = radius > 0.0 && is_of_fourth_order(problem, first);
-    if (!fits || end_of(first) == Termination::converged) return or_else(problem, std::move(first), progress);
-    const Indices pins = pins_to_spread(problem);
-    if (pins.empty()) return or_else(problem, std::move(first), progress);
-    const Stopwatch watch;
-    auto found = lifted(problem, radius, std::nullopt, progress.here());
-    first.ways.push_back({"pins", watch.seconds()});
-    if (!found) return or_else(problem, std::move(first), progress);
-    found->ways = first.ways;
-    return std::move(*found);
-}
-
 Solution with_spread_pins(const Problem& problem, double radius, Solution sharp, const Progress& progress) {
     if (!(radius > 0.0) || !is_of_fourth_order(problem, sharp) || sharp.pins == Pins::spread) return sharp;
     const Indices all = isolated_pins(problem.patch);
@@ -102,7 +81,7 @@ Solution with_spread_pins(const Problem& problem, double radius, Solution sharp,
     const Stopwatch watch;
     Solution found = spread_from(problem, radius, sharp.points, progress);
     if (found.flaw != Flaw::absent) {
-        if (auto other = lifted(problem, radius, sharp.points, progress)) found = std::move(*other);
+        if (auto other = lift_pins(problem, radius, sharp.points, progress)) found = std::move(*other);
     }
     const double seconds = watch.seconds();
     sharp.seconds["pins"] = seconds;
@@ -115,7 +94,7 @@ Solution with_spread_pins(const Problem& problem, double radius, Solution sharp,
     found.levels = sharp.levels;
     found.seconds = sharp.seconds;
     found.ways = sharp.ways;
-    found.even_weights = sharp.even_weights;
+    found.uniform_weights = sharp.uniform_weights;
     return found;
 }
 

@@ -1,15 +1,22 @@
 // Surfaces whose pins have a radius.
 #pragma once
 
+#include <optional>
+
 #include "base/progress.h"
 #include "problem/problem.h"
 #include "problem/solution.h"
 
 namespace fairing {
 
-// As solve_or_else. Where pins that act in a point have no surface, the one without pins is lifted to them over
-// `radius` (units of D) before anything else is taken.
-Solution solve_pinned(const Problem& problem, double radius, const Progress& progress);
+// Places of the isolated pins that may have a radius among the fixed vertices: none where nothing else holds the patch,
+// or for equations that are not of fourth order.
+Indices pins_to_spread(const Problem& problem);
+
+// The surface without pins, lifted to them over `radius` (units of D), on the patch's own mesh or else step by step.
+// Nothing where it is not accepted. `guess`: 3 × local vertices of a surface with the pins.
+std::optional<Solution> lift_pins(const Problem& problem, double radius, std::optional<Points> guess,
+                                  const Progress& progress);
 
 // `sharp`: the answer in which pins act in a point. It comes back where there are none, and, with the reason in
 // `pins`, where no surface with a `radius` is found or accepted, from it or from the surface without pins. Least

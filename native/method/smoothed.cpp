@@ -4,9 +4,8 @@
 #include <limits>
 #include <queue>
 
-#include "base/stopwatch.h"
+#include "accept/accept.h"
 #include "geometry/surface_fit.h"
-#include "method/accept.h"
 #include "method/blemishes.h"
 #include "problem/surface_state.h"
 #include "start/several_outlines.h"
@@ -62,8 +61,7 @@ Solution solution_at(const Problem& problem, const Points& points) {
 
 }  // namespace
 
-std::optional<Solution> smoothed(const Problem& problem, const Solution& first, const Progress& progress) {
-    const Stopwatch watch;
+std::optional<Solution> smoothed(const Problem& problem, const Progress& progress) {
     if (!joins_outlines(problem)) return std::nullopt;
     auto shape = ShapeBefore::of(problem, progress);
     if (!shape) return std::nullopt;
@@ -71,8 +69,6 @@ std::optional<Solution> smoothed(const Problem& problem, const Solution& first, 
     if (!points) return std::nullopt;
     Solution solution = solution_at(problem, *points);
     if (end_of(solution) != Termination::converged) return std::nullopt;
-    solution.ways = first.ways;
-    solution.ways.push_back({"smoothed", watch.seconds()});
     return solution;
 }
 

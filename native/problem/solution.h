@@ -83,14 +83,13 @@ struct Solution {
     Indices bad_triangles;             // of the patch: folded or crossing ones, for those flaws
     std::optional<Indices> crossings;  // triangles of the patch that pass through others, where they were looked for
     std::optional<Indices> flipped;    // likewise: turned over
-    bool leads = false;                // not the finest level has a surface, but a coarser one: `points` lie on it
     bool from_surface = false;         // its iteration began on the solved surface of a proxy
     bool crosses = false;              // the surface passes through itself, whatever the mesh
     double first_step = 0.0;           // largest moves of the first and the last iteration, units of D
     double last_step = 0.0;
     double least_step = 0.0;  // of all iterations
     Provenance provenance = Provenance::equation;
-    bool even_weights = false;  // uniform weights were taken instead of the problem's
+    bool uniform_weights = false;  // uniform weights were taken instead of the problem's
     Join join = Join::tangent;
     Pins pins = Pins::absent;
     Indices tangent_only;       // of partly_curvature: fixed vertices, counted from the first one

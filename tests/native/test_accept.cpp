@@ -1,9 +1,7 @@
 #include <doctest/doctest.h>
 
+#include "accept/accept.h"
 #include "meshes.h"
-#include "method/accept.h"
-#include "method/otherwise.h"
-#include "method/ways.h"
 #include "placement/placement.h"
 #include "placement/tears.h"
 #include "problem/solution.h"
@@ -46,8 +44,6 @@ struct Solved {
     }
 };
 
-std::optional<Solution> nothing(const Problem&, Situation&, const Progress&) { return std::nullopt; }
-bool always(const Problem&, const Situation&) { return true; }
 
 }  // namespace
 
@@ -107,21 +103,6 @@ TEST_CASE("few triangles beside an eased outline may be the outline's own folds,
         CHECK(flaw_of(problem, solution) == (folds == 1 ? Flaw::absent : Flaw::folded));
         CHECK(solution.bad_triangles.empty() == (folds == 1));
     }
-}
-
-TEST_CASE("an equation lacks a surface where none was found, not where vertices fold on it") {
-    const Solved solved;
-    Solution solution = solved.solution();
-    CHECK(!lacks_surface(solution));
-    solution.flaw = Flaw::folded;
-    CHECK(!lacks_surface(solution));
-    solution.flaw = Flaw::crossing;
-    CHECK(lacks_surface(solution));
-    solution.flaw = Flaw::not_converged;
-    solution.termination = Termination::stalled;
-    CHECK(lacks_surface(solution));
-    solution.reached_load = 0.5;
-    CHECK(!lacks_surface(solution));
 }
 
 TEST_CASE("crossings are a flaw where the surface itself has none") {
@@ -239,41 +220,4 @@ TEST_CASE("a graded mesh is not finer than another one for its mean edge") {
     };
     CHECK(agrees(0.0));
     CHECK(!agrees(1e-3));
-}
-
-TEST_CASE("the first way that is accepted ends the ladder, and all that were tried are listed") {
-    const Solved solved;
-    static const Solution good = solved.solution();
-    static Solution bad = solved.solution();
-    bad.termination = Termination::stalled;
-    const auto solve_well = [](const Problem&, Situation&, const Progress&) { return std::optional(good); };
-    const auto solve_badly = [](const Problem&, Situation&, const Progress&) { return std::optional(bad); };
-    const std::array ways{Way{"no", [](const Problem&, const Situation&) { return false; }, solve_well, 0.0, 0.1},
-                          Way{"empty", always, nothing, 0.1, 0.2}, Way{"bad", always, solve_badly, 0.2, 0.3},
-                          Way{"good", always, solve_well, 0.3, 0.4}, Way{"late", always, solve_well, 0.4, 0.5}};
-    const Solution found = run_ways(ways, solved.problem, Progress());
-    CHECK(found.flaw == Flaw::absent);
-    REQUIRE(found.ways.size() == 3);
-    CHECK(found.ways[0].name == "empty");
-    CHECK(found.ways[1].name == "bad");
-    CHECK(found.ways[2].name == "good");
-}
-
-TEST_CASE("where nothing is accepted, what converged comes first, then what is least bent") {
-    const Solved solved;
-    static Solution flat = solved.solution();
-    static Solution bent = solved.solution();
-    static Solution slow = solved.solution();
-    flat.termination = bent.termination = Termination::stalled;
-    slow.iterations = 60;
-    for (int v = 0; v < solved.patch().free_count; ++v) bent.points.col(v) *= v % 2 == 0 ? 1.1 : 0.9;
-    const auto give_flat = [](const Problem&, Situation&, const Progress&) { return std::optional(flat); };
-    const auto give_bent = [](const Problem&, Situation&, const Progress&) { return std::optional(bent); };
-    const auto give_slow = [](const Problem&, Situation&, const Progress&) { return std::optional(slow); };
-    const std::array unsolved{Way{"bent", always, give_bent, 0.0, 0.5}, Way{"flat", always, give_flat, 0.5, 1.0}};
-    CHECK(run_ways(unsolved, solved.problem, Progress()).points == flat.points);
-    const std::array mixed{Way{"slow", always, give_slow, 0.0, 0.5}, Way{"flat", always, give_flat, 0.5, 1.0}};
-    const Solution best = run_ways(mixed, solved.problem, Progress());
-    CHECK(best.iterations == 60);
-    CHECK(best.ways.size() == 2);
 }

@@ -90,7 +90,7 @@ TEST_CASE("threads: a nested solve is cancelled at every checkpoint") {
     const auto solve = [&](const ProgressCallback& stop) {
         const Progress progress(stop);
         const Checkpoints checkpoints(progress);
-        const auto solution = solve_nested(problem, progress);
+        const auto solution = solve_nested(problem, Traits(problem), progress);
         REQUIRE(solution);
         REQUIRE(solution->levels.size() > 1);
         if (wanted.cols() == 0) wanted = solution->points;

@@ -99,7 +99,7 @@ TEST_CASE("a loft whose slopes make a balloon lets them go") {
     REQUIRE(fill);
     const double least = pipe.area(pipe.with(fill->flat));
     REQUIRE(pipe.area(pipe.with(fill->flat + fill->bulge)) > 2.0 * least);
-    const auto solution = lofted(pipe.problem, {}, Progress());
+    const auto solution = lofted(pipe.problem, Progress());
     REQUIRE(solution);
     CHECK(is_loft(solution->provenance));
     CHECK(pipe.area(solution->points) <= 2.0 * least);
@@ -123,7 +123,7 @@ TEST_CASE("one outline, and vertices held elsewhere, have no loft") {
 TEST_CASE("the least bent of the lofts is taken") {
     for (const double lean : {0.1, 0.5}) {
         const Pipe tube(pipe(20), lean);
-        const auto solution = lofted(tube.problem, {}, Progress());
+        const auto solution = lofted(tube.problem, Progress());
         REQUIRE(solution);
         const double energy = willmore_energy(tube.problem, solution->points);
         for (const double roundness : {0.6, 1.5}) {
@@ -167,7 +167,7 @@ TEST_CASE("a finger that ends inside does not become a hair") {
             }
         }
         CHECK(least_is_spiky);
-        const auto solution = lofted(tube.problem, {}, Progress());
+        const auto solution = lofted(tube.problem, Progress());
         REQUIRE(solution);
         CHECK_FALSE(has_spike(tube.single.patch(), solution->points, radius));
     }
@@ -181,7 +181,7 @@ TEST_CASE("few folds of a loft are turned back") {
         const auto noise = [&] { return 2.0 * static_cast<double>(random()) / 4294967295.0 - 1.0; };
         for (double& coordinate : tube.problem.fixed_points.leftCols(around / 2).reshaped())
             coordinate += 0.9 * edge * noise();
-        const auto solution = lofted(tube.problem, {}, Progress());
+        const auto solution = lofted(tube.problem, Progress());
         CHECK_MESSAGE(solution, seed);
         if (!solution) continue;
         CHECK(flipped_by_solution(tube.single.patch(), solution->points).empty());
@@ -198,7 +198,7 @@ TEST_CASE("a loft meets little of its outline from behind") {
         pipe.problem.fixed_normals.col(k) << std::cos(lean) * point[0], std::cos(lean) * point[1],
             side * std::sin(lean);
     }
-    const auto solution = lofted(pipe.problem, {}, Progress());
+    const auto solution = lofted(pipe.problem, Progress());
     REQUIRE(solution);
     const VectorX angles = boundary_angles(pipe.single.patch(), solution->boundary_normals, pipe.problem.fixed_normals);
     CHECK(20 * (angles.array() > 90.0).count() <= angles.size());

@@ -13,7 +13,7 @@
 #include "linear/sparse_cholesky.h"
 #include "meshes.h"
 #include "method/levels.h"
-#include "method/sizes.h"
+#include "method/traits.h"
 #include "multigrid/coarsening.h"
 #include "multigrid/tangential_multigrid.h"
 #include "operators/normal_operator.h"

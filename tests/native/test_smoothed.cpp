@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include "geometry/self_intersection.h"
-#include "method/accept.h"
+#include "accept/accept.h"
 #include "method/blemishes.h"
 #include "method/girths.h"
-#include "method/otherwise.h"
+#include "method/solve.h"
 #include "method/smoothed.h"
 #include "pipes.h"
 #include "start/girth.h"
@@ -133,15 +133,15 @@ TEST_CASE("the shape before goes with its outline") {
 
 TEST_CASE("a shape that is not known, or crumpled, is not smoothed") {
     Known pipe(20);
-    CHECK(smoothed(pipe.problem, {}, Progress()));
+    CHECK(smoothed(pipe.problem, Progress()));
     Points crumpled = pipe.single.points;
     crumpled.leftCols(pipe.single.patch().free_count).array() *=
         Points::Random(3, pipe.single.patch().free_count).array();
     pipe.problem.before = crumpled;
     CHECK_FALSE(ShapeBefore::of(pipe.problem, Progress()));
-    CHECK_FALSE(smoothed(pipe.problem, {}, Progress()));
+    CHECK_FALSE(smoothed(pipe.problem, Progress()));
     pipe.problem.before = Points(3, 0);
-    CHECK_FALSE(smoothed(pipe.problem, {}, Progress()));
+    CHECK_FALSE(smoothed(pipe.problem, Progress()));
 }
 
 TEST_CASE("blemishes are what the shape before has not") {
@@ -211,7 +211,7 @@ TEST_CASE("an accepted surface is the answer, whatever its girth") {
     for (const double height : {0.6, -0.6}) {
         const Known pipe(10);
         const Points wave = waved(pipe, height);
-        const Solution solution = or_else(pipe.problem, taken(wave, Provenance::equation), Progress());
+        const Solution solution = with_stand_in(pipe.problem, taken(wave, Provenance::equation), Progress());
         CHECK(solution.provenance == Provenance::equation);
         CHECK(solution.points == wave);
     }
@@ -220,7 +220,7 @@ TEST_CASE("an accepted surface is the answer, whatever its girth") {
 TEST_CASE("a long pipe is smoothed as far as it keeps three quarters of its girth") {
     const Known pipe(90);
     REQUIRE(pipe.middle_radius(smoothed_by(pipe, endless)) < 0.1);
-    const auto solution = smoothed(pipe.problem, {}, Progress());
+    const auto solution = smoothed(pipe.problem, Progress());
     REQUIRE(solution);
     CHECK(solution->provenance == Provenance::old_shape);
     CHECK(end_of(*solution) == Termination::converged);
@@ -262,12 +262,11 @@ TEST_CASE("the shape before stands in where it is known, a loft where it is not"
     Solution failed;
     failed.points = *pipe.problem.before;
     failed.flaw = Flaw::not_converged;
-    const Solution solution = or_else(pipe.problem, failed, Progress());
+    const Solution solution = with_stand_in(pipe.problem, failed, Progress());
     CHECK(solution.provenance == Provenance::old_shape);
-    CHECK(solution.ways.back().name == "smoothed");
     CHECK(finder(pipe).in(solution.points).narrow.empty());
     pipe.problem.before = Points(3, 0);
-    const Solution alone = or_else(pipe.problem, failed, Progress());
+    const Solution alone = with_stand_in(pipe.problem, failed, Progress());
     CHECK(is_loft(alone.provenance));
 }
 
@@ -277,7 +276,7 @@ TEST_CASE("a surface beside its boundary that crosses itself where the shape bef
         Solution solution = taken(points, provenance);
         solution.boundary_normals = pipe.problem.fixed_normals;
         solution.flaw = flaw_of(pipe.problem, solution);
-        return or_else(pipe.problem, std::move(solution), Progress());
+        return with_stand_in(pipe.problem, std::move(solution), Progress());
     };
     CHECK(answer(pierced(pipe, 0.5), Provenance::low_passed).provenance == Provenance::old_shape);
     CHECK(answer(pipe.single.points, Provenance::low_passed).provenance == Provenance::low_passed);

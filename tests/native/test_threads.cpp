@@ -188,7 +188,7 @@ TEST_CASE("threads: a solve on levels has the same bits with and without work be
     Points points[2];
     for (const int threads : {1, 3}) {
         const Threads team(threads);
-        const auto solution = solve_nested(problem, Progress());
+        const auto solution = solve_nested(problem, Traits(problem), Progress());
         REQUIRE(solution);
         CHECK(solution->termination == Termination::converged);
         points[threads / 2] = solution->points;

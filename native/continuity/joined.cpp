@@ -1,14 +1,14 @@
-#include "method/joined.h"
+#include "continuity/joined.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
+#include "accept/accept.h"
 #include "base/stopwatch.h"
 #include "continuity/curvature_join.h"
 #include "geometry/surface_fit.h"
-#include "method/accept.h"
 
 namespace fairing {
 
@@ -86,7 +86,7 @@ Solution joined(const Problem& problem, Solution tangent, const Progress& progre
     // Root mean square.
     constexpr double negligible = 0.01;
     constexpr double negligible_beside_roughness = 0.02;
-    if (tangent.flaw != Flaw::absent || tangent.even_weights || stands_in(tangent.provenance))
+    if (tangent.flaw != Flaw::absent || tangent.uniform_weights || stands_in(tangent.provenance))
         return with_join(std::move(tangent), Join::no_tangent_join);
     if (!tangent.polished) return with_join(std::move(tangent), Join::other_mesh);
     const KnownCurvature known = known_curvature(problem.patch, tangent.points, problem.fixed_curvatures);

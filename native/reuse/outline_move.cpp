@@ -1,4 +1,4 @@
-#include "method/outline_move.h"
+#include "reuse/outline_move.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>

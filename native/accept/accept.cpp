@@ -1,4 +1,4 @@
-#include "method/accept.h"
+#include "accept/accept.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,7 @@
 #include "geometry/outline_angles.h"
 #include "geometry/self_intersection.h"
 #include "mesh/corners.h"
+#include "pins/sharp_pins.h"
 #include "placement/tears.h"
 #include "problem/surface_state.h"
 #include "start/several_outlines.h"
@@ -30,12 +31,15 @@ bool has_area(const Problem& problem, const Points& points) {
     return total_area(points, problem.patch.triangles) > std::max(least_area, 1e-9);
 }
 
-// Met from the other side at most of the outline's vertices: a bulge that has turned inside out.
+// Met from the other side at most of the boundary's vertices: a bulge that has turned inside out. What runs back inside
+// its surroundings at a few places is a fault of a loft, which lets its slopes go.
 bool is_behind(const Problem& problem, const Solution& solution) {
     constexpr double behind = 90.0;  // degrees
     if (problem.options.equation == Equation::minimal) return false;
+    const double share = is_loft(solution.provenance) ? 0.05 : 0.5;
     const VectorX angles = boundary_angles(problem.patch, solution.boundary_normals, problem.fixed_normals);
-    return 2 * (angles.array() > behind).count() > (angles.array() > 0.0).count();
+    return static_cast<double>((angles.array() > behind).count()) >
+           share * static_cast<double>((angles.array() > 0.0).count());
 }
 
 // Of some triangles those without fixed corners: an eased outline lies beside the surface.
@@ -99,6 +103,11 @@ Indices torn_beside(const Problem& problem, const Solution& solution) {
     const bool forced =
         static_cast<double>(torn.size()) <= most_forced * static_cast<double>(problem.fixed_points.cols());
     return forced ? Indices{} : torn;
+}
+
+// Far pins with a radius have spurious surfaces, too: a needle on one ring of triangles, whatever the radius.
+bool is_sharp(const Problem& problem, const Solution& solution) {
+    return solution.pins == Pins::spread && !sharp_pins(problem.patch, solution.points).empty();
 }
 
 // Whether the edges of a mesh are shorter than this everywhere, which their mean tells of even meshes only: pipes and
@@ -166,6 +175,7 @@ Flaw flaw_of(const Problem& problem, Solution& solution) {
     if (!solution.bad_triangles.empty()) return Flaw::crossing;
     solution.bad_triangles = torn_beside(problem, solution);
     if (!solution.bad_triangles.empty()) return Flaw::folded;
+    if (is_sharp(problem, solution)) return Flaw::poor_triangles;
     if (!solution.polished || solution.from_surface) return Flaw::absent;
     if (has_poor_triangles(problem.patch, solution.points)) return Flaw::poor_triangles;
     return solution.iterations > most_iterations ? Flaw::many_iterations : Flaw::absent;

@@ -1,15 +1,15 @@
-#include "method/warm_start.h"
+#include "reuse/warm_start.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "accept/accept.h"
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
 #include "iteration/accelerated_iteration.h"
-#include "method/accept.h"
-#include "method/outline_move.h"
 #include "problem/surface_state.h"
 #include "problem/willmore.h"
+#include "reuse/outline_move.h"
 #include "start/clamped_fill.h"
 
 namespace fairing {

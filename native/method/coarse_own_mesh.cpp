@@ -1,13 +1,9 @@
-#include "method/on_coarse_proxy.h"
+#include "method/coarse_own_mesh.h"
 
 #include <algorithm>
 
 #include "base/stopwatch.h"
-#include "method/accept.h"
 #include "method/levels.h"
-#include "method/placed_solution.h"
-#include "method/polish.h"
-#include "method/sizes.h"
 #include "placement/first_placement.h"
 #include "placement/folds.h"
 #include "placement/untangle.h"
@@ -24,25 +20,28 @@ constexpr int most_coarsest_slides = 60;
 
 enum class Polish { wanted, unwanted };
 
-class CoarseProxySolve {
+// From this many free vertices on the low-passed loop tells.
+bool begins_low_passed(const Problem& problem, const Traits& traits) {
+    return traits.is_large && traits.is_jagged && problem.patch.free_count >= smallest_telling &&
+           problem.patch.loop_count() == 1;
+}
+
+class CoarseOwnMesh {
 public:
-    CoarseProxySolve(const Problem& problem, std::shared_ptr<const ProxyStart> start, const Progress& progress)
-        : problem_(problem),
-          progress_(progress),
-          start_(std::move(start)),
-          levels_(problem, Outlines::kept, coarsest_size) {}
+    CoarseOwnMesh(const Problem& problem, const CoarseStart& start, const Progress& progress)
+        : problem_(problem), progress_(progress), start_(start), levels_(problem, Outlines::kept, coarsest_size) {}
 
     std::optional<Solution> run(const std::optional<OwnSurface>& guess, Polish polish) {
         const std::size_t coarsest = levels_.coarsest();
         if (coarsest == 0) return std::nullopt;
         const Problem& coarse = levels_.problem(coarsest);
         std::map<std::string, double> seconds;
-        const Points membrane = start_ ? start_->membrane : proxy_membrane(coarse, progress_);
+        const Points membrane = start_.proxy() ? start_.membrane() : proxy_membrane(coarse, progress_);
         const SurfaceState start = measured_surface(coarse, membrane);
         std::optional<Points> own;
         if (guess) own = on_coarsest(guess->points);
         seconds["fill"] = watch_.lap();
-        const SolvedProxy proxy = solved_proxy(guess && starts_from(problem_, *guess) ? own : std::nullopt, membrane);
+        const SolvedProxy proxy = solved_proxy(guess && guess->is_start(problem_) ? own : std::nullopt, membrane);
         seconds["proxy"] = watch_.lap();
         if (polish == Polish::unwanted && !proxy.converged()) return std::nullopt;
         const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
@@ -51,7 +50,7 @@ public:
         seconds["placement"] = watch_.lap();
         if (polish == Polish::wanted && solution.termination == Termination::converged &&
             best.folded_by_springs <= problem_.tolerated_folds)
-            solution = polished(std::move(solution), surface_of(proxy, target, best.placement));
+            solution = polished_here(std::move(solution), surface_of(proxy, target, best.placement));
         seconds["polish"] = watch_.lap();
         solution.initial_residual = largest_residual(coarse, start, outer_residual(coarse, start));
         solution.levels = levels_.sizes();
@@ -73,8 +72,8 @@ private:
         const Problem& problem = levels_.problem(levels_.coarsest());
         const int shown = problem_.patch.free_count;
         const Progress part = progress_.range(0.0, 0.5);
-        if (start_ && !guess) {
-            SolvedProxy proxy = solve_fine_proxy(problem, start_->proxy, shown, part);
+        if (start_.proxy() && !guess) {
+            SolvedProxy proxy = solve_fine_proxy(problem, *start_.proxy(), shown, part);
             if (proxy.converged() || shown >= smallest_telling) return proxy;
         }
         return solve_proxy(problem, guess, membrane, shown, part);
@@ -185,35 +184,41 @@ private:
         return {std::move(where), std::move(points)};
     }
 
-    Solution polished(Solution placed, const SolvedSurface& surface) {
+    Solution polished_here(Solution placed, const SolvedSurface& surface) {
         Workspace& work = levels_.work(0);
         work.normal = make_normal_operator(problem_, placed.points.leftCols(problem_.patch.free_count));
         if (std::holds_alternative<RowWeights>(*problem_.weights)) {
             work.tangential =
                 make_tangential_step(problem_.patch, problem_.weights, problem_.fixed_points, progress_.here());
         }
-        const Hope hope = start_ && start_->led ? Hope::little : Hope::usual;
-        return polish(problem_, work, std::move(placed), surface, hope, progress_.range(0.6, 1.0));
+        return polished(problem_, work, std::move(placed), surface, progress_.range(0.6, 1.0));
     }
 
     const Problem& problem_;
     const Progress& progress_;
-    const std::shared_ptr<const ProxyStart> start_;  // or none
+    const CoarseStart& start_;
     Stopwatch watch_;
     Levels levels_;
 };
 
 }  // namespace
 
-std::optional<Solution> solve_on_coarse_proxy(const Problem& problem, const std::optional<OwnSurface>& guess,
-                                              const std::shared_ptr<const ProxyStart>& start,
-                                              const Progress& progress) {
-    return CoarseProxySolve(problem, start, progress).run(guess, Polish::wanted);
+CoarseStart::CoarseStart(const Problem& problem, const Traits& traits, const Progress& progress) {
+    if (!begins_low_passed(problem, traits)) return;
+    const Levels levels(traits.low_passed(), Outlines::kept, coarsest_size);
+    const Problem& coarsest = levels.problem(levels.coarsest());
+    membrane_ = proxy_membrane(coarsest, progress);
+    proxy_.emplace(solve_coarse_proxy(coarsest, membrane_, problem.patch.free_count, progress));
 }
 
-std::optional<Solution> place_on_coarse_proxy(const Problem& problem, const std::shared_ptr<const ProxyStart>& start,
-                                              const Progress& progress) {
-    return CoarseProxySolve(problem, start, progress).run(std::nullopt, Polish::unwanted);
+std::optional<Solution> solve_on_coarse_own_mesh(const Problem& problem, const std::optional<OwnSurface>& guess,
+                                                 const CoarseStart& start, const Progress& progress) {
+    return CoarseOwnMesh(problem, start, progress).run(guess, Polish::wanted);
+}
+
+std::optional<Solution> place_on_coarse_own_mesh(const Problem& problem, const CoarseStart& start,
+                                                 const Progress& progress) {
+    return CoarseOwnMesh(problem, start, progress).run(std::nullopt, Polish::unwanted);
 }
 
 }  // namespace fairing

@@ -1,4 +1,4 @@
-#include "method/led_pins.h"
+#include "pins/led_pins.h"
 
 #include <algorithm>
 

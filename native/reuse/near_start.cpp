@@ -1,12 +1,12 @@
-#include "method/near_start.h"
+#include "reuse/near_start.h"
 
 #include <algorithm>
 
+#include "accept/accept.h"
 #include "base/errors.h"
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
 #include "iteration/continuation.h"
-#include "method/accept.h"
 #include "operators/workspace.h"
 #include "variation/least_variation.h"
 

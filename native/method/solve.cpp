@@ -1,0 +1,234 @@
+#include "method/solve.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "accept/accept.h"
+#include "base/errors.h"
+#include "base/stopwatch.h"
+#include "method/attempts.h"
+#include "method/direct.h"
+#include "method/lofted.h"
+#include "method/low_passed.h"
+#include "method/nested.h"
+#include "method/own_mesh.h"
+#include "method/pinned.h"
+#include "method/plan.h"
+#include "method/smoothed.h"
+#include "problem/surface_state.h"
+#include "variation/least_variation.h"
+
+namespace fairing {
+
+namespace {
+
+using Found = std::optional<Solution>;
+
+bool is_answer(const Solution& solution) { return end_of(solution) == Termination::converged; }
+
+// Largest product of variation and area from which a descent is tried: 95 for an elbow of 150°, and none was seen to
+// end from 1e3 between several loops. Small discs ended well from up to 2.5e4; those of 600 random patches that did
+// not, after four beginnings, had 4e5 and more.
+VariationLimits limits_for(const Problem& problem, const Traits& traits) {
+    constexpr int largest_patient = 600;  // free vertices
+    const bool is_patient = problem.patch.loop_count() == 1 && problem.patch.free_count <= largest_patient;
+    VariationLimits limits{is_patient ? 1e5 : 1e3};
+    if (traits.is_large) limits.most_beginnings = 1;
+    return limits;
+}
+
+Found least_variation(const Problem& problem, const VariationLimits& limits, const Progress& progress) {
+    Found found;
+    try {
+        found = solve_less_varying(problem, limits, progress);
+    } catch (const SolverError&) {
+        return std::nullopt;  // then the other surfaces are left
+    }
+    if (found) found->provenance = Provenance::least_variation;
+    return found;
+}
+
+Found with_uniform_weights(const Problem& problem, const Progress& progress) {
+    Problem uniform = problem;
+    uniform.weights = uniform_weights(problem.patch);
+    uniform.tolerated_folds = 0;
+    Solution solution = solve_equation_alone(uniform, progress);
+    if (solution.flaw != Flaw::absent) return std::nullopt;
+    solution.uniform_weights = true;
+    return solution;
+}
+
+// What a strategy that gave up early has left open.
+void measure(const Problem& problem, Solution& solution) {
+    const SurfaceState state = measured_surface(problem, solution.points);
+    solution.mean_curvature = state.curvature.mean;
+    solution.residual = largest_residual(problem, state, outer_residual(problem, state));
+    solution.boundary_normals = one_sided_normals(problem.patch, solution.points);
+}
+
+class PlanRun {
+public:
+    PlanRun(const Problem& problem, double pin_radius, const Progress& progress)
+        : problem_(problem),
+          pin_radius_(pin_radius),
+          progress_(progress),
+          traits_(problem),
+          plan_(plan_for(problem, traits_, pin_radius > 0.0 && !pins_to_spread(problem).empty())) {}
+
+    Solution equation() {
+        for (const Step step : plan_.equation) {
+            if (!is_wanted(step)) continue;
+            if (Found solution = attempt(step)) return finished(std::move(*solution));
+            if (!attempts_.found.empty() && has_run_out(attempts_.found.back())) break;
+        }
+        return finished(best());
+    }
+
+    Solution stand_in(Solution first) {
+        attempts_.log = first.ways;
+        const bool may_replace = !is_answer(first) && first.reached_load == 0.0 && !has_run_out(first);
+        if (!may_replace) return first;
+        const bool is_found = first.flaw == Flaw::folded;  // only its vertices fold: they would on another one, too
+        attempts_.found.push_back(std::move(first));
+        for (const Step step : plan_.stand_ins) {
+            if (is_found && step == Step::least_variation) continue;
+            if (Found solution = attempt(step)) return finished(std::move(*solution));
+            if (!attempts_.found.empty() && is_answer(attempts_.found.back())) break;
+        }
+        return finished(best());
+    }
+
+private:
+    // Others weights help where vertices turned over.
+    [[nodiscard]] bool is_wanted(Step step) const {
+        if (step != Step::uniform_weights) return true;
+        return std::any_of(attempts_.found.begin(), attempts_.found.end(),
+                           [](const Solution& s) { return s.flaw == Flaw::folded || s.flaw == Flaw::crossing; });
+    }
+
+    // Whether the caller's own limit ended the iteration.
+    [[nodiscard]] bool has_run_out(const Solution& solution) const {
+        return problem_.options.max_iterations < SolverOptions{}.max_iterations &&
+               solution.termination == Termination::iteration_limit;
+    }
+
+    // The solution of a step where it is accepted; kept aside otherwise.
+    Found attempt(Step step) {
+        const Stopwatch watch;
+        const double begin = 1.0 - std::pow(0.5, static_cast<double>(attempts_.log.size()));
+        Found solution = carried_out(step, progress_.range(begin, 1.0));
+        attempts_.log.push_back({name_of(step), watch.seconds()});
+        if (!solution) return std::nullopt;
+        solution->flaw = flaw_of(problem_, *solution);
+        if (is_final(problem_, *solution)) return solution;
+        attempts_.found.push_back(std::move(*solution));
+        return std::nullopt;
+    }
+
+    Found carried_out(Step step, const Progress& progress) {
+        switch (step) {
+            case Step::levels: {
+                Found solution = solve_nested(problem_, traits_, progress);
+                const bool has_other = plan_.equation.size() > 1 && plan_.equation[1] == Step::direct;
+                return solution || has_other ? std::move(solution) : try_directly(problem_, progress);
+            }
+            case Step::direct: {
+                const bool is_all = problem_.options.equation == Equation::minimal;
+                return is_all ? solve_directly(problem_, progress) : try_directly(problem_, progress);
+            }
+            case Step::own_mesh: return solve_on_own_mesh(problem_, traits_, attempts_, progress);
+            case Step::uniform_weights: return with_uniform_weights(problem_, progress);
+            case Step::low_passed: return solve_low_passed(problem_, traits_, attempts_, progress);
+            case Step::lifted_pins: return lift_pins(problem_, pin_radius_, std::nullopt, progress);
+            case Step::least_variation:
+                if (problem_.options.equation == Equation::least_variation)
+                    return solve_least_variation(problem_, progress);
+                return least_variation(problem_, limits_for(problem_, traits_), progress);
+            case Step::old_shape: return smoothed(problem_, progress);
+            case Step::loft: break;
+        }
+        return lofted(problem_, progress);
+    }
+
+    // Converged ones come first, by what is wrong with them.
+    Solution best() {
+        std::vector<Solution>& found = attempts_.found;
+        const auto best = std::min_element(found.begin(), found.end(), [&](const Solution& a, const Solution& b) {
+            if (a.flaw != b.flaw) return a.flaw < b.flaw;
+            return a.flaw == Flaw::not_converged && less_bent(problem_, a, b);
+        });
+        Solution solution = std::move(*best);
+        found.erase(best);
+        return solution;
+    }
+
+    Solution finished(Solution solution) {
+        if (solution.mean_curvature.size() == 0) measure(problem_, solution);
+        solution.ways = attempts_.log;
+        return solution;
+    }
+
+    const Problem& problem_;
+    const double pin_radius_;
+    const Progress& progress_;
+    const Traits traits_;
+    const Plan plan_;
+    Attempts attempts_;
+};
+
+Found answer(const Problem& problem, Found solution, const char* name, const Stopwatch& watch) {
+    if (!solution) return std::nullopt;
+    solution->flaw = flaw_of(problem, *solution);
+    solution->ways = {{name, watch.seconds()}};
+    return is_answer(*solution) ? std::move(solution) : std::nullopt;
+}
+
+}  // namespace
+
+Solution solve(const Problem& problem, double pin_radius, const Progress& progress) {
+    return with_stand_in(problem, PlanRun(problem, pin_radius, progress).equation(), progress);
+}
+
+Solution with_stand_in(const Problem& problem, Solution first, const Progress& progress) {
+    return PlanRun(problem, 0.0, progress).stand_in(std::move(first));
+}
+
+Solution solve_equation_alone(const Problem& problem, const Progress& progress) {
+    return PlanRun(problem, 0.0, progress).equation();
+}
+
+std::optional<Solution> solve_stand_in(const Problem& problem, Provenance kind, const Progress& progress,
+                                       const Points* near) {
+    const Stopwatch watch;
+    if (is_loft(kind)) return answer(problem, lofted(problem, progress), name_of(Step::loft), watch);
+    if (kind == Provenance::old_shape)
+        return answer(problem, smoothed(problem, progress), name_of(Step::old_shape), watch);
+    const Traits traits(problem);
+    if (traits.is_jagged) return std::nullopt;
+    VariationLimits limits = limits_for(problem, traits);
+    limits.most_product = HUGE_VAL;  // it was asked for
+    if (near) {
+        VariationLimits nearby{HUGE_VAL};
+        nearby.near = NearVariation{*near, false};
+        Found found =
+            answer(problem, least_variation(problem, nearby, progress), name_of(Step::least_variation), watch);
+        if (found) return found;
+        // Anew it took 20 s between several loops, for a loft.
+        if (problem.patch.loop_count() > 1)
+            return answer(problem, lofted(problem, progress), name_of(Step::loft), watch);
+    }
+    return answer(problem, least_variation(problem, limits, progress), name_of(Step::least_variation), watch);
+}
+
+std::optional<Solution> solve_stand_in_roughly(const Problem& problem, const Points& near, const Progress& progress) {
+    const SolverOptions& options = problem.options;
+    const bool wanted = options.equation == Equation::least_variation ||
+                        (options.otherwise == Otherwise::least_variation && options.equation != Equation::minimal);
+    if (!wanted || Traits(problem).is_jagged) return std::nullopt;
+    const Stopwatch watch;
+    VariationLimits limits{1e3};
+    limits.near = NearVariation{near, true};
+    return answer(problem, least_variation(problem, limits, progress), name_of(Step::least_variation), watch);
+}
+
+}  // namespace fairing

@@ -1,0 +1,36 @@
+// method="global": the steps of a patch's plan, one after the other, and the one judge that ends them.
+#pragma once
+
+#include <optional>
+
+#include "base/progress.h"
+#include "method/traits.h"
+#include "problem/solution.h"
+
+namespace fairing {
+
+// Solves the outer equation from the boundary data alone; the caller's interior is not looked at, but for the shape
+// that stands in. Carries out plan_for (method/plan): the first surface that flaw_of (accept/accept) accepts is the
+// answer. Where the equation has none, the first stand-in that is accepted; `Solution::provenance` says which. Where
+// nothing is accepted, what converged comes back before what did not, of that the least bent, with its flaw. Nothing
+// else is tried once fewer iterations than usual ran out, or a part of a load was solved. `pin_radius`: of isolated
+// pins, units of D; 0 where they act in a point. Deterministic. Throws SolverError where a factorisation breaks down
+// at the start, Cancelled.
+Solution solve(const Problem& problem, double pin_radius, const Progress& progress);
+
+// The equation alone: nothing stands in.
+Solution solve_equation_alone(const Problem& problem, const Progress& progress);
+
+// The answer where the equation's solution `first`, which is not accepted, is all that there is.
+Solution with_stand_in(const Problem& problem, Solution first, const Progress& progress);
+
+// One surface of those that stand in, at once. Nothing where it is not accepted. `near`: 3 × local vertices where the
+// surface of least variation is sought first.
+std::optional<Solution> solve_stand_in(const Problem& problem, Provenance kind, const Progress& progress,
+                                       const Points* near = nullptr);
+
+// The surface of least variation over two boundary loops or more, roughly, from `near` (3 × local vertices). Nothing
+// where it is not accepted.
+std::optional<Solution> solve_stand_in_roughly(const Problem& problem, const Points& near, const Progress& progress);
+
+}  // namespace fairing

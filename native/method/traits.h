@@ -1,0 +1,42 @@
+// What a patch and its boundary say before anything is solved: the one place that decides which strategies suit it.
+#pragma once
+
+#include "base/deferred.h"
+#include "problem/problem.h"
+
+namespace fairing {
+
+// From so many free vertices coarser levels pay, and a large patch is resolved best by its own mesh.
+inline constexpr int smallest_large = 1500;
+// Free vertices of a coarsest level: solved from its boundary alone it has the surface wherever there is one.
+inline constexpr int coarsest_size = 600;
+
+// Computed once for each problem, which it refers to.
+class Traits {
+public:
+    explicit Traits(const Problem& problem);
+
+    bool is_large;    // solved from coarse to fine
+    bool is_tube;     // two boundary loops: several surfaces may fit, and a coarser mesh may lead from one to another
+    bool has_levels;  // large, or between smooth loops that determine one surface, where coarse levels pay earlier
+    // Curvature varies so much along the boundary that noise or folds of the surroundings must be the cause.
+    bool is_jagged;
+    // It varies so much that no surface has met such a boundary.
+    bool is_beyond_reach;
+    // Over smooth short loops a far coarser level begins.
+    bool begins_small;
+
+    // The problem between loops without their short waves.
+    [[nodiscard]] const Problem& low_passed() const { return *low_passed_; }
+
+private:
+    Deferred<Problem> low_passed_;
+};
+
+// The problem between loops without their short waves (outline/eased_outline).
+Problem low_passed(const Problem& problem);
+
+// How far the loops lie beside those at most, units of D.
+double distance_of_low_passed(const Problem& problem);
+
+}  // namespace fairing
