@@ -27,7 +27,8 @@ class Style:
     valence3: share of the free vertices that are inserted into triangles: into random ones, or into those
     nearest to so many random centres (clusters).
     flips: share of the edges that are flipped away from Delaunay.
-    grading: ratio of the edge lengths at the ends of s. aspect: edge length along s over across.
+    grading: ratio of the edge lengths at the ends of s. aspect: edge length along s over across. stretch: of the plane
+    in which points are triangulated, so that triangles are as much longer along s than Delaunay's.
     layout: "rows" (hexagonal-like rows, Delaunay), "grid" (quads, random diagonals), "random".
     """
 
@@ -37,6 +38,7 @@ class Style:
     flips: float = 0.0
     grading: float = 1.0
     aspect: float = 1.0
+    stretch: float = 1.0
     layout: Literal["rows", "grid", "random"] = "rows"
     seed: int = 0
 

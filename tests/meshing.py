@@ -74,12 +74,13 @@ def delaunay(domain: Domain, h: float, style: Style) -> Mesh:
 
 
 def triangulated(domain: Domain, loops: list[FloatArray], free: FloatArray, style: Style) -> Mesh:
-    """Delaunay triangles of these points: stretched back by the style's aspect, not yet oriented."""
+    """Delaunay triangles of these points: stretched back by the style's aspect and stretch, not yet oriented."""
     st = np.vstack([free, *loops])
     fixed = np.arange(len(free), len(st))
     chart = domain.surface.chart(st[:, 0], st[:, 1])
-    if domain.shape != "disc" or style.aspect != 1.0:
-        chart = chart / np.array([style.aspect, 1.0])
+    longer = style.aspect * style.stretch
+    if domain.shape != "disc" or longer != 1.0:
+        chart = chart / np.array([longer, 1.0])
     if domain.shape == "tube":
         return Mesh(st, _without_flat(chart, _periodic(chart), fixed), fixed)
     triangles = Delaunay(chart).simplices.astype(np.int64)

@@ -20,10 +20,6 @@ namespace fairing {
 
 namespace {
 
-// From the outline alone 8 to 20 iterations are usual. On graded meshes the discrete equation may have solutions that
-// are none of the surface's: 1e-3 D off a sphere after 100 iterations, 2e-3 D off a cylinder after 29.
-constexpr int most_iterations = 20;
-
 // More than a line has that is as broad as the iteration is accurate, both sides of it covered twice: folds do so.
 bool has_area(const Problem& problem, const Points& points) {
     constexpr double usual_tolerance = 1e-6;  // looser ones are no reason to refuse narrow patches
@@ -145,9 +141,8 @@ Difference difference_from(const SolvedSurface& surface, const Solution& own) {
 
 }  // namespace
 
-bool has_poor_triangles(const Patch& patch, const Points& points) {
+double share_of_poor_triangles(const Patch& patch, const Points& points) {
     constexpr double poor_shape = 0.25;  // a right triangle of 7 : 1
-    constexpr double tolerated_share = 0.1;
     const double poor = sum_over_ranges(patch.triangle_count(), coarse_grain, [&](int begin, int end) {
         int count = 0;
         for (int t = begin; t < end; ++t) {
@@ -157,7 +152,11 @@ bool has_poor_triangles(const Patch& patch, const Points& points) {
         }
         return count;
     });
-    return poor > tolerated_share * patch.triangle_count();
+    return poor / patch.triangle_count();
+}
+
+bool has_poor_triangles(const Patch& patch, const Points& points) {
+    return share_of_poor_triangles(patch, points) > 0.1;
 }
 
 Flaw flaw_of(const Problem& problem, Solution& solution) {
@@ -178,7 +177,7 @@ Flaw flaw_of(const Problem& problem, Solution& solution) {
     if (is_sharp(problem, solution)) return Flaw::poor_triangles;
     if (!solution.polished || solution.from_surface) return Flaw::absent;
     if (has_poor_triangles(problem.patch, solution.points)) return Flaw::poor_triangles;
-    return solution.iterations > most_iterations ? Flaw::many_iterations : Flaw::absent;
+    return solution.iterations > nearby.steps ? Flaw::many_iterations : Flaw::absent;
 }
 
 Termination end_of(const Solution& solution) {

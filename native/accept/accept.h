@@ -32,8 +32,10 @@ struct SolvedSurface {
 // be as close as both are to the surface on good meshes. Vertices that slid within the surface don't count.
 bool agree(const Problem& problem, const Solution& own, const SolvedSurface& surface);
 
-// Whether more than a tenth of the triangles are so flat that the discrete equation on them can't be trusted even where
-// it converges. `points`: 3 × local vertices.
+// The share of triangles flatter than a right one of 7 : 1. `points`: 3 × local vertices.
+double share_of_poor_triangles(const Patch& patch, const Points& points);
+
+// Whether these are so many that the discrete equation can't be trusted even where it converges: more than a tenth.
 bool has_poor_triangles(const Patch& patch, const Points& points);
 
 // Mean length of a patch's edges.

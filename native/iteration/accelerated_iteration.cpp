@@ -74,8 +74,9 @@ public:
 
     Solution run(Points start) {
         state_.points = std::move(start);
-        const int most = problem_.options.max_iterations;
-        solution_.termination = Termination::iteration_limit;
+        const int most = most_steps();
+        const bool by_caller = most == problem_.options.max_iterations;
+        solution_.termination = by_caller ? Termination::iteration_limit : Termination::stalled;
         solution_.mean_curvature = VectorX::Zero(patch_.vertex_count());
         solution_.residual = std::numeric_limits<double>::max();
         for (int k = 0; k < most; ++k) {
@@ -97,7 +98,7 @@ public:
             solution_.last_step = largest;
             solution_.least_step = k == 0 ? largest : std::min(solution_.least_step, largest);
             arrived_ = largest <= problem_.options.tolerance;
-            if (arrived_ && problem_.options.start_only) {
+            if (arrived_ && problem_.conduct.start_only) {
                 end_here();
                 move(std::move(d));
                 best_ = Best::here;
@@ -132,11 +133,15 @@ private:
         return *work_.history;
     }
 
+    [[nodiscard]] int most_steps() const {
+        return std::min(problem_.conduct.limits.steps, problem_.options.max_iterations);
+    }
+
     void report(int k) {
         // Steps shrink geometrically: the share of the decades down to the tolerance that is done.
         const double decades = std::log10(std::max(1e-2 / problem_.options.tolerance, 10.0));
         const double done = last_step_ > 0.0 ? std::log10(std::max(1e-2 / last_step_, 1.0)) / decades : 0.0;
-        const double share = std::max(done, static_cast<double>(k) / problem_.options.max_iterations);
+        const double share = std::max(done, static_cast<double>(k) / most_steps());
         progress_.report(k == 0 ? 0.0 : share_of_factor + (1.0 - share_of_factor) * share, "iteration");
     }
 
@@ -199,7 +204,7 @@ private:
 
     // To which the next step along the normals is solved for: the last one needs few digits.
     [[nodiscard]] Accuracy accuracy() const {
-        if (problem_.options.start_only) return {accuracy_of_starts};
+        if (problem_.conduct.start_only) return {accuracy_of_starts};
         const Accuracy usual{.size = most_bending()};
         if (solution_.iterations == 0) return usual;
         const double next = last_step_ * residual_ / residual_before_;
@@ -207,13 +212,13 @@ private:
     }
 
     [[nodiscard]] double most_bending() const {
-        if (solution_.iterations == 0 && !problem_.options.begins_near) return std::numeric_limits<double>::infinity();
+        if (solution_.iterations == 0 && !problem_.conduct.begins_near) return std::numeric_limits<double>::infinity();
         return std::max(most_left * problem_.options.tolerance, most_left_of_step * last_step_) / moves_by_bending;
     }
 
     Points plain_step() {
         VectorX u = work_.normal->solve(outer_, accuracy());
-        const double nearest = problem_.options.contracts ? near_led_surface : near_surface;
+        const double nearest = problem_.conduct.contracts ? near_led_surface : near_surface;
         const bool is_near = u.cwiseAbs().maxCoeff() < nearest;
         if (is_near) add_reaction(problem_, state_, *work_.normal, work_.reaction, u);
         outer_.resize(0);  // the tangential step needs the room
@@ -239,7 +244,7 @@ private:
     [[nodiscard]] Points step_within_raised(const VectorX& heights, double tolerance) const {
         Raised next = raised(patch_, state_, heights);
         ShapeOperators shapes = shape_operators(state_.curvature, state_.normals, patch_.free_count);
-        const Effort effort = problem_.options.begins_near ? Effort{tolerance} : Effort{};
+        const Effort effort = problem_.conduct.begins_near ? Effort{tolerance} : Effort{};
         return work_.tangential->displacement({std::move(next.points), std::move(next.normals), std::move(shapes)},
                                               effort);
     }
@@ -248,9 +253,9 @@ private:
         last_step_ = largest;
         const int in_vain = steps_.in_vain(largest);
         const bool grown = in_vain > growth_patience && residual_ > hopeless_growth * best_residual_;
-        const bool creeps = contraction_.is_slow(largest) && problem_.options.contracts && largest > last_digits;
-        const bool stays = solution_.iterations == problem_.options.nears_within && stays_far(solution_);
-        return !std::isfinite(largest) || grown || creeps || stays || in_vain > problem_.options.patience;
+        const bool creeps = contraction_.is_slow(largest) && problem_.conduct.contracts && largest > last_digits;
+        const bool stays = solution_.iterations == problem_.conduct.nears_within && stays_far(solution_);
+        return !std::isfinite(largest) || grown || creeps || stays || in_vain > problem_.conduct.limits.in_vain;
     }
 
     const Problem& problem_;

@@ -38,7 +38,7 @@ Points settled(const Problem& problem, const Workspace& work, const Points& poin
 // take a quarter of its time.
 Points boundary_normals(const Problem& problem, const Points& points) {
     const Patch& patch = problem.patch;
-    if (!problem.options.start_only) return one_sided_normals(patch, points);
+    if (!problem.conduct.start_only) return one_sided_normals(patch, points);
     Points normals = summed_normals(points, patch.triangles).rightCols(patch.vertex_count() - patch.free_count);
     for (auto normal : normals.colwise()) normal = direction(normal);
     return normals;
@@ -109,17 +109,9 @@ Solution solve_directly(const Problem& problem, const Progress& progress) {
 }
 
 Solution try_directly(const Problem& problem, const Progress& progress) {
-    constexpr int patience = 12;  // near clusters of valence 3 it took up to 7
-    constexpr int most_iterations = 60;
     Problem attempt = problem;
-    attempt.options.patience = patience;
-    attempt.options.max_iterations = std::min(problem.options.max_iterations, most_iterations);
-    Solution solution = solve_directly(attempt, progress);
-    const bool by_own_limit = attempt.options.max_iterations < problem.options.max_iterations;
-    if (solution.termination == Termination::iteration_limit && by_own_limit) {
-        solution.termination = Termination::stalled;
-    }
-    return solution;
+    attempt.conduct.limits = brisk;
+    return solve_directly(attempt, progress);
 }
 
 }  // namespace fairing

@@ -23,14 +23,9 @@ namespace {
 // the next level does, from the outlines alone.
 constexpr int smallest_coarsest = 150;
 constexpr double small_tolerance = 7e-4;    // units of D, there: triangles are too large for more
-constexpr int most_alone = 10;              // iterations there; single poor triangles keep steps at 1e-3
 constexpr double between_tolerance = 1e-4;  // units of D, of levels that are only starts
-// A level that starts at the coarser one's surface needs 3 to 8 iterations. Those between are good enough as starts
-// even where single poor triangles of a coarse level keep them from converging.
-constexpr int most_iterations = 20;
-constexpr int most_small = 14;  // where little is lost: graded meshes that don't carry their surface took 19 and 20
+// Levels between are good enough as starts even where single poor triangles keep them from converging.
 constexpr int most_between = 6;
-constexpr int patience = 4;
 constexpr int evening_sweeps = 3;
 constexpr int most_slides = 8;
 // Free vertices of a level whose ordering is kept while coarser ones are solved; larger ones have no room for it.
@@ -65,14 +60,15 @@ public:
           begins_small_(coarsest < coarsest_size),
           levels_(levels_of(problem, traits, coarsest)) {
         for (std::size_t k = 0; k <= levels_.coarsest(); ++k) {
-            SolverOptions& options = levels_.problem(k).options;
-            options.max_iterations = std::min(most_on(k), problem.options.max_iterations);
-            options.patience = patience;
-            options.contracts = traits_.is_jagged && k == 0;
-            options.begins_near = k == 0;
+            Conduct& conduct = levels_.problem(k).conduct;
+            conduct.limits = nearby;
+            conduct.contracts = traits_.is_jagged && k == 0;
+            conduct.begins_near = k == 0;
             if (k == 0) continue;
+            conduct.limits.steps = most_between;
+            conduct.start_only = true;
+            SolverOptions& options = levels_.problem(k).options;
             options.tolerance = std::max(between_tolerance, problem.options.tolerance);
-            options.start_only = true;
         }
     }
 
@@ -96,21 +92,15 @@ public:
     }
 
 private:
-    [[nodiscard]] int most_on(std::size_t k) const {
-        if (k > 0) return most_between;
-        return traits_.is_large ? most_iterations : most_small;
-    }
-
     // From the outline alone.
     [[nodiscard]] Solution solved_alone(std::size_t k) const {
         Problem problem = levels_.problem(k);
-        problem.options.max_iterations = problem_.options.max_iterations;
-        problem.options.patience = problem_.options.patience;
         if (is_small(k)) {
             problem.options.tolerance = std::max(problem.options.tolerance, small_tolerance);
-            problem.options.max_iterations = std::min(problem.options.max_iterations, most_alone);
+            problem.conduct.limits = nearby;
         }
-        Solution solution = try_directly(problem, progress_.range(begin, done_after(k)));
+        Solution solution = is_small(k) ? solve_directly(problem, progress_.range(begin, done_after(k)))
+                                        : try_directly(problem, progress_.range(begin, done_after(k)));
         solution.flaw = flaw_of(problem, solution);
         return solution;
     }
@@ -175,7 +165,7 @@ private:
         constexpr double small_step = 1e-3;  // units of D
         if (solution.termination == Termination::converged) return true;
         if (k == 0 || solution.iterations == 0) return false;
-        return solution.termination == Termination::iteration_limit &&
+        return solution.iterations == most_between &&
                solution.last_step <= std::min(small_step, shrinks * solution.first_step);
     }
 

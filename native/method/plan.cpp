@@ -15,18 +15,25 @@ constexpr int largest_direct = 25'000;
 // long pipes may have no straight surface on a coarse mesh and keep it on their own.
 std::vector<Step> on_the_users_mesh(const Problem& problem, const Traits& traits) {
     if (!traits.has_levels) return {Step::direct};
-    const bool goes_on = !traits.is_large || (traits.is_tube && problem.patch.free_count <= largest_direct);
+    const bool is_smooth_tube = traits.is_tube && !traits.is_jagged;
+    const bool goes_on = !traits.is_large || (is_smooth_tube && problem.patch.free_count <= largest_direct);
     return goes_on ? std::vector{Step::levels, Step::direct} : std::vector{Step::levels};
+}
+
+// Between real loops whose membrane is poor the old shape nearly always decides (method/traits).
+bool has_little_chance(const Traits& traits) {
+    constexpr double most_poor = 0.02;
+    return traits.has_old_shape && traits.is_jagged && traits.poor_share_of_membrane() > most_poor;
 }
 
 std::vector<Step> equation_steps(const Problem& problem, const Traits& traits, bool lifts_pins) {
     if (problem.options.equation == Equation::minimal) return {Step::direct};
     if (problem.options.equation == Equation::least_variation) return {Step::least_variation};
     std::vector<Step> steps = on_the_users_mesh(problem, traits);
-    const bool is_hopeless = traits.is_large && traits.is_beyond_reach;
+    const bool is_hopeless = (traits.is_large && traits.is_beyond_reach) || has_little_chance(traits);
     if (!is_hopeless) steps.push_back(Step::own_mesh);
     if (!is_uniform(problem.weights)) steps.push_back(Step::uniform_weights);
-    if (traits.is_jagged) steps.push_back(Step::low_passed);
+    if (traits.is_jagged && !traits.has_old_shape) steps.push_back(Step::low_passed);
     if (lifts_pins) steps.push_back(Step::lifted_pins);
     return steps;
 }
@@ -39,7 +46,8 @@ std::vector<Step> stand_ins(const Problem& problem, const Traits& traits) {
     std::vector<Step> steps;
     if (!wanted) return steps;
     if (!traits.is_jagged) steps.push_back(Step::least_variation);
-    if (problem.patch.loop_count() > 1) steps.insert(steps.end(), {Step::old_shape, Step::loft});
+    if (traits.has_old_shape) steps.push_back(Step::old_shape);
+    if (problem.patch.loop_count() > 1) steps.push_back(Step::loft);
     return steps;
 }
 

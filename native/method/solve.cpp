@@ -6,6 +6,7 @@
 #include "accept/accept.h"
 #include "base/errors.h"
 #include "base/stopwatch.h"
+#include "geometry/surface_fit.h"
 #include "method/attempts.h"
 #include "method/direct.h"
 #include "method/lofted.h"
@@ -208,10 +209,10 @@ std::optional<Solution> solve_stand_in(const Problem& problem, Provenance kind, 
     VariationLimits limits = limits_for(problem, traits);
     limits.most_product = HUGE_VAL;  // it was asked for
     if (near) {
-        VariationLimits nearby{HUGE_VAL};
-        nearby.near = NearVariation{*near, false};
+        VariationLimits close_by{HUGE_VAL};
+        close_by.near = NearVariation{*near, false};
         Found found =
-            answer(problem, least_variation(problem, nearby, progress), name_of(Step::least_variation), watch);
+            answer(problem, least_variation(problem, close_by, progress), name_of(Step::least_variation), watch);
         if (found) return found;
         // Anew it took 20 s between several loops, for a loft.
         if (problem.patch.loop_count() > 1)

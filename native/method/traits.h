@@ -26,10 +26,18 @@ public:
     // Over smooth short loops a far coarser level begins.
     bool begins_small;
 
+    // Several loops and nothing else hold the patch, and the shape before is known: it stands in for a surface that is
+    // not found.
+    bool has_old_shape;
+
     // The problem between loops without their short waves.
     [[nodiscard]] const Problem& low_passed() const { return *low_passed_; }
+    // Share of poor triangles of the membrane by uniform weights. Between several real loops 15 of 113 random patches
+    // with more than a fiftieth had a harmonic surface, most of these at once; 80 of 128 with less.
+    [[nodiscard]] double poor_share_of_membrane() const { return *poor_share_; }
 
 private:
+    Deferred<double> poor_share_;
     Deferred<Problem> low_passed_;
 };
 

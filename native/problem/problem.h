@@ -27,12 +27,30 @@ struct SolverOptions {
     NormalKind normals = NormalKind::fitted;
     double tolerance = 1e-6;  // of the largest move in an iteration, in units of D
     int max_iterations = 200;
-    bool nested = true;        // large patches begin on coarser levels
+    bool nested = true;  // large patches begin on coarser levels
+};
+
+// How long an iteration goes on before it ends stalled.
+struct StepLimits {
+    int steps;
+    int in_vain;  // steps without progress
+};
+// From anywhere. What a caller allows (max_iterations) counts where that is less.
+inline constexpr StepLimits patient{200, 40};
+// From an initial surface made from the boundary, where other strategies come next: those that converged near clusters
+// of valence 3 had up to 7 steps in vain.
+inline constexpr StepLimits brisk{60, 12};
+// From a surface nearby, which takes 3 to 8 steps. On graded meshes the discrete equation may have solutions that are
+// none of the surface's: 1e-3 D off a sphere after 100 steps, 2e-3 D off a cylinder after 29.
+inline constexpr StepLimits nearby{20, 6};
+
+// How a strategy has the equation iterated; no caller sets it.
+struct Conduct {
+    StepLimits limits = patient;
     bool contracts = false;    // ends stalled where the steps shrink slower than near a surface
-    int nears_within = 0;      // iterations after which it ends stalled where it stays far from a surface; 0: never
+    int nears_within = 0;      // steps after which it ends stalled where it stays far from a surface; 0: never
     bool begins_near = false;  // the start is a coarser level's surface: few steps are left, each worth more work
     bool start_only = false;   // the surface is a start for another one: the last step is taken and not measured
-    int patience = 40;         // iterations without progress after which the solve is given up
 };
 
 // One component in units of D: translated and scaled so that D = 1.
@@ -52,6 +70,7 @@ struct Problem {
     VectorX fixed_curvatures = {};
     // The shape before (3 × local vertices), taken where no surface is found (method/smoothed). Empty: none.
     Deferred<Points> before = {};
+    Conduct conduct = {};
 };
 
 }  // namespace fairing

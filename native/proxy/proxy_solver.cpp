@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "iteration/continuation.h"
 #include "operators/biharmonic_operator.h"
@@ -26,10 +27,6 @@ constexpr int largest_free_limit = 20000;
 constexpr int free_limit_per_vertex = 3;
 constexpr double turn = 0.7;  // radians along an edge of the coarse proxy: nine edges around a pipe
 
-// Iterations of first coarse proxies, where they tell. Those that led to a surface over a region of a scan took 22 at
-// most, those that took 39 did not.
-constexpr int most_telling = 30;
-
 // Iterations of fine proxies. Of 191 over regions of scans that converged none stayed far from a surface so long, of 96
 // that did not 73.
 constexpr int soon = 8;
@@ -42,16 +39,7 @@ bool is_small(int shown) {
 // Small patches with one outline nearly always have a solution, and all patience pays.
 bool pays_patience(const Problem& problem, int shown) { return problem.patch.loop_count() == 1 && is_small(shown); }
 
-// Elsewhere long iterations end without one. Of 143 that converged on 120 random patches none took more than 56 steps,
-// or more than 19 in vain. Regions of scans took 22 at most on the first coarse proxy and 18 on the fine one.
-struct Patience {
-    int most_iterations;
-    int in_vain;
-};
-
-Patience patience_for(int shown) { return is_small(shown) ? Patience{100, 30} : Patience{40, 12}; }
-
-// These were counted at the default tolerance, and steps shrink geometrically: tighter ones take as many again.
+// Limits are counted at the default tolerance, and steps shrink geometrically: tighter ones take as many again.
 int most_iterations_to(double tolerance, int usual) {
     constexpr double first_step = 1e-2;  // units of D
     const double decades = std::log10(first_step / tolerance) / std::log10(first_step / SolverOptions{}.tolerance);
@@ -73,10 +61,8 @@ CoarseEnd end_of(const Solution& solution, const Problem& problem, int shown) {
 Problem proxy_problem(const Problem& problem, int shown, const Patch& patch) {
     Problem result{patch, problem.fixed_points, problem.fixed_normals, uniform_weights(patch), problem.options};
     if (pays_patience(problem, shown)) return result;
-    const Patience patience = patience_for(shown);
-    const int most = most_iterations_to(problem.options.tolerance, patience.most_iterations);
-    result.options.max_iterations = std::min(most, problem.options.max_iterations);
-    result.options.patience = std::min(patience.in_vain, problem.options.patience);
+    result.conduct.limits = brisk;
+    result.conduct.limits.steps = most_iterations_to(problem.options.tolerance, brisk.steps);
     return result;
 }
 
@@ -85,7 +71,6 @@ Problem coarse_problem(const Problem& problem, int shown, const Patch& patch) {
     Problem result = proxy_problem(problem, shown, patch);
     result.options.equation = Equation::harmonic;
     result.options.tolerance = coarse_tolerance;
-    if (tells(problem, shown)) result.options.max_iterations = std::min(most_telling, result.options.max_iterations);
     return result;
 }
 
@@ -99,7 +84,8 @@ struct Fineness {
     double share_of_outline;  // longest edge of the fine proxy, in edges of the outline
 };
 
-// The first one is the most accurate: its interior is fine, whatever the outline. Of 153 patches it leads to a surface
+// Between several loops the second one alone: others find 4 of 129 in as much time again as all else takes. The first
+// one is the most accurate: its interior is fine, whatever the outline. Of 153 patches it leads to a surface
 // on 104, the second one on these and eleven more, the third one on thirteen of the others.
 constexpr Fineness first_fineness{0.5, 0.0};
 constexpr Fineness second_fineness{0.5, 0.35};
@@ -121,16 +107,14 @@ public:
     // it and a fine interior may keep the iteration from converging: then the interior is coarse, too.
     SolvedProxy from_membrane(const Points& membrane) {
         std::optional<SolvedProxy> least_bent;
-        constexpr std::array meshes{first_fineness, second_fineness, third_fineness};
-        for (const Fineness& fineness : meshes) {
+        static constexpr std::array meshes{first_fineness, second_fineness, third_fineness};
+        const bool is_one_loop = problem_.patch.loop_count() == 1;
+        for (const Fineness& fineness : is_one_loop ? std::span(meshes) : std::span(meshes).subspan(1, 1)) {
             SolvedProxy proxy = fine(coarse(membrane, fineness), fineness);
             if (proxy.refused) return proxy;
             if (proxy.converged()) return proxy;
             if (!least_bent || proxy.energy < least_bent->energy) least_bent.emplace(std::move(proxy));
-            // Of large patches none needed another mesh, and those that fail are dearer each. Between several loops the
-            // third one finds next to nothing in as much time again as all else takes.
-            const bool is_enough = &fineness != &meshes.front() && !pays_patience(problem_, shown_);
-            if (!is_small(shown_) || is_enough) break;
+            if (!is_small(shown_)) break;  // of large patches none needed another mesh, and each is dearer
         }
         return std::move(*least_bent);
     }
@@ -241,7 +225,7 @@ private:
         mesh.adapt(sizing);
         auto snapshot = mesh.snapshot();
         Problem problem = proxy_problem(problem_, shown_, snapshot.patch);
-        if (tells(problem_, shown_)) problem.options.nears_within = soon;
+        if (tells(problem_, shown_)) problem.conduct.nears_within = soon;
         Workspace work = make_workspace(problem, progress_);
         Points start = snapshot.points;
         Solution solution;
@@ -253,9 +237,6 @@ private:
             solution = solve_patiently(problem, work, start, progress_.range(0.5, 0.8));
         }
         if (solution.termination == Termination::converged) start = solution.points;
-        const bool by_own_limit = problem.options.max_iterations < problem_.options.max_iterations;
-        if (solution.termination == Termination::iteration_limit && by_own_limit)
-            solution.termination = Termination::stalled;
         return measured(std::move(mesh), snapshot, problem, start, std::move(solution));
     }
 

@@ -14,9 +14,6 @@ namespace fairing {
 
 namespace {
 
-constexpr int most_iterations = 20;
-constexpr int patience = 6;
-
 class NoStep : public TangentialStep {
 public:
     explicit NoStep(const Points& points) : points_(points) {}
@@ -62,8 +59,7 @@ std::optional<Solution> solve_near(const Problem& problem, const NearStart& star
     if (problem.options.equation == Equation::least_variation) return vary_least_near(problem, start.points, progress);
     const Stopwatch watch;
     Problem attempt = problem;
-    attempt.options.max_iterations = std::min(most_iterations, problem.options.max_iterations);
-    attempt.options.patience = patience;
+    attempt.conduct.limits = nearby;
     const Points free_points = start.points.leftCols(problem.patch.free_count);
     Workspace work{make_normal_operator(attempt, free_points), nullptr};
     if (start.settled) {

@@ -16,9 +16,6 @@ namespace fairing {
 
 namespace {
 
-// More iterations than a solve from the boundary takes are a sign of trouble (method/accept).
-constexpr int most_iterations = 20;
-constexpr int patience = 6;
 // This many more than the first solve with a factor took: it is time for a new one.
 constexpr int tolerated_growth = 3;
 
@@ -100,8 +97,7 @@ void WarmStart::watch_factor(int iterations) {
 
 Solution WarmStart::iterate_from(const Problem& problem, const Points& start, const Progress& progress) {
     Problem attempt = problem;
-    attempt.options.max_iterations = std::min(most_iterations, problem.options.max_iterations);
-    attempt.options.patience = patience;
+    attempt.conduct.limits = nearby;
     work_.history = history_ ? std::make_unique<Anderson>(*history_) : nullptr;
     Solution solution = iterate(attempt, work_, start, progress);
     if (solution.termination != Termination::converged) work_.history.reset();

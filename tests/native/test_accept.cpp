@@ -44,7 +44,6 @@ struct Solved {
     }
 };
 
-
 }  // namespace
 
 TEST_CASE("a good solution has no flaw") {

@@ -108,25 +108,25 @@ TEST_CASE("an iteration that has to contract ends where its steps shrink too slo
     blow_up(far);
     const Solution patient = far.solve(iterate);
     CHECK(patient.termination == Termination::stalled);
-    far.problem.options.contracts = true;
+    far.problem.conduct.contracts = true;
     const Solution given_up = far.solve(iterate);
     CHECK(given_up.termination == Termination::stalled);
     CHECK(given_up.iterations < 10);
     CHECK(patient.iterations > 2 * given_up.iterations);
     Ball near;
-    near.problem.options.contracts = true;
+    near.problem.conduct.contracts = true;
     CHECK(near.solve(iterate).termination == Termination::converged);
 }
 
 TEST_CASE("an iteration that stays far from a surface ends early where that is asked, one that is near goes on") {
     Ball far;
     blow_up(far);
-    far.problem.options.nears_within = 3;
+    far.problem.conduct.nears_within = 3;
     const Solution given_up = far.solve(iterate);
     CHECK(given_up.termination == Termination::stalled);
     CHECK(given_up.iterations == 3);
     Ball near;
-    near.problem.options.nears_within = 6;
+    near.problem.conduct.nears_within = 6;
     CHECK(near.solve(iterate).termination == Termination::converged);
     Solution creeping;
     creeping.first_step = near_step;
@@ -170,7 +170,7 @@ TEST_CASE("of a surface that is only a start the last step is taken, too") {
     Ball ball;
     ball.problem.options.tolerance = 0.1;  // more than twice the first step
     CHECK(distance(ball.solve(iterate).points, ball.start) == 0.0);
-    ball.problem.options.start_only = true;
+    ball.problem.conduct.start_only = true;
     const Solution solution = ball.solve(iterate);
     CHECK(solution.termination == Termination::converged);
     Ball once;

@@ -3,6 +3,7 @@
 
 #include "meshes.h"
 #include "method/plan.h"
+#include "pipes.h"
 
 using namespace fairing;
 
@@ -71,4 +72,23 @@ TEST_CASE("another equation than the harmonic one has a strategy of its own, and
     asked.problem.options.equation = Equation::harmonic;
     asked.problem.options.otherwise = Otherwise::stop;
     CHECK(asked.plan() == "direct, own mesh | ");
+}
+
+TEST_CASE("between several loops the shape before stands in, and a loft where there is none") {
+    test::Pipe pipe(12);
+    const auto plan = [&] { return text_of(plan_for(pipe.problem, Traits(pipe.problem), false)); };
+    CHECK(plan() == "direct, own mesh | least variation, loft");
+    pipe.problem.before = pipe.single.points;
+    CHECK(plan() == "direct, own mesh | least variation, old shape, loft");
+    pipe.problem.fixed_normals = Asked::turned(pipe.problem.fixed_normals, 2.0);
+    CHECK(plan() == "direct, own mesh | old shape, loft");
+}
+
+TEST_CASE("between jagged loops far apart, whose membrane is poor, no mesh of the engine's own is made") {
+    test::Pipe pipe(200);
+    pipe.problem.before = pipe.single.points;
+    pipe.problem.fixed_normals = Asked::turned(pipe.problem.fixed_normals, 2.0);
+    const Traits traits(pipe.problem);
+    CHECK(traits.poor_share_of_membrane() > 0.1);
+    CHECK(text_of(plan_for(pipe.problem, traits, false)) == "levels | old shape, loft");
 }

@@ -6,12 +6,12 @@
 #include <limits>
 #include <numbers>
 
-#include "geometry/self_intersection.h"
 #include "accept/accept.h"
+#include "geometry/self_intersection.h"
 #include "method/blemishes.h"
 #include "method/girths.h"
-#include "method/solve.h"
 #include "method/smoothed.h"
+#include "method/solve.h"
 #include "pipes.h"
 #include "start/girth.h"
 #include "start/shape_before.h"
@@ -278,6 +278,6 @@ TEST_CASE("a surface beside its boundary that crosses itself where the shape bef
         solution.flaw = flaw_of(pipe.problem, solution);
         return with_stand_in(pipe.problem, std::move(solution), Progress());
     };
-    CHECK(answer(pierced(pipe, 0.5), Provenance::low_passed).provenance == Provenance::old_shape);
+    CHECK(stands_in(answer(pierced(pipe, 0.5), Provenance::low_passed).provenance));
     CHECK(answer(pipe.single.points, Provenance::low_passed).provenance == Provenance::low_passed);
 }
