@@ -75,7 +75,7 @@ TEST_CASE("another equation than the harmonic one has a strategy of its own, and
 }
 
 TEST_CASE("between several loops the shape before stands in, and a loft where there is none") {
-    test::Pipe pipe(12);
+    test::Pipe pipe(8);
     const auto plan = [&] { return text_of(plan_for(pipe.problem, Traits(pipe.problem), false)); };
     CHECK(plan() == "direct, own mesh | least variation, loft");
     pipe.problem.before = pipe.single.points;
