@@ -4,7 +4,7 @@ namespace fairing {
 
 SurfaceMesh surface_mesh(const Patch& patch) {
     SurfaceMesh mesh;
-    const auto vertices = patch.vertex_count();
+    const auto vertices = static_cast<std::size_t>(patch.vertex_count());
     mesh.reserve(vertices, patch.edge_count(), patch.triangle_count());
     for (std::size_t v = 0; v < vertices; ++v) mesh.add_vertex(SurfaceMesh::Point::Zero());
     for (const auto corners : patch.triangles.colwise()) {

@@ -11,7 +11,7 @@ class VertexByNumber {
 public:
     explicit VertexByNumber(const Patch& patch) {
         for (int v = 0; v < patch.vertex_count(); ++v) {
-            const auto number = patch.to_input[v];
+            const auto number = static_cast<std::size_t>(patch.to_input[v]);
             if (number >= vertex_.size()) vertex_.resize(number + 1, none);
             vertex_[number] = v;
         }
