@@ -13,7 +13,7 @@
 #include "base/stopwatch.h"
 #include "geometry/outline_angles.h"
 #include "method/accept.h"
-#include "outline/visible_join.h"
+#include "shape/visible_join.h"
 
 namespace fairing {
 

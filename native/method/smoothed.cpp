@@ -7,7 +7,7 @@
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
 #include "method/accept.h"
-#include "method/blemishes.h"
+#include "shape/blemishes.h"
 #include "problem/surface_state.h"
 #include "start/several_outlines.h"
 #include "start/shape_before.h"
@@ -67,7 +67,7 @@ std::optional<Solution> smoothed(const Problem& problem, const Solution& first, 
     if (!joins_outlines(problem)) return std::nullopt;
     auto shape = ShapeBefore::of(problem, progress);
     if (!shape) return std::nullopt;
-    const auto points = smoothest(problem, *shape, BlemishFinder(problem, shape->points(), progress), progress);
+    const auto points = smoothest(problem, *shape, BlemishFinder(problem, shape->points()), progress);
     if (!points) return std::nullopt;
     Solution solution = solution_at(problem, *points);
     if (end_of(solution) != Termination::converged) return std::nullopt;
