@@ -351,7 +351,9 @@ def test_the_join_shows_a_dent_of_the_first_row_inside(depth: float) -> None:
 
     def join(dented: np.ndarray) -> np.ndarray:
         surface = vertices - depth * np.outer(dented, [0.0, 0.0, 1.0])
-        return fairing.visible_join(surface, triangles[within], triangles[~within], outline)
+        found = fairing.visible_join(surface, triangles[within], triangles[~within], outline)
+        assert found.limit == 5.0  # all is flat outside
+        return found.degrees
 
     assert join(ring == 5) == pytest.approx(np.full(len(outline), kink))
     assert join((ring == 5) | (ring == 4)) == pytest.approx(np.full(len(outline), kink))
@@ -365,11 +367,60 @@ def test_the_visible_join_of_an_edge_that_was_there_before() -> None:
     across = np.array([[0, 0, 0], [0, 1, 0], [1, 0, 0], [1, 1, 0], [0, 0, -1], [0, 1, -1]], dtype=float)
     flat = across * [1, 1, 0] + np.c_[across[:, 2], np.zeros((6, 2))]
     inside, outside = np.array([[0, 2, 3], [0, 3, 1]]), np.array([[0, 1, 5], [0, 5, 4]])
-    sharp = fairing.visible_join(across, inside, outside, [0, 1])
-    assert sharp == pytest.approx([90, 90])
-    assert fairing.visible_join(across, inside, outside, [0, 1], before=flat) == pytest.approx([90, 90])
-    assert fairing.visible_join(across, inside, outside, [0, 1], before=across) == pytest.approx([0, 0])
-    assert fairing.visible_join(across, inside, outside, [2, 4]) == pytest.approx([0, 0])
+
+    def join(outline: list[int], **before: np.ndarray) -> np.ndarray:
+        return fairing.visible_join(across, inside, outside, outline, **before).degrees
+
+    assert join([0, 1]) == pytest.approx([90, 90])
+    assert join([0, 1], before=flat) == pytest.approx([90, 90])
+    assert join([0, 1], before=across) == pytest.approx([0, 0])
+    assert join([2, 4]) == pytest.approx([0, 0])
+
+
+@pytest.mark.parametrize(
+    ("degrees", "length", "is_seen"),
+    [(4.0, 9, False), (6.0, 3, False), (6.0, 5, True), (24.0, 1, False), (26.0, 1, True)],
+)
+def test_a_short_kink_has_to_be_steep_to_be_seen(degrees: float, length: int, is_seen: bool) -> None:
+    """Two planes: neighbours among the vertices asked for add up to five times the limit, which is 5° there."""
+    x, y = (part.ravel() for part in np.meshgrid(np.arange(9.0), np.arange(9.0), indexing="ij"))
+    vertices = np.column_stack([x, y, -np.tan(np.radians(degrees)) * (x - 4.0).clip(min=0.0)])
+    here = np.flatnonzero((x < 8) & (y < 8))
+    triangles = np.concatenate(
+        [np.column_stack([here, here + 9, here + 10]), np.column_stack([here, here + 10, here + 1])]
+    )
+    inside = (x[triangles] >= 4.0).all(axis=1)
+    seam = np.flatnonzero(x == 4.0)[:length]
+    found = fairing.visible_join(vertices, triangles[inside], triangles[~inside], seam)
+    assert found.degrees == pytest.approx(degrees)
+    assert found.seen.tolist() == (list(range(length)) if is_seen else [])
+
+
+def prism(sides: int, rows: int = 4) -> tuple[FloatArray, IntArray]:
+    """The mantle of an upright prism, its faces as squares cut along a diagonal."""
+    turns = 2.0 * np.pi * np.arange(sides) / sides
+    ring = np.stack([np.cos(turns), np.sin(turns), np.zeros(sides)], axis=1)
+    points = np.concatenate([ring + np.array([0.0, 0.0, k]) for k in range(rows + 1)])
+    here = np.arange(sides * rows)
+    right = here // sides * sides + (here + 1) % sides
+    halves = [np.stack([here, right, right + sides], axis=1), np.stack([here, right + sides, here + sides], axis=1)]
+    return points, np.concatenate(halves)
+
+
+@pytest.mark.parametrize(("sides", "limit"), [
+    (128, 5.0), (64, 5.625), (32, 11.25), (24, 12.0),
+    (8, 22.5), (7, 180.0 / 7), (4, 30.0),
+])  # fmt: skip
+def test_on_coarse_meshes_a_kink_is_seen_later(sides: int, limit: float) -> None:
+    """A prism bends by a full turn over its number of sides, at a third of its edges: that, from 12° on half of it."""
+    points, triangles = prism(sides)
+
+    def found(around: IntArray) -> float:
+        return fairing.visible_join(points, triangles[:0], around, []).limit
+
+    assert found(triangles) == pytest.approx(limit)
+    assert found(triangles[:, ::-1]) == pytest.approx(limit)
+    assert found(triangles[:0]) == fairing.LIMITS["visible_kink"]
 
 
 def round_of(angle: float, join: float, *, converged: bool = True, folds: bool = False) -> fairing.FairResult:

@@ -22,7 +22,7 @@ from .findings import Origin
 from .harmonic import harmonic, nearest
 from .key_surface import NewSurface, Surroundings, key_surfaces
 from .options import ACCEPT, CONTINUITIES, INNER, LEAST_SPACING, OF_CURVATURE
-from .quality import Join, visible_from
+from .quality import Join, join_at
 from .region import MeshArrays, nothing, to_local
 from .verdict import UNUSABLE, Verdict
 from .words import in_mesh_words, sentences
@@ -182,7 +182,8 @@ def _piece(
     number[len(vertices) :] = len(outline) + np.arange(len(result.vertices))
     triangles = number[result.triangles]
     points = np.concatenate([world.positions[outline], result.vertices])
-    join = Join(vertices[result.fixed], result.join, visible_from(world.positions[vertices], around))
+    whole = np.concatenate([world.positions[vertices], result.vertices])
+    join = join_at(vertices[result.fixed], fairing.visible_join(whole, result.triangles, around, result.fixed))
     slopes = tuple(warning for warning in result.warnings if warning.code == "G2_NOT_MET")
     tangent_only = np.unique(np.concatenate([nothing(), *(vertices[warning.elements] for warning in slopes)]))
     verdict = judge(world, outline, Surface(points, triangles, result, join, tangent_only))

@@ -6,17 +6,17 @@ features they run on, or bend to both sides. docs/blender.md has how often that 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+
+import fairing
 
 from .around import wide_outside, wound_alike
 from .arrays import Floats, Ints
 from .bends import bends
 from .engine import Problem
-from .region import MeshArrays
-from .swelling import Disc
+from .region import MeshArrays, Patch
 from .vectors import area_vectors, unit
 
 INSIDE = (0.3, 0.7)  # distances from the outline, in radii of the patch, where it is looked at
@@ -61,12 +61,12 @@ class _Frames:
         return away.min(axis=1), degrees, nearest
 
 
-def flank(mesh: MeshArrays, problem: Problem, after: Floats, discs: Sequence[Disc]) -> Flank | None:
+def flank(mesh: MeshArrays, problem: Problem, after: Floats) -> Flank | None:
     """Return where one of the patch's discs ends on the flank of a bump or a dent; None where none does.
 
     mesh: in the space of the problem; after: (q, 3) positions of problem.vertices.
     """
-    pieces = [disc for disc in discs if np.isin(disc.border, problem.outside).all()]
+    pieces = [disc for disc in _discs(problem.patch) if np.isin(disc.border, problem.outside).all()]
     if not pieces or not len(problem.outside):
         return None
     around = wound_alike(mesh, wide_outside(mesh, problem.patch))
@@ -77,7 +77,31 @@ def flank(mesh: MeshArrays, problem: Problem, after: Floats, discs: Sequence[Dis
     return next((each for each in found if each is not None), None)
 
 
-def _flank(problem: Problem, disc: Disc, surroundings: tuple[Floats, Ints], edge: float) -> Flank | None:
+@dataclass(frozen=True)
+class _Disc:
+    """A piece of a patch with one outline and without pins."""
+
+    triangles: Ints  # (m, 3) patch indices
+    border: Ints  # (k, 2) its edges with a single triangle, the smaller index of each first
+
+
+def _discs(patch: Patch) -> list[_Disc]:
+    pieces = fairing.components(patch.triangles, fixed=patch.fixed)
+    found = (_disc(patch, patch.triangles[pieces == piece]) for piece in range(int(pieces.max(initial=-1)) + 1))
+    return [disc for disc in found if disc is not None]
+
+
+def _disc(patch: Patch, triangles: Ints) -> _Disc | None:
+    """Return connected triangles that have the Euler characteristic of a disc and no pins."""
+    edges, uses = fairing.edges_with_uses(triangles)
+    vertices, border = np.unique(triangles), edges[uses == 1]
+    has_pins = np.isin(np.setdiff1d(vertices, border), patch.fixed).any()
+    if has_pins or len(vertices) - len(edges) + len(triangles) != 1:
+        return None
+    return _Disc(triangles, border)
+
+
+def _flank(problem: Problem, disc: _Disc, surroundings: tuple[Floats, Ints], edge: float) -> Flank | None:
     patch = problem.patch
     own = surroundings[0][patch.vertices]
     radius = float(np.sqrt(0.5 * np.linalg.norm(area_vectors(own, disc.triangles), axis=1).sum() / np.pi))
@@ -100,7 +124,7 @@ def _flank(problem: Problem, disc: Disc, surroundings: tuple[Floats, Ints], edge
     return None
 
 
-def _border(disc: Disc) -> tuple[Ints, Ints]:
+def _border(disc: _Disc) -> tuple[Ints, Ints]:
     """Return a disc's border edges (k, 2) and the vertex opposite to each in its triangle (k,)."""
     count = int(disc.triangles.max()) + 1
     outer = np.zeros(count, dtype=bool)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+import fairing
+
 from .arrays import Floats, Ints
 from .bends import bends
 from .engine import Result
@@ -14,13 +16,7 @@ from .selection import LeftOut
 from .vectors import area_vectors, unit
 from .words import counted
 
-STEEP = 40.0  # degrees from which a kink at the outline is worse than a hard edge that was rounded off
-TURNED = 90.0  # and from which it is no kink any more
 FLAT = 1.0  # degrees between the neighbours of a needle, below which it is not seen
-# Radii of the thinnest and of the thickest cross-section over those of the ends, from which a tube has a waist or a
-# balloon. An elbow of 70° with .85 was sent back, pipes of two and a half radii with .94 were not; three arms that
-# meet have 1.3, and so have pipes of three radii whose ends lean outwards by 15°.
-THIN, THICK = 0.9, 1.4
 MANY_LEFT_OUT = 3  # faces that a careless lasso leaves out; one or two may be meant
 MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
 _KNOT = "Seams and marks inside, which stay, are squeezed to a knot at {}"
@@ -84,7 +80,7 @@ def _kinked(evidence: Evidence, options: FairOptions) -> Found:
 def kink_reason(join: Join) -> str:
     """Return the sentence for a join that is seen."""
     text = counted(len(join.seen), "vertex", "vertices")
-    if join.worst_seen >= TURNED:
+    if join.worst_seen >= fairing.LIMITS["turned_back"]:
         return f"The surface turns back from the slope around it at {text} of the outline, by {join.worst_seen:.0f}°"
     return f"A kink shows at {text} of the outline, of {join.worst_seen:.0f}° at worst"
 
@@ -116,7 +112,7 @@ def _eaten(evidence: Evidence, options: FairOptions) -> Found:
     if len(marked):
         text = counted(len(marked), "vertex", "vertices")
         reason = f"Edges marked sharp were rounded off at {text}: undo, and Pin Edges: Sharp keeps them"
-        return _with_kinks(evidence, reason, marked) if evidence.join.worst_seen >= STEEP else (reason, marked)
+        return _with_kinks(evidence, reason, marked)
     if len(running):
         text = counted(len(running), "vertex", "vertices")
         reason = f"A hard edge runs on outside, but was rounded off at {text}: mark it sharp and pin it to keep it"
@@ -132,7 +128,7 @@ def _with_kinks(evidence: Evidence, reason: str, spots: Ints) -> Found:
     seen = evidence.join.seen
     if not len(seen):
         return reason, spots
-    if evidence.join.worst_seen >= STEEP:
+    if evidence.join.worst_seen >= fairing.LIMITS["steep_kink"]:
         edge = counted(len(spots), "vertex", "vertices")
         return f"{kink_reason(evidence.join)}, and hard edges were rounded off at {edge}", _both(seen, spots)
     kink = f"a kink of {evidence.join.worst_seen:.0f}° shows at the outline"
@@ -177,9 +173,9 @@ def _uneven(evidence: Evidence, options: FairOptions) -> Found:
 def girth_reason(result: Result) -> str:
     """Return the sentence for a surface between outlines that is too thin or too thick; empty where it is neither."""
     least, largest = result.girth or (1.0, 1.0)
-    if least < THIN:
+    if least < fairing.LIMITS["waist"]:
         return f"The tube narrows to {least:.0%} of its ends"
-    return f"The tube swells to {largest:.0%} of its ends" if largest > THICK else ""
+    return f"The tube swells to {largest:.0%} of its ends" if largest > fairing.LIMITS["balloon"] else ""
 
 
 def _most_bent(evidence: Evidence) -> Ints:

@@ -22,7 +22,6 @@ from .rounded import rounded_edges
 from .seams import seam_kinks
 from .selection import left_out
 from .solve import Solved
-from .swelling import Disc, discs, swellings, waviness
 from .symmetry import mirror_map, symmetrised, with_band
 from .tunnels import tunnel_hint
 from .verdict import GOOD, LOOK, Verdict, because_of, judge
@@ -67,8 +66,7 @@ def outcome(
     quality_before, quality_after = quality.compare(patch, (before[:own], after[:own]), clear)
     join = quality.join(problem, after)
     go_on(progress)
-    pieces = discs(patch)
-    swollen = patch.vertices[swellings(pieces, after[:own], waviness(pieces, before[:own]))]
+    swollen = quality.swollen((patch, before[:own]), (patch, after[:own]))
     odd = _rounded(problem, after, moving, options), swollen, _eaten(mesh, problem, after)
     go_on(progress)
     through = _pierced(mesh, matrix, problem, after)
@@ -76,7 +74,7 @@ def outcome(
     go_on(progress)
     evidence = Evidence(
         problem, result, solved.failures, quality_before, quality_after, join, *odd, pierced=through, points=after,
-        flank=_flank(mesh, matrix, problem, after, pieces), left_out=left_out(mesh), seams=seams,
+        flank=_flank(mesh, matrix, problem, after), left_out=left_out(mesh), seams=seams,
     )  # fmt: skip
     go_on(progress)
     verdict = judge(evidence, options.resolved(mesh.textured))
@@ -110,9 +108,9 @@ def _pierced(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) 
     return pierced(mesh, Sheet(before, own), Sheet(moved, own))
 
 
-def _flank(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats, pieces: tuple[Disc, ...]) -> Flank | None:
+def _flank(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -> Flank | None:
     with np.errstate(invalid="ignore", over="ignore"):  # what is not finite outside the patch
-        return flank(mesh.transformed(matrix), problem, after, pieces)
+        return flank(mesh.transformed(matrix), problem, after)
 
 
 def _eaten(mesh: MeshArrays, problem: Problem, after: Floats) -> Eaten:

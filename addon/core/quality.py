@@ -5,24 +5,18 @@ What is folded and what crosses is the engine's decision.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 import fairing
 
 from .arrays import Floats, Ints, Mask
-from .bends import bends
 from .engine import Problem
-from .groups import groups
-from .region import Patch
+from .region import Patch, nothing
 from .vectors import area_vectors
 
 LARGE = 50_000  # triangles
-VISIBLE = fairing.VISIBLE_KINK  # degrees of Join from which the eye finds a kink among faces that bend as most do
-FINE = 5.0  # and from which it finds one among faces that hardly bend
-COARSE = 30.0  # and from which it finds one whatever the faces around bend
-LONG = 5.0  # times these degrees: what neighbouring vertices of a kink add up to at least. A short one must be steep
 FLATTEST = 1e-3  # height over longest side, below which a triangle is a needle
 
 
@@ -41,8 +35,8 @@ class Join:
 
     vertices: Ints  # (k,) of the mesh
     degrees: Floats  # (k,) by how much the bend there exceeds what is usual around; see fairing.visible_join
-    limit: float = VISIBLE  # degrees from which it is seen
-    edges: Ints | None = None  # (e, 2) of the outline, places in `vertices`; None: not known
+    kinks: Ints = field(default_factory=nothing)  # places in `vertices` where the eye finds one, the worst first
+    limit: float = fairing.LIMITS["visible_kink"]  # degrees from which it does
 
     @property
     def typical(self) -> float:
@@ -57,24 +51,13 @@ class Join:
     @property
     def worst_seen(self) -> float:
         """The largest of those that are seen, degrees; 0 where none is."""
-        return float(self.degrees[self._is_seen()].max(initial=0.0))
+        return float(self.degrees[self.kinks].max(initial=0.0))
 
     @property
     def seen(self) -> Ints:
-        """The mesh vertices where it is more visible than the limit, the worst first."""
-        order = np.argsort(-self.degrees, kind="stable")
-        found: Ints = self.vertices[order[self._is_seen()[order]]]
+        """The mesh vertices where the eye finds a kink, the worst first."""
+        found: Ints = self.vertices[self.kinks]
         return found
-
-    def _is_seen(self) -> Mask:
-        """Tell where it is above the limit, along so many neighbours that these add up."""
-        above = self.degrees > self.limit
-        if self.edges is None:
-            return above
-        seen = np.zeros(len(above), dtype=bool)
-        for run in groups(len(above), self.edges[above[self.edges].all(axis=1)].tolist()):
-            seen[run] = above[run].all() and self.degrees[run].sum() >= LONG * self.limit
-        return seen
 
 
 def compare(patch: Patch, points: tuple[Floats, Floats], clear: bool) -> tuple[Quality, Quality]:
@@ -132,29 +115,29 @@ def join(problem: Problem, points: Floats) -> Join:
     """Measure the join of the patch with the faces around it at the positions (q, 3) of problem.vertices."""
     patch = problem.patch
     rim = np.intersect1d(patch.outline, problem.outside)
-    degrees = fairing.visible_join(points, patch.triangles, problem.outside, rim)
-    limit = visible_from(points, problem.outside)
-    return Join(patch.vertices[rim], degrees, limit, np.searchsorted(rim, _outline_edges(patch, rim)))
+    return join_at(patch.vertices[rim], fairing.visible_join(points, patch.triangles, problem.outside, rim))
 
 
-def _outline_edges(patch: Patch, rim: Ints) -> Ints:
-    """Return the edges (e, 2) at the patch's border between vertices of the rim."""
-    edges, uses = fairing.edges_with_uses(patch.triangles)
-    found: Ints = edges[(uses == 1) & np.isin(edges, rim).all(axis=1)]
-    return found
+def join_at(vertices: Ints, found: fairing.VisibleJoin) -> Join:
+    """Return the engine's figures at these mesh vertices (k,)."""
+    order = np.argsort(-found.degrees[found.seen], kind="stable")
+    return Join(vertices, found.degrees, found.seen[order].astype(np.int64), found.limit)
 
 
-def visible_from(points: Floats, triangles: Ints) -> float:
-    """Return the degrees from which a kink stands out among triangles that bend as these do.
+def swollen(before: tuple[Patch, Floats], after: tuple[Patch, Floats]) -> Ints:
+    """Return the mesh vertices at the tops of knobs that a patch has after, compared with those before.
 
-    Nine tenths of their edges bend within some range. Where it is narrow, what exceeds it is seen; of a wide one half
-    is enough: coarse cages bend at every edge. Without any triangles nothing is known.
+    Each with its positions (p, 3).
     """
-    if not len(triangles):
-        return VISIBLE
-    degrees = bends(points, triangles).degrees
-    low, high = np.percentile(degrees, [5.0, 95.0]) if len(degrees) else (0.0, 0.0)
-    return float(np.clip(max(min(high - low, VISIBLE), 0.5 * (high - low)), FINE, COARSE))
+    was, _ = _knobs(*before)
+    patch, points = after
+    tops: Ints = patch.vertices[_knobs(patch, points, was)[1]]
+    return tops
+
+
+def _knobs(patch: Patch, points: Floats, before: float = 0.0) -> tuple[float, Ints]:
+    extent, tops = fairing.knobs(points, patch.triangles, fixed=patch.fixed, before=before)
+    return extent, tops.astype(np.int64)
 
 
 def texture_distortion(before: Floats, after: Floats, triangles: Ints) -> float:

@@ -145,8 +145,8 @@ def _leading_join(join: Join, count: int) -> Join:
     """Return the join at the mesh vertices below `count`."""
     kept = join.vertices < count
     number = np.cumsum(kept) - 1
-    edges = None if join.edges is None else number[join.edges[kept[join.edges].all(axis=1)]]
-    return replace(join, vertices=join.vertices[kept], degrees=join.degrees[kept], edges=edges)
+    kinks = number[join.kinks[kept[join.kinks]]]
+    return replace(join, vertices=join.vertices[kept], degrees=join.degrees[kept], kinks=kinks)
 
 
 def _about(verdict: Verdict, sources: Ints) -> Verdict:

@@ -23,7 +23,6 @@ from .reflected import whole_of
 from .region import MeshArrays, Patch, to_local
 from .selection import left_out
 from .solve import pose, told_by
-from .swelling import discs, swellings, waviness
 from .tunnels import tunnel_hint
 from .verdict import GOOD, LOOK, because_of, judge
 from .words import in_mesh_words
@@ -87,8 +86,7 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
     join = quality.join(own, own.points)
     origin = _origin(problem, result)
     told, failures, hints = told_by(result, origin)
-    was = waviness(discs(problem.patch), problem.own_points)
-    swollen = after.patch.vertices[swellings(discs(after.patch), points, was)]
+    swollen = quality.swollen((problem.patch, problem.own_points), (after.patch, points))
     evidence = Evidence(
         after, result, failures, *measured, join, swollen=swollen, squeezed=_squeezed(problem, kept, result),
         pierced=_pierced(mesh, matrix, problem, part, points), points=own.points, origin=origin,

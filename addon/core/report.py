@@ -7,12 +7,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+import fairing
+
 from .arrays import Ints
 from .engine import Result
 from .looks import judges_join
 from .options import FairOptions
 from .outcome import Fairing
-from .quality import VISIBLE, Join, Quality
+from .quality import Join, Quality
 from .verdict import GOOD, GRADES, LOOK, UNUSABLE, Verdict
 from .words import counted
 
@@ -211,7 +213,7 @@ def angle_text(degrees: float) -> str:
     if degrees < 0.1:
         return "0°"
     digits = 2
-    while degrees > VISIBLE >= float(f"{degrees:.{digits}g}"):
+    while degrees > fairing.LIMITS["visible_kink"] >= float(f"{degrees:.{digits}g}"):
         digits += 1
     return f"{float(f'{degrees:.{digits}g}'):g}°"
 

@@ -14,6 +14,7 @@
 #include "pins/sharp_pins.h"
 #include "placement/tears.h"
 #include "problem/surface_state.h"
+#include "shape/limits.h"
 #include "start/several_outlines.h"
 
 namespace fairing {
@@ -27,15 +28,11 @@ bool has_area(const Problem& problem, const Points& points) {
     return total_area(points, problem.patch.triangles) > std::max(least_area, 1e-9);
 }
 
-// Met from the other side at most of the boundary's vertices: a bulge that has turned inside out. What runs back inside
-// its surroundings at a few places is a fault of a loft, which lets its slopes go.
+// Met from the other side at most of the boundary's vertices: a bulge that has turned inside out.
 bool is_behind(const Problem& problem, const Solution& solution) {
-    constexpr double behind = 90.0;  // degrees
     if (problem.options.equation == Equation::minimal) return false;
-    const double share = is_loft(solution.provenance) ? 0.05 : 0.5;
     const VectorX angles = boundary_angles(problem.patch, solution.boundary_normals, problem.fixed_normals);
-    return static_cast<double>((angles.array() > behind).count()) >
-           share * static_cast<double>((angles.array() > 0.0).count());
+    return 2 * (angles.array() > turned_back).count() > (angles.array() > 0.0).count();
 }
 
 // Of some triangles those without fixed corners: an eased outline lies beside the surface.

@@ -18,12 +18,11 @@
 #include "continuity/joined.h"
 #include "pins/sharp_pins.h"
 #include "pins/spread_pins.h"
+#include "shape/limits.h"
 
 namespace fairing {
 
 namespace {
-
-constexpr double behind = 90.0;  // degrees
 
 void warn_of_flips(const Patch& patch, const Solution& solution, Diagnostics& warnings) {
     Indices flipped = solution.flipped ? *solution.flipped : flipped_triangles(patch, solution.points);
@@ -96,7 +95,7 @@ Reason reason_of(const Solution& solution, const VectorX& angles) {
         return {"fell together to a point or a line: fix more vertices around it", {{"area", 0.0}}};
     }
     if (solution.flaw == Flaw::behind) {
-        const auto wrong = (angles.array() > behind).count();
+        const auto wrong = (angles.array() > turned_back).count();
         const auto all = (angles.array() > 0.0).count();
         return {"runs into its outline from behind at " + std::to_string(wrong) + " of " + std::to_string(all) +
                     " vertices, which is not the surface asked for: where little of a shape is left outside, leave "
@@ -298,11 +297,10 @@ namespace {
 
 // Outline vertices that a surface meets at more than 20° from the tangent plane prescribed.
 Indices kinks_of(const Problem& problem, const Solution& solution) {
-    constexpr double visible = 20.0;
     const VectorX angles = boundary_angles(problem.patch, solution.boundary_normals, problem.fixed_normals);
     Indices kinks;
     for (int k = 0; k < angles.size(); ++k) {
-        if (angles[k] > visible) kinks.push_back(fixed_vertices(problem.patch)[k]);
+        if (angles[k] > off_slope) kinks.push_back(fixed_vertices(problem.patch)[k]);
     }
     return kinks;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "accept/accept.h"
 #include "api/diagnose.h"
 #include "api/measure.h"
 #include "api/memory.h"
@@ -12,8 +13,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "geometry/outline_angles.h"
-#include "accept/accept.h"
-#include "outline/visible_join.h"
+#include "shape/visible_join.h"
 
 namespace fairing {
 

@@ -5,7 +5,7 @@
 #include "base/progress.h"
 #include "paper/paper_solver.h"
 #include "problem/solution.h"
-#include "start/girth_range.h"
+#include "shape/girth.h"
 
 namespace fairing {
 

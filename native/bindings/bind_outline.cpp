@@ -6,7 +6,7 @@
 #include "outline/creased.h"
 #include "outline/feather.h"
 #include "outline/mended_outline.h"
-#include "outline/visible_join.h"
+#include "shape/visible_join.h"
 
 namespace fairing::bindings {
 
@@ -93,11 +93,12 @@ py::dict mended_outline_arrays(const DoubleArray& vertices, const IntArray& tria
     return dict;
 }
 
-py::array visible_join_array(const DoubleArray& vertices, const IntArray& inside, const IntArray& outside,
-                             const IntArray& outline, const std::optional<DoubleArray>& before) {
+py::tuple visible_join_arrays(const DoubleArray& vertices, const IntArray& inside, const IntArray& outside,
+                              const IntArray& outline, const std::optional<DoubleArray>& before) {
     const JoinedMesh mesh{to_points(vertices), to_triangles(inside), to_triangles(outside),
                           to_optional(before, to_points)};
-    return from_vector(visible_join(mesh, to_indices(outline)));
+    const VisibleJoin join = visible_join(mesh, to_indices(outline));
+    return py::make_tuple(from_vector(join.degrees), join.limit, from_indices(join.seen));
 }
 
 }  // namespace
@@ -111,7 +112,7 @@ void bind_outline(py::module_& module) {
                py::arg("width"));
     module.def("soft_base", &soft_base_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("base"), py::arg("faired"), py::arg("sizes"), py::arg("threads"), py::arg("progress"));
-    module.def("visible_join", &visible_join_array, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
+    module.def("visible_join", &visible_join_arrays, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
                py::arg("outline"), py::arg("before"));
 }
 

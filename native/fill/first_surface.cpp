@@ -12,7 +12,7 @@
 #include "fill/even_mesh.h"
 #include "fill/joined_loops.h"
 #include "fill/tube_start.h"
-#include "method/lofted.h"
+#include "stand_in/lofted.h"
 #include "method/solve.h"
 #include "problem/surface_state.h"
 #include "proxy/proxy_mesh.h"

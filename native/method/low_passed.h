@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "base/progress.h"
-#include "method/attempts.h"
+#include "method/own_mesh.h"
 #include "method/traits.h"
 #include "problem/solution.h"
 

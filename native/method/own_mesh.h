@@ -2,13 +2,32 @@
 // solved on the user's mesh where that carries it.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "base/progress.h"
-#include "method/attempts.h"
 #include "method/traits.h"
+#include "problem/solution.h"
 
 namespace fairing {
+
+class CoarseStart;  // method/coarse_own_mesh
+
+// What the steps of a plan have come to so far.
+struct Attempts {
+    std::vector<Solution> found;  // none of them accepted
+    std::vector<WayTaken> log;
+    std::shared_ptr<const CoarseStart> start = {};  // of a large patch on the engine's own mesh, once it is known
+
+    // The latest surface on the user's own connectivity, or none.
+    [[nodiscard]] const Solution* own_connectivity() const {
+        for (std::size_t k = found.size(); k-- > 0;) {
+            if (found[k].polished) return &found[k];
+        }
+        return nullptr;
+    }
+};
 
 // Where the discrete equation holds on the user's own mesh near the placed vertices, that is the solution. Elsewhere it
 // is the placed vertices with the H of the engine's mesh. It ends as `folded` where no placement without folds is

@@ -18,8 +18,8 @@ enum class Step {
     lifted_pins,      // the surface without pins, lifted to pins that have a radius (method/pinned)
     // What stands in for it.
     least_variation,  // the surface of least variation, also as the equation asked for
-    old_shape,        // the shape before, as smooth as it can be (method/smoothed)
-    loft,             // between several loops (method/lofted)
+    old_shape,        // the shape before, as smooth as it can be (stand_in/smoothed)
+    loft,             // between several loops (stand_in/lofted)
 };
 
 // For the log and for people.

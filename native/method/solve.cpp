@@ -7,16 +7,15 @@
 #include "base/errors.h"
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
-#include "method/attempts.h"
 #include "method/direct.h"
-#include "method/lofted.h"
 #include "method/low_passed.h"
 #include "method/nested.h"
 #include "method/own_mesh.h"
 #include "method/pinned.h"
 #include "method/plan.h"
-#include "method/smoothed.h"
 #include "problem/surface_state.h"
+#include "stand_in/lofted.h"
+#include "stand_in/smoothed.h"
 #include "variation/least_variation.h"
 
 namespace fairing {

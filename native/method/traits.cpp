@@ -37,9 +37,7 @@ Traits::Traits(const Problem& problem)
     : is_large(problem.options.nested && problem.patch.free_count > smallest_large),
       is_tube(problem.patch.loop_count() == 2),
       has_old_shape(joins_outlines(problem) && problem.before->cols() == problem.patch.vertex_count()),
-      poor_share_([&problem] {
-          return share_of_poor_triangles(problem.patch, proxy_membrane(problem, Progress()));
-      }),
+      poor_share_([&problem] { return share_of_poor_triangles(problem.patch, proxy_membrane(problem, Progress())); }),
       low_passed_([&problem] { return fairing::low_passed(problem); }) {
     const double roughness = outline_variation(problem.patch, boundary_of(problem));
     is_jagged = roughness > smallest_jagged;

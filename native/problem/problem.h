@@ -17,7 +17,7 @@ enum class Equation {
     automatic,        // of a call only: least_variation for long tubes, harmonic elsewhere (start/automatic_equation)
 };
 
-// What is taken where the equation has no surface that is accepted (method/otherwise).
+// What is taken where the equation has no surface that is accepted (method/solve).
 enum class Otherwise { least_variation, stop };
 
 struct SolverOptions {
@@ -68,7 +68,7 @@ struct Problem {
     std::vector<char> free_edge = {};
     // H at the fixed vertices, in units of D⁻¹, NaN where it is not known; for Δ_B² H = 0. Empty: a tangent join.
     VectorX fixed_curvatures = {};
-    // The shape before (3 × local vertices), taken where no surface is found (method/smoothed). Empty: none.
+    // The shape before (3 × local vertices), taken where no surface is found (stand_in/smoothed). Empty: none.
     Deferred<Points> before = {};
     Conduct conduct = {};
 };

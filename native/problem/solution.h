@@ -13,7 +13,7 @@ namespace fairing {
 // `folded`: the surface was found, the vertices don't lie on it without folds.
 enum class Termination { converged, iteration_limit, stalled, folded };
 
-// What is wrong with a solution, from the least to the worst (method/accept).
+// What is wrong with a solution, from the least to the worst (accept/accept).
 enum class Flaw {
     absent,
     many_iterations,  // converged, but so slowly that it may be another solution than the surface's
@@ -41,14 +41,14 @@ enum class Join {
 enum class Pins { absent, spread, no_surface, no_outline, too_close, not_found, curvature_met };
 
 // Where a surface comes from. Whoever makes a surface sets it, and nothing changes it afterwards. All but the first two
-// stand in for a surface that the problem's equation does not have (method/otherwise).
+// stand in for a surface that the problem's equation does not have (method/solve).
 enum class Provenance {
     equation,         // the problem's equation, between the boundary loops as they are
-    low_passed,       // the same between loops without their short waves, beside which the real ones lie (method/eased)
+    low_passed,       // the same between loops without their short waves, beside which the real ones lie (method/low_passed)
     least_variation,  // the surface of least variation, where another equation was asked for
     loft,
     swept_tube,  // cross-sections swept along a bend (start/swept_start)
-    old_shape,   // the shape before, as smooth as it can be (method/smoothed)
+    old_shape,   // the shape before, as smooth as it can be (stand_in/smoothed)
 };
 
 // Whether another surface than the equation's was taken.
@@ -59,7 +59,7 @@ constexpr bool is_loft(Provenance provenance) {
     return provenance == Provenance::loft || provenance == Provenance::swept_tube;
 }
 
-// A way that was tried (method/ways), and how long it took.
+// A way that was tried (method/solve), and how long it took.
 struct WayTaken {
     std::string name;
     double seconds;

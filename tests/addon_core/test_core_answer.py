@@ -16,7 +16,6 @@ from core.options import FairOptions
 from core.outcome import Fairing, outcome
 from core.region import MeshArrays, Patch
 from core.solve import Kept, Solved, pose, solve
-from core.swelling import Disc
 from core.verdict import AS_SELECTED, GOOD, LOOK
 from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh
 
@@ -225,12 +224,15 @@ def test_a_hard_edge_that_a_smoothed_outline_rounds_is_told() -> None:
 def test_knobs_are_looked_for_in_the_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     mesh = spoilt_sphere()
 
-    def most_lifted(pieces: tuple[Disc, ...], points: Floats, before: float) -> Ints:
+    def most_lifted(points: Floats, triangles: Ints, *, fixed: Ints, before: float = 0.0) -> tuple[float, Ints]:
+        if not before:
+            return knobs(points, triangles, fixed=fixed)
         assert before > 0.1  # the spoilt one
         np.testing.assert_allclose(np.linalg.norm(points, axis=1), 1.0, atol=0.02)  # fair already
-        return pieces[0].inner[:1]
+        return before, np.setdiff1d(triangles, fixed)[:1]
 
-    monkeypatch.setattr("core.outcome.swellings", most_lifted)
+    knobs = fairing.knobs
+    monkeypatch.setattr(fairing, "knobs", most_lifted)
     verdict = fair(mesh).verdict
     assert verdict.grade == LOOK
     assert "knob" in verdict.reason

@@ -220,7 +220,8 @@ def test_outlines_that_are_joined_are_told_as_several() -> None:
 
 def joined(degrees: float = 0.0, limit: float = 12.0) -> Join:
     """One vertex of the outline, 2, with such a kink."""
-    return Join(np.arange(4), np.where(np.arange(4) == 2, degrees, 1.0), limit)
+    values = np.where(np.arange(4) == 2, degrees, 1.0)
+    return Join(np.arange(4), values, np.flatnonzero(values > limit), limit)
 
 
 def test_a_fold_is_unusable_and_a_substitute_worth_a_look() -> None:

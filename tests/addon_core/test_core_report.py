@@ -13,7 +13,7 @@ import fairing
 from core.arrays import Ints
 from core.options import FairOptions
 from core.outcome import Fairing, outcome
-from core.quality import VISIBLE, Join, Quality
+from core.quality import Join, Quality
 from core.report import MET, MISSED, TOLD, Report, angle_text, make_report, summary
 from core.solve import solve
 from core.verdict import GOOD, LOOK, UNUSABLE, Verdict
@@ -56,7 +56,7 @@ def test_a_sphere_meets_all(sphere: Fairing) -> None:
 def test_of_several_objects_the_worst_counts(sphere: Fairing) -> None:
     lost = replace(sphere.result, converged=False, termination="stalled", residual=0.5)
     wide = replace(sphere.result, boundary_angle=np.array([3.0]))
-    seen = Join(np.array([0, 1, 2]), np.array([1.0, 4.0, 30.0]))
+    seen = Join(np.array([0, 1, 2]), np.array([1.0, 4.0, 30.0]), np.array([2]))
     both = report(replace(sphere, result=lost, verdict=BAD), replace(sphere, result=wide, join=seen))
     assert (both.converged, both.residual, both.boundary_angle) == (False, 0.5, 3.0)
     assert both.free_vertices == 2 * len(sphere.vertices)
@@ -65,7 +65,7 @@ def test_of_several_objects_the_worst_counts(sphere: Fairing) -> None:
     assert values(both)["Kinks show from"] == "12°"
     assert values(report(replace(sphere, join=replace(seen, limit=25.0))))["Kinks show from"] == "25°"
     assert states(both)["Kink at the outline"] == MISSED
-    alone = report(replace(sphere, join=replace(seen, edges=np.array([[0, 1], [1, 2]]))))
+    alone = report(replace(sphere, join=replace(seen, kinks=np.empty(0, dtype=np.int64))))
     assert (values(alone)["Kink at the outline"], states(alone)["Kink at the outline"]) == ("≤ 30°, short", MET)
     assert values(both)["Equation solved"] == "no further progress, yes"
     assert (both.verdict.grade, both.verdict.reason) == (UNUSABLE, f"Object 0: {BAD.reason}")
@@ -160,5 +160,12 @@ def test_distortion_is_weighted_by_size(sphere: Fairing) -> None:
 
 
 def test_an_angle_above_the_limit_never_reads_like_the_limit() -> None:
-    texts = {0.02: "0°", 0.123: "0.12°", VISIBLE: "12°", 12.04: "12.04°", 12.0004: "12.0004°", 14.6: "15°"}
+    texts = {
+        0.02: "0°",
+        0.123: "0.12°",
+        fairing.LIMITS["visible_kink"]: "12°",
+        12.04: "12.04°",
+        12.0004: "12.0004°",
+        14.6: "15°",
+    }
     assert {angle: angle_text(angle) for angle in texts} == texts

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "pipes.h"
+#include "shape/girth.h"
 #include "start/automatic_equation.h"
-#include "start/girth_range.h"
 #include "start/swept_tube.h"
 
 using namespace fairing;
@@ -103,6 +103,18 @@ TEST_CASE("noise hardly changes a girth, nor do motion and scale") {
     const auto range = girth_range(pipe.single.patch(), moved, normals);
     REQUIRE(range);
     CHECK(range->least == doctest::Approx(clean).epsilon(1e-9));
+}
+
+TEST_CASE("cross-sections of a pipe have the radii of its circles") {
+    const Pipe pipe(40);
+    const auto sections = CrossSections::of(pipe.single.patch());
+    REQUIRE(sections);
+    REQUIRE(sections->count() == 1);
+    const VectorX straight = sections->radii(0, pipe.single.points);
+    CHECK(straight.minCoeff() == doctest::Approx(1.0).epsilon(5e-3));
+    CHECK(straight.maxCoeff() == doctest::Approx(1.0).epsilon(5e-3));
+    const Points waisted = shaped(pipe, [](double t) { return 1.0 - 0.7 * std::sin(std::numbers::pi * t); });
+    CHECK(sections->radii(0, waisted).minCoeff() == doctest::Approx(0.3).epsilon(0.02));
 }
 
 TEST_CASE("loops that are no tubes' ends have no girth") {

@@ -9,7 +9,7 @@
 #include "outline/eased_outline.h"
 #include "outline/mended_outline.h"
 #include "outline/normal_filter.h"
-#include "outline/visible_join.h"
+#include "shape/visible_join.h"
 
 using namespace fairing;
 
@@ -84,7 +84,7 @@ template <typename Height>
 VectorX joined(const Height& height, const std::optional<Points>& before = std::nullopt) {
     const JoinedMesh mesh{grid_points(columns, rows, height), grid_triangles(columns, rows, 0, seam),
                           grid_triangles(columns, rows, seam, columns - 1), before};
-    return visible_join(mesh, seam_vertices());
+    return visible_join(mesh, seam_vertices()).degrees;
 }
 
 }  // namespace

@@ -16,15 +16,17 @@ from fairing._measure import (
     cotan_laplacian,
     edges_with_uses,
     flipped_triangles,
+    knobs,
     mean_curvature,
     self_intersections,
     vertex_normals,
 )
 from fairing._new_mesh import FillResult, RemeshResult
 from fairing._outline import (
-    VISIBLE_KINK,
+    LIMITS,
     MendedOutline,
     SurroundingNormals,
+    VisibleJoin,
     bad_outline,
     mend_outline,
     surrounding_normals,
@@ -38,7 +40,7 @@ from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, 
 
 __all__ = [
     "CODES",
-    "VISIBLE_KINK",
+    "LIMITS",
     "Cancelled",
     "Diagnostic",
     "FairResult",
@@ -52,6 +54,7 @@ __all__ = [
     "Solver",
     "SolverError",
     "SurroundingNormals",
+    "VisibleJoin",
     "__version__",
     "bad_outline",
     "boundary_loops",
@@ -68,6 +71,7 @@ __all__ = [
     "grown_outline",
     "hierarchy",
     "interpolate",
+    "knobs",
     "mean_curvature",
     "mend_outline",
     "outer_borders",

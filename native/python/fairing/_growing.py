@@ -12,7 +12,7 @@ import numpy.typing as npt
 from fairing import _arguments
 from fairing._fair import fair
 from fairing._measure import boundary_loops
-from fairing._outline import VISIBLE_KINK, bad_outline, surrounding_normals
+from fairing._outline import LIMITS, bad_outline, surrounding_normals
 from fairing._types import FOLDS, FairResult, FloatArray, IntArray
 
 Mask = npt.NDArray[np.bool_]
@@ -82,9 +82,9 @@ def grown_outline(
     """Fair a selection, and larger ones that leave the bad vertices of its outline inside; keep the best.
 
     Each round adds the faces outside the vertices that :func:`bad_outline` names, as long as there are some and no new
-    outline comes of it. Kept is the round that converges, has no folds, shows no kink (``join`` of ``VISIBLE_KINK`` and
-    more) sharper than the worst of the selection as given, and has the smallest largest ``boundary_angle``, in this
-    order.
+    outline comes of it. Kept is the round that converges, has no folds, shows no kink (``join`` above
+    ``LIMITS["visible_kink"]``) sharper than the worst of the selection as given, and has the smallest largest
+    ``boundary_angle``, in this order.
 
     triangles (m, 3): the whole mesh; selected (m,) bool; faces (m,): the polygon of each triangle, none of which is
     divided; rounds: three at most are useful; options: those of :func:`fairing.fair` that don't concern the outline.
@@ -112,7 +112,7 @@ def grown_outline(
 
 def best_round(results: Sequence[FairResult]) -> int:
     """Which of the rounds is kept, the first being that of the selection as it was given."""
-    seen = max(_largest_join(results[0]), VISIBLE_KINK)
+    seen = max(_largest_join(results[0]), LIMITS["visible_kink"])
 
     def rank(k: int) -> tuple[bool, bool, bool, float]:
         result = results[k]

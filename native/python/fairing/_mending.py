@@ -10,7 +10,6 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core
-from fairing._outline import VISIBLE_KINK
 from fairing._types import FOLDS, Diagnostic, FloatArray, IntArray
 
 Answer = dict[str, Any]
@@ -132,9 +131,8 @@ def _worth(answer: Answer, around: Surroundings) -> tuple[bool, int, float]:
     """
     if not answer["converged"]:
         return False, -_folds(answer), 0.0
-    seen = _core.visible_join(answer["vertices"], around.inside, around.outside, around.rim, None)
-    worst = float(np.max(seen, initial=0.0))
-    return True, -_folds(answer), -worst if worst > VISIBLE_KINK else 0.0
+    degrees, _, seen = _core.visible_join(answer["vertices"], around.inside, around.outside, around.rim, None)
+    return True, -_folds(answer), -float(np.max(degrees[seen], initial=0.0))
 
 
 def _folds(answer: Answer) -> int:
@@ -153,7 +151,7 @@ def with_join(answer: Answer, around: Surroundings) -> Answer:
     """The join measured on the triangles outside, at the vertices that have some."""
     if len(around.rim):
         fixed = answer["fixed"]
-        seen = _core.visible_join(answer["vertices"], around.inside, around.outside, fixed, None)
-        answer["join"] = np.where(np.isin(fixed, around.rim), seen, answer["join"])
+        degrees, _, _ = _core.visible_join(answer["vertices"], around.inside, around.outside, fixed, None)
+        answer["join"] = np.where(np.isin(fixed, around.rim), degrees, answer["join"])
         answer["join"].flags.writeable = False
     return answer

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -12,7 +12,18 @@ import numpy.typing as npt
 from fairing import _arguments, _core
 from fairing._types import FloatArray, IntArray
 
-VISIBLE_KINK = 12.0  # degrees of visible_join from which the eye finds a kink on most meshes
+LIMITS: dict[str, float] = _core.LIMITS  # from where on a surface looks wrong
+
+
+class VisibleJoin(NamedTuple):
+    """How much a join shows, and where the eye finds a kink."""
+
+    degrees: FloatArray
+    """(k,) at each vertex of the outline."""
+    limit: float
+    """Degrees from which a kink stands out among triangles that bend as those outside do: 5 to 30."""
+    seen: IntArray
+    """Places in the outline where one does, ascending: there neighbours above the limit add up to five times that."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,15 +136,17 @@ def visible_join(
     outline: npt.ArrayLike,
     *,
     before: npt.ArrayLike | None = None,
-) -> FloatArray:
-    """(k,) degrees at each vertex of ``outline``: how visible the join of the two lists of triangles is there.
+) -> VisibleJoin:
+    """How visible the join of the two lists of triangles is at the vertices of ``outline`` (k,), each named once.
 
-    By how much the signed dihedral angles of the outline's edges exceed what is usual within three rings on either side
-    (the middle half of the angles, by length), and what the same edge had in ``before`` (n, 3), the positions before
-    fairing; the mean over the outline's edges at the vertex. 0 on a sphere or tube however coarse, and on a crease that
-    goes on on either side. From about ``VISIBLE_KINK`` = 12 on a kink can be seen.
+    ``degrees``: by how much the signed dihedral angles of the outline's edges exceed what is usual within three rings
+    on either side (the middle half of the angles, by length), and what the same edge had in ``before`` (n, 3), the
+    positions before fairing; the mean over the outline's edges at the vertex. 0 on a sphere or tube however coarse,
+    and on a crease that goes on on either side. ``limit``: of nine tenths of the edges outside the range of bends,
+    as far as it lies between 5 and ``LIMITS["visible_kink"]`` = 12, or half of it where that is more, up to 30. 12
+    without triangles outside.
     """
     points, within, where = _bounded(vertices, ("inside", inside), ("outline", outline))
     _, beyond, _ = _bounded(vertices, ("outside", outside), ("outline", outline))
     earlier = None if before is None else _arguments.floats("before", before, points.shape[0])
-    return _core.visible_join(points, within, beyond, where, earlier)
+    return VisibleJoin(*_core.visible_join(points, within, beyond, where, earlier))

@@ -9,8 +9,6 @@ from fairing import _core
 from fairing._loops import Outline
 from fairing._types import Diagnostic, FairResult, FloatArray, IntArray
 
-_OFF = 20.0  # degrees off the prescribed normal; a loft's kinks are counted from there, too
-_BACK = 90.0  # degrees of a visible kink from which the surface runs back over the triangles around
 _OPPOSITE = -0.5  # cosine between the normals of two sides of a wall
 _TOLD_ELSEWHERE = ("loft", "smoothed")  # by NO_SOLUTION, with their kinks
 
@@ -24,8 +22,8 @@ def not_tangent(
     """
     if not report.converged or report.equation in _TOLD_ELSEWHERE:
         return ()
-    back = report.join > _BACK
-    off = (report.boundary_angle > _OFF) & ~back
+    back = report.join > _core.LIMITS["turned_back"]
+    off = (report.boundary_angle > _core.LIMITS["off_slope"]) & ~back
     off[off] = _at_thin_walls(report.fixed[off], outline, vertices, triangles)
     refine = "the wall is thinner there than the outline's edges are long: refine these and what is around"
     cases = (

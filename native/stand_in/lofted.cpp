@@ -1,14 +1,13 @@
-#include "method/lofted.h"
+#include "stand_in/lofted.h"
 
 #include <algorithm>
 #include <array>
 
 #include "accept/accept.h"
-#include "geometry/spikes.h"
+#include "geometry/face_geometry.h"
 #include "geometry/surface_fit.h"
 #include "placement/refill.h"
 #include "problem/surface_state.h"
-#include "proxy/proxy_solver.h"
 #include "start/loft.h"
 #include "start/swept_start.h"
 
@@ -18,12 +17,8 @@ namespace {
 
 constexpr double largest_growth = 2.0;  // of the area, by the bulge: beyond, it is a balloon or a horn
 
-// Roundness of a loft, and how many times less it must be bent than others to be taken: rounder ones have waists.
-struct Kind {
-    double roundness;
-    double handicap;
-};
-constexpr std::array kinds{Kind{0.6, 1.0}, Kind{1.5, 1.0}, Kind{4.0, 1.3}};
+// Of 60 random patches between several loops 58 have a loft that is accepted; with 0.6 alone, and none mended, 50.
+constexpr std::array roundnesses{0.6, 1.5, 4.0};
 
 // A share of the bulge; nothing where it is a balloon.
 std::optional<Points> surface(const Problem& problem, const Fill& fill, double share) {
@@ -39,46 +34,36 @@ std::optional<Points> surface(const Problem& problem, const Fill& fill, double s
 
 struct Candidate {
     Points points;
-    double merit;
+    double energy;
     Provenance provenance;
 };
 
-// The tube between two outlines along a wide bend.
-std::optional<Candidate> swept(const Problem& problem, const Progress& progress) {
-    const auto tube = tube_between(problem);
-    auto points = tube && tube->turn() > wide_bend ? swept_start(problem, *tube, progress) : std::nullopt;
-    if (!points) return std::nullopt;
-    const double merit = willmore_energy(problem, *points);
-    return Candidate{std::move(*points), merit, Provenance::swept_tube};
+Candidate candidate(const Problem& problem, Points points, Provenance provenance) {
+    const double energy = willmore_energy(problem, points);
+    return {std::move(points), energy, provenance};
 }
 
 std::vector<Candidate> candidates(const Problem& problem, const Progress& progress) {
     std::vector<Candidate> found;
-    for (const Kind& kind : kinds) {
-        const auto loft = Loft::of(problem, kind.roundness, progress);
+    for (const double roundness : roundnesses) {
+        const auto loft = Loft::of(problem, roundness, progress);
         if (!loft) continue;
         const Fill fill = loft->over(problem);
         for (const double share : {1.0, 0.75, 0.5, 0.25, 0.0}) {
-            auto points = surface(problem, fill, share);
-            if (!points) continue;
-            const double merit = kind.handicap * willmore_energy(problem, *points);
-            found.push_back({std::move(*points), merit, Provenance::loft});
+            if (auto points = surface(problem, fill, share))
+                found.push_back(candidate(problem, std::move(*points), Provenance::loft));
         }
     }
+    const auto tube = tube_between(problem);
+    auto swept = tube && tube->turn() > wide_bend ? swept_start(problem, *tube, progress) : std::nullopt;
+    if (swept) found.push_back(candidate(problem, std::move(*swept), Provenance::swept_tube));
     return found;
 }
 
-// Hairs, where fingers end within the patch, and tips, where many vertices lie in few: finer than the outline shows.
-bool is_spiky(const Problem& problem, const Points& points) {
-    return has_spike(problem.patch, points, 0.5 * mean_outline_edge(problem));
-}
-
-// Its curvature is left open: few are taken.
 Solution solution_at(const Problem& problem, const Candidate& candidate) {
     Solution solution;
     solution.points = candidate.points;
-    solution.termination = is_spiky(problem, candidate.points) ? Termination::stalled : Termination::converged;
-    if (solution.termination != Termination::converged) return solution;
+    solution.termination = Termination::converged;
     solution.boundary_normals = one_sided_normals(problem.patch, candidate.points);
     solution.iterations = 1;
     solution.provenance = candidate.provenance;
@@ -87,11 +72,6 @@ Solution solution_at(const Problem& problem, const Candidate& candidate) {
 }
 
 bool is_accepted(const Solution& solution) { return end_of(solution) == Termination::converged; }
-
-Solution measured(const Problem& problem, Solution solution) {
-    solution.mean_curvature = measured_surface(problem, solution.points).curvature.mean;
-    return solution;
-}
 
 // Where few triangles fold or cross, what lies around them is filled anew.
 std::optional<Solution> mended(const Problem& problem, const Candidate& candidate, const Solution& flawed) {
@@ -102,7 +82,7 @@ std::optional<Solution> mended(const Problem& problem, const Candidate& candidat
     for (const int reach : rings) {
         trial.points = refilled(problem.patch, candidate.points, flawed.bad_triangles, reach);
         Solution solution = solution_at(problem, trial);
-        if (is_accepted(solution)) return measured(problem, std::move(solution));
+        if (is_accepted(solution)) return solution;
     }
     return std::nullopt;
 }
@@ -110,11 +90,11 @@ std::optional<Solution> mended(const Problem& problem, const Candidate& candidat
 // The least bent one that is accepted, mended where none is.
 std::optional<Solution> best_of(const Problem& problem, std::vector<Candidate> candidates) {
     std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.merit < b.merit; });
+                     [](const Candidate& a, const Candidate& b) { return a.energy < b.energy; });
     std::vector<std::pair<Candidate, Solution>> flawed;
     for (Candidate& candidate : candidates) {
         Solution solution = solution_at(problem, candidate);
-        if (is_accepted(solution)) return measured(problem, std::move(solution));
+        if (is_accepted(solution)) return solution;
         flawed.emplace_back(std::move(candidate), std::move(solution));
     }
     for (const auto& [candidate, solution] : flawed) {
@@ -126,9 +106,9 @@ std::optional<Solution> best_of(const Problem& problem, std::vector<Candidate> c
 }  // namespace
 
 std::optional<Solution> lofted(const Problem& problem, const Progress& progress) {
-    std::vector<Candidate> found = candidates(problem, progress);
-    if (auto tube = swept(problem, progress)) found.push_back(std::move(*tube));
-    return best_of(problem, std::move(found));
+    auto solution = best_of(problem, candidates(problem, progress));
+    if (solution) solution->mean_curvature = measured_surface(problem, solution->points).curvature.mean;
+    return solution;
 }
 
 }  // namespace fairing

@@ -1,4 +1,4 @@
-#include "outline/visible_join.h"
+#include "shape/visible_join.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,9 @@
 #include "base/direction.h"
 #include "base/parallel.h"
 #include "mesh/strip.h"
-#include "outline/dihedral_bands.h"
+#include "mesh/union_find.h"
+#include "shape/dihedral_bands.h"
+#include "shape/limits.h"
 
 namespace fairing {
 
@@ -79,6 +81,50 @@ private:
     VectorX weight_;
 };
 
+// Between two of the sorted values, where it falls there.
+double percentile(const std::vector<double>& sorted, double share) {
+    const double place = share * static_cast<double>(sorted.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const double above = sorted[std::min(below + 1, sorted.size() - 1)];
+    return sorted[below] + (place - static_cast<double>(below)) * (above - sorted[below]);
+}
+
+// Nine tenths of the edges bend within some range. Where it is narrow, what exceeds it is seen; of a wide one half is
+// enough: coarse cages bend at every edge.
+double limit_among(const DihedralBands& bands, Eigen::Index triangle_count) {
+    if (triangle_count == 0) return visible_kink;  // nothing is known
+    std::vector<double> angles;
+    for (int e = 0; e < bands.edges().size(); ++e) {
+        if (bands.edges().side_count(e) == 2) angles.push_back(bands.angle(e));
+    }
+    if (angles.empty()) return finest_kink;
+    std::sort(angles.begin(), angles.end());
+    const double range = percentile(angles, 0.95) - percentile(angles, 0.05);
+    return std::clamp(std::max(std::min(range, visible_kink), 0.5 * range), finest_kink, steep_kink);
+}
+
+// Places in the outline above the limit, along so many neighbours that these add up.
+Indices seen_along(const std::vector<OutlineEdge>& edges, const Indices& outline, const VisibleJoin& join) {
+    std::map<int, int> place;
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+        if (join.degrees[static_cast<Eigen::Index>(k)] > join.limit) place[outline[k]] = static_cast<int>(k);
+    }
+    UnionFind runs(static_cast<int>(outline.size()));
+    for (const OutlineEdge& edge : edges) {
+        const auto a = place.find(edge.ends[0]);
+        const auto b = place.find(edge.ends[1]);
+        if (a != place.end() && b != place.end()) runs.join(a->second, b->second);
+    }
+    std::map<int, double> sums;
+    for (const auto& [vertex, k] : place) sums[runs.root(k)] += join.degrees[k];
+    Indices seen;
+    for (const auto& [vertex, k] : place) {
+        if (sums[runs.root(k)] >= kink_length * join.limit) seen.push_back(k);
+    }
+    std::sort(seen.begin(), seen.end());
+    return seen;
+}
+
 bool is_border(const Patch& patch, const std::array<int, 2>& ends) {
     const RingView ring = patch.ring(ends[0]);
     return !ring.closed() && (ring.vertices.front() == ends[1] || ring.vertices.back() == ends[1]);
@@ -113,7 +159,7 @@ double mirrored_angle(const Triangles& triangles, const Points& points, int side
 
 }  // namespace
 
-VectorX visible_join(const JoinedMesh& given, const Indices& outline) {
+VisibleJoin visible_join(const JoinedMesh& given, const Indices& outline) {
     const JoinedMesh mesh{given.vertices, without_collapsed(given.inside), without_collapsed(given.outside),
                           given.before};
     const DihedralBands inside(mesh.vertices, mesh.inside);
@@ -121,7 +167,8 @@ VectorX visible_join(const JoinedMesh& given, const Indices& outline) {
     DihedralBands::Walk walk_inside = inside.walk();
     DihedralBands::Walk walk_outside = outside.walk();
     Means means(mesh.vertices.cols());
-    for (const OutlineEdge& edge : shared_edges(inside.edges(), outside.edges())) {
+    const std::vector<OutlineEdge> edges = shared_edges(inside.edges(), outside.edges());
+    for (const OutlineEdge& edge : edges) {
         const auto [a, b] = edge.ends;
         AngleRange usual = inside.usual(a, b, walk_inside);
         usual.include(outside.usual(a, b, walk_outside));
@@ -129,8 +176,11 @@ VectorX visible_join(const JoinedMesh& given, const Indices& outline) {
         means.add(edge.ends, usual.excess(angle_at(mesh.vertices, mesh, edge)),
                   (mesh.vertices.col(a) - mesh.vertices.col(b)).norm());
     }
-    VectorX join(static_cast<Eigen::Index>(outline.size()));
-    for (Eigen::Index k = 0; k < join.size(); ++k) join[k] = means[outline[static_cast<int>(k)]];
+    VisibleJoin join;
+    join.degrees.resize(static_cast<Eigen::Index>(outline.size()));
+    for (Eigen::Index k = 0; k < join.degrees.size(); ++k) join.degrees[k] = means[outline[static_cast<int>(k)]];
+    join.limit = limit_among(outside, mesh.outside.cols());
+    join.seen = seen_along(edges, outline, join);
     return join;
 }
 

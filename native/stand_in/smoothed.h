@@ -10,7 +10,7 @@
 namespace fairing {
 
 // All of the shape before is smoothed (start/shape_before), between the tangent planes given. Around its blemishes
-// (method/blemishes) what is longer than D stays, then D/2, …, and a unit longer with each unit of way from there,
+// (shape/blemishes) what is longer than D stays, then D/2, …, and a unit longer with each unit of way from there,
 // until there are none. Nothing for one outline, where no shape before is known, or none is accepted.
 std::optional<Solution> smoothed(const Problem& problem, const Progress& progress);
 

@@ -2,30 +2,29 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
+import numpy.typing as npt
 import pytest
 
-from core.arrays import Floats
-from core.region import Patch
-from core.swelling import CALMER, LEAST, discs, swellings, waviness
+import fairing
 
+Floats = npt.NDArray[np.float64]
 RINGS, COLUMNS = 40, 48
 
 
-def disc() -> Patch:
-    """Rings of vertices around vertex 0, which is the middle."""
+def disc() -> npt.NDArray[np.int64]:
+    """Triangles between rings of vertices around vertex 0, which is the middle."""
     rings = 1 + np.arange(RINGS * COLUMNS).reshape(RINGS, COLUMNS)
     ahead = np.roll(rings, -1, axis=1)
     middle = np.stack([np.zeros(COLUMNS, dtype=np.int64), rings[0], ahead[0]], axis=1)
     inside, outside, beside, beyond = (part.ravel() for part in (rings[:-1], rings[1:], ahead[:-1], ahead[1:]))
     bands = [np.stack([inside, outside, beyond], axis=1), np.stack([inside, beyond, beside], axis=1)]
-    triangles = np.concatenate([middle, *bands])
-    count = 1 + rings.size
-    rim = rings[-1]
-    free = np.setdiff1d(np.arange(count), rim)
-    return Patch(np.arange(count), triangles, np.arange(len(triangles)), free, rim, rim, None)
+    return np.concatenate([middle, *bands])
+
+
+def tops(points: Floats, before: float = 0.0) -> npt.NDArray[np.int32]:
+    """Where the disc swells."""
+    return fairing.knobs(points, disc(), before=before)[1]
 
 
 def turned(radii: Floats, heights: Floats) -> Floats:
@@ -43,68 +42,57 @@ def bump(degrees: float) -> Floats:
 
 
 def test_a_bump_counts_from_a_quarter_of_a_turn_on() -> None:
-    assert LEAST == 0.25
-    limit = np.degrees(np.arccos(1.0 - LEAST))
-    assert not len(swellings(discs(disc()), bump(limit - 3.0)))
-    found = swellings(discs(disc()), bump(limit + 3.0))
+    limit = np.degrees(np.arccos(1.0 - 0.25))
+    assert not len(tops(bump(limit - 3.0)))
+    found = tops(bump(limit + 3.0))
     assert 0 in found
     assert np.linalg.norm(bump(limit)[found, :2], axis=1).max() < 0.5  # the ball, not the neck
-    assert not len(swellings(discs(disc()), bump(0.0)))
+    assert not len(tops(bump(0.0)))
 
 
 def test_a_round_end_is_no_knob_and_a_ball_on_a_neck_is_one() -> None:
     angles = np.linspace(0.0, 0.5 * np.pi, RINGS + 1)
     half_ball = turned(np.sin(angles), np.cos(angles))
-    assert not len(swellings(discs(disc()), half_ball))
+    assert not len(tops(half_ball))
     half = RINGS // 2
     angles = np.linspace(0.0, 2.5, half + 1)
     radii = np.concatenate([np.sin(angles), np.linspace(np.sin(2.5), 2.0, RINGS - half + 1)[1:]])
     ball = turned(radii, np.concatenate([np.cos(angles), np.full(RINGS - half, np.cos(2.5))]))
-    found = swellings(discs(disc()), ball)
+    found = tops(ball)
     assert len(found)
     assert ball[found, 2].min() > np.cos(2.5)  # on the ball alone
 
 
 def test_what_became_calmer_is_none() -> None:
-    old = waviness(discs(disc()), bump(75.0))
+    old = fairing.knobs(bump(75.0), disc())[0]
     assert old == pytest.approx(1.0 - np.cos(np.radians(75.0)), abs=0.02)
-    limit = np.degrees(np.arccos(1.0 - CALMER * old))
-    assert not len(swellings(discs(disc()), bump(limit - 3.0), old))
-    assert len(swellings(discs(disc()), bump(limit + 3.0), old))
+    limit = np.degrees(np.arccos(1.0 - 0.8 * old))
+    assert not len(tops(bump(limit - 3.0), old))
+    assert len(tops(bump(limit + 3.0), old))
 
 
 def test_size_and_place_do_not_matter() -> None:
-    found, again = (swellings(discs(disc()), points) for points in (bump(60.0), 1e-3 * bump(60.0) + 7.0))
+    found, again = (tops(points) for points in (bump(60.0), 1e-3 * bump(60.0) + 7.0))
     assert abs(len(found) - len(again)) <= 1  # vertices of a ring are equal but for rounding
     assert 0 in found
     assert 0 in again
 
 
 def test_what_lifts_a_pin_is_meant() -> None:
-    patch = disc()
-    pinned = replace(patch, free=patch.free[1:], fixed=np.append(patch.fixed, 0))
-    assert not len(swellings(discs(pinned), bump(60.0)))
+    rim = 1 + np.arange((RINGS - 1) * COLUMNS, RINGS * COLUMNS)
+    extent, found = fairing.knobs(bump(60.0), disc(), fixed=np.append(rim, 0))
+    assert (extent, len(found)) == (0.0, 0)
 
 
 @pytest.mark.parametrize(("degrees", "count"), [(37.0, 0), (60.0, 2)])
 def test_pieces_count_each_on_its_own(degrees: float, count: int) -> None:
     """Two of .2 turns are none of .4."""
-    one, points = disc(), bump(degrees)
-    more = len(points)
-    both = Patch(
-        *(np.concatenate([part, part + shift]) for part, shift in (
-            (one.vertices, more), (one.triangles, more), (one.faces, len(one.faces)),
-            (one.free, more), (one.fixed, more), (one.outline, more),
-        )), None,
-    )  # fmt: skip
-    found = swellings(discs(both), np.concatenate([points, points + 3.0]))
-    assert np.count_nonzero(np.isin(found, [0, more])) == count
+    points = bump(degrees)
+    both = np.concatenate([points, points + 3.0])
+    _, found = fairing.knobs(both, np.concatenate([disc(), disc() + len(points)]))
+    assert np.count_nonzero(np.isin(found, [0, len(points)])) == count
 
 
 def test_what_is_no_disc_is_left_alone() -> None:
     """A ring turns as its two outlines ask it to."""
-    patch = disc()
-    triangles = patch.triangles[COLUMNS:]
-    rims = np.append(patch.outline, 1 + np.arange(COLUMNS))
-    ring = replace(patch, triangles=triangles, faces=np.arange(len(triangles)), outline=rims, fixed=np.append(rims, 0))
-    assert not len(swellings(discs(ring), bump(75.0)))
+    assert not len(fairing.knobs(bump(75.0), disc()[COLUMNS:])[1])

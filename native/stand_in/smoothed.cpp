@@ -1,4 +1,4 @@
-#include "method/smoothed.h"
+#include "stand_in/smoothed.h"
 
 #include <algorithm>
 #include <limits>
@@ -6,8 +6,8 @@
 
 #include "accept/accept.h"
 #include "geometry/surface_fit.h"
-#include "method/blemishes.h"
 #include "problem/surface_state.h"
+#include "shape/blemishes.h"
 #include "start/several_outlines.h"
 #include "start/shape_before.h"
 
@@ -65,7 +65,7 @@ std::optional<Solution> smoothed(const Problem& problem, const Progress& progres
     if (!joins_outlines(problem)) return std::nullopt;
     auto shape = ShapeBefore::of(problem, progress);
     if (!shape) return std::nullopt;
-    const auto points = smoothest(problem, *shape, BlemishFinder(problem, shape->points(), progress), progress);
+    const auto points = smoothest(problem, *shape, BlemishFinder(problem, shape->points()), progress);
     if (!points) return std::nullopt;
     Solution solution = solution_at(problem, *points);
     if (end_of(solution) != Termination::converged) return std::nullopt;

@@ -1,4 +1,4 @@
-#include "outline/dihedral_bands.h"
+#include "shape/dihedral_bands.h"
 
 #include <algorithm>
 #include <cmath>
