@@ -21,8 +21,7 @@ public:
              KeptEdges kept = {});
     // Splits, collapses, flips and smooths. Asks whether to stop.
     void make_even();
-    // Splits edges and takes vertices out where angles below 26° stay otherwise, worst first: then once more, so that
-    // the smallest grow at the cost of others. Asks whether to stop.
+    // Splits edges and takes vertices out where angles below 26° stay otherwise, worst first. Asks whether to stop.
     void mend_angles();
     // Splits edges between fixed vertices, at which a patch would end, but for those at sharp corners. Returns how
     // many. With normals of the fixed vertices (3 × their count) corners whose triangle is turned against them are
@@ -64,9 +63,7 @@ private:
     [[nodiscard]] std::array<Edge, 4> sides_around(Edge e) const;
     void smooth(int sweeps);
     bool improve_flip(Edge e);
-    int improve_flips();
-    int improve_places(const std::vector<int>& vertices);
-    [[nodiscard]] double worst_angle_around(Vertex v, const Vector3& position) const;
+    [[nodiscard]] Indices around_small_angles() const;
     void improve();
     [[nodiscard]] std::array<Halfedge, 3> sides(Face f) const;
     // A triangle seen from one of its corners.
@@ -93,7 +90,6 @@ private:
     [[nodiscard]] std::vector<std::function<int(EvenMesh&)>> remedies(Face f);
     [[nodiscard]] std::vector<Face> bad_faces() const;
     bool mend(Face f);
-    void mend_bad_faces();
     const Patch* patch_;
     const Points* points_;
     const TargetSurface* surface_;
@@ -104,7 +100,6 @@ private:
     std::vector<SurfacePoint> where_;
     std::vector<double> wanted_;
     int free_count_;
-    bool worst_counts_ = false;  // among angles that can't all be mended; otherwise their sum does
 };
 
 }  // namespace fairing

@@ -1,4 +1,4 @@
-// How bad the triangles of a few vertices are, and moves and flips among them.
+// How bad the triangles of some vertices are, and moves and flips among them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,19 +9,16 @@
 #include "base/progress.h"
 #include "fill/angles.h"
 #include "fill/even_mesh.h"
+#include "fill/limits.h"
 
 namespace fairing {
 
 namespace {
 
-constexpr double wanted_angle = 30.0;  // degrees; promised are 25
-constexpr double settled = 0.999;      // of the penalty before, for a move
+constexpr double settled = 0.999;  // of the penalty before, for a move or a flip
 
-// Squared, or to the fourth power, where the smallest angle is to count alone.
-double powered_lack(double angle, bool worst_counts) {
-    const double lack = std::max(0.0, wanted_angle - angle);
-    return worst_counts ? lack * lack * lack * lack : lack * lack;
-}
+// To the fourth power, so that the smallest angle grows at the cost of others.
+double powered_lack(double angle) { return std::pow(std::max(0.0, wanted_angle - angle), 4); }
 
 double cosine_at(const Vector3& corner, const Vector3& a, const Vector3& b) {
     const Vector3 u = a - corner;
@@ -69,7 +66,7 @@ double EvenMesh::penalty(const Indices& vertices) const {
             int inside = 0;
             for (const Halfedge h : sides(f))
                 inside += std::binary_search(vertices.begin(), vertices.end(), mesh_.to_vertex_handle(h).idx()) ? 1 : 0;
-            sum += powered_lack(free_angle(f), worst_counts_) / inside;  // each triangle once
+            sum += powered_lack(free_angle(f)) / inside;  // each triangle once
         }
     }
     return sum;
@@ -88,7 +85,7 @@ int EvenMesh::settle_place(Vertex v) {
     const std::vector<Side> around = star(v);
     const auto penalty_at = [&](const Vector3& place) {
         double sum = 0.0;
-        for (const Side& side : around) sum += powered_lack(side.free_angle(place), worst_counts_);
+        for (const Side& side : around) sum += powered_lack(side.free_angle(place));
         return sum;
     };
     double best = penalty_at(point(v));
@@ -113,6 +110,16 @@ int EvenMesh::settle_place(Vertex v) {
     return moves;
 }
 
+// Where the least angle beside the edge grows.
+bool EvenMesh::improve_flip(Edge e) {
+    const auto [a, b, c, d] = diagonal(e);
+    const double before = powered_lack(std::min(least_angle(a, b, c), least_angle(b, a, d)));
+    const double after = powered_lack(std::min(least_angle(c, d, b), least_angle(d, c, a)));
+    if (after >= settled * before || !may_flip(e)) return false;
+    mesh_.flip(e);
+    return true;
+}
+
 // Flips the edges from v to vertices of higher number that lie among these. Returns how many.
 int EvenMesh::settle_edges(Vertex v, const Indices& vertices) {
     const auto is_inside = [&](Vertex u) { return std::binary_search(vertices.begin(), vertices.end(), u.idx()); };
@@ -131,7 +138,6 @@ int EvenMesh::settle_edges(Vertex v, const Indices& vertices) {
 
 // Flips and moves among these vertices alone.
 void EvenMesh::settle(const Indices& vertices) {
-    constexpr int most_rounds = 4;
     for (int round = 0; round < most_rounds; ++round) {
         checkpoint();
         int changes = 0;
@@ -142,6 +148,30 @@ void EvenMesh::settle(const Indices& vertices) {
             if (!mesh_.status(Vertex(k)).deleted() && !fixed(Vertex(k))) changes += settle_place(Vertex(k));
         }
         if (changes == 0) return;
+    }
+}
+
+// The corners of triangles with small angles and their neighbours, ascending.
+Indices EvenMesh::around_small_angles() const {
+    Indices found;
+    for (const Face f : mesh_.faces()) {
+        if (free_angle(f) >= wanted_angle) continue;
+        for (const Vertex v : mesh_.fv_range(f)) {
+            found.push_back(v.idx());
+            for (const Vertex u : mesh_.vv_range(v)) found.push_back(u.idx());
+        }
+    }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+}
+
+// What flips and moves can do about small angles.
+void EvenMesh::improve() {
+    for (int round = 0; round < most_rounds; ++round) {
+        const Indices vertices = around_small_angles();
+        if (vertices.empty()) return;
+        settle(vertices);
     }
 }
 
