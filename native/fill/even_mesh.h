@@ -21,7 +21,8 @@ public:
              KeptEdges kept = {});
     // Splits, collapses, flips and smooths. Asks whether to stop.
     void make_even();
-    // Splits edges and takes vertices out where angles below 26° stay otherwise, worst first. Asks whether to stop.
+    // Splits edges and takes vertices out where angles below 26° stay otherwise, worst first: then once more, so that
+    // the smallest grow at the cost of others. Asks whether to stop.
     void mend_angles();
     // Splits edges between fixed vertices, at which a patch would end, but for those at sharp corners. Returns how
     // many. With normals of the fixed vertices (3 × their count) corners whose triangle is turned against them are
@@ -90,6 +91,7 @@ private:
     [[nodiscard]] std::vector<std::function<int(EvenMesh&)>> remedies(Face f);
     [[nodiscard]] std::vector<Face> bad_faces() const;
     bool mend(Face f);
+    void mend_bad_faces();
     const Patch* patch_;
     const Points* points_;
     const TargetSurface* surface_;
@@ -100,6 +102,7 @@ private:
     std::vector<SurfacePoint> where_;
     std::vector<double> wanted_;
     int free_count_;
+    bool worst_counts_ = false;  // among angles that can't all be mended; otherwise their sum does
 };
 
 }  // namespace fairing

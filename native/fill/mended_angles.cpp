@@ -147,6 +147,13 @@ std::vector<EvenMesh::Face> EvenMesh::bad_faces() const {
 }
 
 void EvenMesh::mend_angles() {
+    for (const bool worst_counts : {false, true}) {
+        worst_counts_ = worst_counts;
+        mend_bad_faces();
+    }
+}
+
+void EvenMesh::mend_bad_faces() {
     const std::size_t most = std::min(most_attempts, most_copied / mesh_.n_vertices() + 1);
     std::size_t attempts = 0;
     for (int round = 0; round < most_rounds; ++round) {

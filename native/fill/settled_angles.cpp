@@ -17,8 +17,11 @@ namespace {
 
 constexpr double settled = 0.999;  // of the penalty before, for a move or a flip
 
-// To the fourth power, so that the smallest angle grows at the cost of others.
-double powered_lack(double angle) { return std::pow(std::max(0.0, wanted_angle - angle), 4); }
+// Squared, or to the fourth power, where the smallest angle is to count alone.
+double powered_lack(double angle, bool worst_counts) {
+    const double lack = std::max(0.0, wanted_angle - angle);
+    return worst_counts ? lack * lack * lack * lack : lack * lack;
+}
 
 double cosine_at(const Vector3& corner, const Vector3& a, const Vector3& b) {
     const Vector3 u = a - corner;
@@ -66,7 +69,7 @@ double EvenMesh::penalty(const Indices& vertices) const {
             int inside = 0;
             for (const Halfedge h : sides(f))
                 inside += std::binary_search(vertices.begin(), vertices.end(), mesh_.to_vertex_handle(h).idx()) ? 1 : 0;
-            sum += powered_lack(free_angle(f)) / inside;  // each triangle once
+            sum += powered_lack(free_angle(f), worst_counts_) / inside;  // each triangle once
         }
     }
     return sum;
@@ -85,7 +88,7 @@ int EvenMesh::settle_place(Vertex v) {
     const std::vector<Side> around = star(v);
     const auto penalty_at = [&](const Vector3& place) {
         double sum = 0.0;
-        for (const Side& side : around) sum += powered_lack(side.free_angle(place));
+        for (const Side& side : around) sum += powered_lack(side.free_angle(place), worst_counts_);
         return sum;
     };
     double best = penalty_at(point(v));
@@ -113,8 +116,8 @@ int EvenMesh::settle_place(Vertex v) {
 // Where the least angle beside the edge grows.
 bool EvenMesh::improve_flip(Edge e) {
     const auto [a, b, c, d] = diagonal(e);
-    const double before = powered_lack(std::min(least_angle(a, b, c), least_angle(b, a, d)));
-    const double after = powered_lack(std::min(least_angle(c, d, b), least_angle(d, c, a)));
+    const double before = powered_lack(std::min(least_angle(a, b, c), least_angle(b, a, d)), worst_counts_);
+    const double after = powered_lack(std::min(least_angle(c, d, b), least_angle(d, c, a)), worst_counts_);
     if (after >= settled * before || !may_flip(e)) return false;
     mesh_.flip(e);
     return true;
