@@ -9,6 +9,7 @@
 #include "base/direction.h"
 #include "base/progress.h"
 #include "geometry/face_geometry.h"
+#include "geometry/limits.h"
 #include "geometry/neighbourhood.h"
 #include "geometry/surface_fit.h"
 
@@ -17,13 +18,9 @@ namespace fairing {
 namespace {
 
 constexpr std::array<double, 4> reaches = {0.5, 0.8, 1.25, 2.0};  // wavelengths
-constexpr double between_fits = 0.35;                             // wavelengths
-constexpr double width_of_means = 0.35;                           // wavelengths
-constexpr double farthest_mean = 3.0;                             // of that width
-constexpr std::size_t least_points = 22;
-constexpr double contradiction = 4.0;  // standard errors
-constexpr double cos_of_widest_turn = 0.5;
-constexpr double least_error = 1e-10;  // of a slope: exact fits have rounding for one
+constexpr double spacing = 0.35;                                  // of fits, and the width of means: wavelengths
+constexpr double farthest_mean = 3.0;                             // of that spacing
+constexpr double contradiction = 4.0;                             // standard errors
 
 // The vertices that a walk within a ball reaches, nearest first.
 class Ball {
@@ -90,7 +87,7 @@ std::optional<SlopeFit> best_fit(const Vector3& centre, const Ball& ball, double
     std::optional<SlopeFit> best = narrow;
     for (const double reach : reaches) {
         const auto points = ball.within(reach * length);
-        if (points.size() < least_points) continue;
+        if (points.size() < points_of_fit) continue;
         for (const Degree degree : {Degree::quadratic, Degree::sphere}) {
             const auto fit = fit_slopes(centre, points, start, degree, Centre::free);
             if (!fit) continue;
@@ -122,11 +119,11 @@ std::vector<Anchor> anchors_at(const Points& points, const Triangles& triangles,
     Ball ball(points, triangles);
     SurfaceFits narrow(points, triangles, Centre::free);
     std::vector<Anchor> anchors;
-    for (int v : spaced(points, vertices, between_fits * wavelength)) {
+    for (int v : spaced(points, vertices, spacing * wavelength)) {
         checkpoint();
         ball.gather(v, reaches.back() * wavelength);
         const double first = reaches.front() * wavelength;
-        const bool crowded = ball.within(first).size() >= least_points && ball.is_flat(first);
+        const bool crowded = ball.within(first).size() >= points_of_fit && ball.is_flat(first);
         const auto fit =
             best_fit(points.col(v), ball, wavelength, crowded ? std::optional<SlopeFit>() : narrow.at_vertex(v));
         if (fit) anchors.push_back({points.col(v), *fit});
@@ -163,7 +160,7 @@ LowPass low_pass(const Points& points, const Triangles& triangles, const Indices
     LowPass result{points(Eigen::all, vertices), Points::Zero(3, static_cast<Eigen::Index>(vertices.size())),
                    std::vector<char>(vertices.size(), 0)};
     for (std::size_t k = 0; k < vertices.size(); ++k) {
-        const auto mean = mean_at(points.col(vertices[k]), anchors, width_of_means * wavelength);
+        const auto mean = mean_at(points.col(vertices[k]), anchors, spacing * wavelength);
         if (!mean) continue;
         result.points.col(static_cast<Eigen::Index>(k)) = mean->place;
         result.normals.col(static_cast<Eigen::Index>(k)) = mean->normal;

@@ -15,7 +15,6 @@ namespace {
 
 constexpr double even_growth = 0.5;   // of lengths by distance
 constexpr double steep_growth = 1.0;  // where the outline is so coarse that an even one gives too few vertices
-constexpr double shortest = 1e-12;
 
 // Mean length of the edges that stay at each vertex that has any, zero elsewhere.
 VectorX border_lengths(const Patch& patch, const Points& points, const KeptEdges& kept) {
@@ -52,7 +51,7 @@ VectorX continued(const Patch& patch, const Points& points, const VectorX& borde
     VectorX logarithms = VectorX::Zero(patch.vertex_count());
     for (int v = 0; v < patch.vertex_count(); ++v) {
         if (border[v] <= 0.0) continue;
-        sum += logarithms[v] = std::log(border[v] + shortest);
+        sum += logarithms[v] = std::log(border[v]);
         ++count;
     }
     const double mean = count > 0 ? sum / static_cast<double>(count) : 0.0;
@@ -117,7 +116,6 @@ VectorX lengths_inside(const Patch& patch, const Points& points, const WantedLen
 }  // namespace
 
 double expected_count(const Patch& patch, const Points& points, const VectorX& lengths) {
-    constexpr double vertices_per_square = 1.1547;  // of the edge: 2/√3
     FaceGeometry faces;
     faces.update(points, patch.triangles);
     double count = 0.0;

@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "fill/angles.h"
+#include "fill/limits.h"
 
 namespace fairing {
 
@@ -19,7 +20,6 @@ constexpr double split_above = 4.0 / 3.0;  // of the wanted length
 constexpr double collapse_below = 0.75;
 constexpr double longest_after = 1.4;      // edges that a collapse makes
 constexpr double most_per_expected = 2.0;  // vertices; on a surface with folds splits would never end
-constexpr int highest_valence = 8;         // flips and collapses make none higher
 
 Vector3 cross_product(const Vector3& a, const Vector3& b, const Vector3& c) { return (b - a).cross(c - a); }
 
@@ -221,7 +221,6 @@ Diagonal EvenMesh::diagonal(Edge e) const {
 
 // An edge is looked at again where a flip has changed a triangle beside it, or where it may not flip yet.
 int EvenMesh::flip_edges() {
-    constexpr int most_rounds = 4;
     std::vector<char> pending(mesh_.n_edges(), 1);
     int flips = 0;
     for (int round = 0; round < most_rounds; ++round) {
@@ -290,13 +289,13 @@ void EvenMesh::smooth(int sweeps) {
 }
 
 void EvenMesh::make_even() {
-    constexpr int most_rounds = 20;
+    constexpr int most_sweeps = 20;
     constexpr int settling_rounds = 4;
     constexpr int large = 10'000;
     int settled = 0;
     const double most = most_per_expected * (expected_count(*patch_, *points_, *lengths_) + patch_->vertex_count());
     split_chords();
-    for (int round = 0; round < most_rounds && settled < settling_rounds; ++round) {
+    for (int round = 0; round < most_sweeps && settled < settling_rounds; ++round) {
         const int before = static_cast<int>(mesh_.n_vertices());
         if (before > most) break;
         int changes = split_long();

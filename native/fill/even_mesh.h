@@ -64,9 +64,7 @@ private:
     [[nodiscard]] std::array<Edge, 4> sides_around(Edge e) const;
     void smooth(int sweeps);
     bool improve_flip(Edge e);
-    int improve_flips();
-    int improve_places(const std::vector<int>& vertices);
-    [[nodiscard]] double worst_angle_around(Vertex v, const Vector3& position) const;
+    [[nodiscard]] Indices around_small_angles() const;
     void improve();
     [[nodiscard]] std::array<Halfedge, 3> sides(Face f) const;
     // A triangle seen from one of its corners.

@@ -24,6 +24,7 @@ namespace fairing {
 namespace {
 
 constexpr Sizing sizing{0.5, 0.06, 20000};  // units of D
+constexpr double even_count = 400.0;        // vertices of an even mesh, about, where the outline is no finer
 
 Patch made_patch(int free_count, Triangles triangles, Eigen::Index vertex_count) {
     PatchMembers members;
@@ -119,12 +120,10 @@ Problem problem_on(const OpenOutline& outline, const Patch& patch, const SolverO
 }
 
 VectorX even_lengths(const Patch& patch, const Points& points) {
-    constexpr double even_count = 400.0;
-    constexpr double square_per_vertex = 1.1547;  // of the edge: 2/√3
     FaceGeometry faces;
     faces.update(points, patch.triangles);
     return edge_lengths(patch, points,
-                        {std::sqrt(square_per_vertex * faces.areas.sum() / even_count), 0, Spread::even});
+                        {std::sqrt(vertices_per_square * faces.areas.sum() / even_count), 0, Spread::even});
 }
 
 bool has_converged(const FirstSurface& surface) { return end_of(surface.solution) == Termination::converged; }
@@ -146,7 +145,7 @@ bool has_blown_up(const FirstSurface& surface) {
     const Points& points = surface.solution.points;
     const double count = expected_count(surface.patch, points, even_lengths(surface.patch, points));
     const int fixed_count = surface.patch.vertex_count() - surface.patch.free_count;
-    return !(count < most_per_fixed * (400.0 + fixed_count));
+    return !(count < most_per_fixed * (even_count + fixed_count));
 }
 
 // A mesh of some 400 vertices on the surface found, or more where the outline is fine.

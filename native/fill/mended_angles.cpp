@@ -7,17 +7,16 @@
 #include "base/progress.h"
 #include "fill/angles.h"
 #include "fill/even_mesh.h"
+#include "fill/limits.h"
 
 namespace fairing {
 
 namespace {
 
-constexpr double bad_angle = 26.0;            // degrees; promised are 25
 constexpr double worth_it = 0.9;              // of the penalty before
 constexpr double most_bad = 0.2;              // of all triangles; where there are more, the surface is folded
 constexpr std::size_t most_attempts = 60;     // triangles
 constexpr std::size_t most_copied = 600'000;  // vertices in all attempts; each copies the mesh some ten times
-constexpr unsigned most_valence = 8;
 
 }  // namespace
 
@@ -59,7 +58,7 @@ bool EvenMesh::may_close(Halfedge h) {
     const Vertex gone = mesh_.from_vertex_handle(h);
     const Vertex kept = mesh_.to_vertex_handle(h);
     if (fixed(gone) || free_count_ < 2 || !mesh_.is_collapse_ok(h)) return false;
-    if (mesh_.valence(gone) + mesh_.valence(kept) > most_valence + 4) return false;
+    if (static_cast<int>(mesh_.valence(gone) + mesh_.valence(kept)) > highest_valence + 4) return false;
     for (const Vertex other : mesh_.vv_range(gone)) {
         if (other != kept && !mesh_.find_halfedge(kept, other).is_valid() && !may_join(kept, other)) return false;
     }
@@ -94,7 +93,8 @@ std::vector<std::function<int(EvenMesh&)>> EvenMesh::remedies(Face f) {
         if (!stays(e)) {
             const Vertex above = apex(side);
             const Vertex below = apex(mesh_.opposite_halfedge_handle(side));
-            const bool has_room = mesh_.valence(above) <= most_valence && mesh_.valence(below) <= most_valence;
+            const bool has_room =
+                static_cast<int>(std::max(mesh_.valence(above), mesh_.valence(below))) <= highest_valence;
             if (has_room) result.emplace_back([e](EvenMesh& mesh) { return mesh.split(e).idx(); });
             if (has_room && mesh_.is_flip_ok(e) && may_join(above, below))
                 result.emplace_back([e](EvenMesh& mesh) { return mesh.turn_edge(e); });
@@ -154,7 +154,6 @@ void EvenMesh::mend_angles() {
 }
 
 void EvenMesh::mend_bad_faces() {
-    constexpr int most_rounds = 3;
     const std::size_t most = std::min(most_attempts, most_copied / mesh_.n_vertices() + 1);
     std::size_t attempts = 0;
     for (int round = 0; round < most_rounds; ++round) {

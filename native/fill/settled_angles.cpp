@@ -1,4 +1,4 @@
-// How bad the triangles of a few vertices are, and moves and flips among them.
+// How bad the triangles of some vertices are, and moves and flips among them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,13 +9,13 @@
 #include "base/progress.h"
 #include "fill/angles.h"
 #include "fill/even_mesh.h"
+#include "fill/limits.h"
 
 namespace fairing {
 
 namespace {
 
-constexpr double wanted_angle = 30.0;  // degrees; promised are 25
-constexpr double settled = 0.999;      // of the penalty before, for a move
+constexpr double settled = 0.999;  // of the penalty before, for a move or a flip
 
 // Squared, or to the fourth power, where the smallest angle is to count alone.
 double powered_lack(double angle, bool worst_counts) {
@@ -113,6 +113,16 @@ int EvenMesh::settle_place(Vertex v) {
     return moves;
 }
 
+// Where the least angle beside the edge grows.
+bool EvenMesh::improve_flip(Edge e) {
+    const auto [a, b, c, d] = diagonal(e);
+    const double before = powered_lack(std::min(least_angle(a, b, c), least_angle(b, a, d)), worst_counts_);
+    const double after = powered_lack(std::min(least_angle(c, d, b), least_angle(d, c, a)), worst_counts_);
+    if (after >= settled * before || !may_flip(e)) return false;
+    mesh_.flip(e);
+    return true;
+}
+
 // Flips the edges from v to vertices of higher number that lie among these. Returns how many.
 int EvenMesh::settle_edges(Vertex v, const Indices& vertices) {
     const auto is_inside = [&](Vertex u) { return std::binary_search(vertices.begin(), vertices.end(), u.idx()); };
@@ -131,7 +141,6 @@ int EvenMesh::settle_edges(Vertex v, const Indices& vertices) {
 
 // Flips and moves among these vertices alone.
 void EvenMesh::settle(const Indices& vertices) {
-    constexpr int most_rounds = 4;
     for (int round = 0; round < most_rounds; ++round) {
         checkpoint();
         int changes = 0;
@@ -142,6 +151,30 @@ void EvenMesh::settle(const Indices& vertices) {
             if (!mesh_.status(Vertex(k)).deleted() && !fixed(Vertex(k))) changes += settle_place(Vertex(k));
         }
         if (changes == 0) return;
+    }
+}
+
+// The corners of triangles with small angles and their neighbours, ascending.
+Indices EvenMesh::around_small_angles() const {
+    Indices found;
+    for (const Face f : mesh_.faces()) {
+        if (free_angle(f) >= wanted_angle) continue;
+        for (const Vertex v : mesh_.fv_range(f)) {
+            found.push_back(v.idx());
+            for (const Vertex u : mesh_.vv_range(v)) found.push_back(u.idx());
+        }
+    }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+}
+
+// What flips and moves can do about small angles.
+void EvenMesh::improve() {
+    for (int round = 0; round < most_rounds; ++round) {
+        const Indices vertices = around_small_angles();
+        if (vertices.empty()) return;
+        settle(vertices);
     }
 }
 

@@ -14,7 +14,6 @@ namespace fairing {
 namespace {
 
 constexpr std::size_t largest_exact = 400;
-constexpr std::size_t thinned = 200;
 constexpr double share_of_edges = 1e-3;
 
 // Chord (i, k) of n corners, i < k.
@@ -72,7 +71,7 @@ Indices kept_places(const Indices& polygon) {
     Indices kept;
     std::size_t next = 0;
     for (std::size_t k = 0; k < n; ++k) {
-        const bool due = k * thinned >= next * n;
+        const bool due = k * (largest_exact / 2) >= next * n;
         if (due) ++next;
         if (due || passes[polygon[k]] > 1) kept.push_back(static_cast<int>(k));
     }

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "base/parallel.h"
+#include "geometry/limits.h"
 #include "geometry/one_ring_buffer.h"
 #include "geometry/virtual_points.h"
 
@@ -27,15 +28,11 @@ namespace {
 constexpr double wide = 2.0 * std::numbers::pi / 3.0;
 constexpr double narrow = std::numbers::pi / 2.0;
 
-// Of the farthest point around a vertex of the outline. Fixed vertices stay as near to each other as they were given,
-// down to 3e-5 of an edge on voxel meshes and beside booleans, and a normal's error is divided by that distance.
-constexpr double least_distance = 0.05;
-
 // Squared distance from which on points around a vertex of the outline tell its curvature.
 double least_squared(const Vector3& centre, std::span<const Vector3> around) {
     double most = 0.0;
     for (const Vector3& p : around) most = std::max(most, (p - centre).squaredNorm());
-    return least_distance * least_distance * most;
+    return least_told * least_told * most;
 }
 
 // The angle that the patch fills around a vertex of its outline, in the tangent plane there. A constant of the problem

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "geometry/frame.h"
+#include "geometry/limits.h"
 #include "geometry/tall_system.h"
 
 namespace fairing {
@@ -18,7 +19,6 @@ constexpr int least_rounds = 3;           // the direction is known from the sec
 constexpr int most_rounds = 10;
 constexpr double settled = 1e-12;
 constexpr double settled_in_noise = 1e-3;  // standard errors
-constexpr double cos_of_widest_turn = 0.5;
 
 // Columns of the system: quadratic and cubic terms, the constant where the centre is free, then x and y; the heights
 // stand in the last one.

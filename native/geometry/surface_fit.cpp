@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "geometry/face_geometry.h"
+#include "geometry/limits.h"
 #include "mesh/strip.h"
 
 namespace fairing {
@@ -17,7 +18,6 @@ namespace {
 constexpr int quadratic_rings = 2;
 constexpr int cubic_rings = 3;
 constexpr int wide_rings = 4;
-constexpr std::size_t nearest_points = 22;
 constexpr std::size_t wide_points = 40;
 
 struct Candidate {
@@ -28,8 +28,8 @@ struct Candidate {
 // Two rings follow a coarse mesh whatever its quads' proportions; cubics are for fine ones; many points for noisy ones.
 std::vector<Candidate> candidates(const Neighbourhood& around, Centre at_centres) {
     std::vector<Candidate> list{{around.rings(quadratic_rings), Degree::quadratic},
-                                {around.nearest(nearest_points), Degree::quadratic},
-                                {around.nearest(nearest_points), Degree::cubic},
+                                {around.nearest(points_of_fit), Degree::quadratic},
+                                {around.nearest(points_of_fit), Degree::cubic},
                                 {around.rings(cubic_rings), Degree::cubic}};
     if (at_centres == Centre::met) return list;
     for (const Degree degree : {Degree::quadratic, Degree::cubic}) {
@@ -42,7 +42,7 @@ std::vector<Candidate> candidates(const Neighbourhood& around, Centre at_centres
 }  // namespace
 
 Reach SurfaceFits::reach_of(Centre at_centres) {
-    return at_centres == Centre::free ? Reach{wide_rings, wide_points} : Reach{cubic_rings, nearest_points};
+    return at_centres == Centre::free ? Reach{wide_rings, wide_points} : Reach{cubic_rings, points_of_fit};
 }
 
 SurfaceFits::SurfaceFits(const Points& points, const Triangles& triangles, Centre at_centres)

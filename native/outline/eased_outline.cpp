@@ -6,6 +6,7 @@
 
 #include <Eigen/SparseCholesky>
 
+#include "geometry/limits.h"
 #include "linear/elimination.h"
 
 namespace fairing {
@@ -42,10 +43,6 @@ Points across(const Points& curve, const Points& normals, const Points& otherwis
     return result;
 }
 
-// Of a loop's mean edge. On voxel meshes and beside booleans outline vertices are as near to each other as 3e-5 of it,
-// and a normal's error is divided by that.
-constexpr double least_edge = 0.05;
-
 double mean_edge_of(const Patch& patch, const OutlineData& outline, const Indices& loop) {
     double sum = 0.0;
     for (std::size_t k = 0; k < loop.size(); ++k) {
@@ -60,7 +57,7 @@ double mean_edge_of(const Patch& patch, const OutlineData& outline, const Indice
 double outline_variation(const Patch& patch, const OutlineData& outline) {
     double sum = 0.0;
     for (const Indices& loop : patch.loops()) {
-        const double least = std::pow(least_edge * mean_edge_of(patch, outline, loop), 4.0);
+        const double least = std::pow(least_told * mean_edge_of(patch, outline, loop), 4.0);
         for (std::size_t k = 0; k < loop.size(); ++k) {
             const int a = loop[k] - patch.free_count;
             const int b = loop[(k + 1) % loop.size()] - patch.free_count;

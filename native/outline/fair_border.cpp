@@ -129,17 +129,9 @@ private:
         return {x.transpose(), left > 0.0 ? score : std::numeric_limits<double>::max()};
     }
 
-    // Some columns at a time.
     static double trace_of_inverse(const Eigen::SimplicialLDLT<SparseMatrix>& factor, int count) {
-        constexpr int at_once = 64;
         double trace = 0.0;
-        for (int first = 0; first < count; first += at_once) {
-            const int some = std::min(at_once, count - first);
-            Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(count, some);
-            for (int k = 0; k < some; ++k) unit(first + k, k) = 1.0;
-            const Eigen::MatrixXd x = factor.solve(unit);
-            for (int k = 0; k < some; ++k) trace += x(first + k, k);
-        }
+        for (int k = 0; k < count; ++k) trace += factor.solve(VectorX::Unit(count, k))[k];
         return trace;
     }
 

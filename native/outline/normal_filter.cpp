@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "base/direction.h"
+#include "geometry/limits.h"
 #include "linear/conjugate_gradients.h"
 
 namespace fairing {
 
 namespace {
 
-constexpr double strength = 16.0;      // μ
-constexpr double least_error = 1e-10;  // of a slope: exact fits have rounding for one
+constexpr double strength = 16.0;  // μ
 constexpr double accuracy = 1e-12;
 constexpr int most_cycles = 500;
 

@@ -14,7 +14,6 @@ namespace fairing {
 namespace {
 
 constexpr double least_agreement = 0.5;  // of the directions into the gap; 0 around a flat ring, 1 at a tube
-constexpr double least_share = 1e-12;
 
 struct Rim {
     TubeEnd end;
@@ -116,7 +115,8 @@ TubeSection::TubeSection(const Indices& loop, std::size_t first, const Points& p
 Vector3 TubeSection::at_share(double u) const {
     const auto after = std::upper_bound(shares_.begin() + 1, shares_.end() - 1, u);
     const auto k = static_cast<std::size_t>(after - shares_.begin());
-    const double part = (u - shares_[k - 1]) / std::max(shares_[k] - shares_[k - 1], least_share);
+    const double width = shares_[k] - shares_[k - 1];
+    const double part = width > 0.0 ? (u - shares_[k - 1]) / width : 0.0;
     return (1.0 - part) * locals_[k - 1] + part * locals_[k];
 }
 
