@@ -64,9 +64,9 @@ Wheel uneven(const std::vector<double>& angles) {
 // Largest change of H from one step of the sweep to the next.
 double largest_jump(const std::function<Wheel(double)>& at, bool completed, int steps = 2000) {
     double largest = 0.0;
-    double last = 0.0.mean_curvature(completed);
+    double last = at(0.0).mean_curvature(completed);
     for (int k = 1; k <= steps; ++k) {
-        const double H = (static_cast<double>(k) / steps).mean_curvature(completed);
+        const double H = at(static_cast<double>(k) / steps).mean_curvature(completed);
         largest = std::max(largest, std::abs(H - last));
         last = H;
     }
