@@ -15,8 +15,6 @@ namespace {
 
 constexpr int history_depth = 6;
 constexpr double largest_step = 0.1;  // units of D
-constexpr double undamped = 1.0;
-constexpr double damped = 0.4;
 // The residual may grow for a while: near clusters of valence 3 only the history tames a growing mode of the plain
 // map. Far above the best it is hopeless, unless the steps still shrink now and then: in clusters of a large mesh
 // triangles are so small that the residual there is noise.
@@ -62,11 +60,10 @@ constexpr double most_left_of_step = 0.03;
 
 class AcceleratedIteration {
 public:
-    AcceleratedIteration(const Problem& problem, Workspace& work, double damping, const Progress& progress)
+    AcceleratedIteration(const Problem& problem, Workspace& work, const Progress& progress)
         : problem_(problem),
           patch_(problem.patch),
           work_(work),
-          damping_(damping),
           progress_(progress),
           own_history_(history_depth),
           anderson_(work.keeps_factor ? kept_history() : own_history_),
@@ -147,7 +144,6 @@ private:
 
     void move(Points d) {
         best_ = best_ == Best::here ? Best::one_back : Best::stored;
-        d *= damping_;
         anderson_.move(state_.points, std::move(d), largest_step);
     }
 
@@ -256,7 +252,6 @@ private:
     const Problem& problem_;
     const Patch& patch_;
     Workspace& work_;
-    double damping_;
     const Progress& progress_;
     Anderson own_history_;
     Anderson& anderson_;
@@ -283,11 +278,7 @@ private:
 }  // namespace
 
 Solution iterate(const Problem& problem, Workspace& work, Points start, const Progress& progress) {
-    return AcceleratedIteration(problem, work, undamped, progress).run(std::move(start));
-}
-
-Solution iterate_damped(const Problem& problem, Workspace& work, Points start, const Progress& progress) {
-    return AcceleratedIteration(problem, work, damped, progress).run(std::move(start));
+    return AcceleratedIteration(problem, work, progress).run(std::move(start));
 }
 
 }  // namespace fairing
