@@ -15,11 +15,6 @@ namespace {
 
 constexpr int history_depth = 6;
 constexpr double largest_step = 0.1;  // units of D
-// The residual may grow for a while: near clusters of valence 3 only the history tames a growing mode of the plain
-// map. Far above the best it is hopeless, unless the steps still shrink now and then: in clusters of a large mesh
-// triangles are so small that the residual there is noise.
-constexpr double hopeless_growth = 1e4;
-constexpr int growth_patience = 2;    // iterations without a shorter step
 constexpr double last_digits = 1e-5;  // units of D; shorter steps shrink unevenly where a surface is found, too
 constexpr double slow = 0.5;          // contraction over `refresh_after` iterations that asks for a new factor
 constexpr int refresh_after = 6;
@@ -236,10 +231,9 @@ private:
     bool hopeless(double largest) {
         last_step_ = largest;
         const int in_vain = steps_.in_vain(largest);
-        const bool grown = in_vain > growth_patience && residual_ > hopeless_growth * best_residual_;
         const bool creeps = contraction_.is_slow(largest) && problem_.options.contracts && largest > last_digits;
         const bool stays = solution_.iterations == problem_.options.nears_within && stays_far(solution_);
-        return !std::isfinite(largest) || grown || creeps || stays || in_vain > problem_.options.patience;
+        return !std::isfinite(largest) || creeps || stays || in_vain > problem_.options.patience;
     }
 
     const Problem& problem_;
