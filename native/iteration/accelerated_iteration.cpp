@@ -6,6 +6,7 @@
 
 #include "iteration/reaction.h"
 #include "linear/anderson.h"
+#include "linear/limits.h"
 #include "linear/shrinking_steps.h"
 #include "problem/surface_state.h"
 
@@ -13,8 +14,6 @@ namespace fairing {
 
 namespace {
 
-constexpr int history_depth = 6;
-constexpr double largest_step = 0.1;  // units of D
 constexpr double last_digits = 1e-5;  // units of D; shorter steps shrink unevenly where a surface is found, too
 constexpr double slow = 0.5;          // contraction over `refresh_after` iterations that asks for a new factor
 constexpr int refresh_after = 6;
@@ -129,7 +128,7 @@ private:
 
     void move(Points d) {
         best_ = best_ == Best::here ? Best::one_back : Best::stored;
-        anderson_.move(state_.points, std::move(d), largest_step);
+        anderson_.move(state_.points, std::move(d), longest_step);
     }
 
     // The best points are copied only where nothing else keeps them: a large patch has no room for them twice.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "linear/anderson.h"
+#include "linear/limits.h"
 #include "problem/surface_state.h"
 
 namespace fairing {
@@ -10,10 +11,8 @@ namespace fairing {
 namespace {
 
 constexpr int most_steps = 60;
-constexpr double largest_step = 0.1;  // units of D
 constexpr double done = 1e-7;
 constexpr int most_halvings = 8;
-constexpr int history_depth = 5;
 
 class Relaxation {
 public:
@@ -42,8 +41,8 @@ private:
         const auto as_vector = [](const auto& points) { return VectorX(points.reshaped()); };
         const VectorX far = anderson_.step(as_vector(placement_.points.leftCols(d.cols())), as_vector(d));
         Points move = Eigen::Map<const Points>(far.data(), 3, d.cols());
-        if (accepts(move * std::min(1.0, largest_step / largest_length(move)))) return true;
-        double length = std::min(1.0, largest_step / largest);
+        if (accepts(move * std::min(1.0, longest_step / largest_length(move)))) return true;
+        double length = std::min(1.0, longest_step / largest);
         for (int halving = 0; halving < most_halvings; ++halving, length *= 0.5) {
             if (accepts(length * d)) return true;
         }
