@@ -10,7 +10,7 @@ namespace {
 
 constexpr int largest_valence = 9;
 constexpr int least_valence = 4;
-constexpr double weak = 3.0;  // what a collapse along an edge without weight costs, in units of (valence − 6)²
+constexpr double weak = 3.0;      // what a collapse along an edge without weight costs, in units of (valence − 6)²
 constexpr double straight = 0.8;  // cosine of the turn that a thinned outline or its normals may make at a vertex
 
 }  // namespace

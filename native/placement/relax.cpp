@@ -71,8 +71,8 @@ void relax(const TangentialStep& tangential, const TargetSurface& target, Placem
     Relaxation(tangential, target, placement).run();
 }
 
-void settle(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
-            Placement& placement, const Progress& progress) {
+void settle(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target, Placement& placement,
+            const Progress& progress) {
     if (const auto* rows = std::get_if<RowWeights>(&*problem.weights)) {
         const auto symmetric = make_tangential_step(problem.patch, symmetrised(*rows), problem.fixed_points, progress);
         relax(*symmetric, target, placement);

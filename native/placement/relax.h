@@ -12,7 +12,7 @@ namespace fairing {
 void relax(const TangentialStep& tangential, const TargetSurface& target, Placement& placement);
 
 // Relaxes, weights that aren't symmetric by way of their symmetric part: they have no energy to descend.
-void settle(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
-            Placement& placement, const Progress& progress);
+void settle(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target, Placement& placement,
+            const Progress& progress);
 
 }  // namespace fairing
