@@ -5,14 +5,13 @@
 #include <Eigen/Cholesky>
 
 #include "base/parallel.h"
+#include "linear/limits.h"
 
 namespace fairing {
 
 namespace {
 
-// Columns that are eliminated at once, and tiles of the products of large fronts.
-constexpr int block = 128;
-constexpr int tile = 192;
+constexpr int block = 128;  // columns that are eliminated at once
 
 template <typename Scalar>
 using Block = Eigen::Ref<Dense<Scalar>, 0, Eigen::OuterStride<>>;

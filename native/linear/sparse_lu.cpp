@@ -4,14 +4,12 @@
 #include <atomic>
 
 #include "base/parallel.h"
+#include "linear/limits.h"
 #include "linear/tree_solve.h"
 
 namespace fairing {
 
 namespace {
-
-// Columns of a large front that are eliminated at once.
-constexpr int tile = 192;
 
 // Where a position of the factor stands in the row list of a supernode that has it.
 Eigen::Index place_in(const Supernodes& nodes, int s, int position) {

@@ -30,7 +30,7 @@ Points settled(const Problem& problem, const Workspace& work, const Points& poin
     const SurfaceState state = measured_surface(problem, points);
     const TargetSurface target(problem.patch, points, state.normals);
     Placement placement = at_vertices(problem, target, points);
-    relax(problem, *work.tangential, target, placement);
+    relax(*work.tangential, target, placement);
     return placement.points;
 }
 

@@ -10,10 +10,8 @@ namespace {
 
 constexpr int largest_valence = 9;
 constexpr int least_valence = 4;
-constexpr double weak = 3.0;  // what a collapse along an edge without weight costs, in units of (valence − 6)²
-// Cosines of the turn that a thinned outline may make from one edge to the next, and of the turn of its normals.
-constexpr double straight = 0.8;
-constexpr double parallel = 0.8;
+constexpr double weak = 3.0;      // what a collapse along an edge without weight costs, in units of (valence − 6)²
+constexpr double straight = 0.8;  // cosine of the turn that a thinned outline or its normals may make at a vertex
 
 }  // namespace
 
@@ -54,7 +52,7 @@ bool CollapseMesh::may_thin(const Star& star, std::size_t k) const {
     const Vector3 from = points.col(v) - points.col(b);
     if (to.dot(from) < straight * to.norm() * from.norm()) return false;
     const auto& normals = outline_.normals;
-    return normals.col(a).dot(normals.col(b)) >= parallel;
+    return normals.col(a).dot(normals.col(b)) >= straight;
 }
 
 // The link condition, and no chord from a fixed vertex to another one.

@@ -50,7 +50,6 @@ private:
             untangle(problem_, target_, placement);
             folded = folds_of_placement(problem_, target_, placement);
             if (folded.size() > few_folds ? 2 * folded.size() > before : folded.size() >= before) break;
-            folded = relax_unfolded(placement, std::move(folded));
         }
         return keep(std::move(placement));
     }
@@ -67,16 +66,6 @@ private:
             merit_ = merit;
         }
         return done;
-    }
-
-    // As even as the springs get without new folds; gives the folds.
-    Indices relax_unfolded(Placement& placement, Indices before) const {
-        Placement relaxed = placement;
-        relax(problem_, tangential_, target_, relaxed, Folds::held_back);
-        Indices after = folds_of_placement(problem_, target_, relaxed);
-        if (after.size() > before.size()) return before;
-        placement = std::move(relaxed);
-        return after;
     }
 
     const Problem& problem_;

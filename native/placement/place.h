@@ -27,7 +27,7 @@ struct OwnMeshSurface {
 // Tries several placements and takes the one with the fewest folds, then with the least merit (tangential_step.h). They
 // begin from `guess`, a surface of the problem's own patch that has the right sheets, from the history of the proxy
 // mesh, and on discs from what both meshes share there (placement/disc_placement). Where the springs' minimum is
-// folded, folds are turned back vertex by vertex, and the springs relax only as far as nothing folds.
+// folded, folds are turned back vertex by vertex.
 Placed place(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
              const std::optional<Points>& guess, const Progress& progress);
 

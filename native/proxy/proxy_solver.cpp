@@ -176,24 +176,13 @@ private:
         });
     }
 
-    // The equation from a good start; with damped steps where the plain ones fail and patience pays.
-    Solution solve_patiently(const Problem& problem, Workspace& work, const Points& start,
-                             const Progress& progress) const {
-        Solution solution = solve_equation(problem, work, start, progress);
-        if (solution.termination == Termination::converged || problem.options.equation == Equation::constant)
-            return solution;
-        if (!pays_patience(problem_, shown_)) return solution;
-        Solution damped = iterate_damped(problem, work, start, progress);
-        return damped.termination == Termination::converged ? damped : solution;
-    }
-
     template <typename MakeStart>
     CoarseProxy iterate_coarse(ProxyMesh mesh, const MakeStart& make_start) {
         const auto snapshot = mesh.snapshot();
         const Problem problem = coarse_problem(problem_, shown_, snapshot.patch);
         Workspace work = make_workspace(problem, progress_);
         const Points start = make_start(problem, work, snapshot.points);
-        const Solution solution = solve_patiently(problem, work, start, progress_.here());
+        const Solution solution = solve_equation(problem, work, start, progress_.here());
         const CoarseEnd end = end_of(solution, problem_, shown_);
         mesh.read_back(snapshot.patch, end == CoarseEnd::converged ? solution.points : start);
         return {std::move(mesh), end};
@@ -234,7 +223,7 @@ private:
         // The Willmore descent leads away from straight pipes: only where it is needed.
         if (solution.termination != Termination::converged && !hopeless) {
             start = globalise(problem, work, start, progress_.range(0.4, 0.5));
-            solution = solve_patiently(problem, work, start, progress_.range(0.5, 0.8));
+            solution = solve_equation(problem, work, start, progress_.range(0.5, 0.8));
         }
         if (solution.termination == Termination::converged) start = solution.points;
         return measured(std::move(mesh), snapshot, problem, start, std::move(solution));

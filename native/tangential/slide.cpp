@@ -6,14 +6,14 @@
 
 #include "base/parallel.h"
 #include "linear/anderson.h"
+#include "linear/limits.h"
 #include "problem/surface_state.h"
 
 namespace fairing {
 
 namespace {
 
-constexpr int history_depth = 3;
-constexpr double longest_move = 0.1;  // units of D
+constexpr int depth = 3;
 constexpr double stuck = 0.8;         // from one step to the next: vertices that the outline holds back
 constexpr double near_enough = 5e-4;  // units of D; the iteration does the rest
 // Of the step that would come next, by how the last two shrank; faster than `fastest` is luck.
@@ -43,7 +43,7 @@ void walk(Sliding& vertices) {
 
 void slide(Sliding& vertices, const TangentialStep& tangential, int most_steps) {
     Points& points = vertices.points;
-    Anderson anderson(history_depth);
+    Anderson anderson(depth);
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < most_steps; ++step) {
         Points d = tangential.displacement(points, {vertices.normals, vertices.shapes});
@@ -51,7 +51,7 @@ void slide(Sliding& vertices, const TangentialStep& tangential, int most_steps) 
         if (largest > stuck * last) return;
         const double next = largest * std::max(largest / last, fastest);
         last = largest;
-        anderson.move(points, std::move(d), longest_move);
+        anderson.move(points, std::move(d), longest_step);
         walk(vertices);
         if (largest < near_enough || (step > 0 && next < next_near_enough)) return;
     }

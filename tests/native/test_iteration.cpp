@@ -39,10 +39,9 @@ struct Ball {
                 make_tangential_step(patch(), problem.weights, problem.fixed_points, Progress())};
     }
 
-    template <typename Iteration>
-    [[nodiscard]] Solution solve(const Iteration& iteration) const {
+    [[nodiscard]] Solution solve() const {
         Workspace work = workspace();
-        return iteration(problem, work, start, Progress());
+        return iterate(problem, work, start, Progress());
     }
 };
 
@@ -64,32 +63,16 @@ void blow_up(Ball& ball) {
 
 TEST_CASE("the iteration finds the sphere that its border belongs to") {
     const Ball ball;
-    const Solution solution = ball.solve(iterate);
+    const Solution solution = ball.solve();
     CHECK(solution.termination == Termination::converged);
     CHECK(off_the_sphere(solution.points) < 1e-6);
-}
-
-TEST_CASE("damped, it finds the same surface by shorter steps") {
-    const Ball ball;
-    const Solution plain = ball.solve(iterate);
-    const Solution damped = ball.solve(iterate_damped);
-    CHECK(damped.termination == Termination::converged);
-    CHECK(distance(damped.points, plain.points) < 1e-5);
-    CHECK(damped.iterations > plain.iterations);
-    // Before any history, one step goes 0.4 of the way that the plain one goes.
-    Ball once;
-    once.problem.options.max_iterations = 2;  // the second one measures where the first has led
-    const auto first_step = [&](const auto& iteration) { return Points(once.solve(iteration).points - once.start); };
-    const Points whole = first_step(iterate);
-    CHECK(whole.norm() > 0.0);
-    CHECK(distance(first_step(iterate_damped), 0.4 * whole) < 1e-12);
 }
 
 TEST_CASE("however far off the surface is, no step is longer than a tenth of the diameter") {
     Ball far;
     blow_up(far);
     far.problem.options.max_iterations = 2;  // the second one measures where the first has led
-    const Points step = far.solve(iterate).points - far.start;
+    const Points step = far.solve().points - far.start;
     CHECK(step.colwise().norm().maxCoeff() == doctest::Approx(0.1));
 }
 
@@ -97,7 +80,7 @@ TEST_CASE("an iteration whose steps no longer shrink is given up") {
     Ball ball;
     ball.problem.options.tolerance = 0.0;  // nobody reaches that: round-off keeps the steps above
     ball.problem.options.max_iterations = 500;
-    const Solution solution = ball.solve(iterate);
+    const Solution solution = ball.solve();
     CHECK(solution.termination == Termination::stalled);
     CHECK(solution.iterations < 150);
     CHECK(off_the_sphere(solution.points) < 1e-6);  // the best of all is kept
@@ -106,28 +89,28 @@ TEST_CASE("an iteration whose steps no longer shrink is given up") {
 TEST_CASE("an iteration that has to contract ends where its steps shrink too slowly") {
     Ball far;
     blow_up(far);
-    const Solution patient = far.solve(iterate);
+    const Solution patient = far.solve();
     CHECK(patient.termination == Termination::stalled);
     far.problem.conduct.contracts = true;
-    const Solution given_up = far.solve(iterate);
+    const Solution given_up = far.solve();
     CHECK(given_up.termination == Termination::stalled);
     CHECK(given_up.iterations < 10);
     CHECK(patient.iterations > 2 * given_up.iterations);
     Ball near;
     near.problem.conduct.contracts = true;
-    CHECK(near.solve(iterate).termination == Termination::converged);
+    CHECK(near.solve().termination == Termination::converged);
 }
 
 TEST_CASE("an iteration that stays far from a surface ends early where that is asked, one that is near goes on") {
     Ball far;
     blow_up(far);
     far.problem.conduct.nears_within = 3;
-    const Solution given_up = far.solve(iterate);
+    const Solution given_up = far.solve();
     CHECK(given_up.termination == Termination::stalled);
     CHECK(given_up.iterations == 3);
     Ball near;
     near.problem.conduct.nears_within = 6;
-    CHECK(near.solve(iterate).termination == Termination::converged);
+    CHECK(near.solve().termination == Termination::converged);
     Solution creeping;
     creeping.first_step = near_step;
     creeping.least_step = 0.9 * near_step;
@@ -137,12 +120,12 @@ TEST_CASE("an iteration that stays far from a surface ends early where that is a
 TEST_CASE("where steps shrink fast the iteration ends without a last one that is within the tolerance") {
     Ball tight;
     tight.problem.options.tolerance = 1e-11;
-    const Points exact = tight.solve(iterate).points;
+    const Points exact = tight.solve().points;
     int sooner = 0;
     for (double tolerance = 1e-3; tolerance > 1e-9; tolerance *= 0.4) {
         Ball ball;
         ball.problem.options.tolerance = tolerance;
-        const Solution solution = ball.solve(iterate);
+        const Solution solution = ball.solve();
         CHECK(solution.termination == Termination::converged);
         CHECK(distance(solution.points, exact) < tolerance);
         if (solution.last_step > tolerance) ++sooner;
@@ -162,20 +145,20 @@ TEST_CASE("steps that shrank by luck end no iteration whose residual says otherw
         tight.problem.options.tolerance = 1e-11;
         Ball ball(c.n, c.jitter);
         ball.problem.options.tolerance = c.tolerance;
-        CHECK(distance(ball.solve(iterate).points, tight.solve(iterate).points) < c.tolerance);
+        CHECK(distance(ball.solve().points, tight.solve().points) < c.tolerance);
     }
 }
 
 TEST_CASE("of a surface that is only a start the last step is taken, too") {
     Ball ball;
     ball.problem.options.tolerance = 0.1;  // more than twice the first step
-    CHECK(distance(ball.solve(iterate).points, ball.start) == 0.0);
+    CHECK(distance(ball.solve().points, ball.start) == 0.0);
     ball.problem.conduct.start_only = true;
-    const Solution solution = ball.solve(iterate);
+    const Solution solution = ball.solve();
     CHECK(solution.termination == Termination::converged);
     Ball once;
     once.problem.options.max_iterations = 2;  // the second one measures where the first has led
-    CHECK(distance(solution.points, once.solve(iterate).points) < 1e-12);
+    CHECK(distance(solution.points, once.solve().points) < 1e-12);
 }
 
 namespace {

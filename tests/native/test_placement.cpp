@@ -7,7 +7,6 @@
 #include "placement/first_placement.h"
 #include "placement/folds.h"
 #include "placement/refill.h"
-#include "placement/relax.h"
 #include "placement/untangle.h"
 #include "problem/surface_state.h"
 #include "tangential/slide.h"
@@ -54,16 +53,6 @@ struct Square {
         return folded_triangles(problem, target, placement).size();
     }
 };
-
-// λ that pull every free vertex to its neighbours on the right.
-Lambda one_sided_pull(const Square& square) {
-    InnerWeights weights;
-    for (const auto& [a, b] : square.patch().edge_ends) {
-        const double x = 0.5 * (square.single.points(0, a) + square.single.points(0, b));
-        weights.push_back({a, b, std::exp(-25.0 * std::abs(x - 0.4) * (1.0 + std::sin(40.0 * x)))});
-    }
-    return weights;
-}
 
 }  // namespace
 
@@ -121,38 +110,4 @@ TEST_CASE("vertices that follow a surface of their own mesh land where they are 
     for (int v = 0; v < square.patch().free_count; ++v) lifted(2, v) = 0.3 * std::sin(9.0 * lifted(0, v));
     const Placement again = by_surface(square.problem, lifted, square.patch(), square.target);
     CHECK((again.points - square.single.points).cwiseAbs().maxCoeff() < 1e-12);
-}
-
-TEST_CASE("springs that hold folds back get less than all they pull for, and fold nothing") {
-    const Square square;
-    const Problem problem = square.make_problem(one_sided_pull(square));
-    const auto tangential = make_tangential_step(square.patch(), problem.weights, problem.fixed_points, Progress());
-    // From a placement without folds next to one with many.
-    Placement start = square.twirled(2.0);
-    untangle(problem, square.target, start);
-    REQUIRE(square.folds(start) == 0);
-    Placement held = start;
-    const double before = tangential->merit(start.points, normals_at(start, square.target));
-    const double after = relax(problem, *tangential, square.target, held, Folds::held_back);
-    CHECK(after < before);
-    CHECK(folded_mask(problem, square.target, held) == std::vector<char>(square.patch().triangle_count(), 0));
-}
-
-TEST_CASE("a refill restores a plane around a vertex pulled out of it, and nothing else moves") {
-    const Square square;
-    const Patch& patch = square.patch();
-    Points points = square.single.points;
-    const int pulled = patch.free_count / 2;
-    points.col(pulled) += Vector3(0.4, -0.3, 2.0);
-    Indices around;
-    for (int t = 0; t < patch.triangle_count(); ++t) {
-        if ((patch.triangles.col(t).array() == pulled).any()) around.push_back(t);
-    }
-    points.col(0).z() += 1e-3;  // a corner, far from them
-    for (const int rings : {0, 1}) {
-        const Points result = refilled(patch, points, around, rings);
-        CHECK((result.col(pulled) - square.single.points.col(pulled)).norm() < 1e-12);
-        const bool kept = result.col(0) == points.col(0);
-        CHECK(kept);
-    }
 }
