@@ -12,6 +12,7 @@ from .options import FairOptions
 from .quality import Join
 from .selection import LeftOut
 from .vectors import area_vectors, unit
+from .waist import belly, waist
 from .words import counted
 
 STEEP = 40.0  # degrees from which a kink at the outline is worse than a hard edge that was rounded off
@@ -171,15 +172,21 @@ def _uneven(evidence: Evidence, options: FairOptions) -> Found:
     reason = girth_reason(evidence.result)
     if not reason or not judges_join(options) or _is_meant_to_swell(options):
         return NOTHING
-    return reason, _most_bent(evidence)
+    patch = evidence.problem.patch
+    find = waist if _is_thin(evidence.result) else belly
+    return reason, patch.vertices[find(_points(evidence), patch.triangles)]
 
 
 def girth_reason(result: Result) -> str:
     """Return the sentence for a surface between outlines that is too thin or too thick; empty where it is neither."""
     least, largest = result.girth or (1.0, 1.0)
-    if least < THIN:
+    if _is_thin(result):
         return f"The tube narrows to {least:.0%} of its ends"
     return f"The tube swells to {largest:.0%} of its ends" if largest > THICK else ""
+
+
+def _is_thin(result: Result) -> bool:
+    return bool(result.girth and result.girth[0] < THIN)
 
 
 def _most_bent(evidence: Evidence) -> Ints:
