@@ -10,6 +10,7 @@ import pytest
 
 import fairing
 import holes
+import shapes
 from fairing import _core, _loops, _short_edges
 from holes import FloatArray, Mesh
 
@@ -198,6 +199,23 @@ def test_a_new_mesh_in_proportion_to_the_old_surface() -> None:
     assert error.diagnostic.figures["count"] > 4e6
     refused(lambda: fairing.remesh(vertices, triangles, max_vertices=50, **options))
     assert fairing.remesh(vertices, triangles, max_vertices=500, **options).converged
+
+
+@pytest.mark.parametrize("times", [0.5, 1.0, 2.0, 8.0])
+@pytest.mark.parametrize("make", [shapes.cap, shapes.cylinder])
+def test_the_size_of_a_new_mesh_is_known_before(make: Callable[[int], shapes.Patch], times: float) -> None:
+    """Of coarse ones, half of whose triangles touch the outline, as well."""
+    patch = make(300)
+    loop = fairing.boundary_loops(patch.triangles)[0]
+    edges = np.linalg.norm(patch.vertices[np.roll(loop, -1)] - patch.vertices[loop], axis=1)
+    given: dict[str, Any] = {
+        "fixed": patch.fixed,
+        "fixed_normals": patch.fixed_normals,
+        "spacing": times * edges.mean(),
+    }
+    error = refused(lambda: fairing.remesh(patch.vertices, patch.triangles, max_vertices=1, **given))
+    found = len(fairing.remesh(patch.vertices, patch.triangles, **given).vertices)
+    assert error.diagnostic.figures["count"] == pytest.approx(found, rel=0.15)
 
 
 def test_a_search_in_vain_gets_no_large_mesh(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -194,6 +194,11 @@ class Patch:
         """About how many vertices a mesh of that spacing has."""
         return _core.expected_count(self.vertices, self.triangles, self.fixed, self.normals, spacing.wanted(0))
 
+    def expected_new(self, spacing: Spacing) -> float:
+        """About how many of these are new: by Euler's formula half as many as the outline has vertices are not."""
+        mine = self.triangles[_core.components(self.triangles, self.fixed, len(self.vertices)) >= 0]
+        return self.expected_count(spacing) - 0.5 * sum(map(len, _core.boundary_loops(mine)))
+
     def border(self) -> IntArray:
         """Its border vertices."""
         border: IntArray = np.unique(np.concatenate([np.empty(0, np.int32), *boundary_loops(self.triangles)]))
