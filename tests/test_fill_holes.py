@@ -11,7 +11,7 @@ import pytest
 import fairing
 import holes
 import shapes
-from fairing import _core, _loops, _short_edges
+from fairing import _core, _holes, _loops, _short_edges
 from holes import FloatArray, Mesh
 
 Place = Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray, FloatArray]]
@@ -275,6 +275,34 @@ def test_short_edges_in_a_row_come_back_in_their_order() -> None:
     for a, b in zip(loop.tolist(), np.roll(loop, -1).tolist(), strict=True):
         assert (a, b) in borders
     assert len(whole) == 15
+
+
+@pytest.mark.parametrize("half_angle", [5.0, 15.0])
+def test_the_ball_around_a_sheet_is_known_before(half_angle: float) -> None:
+    vertices, triangles = dish(half_angle)
+    (border,) = fairing.boundary_loops(triangles)
+    rim, normals = vertices[border[::-1]], fairing.surrounding_normals(vertices, triangles, border[::-1]).normals
+    expected = _holes.times_flat(rim, normals) * _holes.flat_count([rim], 0.0, False)
+    assert _holes.least_count([rim], [normals], 0.0) == pytest.approx(expected, rel=0.05)
+
+
+def test_a_sheet_that_is_bent_a_little_asks_for_too_large_a_ball(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Named, it was sought for 10 s, in vain."""
+    vertices, triangles = holes.sheet(bent(10.0), (12, 12), whole)
+    (border,) = fairing.boundary_loops(triangles)
+    monkeypatch.setattr(_core, "fill_loops", None)
+    error = refused(lambda: fairing.fill(vertices, triangles, [border]))
+    assert {*error.elements} == {*border}
+
+
+@pytest.mark.parametrize("degrees", [90.0, 180.0])
+def test_a_sheet_that_is_bent_more_is_closed_where_it_is_named(degrees: float) -> None:
+    vertices, triangles = holes.sheet(bent(degrees), (12, 12), whole)
+    (border,) = fairing.boundary_loops(triangles)
+    result = fairing.fill(vertices, triangles, [border])
+    assert result.converged
+    rim, normals = vertices[border[::-1]], fairing.surrounding_normals(vertices, triangles, border[::-1]).normals
+    assert _holes.least_count([rim], [normals], 0.0) < 1.5 * len(result.vertices)
 
 
 def test_a_flat_sheet_is_not_closed_by_its_own_back() -> None:
