@@ -10,7 +10,8 @@ import pytest
 
 import fairing
 import holes
-from fairing import _core, _loops, _short_edges
+import shapes
+from fairing import _core, _holes, _loops, _short_edges
 from holes import FloatArray, Mesh
 
 Place = Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray, FloatArray]]
@@ -200,6 +201,23 @@ def test_a_new_mesh_in_proportion_to_the_old_surface() -> None:
     assert fairing.remesh(vertices, triangles, max_vertices=500, **options).converged
 
 
+@pytest.mark.parametrize("times", [0.5, 1.0, 2.0, 8.0])
+@pytest.mark.parametrize("make", [shapes.cap, shapes.cylinder])
+def test_the_size_of_a_new_mesh_is_known_before(make: Callable[[int], shapes.Patch], times: float) -> None:
+    """Of coarse ones, half of whose triangles touch the outline, as well."""
+    patch = make(300)
+    loop = fairing.boundary_loops(patch.triangles)[0]
+    edges = np.linalg.norm(patch.vertices[np.roll(loop, -1)] - patch.vertices[loop], axis=1)
+    given: dict[str, Any] = {
+        "fixed": patch.fixed,
+        "fixed_normals": patch.fixed_normals,
+        "spacing": times * edges.mean(),
+    }
+    error = refused(lambda: fairing.remesh(patch.vertices, patch.triangles, max_vertices=1, **given))
+    found = len(fairing.remesh(patch.vertices, patch.triangles, **given).vertices)
+    assert error.diagnostic.figures["count"] == pytest.approx(found, rel=0.15)
+
+
 def test_a_search_in_vain_gets_no_large_mesh(monkeypatch: pytest.MonkeyPatch) -> None:
     """48 edges, some 210 vertices over a flat surface: what is left of it would take 20,000."""
     vertices, triangles = holes.bowl(48)
@@ -257,6 +275,34 @@ def test_short_edges_in_a_row_come_back_in_their_order() -> None:
     for a, b in zip(loop.tolist(), np.roll(loop, -1).tolist(), strict=True):
         assert (a, b) in borders
     assert len(whole) == 15
+
+
+@pytest.mark.parametrize("half_angle", [5.0, 15.0])
+def test_the_ball_around_a_sheet_is_known_before(half_angle: float) -> None:
+    vertices, triangles = dish(half_angle)
+    (border,) = fairing.boundary_loops(triangles)
+    rim, normals = vertices[border[::-1]], fairing.surrounding_normals(vertices, triangles, border[::-1]).normals
+    expected = _holes.times_flat(rim, normals) * _holes.flat_count([rim], 0.0, False)
+    assert _holes.least_count([rim], [normals], 0.0) == pytest.approx(expected, rel=0.05)
+
+
+def test_a_sheet_that_is_bent_a_little_asks_for_too_large_a_ball(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Named, it was sought for 10 s, in vain."""
+    vertices, triangles = holes.sheet(bent(10.0), (12, 12), whole)
+    (border,) = fairing.boundary_loops(triangles)
+    monkeypatch.setattr(_core, "fill_loops", None)
+    error = refused(lambda: fairing.fill(vertices, triangles, [border]))
+    assert {*error.elements} == {*border}
+
+
+@pytest.mark.parametrize("degrees", [90.0, 180.0])
+def test_a_sheet_that_is_bent_more_is_closed_where_it_is_named(degrees: float) -> None:
+    vertices, triangles = holes.sheet(bent(degrees), (12, 12), whole)
+    (border,) = fairing.boundary_loops(triangles)
+    result = fairing.fill(vertices, triangles, [border])
+    assert result.converged
+    rim, normals = vertices[border[::-1]], fairing.surrounding_normals(vertices, triangles, border[::-1]).normals
+    assert _holes.least_count([rim], [normals], 0.0) < 1.5 * len(result.vertices)
 
 
 def test_a_flat_sheet_is_not_closed_by_its_own_back() -> None:

@@ -14,6 +14,7 @@ from .options import FairOptions
 from .quality import Join
 from .selection import LeftOut
 from .vectors import area_vectors, unit
+from .waist import belly, waist
 from .words import counted
 
 FLAT = 1.0  # degrees between the neighbours of a needle, below which it is not seen
@@ -167,15 +168,21 @@ def _uneven(evidence: Evidence, options: FairOptions) -> Found:
     reason = girth_reason(evidence.result)
     if not reason or not judges_join(options) or _is_meant_to_swell(options):
         return NOTHING
-    return reason, _most_bent(evidence)
+    patch = evidence.problem.patch
+    find = waist if _is_thin(evidence.result) else belly
+    return reason, patch.vertices[find(_points(evidence), patch.triangles)]
 
 
 def girth_reason(result: Result) -> str:
     """Return the sentence for a surface between outlines that is too thin or too thick; empty where it is neither."""
     least, largest = result.girth or (1.0, 1.0)
-    if least < fairing.LIMITS["waist"]:
+    if _is_thin(result):
         return f"The tube narrows to {least:.0%} of its ends"
     return f"The tube swells to {largest:.0%} of its ends" if largest > fairing.LIMITS["balloon"] else ""
+
+
+def _is_thin(result: Result) -> bool:
+    return bool(result.girth and result.girth[0] < fairing.LIMITS["waist"])
 
 
 def _most_bent(evidence: Evidence) -> Ints:

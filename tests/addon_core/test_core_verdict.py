@@ -36,7 +36,7 @@ from core.verdict import (
     Verdict,
     judge,
 )
-from polygon_mesh import grid, on_sphere
+from polygon_mesh import grid, on_sphere, polygon_mesh
 
 MESH = grid(12, 0.6, on_sphere)
 FACE = int(np.flatnonzero(MESH.in_patch)[9])
@@ -56,6 +56,23 @@ def fine() -> Evidence:
     problem, _ = pose(MESH, np.eye(4), FairOptions())
     result = solve(MESH, np.eye(4), FairOptions()).result
     return Evidence(problem, result, (), CLEAN, CLEAN, Join(ints(5, 6), np.array([1.0, 2.0])))
+
+
+@pytest.fixture(scope="module")
+def piped() -> Evidence:
+    """The middle of a pipe of 8 rows of 12 quads."""
+    row, column = (index.ravel() for index in np.mgrid[:9, :12])
+    turn = 2.0 * np.pi * column / 12
+    quads = [
+        [12 * k + i, 12 * k + (i + 1) % 12, 12 * k + 12 + (i + 1) % 12, 12 * k + 12 + i]
+        for k in range(8)
+        for i in range(12)
+    ]
+    points = np.column_stack([np.cos(turn), np.sin(turn), 0.5 * row])
+    mesh = polygon_mesh(points, quads, np.repeat((np.arange(8) > 1) & (np.arange(8) < 6), 12))
+    problem, _ = pose(mesh, np.eye(4), FairOptions())
+    result = solve(mesh, np.eye(4), FairOptions(equation="HARMONIC")).result
+    return Evidence(problem, result, (), CLEAN, CLEAN, Join(ints(24, 25), np.array([1.0, 2.0])))
 
 
 def judged(evidence: Evidence, **options: Any) -> Verdict:
@@ -92,9 +109,9 @@ def test_a_knob_deserves_a_look(fine: Evidence) -> None:
     ],
 )
 def test_a_waist_and_a_balloon_deserve_a_look_and_even_curvature(
-    fine: Evidence, girth: tuple[float, float] | None, reason: str
+    piped: Evidence, girth: tuple[float, float] | None, reason: str
 ) -> None:
-    tube = replace(fine, result=replace(fine.result, girth=girth))
+    tube = replace(piped, result=replace(piped.result, girth=girth))
     for equation in ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY"):
         verdict = judged(tube, equation=equation)
         assert (verdict.grade, verdict.reason) == (LOOK if reason else GOOD, reason)

@@ -112,10 +112,10 @@ def fill(
     outline, normals = _sides.settled(outline, points, normals, bool(bridge))
     if not bridge:
         _loops.refuse_endless(outline, points, normals)
-    most = Limit.of(
-        _holes.flat_count([points[loop] for loop in outline.loops], length.length, bool(bridge)), max_vertices
-    )
-    most.check(most.flat, outline.vertices)
+    rims = [points[loop] for loop in outline.loops]
+    most = Limit.of(_holes.flat_count(rims, length.length, bool(bridge)), max_vertices)
+    least = most.flat if bridge else _holes.least_count(rims, outline.split(normals), length.length)
+    most.check(least, outline.vertices)
     normals = _short_edges.with_shared_normals(outline, points, normals)
     if fixed_curvatures is not None:
         options["fixed_curvatures"] = _loops.loop_curvatures(fixed_curvatures, outline, len(points))
@@ -193,6 +193,11 @@ class Patch:
     def expected_count(self, spacing: Spacing) -> float:
         """About how many vertices a mesh of that spacing has."""
         return _core.expected_count(self.vertices, self.triangles, self.fixed, self.normals, spacing.wanted(0))
+
+    def expected_new(self, spacing: Spacing) -> float:
+        """About how many of these are new: by Euler's formula half as many as the outline has vertices are not."""
+        mine = self.triangles[_core.components(self.triangles, self.fixed, len(self.vertices)) >= 0]
+        return self.expected_count(spacing) - 0.5 * sum(map(len, _core.boundary_loops(mine)))
 
     def border(self) -> IntArray:
         """Its border vertices."""

@@ -37,6 +37,25 @@ def times_flat(points: FloatArray, normals: FloatArray) -> float:
     return 2.0 / max(1.0 + turning(points, normals), _WHOLE)
 
 
+def least_count(loops: Sequence[FloatArray], normals: Sequence[FloatArray], spacing: float) -> float:
+    """About how many new vertices surfaces over the loops have at least, one over each: as ``flat_count``, but for the
+    outside of a sheet, around which goes a ball that bends as its normals do, in the direction in which they do most.
+    """
+    times = (
+        4.0 * np.pi / max(_disc(loop) * most_bent(loop, part) ** 2, _TINY) if is_outer(loop, part) else 1.0
+        for loop, part in zip(loops, normals, strict=True)
+    )
+    return sum(each * flat_count([loop], spacing, False) for each, loop in zip(times, loops, strict=True))
+
+
+def most_bent(points: FloatArray, normals: FloatArray) -> float:
+    """The larger principal curvature of a surface with these normals around a loop (k, 3), in least squares."""
+    away, tilt = points - points.mean(axis=0), normals - normals.mean(axis=0)
+    plane = np.linalg.svd(away, full_matrices=False)[2][:2].T
+    shape = np.linalg.lstsq(away @ plane, tilt @ plane, rcond=None)[0]
+    return float(np.abs(np.linalg.eigvalsh(0.5 * (shape + shape.T))).max())
+
+
 def turning(points: FloatArray, normals: FloatArray) -> float:
     """τ of a loop (k, 3) with unit normals: angles between its edges as they lie in the tangent planes."""
     after = np.roll(points, -1, axis=0) - points

@@ -72,7 +72,7 @@ def remesh(
         averaged = _core.vertex_normals(points, faces, "averaged")
         held, given_normals = report.fixed, averaged[report.fixed]
     solved = Patch(report.vertices, faces, held, given_normals)
-    most.check(solved.expected_count(length), border)
+    most.check(solved.expected_new(length), border)
     new, origin, old_vertex = solved.meshed_anew(len(points), lines, (length, 0), options, watch.part(0.4, 0.6))
     watch.lap("mesh")
     values = report_fields(report, len(points))
@@ -88,8 +88,8 @@ def remesh(
 
 
 def _count_on(old: Patch, spacing: Spacing) -> float:
-    """About how many vertices the new mesh would have on the old surface; 0 where `fair` will say why there is none."""
+    """About how many new vertices there would be on the old surface; 0 where `fair` will say why there is none."""
     try:
-        return old.expected_count(spacing)
+        return old.expected_new(spacing)
     except MeshError:
         return 0.0
