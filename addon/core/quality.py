@@ -1,4 +1,4 @@
-"""What can be told about a patch before and after: faces folded over, needles, faces that run through others, the join.
+"""What is measured on a patch before and after: faces folded over, needles, faces that run through others, the join.
 
 What is folded and what crosses is the engine's decision.
 """
@@ -37,12 +37,12 @@ class Quality:
 
 @dataclass(frozen=True)
 class Join:
-    """How visible the join is at the k outline vertices that have faces outside."""
+    """How visible the join is at the k boundary vertices that have faces outside."""
 
     vertices: Ints  # (k,) of the mesh
     degrees: Floats  # (k,) by how much the bend there exceeds what is usual around; see fairing.visible_join
     limit: float = VISIBLE  # degrees from which it is seen
-    edges: Ints | None = None  # (e, 2) of the outline, places in `vertices`; None: not known
+    edges: Ints | None = None  # (e, 2) of the boundary, places in `vertices`; None: not known
 
     @property
     def typical(self) -> float:
@@ -67,7 +67,7 @@ class Join:
         return found
 
     def _is_seen(self) -> Mask:
-        """Tell where it is above the limit, along so many neighbours that these add up."""
+        """Return where it is above the limit, along so many neighbours that these add up."""
         above = self.degrees > self.limit
         if self.edges is None:
             return above

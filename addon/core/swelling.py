@@ -1,6 +1,6 @@
 """Knobs: patches that bend much like a ball and much like a saddle, too.
 
-By Gauss and Bonnet an outline with its slopes settles the integral of the Gaussian curvature over a disc. A surface
+By Gauss and Bonnet a boundary with its slopes settles the integral of the Gaussian curvature over a disc. A surface
 that does no more than it must has one sign of it nearly everywhere; a knob on a neck adds as much of both.
 """
 
@@ -21,7 +21,7 @@ CALMER = 0.8  # of what the old surface had of it: a surface with less is an imp
 
 @dataclass(frozen=True)
 class Disc:
-    """A piece of a patch with one outline and without pins."""
+    """A piece of a patch with one boundary and without pins."""
 
     triangles: Ints  # (m, 3) patch indices
     inner: Ints  # patch indices of the vertices off its border, ascending
