@@ -20,7 +20,7 @@ Points gather(const Eigen::Ref<const Points>& points, std::span<const int> verti
 
 Normalisation normalise(const Points& fixed_points);
 
-// a: the RMS distance of a component's outline from its centroid. The outline are the vertices of the edges that have
+// a: the RMS distance of a component's boundary from its centroid. The boundary are the vertices of the edges that have
 // the component on one side only; of a closed component, held by pins, all fixed vertices. 3 × fixed points.
 double outline_radius(const Patch& patch, const Points& fixed_points);
 

@@ -1,4 +1,4 @@
-// The detail of one component's old patch, kept between calls, and the outline without detail that both bases meet.
+// The detail of one component's old patch, kept between calls, and the boundary without detail that both bases meet.
 #pragma once
 
 #include <memory>
@@ -12,11 +12,11 @@
 
 namespace fairing {
 
-// Where a base meets its outline: 3 × fixed vertices, in the caller's units.
+// Where a base meets its boundary: 3 × fixed vertices, in the caller's units.
 struct BaseOutline {
     Points points;
     Points normals;      // unit; zero at pins
-    bool moved = false;  // whether it is not the outline itself
+    bool moved = false;  // whether it is not the boundary itself
 };
 
 // A surface with detail: 3 × local vertices each, in the caller's units.
@@ -59,7 +59,7 @@ private:
     std::unique_ptr<Skin> skin_;  // one of both
     std::unique_ptr<BorrowedSkin> borrowed_;
     Points read_off_;                       // 3 × local vertices, the caller's
-    std::optional<BaseOutline> just_read_;  // data.reference's outline, until `outline` is asked for
+    std::optional<BaseOutline> just_read_;  // data.reference's boundary, until `outline` is asked for
     Normalisation unit_{};                  // of that
     double wavelength_ = 0.0;               // share of D
     double seconds_ = 0.0;

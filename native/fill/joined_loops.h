@@ -1,4 +1,4 @@
-// Several outlines joined by one triangulation without inner vertices.
+// Several boundary loops joined by one triangulation without inner vertices.
 #pragma once
 
 #include "base/types.h"

@@ -18,7 +18,7 @@ struct Removals {
     void append(const Removals& more);
 };
 
-// Where the fixed vertices are: thinned loops have to follow the outline. 3 × local vertices, free columns unused.
+// Where the fixed vertices are: thinned loops have to follow the boundary. 3 × local vertices, free columns unused.
 // Loops whose normals are 0 stay whole.
 struct FixedPlaces {
     const Points& points;

@@ -1,4 +1,4 @@
-// A noisy outline moved onto the surface that its surroundings suggest.
+// A noisy boundary moved onto the surface that its surroundings suggest.
 #pragma once
 
 #include "outline/surrounding_fit.h"
@@ -10,7 +10,7 @@ struct MendedOutline {
     Indices moved;               // ascending
     Indices held;                // ascending: a move would fold triangles outside
     double noise = 0.0;          // median distance of the points from the fits, in edges
-    SurroundingNormals normals;  // at the outline
+    SurroundingNormals normals;  // at the boundary
 };
 
 // Moves each vertex of `outline` onto the fit of `triangles` (those outside it). The two rings of vertices outside move

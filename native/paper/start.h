@@ -10,7 +10,7 @@ namespace fairing {
 // `reference`: positions of M0 at the patch's vertices.
 Stiffness start_stiffness(const Patch& patch, InnerFairness kind, const Points& reference);
 
-// A surface over the outline by which the hierarchy can judge edges and triangles without looking at the interior
+// A surface over the boundary by which the hierarchy can judge edges and triangles without looking at the interior
 // given. It is the membrane or the bilaplacian with one of several bulges: whichever has the most even triangles.
 // Uniform λ.
 Points neutral_surface(const Problem& problem, const Progress& progress);

@@ -13,7 +13,7 @@ Placement by_history(const Problem& problem, const ProxyMesh& mesh, const ProxyM
                      const TargetSurface& target);
 
 // By another surface of the problem's own patch (3 × local vertices), which has the right sheets. Vertices follow one
-// another from the outline inwards. Each walks from where its neighbours are to the place nearest to its own on that
+// another from the boundary inwards. Each walks from where its neighbours are to the place nearest to its own on that
 // surface. `target` belongs to `proxy`, whose fixed vertices are the problem's, in their order.
 Placement by_surface(const Problem& problem, const Points& surface, const Patch& proxy, const TargetSurface& target);
 

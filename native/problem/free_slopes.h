@@ -1,4 +1,4 @@
-// Outlines and curves that are met with whatever slope the surface finds.
+// Boundary loops and curves that are met with whatever slope the surface finds.
 #pragma once
 
 #include "problem/problem.h"

@@ -1,4 +1,4 @@
-// The engine's own mesh of a patch: the same outline, an interior of its own, well-shaped whatever it came from.
+// The engine's own mesh of a patch: the same boundary, an interior of its own, well-shaped whatever it came from.
 #pragma once
 
 #include <limits>
@@ -13,7 +13,7 @@ struct RemovedVertex {
     Indices ring;
 };
 
-// Edge lengths of the interior. They begin with the outline's own spacing and grow by `growth` per distance up to
+// Edge lengths of the interior. They begin with the boundary's own spacing and grow by `growth` per distance up to
 // `longest`. The normal turns by `turn` radians at most along an edge, down to a quarter of `longest`: a narrow pipe
 // would lose its shape otherwise. No edge is split beyond `free_limit` free vertices.
 struct Sizing {

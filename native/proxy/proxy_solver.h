@@ -40,7 +40,7 @@ struct CoarseProxy {
     CoarseEnd end;
 };
 
-// The two halves of solve_proxy, with its first proxy alone. The coarse one may have converged over another outline
+// The two halves of solve_proxy, with its first proxy alone. The coarse one may have converged over another boundary
 // next to this one.
 CoarseProxy solve_coarse_proxy(const Problem& problem, const Points& membrane, int shown, const Progress& progress);
 SolvedProxy solve_fine_proxy(const Problem& problem, CoarseProxy coarse, int shown, const Progress& progress);
@@ -48,10 +48,10 @@ SolvedProxy solve_fine_proxy(const Problem& problem, CoarseProxy coarse, int sho
 // The first half from a surface that is found already, positions of all vertices of the problem's patch.
 CoarseProxy coarse_proxy_from(const Problem& problem, const Points& surface, int shown, const Progress& progress);
 
-// Mean length of the outlines' edges; 0 without any.
+// Mean length of the boundary loops' edges; 0 without any.
 double mean_outline_edge(const Problem& problem);
 
-// The membrane of the outline by uniform weights, 3 × vertices of the problem's patch.
+// The membrane of the boundary by uniform weights, 3 × vertices of the problem's patch.
 Points proxy_membrane(const Problem& problem, const Progress& progress);
 
 }  // namespace fairing

@@ -1,4 +1,4 @@
-// A start for minimal surfaces: from a membrane over the outline to less and less area.
+// A start for minimal surfaces: from a membrane over the boundary to less and less area.
 #pragma once
 
 #include "base/progress.h"

@@ -10,7 +10,7 @@ namespace fairing {
 // S and M of a mesh whose triangles are all equilateral (edge weight 2/√3, half of it on the border).
 Stiffness uniform_stiffness(const Patch& patch);
 
-// Clamped bi-Laplacian membranes over the outline: linear in the conormals, whose weight sigma decides how far the
+// Clamped bi-Laplacian membranes over the boundary: linear in the conormals, whose weight sigma decides how far the
 // surface bulges. positions(sigma) = flat + sigma · bulge, free vertices only.
 struct Fill {
     Points flat;

@@ -9,7 +9,7 @@
 
 namespace fairing {
 
-// `problem.before` (3 × local vertices), moved with the outline where that has moved: the displacement is harmonic on
+// `problem.before` (3 × local vertices), moved with the boundary where that has moved: the displacement is harmonic on
 // equilateral triangles. Nothing where no such shape is known, it has no area, or more than a twentieth of its
 // triangles are turned over.
 std::optional<Points> shape_before(const Problem& problem, const Progress& progress);

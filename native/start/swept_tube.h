@@ -1,4 +1,4 @@
-// The tube between two outlines that face each other along a bend.
+// The tube between two boundary loops that face each other along a bend.
 #pragma once
 
 #include <optional>
@@ -45,15 +45,15 @@ private:
     double girth_;
 };
 
-// The sections are swept along the cubic that leaves each outline's middle into the gap, and blended in between.
+// The sections are swept along the cubic that leaves each boundary's middle into the gap, and blended in between.
 class SweptTube {
 public:
-    // `loops`: columns of `points` and `normals` (3 × outline vertices), the surface on their left. Nothing where there
-    // are other than two, where they leave out a vertex, or where they don't face along one tube.
+    // `loops`: columns of `points` and `normals` (3 × boundary vertices), the surface on their left. Nothing where
+    // there are other than two, where they leave out a vertex, or where they don't face along one tube.
     static std::optional<SweptTube> between(const std::vector<Indices>& loops, const Points& points,
                                             const Points& normals);
 
-    // `s`: 0 at the first outline, 1 at the second one; `u`: share around.
+    // `s`: 0 at the first boundary, 1 at the second one; `u`: share around.
     [[nodiscard]] Vector3 place(double s, double u) const;
     [[nodiscard]] const TubeSection& first() const { return first_; }
     [[nodiscard]] const TubeSection& last() const { return last_; }

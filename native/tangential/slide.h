@@ -8,7 +8,7 @@
 namespace fairing {
 
 // Whether steps count on how the tangent planes turn, which they read off the normals: where these are noise, as beside
-// a jagged outline, the planes are taken as fixed.
+// a jagged boundary, the planes are taken as fixed.
 enum class Turning { known, unknown };
 
 // Vertices nearer to their inner-fairness positions: some accelerated tangential steps, each of which ends on the

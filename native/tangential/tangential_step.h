@@ -45,7 +45,7 @@ public:
     // Moves the fixed vertices (3 × fixed count); the factorisation does not depend on them.
     virtual void hold(const Points& fixed_points) = 0;
 
-    // The positions with Σ_j λ_ij (x_i − x_j) = 0 in all three coordinates: the discrete harmonic map of the outline.
+    // The positions with Σ_j λ_ij (x_i − x_j) = 0 in all three coordinates: the discrete harmonic map of the boundary.
     [[nodiscard]] virtual Points harmonic_positions() const = 0;
 
     // What a step is to lower. Symmetric λ: the Dirichlet energy ½ Σ λ_ij |x_i − x_j|², up to a constant of the fixed

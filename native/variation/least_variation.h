@@ -11,7 +11,7 @@
 namespace fairing {
 
 // Minimises ∫ ⟨(dκ/ds)²⟩ dA · ∫ dA (variation/element.h; the product keeps its value when everything is scaled) with
-// the outline's positions and normals. Solved on a mesh of the engine's own, whose vertices and normals are the
+// the boundary's positions and normals. Solved on a mesh of the engine's own, whose vertices and normals are the
 // unknowns; the patch's vertices are placed on that surface by their inner fairness. The interior of the patch is not
 // looked at. The solution's `termination` and `residual` (largest derivative of the product by a height, in units of D)
 // are of this problem; `polished` is false. Deterministic. Throws Cancelled, SolverError.

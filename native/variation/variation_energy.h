@@ -1,4 +1,4 @@
-// How much the normal curvatures of a sheet vary, and how far its normals are from the outline's.
+// How much the normal curvatures of a sheet vary, and how far its normals are from the boundary's.
 #pragma once
 
 #include "linear/tree_solve.h"
