@@ -3,8 +3,8 @@
 
 namespace fairing {
 
-// While one that is wanted lives, freed memory stays with the process. Otherwise the GNU allocator returns arrays of
-// 32 MB and more to the system at once, which has to clear and map fresh pages for the next array. The last one returns
+// While one that is wanted lives, freed memory stays with the process. Otherwise the GNU allocator returns arrays of 32
+// MB and more to the system at once, which has to clear and map fresh pages for the next array. The last one returns
 // all free memory to the system. Several may live at once, on any threads. Has no effect with other allocators.
 class KeptMemory {
 public:

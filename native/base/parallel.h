@@ -26,8 +26,8 @@ private:
     ThreadTeam* previous_;
 };
 
-// Calls piece(k) once for each k = 0 … pieces − 1, in any order. An exception is rethrown once no piece runs any
-// more; pieces not begun are dropped. The caller's thread passes a checkpoint after each piece.
+// Calls piece(k) once for each k = 0 … pieces − 1, in any order. An exception is rethrown once no piece runs any more;
+// pieces not begun are dropped. The caller's thread passes a checkpoint after each piece.
 void run_pieces(int pieces, const std::function<void(int)>& piece);
 
 // Indices in a piece, for loops with few operations for each index, and for those with hundreds.

@@ -1,4 +1,4 @@
-// Surfaces that meet their boundary with a prescribed mean curvature, too (G2).
+// Surfaces that also meet a prescribed mean curvature at their boundary (G2).
 #pragma once
 
 #include "base/progress.h"

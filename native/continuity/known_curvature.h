@@ -15,10 +15,9 @@ struct KnownCurvature {
 };
 
 // `curvatures`: H at each fixed vertex, NaN where it is not known. Gaps of up to three vertices are bridged by
-// interpolation; arcs of less than six vertices count as unknown. Pins don't count at all. Corners of the
-// patch, where it fills less than 120°, are skipped: H answers to the wedge there as much as to the surface, and on
-// boundary loops like stairs it alternates from vertex to vertex. `points`: 3 × local vertices of a surface over the
-// boundary.
+// interpolation; arcs of less than six vertices count as unknown. Pins don't count at all. Corners of the patch, where
+// it fills less than 120°, are skipped: H answers to the wedge there as much as to the surface, and on boundaries that
+// run in steps it alternates from vertex to vertex. `points`: 3 × local vertices of a surface over the boundary.
 KnownCurvature known_curvature(const Patch& patch, const Points& points, const VectorX& curvatures);
 
 }  // namespace fairing

@@ -9,7 +9,7 @@ namespace fairing {
 struct OutlineCurve {
     Indices places;
     bool closed;
-    std::vector<char> skipped = {};  // of the places: what is measured there says nothing; empty: nowhere
+    std::vector<char> skipped = {};  // places where the measured value is meaningless; empty: none
 };
 
 // Values (of the fixed vertices) at the places of a curve, interpolated at those that are skipped. Where all are, zero.

@@ -1,4 +1,4 @@
-// The old patch without its detail: what is left of a shape when everything shorter than a wavelength is taken away.
+// The old patch without its detail, that is without what is shorter than a wavelength.
 #pragma once
 
 #include <optional>
@@ -17,8 +17,8 @@ struct OldPatch {
 // detail.
 double detail_wavelength(const Patch& patch, const Points& old);
 
-// Takes away what is shorter than a wavelength, again and again from surfaces of one patch. S and M belong to the old
-// patch x; c holds the low-pass slopes at which x itself meets its boundary. Refers to the patch and the stiffness.
+// Removes what is shorter than a wavelength, repeatedly, from surfaces of one patch. S and M belong to the old patch x;
+// c holds the low-pass slopes at which x itself meets its boundary. Refers to the patch and the stiffness.
 class BaseFilter {
 public:
     // `stiffness`: of `old`; `wavelength`: of the slopes at the boundary.

@@ -1,4 +1,4 @@
-// A first surface over boundary loops that have none yet.
+// A first surface over boundary loops.
 #pragma once
 
 #include "base/progress.h"

@@ -23,8 +23,8 @@ struct GradientSolution {
 };
 
 // x with A x ≈ r from x = 0, until the residual in the preconditioner's norm has fallen to `relative_tolerance` or
-// after `max_cycles`; earlier where A turns out not to be positive definite. `apply(p, q)`: q ← A p;
-// `precondition(r, z)`: z ← about A⁻¹ r. q and z have the right size.
+// after `max_cycles`; earlier where A turns out not to be positive definite. `apply(p, q)`: q ← A p; `precondition(r,
+// z)`: z ← about A⁻¹ r. q and z have the right size.
 template <typename Field, typename Apply, typename Precondition>
 GradientSolution<Field> conjugate_gradients(Field r, double relative_tolerance, int max_cycles, const Apply& apply,
                                             const Precondition& precondition) {

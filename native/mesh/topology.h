@@ -49,11 +49,9 @@ VertexRoles classify_vertices(const EdgeTable& edges, const GivenRoles& given);
 std::vector<char> find_cut_edges(const Triangles& triangles, const EdgeTable& edges, const VertexRoles& roles);
 
 // Cuts, orients (in each piece and across its curves the majority of the moving triangles along the boundary wins, with
-// a warning), numbers pieces.
-// Pieces without free vertices that can't be joined (single-sided, or pockets of two triangles on the same three
-// vertices) are taken apart. Throws NONMANIFOLD_VERTEX (several fans at a free vertex), and where something moves
-// NONMANIFOLD_EDGE (a pocket) and NOT_ORIENTABLE.
-// `edges`: of `triangles`.
+// a warning), numbers pieces. Pieces without free vertices that can't be joined (single-sided, or pockets of two
+// triangles on the same three vertices) are taken apart. Throws NONMANIFOLD_VERTEX (several fans at a free vertex), and
+// where something moves NONMANIFOLD_EDGE (a pocket) and NOT_ORIENTABLE. `edges`: of `triangles`.
 CutMesh cut_mesh(const Triangles& triangles, const EdgeTable& edges, const Indices& input_triangle,
                  const VertexRoles& roles, Diagnostics& warnings);
 

@@ -1,4 +1,4 @@
-// Boundary loops too jagged to be met, and the smooth ones that stand for them.
+// Boundary loops too jagged to be met, and the low-passed ones that replace them.
 #pragma once
 
 #include "mesh/patch.h"
@@ -12,7 +12,7 @@ struct OutlineData {
 };
 
 // How much any surface with this boundary has to vary: (dκ/ds)² along the boundary's edges, each over a square on it,
-// with dκ/ds = 6 ⟨n_i + n_j, e⟩ / |e|³ along an edge e. Zero for boundary loops on spheres and cylinders; of unit
+// with dκ/ds = 6 ⟨n_i + n_j, e⟩ / |e|³ along an edge e. Zero for boundary loops on spheres and cylinders; in units of
 // length⁻².
 double outline_variation(const Patch& patch, const OutlineData& outline);
 

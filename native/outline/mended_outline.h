@@ -1,4 +1,4 @@
-// A noisy boundary moved onto the surface that its surroundings suggest.
+// A noisy boundary, fitted: moved onto the surface that its surroundings suggest.
 #pragma once
 
 #include "outline/surrounding_fit.h"
@@ -14,9 +14,9 @@ struct MendedOutline {
 };
 
 // Moves each vertex of `outline` onto the fit of `triangles` (those outside it). The two rings of vertices outside move
-// by ⅔ and ⅓ of the way to their fits. None moves by more than a quarter of its edges' mean length. Nothing moves where
-// the noise is less than a fiftieth of an edge: heights there are the fit's error, not the mesh's. Vertices whose move
-// would turn a triangle over are held.
+// by ⅔ and ⅓ of the distance to their fits. None moves by more than a quarter of its edges' mean length. Nothing moves
+// where the noise is less than a fiftieth of an edge: heights there are the fit's error, not the mesh's. Vertices whose
+// move would turn a triangle over are held.
 MendedOutline mend_outline(const Points& points, const Triangles& triangles, const Indices& outline);
 
 }  // namespace fairing

@@ -5,8 +5,8 @@
 
 namespace fairing {
 
-// Folds that are worked on whatever their number does. More of them that do not become fewer are a sheet that lies
-// turned over as a whole.
+// Up to so many folds are always worked on. More of them that do not become fewer are a whole sheet that is turned
+// over.
 inline constexpr std::size_t few_folds = 20;
 
 // Twice the area of triangle `t` along its normal. `points`: 3 × local vertices.
