@@ -1,4 +1,4 @@
-// The surface that a solve starts from; it depends on connectivity and boundary data only.
+// Clamped fills of the boundary, which depend on connectivity and boundary data only.
 #pragma once
 
 #include "base/progress.h"
@@ -17,7 +17,7 @@ struct Fill {
     Points bulge;
 };
 
-// `op`: biharmonic; it is left holding the factorisation for `stiffness`.
+// `op`: biharmonic; it keeps the factorisation for `stiffness`.
 Fill clamped_fill(const Patch& patch, const Stiffness& stiffness, const Points& fixed_points, const Points& conormals,
                   NormalOperator& op, const Progress& progress);
 // Displacement of the free vertices that continues one of the fixed vertices and the change of their conormals

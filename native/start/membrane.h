@@ -1,4 +1,4 @@
-// The flattest start: a discrete harmonic map of the boundary.
+// The flattest initial surface: a discrete harmonic map of the boundary.
 #pragma once
 
 #include "operators/workspace.h"

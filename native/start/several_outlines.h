@@ -1,4 +1,4 @@
-// What joining several boundary loops needs to know of them.
+// Measures of several boundary loops that are to be joined.
 #pragma once
 
 #include "problem/problem.h"
@@ -9,9 +9,8 @@ namespace fairing {
 // held elsewhere.
 bool joins_outlines(const Problem& problem);
 
-// How long what lies between boundary loops is for their size: its area, or that of the straight tube between two of
-// them where this is more, over the sum of their squared lengths. L / 4π for a pipe of L radii. `points`: 3 × local
-// vertices.
+// Relative length of a patch between boundary loops: its area, or that of the straight tube between two of them where
+// this is more, over the sum of their squared lengths. L / 4π for a pipe of L radii. `points`: 3 × local vertices.
 double length_between(const Patch& patch, const Points& points);
 
 // The same of the straight tube between two boundary loops alone, whatever is at the free vertices.
@@ -24,7 +23,7 @@ inline constexpr double longest_single = 0.2;
 // Whether several surfaces may fit between the boundary loops, by one that does (3 × local vertices).
 bool may_fit_several(const Patch& patch, const Points& points);
 
-// How far the slope at each fixed vertex is believed: 1 where the given normals turn by less than 30° along the
+// How far the slope at each fixed vertex is trusted: 1 where the given normals turn by less than 30° along the
 // boundary, less and less up to 60°, 0 beyond.
 VectorX trust_in_slopes(const Problem& problem);
 

@@ -1,4 +1,4 @@
-// Tubes of a start that have collapsed are opened.
+// Opens collapsed tubes of an initial surface.
 #pragma once
 
 #include "base/progress.h"

@@ -1,4 +1,4 @@
-// The engine's own mesh of a patch with the surface that is solved on it.
+// The engine's own mesh of a patch with the surface solved on it.
 #pragma once
 
 #include <optional>
