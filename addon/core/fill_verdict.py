@@ -12,7 +12,7 @@ from .around import nearby
 from .arrays import Floats, Ints
 from .bends import bends
 from .hard_chains import chains
-from .looks import SUBSTITUTES, girth_reason, kink_reason, slope_reason
+from .looks import STAND_INS, girth_reason, kink_reason, slope_reason
 from .piercing import Sheet, crossing, near
 from .quality import Join
 from .region import MeshArrays, nothing
@@ -51,8 +51,8 @@ def judge(world: MeshArrays, outline: Ints, surface: Surface) -> Verdict:
     if len(ends):
         text = counted(len(ends), "vertex", "vertices")
         return Verdict(LOOK, f"Hard edges end at the hole, at {text}: the surface over it has none", ends)
-    if result.equation in SUBSTITUTES:
-        return Verdict(LOOK, SUBSTITUTES[result.equation], np.unique(outline))
+    if result.equation in STAND_INS:
+        return Verdict(LOOK, STAND_INS[result.equation], np.unique(outline))
     uneven = girth_reason(result)
     if uneven:
         hint = "" if result.equation == "least_variation" else ": choose the shape Least Variation"

@@ -25,7 +25,7 @@ MANY_LEFT_OUT = 3  # faces that a careless lasso leaves out; one or two may be m
 MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
 _KNOT = "Seams and marks inside, which stay, are squeezed to a knot at {}"
 # What stands in for a surface that there is none of, by the engine's name for it.
-SUBSTITUTES = {
+STAND_INS = {
     "loft": "No fair surface fits these boundary loops: the loft that joins them is a stand-in, so look at its shape",
     "smoothed": "No fair surface fits these boundary loops: the old shape was smoothed, so look at it",
 }
@@ -161,7 +161,7 @@ def _flanked(evidence: Evidence, options: FairOptions) -> Found:
 
 def _substituted(evidence: Evidence, _options: FairOptions) -> Found:
     """Report a loft, which may be as flat as a strap, and of the old shape smoothed, which may keep part of it."""
-    for figure, reason in SUBSTITUTES.items():
+    for figure, reason in STAND_INS.items():
         if any(evidence.reported("NO_SOLUTION", figure)):
             return reason, _most_bent(evidence)
     return NOTHING
