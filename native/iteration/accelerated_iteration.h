@@ -11,8 +11,8 @@ namespace fairing {
 // come back unless the last ones converged.
 Solution iterate(const Problem& problem, Workspace& work, Points start, const Progress& progress);
 
-// The same with shorter steps from the beginning. For boundaries whose normals turn much from one vertex to the next: H
-// there answers to a move several times as strongly as K expects. Slower where both converge.
+// The same with steps that are shorter from the beginning. For outlines whose normals turn much from one vertex to the
+// next: H there answers to a move several times as strongly as K expects. Slower where both converge.
 Solution iterate_damped(const Problem& problem, Workspace& work, Points start, const Progress& progress);
 
 }  // namespace fairing
