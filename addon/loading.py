@@ -39,12 +39,12 @@ def system() -> str:
 
 def details() -> tuple[tuple[str, str], ...]:
     """Return what a report of the problem has to hold, as pairs of label and value."""
-    told = manifest()
-    wheels = [Path(wheel).name for wheel in told.get("wheels", ())] or ["none"]
+    said = manifest()
+    wheels = [Path(wheel).name for wheel in said.get("wheels", ())] or ["none"]
     return (
         ("Reason", problem()),
         ("Platform", system()),
         ("Python", platform.python_version()),
-        ("Made for", ", ".join(told["platforms"])),
+        ("Made for", ", ".join(said["platforms"])),
         *(("Wheel", wheel) for wheel in wheels),
     )

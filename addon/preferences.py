@@ -26,7 +26,7 @@ class FairPreferences(bpy.types.AddonPreferences):
     )
     inspect_up_to: IntProperty(
         name="Look at Selections Up To",
-        description="Meshes with more faces are looked at on demand only, so that selecting stays quick",
+        description="Larger meshes are examined on demand only, so that selecting stays quick",
         default=INSPECT_UP_TO,
         min=0,
         soft_max=1_000_000,

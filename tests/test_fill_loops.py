@@ -63,7 +63,7 @@ def test_rows_are_those_of_the_vertices_where_they_may_be_of_the_loops() -> None
     by_loop = fairing.fill(vertices, EMPTY, loops, normals=[normals[loop] for loop in loops], bridge=True)
     np.testing.assert_array_equal(of_vertices.vertices, by_loop.vertices)
     shifted = normals[(np.arange(64) + 8) % 32 + 32 * (np.arange(64) // 32)]
-    with pytest.raises(ValueError, match="normals: 64 of 64 point along the outline"):
+    with pytest.raises(ValueError, match="normals: 64 of 64 point along the boundary"):
         fairing.fill(vertices, EMPTY, loops, normals=shifted, bridge=True)
 
 

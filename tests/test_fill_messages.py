@@ -39,7 +39,7 @@ def single(points: FloatArray) -> FloatArray:
 def test_a_t_junction_is_named_with_its_edge(bend: float, extra: int, placed: Any) -> None:
     vertices, triangles, lying = t_junctions(bend, extra)
     loop = min(fairing.boundary_loops(triangles), key=len)
-    with pytest.raises(fairing.MeshError, match=r"of an outline (lies|lie) on its edge 5-6: dissolve") as caught:
+    with pytest.raises(fairing.MeshError, match=r"of a boundary (lies|lie) on its edge 5-6: dissolve") as caught:
         fairing.fill(placed(vertices), triangles, [loop])
     assert caught.value.code == "NONMANIFOLD_VERTEX"
     assert caught.value.elements.tolist() == [5, 6, *lying]

@@ -206,7 +206,7 @@ def test_unknown_curvature_is_left_to_the_surface() -> None:
     (warning,) = partly.warnings
     assert warning.code == "G2_NOT_MET"
     assert warning.figures == {"vertices": np.isnan(part).sum(), "outline_vertices": len(part)}
-    assert f"{np.isnan(part).sum()} of {len(part)} outline vertices" in str(warning)
+    assert f"{np.isnan(part).sum()} of {len(part)} boundary vertices" in str(warning)
     assert set(warning.elements) == set(patch.fixed[np.isnan(part)])
     assert patch.error(partly.vertices) < 0.2 * patch.error(tangent.vertices)
 
@@ -224,7 +224,7 @@ def test_noise_is_not_followed() -> None:
     rough = with_curvature(patch, patch.mean_curvature[patch.fixed] + noise)
     assert told(rough) == {"smooth_share", "vertices", "outline_vertices"}
     assert rough.warnings[0].figures["smooth_share"] < 1 / 3
-    assert f"all {len(patch.fixed)} outline vertices" in str(rough.warnings[0])
+    assert f"all {len(patch.fixed)} boundary vertices" in str(rough.warnings[0])
     np.testing.assert_array_equal(rough.vertices, tangent.vertices)
 
 

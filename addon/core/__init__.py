@@ -1,1 +1,1 @@
-"""Arrays in, arrays out: the patch, its outline, the engine's answer, the report. numpy and `fairing`, no Blender."""
+"""Arrays in, arrays out: the patch, its boundary, the engine's answer, the report. numpy and `fairing`, no Blender."""

@@ -7,7 +7,7 @@ import numpy as np
 from .arrays import Ints, Mask
 from .region import MeshArrays, face_sizes
 
-NO_BORDER = "No border is selected: select edges or vertices of the holes' outlines, as many as you like of each"
+NO_BORDER = "No border is selected: select edges or vertices of the holes' boundaries, as many as you like of each"
 
 
 class BorderRefusal(ValueError):

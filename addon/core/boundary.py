@@ -1,4 +1,4 @@
-"""Normals along the outline: what the fair surface has to be tangent to."""
+"""Normals along the boundary: what the fair surface has to be tangent to."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ class Carrier:
 
     def __init__(self, fixed: Floats, free: Floats) -> None:
         """Begin with the fixed vertices (k, 3) and the free ones (n, 3); k is not zero."""
-        # Of very many fixed vertices some are enough: shifts along an outline are smooth.
+        # Of very many fixed vertices some are enough: shifts along a boundary are smooth.
         step = max(1, int(np.ceil(len(fixed) * len(free) / MOST)))
         self._fixed, self._free, self._step = fixed, free, step
         self._weights: Floats | None = None  # (n, k / step), made when they are needed

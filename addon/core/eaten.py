@@ -44,13 +44,13 @@ def eaten_edges(problem: Problem, after: Floats, sharp: Ints | None) -> Eaten:
 
 def _running_on(problem: Problem, after: Floats, moves: Mask) -> Ints:
     """Return the free vertices, in numbers of the problem, at rounded edges of chains that lead out of the patch."""
-    # Far inside an edge may be a feature of its own: chains are followed near the outline alone.
+    # Far inside an edge may be a feature of its own: chains are followed near the boundary alone.
     outline = np.zeros(len(moves), dtype=bool)
     outline[np.intersect1d(problem.patch.outline, problem.outside)] = True
     near = nearby(np.concatenate([problem.patch.triangles, problem.outside]), outline)
     old = bends(problem.points, near)
     inside = moves[old.edges].any(axis=1)
-    outside = ~inside & ~outline[old.edges].all(axis=1)  # a chain along the outline leads nowhere
+    outside = ~inside & ~outline[old.edges].all(axis=1)  # a chain along the boundary leads nowhere
     sizes = np.abs(old.degrees)
     flatter = inside & (sizes - np.abs(bends(after, near).degrees) > ROUNDED)
     found = [nothing()]

@@ -37,7 +37,7 @@ class Problem:
     vertices: Ints  # (q,) mesh indices: the patch's p, then those of the faces around it
     outside: Ints  # (o, 3) triangles around the patch, in numbers of `vertices`
     curvatures: Floats | None = None  # (k,) H outside, NaN where it is not known; None: not to be continued
-    weights: Floats | None = None  # (q,) how much of the way each vertex goes; None: all of it inside, none outside
+    weights: Floats | None = None  # (q,) each vertex's own factor; None: 1 inside, 0 outside
     sample: Ints = field(default_factory=lambda: np.empty((0, 3), dtype=np.int64))  # (s, 3) whose skin is copied
 
     @classmethod
@@ -64,7 +64,7 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
     patch = problem.patch
     if options.outline == "MENDED" and np.isin(patch.creases, patch.outline).any():
         raise ValueError(
-            "Outline: Smooth would round off the creases that run out of the selection: choose As Selected, "
+            "Boundary: Smooth would round off the creases that run out of the selection: choose As Selected, "
             "or At Pinned Edges: Averaged"
         )
     reads = options.reads_surroundings
@@ -117,7 +117,7 @@ def suppress_cancel() -> Iterator[None]:
 
 
 def bad_outline(problem: Problem) -> Ints:
-    """Return the mesh vertices of the outline whose surroundings say little about the surface; creases are meant."""
+    """Return the mesh vertices of the boundary whose surroundings say little about the surface; creases are meant."""
     rim = np.intersect1d(problem.patch.outline, problem.outside)
     found = fairing.bad_outline(problem.points, problem.outside, rim)
     bad: Ints = problem.vertices[np.setdiff1d(found, problem.patch.creases)]
@@ -126,14 +126,14 @@ def bad_outline(problem: Problem) -> Ints:
 
 @dataclass(frozen=True)
 class Mended:
-    """An outline moved onto the fit of its surroundings."""
+    """A boundary moved onto the fit of its surroundings."""
 
     vertices: Ints  # (k,) of the mesh that move
     points: Floats  # (k, 3) where to, in world space
 
 
 def mended_outline(problem: Problem) -> Mended:
-    """Return where the outline and the two rings around it go, as far as it is noisy."""
+    """Return where the boundary and the two rings around it go, as far as it is noisy."""
     rim = np.intersect1d(problem.patch.outline, problem.outside)
     mended = fairing.mend_outline(problem.points, problem.outside, rim)
     return Mended(problem.vertices[mended.moved], mended.vertices[mended.moved])

@@ -41,8 +41,8 @@ class Evidence:
     points: Floats | None = None  # (q, 3) of problem.vertices after the run; None: problem.points
     origin: Origin | None = None  # what the engine's numbers stand for; None: problem.origin
 
-    def told(self, code: str, *figures: str) -> Iterator[Finding]:
-        """Find what the engine told of by a code, with any of the figures; all of that code without any."""
+    def reported(self, code: str, *figures: str) -> Iterator[Finding]:
+        """Find what the engine reported under a code, with any of the figures; all of that code without any."""
         origin = self.origin or self.problem.origin
         for warning in self.result.warnings:
             if warning.code == code and (not figures or any(name in warning.figures for name in figures)):
@@ -50,8 +50,8 @@ class Evidence:
 
     def named(self, code: str, figure: str = "") -> Ints:
         """Return the mesh vertices that the engine names so."""
-        told = (finding.named for finding in self.told(code, *filter(None, [figure])))
-        vertices: Ints = np.concatenate([nothing(), *told])
+        named = (finding.named for finding in self.reported(code, *filter(None, [figure])))
+        vertices: Ints = np.concatenate([nothing(), *named])
         return vertices
 
 

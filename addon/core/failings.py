@@ -18,9 +18,9 @@ _MULTIGRID = ": Method: Multigrid did not get there. Method: Global finds it mor
 def failing(evidence: Evidence, options: FairOptions) -> Found:
     """Return the first reason, with its places."""
     for look in (_no_answer, _folded, _crossing):
-        told = look(evidence, options)
-        if told[0]:
-            return told
+        reason = look(evidence, options)
+        if reason[0]:
+            return reason
     return NOTHING
 
 
@@ -34,15 +34,15 @@ def _no_answer(evidence: Evidence, options: FairOptions) -> Found:
 
 
 def _ending(evidence: Evidence, options: FairOptions) -> str:
-    """Return how the search ended, where the engine does not tell why, and what there is instead."""
+    """Return how the search ended, where the engine does not say why, and what there is instead."""
     if options.fairs_border:
         return _ROUGH_BORDER
     if options.method == "PAPER":
         return _MULTIGRID
-    if any(evidence.told("NOT_CONVERGED", "load_share", "area", "from_behind")):
+    if any(evidence.reported("NOT_CONVERGED", "load_share", "area", "from_behind")):
         return ""
     count = evidence.result.iterations
-    text = ": the search came to a halt" if count else ": the search found no way to begin"
+    text = ": the search came to a halt" if count else ": no initial surface was found"
     if evidence.result.termination != "stalled":
         text = f": it was not there after the {counted(count, 'step', 'steps')} that Iterations allows"
     after = evidence.after
@@ -52,7 +52,7 @@ def _ending(evidence: Evidence, options: FairOptions) -> str:
 
 
 def _troubled(problem: Problem) -> Ints:
-    """Return the bad vertices of the outline, or all of it where none stands out."""
+    """Return the bad vertices of the boundary, or all of it where none stands out."""
     outline = problem.patch.vertices[np.intersect1d(problem.patch.outline, problem.outside)]
     bad = bad_outline(problem)
     return bad if len(bad) else outline
@@ -77,7 +77,7 @@ def _folded(evidence: Evidence, options: FairOptions) -> Found:
 
 
 def _named_folds(evidence: Evidence) -> Found:
-    """Tell what the engine tells of folds that show as crossings only."""
+    """Return the engine's sentence on folds that show as crossings only."""
     reason = evidence.failures[0] if evidence.failures else "The surface can't be reached without folds"
     return reason, evidence.named("FOLDED")
 

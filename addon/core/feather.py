@@ -1,4 +1,4 @@
-"""Feather: how much of the way each vertex goes, in a patch and the band around it. Plain numpy, no bpy."""
+"""Feather: the factor of each vertex in a patch and the band around it. Plain numpy, no bpy."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ def refuse_options(options: FairOptions) -> None:
     """Raise ValueError for options that a band can't have."""
     without = "Feather 0" if options.feather > 0.0 else "no Factor Group and no Mask"
     for wrong, text in (
-        (options.outline != "GIVEN", "Outline: Smooth moves vertices of the band: choose As Selected"),
+        (options.outline != "GIVEN", "Boundary: Smooth moves vertices of the band: choose As Selected"),
         (options.copies_detail, "Detail From copies a skin that the band does not blend: leave it empty"),
-        (options.joins_curvature, "Join: Curvature holds the outline, which the band moves: choose Tangent"),
+        (options.joins_curvature, "Join: Curvature holds the boundary, which the band moves: choose Tangent"),
     ):
         if wrong and options.moves_band:
             raise ValueError(f"{text}, or {without}")

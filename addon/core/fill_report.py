@@ -15,10 +15,10 @@ Named = Sequence[tuple[str, list[Piece]]]
 
 @dataclass(frozen=True)
 class Added:
-    """What there is to tell about the new faces of one object."""
+    """What is reported about the new faces of one object."""
 
     faces: int
-    mixed: int  # outline vertices where colours or other values of the two border faces differ: their mean counts
+    mixed: int  # boundary vertices where colours or other values of the two border faces differ: their mean counts
     seams: int  # new edges where UVs part
     distortion: float  # area-weighted mean of the conformal distortion − 1 on the active UV map; 0 without one
     covering: int = 0  # new triangles that lie over other faces on that map
@@ -29,18 +29,18 @@ class Added:
         notes = []
         if self.seams:
             text = counted(self.seams, "new edge is a seam", "new edges are seams")
-            notes.append(f"{text} of UVs: each island at the outline goes on by itself")
+            notes.append(f"{text} of UVs: each island at the boundary goes on by itself")
         if self.covering:
             text = counted(self.covering, "new triangle lies", "new triangles lie")
             notes.append(f"{text} over other faces in the texture: move the islands apart before you paint")
         if self.mixed:
-            text = counted(self.mixed, "vertex of the outline lies", "vertices of the outline lie")
+            text = counted(self.mixed, "vertex of the boundary lies", "vertices of the boundary lie")
             notes.append(f"{text} where colours of two faces differ: new faces begin with the mean there")
         return tuple(notes)
 
 
 def is_written(named: Named, options: FillOptions) -> bool:
-    """Tell whether the run changes its meshes: all of them, or none."""
+    """Return whether the run changes its meshes: all of them, or none."""
     return options.accept == "ALL" or all(_worst(pieces).grade != UNUSABLE for _, pieces in named)
 
 
@@ -56,7 +56,7 @@ def make_fill_report(
 ) -> Report:
     """Sum up the surfaces of one run, by object name.
 
-    added: what was written, if anything was; notes: what else there is to tell.
+    added: what was written, if anything was; notes: what else is reported.
     """
     pieces = [piece for _, of_object in named for piece in of_object]
     results = [piece.result for piece in pieces]

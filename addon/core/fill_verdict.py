@@ -12,7 +12,7 @@ from .around import nearby
 from .arrays import Floats, Ints
 from .bends import bends
 from .hard_chains import chains
-from .looks import SUBSTITUTES, girth_reason, kink_reason, slope_reason
+from .looks import STAND_INS, girth_reason, kink_reason, slope_reason
 from .piercing import Sheet, crossing, near
 from .quality import Join
 from .region import MeshArrays, nothing
@@ -22,9 +22,9 @@ from .words import counted
 
 @dataclass(frozen=True)
 class Surface:
-    """What was found over an outline of r vertices, in world space."""
+    """What was found over a boundary of r vertices, in world space."""
 
-    points: Floats  # (r + k, 3), those of the outline first
+    points: Floats  # (r + k, 3), those of the boundary first
     triangles: Ints
     result: fairing.FillResult
     join: Join
@@ -51,11 +51,11 @@ def judge(world: MeshArrays, outline: Ints, surface: Surface) -> Verdict:
     if len(ends):
         text = counted(len(ends), "vertex", "vertices")
         return Verdict(LOOK, f"Hard edges end at the hole, at {text}: the surface over it has none", ends)
-    if result.equation in SUBSTITUTES:
-        return Verdict(LOOK, SUBSTITUTES[result.equation], np.unique(outline))
+    if result.equation in STAND_INS:
+        return Verdict(LOOK, STAND_INS[result.equation], np.unique(outline))
     uneven = girth_reason(result)
     if uneven:
-        hint = "" if result.equation == "least_variation" else ": choose the shape Even Curvature"
+        hint = "" if result.equation == "least_variation" else ": choose the shape Least Variation"
         return Verdict(LOOK, uneven + hint, np.unique(outline))
     if len(surface.tangent_only):
         return Verdict(LOOK, slope_reason(surface.tangent_only), surface.tangent_only)
@@ -63,11 +63,11 @@ def judge(world: MeshArrays, outline: Ints, surface: Surface) -> Verdict:
 
 
 def _outlines(count: int, edges: str) -> str:
-    return f"an outline of {edges}" if count == 1 else f"{count} outlines of {edges} in all"
+    return f"a boundary of {edges}" if count == 1 else f"{count} boundary loops of {edges} in all"
 
 
 def hard_ends(world: MeshArrays, outline: Ints) -> Ints:
-    """Return the vertices of the outline at which hard edges of the mesh end, ascending."""
+    """Return the vertices of the boundary at which hard edges of the mesh end, ascending."""
     rim = np.zeros(len(world.positions), dtype=bool)
     rim[outline] = True
     triangles = nearby(world.triangles, rim)

@@ -27,8 +27,8 @@ from .region import MeshArrays, nothing, to_local
 from .verdict import UNUSABLE, Verdict
 from .words import in_mesh_words, sentences
 
-_TOO_MANY = "Bridge joins all {} selected outlines in one surface: select only those that belong together"
-_TWO = "Bridge needs two outlines that face each other: switch it off to close each of them by itself"
+_TOO_MANY = "Bridge joins all {} selected boundary loops in one surface: select only those that belong together"
+_TWO = "Bridge needs two boundary loops that face each other: switch it off to close each of them by itself"
 SHAPES = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY", "LEAST_VARIATION")
 
 
@@ -42,11 +42,11 @@ class FillOptions:
     equation: str = "AUTOMATIC"
     continuity: str = "G1"  # G2: the curvature around is continued, too
     bridge: bool = False  # all loops of an object are joined
-    spacing: float = 1.0  # of new edges, as a factor of the outline's
-    inner: str = "OUTLINE"  # in proportion to the outline's nearby; EVEN: of one length
+    spacing: float = 1.0  # of new edges, as a factor of the boundary's
+    inner: str = "OUTLINE"  # in proportion to the boundary's nearby; EVEN: of one length
     quads: bool = False  # triangles are written in pairs, as far as they can be
     max_vertices: int = 0  # more new ones for a surface are refused; 0: twenty times as many as over flat ones
-    limit_total: int = 0  # vertex groups of bones of a new vertex; 0: as many as one vertex of the outline has
+    limit_total: int = 0  # vertex groups of bones of a new vertex; 0: as many as one vertex of the boundary has
     accept: str = "USABLE"  # ALL: written whatever it is worth
 
     def __post_init__(self) -> None:
@@ -83,10 +83,10 @@ class FillOptions:
 
 @dataclass(frozen=True)
 class Piece:
-    """One surface, over a loop or between several: r outline vertices, k new ones."""
+    """One surface, over a loop or between several: r boundary vertices, k new ones."""
 
     loops: tuple[Ints, ...]  # mesh vertices, each loop with the surface on its left
-    points: Floats  # (r + k, 3) in world space, the outline's first, loop after loop
+    points: Floats  # (r + k, 3) in world space, the boundary's first, loop after loop
     positions: Floats  # (k, 3) of the new vertices, in the mesh's own coordinates
     triangles: Ints  # (m, 3) in numbers of `points`, wound like the mesh
     verdict: Verdict
@@ -118,11 +118,11 @@ class Piece:
 
     @property
     def following(self) -> Ints:
-        """For each of the r outline vertices the next one, as numbers of `points`."""
+        """For each of the r boundary vertices the next one, as numbers of `points`."""
         return np.concatenate([np.roll(rim, -1) for rim in self.rims])
 
     def carried(self, values: Floats) -> Floats:
-        """Return (k, c): values (r, c) of the outline at the new vertices."""
+        """Return (k, c): values (r, c) of the boundary at the new vertices."""
         return harmonic(self.points, self.triangles, values)
 
     def keyed(self, places: list[Floats], carried: list[Floats]) -> list[Floats | None]:
@@ -132,9 +132,9 @@ class Piece:
         return key_surfaces(NewSurface(self.points, triangles, self.result.equation), self.around, places, carried)
 
     def examples(self) -> tuple[Ints, Ints]:
-        """Return (k,) and (m,): the outline vertex whose data a new vertex takes, and a new face, for what has no mean.
+        """Return (k,) and (m,): boundary vertices whose data new vertices and new faces take, for what has no mean.
 
-        That of a face stands for the edge from there to the next one: at the outline it is the face's own.
+        That of a face stands for the edge from there to the next one: at the boundary it is the face's own.
         """
         rim = len(self.outline)
         near = nearest(self.triangles, len(self.points), rim)
@@ -203,7 +203,7 @@ def _piece(
 
 
 def _surroundings(world: MeshArrays, outline: Ints) -> tuple[Ints, Ints]:
-    """Return the (q,) mesh vertices of the outline and of the triangles around it, and these, in their numbers."""
+    """Return the (q,) mesh vertices of the boundary and of the triangles around it, and these, in their numbers."""
     finite = np.isfinite(world.positions).all(axis=1)
     start = np.zeros(len(finite), dtype=bool)
     start[outline] = True
@@ -213,7 +213,7 @@ def _surroundings(world: MeshArrays, outline: Ints) -> tuple[Ints, Ints]:
 
 
 def _keyed_from(vertices: Ints, around: Ints, outline: Ints, matrix: Floats) -> Surroundings:
-    """Return the surroundings with the outline first; around: triangles in numbers of `vertices`."""
+    """Return the surroundings with the boundary first; around: triangles in numbers of `vertices`."""
     others = np.setdiff1d(vertices, outline)
     order = np.concatenate([outline, others])
     number = np.empty(len(vertices), dtype=np.int64)
@@ -222,7 +222,7 @@ def _keyed_from(vertices: Ints, around: Ints, outline: Ints, matrix: Floats) -> 
 
 
 def _spacing(world: MeshArrays, loops: list[Ints], options: FillOptions) -> float:
-    """Return the wanted length; 0, which stands for that of the outline's edges, for a factor of 1."""
+    """Return the wanted length; 0, which stands for that of the boundary's edges, for a factor of 1."""
     if options.spacing == 1.0:
         return 0.0
     edges = [world.positions[np.roll(loop, -1)] - world.positions[loop] for loop in loops]
@@ -230,31 +230,31 @@ def _spacing(world: MeshArrays, loops: list[Ints], options: FillOptions) -> floa
 
 
 def _notes(result: fairing.FillResult, slopes: tuple[fairing.Diagnostic, ...], origin: Origin) -> tuple[str, ...]:
-    """Tell what was taken in place of the surface asked for, and where its curvature is not continued."""
-    told = [warning for warning in result.warnings if warning.code in ("NO_SOLUTION", "NOT_TANGENT")]
-    known = [replace(each, elements=each.elements[each.elements < len(origin.vertices)]) for each in told]
+    """Report what stands in for the surface asked for, and where its curvature is not continued."""
+    warnings = [warning for warning in result.warnings if warning.code in ("NO_SOLUTION", "NOT_TANGENT")]
+    known = [replace(each, elements=each.elements[each.elements < len(origin.vertices)]) for each in warnings]
     return sentences((*known, *slopes), origin)
 
 
 def _advised(verdict: Verdict, options: FillOptions, loops: int) -> Verdict:
-    """Return the verdict with what to do about it where too many outlines were joined."""
+    """Return the verdict with what to do about it where too many boundary loops were joined."""
     if verdict.grade != UNUSABLE or not options.bridge or loops < 3:
         return verdict
     return replace(verdict, reason=f"{verdict.reason}. {joining_advice(loops)}")
 
 
 def joining_advice(loops: int) -> str:
-    """Return what to do where so many outlines were not joined."""
+    """Return what to do where so many boundary loops were not joined."""
     return _TOO_MANY.format(loops) if loops > 2 else _TWO
 
 
 @contextmanager
 def _joining(options: FillOptions, outline: Ints, loops: int) -> Iterator[None]:
-    """Let the engine's MeshErrors tell what to do about outlines that no surface joins."""
+    """Let the engine's MeshErrors say what to do about boundary loops that no surface joins."""
     try:
         yield
     except fairing.MeshError as error:
         tells_why = {"turned", "between"} & error.diagnostic.figures.keys()
         if error.code != "LOOPS_NOT_JOINED" or (loops == 2 and tells_why):
             raise
-        raise BorderRefusal(f"No surface joins these outlines. {joining_advice(loops)}", outline) from error
+        raise BorderRefusal(f"No surface joins these boundary loops. {joining_advice(loops)}", outline) from error

@@ -1,6 +1,6 @@
 """Selections that end on the flank of a bump or a dent: the surface continues that slope, so that the feature stays.
 
-All around such an outline the patch bends over to one side, and its surroundings bend back to the other. Around whole
+All around such a boundary the patch bends over to one side, and its surroundings bend back to the other. Around whole
 features they run on, or bend to both sides. docs/blender.md has how often that is right.
 """
 
@@ -19,15 +19,15 @@ from .engine import Problem
 from .region import MeshArrays, Patch
 from .vectors import area_vectors, unit
 
-INSIDE = (0.3, 0.7)  # distances from the outline, in radii of the patch, where it is looked at
+INSIDE = (0.3, 0.7)  # distances from the boundary, in radii of the patch, where it is looked at
 OUTSIDE = ((0.5, 1.1), (0.8, 1.8))  # and its surroundings: a feature ends within one of them
 BENDS_OVER = 4.0  # degrees by which the patch bends over on average, at least
 BENDS_BACK = 6.0  # and its surroundings bend back
-SEEN = 3.0  # degrees from which a place on the outline counts
+SEEN = 3.0  # degrees from which a place on the boundary counts
 MOST_OVER, MOST_BACK = 0.7, 0.75  # of these places, that bend so
 ENDS = 0.9  # of the largest lean: there the flank ends
 STEP = 0.2  # radii: how finely its end is looked for
-SAMPLES, FRAMES = 3000, 300  # triangles on either side, edges of the outline that are enough to tell
+SAMPLES, FRAMES = 3000, 300  # triangles on either side, edges of the boundary that are enough
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Flank:
 
 @dataclass(frozen=True)
 class _Frames:
-    """k edges of an outline."""
+    """k edges of a boundary."""
 
     middles: Floats  # (k, 3)
     normals: Floats  # (k, 3) unit, of the surroundings
@@ -154,7 +154,7 @@ def _frames(points: Floats, normals: Floats, edges: Ints, opposite: Ints) -> _Fr
 
 
 def _places(leans: tuple[Floats, Floats, Ints], band: tuple[float, float], radius: float) -> Floats:
-    """Return the mean degrees at each place of the outline that has triangles in a band of distances."""
+    """Return the mean degrees at each place of the boundary that has triangles in a band of distances."""
     away, degrees, nearest = leans
     there = (away > band[0] * radius) & (away < band[1] * radius) & np.isfinite(degrees)
     counts = np.bincount(nearest[there])

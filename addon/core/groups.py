@@ -19,7 +19,7 @@ def groups(count: int, pairs: Iterable[tuple[int, int]]) -> list[Ints]:
 
 
 def _leader_of(leader: list[int], number: int) -> int:
-    """Follow the way to the one that leads itself, and shorten it."""
+    """Follow the path to the one that leads itself, and shorten it."""
     while leader[number] != number:
         leader[number] = leader[leader[number]]
         number = leader[number]

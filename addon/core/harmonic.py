@@ -1,4 +1,4 @@
-"""Values of an outline carried over a new surface: as smoothly as heat would spread. Plain numpy, no bpy."""
+"""Values of a boundary carried over a new surface: as smoothly as heat would spread. Plain numpy, no bpy."""
 
 from __future__ import annotations
 

@@ -53,7 +53,7 @@ def holes_among(mesh: MeshArrays, matrix: Floats, loops: list[Ints]) -> Borders:
 
 
 def expected_vertices(mesh: MeshArrays, matrix: Floats, loops: list[Ints], bridge: bool) -> float:
-    """Return about how many vertices will be new, with edges as long as the outlines'."""
+    """Return about how many vertices will be new, with edges as long as the boundaries'."""
     world = _placed(mesh, matrix)
     return fairing.expected_vertices(world.positions, world.triangles, loops, bridge=bridge)
 

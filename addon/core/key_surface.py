@@ -11,16 +11,16 @@ import fairing
 from .arrays import Floats, Ints
 from .region import to_local
 
-MOST_VERTICES = 20_000  # new ones, times keys that bend the outline: .4 s
+MOST_VERTICES = 20_000  # new ones, times keys that bend the boundary: .4 s
 _MOST_STEPS = 40
-_SAME = 1e-6  # of the outline's size: offsets that differ by less are those of a key that only moves
+_SAME = 1e-6  # of the boundary's size: offsets that differ by less are those of a key that only moves
 _SOLVED = ("harmonic", "minimal_energy", "least_variation")
 _WRONG = {"FLIPPED_TRIANGLES", "SELF_INTERSECTION"}
 
 
 @dataclass(frozen=True)
 class Surroundings:
-    """What lies around a new surface: r vertices of its outline first, then others."""
+    """What lies around a new surface: r vertices of its boundary first, then others."""
 
     vertices: Ints  # (q,) of the mesh
     triangles: Ints  # (o, 3) in numbers of these, wound so that outside is outside
@@ -34,7 +34,7 @@ class Surroundings:
 
 @dataclass(frozen=True)
 class NewSurface:
-    """Faces over r vertices of an outline and k new ones."""
+    """Faces over r vertices of a boundary and k new ones."""
 
     points: Floats  # (r + k, 3) in world space
     triangles: Ints  # (m, 3), wound so that outside is outside
@@ -61,7 +61,7 @@ def key_surfaces(
 
 
 def _is_bent(rim: Floats, there: Floats) -> bool:
-    """Whether the offsets of an outline's vertices differ from each other; `there` begins with where they are."""
+    """Whether the offsets of a boundary's vertices differ from each other; `there` begins with where they are."""
     offsets = there[: len(rim)] - rim
     return bool(np.isfinite(there).all() and np.ptp(offsets, axis=0).max() > _SAME * np.ptp(rim, axis=0).max())
 

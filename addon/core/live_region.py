@@ -87,7 +87,7 @@ class LiveRegion:
         self.options = options
         options = options.resolved(mesh.textured)
         world = mesh.transformed(matrix)
-        patch = make_patch(world, even=not options.keeps_triangles)
+        patch = make_patch(world, by_connectivity=not options.keeps_triangles)
         self._around = surroundings(mesh, patch)
         self._options = options
         self._image = mirror_map(mesh, patch) if mesh.mirror_x else None
@@ -111,7 +111,7 @@ class LiveRegion:
 
     @property
     def outline(self) -> Ints:
-        """Mesh indices of the outline's vertices."""
+        """Mesh indices of the boundary's vertices."""
         patch = self._around.patch
         outline: Ints = self._around.vertices[patch.vertices[patch.outline]]
         return outline

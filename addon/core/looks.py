@@ -22,23 +22,23 @@ MANY_LEFT_OUT = 3  # faces that a careless lasso leaves out; one or two may be m
 MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
 _KNOT = "Seams and marks inside, which stay, are squeezed to a knot at {}"
 # What stands in for a surface that there is none of, by the engine's name for it.
-SUBSTITUTES = {
-    "loft": "No fair surface fits these outlines: the loft that joins them is a substitute, so look at its shape",
-    "smoothed": "No fair surface fits these outlines: the old shape was smoothed as far as it goes, so look at it",
+STAND_INS = {
+    "loft": "No fair surface fits these boundary loops: the loft that joins them is a stand-in, so look at its shape",
+    "smoothed": "No fair surface fits these boundary loops: the old shape was smoothed, so look at it",
 }
 
 
 def visible(evidence: Evidence, options: FairOptions) -> Found:
     """Return the first reason to look at it, with its places, the worst first."""
     for look in _LOOKS:
-        told = look(evidence, options)
-        if told[0]:
-            return told
+        reason = look(evidence, options)
+        if reason[0]:
+            return reason
     return NOTHING
 
 
 def are_many(left_out: LeftOut) -> bool:
-    """Tell whether so many faces are left out that it can't be meant."""
+    """Return whether so many faces are left out that it can't be meant."""
     return left_out.count >= MANY_LEFT_OUT
 
 
@@ -75,35 +75,35 @@ def _kinked(evidence: Evidence, options: FairOptions) -> Found:
     if not len(kinks):
         return NOTHING
     text = counted(len(kinks), "vertex", "vertices")
-    return f"The surface does not continue the slope of its surroundings at {text} of the outline", kinks
+    return f"The surface does not continue the slope of its surroundings at {text} of the boundary", kinks
 
 
 def kink_reason(join: Join) -> str:
     """Return the sentence for a join that is seen."""
     text = counted(len(join.seen), "vertex", "vertices")
     if join.worst_seen >= fairing.LIMITS["turned_back"]:
-        return f"The surface turns back from the slope around it at {text} of the outline, by {join.worst_seen:.0f}°"
-    return f"A kink shows at {text} of the outline, of {join.worst_seen:.0f}° at worst"
+        return f"The surface turns back from the slope around it at {text} of the boundary, by {join.worst_seen:.0f}°"
+    return f"A kink shows at {text} of the boundary, of {join.worst_seen:.0f}° at worst"
 
 
 def slope_reason(vertices: Ints) -> str:
-    """Return the sentence for outline vertices where a curvature was asked for and is not continued."""
+    """Return the sentence for boundary vertices where a curvature was asked for and is not continued."""
     text = counted(len(vertices), "vertex", "vertices")
-    return f"The curvature outside is not continued at {text} of the outline, as was asked for"
+    return f"The curvature outside is not continued at {text} of the boundary, as was asked for"
 
 
 def _pointed(evidence: Evidence, _options: FairOptions) -> Found:
     tips = evidence.named("PINS_NOT_SPREAD", "tips")
     if not len(tips):
         return NOTHING
-    return f"The surface comes to a point at {counted(len(tips), 'pinned vertex', 'pinned vertices')}", tips
+    return f"The surface forms a spike at {counted(len(tips), 'pinned vertex', 'pinned vertices')}", tips
 
 
 def _rounded(evidence: Evidence, _options: FairOptions) -> Found:
     if not len(evidence.rounded):
         return NOTHING
     text = counted(len(evidence.rounded), "vertex", "vertices")
-    return f"Outline: Smooth has rounded a hard edge outside at {text}: choose As Selected", evidence.rounded
+    return f"Boundary: Smooth has rounded a hard edge outside at {text}: choose As Selected", evidence.rounded
 
 
 def _eaten(evidence: Evidence, options: FairOptions) -> Found:
@@ -122,7 +122,7 @@ def _eaten(evidence: Evidence, options: FairOptions) -> Found:
 
 
 def _with_kinks(evidence: Evidence, reason: str, spots: Ints) -> Found:
-    """Add the kinks at the outline, or begin with them where these are the worse of both.
+    """Add the kinks at the boundary, or begin with them where these are the worse of both.
 
     Another selection may be what helps then.
     """
@@ -132,7 +132,7 @@ def _with_kinks(evidence: Evidence, reason: str, spots: Ints) -> Found:
     if evidence.join.worst_seen >= fairing.LIMITS["steep_kink"]:
         edge = counted(len(spots), "vertex", "vertices")
         return f"{kink_reason(evidence.join)}, and hard edges were rounded off at {edge}", _both(seen, spots)
-    kink = f"a kink of {evidence.join.worst_seen:.0f}° shows at the outline"
+    kink = f"a kink of {evidence.join.worst_seen:.0f}° shows at the boundary"
     return f"{reason}, or grow the selection: {kink}", _both(spots, seen)
 
 
@@ -145,21 +145,21 @@ def _swollen(evidence: Evidence, options: FairOptions) -> Found:
     if not len(evidence.swollen) or not judges_join(options) or _is_meant_to_swell(options):
         return NOTHING
     text = counted(len(evidence.swollen), "vertex", "vertices")
-    return f"The surface swells to a knob around {text}: another outline may avoid it", evidence.swollen
+    return f"The surface swells to a knob around {text}: another boundary may avoid it", evidence.swollen
 
 
 def _flanked(evidence: Evidence, options: FairOptions) -> Found:
     if evidence.flank is None or not judges_join(options) or _is_meant_to_swell(options):
         return NOTHING
     kind = "bump" if evidence.flank.is_bump else "dent"
-    reason = f"The outline is on the slope of a {kind}, so that the {kind} stays: grow the selection over it"
+    reason = f"The boundary is on the slope of a {kind}, so that the {kind} stays: grow the selection over it"
     return reason, evidence.problem.patch.vertices[evidence.flank.outline]
 
 
 def _substituted(evidence: Evidence, _options: FairOptions) -> Found:
-    """Tell of a loft, which may be as flat as a strap, and of the old shape smoothed, which may keep part of it."""
-    for figure, reason in SUBSTITUTES.items():
-        if any(evidence.told("NO_SOLUTION", figure)):
+    """Report a loft, which may be as flat as a strap, and of the old shape smoothed, which may keep part of it."""
+    for figure, reason in STAND_INS.items():
+        if any(evidence.reported("NO_SOLUTION", figure)):
             return reason, _most_bent(evidence)
     return NOTHING
 
@@ -174,7 +174,7 @@ def _uneven(evidence: Evidence, options: FairOptions) -> Found:
 
 
 def girth_reason(result: Result) -> str:
-    """Return the sentence for a surface between outlines that is too thin or too thick; empty where it is neither."""
+    """Return the sentence for a tube that is too thin or too thick; empty where it is neither."""
     least, largest = result.girth or (1.0, 1.0)
     if _is_thin(result):
         return f"The tube narrows to {least:.0%} of its ends"
@@ -205,11 +205,11 @@ def _points(evidence: Evidence) -> Floats:
 
 
 def _refused(evidence: Evidence, _options: FairOptions) -> Found:
-    """Tell what was asked for and not given: curvature that is continued, the old skin."""
+    """Report what was asked for and not given: curvature that is continued, the old skin."""
     curvature = evidence.named("G2_NOT_MET")
     if len(curvature):
         return slope_reason(np.unique(curvature)), curvature
-    if any(evidence.told("REFERENCE_UNUSABLE", "old_skin", "sample_skin")):
+    if any(evidence.reported("REFERENCE_UNUSABLE", "old_skin", "sample_skin")):
         outline = evidence.problem.patch.vertices[evidence.problem.patch.outline]
         return "The detail asked for could not be put back: the result is smooth", outline
     return NOTHING
@@ -255,5 +255,5 @@ def _is_meant_to_swell(options: FairOptions) -> bool:
 
 
 def judges_join(options: FairOptions) -> bool:
-    """Tell whether the result is meant to continue its surroundings: a soap film and a blend are not."""
+    """Return whether the result is meant to continue its surroundings: a soap film and a blend are not."""
     return options.factor == 1.0 and options.equation != "MINIMAL"

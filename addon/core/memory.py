@@ -23,7 +23,7 @@ class Memory(Generic[Value]):
         self._lock = Lock()  # a cancelled run may end while the next one has begun
 
     def __contains__(self, key: str) -> bool:
-        """Tell whether something is kept for the key."""
+        """Return whether something is kept for the key."""
         with self._lock:
             return key in self._values
 

@@ -1,4 +1,4 @@
-"""Shortest ways over a graph from several sources at once. Plain numpy, no bpy."""
+"""Shortest paths over a graph from several sources at once. Plain numpy, no bpy."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def nearest_sources(count: int, links: Ints, lengths: Floats, sources: Ints) -> 
 
 
 def owners(before: Ints) -> Ints:
-    """Return the source that each node's way comes from; −1 out of reach."""
+    """Return the source that each node's path comes from; −1 out of reach."""
     found = np.where(before < 0, np.arange(len(before)), before)
     while True:
         further = found[found]

@@ -108,7 +108,7 @@ def _in_old_numbers(patch: Patch, result: fairing.RemeshResult) -> Ints:
 
 
 def _faces_that_stay(patch: Patch, triangles: Ints, gone: Ints) -> dict[tuple[int, ...], int]:
-    """Return the triangular faces that are in the new mesh, too: in corners between edges of outline or lines."""
+    """Return the triangular faces that are in the new mesh, too: in corners between edges of boundary or lines."""
     faces, counts = np.unique(patch.faces, return_counts=True)
     alone = np.isin(patch.faces, np.intersect1d(faces[counts == 1], gone))
     new = {tuple(corners) for corners in np.sort(triangles, axis=1).tolist()}

@@ -23,7 +23,7 @@ ACCEPT = ("USABLE", "ALL")
 MESHES = ("KEEP", "NEW")
 INNER = ("OUTLINE", "EVEN")
 FACTOR_MASKS = ("IGNORED", "USED")
-LEAST_SPACING = 0.05  # of the outline's edges
+LEAST_SPACING = 0.05  # of the boundary's edges
 
 _CHOICES = {
     "equation": EQUATIONS,
@@ -73,11 +73,11 @@ class FairOptions:
     pin_slope: str = "AUTOMATIC"  # of these edges: CREASE for SHARP, AVERAGE for others
     pin_radius: float = 0.1  # over which part of the patch's size a pinned vertex lifts the surface
     open_border: str = "HELD"  # FAIRED: it becomes fair, too
-    outline: str = "GIVEN"  # MENDED: a noisy outline is smoothed first, with two rings around it
+    outline: str = "GIVEN"  # MENDED: a noisy boundary is smoothed first, with two rings around it
     accept: str = "USABLE"  # ALL: written whatever it is worth
     mesh: str = "KEEP"  # NEW: other vertices and triangles for the same surface
-    spacing: float = 1.0  # of a new mesh, as a factor of the outline's edges
-    inner: str = "OUTLINE"  # new edges are in proportion to the outline's nearby; EVEN: of one length
+    spacing: float = 1.0  # of a new mesh, as a factor of the boundary's edges
+    inner: str = "OUTLINE"  # new edges are in proportion to the boundary's nearby; EVEN: of one length
     quads: bool = False  # a new mesh has quads, as far as pairs of triangles make some
     max_vertices: int = 0  # more new ones are refused; 0: twenty times as many as the old surface would have
     limit_total: int = 0  # vertex groups of bones of a new vertex; 0: as many as one vertex of the old mesh has
@@ -164,7 +164,7 @@ class FairOptions:
 
     @property
     def goes_by_weight(self) -> bool:
-        """Whether each vertex has a part of the way of its own."""
+        """Whether each vertex has a factor of its own."""
         return bool(self.factor_group) or self.factor_mask == "USED"
 
     @property

@@ -38,10 +38,10 @@ class Fairing:
     before: Quality
     after: Quality
     distortion: float  # area-weighted mean of the conformal distortion − 1
-    curvature: tuple[float, float]  # largest |H| inside and on the outline, in 1/length
+    curvature: tuple[float, float]  # largest |H| inside and on the boundary, in 1/length
     join: Join
     verdict: Verdict
-    free_count: int  # of the patch; `vertices` beyond it belong to a mended outline or a band
+    free_count: int  # of the patch; `vertices` beyond it belong to a mended boundary or a band
 
 
 def outcome(
@@ -120,7 +120,7 @@ def _eaten(mesh: MeshArrays, problem: Problem, after: Floats) -> Eaten:
 
 
 def _rounded(problem: Problem, after: Floats, moving: Ints, options: FairOptions) -> Ints:
-    """Return the mesh vertices outside at hard edges that a smoothed outline has rounded."""
+    """Return the mesh vertices outside at hard edges that a smoothed boundary has rounded."""
     moved = np.setdiff1d(moving, problem.patch.free)
     if options.outline != "MENDED" or not len(moved):
         return moved[:0]
@@ -155,7 +155,7 @@ def _positions(
 
 
 def _is_clear(patch: Patch, result: fairing.FairResult) -> bool:
-    """Tell whether the engine, which looks at each piece, has found that no triangle passes through another."""
+    """Return whether the engine, which looks at each piece, has found that no triangle passes through another."""
     found = any(diagnostic.code == "SELF_INTERSECTION" for diagnostic in result.warnings)
     return not found and islands(patch) <= 1
 

@@ -1,4 +1,4 @@
-"""What is odd about a selection's outline, told before and after fairing. Plain numpy, no bpy."""
+"""What is odd about a selection's boundary, reported before and after fairing. Plain numpy, no bpy."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from .region import MeshArrays, fins, vertices_of
 from .vectors import area_vectors, sum_at, unit
 from .words import counted
 
-SHARP = 60.0  # degrees between two faces at the outline that are worth telling
-COARSE = 1e-3  # of an edge: steps between neighbouring coordinates that are worth telling
-FOLDED = 150.0  # degrees between two faces around the outline that lie on each other
+SHARP = 60.0  # degrees between two faces at the boundary that are reported
+COARSE = 1e-3  # of an edge: steps between neighbouring coordinates that are reported
+FOLDED = 150.0  # degrees between two faces around the boundary that lie on each other
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ def outline_edges(mesh: MeshArrays) -> Mask:
 
 
 def outline_notes(mesh: MeshArrays) -> tuple[str, ...]:
-    """Return one sentence for each thing that may surprise about the outline of the patch.
+    """Return one sentence for each thing that may surprise about the boundary of the patch.
 
     mesh: in world space, as angles there are what counts.
     """
@@ -88,19 +88,19 @@ def _sharp_note(mesh: MeshArrays, sides: Sides) -> str:
     widest = turns(mesh, sides).max(initial=0.0)
     if widest < SHARP:
         return ""
-    return f"The outline runs along an edge of up to {widest:.0f}°: the surface will be tangent to the faces outside"
+    return f"The boundary runs along an edge of up to {widest:.0f}°: the surface will be tangent to the faces outside"
 
 
 def _winding_note(sides: Sides) -> str:
     count = int(np.count_nonzero(sides.alike))
     if not count:
         return ""
-    edges = counted(count, "outline edge", "outline edges")
+    edges = counted(count, "boundary edge", "boundary edges")
     return f"The faces on both sides of {edges} are wound against each other: recalculate normals"
 
 
 def _folded_note(mesh: MeshArrays, outline: Mask) -> str:
-    """Tell of outside faces at the outline that lie on each other."""
+    """Report outside faces at the boundary that lie on each other."""
     ends = np.zeros(len(mesh.positions), dtype=bool)
     ends[mesh.edges[outline]] = True
     sides = two_sided_edges(mesh, ends[mesh.edges].any(axis=1))
@@ -108,11 +108,11 @@ def _folded_note(mesh: MeshArrays, outline: Mask) -> str:
     widest = turns(mesh, sides)[outside].max(initial=0.0)
     if widest < FOLDED:
         return ""
-    return f"Faces around the outline are folded over by up to {widest:.0f}°: their normals may mislead"
+    return f"Faces around the boundary are folded over by up to {widest:.0f}°: their normals may mislead"
 
 
 def _lone_face_note(mesh: MeshArrays, outline: Mask) -> str:
-    """Tell of single unselected faces: an outline of one face has one face's normal all around."""
+    """Report single unselected faces: a boundary of one face has one face's normal all around."""
     outer = ~mesh.in_patch[mesh.corner_faces]
     beside = np.zeros(len(mesh.in_patch), dtype=bool)
     beside[mesh.corner_faces[outer]] = True
@@ -128,7 +128,7 @@ def _lone_face_note(mesh: MeshArrays, outline: Mask) -> str:
 
 
 def _seam_note(mesh: MeshArrays) -> str:
-    """Tell of open borders inside the patch that lie on each other: the surface is held there."""
+    """Report open borders inside the patch that lie on each other: the surface is held there."""
     single = np.bincount(mesh.corner_edges, minlength=len(mesh.edges)) == 1
     if not single.any():
         return ""
@@ -158,7 +158,7 @@ def _fin_note(mesh: MeshArrays) -> str:
 
 
 def precision_note(mesh: MeshArrays) -> str:
-    """Tell where float32, in which Blender stores the mesh's own coordinates, is too coarse for the patch."""
+    """Report where float32, in which Blender stores the mesh's own coordinates, is too coarse for the patch."""
     used = np.zeros(len(mesh.edges), dtype=bool)
     used[mesh.corner_edges[mesh.in_patch[mesh.corner_faces]]] = True
     ends = mesh.positions[mesh.edges[used]]
@@ -173,7 +173,7 @@ def precision_note(mesh: MeshArrays) -> str:
 
 
 def turned_over(mesh: MeshArrays) -> Mask:
-    """Return the (n,) mask of outline vertices whose faces outside are wound against the patch."""
+    """Return the (n,) mask of boundary vertices whose faces outside are wound against the patch."""
     outline = outline_edges(mesh)
     sides = two_sided_edges(mesh, outline)
     wrong = np.zeros(len(mesh.positions), dtype=bool)

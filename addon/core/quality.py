@@ -1,4 +1,4 @@
-"""What can be told about a patch before and after: faces folded over, needles, faces that run through others, the join.
+"""What is measured on a patch before and after: faces folded over, needles, faces that run through others, the join.
 
 What is folded and what crosses is the engine's decision.
 """
@@ -31,7 +31,7 @@ class Quality:
 
 @dataclass(frozen=True)
 class Join:
-    """How visible the join is at the k outline vertices that have faces outside."""
+    """How visible the join is at the k boundary vertices that have faces outside."""
 
     vertices: Ints  # (k,) of the mesh
     degrees: Floats  # (k,) by how much the bend there exceeds what is usual around; see fairing.visible_join

@@ -89,7 +89,7 @@ def whole_of(mesh: MeshArrays) -> Whole | None:
 
 
 def _is_cut_there(mesh: MeshArrays, seam: Mask) -> bool:
-    """Tell whether the patch has edges on the seam, all of them borders: with a second face they would have four."""
+    """Return whether the patch has edges on the seam, all of them borders: with a second face they would have four."""
     chosen = mesh.in_patch[mesh.corner_faces]
     sides = np.bincount(mesh.corner_edges, minlength=len(mesh.edges))
     own = np.bincount(mesh.corner_edges[chosen], minlength=len(mesh.edges)) > 0

@@ -28,7 +28,7 @@ class Reflection:
         return images
 
     def on_plane(self, positions: Floats) -> Mask:
-        """Tell which of the positions (k, 3) are one with their image."""
+        """Return which of the positions (k, 3) are one with their image."""
         with np.errstate(invalid="ignore", over="ignore"):
             there: Mask = np.linalg.norm(self.of(positions) - positions, axis=1) <= self.reach
         return there
@@ -61,7 +61,7 @@ class MeshArrays:
     lines: Mapping[str, Mask] = field(default_factory=dict)
     sample: Mask | None = None  # (f,) visible faces whose skin is copied; None: not asked for
     reflections: tuple[Reflection, ...] = ()  # that make it whole; see reflected.py
-    parts: Floats | None = None  # (n,) how much of the way each vertex may go, 0 … 1; None: all of it, inside alone
+    parts: Floats | None = None  # (n,) each vertex's own factor, 0 … 1; None: 1 inside, 0 outside
 
     def transformed(self, matrix: Floats) -> MeshArrays:
         """Return the mesh under a 4×4 affine map, wound so that outside stays outside.
@@ -143,7 +143,7 @@ def free_vertices(mesh: MeshArrays) -> Mask:
 def fins(mesh: MeshArrays) -> Mask:
     """Return the (f,) mask of patch faces without free vertices at edges with more than two faces.
 
-    They stand on the outline; without the faces outside they would look like corners of the patch.
+    They stand on the boundary; without the faces outside they would look like corners of the patch.
     """
     many = _edge_uses(mesh, slice(None)) > 2
     hang = np.zeros(len(mesh.in_patch), dtype=bool)
@@ -163,10 +163,10 @@ def _check_edges(mesh: MeshArrays) -> None:
         raise refusal(Finding("NONMANIFOLD_EDGE", figures, "vertex", offenders.ravel(), offenders.ravel()[:0]))
 
 
-def make_patch(mesh: MeshArrays, even: bool = True) -> Patch:
+def make_patch(mesh: MeshArrays, by_connectivity: bool = True) -> Patch:
     """Cut the selected visible faces out of the mesh.
 
-    even: split quads and n-gons by connectivity (see triangulation), not by present shape.
+    by_connectivity: split quads and n-gons as `triangulation` does, not by present shape.
     Raises MeshRefusal where more than two of them meet at an edge.
     """
     _check_edges(mesh)
@@ -178,7 +178,7 @@ def make_patch(mesh: MeshArrays, even: bool = True) -> Patch:
     mesh = replace(mesh, in_patch=mesh.in_patch & ~fins(mesh))
     uses = _edge_uses(mesh, mesh.in_patch[mesh.corner_faces])
     edges = mesh.edges[uses > 0]
-    triangles, faces = _triangles(mesh, edges, free, even)
+    triangles, faces = _triangles(mesh, edges, free, by_connectivity)
     outline = _ends(mesh, uses == 1)
     return Patch(
         vertices=vertices,
@@ -189,7 +189,7 @@ def make_patch(mesh: MeshArrays, even: bool = True) -> Patch:
         outline=number[outline],
         neighbours=None if _all_triangles(mesh) else number[edges],
         creases=number[_curve(mesh, mesh.creases, uses > 0)],
-        # Where such a curve reaches the outline, the slope there is the outline's.
+        # Where such a curve reaches the boundary, the slope there is the boundary's.
         smooth_curves=number[_curve(mesh, mesh.smooth_curves, uses > 0) & ~outline],
     )
 
@@ -199,9 +199,9 @@ def _curve(mesh: MeshArrays, marked: Mask | None, edges: Mask) -> Mask:
     return _ends(mesh, edges if marked is None else edges & marked) & (marked is not None)
 
 
-def _triangles(mesh: MeshArrays, edges: Ints, free: Mask, even: bool) -> tuple[Ints, Ints]:
+def _triangles(mesh: MeshArrays, edges: Ints, free: Mask, by_connectivity: bool) -> tuple[Ints, Ints]:
     """Return the triangles of the patch (m, 3), as vertices of the mesh, and their faces (m,)."""
-    sizes = face_sizes(mesh) * even
+    sizes = face_sizes(mesh) * by_connectivity
     by_shape = mesh.in_patch.copy()  # faces that stay split as they are
     pieces, origins = [], []
     for size in np.unique(sizes[mesh.in_patch & (sizes > 4)]):

@@ -22,7 +22,7 @@ from .piercing import Sheet, pierced, places
 from .reflected import whole_of
 from .region import MeshArrays, Patch, to_local
 from .selection import left_out
-from .solve import pose, told_by
+from .solve import pose, reported_by
 from .tunnels import tunnel_hint
 from .verdict import GOOD, LOOK, because_of, judge
 from .words import in_mesh_words
@@ -59,7 +59,7 @@ def refuse_options(options: FairOptions) -> None:
         ),
         (options.method != "GLOBAL", "Method: Multigrid keeps its mesh: choose Mesh: Keep"),
         (options.equation == "MINIMAL", "A soap film has no slopes to continue: choose Mesh: Keep"),
-        (options.outline != "GIVEN", "Outline: Smooth moves vertices that a new mesh is held by: choose Mesh: Keep"),
+        (options.outline != "GIVEN", "Boundary: Smooth moves vertices that a new mesh is held by: choose Mesh: Keep"),
     ):
         if wrong:
             raise ValueError(text)
@@ -85,7 +85,7 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
     own = replace(after, points=np.concatenate([points, after.points[len(points) :]]))
     join = quality.join(own, own.points)
     origin = _origin(problem, result)
-    told, failures, hints = told_by(result, origin)
+    reported, failures, hints = reported_by(result, origin)
     swollen = quality.swollen((problem.patch, problem.own_points), (after.patch, points))
     evidence = Evidence(
         after, result, failures, *measured, join, swollen=swollen, squeezed=_squeezed(problem, kept, result),
@@ -102,7 +102,7 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
         vertices=part.stay[part.fixed_count :],
         positions=local[part.fixed_count : stay],
         result=result,
-        warnings=warnings + told + _limits(mesh) + odd,
+        warnings=warnings + reported + _limits(mesh) + odd,
         before=measured[0],
         after=measured[1],
         distortion=quality.texture_distortion(before, points, part.triangles),
@@ -182,7 +182,7 @@ def _kept_edges(problem: Problem, lines: Ints) -> Ints:
 
 
 def _spacing(problem: Problem, options: FairOptions) -> float:
-    """Return the wanted length; 0, which stands for that of the outline's edges, for a factor of 1."""
+    """Return the wanted length; 0, which stands for that of the boundary's edges, for a factor of 1."""
     if options.spacing == 1.0:
         return 0.0
     loops = fairing.boundary_loops(problem.patch.triangles)
@@ -248,7 +248,7 @@ def _limits(mesh: MeshArrays) -> tuple[str, ...]:
     said = {
         "X mirror is on, but a new mesh is not symmetric": mesh.mirror_x,
         "A new mesh stops at the Mirror modifier's plane: it may have an edge there": whole_of(mesh) is not None,
-        "A new mesh holds open borders: Open Border: Faired was not looked at": mesh.fair_border,
+        "A new mesh holds open borders: Open Border: Faired has no effect": mesh.fair_border,
     }
     return tuple(text for text, applies in said.items() if applies)
 

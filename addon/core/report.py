@@ -20,7 +20,7 @@ from .words import counted
 
 MET, MISSED, TOLD = "MET", "MISSED", "TOLD"
 MOST_DISTORTED = 10.0  # of texture distortion; beyond, more of it means nothing
-SHAPES = {"harmonic": "Harmonic", "least_variation": "Even Curvature"}  # that Automatic takes, by the engine's names
+SHAPES = {"harmonic": "Harmonic", "least_variation": "Least Variation"}  # that Automatic takes, by the engine's names
 GRADE_NAMES = {GOOD: "Good", LOOK: "Look here", UNUSABLE: "Not usable"}
 
 Named = tuple[str, Fairing]
@@ -77,7 +77,7 @@ def make_report(named: list[Named], options: FairOptions, seconds: float, notes:
 
 
 def is_written(outcomes: list[Fairing], options: FairOptions) -> bool:
-    """Tell whether the run changes its meshes: all of them, or none."""
+    """Return whether the run changes its meshes: all of them, or none."""
     return options.accept == "ALL" or all(outcome.verdict.grade != UNUSABLE for outcome in outcomes)
 
 
@@ -119,7 +119,7 @@ def _bulge_note(named: list[Named], options: FairOptions) -> tuple[str, ...]:
     ]
     most = f"The largest that was found is {min(shares) * options.bulge:.2g}" if shares else "Try less"
     return (
-        f"There may be no surface with a bulge of {options.bulge:g} on this outline: half a sphere has none "
+        f"There may be no surface with a bulge of {options.bulge:g} on this boundary: half a sphere has none "
         f"above 0.06, a flat disc none above 1.15. {most}",
     )
 
@@ -148,7 +148,7 @@ def kink_checks(joins: Sequence[Join]) -> tuple[Check, ...]:
     worst, seen = max(joins, key=lambda join: join.worst), any(len(join.seen) for join in joins)
     short = ", short" if worst.worst > worst.limit and not seen else ""
     return (
-        Check("Kink at the outline", f"≤ {angle_text(worst.worst)}{short}", _state(not seen)),
+        Check("Kink at the boundary", f"≤ {angle_text(worst.worst)}{short}", _state(not seen)),
         Check("Kinks show from", f"{worst.limit:.0f}°"),
     )
 
@@ -178,7 +178,10 @@ def _details(outcomes: list[Fairing]) -> tuple[Check, ...]:
         ("Usual kink", angle_text(_worst_join(outcomes)[0])),
         ("Angle to the slope asked for", angle_text(max(_widest(result) for result in results))),
         ("Curvature inside", f"{inside:.3g} {'≤' if inside <= outline else '>'} {outline:.3g}"),
-        ("Ways tried", ", ".join(f"{name} {seconds:.2f} s" for result in results for name, seconds in result.way)),
+        (
+            "Strategies tried",
+            ", ".join(f"{name} {seconds:.2f} s" for result in results for name, seconds in result.way),
+        ),
         ("Codes", ", ".join(codes)),
     )
     return tuple(Check(name, value, detail=True) for name, value in lines if value)
@@ -192,14 +195,14 @@ def _endings(outcomes: list[Fairing]) -> str:
         "folded": "found, but with folds",
     }
     endings = dict.fromkeys(outcome.result.termination for outcome in outcomes)
-    told = ", ".join(words[ending] for ending in endings)
+    ended = ", ".join(words[ending] for ending in endings)
     # Then the vertices lie on a surface that was computed on the engine's own mesh.
     by_proxy = any(outcome.result.converged and not outcome.result.polished for outcome in outcomes)
-    return f"{told}, on a proxy" if by_proxy else told
+    return f"{ended}, on a proxy" if by_proxy else ended
 
 
 def _residual_text(result: Result) -> str:
-    """Say how far down the residual came: alone its size, which grows with the mesh's resolution, tells little."""
+    """Say how far the residual came down: its size alone means little, since it grows with the mesh's resolution."""
     return f"{result.initial_residual:.0e} → {result.residual:.0e}"
 
 

@@ -1,4 +1,4 @@
-"""Hard edges around a patch that a smoothed outline has rounded: a row of steadily sharp edges that runs on straight.
+"""Hard edges around a patch that a smoothed boundary has rounded: a row of steadily sharp edges that runs on straight.
 
 Noise has sharp edges, too, but they don't run on, and each bends by another angle. The limits below were set on a cube,
 on noisy spheres and on scans (docs/blender.md): what they miss are edges below 70° and rows of fewer than four edges.

@@ -74,7 +74,7 @@ class Run(Generic[Result]):
         self._stop.set()
 
     def wait(self, seconds: float | None = None) -> bool:
-        """Wait for the end, at most so long, and tell whether it has come."""
+        """Wait for the end, at most so long, and return whether it has come."""
         self._thread.join(seconds)
         return self.finished
 

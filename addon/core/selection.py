@@ -1,4 +1,4 @@
-"""Selections as people make them: loops of edges, faces left out, outlines that lie on a fold. Plain numpy, no bpy."""
+"""Selections as people make them: loops of edges, faces left out, boundaries on a fold. Plain numpy, no bpy."""
 
 from __future__ import annotations
 
@@ -141,7 +141,7 @@ def _beside_hidden(mesh: MeshArrays) -> Mask:
 
 
 def problem_of(mesh: MeshArrays, matrix: Floats) -> Problem:
-    """Return the patch and what is around it in world space, without normals: enough to look at the outline."""
+    """Return the patch and what is around it in world space, without normals: enough to look at the boundary."""
     with np.errstate(invalid="ignore", over="ignore"):
         world = mesh.transformed(matrix)
         patch = make_patch(world)
@@ -150,9 +150,9 @@ def problem_of(mesh: MeshArrays, matrix: Floats) -> Problem:
 
 
 def grown_until_smooth(mesh: MeshArrays, matrix: Floats) -> Mask:
-    """Return the (f,) mask of the selection, grown over the faces at the bad vertices of its outline.
+    """Return the (f,) mask of the selection, grown over the faces at the bad vertices of its boundary.
 
-    Ends where the outline has none, after ROUNDS, or before another outline or a vertex without any would come of it.
+    Ends where the boundary has none, after ROUNDS, or before another boundary or a vertex without any would come of it.
     Raises what make_patch does.
     """
     for _ in range(ROUNDS):

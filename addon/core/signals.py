@@ -18,7 +18,7 @@ def content_changed(_settings: object, context: Any) -> None:
 
 
 def look_changed(_settings: object, context: Any) -> None:
-    """The same is to be shown in another way."""
+    """The same is to be shown differently."""
     _tell("look", context)
 
 

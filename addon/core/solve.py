@@ -92,7 +92,7 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
     # What is not finite outside the patch is none of our business, and the engine looks inside.
     with np.errstate(invalid="ignore", over="ignore"):
         world, turned = with_one_winding(mesh.transformed(matrix))
-        patch = make_patch(world, even=not options.keeps_triangles)
+        patch = make_patch(world, by_connectivity=not options.keeps_triangles)
         wide = options.takes_base
         outside = wide_outside(world, patch, options.feather) if wide else outside_triangles(world, patch)
         normals, warnings = prescribed_normals(world, patch, options.boundary_normals, outside)
@@ -126,20 +126,22 @@ def _solve_again(
 
 
 def _solved(problem: engine.Problem, result: fairing.FairResult, warnings: tuple[str, ...]) -> Solved:
-    told, failures, hints = told_by(result, problem.origin)
-    return Solved(problem, result, warnings + told, failures, hints)
+    reported, failures, hints = reported_by(result, problem.origin)
+    return Solved(problem, result, warnings + reported, failures, hints)
 
 
-def told_by(result: fairing.FairResult | fairing.RemeshResult, origin: Origin) -> tuple[tuple[str, ...], ...]:
-    """Return what the engine warned of, in sentences: what is told in any case, why there is no answer, hints."""
-    told = tuple(warning for warning in result.warnings if not _is_measured(warning))
+def reported_by(result: fairing.FairResult | fairing.RemeshResult, origin: Origin) -> tuple[tuple[str, ...], ...]:
+    """Return what the engine warned of, in sentences: what is always reported, why there is no answer, hints."""
+    unmeasured = tuple(warning for warning in result.warnings if not _is_measured(warning))
     apart = (*NO_ANSWER, *HINTS)
     return tuple(
-        sentences(tuple(warning for warning in told if belongs(warning.code)), origin)
+        sentences(tuple(warning for warning in unmeasured if belongs(warning.code)), origin)
         for belongs in (lambda code: code not in apart, NO_ANSWER.__contains__, HINTS.__contains__)
     )
 
 
-def _is_measured(told: fairing.Diagnostic) -> bool:
-    """Tell whether `quality` counts it in what is written, mirrored or blended as that may be."""
-    return told.code == "SELF_INTERSECTION" or (told.code == "FLIPPED_TRIANGLES" and "triangles" in told.figures)
+def _is_measured(warning: fairing.Diagnostic) -> bool:
+    """Return whether `quality` counts it in what is written, mirrored or blended as that may be."""
+    return warning.code == "SELF_INTERSECTION" or (
+        warning.code == "FLIPPED_TRIANGLES" and "triangles" in warning.figures
+    )

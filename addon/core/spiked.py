@@ -18,7 +18,7 @@ MORE_THAN_AROUND = 2.0  # a scan that is as rough everywhere has a texture all t
 
 
 def is_spoilt(mesh: MeshArrays) -> bool:
-    """Tell whether the patch is spiked or crumpled."""
+    """Return whether the patch is spiked or crumpled."""
     inside = vertices_of(mesh, mesh.in_patch) & ~vertices_of(mesh, ~mesh.in_patch)
     found = heights(mesh.positions, mesh.triangles[mesh.in_patch[mesh.triangle_faces]])[inside]
     if not len(found):
@@ -27,7 +27,7 @@ def is_spoilt(mesh: MeshArrays) -> bool:
 
 
 def _is_crumpled(mesh: MeshArrays, height: float) -> bool:
-    """Tell whether the median height of the patch is beyond what is usual, and beyond what is usual around it."""
+    """Return whether the median height of the patch is beyond what is usual, and beyond what is usual around it."""
     if height < CRUMPLED:
         return False
     border = vertices_of(mesh, mesh.in_patch) & vertices_of(mesh, ~mesh.in_patch)

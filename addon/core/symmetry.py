@@ -1,6 +1,6 @@
 """Blender's X mirror: which vertex of a patch is the mirror image of which.
 
-Positions decide on the outline alone. Inside, connectivity does: what lies there may be anything.
+Positions decide on the boundary alone. Inside, connectivity does: what lies there may be anything.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ Box = tuple[float, ...]
 def mirror_map(mesh: MeshArrays, patch: Patch) -> Ints | None:
     """Return (p,): the patch vertex across x = 0 of each patch vertex, or None where there is none.
 
-    mesh: in its own coordinates. None: the outline, the connectivity or the free vertices aren't
+    mesh: in its own coordinates. None: the boundary, the connectivity or the free vertices aren't
     symmetric, so the whole patch isn't.
     """
     rim = (mesh.positions[patch.vertices[patch.outline]], patch.outline)
@@ -67,7 +67,7 @@ def with_band(image: Ints, points: Floats, moving: Ints) -> Ints | None:
 def with_image(mesh: MeshArrays) -> MeshArrays:
     """Return a mesh that asks for symmetry with the mirror image of its patch in the patch, where there is one.
 
-    The outline decides by its places, the inside by its connectivity. As it is where the patch meets its image.
+    The boundary decides by its places, the inside by its connectivity. As it is where the patch meets its image.
     """
     if not mesh.mirror_x or not mesh.in_patch.any():
         return mesh
@@ -146,7 +146,7 @@ def _sides(loop: Loop) -> Iterator[Edge]:
 def _spread(
     image: dict[int, int], loops: list[Loop], own: dict[Edge, int], face_of: dict[Edge, int]
 ) -> dict[int, int] | None:
-    """Carry the images from the outline's edges across face after face; None at a contradiction.
+    """Carry the images from the boundary's edges across face after face; None at a contradiction.
 
     own: the face of each directed edge of the patch; face_of: the same where images are looked for.
     """

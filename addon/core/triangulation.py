@@ -1,8 +1,8 @@
 """Diagonals for the quads and n-gons of a patch, chosen by connectivity alone.
 
 Blender splits a face by its shape, which says nothing about the fair surface: where the selection
-is crumpled the diagonals would be too, and the result would depend on it. Here they even out the
-number of edges per vertex instead (six inside, four on the outline), which the engine likes best.
+is crumpled the diagonals would be too, and the result would depend on it. Here they balance the
+number of edges per vertex instead (six inside, four on the boundary), which the engine likes best.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """UVs of new faces: those of the faces around go on, each island by itself, with seams between them. No bpy.
 
-Numbers of vertices are those of the new surface, r of the outline first. An edge of the outline goes by its tail, a
+Numbers of vertices are those of the new surface, r of the boundary first. An edge of the boundary goes by its tail, a
 corner of a triangle by 3 · the triangle + its place there.
 """
 
@@ -20,12 +20,12 @@ from .quality import texture_distortion
 from .vectors import sum_at
 
 SAME = 1e-6  # of UVs that are meant to be one
-MOST_STRETCHED = 0.5  # of the texture distortion that a single island between several outlines may have
+MOST_STRETCHED = 0.5  # of the texture distortion that a single island between several boundary loops may have
 
 
 @dataclass(frozen=True)
 class Surface:
-    """New triangles and the outline that they begin at."""
+    """New triangles and the boundary that they begin at."""
 
     points: Floats  # (r + k, 3)
     triangles: Ints  # (m, 3)
@@ -34,7 +34,7 @@ class Surface:
 
 @dataclass(frozen=True)
 class RimUVs:
-    """UVs of the faces around, at the r vertices of the outline."""
+    """UVs of the faces around, at the r vertices of the boundary."""
 
     after: Floats  # (r, 2) in the face at the edge that begins there
     before: Floats  # (r, 2) in the face at the edge that ends there
@@ -42,7 +42,7 @@ class RimUVs:
 
     @property
     def broken(self) -> Mask:
-        """Where a seam reaches the outline."""
+        """Where a seam reaches the boundary."""
         found: Mask = (np.abs(self.after - self.before) > SAME).any(axis=1)
         return found
 
@@ -58,15 +58,15 @@ class Unwrapped:
 
 @dataclass(frozen=True)
 class _Parting:
-    """Which new triangles go on from which part of the outline."""
+    """Which new triangles go on from which part of the boundary."""
 
     seams: Ints  # (s, 2) inner edges
-    edges: Ints  # (m,) of the outline: the one whose island each triangle goes on with
-    arcs: Ints  # (r,) numbers of the pieces of the outline between seams that reach it
+    edges: Ints  # (m,) of the boundary: the one whose island each triangle goes on with
+    arcs: Ints  # (r,) numbers of the pieces of the boundary between seams that reach it
     places: Ints  # (r,) along its arc: pieces further apart than 1 don't hang together
 
     def joined(self, edges: Ints, others: Ints) -> Mask:
-        """Tell whether the islands of such edges of the outline hang together."""
+        """Return whether the islands of such edges of the boundary hang together."""
         near = np.abs(self.places[edges] - self.places[others]) <= 1
         found: Mask = near & (self.arcs[edges] == self.arcs[others])
         return found
@@ -75,7 +75,7 @@ class _Parting:
 def unwrapped(surface: Surface, rim: RimUVs) -> Unwrapped:
     """Continue the UVs of the faces around.
 
-    One map where no seam meets the outline; else each island goes on to where the next one is nearer.
+    One map where no seam meets the boundary; else each island goes on to where the next one is nearer.
     """
     whole = _whole(surface, rim)
     if whole is not None and (len(surface.loops) == 1 or whole.distortion <= MOST_STRETCHED):
@@ -85,7 +85,7 @@ def unwrapped(surface: Surface, rim: RimUVs) -> Unwrapped:
 
 
 def _whole(surface: Surface, rim: RimUVs) -> Unwrapped | None:
-    """Return a single map between all outlines; None where seams part it."""
+    """Return a single map between all boundary loops; None where seams part it."""
     broken = np.flatnonzero(rim.broken)
     if not len(broken):
         inside = harmonic(surface.points, surface.triangles, rim.after)
@@ -98,18 +98,18 @@ def _whole(surface: Surface, rim: RimUVs) -> Unwrapped | None:
 
 
 def _way(surface: Surface, start: int, end: int) -> Ints:
-    """Return the (s, 2) inner edges of the shortest way between two vertices."""
+    """Return the (s, 2) inner edges of the shortest path between two vertices."""
     edges, _ = inner_edges(surface.triangles)
     lengths = np.linalg.norm(surface.points[edges[:, 0]] - surface.points[edges[:, 1]], axis=1)
     before = nearest_sources(len(surface.points), edges, lengths, np.array([start]))
-    way = [end]
-    while way[-1] != start:
-        way.append(int(before[way[-1]]))
-    return np.sort(np.stack([way[:-1], way[1:]], axis=1), axis=1)
+    path = [end]
+    while path[-1] != start:
+        path.append(int(before[path[-1]]))
+    return np.sort(np.stack([path[:-1], path[1:]], axis=1), axis=1)
 
 
 def _parted(surface: Surface, rim: RimUVs) -> _Parting:
-    """Let each triangle go on with the part of the outline that it is nearest to."""
+    """Let each triangle go on with the part of the boundary that it is nearest to."""
     arcs, places = _arcs(surface, rim)
     edges, sides = inner_edges(surface.triangles)
     of = _nearest_edges(surface, sides)
@@ -118,7 +118,7 @@ def _parted(surface: Surface, rim: RimUVs) -> _Parting:
 
 
 def _arcs(surface: Surface, rim: RimUVs) -> tuple[Ints, Ints]:
-    """Return (r,) and (r,): the arc of each edge of the outline, and its place there.
+    """Return (r,) and (r,): the arc of each edge of the boundary, and its place there.
 
     A loop with one seam is an arc that ends where it begins. It has three places, of which the first and the last are
     parted.
@@ -136,7 +136,7 @@ def _arcs(surface: Surface, rim: RimUVs) -> tuple[Ints, Ints]:
 
 
 def _nearest_edges(surface: Surface, sides: Ints) -> Ints:
-    """Return (m,): the edge of the outline that each triangle is nearest to, over the triangles between."""
+    """Return (m,): the edge of the boundary that each triangle is nearest to, over the triangles between."""
     middles = surface.points[surface.triangles].mean(axis=1)
     lengths = np.linalg.norm(middles[sides[:, 0]] - middles[sides[:, 1]], axis=1)
     corners, tails = _at_outline(surface)
@@ -146,7 +146,7 @@ def _nearest_edges(surface: Surface, sides: Ints) -> Ints:
 
 
 def _at_outline(surface: Surface) -> tuple[Ints, Ints]:
-    """Return the corners of triangles where edges of the outline begin, and these edges."""
+    """Return the corners of triangles where edges of the boundary begin, and these edges."""
     following = np.full(len(surface.points), -1, dtype=np.int64)
     for loop in surface.loops:
         following[loop] = np.roll(loop, -1)
@@ -156,7 +156,7 @@ def _at_outline(surface: Surface) -> tuple[Ints, Ints]:
 
 
 def _mapped(surface: Surface, rim: RimUVs, parting: _Parting) -> Unwrapped:
-    """Return the least distorted map of the triangles that has the outline's UVs and is cut at the seams."""
+    """Return the least distorted map of the triangles that has the boundary's UVs and is cut at the seams."""
     wedges, count = _wedges(surface.triangles, parting.seams)
     corners, tails = _at_outline(surface)
     own = parting.joined(parting.edges[corners // 3], tails)

@@ -13,7 +13,7 @@ INSIDE = 1e-3  # of a triangle: what lies nearer to its edges counts as beside i
 def covering(new: Floats, others: Floats) -> Mask:
     """Return the (m,) mask of new triangles that lie over others or over each other; all (·, 3, 2).
 
-    Told by the triangles' middles: what overlaps by less than a third of a triangle may be missed.
+    Judged by the triangles' middles: what overlaps by less than a third of a triangle may be missed.
     """
     found = np.zeros(len(new), dtype=bool)
     points, triangles = _hits(new.mean(axis=1), np.concatenate([others, new]))

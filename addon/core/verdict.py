@@ -19,11 +19,11 @@ from .region import nothing
 GOOD, LOOK, UNUSABLE = "GOOD", "LOOK", "UNUSABLE"
 GRADES = (GOOD, LOOK, UNUSABLE)
 
-# What may help, each a way to run once more.
+# What may help, each a change for another run.
 GROW, SMOOTH_OUTLINE, AS_SELECTED, HOLD_BORDER = "GROW", "SMOOTH_OUTLINE", "AS_SELECTED", "HOLD_BORDER"
 EVEN_CURVATURE, EVEN_SPREAD, WRITE, GROW_OVER = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE", "GROW_OVER"
 ADD_LEFT_OUT = "ADD_LEFT_OUT"
-_UNEVEN = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY")  # equations that Even Curvature may do better than
+_OTHERS = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY")  # equations that Least Variation may do better than
 
 
 @dataclass(frozen=True)
@@ -66,13 +66,13 @@ def because_of(verdict: Verdict, causes: tuple[str, ...]) -> Verdict:
 
 
 def _calms(evidence: Evidence) -> bool:
-    """Tell whether a smooth surface lies beside a jagged outline, with fewer folds and crossings than there were.
+    """Return whether a smooth surface lies beside a jagged boundary, with fewer folds and crossings than there were.
 
-    Those that are left hang on the outline, which has to stay.
+    Those that are left hang on the boundary, which has to stay.
     """
-    eased = any(evidence.told("NO_SOLUTION", "distance"))
+    low_passed = any(evidence.reported("NO_SOLUTION", "distance"))
     before, after = evidence.before, evidence.after
-    if not (evidence.result.converged and eased and len(after.folded) < len(before.folded)):
+    if not (evidence.result.converged and low_passed and len(after.folded) < len(before.folded)):
         return False
     return before.crossing is None or after.crossing is None or len(after.crossing) < len(before.crossing)
 
@@ -95,7 +95,7 @@ def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str,
         EVEN_SPREAD: bad and _is_folded(evidence) and options.mesh == "KEEP" and options.inner_fairness != "UNIFORM",
         AS_SELECTED: len(evidence.rounded) > 0,
         HOLD_BORDER: bad and options.fairs_border,
-        EVEN_CURVATURE: (bad or bool(girth_reason(result))) and not was_tried and options.equation in _UNEVEN,
+        EVEN_CURVATURE: (bad or bool(girth_reason(result))) and not was_tried and options.equation in _OTHERS,
         WRITE: bad and options.accept != "ALL",
     }
     return tuple(name for name, offer in offered.items() if offer)

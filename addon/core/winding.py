@@ -21,7 +21,7 @@ def with_one_winding(mesh: MeshArrays) -> tuple[MeshArrays, int]:
 
 
 def winding_note(turned: int) -> tuple[str, ...]:
-    """Return what is to be told where faces were turned."""
+    """Return the sentence on faces that were turned."""
     (words,) = WORDS["INCONSISTENT_WINDING"]
     return ((words.one if turned == 1 else words.many).format(n=turned),) if turned else ()
 

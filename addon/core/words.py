@@ -1,6 +1,6 @@
 """The engine's errors and warnings as sentences for a person in front of a mesh. Plain Python, no bpy.
 
-The engine tells a code, elements and figures; every sentence is made here. Codes and the engine's own
+The engine reports a code, elements and figures; every sentence is made here. Codes and the engine's own
 numbers, those of the patch and its triangles, don't show.
 """
 
@@ -19,7 +19,7 @@ from .findings import Finding, Origin, found
 
 @dataclass(frozen=True)
 class Words:
-    """The sentence for one case of a code; `many` is for several elements or, where they are told, islands.
+    """The sentence for one case of a code; `many` is for several elements or, where it names them, islands.
 
     Both may have the fields {n} (elements), {first} (a vertex), {ends} (of an edge), {islands}, and all figures.
     """
@@ -29,11 +29,13 @@ class Words:
     when: str = ""  # the figure that only this case has; the last case of a code has none
 
 
-_DOUBLED = "The new surface doubles back onto faces that stick out into the outline: delete these first, or select them"
+_DOUBLED = (
+    "The new surface doubles back onto faces that stick out into the boundary: delete these first, or select them"
+)
 _DISSOLVE = "dissolve it, or split that edge there and use Merge by Distance"
-SPREAD_EVENLY = "The way to spread vertices turns faces over here: they were spread evenly instead"
+SPREAD_UNIFORMLY = "Spread Vertices would turn faces over here: Uniform was used instead"
 _SLOPE_ONLY = (
-    "{vertices:.0f} of the outline's {outline_vertices:.0f} vertices are met in slope only, not in curvature. "
+    "{vertices:.0f} of the boundary's {outline_vertices:.0f} vertices are met in slope only, not in curvature. "
 )
 
 WORDS: dict[str, tuple[Words, ...]] = {
@@ -56,23 +58,23 @@ WORDS: dict[str, tuple[Words, ...]] = {
     ),
     "NONMANIFOLD_VERTEX": (
         Words(
-            "{n} vertices of the outline, {first} among them, share their place with another one: use Merge by "
-            "Distance where the mesh is torn, move them apart where the outline touches itself",
+            "{n} vertices of the boundary, {first} among them, share their place with another one: use Merge by "
+            "Distance where the mesh is torn, move them apart where the boundary touches itself",
             when="meeting",
         ),
-        Words("A vertex of the outline lies on its edge {ends} (a T-junction): " + _DISSOLVE, when="on_edge"),
+        Words("A vertex of the boundary lies on its edge {ends} (a T-junction): " + _DISSOLVE, when="on_edge"),
         Words(
-            "{on_edges:.0f} vertices of the outline lie on edges of it, {ends} among them (T-junctions): "
+            "{on_edges:.0f} vertices of the boundary lie on edges of it, {ends} among them (T-junctions): "
             "dissolve them, or split these edges there and use Merge by Distance",
             when="on_edges",
         ),
         Words(
-            "Edges of the outline cross each other at {n} vertices, {first} among them: move them apart",
+            "Edges of the boundary cross each other at {n} vertices, {first} among them: move them apart",
             when="crossing",
         ),
         Words(
-            "The outline touches itself or another one at vertex {first}: split it",
-            "The outline touches itself or another one at {n} vertices, {first} among them: split them",
+            "The boundary touches itself or another one at vertex {first}: split it",
+            "The boundary touches itself or another one at {n} vertices, {first} among them: split them",
             when="pinches",
         ),
         Words(
@@ -95,14 +97,14 @@ WORDS: dict[str, tuple[Words, ...]] = {
         Words("A part of the selection is held in a single point: pin more of its vertices", when="points"),
         Words("The selection is closed and has nothing to hold it: leave some faces unselected, or pin vertices"),
     ),
-    "NO_FREE_VERTICES": (Words("No vertex is free to move: all are on the outline or pinned"),),
+    "NO_FREE_VERTICES": (Words("No vertex is free to move: all are on the boundary or pinned"),),
     "ZERO_NORMAL": (
         Words(
             "The surface has no direction at vertex {first}: the faces there have no area, or turn against each other. "
             "Use Merge by Distance, or pin it"
         ),
     ),
-    "NOT_A_LOOP": (Words("The outline to be filled is no loop of border edges: look at vertex {first}"),),
+    "NOT_A_LOOP": (Words("The boundary to be filled is no loop of border edges: check vertex {first}"),),
     "NOT_A_HOLE": (
         Words(
             "The border of {n} edges through vertex {first} goes around the outside of a flat sheet: "
@@ -122,27 +124,27 @@ WORDS: dict[str, tuple[Words, ...]] = {
     ),
     "NOT_TANGENT": (
         Words(
-            "The surface turns back by {degrees:.0f}° at {n} vertex of the outline: unfold the faces there",
-            "The surface turns back by up to {degrees:.0f}° at {n} vertices of the outline: unfold the faces there",
+            "The surface turns back by {degrees:.0f}° at {n} vertex of the boundary: unfold the faces there",
+            "The surface turns back by up to {degrees:.0f}° at {n} vertices of the boundary: unfold the faces there",
             when="folded_back",
         ),
         Words(
-            "The surface has a kink of {degrees:.0f}° at {n} vertex of the outline, where its edges are longer than "
+            "The surface has a kink of {degrees:.0f}° at {n} vertex of the boundary, where its edges are longer than "
             "the wall is thick: subdivide it",
-            "The surface has kinks of up to {degrees:.0f}° at {n} vertices of the outline, where its edges are longer "
+            "The surface has kinks of up to {degrees:.0f}° at {n} vertices of the boundary, where its edges are longer "
             "than the wall is thick: subdivide it",
         ),
     ),
     "LOOPS_NOT_JOINED": (
         Words(
-            "The faces around the outline through vertex {first} are turned over, seen from the others: flip them",
+            "The faces around the boundary through vertex {first} are turned over, seen from the others: flip them",
             when="turned",
         ),
         Words(
-            "The faces around the outline through vertex {first} lie between it and the others: delete some of them",
+            "The faces around the boundary through vertex {first} lie between it and the others: delete some of them",
             when="between",
         ),
-        Words("No surface joins these outlines"),
+        Words("No surface joins these boundary loops"),
     ),
     "DEGENERATE_FACE": (
         Words(
@@ -172,12 +174,12 @@ WORDS: dict[str, tuple[Words, ...]] = {
         ),
     ),
     "NORMALS_FROM_PATCH": (
-        Words("The normals at the outline come from the selection, so the result depends on its present shape"),
+        Words("The normals at the boundary come from the selection, so the result depends on its present shape"),
     ),
     "NORMALS_OPPOSE_WINDING": (
         Words(
-            "The normal at {n} vertex of the outline points to the faces' back: turn it round, or flip the faces",
-            "The normals at {n} vertices of the outline point to the faces' back: turn them round, or flip the faces",
+            "The normal at {n} vertex of the boundary points to the faces' back: turn it round, or flip the faces",
+            "The normals at {n} vertices of the boundary point to the faces' back: turn them round, or flip the faces",
         ),
     ),
     "PIN_NORMAL_IGNORED": (
@@ -188,13 +190,13 @@ WORDS: dict[str, tuple[Words, ...]] = {
     ),
     "SHARP_BOUNDARY": (
         Words(
-            "The normals along the outline turn by up to {degrees:.0f}° from one vertex to the next; "
-            "a finer outline gives a more accurate surface"
+            "The normals along the boundary turn by up to {degrees:.0f}° from one vertex to the next; "
+            "a finer boundary gives a more accurate surface"
         ),
     ),
     "FLIPPED_TRIANGLES": (
         Words("{n} face of the result is turned over", "{n} faces of the result are turned over", when="triangles"),
-        Words(SPREAD_EVENLY),
+        Words(SPREAD_UNIFORMLY),
     ),
     "FOLDED": (
         Words(
@@ -220,8 +222,8 @@ WORDS: dict[str, tuple[Words, ...]] = {
             when="sample_skin",
         ),
         Words(
-            "{n} face is a needle or turned over, so that no spacing can be read off the mesh; even spacing was used",
-            "{n} faces are needles or turned over, so that no spacing can be read off the mesh; even spacing was used",
+            "{n} face is a needle or turned over, so that no spacing can be read off the mesh: Uniform was used",
+            "{n} faces are needles or turned over, so that no spacing can be read off the mesh: Uniform was used",
         ),
     ),
     "NOT_CONVERGED": (
@@ -233,16 +235,16 @@ WORDS: dict[str, tuple[Words, ...]] = {
             when="load_share",
         ),
         Words(
-            "An island of {free_vertices:.0f} free vertices fell together to a point or a line: "
+            "An island of {free_vertices:.0f} free vertices collapsed to a point or a line: "
             "pin more vertices around it",
-            "{islands} islands, of {free_vertices:.0f} free vertices in all, fell together to points or lines: "
+            "{islands} islands, of {free_vertices:.0f} free vertices in all, collapsed to points or lines: "
             "pin more vertices around them",
             when="area",
         ),
         Words(
-            "An island of {free_vertices:.0f} free vertices runs into its outline from behind at {from_behind:.0f} of "
+            "An island of {free_vertices:.0f} free vertices runs into its boundary from behind at {from_behind:.0f} of "
             "{outline_vertices:.0f} vertices: where little of a shape is left outside, leave more of it",
-            "{islands} islands, of {free_vertices:.0f} free vertices in all, run into their outlines from behind at "
+            "{islands} islands, of {free_vertices:.0f} free vertices in all, run into their boundaries from behind at "
             "{from_behind:.0f} of {outline_vertices:.0f} vertices: where little of a shape is left outside, leave "
             "more of it",
             when="from_behind",
@@ -254,25 +256,23 @@ WORDS: dict[str, tuple[Words, ...]] = {
     ),
     "NO_SOLUTION": (
         Words(
-            "No surface meets these jagged outlines: it follows them smoothly, up to {distance:.1%} of its size off",
+            "No surface meets the jagged boundary: it follows it smoothly, up to {distance:.1%} of its size off",
             when="distance",
         ),
         Words(
-            "No fair surface fits these outlines: the shape there was smoothed as far as it goes",
+            "No fair surface fits these boundary loops: the old shape was smoothed as far as it goes",
             when="smoothed",
         ),
         Words(
-            "No fair surface fits these outlines: they were joined by a loft, with a kink at {n} outline vertex",
-            "No fair surface fits these outlines: they were joined by a loft, with a kink at {n} outline vertices",
+            "No fair surface fits these boundary loops: a loft joins them, with a kink at {n} vertex",
+            "No fair surface fits these boundary loops: a loft joins them, with a kink at {n} vertices",
             when="kinks",
         ),
-        Words("No fair surface fits these outlines: they were joined by a loft", when="loft"),
-        Words("No harmonic surface fits these outlines: even curvature was used", when="harmonic"),
-        Words("No surface of that shape fits these outlines: even curvature was used"),
+        Words("No fair surface fits these boundary loops: a loft joins them", when="loft"),
+        Words("No harmonic surface fits the boundary: Least Variation was used", when="harmonic"),
+        Words("No surface of that shape fits the boundary: Least Variation was used"),
     ),
-    "PRECISION": (
-        Words("This far from the origin, coordinates can't be told apart finely enough: move the object nearer to it"),
-    ),
+    "PRECISION": (Words("This far from the origin, coordinates are too coarse: move the object nearer to it"),),
     "G2_NOT_MET": (
         Words(
             _SLOPE_ONLY + "The curvature around it looks like noise: smooth the surroundings, or grow the selection",
@@ -283,19 +283,21 @@ WORDS: dict[str, tuple[Words, ...]] = {
             when="not_found",
         ),
         Words(
-            _SLOPE_ONLY + "The faces are too uneven to tell the curvature of the new surface: Remesh first",
+            _SLOPE_ONLY + "The faces are too irregular to measure the curvature of the new surface: Remesh first",
             when="own_mesh",
         ),
         Words(
             _SLOPE_ONLY + "No surface with that slope was found to begin with: see the other messages",
             when="no_tangent_join",
         ),
-        Words(_SLOPE_ONLY + "The faces outside tell too little there: leave three rings of even faces around it"),
+        Words(
+            _SLOPE_ONLY + "Too little of the curvature is known outside: leave three rings of regular faces around it"
+        ),
     ),
     "PINS_NOT_SPREAD": (
         Words(
-            "The surface comes to a point at {n} pinned vertex: move it nearer, or pin more around it",
-            "The surface comes to a point at {n} pinned vertices: move them nearer, or pin more around them",
+            "The surface forms a spike at {n} pinned vertex: move it nearer, or pin more around it",
+            "The surface forms a spike at {n} pinned vertices: move them nearer, or pin more around them",
             when="tips",
         ),
         Words(
@@ -307,13 +309,13 @@ WORDS: dict[str, tuple[Words, ...]] = {
     ),
     "OUTLINE_KEPT": (
         Words(
-            "Outline: Smooth was left out: with {n} outline vertex moved, the result is worse",
-            "Outline: Smooth was left out: with {n} outline vertices moved, the result is worse",
+            "Boundary: Smooth was left out: with {n} boundary vertex moved, the result is worse",
+            "Boundary: Smooth was left out: with {n} boundary vertices moved, the result is worse",
             when="worse",
         ),
         Words(
-            "{n} vertex of a noisy outline keeps its place",
-            "{n} vertices of a noisy outline keep their place",
+            "{n} vertex of a noisy boundary keeps its place",
+            "{n} vertices of a noisy boundary keep their place",
         ),
     ),
 }
@@ -335,12 +337,12 @@ def counted(count: int, one: str, many: str) -> str:
 
 
 def doubled(vertices: Sequence[int]) -> MeshRefusal:
-    """Return the exception that tells of a new face with the corners of one that stays."""
+    """Return the exception for a new face with the corners of one that stays."""
     return MeshRefusal(fairing.Diagnostic("NONMANIFOLD_EDGE", _DOUBLED, np.asarray(vertices, np.int32), "vertex"))
 
 
 def refusal(finding: Finding) -> MeshRefusal:
-    """Return the exception that tells of a finding."""
+    """Return the exception for a finding."""
     text = _sentence([finding])
     vertices = finding.vertices.astype(np.int32)
     return MeshRefusal(fairing.Diagnostic(finding.code, text, vertices, "vertex", finding.figures))
@@ -373,12 +375,12 @@ def _case(finding: Finding) -> Words:
 def _sentence(findings: Sequence[Finding]) -> str:
     """Return the sentence for findings of one case, each of an island of its own."""
     words, islands, whole = _case(findings[0]), len(findings), _pooled(findings)
-    tells_islands = "{islands}" in words.many
-    template = words.many if words.many and (islands if tells_islands else whole.count) != 1 else words.one
+    names_islands = "{islands}" in words.many
+    template = words.many if words.many and (islands if names_islands else whole.count) != 1 else words.one
     ends = whole.named[:2].tolist()
     fields = {"n": whole.count, "islands": islands, "first": ends[0] if ends else "", "ends": "–".join(map(str, ends))}
     text = template.format(**whole.figures, **fields)
-    return text if islands == 1 or tells_islands else f"{text} ({islands} islands)"
+    return text if islands == 1 or names_islands else f"{text} ({islands} islands)"
 
 
 def _pooled(findings: Sequence[Finding]) -> Finding:

@@ -1,4 +1,4 @@
-"""What is selected, and what would be refused: told before anything runs."""
+"""What is selected, and what would be refused, before anything runs."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ class Inspection:
     object_name: str
     faces: int
     free_vertices: int = 0
-    loops: int = 0  # of the selection's outline
+    loops: int = 0  # of the selection's boundary
     islands: int = 0  # pieces that are solved each on its own
     refusal: str = ""  # why the operator would say no, or do nothing; empty where it would not
     notes: tuple[str, ...] = ()  # what may surprise about the result
-    bad: Floats = field(default_factory=lambda: np.empty((0, 3)))  # in world space: the outline's bad vertices
+    bad: Floats = field(default_factory=lambda: np.empty((0, 3)))  # in world space: the boundary's bad vertices
     left_out: int = 0  # faces of small holes
 
 
@@ -50,7 +50,7 @@ def inspect(obj: bpy.types.Object, options: FairOptions) -> Inspection:
     try:
         return _inspect_task(job.read_object(obj, options), options)
     except ValueError as cause:
-        return Inspection(obj.name, faces, refusal=labels.told(cause))
+        return Inspection(obj.name, faces, refusal=labels.reason_of(cause))
 
 
 def _inspect_task(task: job.Task, options: FairOptions) -> Inspection:
@@ -64,7 +64,7 @@ def _inspect_task(task: job.Task, options: FairOptions) -> Inspection:
         engine.check(problem, options.resolved(task.mesh.textured))
         islands = engine.islands(problem.patch)
     except engine.REFUSALS as cause:
-        return Inspection(task.object_name, faces, task.free_count, refusal=labels.told(cause))
+        return Inspection(task.object_name, faces, task.free_count, refusal=labels.reason_of(cause))
     loops = fairing.boundary_loops(problem.patch.triangles)
     marked = engine.bad_outline(problem)
     marked = marked[marked < len(task.mesh.positions)]

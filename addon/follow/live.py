@@ -36,7 +36,7 @@ PATIENCE = 0.15  # seconds for an answer in the middle of changes: with reading 
 MOST_SKIPPED = 15  # changes in a row that are carried along without asking for an answer
 PAUSE = 0.3  # seconds without a change that count as their end
 TICK = 0.05  # seconds between two looks at a search
-STAND_IN = "No fair surface leads here: Even Curvature stands in for it"
+STAND_IN = "No fair surface leads here: Least Variation stands in for it"
 SEARCHING = "Looking for a fair surface: the region is carried along meanwhile"
 BEHIND = "The region is carried along: its fair surface comes when you pause"  # in the middle of changes
 CARRIED = "No fair surface leads here: the region is carried along, and mends when it is dragged back"
@@ -63,7 +63,7 @@ class Live:
         self._write(obj, session, found.positions)
 
     def follow(self, obj: bpy.types.Object) -> bool:
-        """Make the region fair again where something has changed around it; tell whether it was written.
+        """Make the region fair again where something has changed around it; return whether it was written.
 
         Where there is no answer so soon the region is carried along, and waits for `settle`.
         """
@@ -94,7 +94,7 @@ class Live:
         return answer
 
     def settle(self, obj: bpy.types.Object) -> bool:
-        """Search for the surface of a lost region, and write it once it is found; tell whether the search goes on."""
+        """Search for the surface of a lost region, and write it once it is found; return whether the search goes on."""
         session = self._current(obj)
         if session is None or not session.lost or session.given_up:
             return False
@@ -119,16 +119,16 @@ class Live:
             self._write(obj, session, found.positions)
 
     def _has_moved(self, obj: bpy.types.Object, session: Session) -> bool:
-        """Tell whether the surroundings have moved since the last look; the handler of changes will take it up."""
+        """Return whether the surroundings have moved since the last look; the handler of changes will take it up."""
         return not session.is_at(*where(obj, session.region))
 
     def waits(self, obj: bpy.types.Object) -> bool:
-        """Tell whether the region waits for a search, or for the end of one."""
+        """Return whether the region waits for a search, or for the end of one."""
         session = self.sessions.get(obj.data.name)
         return session is not None and session.lost and not session.given_up
 
     def lost_points(self) -> Floats:
-        """Return the outlines (k, 3) in world space of all regions that have no fair surface now."""
+        """Return the boundaries (k, 3) in world space of all regions that have no fair surface now."""
         points = [session.points for session in self.sessions.values() if session.lost]
         return np.concatenate([np.empty((0, 3)), *points])
 
@@ -226,7 +226,7 @@ def _edited(depsgraph: bpy.types.Depsgraph) -> Iterator[bpy.types.Object]:
 
 
 def edited_objects() -> Iterator[bpy.types.Object]:
-    """Yield one object for each mesh in edit mode; a handler has no context that would tell them."""
+    """Yield one object for each mesh in edit mode; a handler has no context that lists them."""
     seen = set()
     for obj in bpy.context.view_layer.objects:
         # None stands for an object that a script has removed since the scene was updated.
@@ -236,17 +236,17 @@ def edited_objects() -> Iterator[bpy.types.Object]:
 
 
 def follow(obj: bpy.types.Object) -> bool:
-    """Follow one object; tell whether its region was written."""
+    """Follow one object; return whether its region was written."""
     return _told(live.follow, obj)
 
 
 def settle(obj: bpy.types.Object) -> bool:
-    """Search for one object's surface; tell whether the search goes on."""
+    """Search for one object's surface; return whether the search goes on."""
     return _told(live.settle, obj)
 
 
 def _told(act: Callable[[bpy.types.Object], bool], obj: bpy.types.Object) -> bool:
-    """Do it; what goes wrong is told in the panel, and the mesh is left as it is."""
+    """Do it; the panel shows what goes wrong, and the mesh is left as it is."""
     try:
         return act(obj)
     except REFUSALS as cause:
@@ -271,7 +271,7 @@ def _settle_later() -> float | None:
 
 
 def settle_all() -> bool:
-    """Search for the surfaces of all lost regions that are being edited; tell whether a search goes on."""
+    """Search for the surfaces of all lost regions that are being edited; return whether a search goes on."""
     said, edited = live.message, list(edited_objects())
     live.rest({obj.data.name for obj in edited})
     going_on = [settle(obj) for obj in edited]

@@ -28,7 +28,7 @@ class Search:
         self._run.cancel()
 
     def wait(self, seconds: float | None) -> bool:
-        """Wait for the end, at most so long; tell whether it has come."""
+        """Wait for the end, at most so long; return whether it has come."""
         return self._run.wait(seconds)
 
     def found(self) -> Found:

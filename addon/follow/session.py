@@ -33,16 +33,16 @@ class Session:
     search: Search | None = None  # for the surface, under way or about to stop: it alone may ask the region
     skip: int = 0  # changes for which no answer is asked for, as the last ones took too long
     waited: int = 0  # changes that were skipped before the last try
-    points: Floats = field(default_factory=lambda: np.empty((0, 3)))  # of the outline in world space, where lost
+    points: Floats = field(default_factory=lambda: np.empty((0, 3)))  # of the boundary in world space, where lost
     checked: bool = True  # an undo may have brought back another region
     key: str = ""  # the shape key that the region is in, as mesh_io.writable_key names it
 
     def is_at(self, positions: Floats, matrix: Floats) -> bool:
-        """Tell whether everything is still there."""
+        """Return whether everything is still there."""
         return np.array_equal(positions, self.positions) and np.array_equal(matrix, self.matrix)
 
     def moved(self, positions: Floats, matrix: Floats) -> bool:
-        """Take other positions, for which no search holds any more; tell whether they differ."""
+        """Take other positions, for which no search holds any more; return whether they differ."""
         if self.is_at(positions, matrix):
             return False
         self.positions, self.matrix, self.given_up = positions, matrix, False
@@ -57,7 +57,7 @@ class Session:
                 self.search = None
 
     def mark_outline(self) -> None:
-        """Remember where the outline is now."""
+        """Remember where the boundary is now."""
         at = np.searchsorted(self.region.vertices, self.region.outline)
         self.points = self.positions[at] @ self.matrix[:3, :3].T + self.matrix[:3, 3]
 
@@ -77,7 +77,7 @@ def read(obj: bpy.types.Object, options: FairOptions, marked: bpy.types.Mesh | N
     """Read the object's mesh with its selection, or the region that is marked, as the patch."""
     mesh_io.writable_key(obj)
     if options.boundary_normals == "CUSTOM":
-        raise ValueError("Custom normals along the outline can't be followed: choose Surroundings or Average")
+        raise ValueError("Custom normals along the boundary can't be followed: choose Surroundings or Average")
     mesh = mesh_io.read_edit_mesh(obj, options, live_mesh.LAYER if marked is not None else "")
     if not free_vertices(mesh).any():
         raise ValueError("No vertex inside the region is free to move")
@@ -112,7 +112,7 @@ def candidate(obj: bpy.types.Object, options: FairOptions) -> Session:
 
 
 def is_current(obj: bpy.types.Object, session: Session) -> bool:
-    """Tell whether an object in edit mode still is as its candidate was read, in that shape key."""
+    """Return whether an object in edit mode still is as its candidate was read, in that shape key."""
     try:
         same_key = mesh_io.writable_key(obj) == session.key
     except ValueError:  # locked meanwhile
@@ -121,14 +121,14 @@ def is_current(obj: bpy.types.Object, session: Session) -> bool:
 
 
 def is_of(session: Session, mesh: bpy.types.Mesh) -> bool:
-    """Tell whether a session put aside is that of the mesh's region as it is now."""
+    """Return whether a session put aside is that of the mesh's region as it is now."""
     session.checked = False
     same = session.region.options == live_mesh.region_options(mesh) and session.key == live_mesh.region_key(mesh)
     return same and fits(session, mesh)
 
 
 def fits(session: Session, mesh: bpy.types.Mesh) -> bool:
-    """Tell whether the mesh still has the connectivity and the region of the session."""
+    """Return whether the mesh still has the connectivity and the region of the session."""
     if live_mesh.counts(mesh) != session.counts:
         return False
     if not session.checked:

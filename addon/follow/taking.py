@@ -1,4 +1,4 @@
-"""The operator that makes the selection the live region: its first answer goes the way of all long runs.
+"""The operator that makes the selection the live region: its first answer is sought like that of any long run.
 
 Nothing is marked, and nothing moves, before the surface is there.
 """
@@ -25,7 +25,7 @@ from .session import Session, candidate, is_current
 
 
 def enclosing(obj: bpy.types.Object) -> bool:
-    """Tell whether selected edges of an object in edit mode enclose faces."""
+    """Return whether selected edges of an object in edit mode enclose faces."""
     return bool(obj.data.total_edge_sel and mesh_io.read_edit_mesh(obj, FairOptions()).in_patch.any())
 
 

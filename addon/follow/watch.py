@@ -44,7 +44,7 @@ watch = Watch()
 
 
 def is_large(context: bpy.types.Context) -> bool:
-    """Tell whether a look would be felt."""
+    """Return whether a look would be felt."""
     faces = sum(edit_face_count(obj.data) for obj in edited_objects(context))
     return bool(faces > inspect_up_to(context))
 

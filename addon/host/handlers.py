@@ -49,7 +49,7 @@ def call_off(function: Callable[[], float | None]) -> None:
 
 
 def is_edited(depsgraph: bpy.types.Depsgraph) -> bool:
-    """Tell whether a mesh changed, its selection included, or an object was moved.
+    """Return whether a mesh changed, its selection included, or an object was moved.
 
     Copies that are made for reading show up as other kinds of updates, which must not count: each look
     would be the reason for the next one.

@@ -19,11 +19,11 @@ def require(operator: Any, met: bool, otherwise: str) -> bool:
 
 
 def require_idle(operator: Any, context: bpy.types.Context) -> bool:
-    """Tell whether no run is under way, which has the mesh to itself."""
+    """Return whether no run is under way, which has the mesh to itself."""
     idle = not context.window_manager.fairing_progress.running
     return require(operator, idle, "Fairing is under way: wait for it, or press Esc")
 
 
 def require_edit_mode(operator: Any, context: bpy.types.Context, otherwise: str = "Only in edit mode") -> bool:
-    """Tell whether a mesh is being edited."""
+    """Return whether a mesh is being edited."""
     return require(operator, context.mode == "EDIT_MESH", otherwise)

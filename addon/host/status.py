@@ -9,7 +9,7 @@ ASKEW = 0.5  # cosine between the view and a surface's normal, below which littl
 
 
 def show_progress(context: bpy.types.Context, fraction: float, stage: str) -> None:
-    """Tell how far a run is; the pointer's counter must have begun."""
+    """Show how far a run is; the pointer's counter must have begun."""
     progress = context.window_manager.fairing_progress
     progress.running, progress.fraction, progress.stage = True, fraction, stage
     context.window_manager.progress_update(fraction)

@@ -1,6 +1,6 @@
 """Which border is selected in edit mode, and new faces over it with what belongs to them.
 
-What has a mean is carried over from the outline; all else is copied from the nearest vertex or face there.
+What has a mean is carried over from the boundary; all else is copied from the nearest vertex or face there.
 """
 
 from __future__ import annotations
@@ -100,7 +100,7 @@ def _covering(bm: Any, rims: list[_Rim]) -> int:
 
 
 class _Rim:
-    """The outline of one surface, in a mesh that it is on its way into."""
+    """The boundary of one surface, in a mesh that it is on its way into."""
 
     def __init__(self, bm: Any, piece: Piece) -> None:
         self._piece = piece
@@ -147,7 +147,7 @@ class _Rim:
         return vertices, made
 
     def data(self, target: Target) -> FaceData:
-        """Tell what the new faces are made of."""
+        """Return what the new faces are made of."""
         piece = self._piece
         _, of_face = piece.examples()
         seams = np.concatenate([np.empty((0, 2), dtype=np.int64), *(flat.seams for flat in self._maps)])
@@ -181,7 +181,7 @@ class _Rim:
         return np.array([_flat_area([corner[layer].uv for corner in face.loops]) < 0.0 for face in self._faces])
 
     def _is_marked(self, rim: RimUVs) -> bool:
-        """Tell whether seams of UVs that reach the outline are marked as such."""
+        """Return whether seams of UVs that reach the boundary are marked as such."""
         ends = [self._vertices[number] for number in np.flatnonzero(rim.broken).tolist()]
         return any(edge.seam for vertex in ends for edge in vertex.link_edges if not edge.is_boundary)
 

@@ -36,7 +36,7 @@ def mark_faces(mesh: bpy.types.Mesh, faces: Ints, options: FairOptions, key: str
 
 
 def forget_region(mesh: bpy.types.Mesh) -> bool:
-    """Remove the region from a mesh in edit mode; tell whether there was one."""
+    """Remove the region from a mesh in edit mode; return whether there was one."""
     bm = bmesh.from_edit_mesh(mesh)
     layer = bm.faces.layers.int.get(LAYER)
     mesh.pop(OPTIONS, None)

@@ -41,7 +41,7 @@ def _snapshot(mesh: bpy.types.Mesh) -> Iterator[bpy.types.Mesh]:
 
 
 def is_editable(mesh: bpy.types.Mesh) -> bool:
-    """Tell whether changes of the mesh are kept: not in one that is linked from another file, overridden or not."""
+    """Return whether changes of the mesh are kept: not in one that is linked from another file, overridden or not."""
     return bool(mesh.is_editable and mesh.override_library is None)
 
 
@@ -123,7 +123,7 @@ def edit_positions(mesh: bpy.types.Mesh) -> Floats:
 
 
 def is_unchanged(mesh: bpy.types.Mesh, arrays: MeshArrays) -> bool:
-    """Tell whether a mesh in edit mode still has the positions and corners that were read from it."""
+    """Return whether a mesh in edit mode still has the positions and corners that were read from it."""
     with _snapshot(mesh) as now:
         if len(now.vertices) != len(arrays.positions) or len(now.loops) != len(arrays.corner_vertices):
             return False
@@ -223,7 +223,7 @@ def _pinned(arrays: MeshArrays, mesh: bpy.types.Mesh, group: int | None, options
 
 
 def _is_textured(mesh: bpy.types.Mesh, corners: Mask) -> bool:
-    """Tell whether the corners in the (c,) mask have places of their own on a UV map."""
+    """Return whether the corners in the (c,) mask have places of their own on a UV map."""
     layer = mesh.uv_layers.active
     if layer is None or not corners.any():
         return False
@@ -308,7 +308,7 @@ def _move_keys(keys: bpy.types.Key, vertices: Ints, offsets: Any, basis: Any) ->
 
 
 def _follows(block: bpy.types.ShapeKey, basis: bpy.types.ShapeKey) -> bool:
-    """Tell whether a chain of relative keys leads from the block to the basis."""
+    """Return whether a chain of relative keys leads from the block to the basis."""
     seen = set()
     while block != basis and block.name not in seen:
         seen.add(block.name)

@@ -103,7 +103,7 @@ def _delete(bm: Any, old: _Old) -> None:
 
 
 def _vertex_data(bm: Any, outcome: Remeshed) -> VertexData:
-    """Tell what the new vertices are made of: the vertices of the triangles that they lie on."""
+    """Return what the new vertices are made of: the vertices of the triangles that they lie on."""
     part = outcome.part
     used, local = np.unique(part.vertices.sources, return_inverse=True)
     stencil = type(part.vertices)(local.reshape(part.vertices.sources.shape), part.vertices.weights)
@@ -114,7 +114,7 @@ def _vertex_data(bm: Any, outcome: Remeshed) -> VertexData:
 
 
 def _face_data(target: Target, outcome: Remeshed, stay: list[Any]) -> FaceData:
-    """Tell what the new faces are made of: the corners of the triangles that they lie on."""
+    """Return what the new faces are made of: the corners of the triangles that they lie on."""
     bm, part = target.bm, outcome.part
     used, local = np.unique(part.corners.sources, return_inverse=True)
     corners = _corners(bm, used)

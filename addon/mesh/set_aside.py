@@ -143,7 +143,7 @@ class Part:
 
 
 def has_unreached(mesh: bpy.types.Mesh) -> bool:
-    """Tell whether a mesh in whichever mode has attributes that are to be set aside.
+    """Return whether a mesh in whichever mode has attributes that are to be set aside.
 
     Raises ValueError for one whose values are no numbers: Blender 4.2 to 5.0 has none.
     """
@@ -155,7 +155,7 @@ def has_unreached(mesh: bpy.types.Mesh) -> bool:
 
 
 def _is_out(attribute: Any) -> bool:
-    """Tell whether bmesh has no access to an attribute, which is not part of the mesh itself either."""
+    """Return whether bmesh has no access to an attribute, which is not part of the mesh itself either."""
     name, kind, domain = attribute.name, attribute.data_type, attribute.domain
     if attribute.is_required or domain not in _SEQUENCES or (kind, domain) == ("FLOAT2", "CORNER"):  # a UV map
         return False

@@ -49,7 +49,7 @@ def weighed(arrays: MeshArrays, mesh: bpy.types.Mesh, obj: bpy.types.Object | No
 
 
 def parts_of_the_way(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions) -> Floats | None:
-    """Return (n,) how much of the way each vertex goes, by vertex group and mask; None where neither is asked for.
+    """Return (n,) each vertex's own factor, by vertex group and mask; None where neither is asked for.
 
     obj: shows the mesh, or what it is a copy of. Raises ValueError where it has no such group, or no mask.
     """

@@ -1,5 +1,5 @@
 # mypy: disable-error-code="valid-type"
-"""Buttons after a run: look at its worst spots, or do it once more in another way.
+"""Buttons after a run: look at its worst spots, or run once more with one change.
 
 No postponed annotations here: Blender reads them as property definitions.
 """
@@ -50,7 +50,7 @@ class MESH_OT_fair_spots(bpy.types.Operator):
 
 
 class MESH_OT_fair_reselect(bpy.types.Operator):
-    """Select the faces of the last run again, or those whose outline was looked at"""
+    """Select the faces of the last run again, or those whose boundary was examined"""
 
     bl_idname = "mesh.fair_reselect"
     bl_label = "Select Region Again"
@@ -58,7 +58,7 @@ class MESH_OT_fair_reselect(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """There must have been a run, or a look at an outline."""
+        """There must have been a run, or a look at a boundary."""
         return require_edit_mode(cls, context) and require(cls, last_run.can_reselect(context), "There is no region")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -67,7 +67,7 @@ class MESH_OT_fair_reselect(bpy.types.Operator):
         return {"FINISHED"}
 
 
-# What each way of trying once more changes in the options.
+# What each button changes in the options.
 CHANGES: dict[str, dict[str, Any]] = {
     ADD_LEFT_OUT: {},
     GROW: {},
@@ -83,11 +83,11 @@ _WAYS = (
     (ADD_LEFT_OUT, "Add Left-Out Faces", "Select the faces as well that were left out within, and fair again"),
     (GROW, "Grow by a Ring", "Select one ring of faces more and fair again"),
     (GROW_OVER, "Grow over It", "Select as many rings of faces more as the slope is wide, and fair again"),
-    (SMOOTH_OUTLINE, "Smooth Outline", "Smooth the outline and the two rings around it, and fair again"),
-    (AS_SELECTED, "Outline As Selected", "Leave the outline and what is around it where it is, and fair again"),
+    (SMOOTH_OUTLINE, "Smooth Boundary", "Smooth the boundary and the two rings around it, and fair again"),
+    (AS_SELECTED, "Boundary As Selected", "Leave the boundary and what is around it where it is, and fair again"),
     (HOLD_BORDER, "Hold Open Border", "Leave open borders where they are, and fair again"),
-    (EVEN_CURVATURE, "Even Curvature", "Fair again with the shape Even Curvature, which exists more often"),
-    (EVEN_SPREAD, "Spread Vertices Evenly", "Fair again with vertices that lie evenly, whatever the old mesh was like"),
+    (EVEN_CURVATURE, "Least Variation", "Fair again with the shape Least Variation, which exists more often"),
+    (EVEN_SPREAD, "Spread Uniformly", "Fair again with edges of equal length, whatever the old mesh was like"),
     (WRITE, "Write It All the Same", "Write the result as it is, folds and all"),
 )
 WAY_NAMES = {identifier: name for identifier, name, _ in _WAYS}
@@ -100,7 +100,7 @@ class MESH_OT_fair_again(bpy.types.Operator):
     bl_label = "Fair Again"
     # No UNDO of its own: the run that it starts has one, and the redo panel.
 
-    way: EnumProperty(name="Way", description="What is done otherwise", items=_WAYS, default=GROW)
+    way: EnumProperty(name="Change", description="What is changed in the options", items=_WAYS, default=GROW)
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: Any) -> str:

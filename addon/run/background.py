@@ -27,7 +27,7 @@ Work = Callable[[Progress], Any]
 
 
 def has_events(context: bpy.types.Context) -> bool:
-    """Tell whether there is a window whose events could watch a run."""
+    """Return whether there is a window whose events could watch a run."""
     return not bpy.app.background and context.window is not None
 
 
@@ -35,9 +35,9 @@ def at_once(context: bpy.types.Context, work: Work) -> Any:
     """Return what the work gives, with Blender's own progress at the cursor."""
     manager = context.window_manager
     manager.progress_begin(0.0, 1.0)
-    tell: Progress = lambda fraction, _stage: manager.progress_update(fraction)  # noqa: E731
+    show: Progress = lambda fraction, _stage: manager.progress_update(fraction)  # noqa: E731
     try:
-        return work(tell)
+        return work(show)
     finally:
         manager.progress_end()
 

@@ -37,7 +37,7 @@ def _parser() -> argparse.ArgumentParser:
         "fill the holes that have a vertex in it; default: all",
     )
     parser.add_argument("--fill", action="store_true", help="fill holes instead")
-    parser.add_argument("--bridge", action="store_true", help="with --fill: join their outlines in one surface")
+    parser.add_argument("--bridge", action="store_true", help="with --fill: join their boundary loops in one surface")
     parser.add_argument("--output", required=True, help="the .blend file to write")
     parser.add_argument("--report", choices=("text", "json"), default="text")
     defaults = FairOptions()
@@ -59,7 +59,7 @@ def _mesh_object(name: str) -> bpy.types.Object:
 
 
 def _members(obj: bpy.types.Object, group: str) -> list[bool]:
-    """Tell for each vertex whether it is in the vertex group."""
+    """Return for each vertex whether it is in the vertex group."""
     if group not in obj.vertex_groups:
         raise ValueError(f"--vertex-group: {obj.name} has no vertex group named {group!r}")
     index = obj.vertex_groups[group].index

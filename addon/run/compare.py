@@ -76,7 +76,7 @@ def forget() -> None:
 
 
 def is_available() -> bool:
-    """Tell whether there was a run."""
+    """Return whether there was a run."""
     return bool(_last.pairs)
 
 
@@ -85,7 +85,7 @@ class Changed(Exception):
 
 
 def is_undone() -> bool:
-    """Tell whether all vertices of the last run that was written are where they were before it."""
+    """Return whether all vertices of the last run that was written are where they were before it."""
     return bool(_last.pairs) and all(_is_before(pair) for pair in _last.pairs)
 
 

@@ -13,7 +13,7 @@ from ..core.region import MeshArrays
 from ..core.remeshing import remesh_arrays
 from ..core.solve import Kept, solve
 from ..core.verdict import UNUSABLE
-from ..core.words import SPREAD_EVENLY
+from ..core.words import SPREAD_UNIFORMLY
 
 
 def fair_arrays(
@@ -39,19 +39,19 @@ def _on_old_mesh(
     mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None, kept: Kept | None
 ) -> Fairing:
     found = outcome(mesh, matrix, options, solve(mesh, matrix, options, progress, kept), progress)
-    return _evenly(mesh, matrix, options, progress, kept) or found if _texture_folds(mesh, options, found) else found
+    return _uniformly(mesh, matrix, options, progress, kept) or found if _texture_folds(mesh, options, found) else found
 
 
 def _texture_folds(mesh: MeshArrays, options: FairOptions, found: Fairing) -> bool:
-    """Tell whether faces are folded over where the texture is kept without being asked for."""
+    """Return whether faces are folded over where the texture is kept without being asked for."""
     unasked = options.inner_fairness == "AUTOMATIC" and options.resolved(mesh.textured).inner_fairness != "UNIFORM"
     return unasked and found.verdict.grade == UNUSABLE and len(found.after.folded) > 0
 
 
-def _evenly(
+def _uniformly(
     mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None, kept: Kept | None
 ) -> Fairing | None:
-    """Fair with vertices spread evenly; None where that isn't usable either."""
-    even = replace(options, inner_fairness="UNIFORM")
-    found = outcome(mesh, matrix, even, solve(mesh, matrix, even, progress, kept), progress)
-    return None if found.verdict.grade == UNUSABLE else replace(found, warnings=(SPREAD_EVENLY, *found.warnings))
+    """Fair with uniform weights; None where that isn't usable either."""
+    uniform = replace(options, inner_fairness="UNIFORM")
+    found = outcome(mesh, matrix, uniform, solve(mesh, matrix, uniform, progress, kept), progress)
+    return None if found.verdict.grade == UNUSABLE else replace(found, warnings=(SPREAD_UNIFORMLY, *found.warnings))

@@ -1,4 +1,4 @@
-"""The operator that fills holes and joins outlines: at once where it takes but a moment, else in the background."""
+"""The operator that fills holes and joins boundary loops: at once where that is quick, else in the background."""
 
 import time
 from dataclasses import dataclass
@@ -86,7 +86,7 @@ def solve(tasks: list[Task], options: FillOptions, progress: Progress) -> list[l
 
 
 class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
-    """Fill the holes whose outlines are selected, in part or whole, or join them,
+    """Fill the holes whose boundaries are selected, in part or whole, or join them,
     with the fair surface that continues their surroundings"""
 
     bl_idname = "mesh.fair_fill"
@@ -100,7 +100,7 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Edit mode has borders; while a run is under way, the mesh is its own."""
-        return require_edit_mode(cls, context, "Select the outline of a hole in edit mode") and require_idle(
+        return require_edit_mode(cls, context, "Select the boundary of a hole in edit mode") and require_idle(
             cls, context
         )
 
@@ -177,7 +177,7 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
         return [filled.add_to_edit_mesh(objects[name], pieces) for name, pieces in named]
 
     def _leave(self, context: bpy.types.Context, spots: Ints, reason: str) -> set[str]:
-        """Leave every mesh as it is, and show the outline where the surface is no good."""
+        """Leave every mesh as it is, and show the boundary where the surface is no good."""
         if len(self._tasks) == 1:
             self._show(context, self._tasks[0].object_name, spots)
         self.report({"ERROR"}, reason)

@@ -33,7 +33,7 @@ class Filled:
 def fill_mesh(
     mesh: bpy.types.Mesh, vertices: Sequence[int] | None = None, *, matrix: Any = None, **properties: Any
 ) -> list[fairing.FillResult]:
-    """Fill the holes of `mesh`, or join their outlines, with the fair surface that continues their surroundings.
+    """Fill the holes of `mesh`, or join their boundaries, with the fair surface that continues their surroundings.
 
     vertices: one or more of each border that is meant, or a mask of all vertices; default: all holes, that is all
     borders but those around the outside of a sheet (`fairing.outer_borders`).

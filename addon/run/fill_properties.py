@@ -17,6 +17,6 @@ class FillProperties(SurfaceProperties):
     continuity: continuity_property()
     bridge: BoolProperty(
         name="Bridge",
-        description="One surface joins all outlines of an object: a tube between two, a blend between more",
+        description="One surface joins all boundary loops of an object: a tube between two, a blend between more",
         default=False,
     )

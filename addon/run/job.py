@@ -22,7 +22,7 @@ from ..core.solve import Kept, Solved
 from ..host.context import edited_objects
 from ..mesh import mesh_io, remeshed
 from .fair_arrays import fair_arrays
-from .labels import told
+from .labels import reason_of
 
 memory: Memory[Solved] = Memory(4)  # enough for the objects of one redo panel; forgotten at unregistering
 solvers: Memory[RepeatedSolve | None] = Memory(2)  # likewise; larger, as they hold factorisations
@@ -32,7 +32,7 @@ class Refused(Exception):
     """One object can't be faired; nothing has been written yet."""
 
     def __init__(self, name: str, cause: Exception) -> None:
-        self.reason = told(cause)
+        self.reason = reason_of(cause)
         super().__init__(f"{name}: {self.reason}")
         self.object_name = name
         self.cause = cause
@@ -109,7 +109,7 @@ def objects_in_mode(context: bpy.types.Context) -> dict[str, bpy.types.Object]:
 
 
 def is_current(context: bpy.types.Context, tasks: list[Task]) -> bool:
-    """Tell whether the objects are still in edit mode, with the vertices, faces and shape key that were read."""
+    """Return whether the objects are still in edit mode, with the vertices, faces and shape key that were read."""
     objects = objects_in_mode(context)
     return context.mode == "EDIT_MESH" and all(
         task.object_name in objects and is_unchanged(objects[task.object_name], task.mesh, task.key) for task in tasks
@@ -117,7 +117,7 @@ def is_current(context: bpy.types.Context, tasks: list[Task]) -> bool:
 
 
 def is_unchanged(obj: bpy.types.Object, mesh: MeshArrays, key: str) -> bool:
-    """Tell whether an object in edit mode still has the mesh and the shape key that were read."""
+    """Return whether an object in edit mode still has the mesh and the shape key that were read."""
     try:
         same_key = mesh_io.writable_key(obj) == key
     except ValueError:  # locked meanwhile

@@ -14,7 +14,7 @@ _REFUSED = "is not accepted"
 IDLE = "Without effect"  # a line of the report
 
 
-def told(cause: Exception) -> str:
+def reason_of(cause: Exception) -> str:
     """Return what an error says with the label of the property that it begins with: `Pin Group: …`, not `pin_group: …`.
 
     Where a value is not accepted, what the property is for follows.
@@ -29,7 +29,7 @@ def told(cause: Exception) -> str:
 
 
 def with_idle(report: Report, options: FairOptions) -> Report:
-    """Return the report with the labels of options that are set and that nothing looked at, if there are any."""
+    """Return the report with the labels of options that are set and have no effect, if there are any."""
     idle = ", ".join(words[0] for words in map(_words, options.idle) if words)
     if not idle:
         return report
@@ -37,7 +37,7 @@ def with_idle(report: Report, options: FairOptions) -> Report:
 
 
 def idle_in(report: Report) -> tuple[str, ...]:
-    """Return what with_idle told."""
+    """Return what with_idle added."""
     return tuple(check.value for check in report.checks if check.name == IDLE)
 
 

@@ -1,4 +1,4 @@
-"""What the last run was asked for, so that it can be looked at and done once more in another way."""
+"""What the last run was asked for, so that it can be examined and run again with one change."""
 
 from __future__ import annotations
 
@@ -92,12 +92,12 @@ def way_to_try() -> str:
 
 
 def is_improved_by(report: Report) -> bool:
-    """Tell whether another way has come out better than the last run."""
+    """Return whether a run with one change has come out better than the last one."""
     return standing(report) < _last.standing
 
 
 def has_regions() -> bool:
-    """Tell whether there was a run."""
+    """Return whether there was a run."""
     return bool(_last.regions)
 
 
@@ -112,7 +112,7 @@ def rings() -> int:
 
 
 def has_spots() -> bool:
-    """Tell whether there is anything to look at."""
+    """Return whether there is anything to look at."""
     return any(len(region.spots) for region in _last.regions)
 
 
@@ -145,7 +145,7 @@ def worst_spot(context: bpy.types.Context) -> tuple[Floats, Floats, float]:
 
 
 def can_reselect(context: bpy.types.Context) -> bool:
-    """Tell whether the faces of the last run, or those that were looked at, are there still."""
+    """Return whether the faces of the last run, or those that were looked at, are there still."""
     try:
         return bool(_found(context, _last.seen))
     except Changed:

@@ -22,7 +22,7 @@ from ..mesh import painted
 from ..mesh.free_normals import free_normals
 from . import compare, last_run
 from .fair_mesh import fair_faces
-from .labels import told, with_idle
+from .labels import reason_of, with_idle
 from .properties import FairProperties
 from .redo_panel import draw_options
 from .report_properties import store, store_refusal
@@ -111,9 +111,9 @@ class MESH_OT_fair_masked(FairProperties, bpy.types.Operator):
         try:
             return self._fair(context, obj)
         except REFUSALS as cause:
-            store_refusal(context.window_manager.fairing_report, obj.name, told(cause))
+            store_refusal(context.window_manager.fairing_report, obj.name, reason_of(cause))
             last_run.forget()
-            self.report({"ERROR"}, f"{obj.name}: {told(cause)}")
+            self.report({"ERROR"}, f"{obj.name}: {reason_of(cause)}")
             return {"CANCELLED"}
         finally:
             if mode != "OBJECT":

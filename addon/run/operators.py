@@ -73,7 +73,7 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
         return bool(self._tasks)
 
     def _solve_or_start(self, context: bpy.types.Context) -> set[str]:
-        # The size tells the least time only: a selection without a fair surface may be searched for minutes.
+        # The size bounds the time from below only: a selection without a fair surface may be searched for minutes.
         large = job.size(self._tasks) >= background_from(context)
         return self._start(context, partial(job.solve, self._tasks, self._options, ahead=large), large)
 
@@ -109,7 +109,7 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
         return {"CANCELLED"}
 
     def _keep(self, context: bpy.types.Context, report: Report) -> set[str]:
-        """Leave what the last run has left, offer this way no more, and tell how it would have come out."""
+        """Leave what the last run has left, offer this change no more, and report how it would have come out."""
         last_run.select_region(context)
         shown = context.window_manager.fairing_report
         shown.remedies = ",".join(name for name in shown.remedies.split(",") if name != self._way)

@@ -15,41 +15,45 @@ EQUATIONS = (
     (
         "AUTOMATIC",
         "Automatic",
-        "Even Curvature for a tube of more than two radii between two outlines, Harmonic for all else",
+        "Least Variation for a tube of more than two radii between two boundary loops, Harmonic for all else",
     ),
     (
         "HARMONIC",
         "Harmonic",
-        "Curvature runs evenly from outline to outline. Restores spheres and pipes",
+        "Curvature runs steadily across the patch. Restores spheres and pipes",
     ),
-    ("CONSTANT", "Bulge", "Like Harmonic, with an even pressure from inside or outside that lifts or sinks the middle"),
+    (
+        "CONSTANT",
+        "Bulge",
+        "Like Harmonic, with a constant pressure from inside or outside that lifts or sinks the middle",
+    ),
     (
         "MINIMAL_ENERGY",
         "Minimal Energy",
-        "Bends as little as possible: rounder near tight outlines",
+        "Bends as little as possible: rounder near tight boundaries",
     ),
     (
         "MINIMAL",
         "Soap Film",
-        "Least area: meets the outline in position only, with a crease",
+        "Least area: meets the boundary in position only, with a crease",
     ),
     (
         "LEAST_VARIATION",
-        "Even Curvature",
+        "Least Variation",
         "Curvature changes as little as it can. For tubes, elbows and limbs that Harmonic inflates. Slower",
     ),
 )
 _OTHERWISE = (
     (
         "LEAST_VARIATION",
-        "Even Curvature",
-        "Where no surface of that shape fits the outlines, even curvature is used instead",
+        "Least Variation",
+        "Where no surface of that shape fits the boundary, Least Variation is used instead",
     ),
     ("STOP", "Stop", "Keeps the best surface of that shape that was found; the report says so"),
 )
 _INNER_FAIRNESS = (
-    ("AUTOMATIC", "Automatic", "Keep Texture where the selection has a UV map, Even where it has none"),
-    ("UNIFORM", "Even", "Vertices spread evenly over the surface. Best topology, but textures slide"),
+    ("AUTOMATIC", "Automatic", "Keep Texture where the selection has a UV map, Uniform where it has none"),
+    ("UNIFORM", "Uniform", "Edges become equally long. Best topology, but textures slide"),
     (
         "CONFORMAL",
         "Keep Texture",
@@ -59,7 +63,7 @@ _INNER_FAIRNESS = (
     (
         "SHAPE_PRESERVING",
         "Keep Proportions",
-        "Each vertex keeps its place among its neighbours. Textures may be distorted more than with Even",
+        "Each vertex keeps its place among its neighbours. Textures may be distorted more than with Uniform",
     ),
 )
 _BOUNDARY_NORMALS = (
@@ -69,14 +73,14 @@ _BOUNDARY_NORMALS = (
         "Continues the faces around the selection, whatever is inside",
     ),
     ("AVERAGE", "Average", "Leans half way between the faces inside and outside: keeps some of the old shape's slope"),
-    ("CUSTOM", "Custom Normals", "Follows the shading normals along the outline, custom split normals included"),
+    ("CUSTOM", "Custom Normals", "Follows the shading normals along the boundary, custom split normals included"),
 )
 _CONTINUITIES = (
-    ("G1", "Tangent", "The surface leaves its outline with the slope of the faces around it"),
+    ("G1", "Tangent", "The surface leaves its boundary with the slope of the faces around it"),
     (
         "G2",
         "Curvature",
-        "The surface takes up the curvature of the faces around it, too, and reflections run on without an elbow. "
+        "The surface takes up the curvature of the faces around it, too, and reflection lines don't break. "
         "For the shape Harmonic",
     ),
 )
@@ -85,15 +89,19 @@ _METHODS = (
     ("PAPER", "Multigrid", "The published iteration, step by step: slow, for comparison"),
 )
 _OUTLINES = (
-    ("GIVEN", "As Selected", "The outline stays where it is"),
+    ("GIVEN", "As Selected", "The boundary stays where it is"),
     (
         "MENDED",
         "Smooth",
-        "A noisy outline and two rings of faces around it are smoothed first, by a quarter of an edge at most",
+        "A noisy boundary and two rings of faces around it are smoothed first, by a quarter of an edge at most",
     ),
 )
 _ACCEPT = (
-    ("USABLE", "Usable Results", "A result that folds, crosses itself or is none leaves the mesh as it was"),
+    (
+        "USABLE",
+        "Usable Results",
+        "The mesh stays as it was where there is no result, or one that folds or crosses itself",
+    ),
     ("ALL", "All Results", "Whatever comes out is written"),
 )
 _MESHES = (
@@ -101,13 +109,13 @@ _MESHES = (
     (
         "NEW",
         "New",
-        "Even triangles take the place of the selected faces. Seams of UVs and colours, borders of materials and "
+        "Regular triangles take the place of the selected faces. Seams of UVs and colours, borders of materials and "
         "marked edges stay; UVs, colours, weights and shape keys are carried over",
     ),
 )
 _INNER = (
-    ("OUTLINE", "Like the Outline", "Short where the outline's edges nearby are short, long where these are long"),
-    ("EVEN", "Even", "All of one length, but for those beside an outline that is finer or coarser"),
+    ("OUTLINE", "Like the Boundary", "Short where the boundary's edges nearby are short, long where these are long"),
+    ("EVEN", "Equal", "All of one length, but for those beside a boundary that is finer or coarser"),
 )
 _PIN_EDGES = (
     ("NONE", "None", "No edge inside the selection is held"),
@@ -123,7 +131,7 @@ _PIN_SLOPES = (
 )
 _OPEN_BORDERS = (
     ("HELD", "Held", "Open borders inside the selection stay where they are"),
-    ("FAIRED", "Faired", "Open borders become fair curves, and the surface ends there as it likes"),
+    ("FAIRED", "Faired", "Open borders become fair curves, with a free slope"),
 )
 
 
@@ -132,7 +140,7 @@ class SurfaceProperties:
 
     spacing: FloatProperty(
         name="Spacing",
-        description="Length of the new edges away from the outline, measured by the outline's edges. "
+        description="Length of the new edges away from the boundary, measured by the boundary's edges. "
         "The surface stays the same",
         default=1.0,
         min=LEAST_SPACING,
@@ -143,7 +151,7 @@ class SurfaceProperties:
     )
     inner: EnumProperty(
         name="New Edges",
-        description="How long new edges are, compared with each other",
+        description="How the lengths of new edges vary",
         items=_INNER,
         default="OUTLINE",
     )
@@ -156,13 +164,13 @@ class SurfaceProperties:
     )
     quads: BoolProperty(
         name="Quads",
-        description="New faces are quads, as far as pairs of triangles make some. None runs across a border of "
-        "materials or face sets",
+        description="Pairs of triangles become quads as far as possible, none across a border of materials or "
+        "face sets",
         default=False,
     )
     limit_total: IntProperty(
         name="Limit Total",
-        description="In how many vertex groups of bones each new vertex is at most: those with the largest weights, "
+        description="The most vertex groups of bones that a new vertex is in: those with the largest weights, "
         "with the same sum. 0: as many as one of the vertices around is in",
         default=0,
         min=0,
@@ -179,7 +187,7 @@ class SurfaceProperties:
 
 def equation_property(items: tuple[tuple[str, str, str], ...]) -> Any:
     """Return the property of the shape; items: those of EQUATIONS that are to be had."""
-    return EnumProperty(name="Shape", description="Which surface spans the outline", items=items, default="AUTOMATIC")
+    return EnumProperty(name="Shape", description="Which surface spans the boundary", items=items, default="AUTOMATIC")
 
 
 def continuity_property() -> Any:
@@ -206,7 +214,7 @@ class FairProperties(SurfaceProperties, SkinProperties):
     equation: equation_property(EQUATIONS)
     otherwise: EnumProperty(
         name="Otherwise",
-        description="What to do where no surface of that shape fits the outlines",
+        description="What to do where no surface of that shape fits the boundary",
         items=_OTHERWISE,
         default="LEAST_VARIATION",
     )
@@ -228,7 +236,7 @@ class FairProperties(SurfaceProperties, SkinProperties):
     )
     boundary_normals: EnumProperty(
         name="Tangent To",
-        description="The slope with which the surface leaves its outline",
+        description="The slope with which the surface leaves its boundary",
         items=_BOUNDARY_NORMALS,
         default="SURROUNDING",
     )
@@ -252,7 +260,7 @@ class FairProperties(SurfaceProperties, SkinProperties):
     )
     max_iterations: IntProperty(
         name="Iterations",
-        description="Give up after so many steps; the report says so then",
+        description="Give up after so many steps, and report it",
         default=200,
         min=1,
     )
@@ -290,14 +298,14 @@ class FairProperties(SurfaceProperties, SkinProperties):
         default="HELD",
     )
     outline: EnumProperty(
-        name="Outline",
-        description="What is done about a noisy outline",
+        name="Boundary",
+        description="What is done about a noisy boundary",
         items=_OUTLINES,
         default="GIVEN",
     )
     mesh: EnumProperty(
         name="Mesh",
-        description="Whether the selected faces stay",
+        description="Whether the selected faces stay or are replaced",
         items=_MESHES,
         default="KEEP",
     )

@@ -13,13 +13,13 @@ Draw = Callable[[Any, Any, bpy.types.Object], None]
 
 
 def draw_options(layout: Any, options: Any, obj: bpy.types.Object, manager: Any) -> None:
-    """Draw the properties of `mesh.fair_region`; those that nothing looks at beside the others don't show."""
+    """Draw the properties of `mesh.fair_region`; those without effect don't show."""
     layout.use_property_split = True
     layout.prop(options, "factor")
     _draw_shape(_group(layout, "Shape"), options)
     _draw_vertices(_group(layout, "Vertices"), options)
     _draw_skin(_group(layout, "Skin"), options)
-    _draw_outline(_group(layout, "At the Outline"), options)
+    _draw_outline(_group(layout, "At the Boundary"), options)
     for name, (_, _, draw) in FOLDS.items():
         # No collapsible layout panel: not every place that shows these options has them.
         opened = bool(getattr(manager, name))
@@ -46,7 +46,7 @@ def _draw_shape(group: Any, options: Any) -> None:
 
 def _draw_vertices(group: Any, options: Any) -> None:
     group.prop(options, "mesh")
-    if options.mesh == "NEW":  # new vertices lie evenly
+    if options.mesh == "NEW":  # new edges are equally long
         group.prop(options, "spacing")
         group.prop(options, "inner")
         group.prop(options, "max_vertices")

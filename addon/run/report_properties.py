@@ -51,14 +51,14 @@ class FairProgress(bpy.types.PropertyGroup):
 
 
 def clear(shown: Any) -> None:
-    """Have a FairReport tell of no run."""
+    """Let a FairReport show no run."""
     for known in shown.bl_rna.properties:
         if known.identifier != "rna_type":
             shown.property_unset(known.identifier)
 
 
 def store_refusal(shown: Any, object_name: str, reason: str) -> None:
-    """Have a FairReport tell of a run that was refused, and nothing of the one before."""
+    """Let a FairReport show a run that was refused, and nothing of the one before."""
     clear(shown)
     shown.objects, shown.verdict, shown.reason = object_name, UNUSABLE, reason
 

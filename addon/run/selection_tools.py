@@ -1,4 +1,4 @@
-"""Buttons for the selection and its outline: what is bad about it, and what can be done before a run."""
+"""Buttons for the selection and its boundary: what is bad about it, and what can be done before a run."""
 
 from collections.abc import Callable
 from typing import Any
@@ -50,11 +50,11 @@ class _Tool:
 
 
 class MESH_OT_fair_select_bad(_Tool, bpy.types.Operator):
-    """Select the vertices of the outline whose surroundings are folded, noisy or needles:
+    """Select the vertices of the boundary whose surroundings are folded, noisy or needles:
     the surface would follow them"""
 
     bl_idname = "mesh.fair_select_bad"
-    bl_label = "Select Bad Outline"
+    bl_label = "Select Bad Boundary"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Select them in vertex mode, where there are any."""
@@ -73,7 +73,7 @@ class MESH_OT_fair_select_bad(_Tool, bpy.types.Operator):
             context.tool_settings.mesh_select_mode = (True, False, False)
             for obj, vertices in found:
                 selecting.select_vertices(obj.data, vertices)
-        return self._answer(count, counted(count or 0, "bad vertex", "bad vertices"), "The outline has no bad vertices")
+        return self._answer(count, counted(count or 0, "bad vertex", "bad vertices"), "The boundary has none")
 
 
 def _select_faces(context: bpy.types.Context, obj: bpy.types.Object, mesh: MeshArrays, faces: Mask) -> int:
@@ -84,7 +84,7 @@ def _select_faces(context: bpy.types.Context, obj: bpy.types.Object, mesh: MeshA
 
 
 class MESH_OT_fair_grow(_Tool, bpy.types.Operator):
-    """Grow the selection over the bad vertices of its outline, until none is left"""
+    """Grow the selection over the bad vertices of its boundary, until none is left"""
 
     bl_idname = "mesh.fair_grow"
     bl_label = "Grow Until Smooth"
@@ -99,7 +99,7 @@ class MESH_OT_fair_grow(_Tool, bpy.types.Operator):
 
 
 class MESH_OT_fair_add_left_out(_Tool, bpy.types.Operator):
-    """Select the single faces that a lasso has left out"""
+    """Select the single faces that a lasso missed"""
 
     bl_idname = "mesh.fair_add_left_out"
     bl_label = "Add Left-Out Faces"
@@ -120,17 +120,17 @@ def _smooth(obj: bpy.types.Object, task: job.Task) -> int:
 
 
 class MESH_OT_fair_smooth_outline(_Tool, bpy.types.Operator):
-    """Move a noisy outline and the two rings around it onto the surface that the surroundings suggest,
+    """Move a noisy boundary and the two rings around it onto the surface that the surroundings suggest,
     by a quarter of an edge at most"""
 
     bl_idname = "mesh.fair_smooth_outline"
-    bl_label = "Smooth Outline"
+    bl_label = "Smooth Boundary"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Move vertices of the outline; nothing inside the selection moves."""
+        """Move vertices of the boundary; nothing inside the selection moves."""
         count = self._each(context, _smooth)
         text = counted(count or 0, "vertex moved", "vertices moved")
-        return self._answer(count, text, "The outline is smooth already")
+        return self._answer(count, text, "The boundary is smooth already")
 
 
 TOOLS: tuple[Any, ...] = (

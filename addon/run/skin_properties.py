@@ -7,8 +7,8 @@ No postponed annotations here: Blender reads them as property definitions.
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 
 _FACTOR_MASKS = (
-    ("IGNORED", "Ignored", "The mask of sculpt mode says nothing"),
-    ("USED", "Used", "What is masked goes all the way, what is half masked half of it, what is not masked stays"),
+    ("IGNORED", "Ignored", "The mask of sculpt mode has no effect"),
+    ("USED", "Used", "Masked vertices have the whole Factor, half-masked ones half of it, others stay"),
 )
 
 
@@ -41,7 +41,7 @@ class SkinProperties:
     )
     detail_face_set: IntProperty(
         name="Detail Face Set",
-        description="Likewise the skin of this face set, by its number; 0: none",
+        description="The same with the skin of this face set, by its number; 0: none",
         default=0,
         min=0,
     )
@@ -57,13 +57,12 @@ class SkinProperties:
     )
     factor_group: StringProperty(
         name="Factor Group",
-        description="The weights of this vertex group say how much of the way each vertex goes, outside the selection "
-        "too, as far as weights lead on from it. Paint them to fade the change out",
+        description="The weights of this vertex group scale the Factor of each vertex, outside the selection too, "
+        "as far as weights lead on from it. Paint them to fade the change out",
     )
     factor_mask: EnumProperty(
         name="Sculpt Mask",
-        description="Whether the mask of sculpt mode says how much of the way each vertex goes, outside the selection "
-        "too",
+        description="Whether the mask of sculpt mode scales the Factor of each vertex, outside the selection too",
         items=_FACTOR_MASKS,
         default="IGNORED",
     )

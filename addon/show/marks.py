@@ -1,4 +1,4 @@
-"""Marks in the 3D view: bad vertices of a selection's outline, and a live region that has lost its surface."""
+"""Marks in the 3D view: bad vertices of a selection's boundary, and a live region that has lost its surface."""
 
 from __future__ import annotations
 

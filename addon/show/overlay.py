@@ -25,7 +25,7 @@ DELAY = 0.02  # seconds from a change to the next measurement
 
 
 class Overlay:
-    """Surfaces measured, their batches on the GPU, and what is to be told about them."""
+    """Surfaces measured, their batches on the GPU, and what is reported about them."""
 
     def __init__(self) -> None:
         self.surfaces: tuple[Surface, ...] = ()

@@ -198,7 +198,7 @@ def _draw_inspection(layout: Any, found: Inspection, named: bool) -> None:
     if found.refusal:
         draw_text(layout, translated(found.refusal), "CANCEL")
         return
-    _pair(column, "Outlines", str(found.loops))
+    _pair(column, "Boundary Loops", str(found.loops))
     _pair(column, "Islands", str(found.islands))
     for note in found.notes:
         draw_text(layout, note, "INFO")

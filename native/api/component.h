@@ -20,8 +20,8 @@ Points gather(const Eigen::Ref<const Points>& points, std::span<const int> verti
 
 Normalisation normalise(const Points& fixed_points);
 
-// a: the RMS distance of a component's outline from its centroid. The outline are the vertices of the edges that have
-// the component on one side only; of a closed component, held by pins, all fixed vertices. 3 × fixed points.
+// a: the RMS distance of a component's boundary from its centroid. The boundary is the vertices of edges with the
+// component on one side only; all fixed vertices of a closed component that pins hold. 3 × fixed points.
 double outline_radius(const Patch& patch, const Points& fixed_points);
 
 // Columns belong to the input's vertices.

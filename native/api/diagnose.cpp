@@ -50,8 +50,8 @@ void warn_of_sharp_outline(const Patch& patch, const Points& prescribed, Diagnos
     }
     if (sharp.empty()) return;
     warnings.push_back({Code::sharp_boundary,
-                        "the normals along the outline turn by up to " + std::to_string(std::lround(widest)) +
-                            "° from one vertex to the next; a finer outline gives a more accurate surface",
+                        "the normals along the boundary turn by up to " + std::to_string(std::lround(widest)) +
+                            "° from one vertex to the next; a finer boundary gives a more accurate surface",
                         sharp,
                         ElementKind::vertex,
                         {{"degrees", widest}, {"edges", size_of(sharp) / 2}}});
@@ -92,12 +92,12 @@ Reason reason_of(const Solution& solution, const VectorX& angles) {
                 {{"load_share", solution.reached_load}}};
     }
     if (solution.flaw == Flaw::collapsed) {
-        return {"fell together to a point or a line: fix more vertices around it", {{"area", 0.0}}};
+        return {"collapsed to a point or a line: fix more vertices around it", {{"area", 0.0}}};
     }
     if (solution.flaw == Flaw::behind) {
         const auto wrong = (angles.array() > turned_back).count();
         const auto all = (angles.array() > 0.0).count();
-        return {"runs into its outline from behind at " + std::to_string(wrong) + " of " + std::to_string(all) +
+        return {"runs into its boundary from behind at " + std::to_string(wrong) + " of " + std::to_string(all) +
                     " vertices, which is not the surface asked for: where little of a shape is left outside, leave "
                     "more of it",
                 {{"from_behind", static_cast<double>(wrong)}, {"outline_vertices", static_cast<double>(all)}}};
@@ -108,12 +108,12 @@ Reason reason_of(const Solution& solution, const VectorX& angles) {
 Reason reason_of_join(const Solution& solution) {
     switch (solution.join) {
         case Join::other_mesh:
-            return {"the surface was solved on a mesh of the engine's own; let its triangles be more even",
+            return {"the surface was solved on a mesh of the engine's own; make the triangles more regular",
                     {{"own_mesh", 1.0}}};
         case Join::no_tangent_join:
             return {"the surface that is only tangent was not found either", {{"no_tangent_join", 1.0}}};
         case Join::not_found:
-            return {"the iteration for it did not converge to an acceptable surface; let the outline lie further out",
+            return {"the iteration for it did not converge to an acceptable surface; let the boundary lie further out",
                     {{"not_found", 1.0}}};
         case Join::too_rough:
             return {"what the tangent surface lacks looks like noise: waves of twelve vertices and more explain " +
@@ -122,7 +122,7 @@ Reason reason_of_join(const Solution& solution) {
                         " % are needed; smooth the surroundings",
                     {{"smooth_share", solution.smooth_share}}};
         default:
-            return {"the surroundings say too little about it: leave three rings of even triangles around the patch",
+            return {"the surroundings determine it too little: leave three rings of regular triangles around the patch",
                     {}};
     }
 }
@@ -259,7 +259,7 @@ void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& war
                                   ? "all " + std::to_string(fixed.size())
                                   : std::to_string(vertices.size()) + " of " + std::to_string(fixed.size());
     warnings.push_back({Code::g2_not_met,
-                        share + " outline vertices are met in their slope, not in their curvature: " + why, vertices,
+                        share + " boundary vertices are met in their slope, not in their curvature: " + why, vertices,
                         ElementKind::vertex, std::move(figures)});
 }
 
@@ -270,8 +270,8 @@ void warn_of_sharp_pins(const Patch& patch, const Solution& solution, Diagnostic
     if (pins.empty()) return;
     for (int& place : pins) place = fixed_vertices(patch)[place];
     warnings.push_back({Code::pins_not_spread,
-                        counted(pins.size(), "pin is the tip of a needle", "pins are tips of needles") +
-                            ": the surface rises far within a short way",
+                        counted(pins.size(), "pin is the tip of a spike", "pins are tips of spikes") +
+                            ": the surface rises far within a short distance",
                         pins,
                         ElementKind::vertex,
                         {{"tips", size_of(pins)}}});
@@ -295,7 +295,7 @@ void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& war
 
 namespace {
 
-// Outline vertices that a surface meets at more than 20° from the tangent plane prescribed.
+// Boundary vertices that a surface meets at more than 20° from the tangent plane prescribed.
 Indices kinks_of(const Problem& problem, const Solution& solution) {
     const VectorX angles = boundary_angles(problem.patch, solution.boundary_normals, problem.fixed_normals);
     Indices kinks;
@@ -307,7 +307,7 @@ Indices kinks_of(const Problem& problem, const Solution& solution) {
 
 const char* taken(Provenance provenance) {
     if (is_loft(provenance)) return "a loft was taken";
-    if (provenance == Provenance::old_shape) return "the shape before was taken, as smooth as it can be";
+    if (provenance == Provenance::old_shape) return "the old shape was taken, as smooth as it can be";
     return "the surface of least variation was taken";
 }
 
@@ -317,7 +317,7 @@ void add_kinks(const Problem& problem, const Solution& solution, Diagnostic& dia
     Indices kinks = kinks_of(problem, solution);
     if (kinks.empty()) return;
     diagnostic.figures["kinks"] = size_of(kinks);
-    diagnostic.message += ", with a kink at " + counted(kinks.size(), "outline vertex", "outline vertices");
+    diagnostic.message += ", with a kink at " + counted(kinks.size(), "boundary vertex", "boundary vertices");
     diagnostic.elements = std::move(kinks);
 }
 
@@ -332,7 +332,7 @@ Diagnostic no_solution(const Problem& problem, const Solution& solution) {
     if (harmonic) figures["harmonic"] = 1.0;
     if (is_loft(solution.provenance)) figures["loft"] = 1.0;
     if (solution.provenance == Provenance::old_shape) figures["smoothed"] = 1.0;
-    const std::string text = "no " + name + " fits the outlines of a component of " + free;
+    const std::string text = "no " + name + " fits the boundary of a component of " + free;
     if (solution.provenance == Provenance::low_passed) {
         figures["distance"] = distance_of_low_passed(problem);
         return {Code::no_solution, text + " as they are: it follows them smoothly, and they stay beside it",

@@ -1,4 +1,4 @@
-// What is said about a patch before and after its solve.
+// Diagnostics of a patch before and after its solve.
 #pragma once
 
 #include "base/diagnostic.h"
@@ -15,8 +15,8 @@ bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostic
 // Whether the triangles at some free vertex all lack area (3 × local vertices).
 bool has_collapsed_fan(const Patch& patch, const Points& points);
 
-// About detail: REFERENCE_UNUSABLE, with the figure `old_skin` or `sample_skin`, and FLIPPED_TRIANGLES where it turns
-// triangles over (local numbers).
+// Diagnostics of detail: REFERENCE_UNUSABLE, with the figure `old_skin` or `sample_skin`, and FLIPPED_TRIANGLES where
+// it turns triangles over (local numbers).
 enum class SkinOf { old_patch, sample };
 void warn_of_missing_detail(SkinOf source, Diagnostics& warnings);
 void warn_of_folded_detail(const Patch& patch, const Indices& triangles, Diagnostics& warnings);
@@ -30,18 +30,18 @@ struct Precision {
 // edges. `input`: positions of all input vertices.
 void warn_of_precision(const Patch& patch, const View<Points>& input, const Precision& wanted, Diagnostics& warnings);
 
-// What kept a solution from being one: NOT_CONVERGED with the free vertices, and FOLDED with the triangles where the
-// surface was found, whose number NOT_CONVERGED then has as the figure "folds". `angles`: degrees at the fixed vertices
-// between the normals prescribed and obtained.
+// Why there is no solution: NOT_CONVERGED with the free vertices, and FOLDED with the triangles where the surface was
+// found; NOT_CONVERGED then has their number as the figure "folds". `angles`: degrees at the fixed vertices between the
+// normals prescribed and obtained.
 Diagnostics failures_of(const Patch& patch, const Solution& solution, Termination end, const VectorX& angles);
 
-// G2_NOT_MET where a curvature was asked for and the surface is only tangent; with these fixed vertices. Figures:
+// G2_NOT_MET with the fixed vertices where a curvature was asked for and the surface is only tangent. Figures:
 // "vertices", "outline_vertices", and why: "smooth_share" (of the curvature that is lacking, below 0.5: noise), or 1
 // for "not_found", "own_mesh" or "no_tangent_join"; none where the curvature is not known.
 void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& warnings);
 
-// PINS_NOT_SPREAD where a radius was asked for and pins act in a point; with these pins. Another one, with the figure
-// "tips", names those at which the surface comes to a point (pins/sharp_pins).
+// PINS_NOT_SPREAD with the pins that act in a point although a radius was asked for. Another one, with the figure
+// "tips", names those at which the surface forms a spike (pins/sharp_pins).
 void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& warnings);
 // NO_SOLUTION: another surface was taken instead, with the free vertices. Figures: "free_vertices"; "harmonic", 1, for
 // that equation; for a loft "loft", 1, for
@@ -53,7 +53,8 @@ Diagnostic no_solution(const Problem& problem, const Solution& solution);
 // Triangles of a patch by the numbers that the caller knows, ascending.
 Indices input_numbers(const Patch& patch, Indices triangles);
 
-// About a solved patch: flipped and crossing triangles, and an outline that turns more than 20° from vertex to vertex.
+// Diagnostics of a solved patch: flipped and crossing triangles, and a boundary that turns more than 20° from vertex to
+// vertex.
 void diagnose(const Patch& patch, const Solution& solution, const Points& prescribed, Diagnostics& warnings);
 
 }  // namespace fairing

@@ -1,4 +1,4 @@
-// Repeated calls for one mesh, each from the last one's answer.
+// Repeated calls for one mesh, each beginning at the last one's answer.
 #pragma once
 
 #include <memory>
@@ -24,7 +24,7 @@ public:
     FairResult solve(Points vertices, std::optional<Points> fixed_normals, std::optional<VectorX> fixed_curvatures,
                      const std::optional<View<Points>>& reference, const ProgressCallback& progress);
 
-    // Other options from the next solve on; what does not depend on them is kept, the last answer too.
+    // Sets other options from the next solve on. Keeps what does not depend on them, and the last answer.
     void change(FairOptions options);
 
 private:

@@ -1,4 +1,4 @@
-// Surfaces where there is none yet, and new meshes for surfaces that are there.
+// Surfaces over holes and between loops, and new meshes for existing surfaces.
 #pragma once
 
 #include "api/fair.h"
@@ -21,9 +21,9 @@ struct NewSurface {
     Provenance provenance = Provenance::equation;  // where each comes from; `equation` where they differ
 };
 
-// One surface over all loops, or one over each. The mesh is coarse (some 300 new vertices each), a start for `remesh`
-// and `fair`. Throws SolverError, Cancelled; MeshError (NONMANIFOLD_EDGE) where loops can't be joined. Preconditions:
-// finite vertices, loops of three vertices or more that don't touch.
+// One surface over all loops, or one over each. The mesh is coarse (some 300 new vertices each), an initial surface for
+// `remesh` and `fair`. Throws SolverError, Cancelled; MeshError (NONMANIFOLD_EDGE) where loops can't be joined.
+// Preconditions: finite vertices, loops of three vertices or more that don't touch.
 NewSurface fill_loops(const OpenLoops& input, bool bridge, const SolverOptions& options,
                       const ProgressCallback& progress);
 
@@ -46,7 +46,7 @@ using VertexPairs = std::vector<std::array<int, 2>>;
 NewMesh remesh(const MeshInput& input, const VertexPairs& kept, const WantedLengths& wanted, int threads,
                const ProgressCallback& progress);
 
-// How many vertices that mesh would have, about.
+// About how many vertices that mesh would have.
 double expected_remesh_count(const MeshInput& input, const WantedLengths& wanted);
 
 }  // namespace fairing

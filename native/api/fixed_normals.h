@@ -7,7 +7,7 @@
 
 namespace fairing {
 
-// Of some vertices of a mesh: a large one has no room for a column of each.
+// Stored for some vertices of a mesh only, to save memory on a large one.
 class FixedNormals {
 public:
     FixedNormals() = default;

@@ -5,7 +5,7 @@
 
 namespace fairing {
 
-// Of each vertex of the input whether it is named. Throws INDEX_RANGE with the option's name.
+// Whether each vertex of the input is named. Throws INDEX_RANGE with the option's name.
 std::vector<char> marks_of(const MeshInput& input, const Indices& vertices, const char* name);
 
 // Throws std::invalid_argument for a vertex that is not fixed, or is given both kinds of slopes.

@@ -9,7 +9,7 @@
 
 namespace fairing {
 
-// What holds with a slope that the surface finds; normals there are not looked at.
+// Fixed vertices at which the surface finds its own slope; normals there are ignored.
 struct HeldInside {
     Indices creases;           // fixed vertices; curves of them are cut, and each side has a slope of its own
     Indices smooth_curves;     // fixed vertices; curves of them are not cut
@@ -32,7 +32,7 @@ struct MeshInput {
     }
 };
 
-// What the connectivity and the choice of fixed vertices say. Border vertices are fixed, given or not.
+// What follows from the connectivity and the fixed vertices alone. Border vertices are fixed, given or not.
 struct MeshTopology {
     VertexRoles roles;
     Indices fixed;  // given order first, then the border vertices that were not given, ascending

@@ -1,4 +1,4 @@
-// The detail of one component's old patch, kept between calls, and the outline without detail that both bases meet.
+// The detail of one component's old patch, kept between calls, and the boundary without detail that both bases meet.
 #pragma once
 
 #include <memory>
@@ -12,11 +12,11 @@
 
 namespace fairing {
 
-// Where a base meets its outline: 3 × fixed vertices, in the caller's units.
+// Where a base meets its boundary: 3 × fixed vertices, in the caller's units.
 struct BaseOutline {
     Points points;
     Points normals;      // unit; zero at pins
-    bool moved = false;  // whether it is not the outline itself
+    bool moved = false;  // whether it is not the boundary itself
 };
 
 // A surface with detail: 3 × local vertices each, in the caller's units.
@@ -36,18 +36,18 @@ public:
     // an inside.
     void read(const ComponentData& data, double size, const Progress& progress);
     void forget() { skin_.reset(); }
-    // False where no detail can be read off: warnings() say so.
+    // False where no detail can be read off; warnings() has the reason.
     [[nodiscard]] bool found() const { return skin_ || borrowed_; }
     // Whether the new surface takes over the places of the vertices, too: base() has them.
     [[nodiscard]] bool keeps_places() const { return skin_ != nullptr; }
     [[nodiscard]] const Diagnostics& warnings() const { return warnings_; }
-    // Low-pass where triangles lie outside. Normals that the caller gave stay where they are others than triangles
-    // outside show.
+    // Low-passed where triangles lie outside. The caller's normals are kept where they differ from those of the
+    // triangles outside.
     [[nodiscard]] BaseOutline outline(const ComponentData& data);
     [[nodiscard]] const Points& base() const { return skin_->base(); }
     // The detail on a new base (3 × local vertices, in the caller's units).
     [[nodiscard]] Dressed put_back(const ComponentData& data, const Points& new_base, const Progress& progress) const;
-    // Spent on reading since the last time that this was asked.
+    // Seconds spent on reading since the last call of this.
     [[nodiscard]] double take_seconds() { return std::exchange(seconds_, 0.0); }
 
 private:
@@ -59,7 +59,7 @@ private:
     std::unique_ptr<Skin> skin_;  // one of both
     std::unique_ptr<BorrowedSkin> borrowed_;
     Points read_off_;                       // 3 × local vertices, the caller's
-    std::optional<BaseOutline> just_read_;  // data.reference's outline, until `outline` is asked for
+    std::optional<BaseOutline> just_read_;  // data.reference's boundary, until `outline` is asked for
     Normalisation unit_{};                  // of that
     double wavelength_ = 0.0;               // share of D
     double seconds_ = 0.0;

@@ -1,4 +1,4 @@
-// The base of a faired patch and its surroundings, and what it is without short waves: what a feather moves it to.
+// The base of a faired patch and its surroundings, and the same without short waves, towards which a feather moves it.
 #pragma once
 
 #include "api/input.h"

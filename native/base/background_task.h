@@ -1,4 +1,4 @@
-// Work beside a thread's own, by one of the helpers of its `Threads`.
+// Background work of a thread, done by one of the helpers of its `Threads`.
 #pragma once
 
 #include <functional>
@@ -6,9 +6,9 @@
 
 namespace fairing {
 
-// Work that a helper may do beside the caller's thread; loops go on without that helper meanwhile. Scoped like a
-// std::jthread: its end, an exception's too, stops the work and joins it. Declare it behind all that the work refers
-// to, and what the work reads stays as it is until it is finished.
+// Work that a helper may do while the caller's thread goes on; loops run without that helper meanwhile. Scoped like a
+// std::jthread: its destructor stops the work and joins it. Declare it after all that the work refers to. What the work
+// reads must not change until it is finished.
 class BackgroundTask {
 public:
     BackgroundTask() = default;  // no work
@@ -16,11 +16,11 @@ public:
     explicit BackgroundTask(std::function<void()> work);
     BackgroundTask(BackgroundTask&&) = default;
     BackgroundTask& operator=(BackgroundTask&& other) noexcept;  // the work before ends first
-    // Work that no one has begun is left out, other work stops at its next checkpoint.
+    // Drops work that has not begun; other work stops at its next checkpoint.
     ~BackgroundTask();
 
-    // Does the work here where no one has begun it. Waits for it otherwise, and asks the caller's progress meanwhile.
-    // Once it has ended its exception comes through, or what checkpoint() throws where the run is to stop.
+    // Does the work here if it has not begun, else waits for it and polls the caller's progress meanwhile. Rethrows its
+    // exception, or throws what checkpoint() throws where the run is to stop.
     void finish();
 
     class Work;  // shared with the team (base/thread_team)

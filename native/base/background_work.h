@@ -19,17 +19,17 @@ public:
 
     // False where another thread has taken it.
     [[nodiscard]] bool take() noexcept { return !taken_.exchange(true); }
-    // By who has taken it: a helper, whose checkpoints look at this work's flag, or the task's own thread.
+    // Called by whoever has taken it: a helper, whose checkpoints read this work's flag, or the task's own thread.
     void do_on_helper() noexcept;
     void do_here() noexcept;
 
-    // The task's own thread: `asks` its progress meanwhile or not.
+    // Called by the task's own thread; `asks`: polls its progress meanwhile.
     void wait(bool asks) noexcept;
     void rethrow();
     void stop() noexcept { stop_.raise(); }
 
 private:
-    std::function<void()> work_;  // gone once it is done: what it has copied may be large
+    std::function<void()> work_;  // released once it is done: its captures may be large
     StopFlag stop_;
     std::atomic<bool> taken_ = false;
     std::atomic<bool> done_ = false;

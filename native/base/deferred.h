@@ -1,4 +1,4 @@
-// A large value that is made late.
+// A large value that is made on first use.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,7 @@
 
 namespace fairing {
 
-// Made where it is first asked for, by one thread at a time.
+// Made at the first access, by one thread at a time.
 template <typename T>
 class Deferred {
 public:

@@ -44,8 +44,8 @@ std::string_view code_name(Code code);
 // What the indices in `elements` count. Edges are given by their two vertices, one after the other.
 enum class ElementKind { vertex, triangle };
 
-// The numbers that a message tells, by name: counts, degrees, shares of 1. Each place that makes a diagnostic says
-// which.
+// The figures of a message by name: counts, degrees, shares of 1. Each function that makes a diagnostic documents its
+// own.
 using Figures = std::map<std::string, double>;
 
 inline double size_of(const Indices& elements) { return static_cast<double>(elements.size()); }

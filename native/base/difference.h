@@ -1,4 +1,4 @@
-// Of sorted lists.
+// Differences of sorted lists.
 #pragma once
 
 #include <algorithm>

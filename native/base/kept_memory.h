@@ -3,10 +3,9 @@
 
 namespace fairing {
 
-// While one that is wanted lives, memory that is freed stays with the process. Otherwise the GNU allocator gives arrays
-// of 32 MB and more back to the system at once, and whoever takes memory next gets fresh pages, each of which the
-// system clears and maps first. At the end all that is free goes back to the system. Several may live at once, on any
-// threads. Other allocators than the GNU C library's are left as they are.
+// While one that is wanted lives, freed memory stays with the process. Otherwise the GNU allocator returns arrays of 32
+// MB and more to the system at once, which has to clear and map fresh pages for the next array. The last one returns
+// all free memory to the system. Several may live at once, on any threads. Has no effect with other allocators.
 class KeptMemory {
 public:
     explicit KeptMemory(bool wanted);

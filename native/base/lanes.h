@@ -1,4 +1,4 @@
-// Two numbers that the processor calculates with at once, for the same work on two vertices.
+// Two numbers in one SIMD register, for the same work on two vertices.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace fairing {
 
-// Behaves like a number. No lane knows of the other: a vertex has the same bits whatever is calculated beside it.
+// Behaves like a number. The lanes are independent: a vertex has the same bits whatever its neighbour lane holds.
 class Lanes {
     using Pack = double __attribute__((vector_size(16)));
     using Mask = decltype(Pack() > Pack());

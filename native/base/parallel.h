@@ -1,5 +1,5 @@
-// Loops on several threads. Who runs which piece is left open, where a piece writes is not: the results have the same
-// bits for any number of threads.
+// Loops on several threads. Any thread may run any piece, but each piece writes to a fixed place: the results have the
+// same bits for any number of threads.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@ namespace fairing {
 class ThreadTeam;
 
 // While it lives, the loops below that its thread enters run on up to `count` threads (64 at most), 0 for one on each
-// core (8 at most). Without it, and within a piece, they run on their own thread. Threads begin at the first loop with
-// work for them and end with it: nothing is left for a fork to lose.
+// core (8 at most). Without it, and within a piece, they run on the calling thread. Threads begin at the first loop
+// with work for them and end with this object, so that a fork loses none.
 class Threads {
 public:
     explicit Threads(int count);
@@ -26,11 +26,11 @@ private:
     ThreadTeam* previous_;
 };
 
-// Calls piece(k) once for each k = 0 … pieces − 1, in any order. An exception comes through once no piece runs any
-// more; those not begun are left out then. The caller's thread passes a checkpoint after each piece.
+// Calls piece(k) once for each k = 0 … pieces − 1, in any order. An exception is rethrown once no piece runs any more;
+// pieces not begun are dropped. The caller's thread passes a checkpoint after each piece.
 void run_pieces(int pieces, const std::function<void(int)>& piece);
 
-// Indices that a piece takes at once: of loops with few operations for each, and of those with hundreds.
+// Indices in a piece, for loops with few operations for each index, and for those with hundreds.
 inline constexpr int coarse_grain = 1024;
 inline constexpr int fine_grain = 128;
 

@@ -1,4 +1,4 @@
-// Progress reports and cancellation. A run stops where its flag is raised: by the answer of its callback, or from
+// Progress reports and cancellation. A run stops once its flag is raised, by the answer of its callback or from
 // outside. Only the thread that made the Progress calls back; every thread sees the flag.
 #pragma once
 
@@ -16,8 +16,8 @@ namespace fairing {
 // be called so converts to it. It is not called again once it has returned false or thrown.
 class ProgressCallback {
 public:
-    ProgressCallback() = default;  // nobody to ask
-    // `between`: checkpoints ask again after so long; at zero, each of them does.
+    ProgressCallback() = default;  // no callback
+    // `between`: least time between two calls from checkpoints; at zero, each of them calls.
     template <std::predicate<double, std::string_view> Function>
         requires(!std::same_as<std::remove_cvref_t<Function>, ProgressCallback>)
     ProgressCallback(Function function, std::chrono::milliseconds between = std::chrono::milliseconds{50})  // NOLINT
@@ -29,9 +29,8 @@ private:
     friend class Progress;
 };
 
-// A view of a callback that maps [0, 1] onto a sub-range of the whole run, so that a stage need not know its place.
-// The fraction that callers see never decreases. Asked at every outer step, around each factorisation and at
-// checkpoints.
+// A view of a callback that maps [0, 1] onto a sub-range of the whole run, so that a stage need not know its place. The
+// fraction that callers see never decreases. Called at every outer step, around each factorisation and at checkpoints.
 class Progress {
 public:
     Progress() = default;
@@ -40,7 +39,7 @@ public:
     // Reports, and throws what checkpoint() throws.
     void report(double fraction, std::string_view stage) const;
     [[nodiscard]] Progress range(double begin, double end) const;
-    // For work inside a step: asks whether to stop, without moving the fraction.
+    // For work inside a step: calls back without moving the fraction.
     [[nodiscard]] Progress here() const;
 
 private:
@@ -51,7 +50,7 @@ private:
     double end_ = 1.0;
 };
 
-// While it lives, checkpoint() in its thread looks at a flag, and asks a progress if there is one.
+// While it lives, checkpoint() in its thread reads a flag, and polls a progress if there is one.
 class Checkpoints {
 public:
     explicit Checkpoints(const Progress& progress) noexcept;
@@ -69,10 +68,10 @@ private:
     Watch previous_;
 };
 
-// The flag that checkpoint() looks at in this thread; null where there is none.
+// The flag that checkpoint() reads in this thread; null where there is none.
 [[nodiscard]] const StopFlag* stop_flag() noexcept;
 
-// For every loop that may take long: asks, every 50 ms at most, whether to stop. Throws Cancelled where the run is to
+// For every loop that may take long: polls the callback, every 50 ms at most. Throws Cancelled where the run is to
 // stop, or what the callback has thrown.
 void checkpoint();
 
@@ -81,10 +80,10 @@ inline void checkpoint(int step) {
     if (step % 4096 == 0) checkpoint();
 }
 
-// For who waits: asks as checkpoint() does. The flag is raised then; nothing is thrown.
+// For waiting threads: polls as checkpoint() does, and raises the flag instead of throwing.
 void ask_whether_to_stop() noexcept;
 
-// Throws what checkpoint() throws, without asking.
+// Throws what checkpoint() throws, without polling.
 void throw_if_stopped();
 
 }  // namespace fairing

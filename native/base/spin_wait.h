@@ -1,4 +1,4 @@
-// A short wait that keeps the processor.
+// A short wait that keeps the processor busy.
 #pragma once
 
 #include <chrono>
@@ -10,8 +10,8 @@
 
 namespace fairing {
 
-// A solve enters some thousand loops of a hundredth to a tenth of a millisecond, one soon after the other, and waking a
-// thread takes as long as such a loop. So who has nothing to do looks on for a while before it sleeps.
+// A solve enters some thousand loops of a hundredth to a tenth of a millisecond in quick succession, and waking a
+// thread takes as long as such a loop. So an idle thread spins for a while before it sleeps.
 class SpinWait {
 public:
     // Whether the condition holds by then.

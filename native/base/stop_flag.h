@@ -1,4 +1,4 @@
-// Whether work is to stop: for any thread to say and to see.
+// Whether work is to stop; any thread may raise and read it.
 #pragma once
 
 #include <atomic>

@@ -22,12 +22,12 @@ public:
     ThreadTeam(const ThreadTeam&) = delete;
     ThreadTeam& operator=(const ThreadTeam&) = delete;
 
-    // As run_pieces says. Doesn't wait for helpers that have not begun by the time the work is done.
+    // See run_pieces. Doesn't wait for helpers that have not begun by the time the work is done.
     void run(int pieces, const std::function<void(int)>& piece);
     // For the next helper that has nothing to do.
     void send(std::shared_ptr<BackgroundTask::Work> work);
 
-    // Of this thread; null without one, and within a piece or background work.
+    // This thread's team; null without one, and within a piece or background work.
     static constinit thread_local ThreadTeam* current;
 
 private:

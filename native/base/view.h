@@ -1,4 +1,4 @@
-// A matrix that somebody else keeps.
+// A matrix that somebody else owns.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@ public:
     View(Matrix&&) = delete;
     View(const View&) = default;
     ~View() = default;
-    // Looks at what the other one does.
+    // Refers to the same matrix as the other one.
     View& operator=(const View& other) {
         new (static_cast<Map*>(this)) Map(other);
         return *this;

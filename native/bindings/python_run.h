@@ -1,4 +1,4 @@
-// A call of the engine from Python: without the GIL, with a callback, and over before the interpreter is.
+// A call of the engine from Python: without the GIL, with a callback, and finished before the interpreter ends.
 #pragma once
 
 #include <atomic>
@@ -60,8 +60,8 @@ private:
     std::exception_ptr failure_;  // a Python exception: destroyed with the GIL held
 };
 
-// Has the interpreter stop all runs when it ends, those of daemon threads, and wait until they have left the engine.
-// Threads that are no daemons it has waited for by then. A fork's child knows none of its parent's runs.
+// Registers a hook with the interpreter: at its end it stops the runs of daemon threads and waits until they have left
+// the engine. (It has joined all other threads by then.) A fork's child has none of its parent's runs.
 void end_runs_at_exit();
 
 }  // namespace fairing::bindings

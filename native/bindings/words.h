@@ -10,7 +10,7 @@
 
 namespace fairing::bindings {
 
-// Both ways throw std::invalid_argument, which names the option, for what is not in the list.
+// Both directions throw std::invalid_argument, which names the option, for what is not in the list.
 template <typename Enum, std::size_t N>
 struct Words {
     std::string_view option;

@@ -1,4 +1,4 @@
-// Surfaces that meet their outline with a prescribed mean curvature, too (G2).
+// Surfaces that also meet a prescribed mean curvature at their boundary (G2).
 #pragma once
 
 #include "base/progress.h"
@@ -8,7 +8,7 @@
 
 namespace fairing {
 
-// Δ_B² H = 0 with positions, normals and H given: the multipliers of the outline (continuity/join_operator) let Δ_B H
+// Δ_B² H = 0 with positions, normals and H given: the multipliers of the boundary (continuity/join_operator) let Δ_B H
 // leave zero there, and it is harmonic inside. Off the curves of `known` it stays zero, as it is for Δ_B H = 0.
 // `start`: 3 × local vertices, the surface of the problem with Δ_B H = 0. The residual that comes back is the largest
 // difference of Δ_B H from a harmonic function, its history of levels and ways is empty. `vertices_per_wave`: of the

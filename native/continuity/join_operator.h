@@ -1,4 +1,4 @@
-// The linear system of one step towards Δ_B² H = 0 with H prescribed on the outline.
+// The linear system of one step towards Δ_B² H = 0 with H prescribed on the boundary.
 #pragma once
 
 #include "continuity/outline_modes.h"
@@ -9,11 +9,11 @@
 namespace fairing {
 
 // Let A = S_II, C = S_IB, D = 4M_I. A move u along the normals changes H by −(4M)⁻¹ S_Iᵀ u. κ = M⁻¹ S H is harmonic
-// inside, κ_I = −A⁻¹ C κ_B, and its values on the outline are multipliers. Elimination of the free vertices leaves, for
-// the change δ of H on the outline and for κ_B,
+// inside, κ_I = −A⁻¹ C κ_B, and its values on the boundary are multipliers. Elimination of the free vertices leaves,
+// for the change δ of H on the boundary and for κ_B,
 //     G δ + ¼ Cᵀ A⁻¹ D A⁻¹ D A⁻¹ C κ_B = −Cᵀ A⁻¹ D A⁻¹ r,    G = 4M_B + Cᵀ A⁻¹ D A⁻¹ C  (operators/split_operator),
 // with r = (S H − M κ)_I. Three Laplace solves apply it. The second condition is that δ brings H where it is
-// prescribed, as far as the modes of the outline see it. κ_B consists of the same modes.
+// prescribed, as far as the modes of the boundary see it. κ_B consists of the same modes.
 class JoinOperator {
 public:
     // `layout`: about where the free vertices are (3 × free count). The modes must outlive the operator.

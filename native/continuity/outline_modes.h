@@ -1,23 +1,23 @@
-// Smooth functions along the curves of an outline where its curvature is prescribed.
+// Smooth functions along the curves of a boundary where its curvature is prescribed.
 #pragma once
 
 #include "mesh/patch.h"
 
 namespace fairing {
 
-// A piece of an outline: fixed vertices, counted from the first one, in their order.
+// A piece of a boundary: fixed vertices, counted from the first one, in their order.
 struct OutlineCurve {
     Indices places;
     bool closed;
-    std::vector<char> skipped = {};  // of the places: what is measured there says nothing; empty: nowhere
+    std::vector<char> skipped = {};  // places where the measured value is meaningless; empty: none
 };
 
 // Values (of the fixed vertices) at the places of a curve, interpolated at those that are skipped. Where all are, zero.
 VectorX values_along(const OutlineCurve& curve, const VectorX& values);
 
-// Waves along the outline, no faster than one in six vertices: faster ones change the curvature that is measured at the
-// outline in a way that depends on the mesh. Closed curves have sines and cosines, open ones sines that vanish beyond
-// their ends. Crowded vertices have shorter waves.
+// Waves along the boundary, no faster than one in six vertices: faster ones change the curvature that is measured at
+// the boundary in a way that depends on the mesh. Closed curves have sines and cosines, open ones sines that vanish
+// beyond their ends. Crowded vertices have shorter waves.
 class OutlineModes {
 public:
     // `fixed_points`: 3 × fixed vertices. The fastest wave has so many vertices.
@@ -28,8 +28,8 @@ public:
     [[nodiscard]] VectorX combined(const VectorX& coefficients) const;
     // Uᵀ of values at the fixed vertices, interpolated where the curves skip them.
     [[nodiscard]] VectorX projected(const VectorX& values) const;
-    // Values of Δ_B H at the outline that change H there by about −U c. On a straight outline of the half-plane a wave
-    // of frequency k takes 8 k², on a disc of radius a the wave m takes 8 (m + 1)(m + 2)/a².
+    // Values of Δ_B H at the boundary that change H there by about −U c. On a straight boundary of the half-plane a
+    // wave of frequency k takes 8 k², on a disc of radius a the wave m takes 8 (m + 1)(m + 2)/a².
     [[nodiscard]] VectorX multipliers(const VectorX& coefficients) const;
 
 private:

@@ -14,10 +14,10 @@ struct BareSurface {
 };
 
 // Heights for all vertices of the surface: discs of radius `reach` are cut out of the sample, laid on the surface by
-// straight distances from their middles, and those laid first stay on top. Where one fades out, variances stay what
-// they are, whatever its correlation with the next. Of some discs the one is taken that fits best to what is known
-// there, given or laid already. Directions in space are kept. The same input gives the same bits. Precondition: a
-// vertex of the sample has `reach` of depth. Throws Cancelled.
+// straight distances from their middles, and those laid first stay on top. Blends of two discs keep the variance,
+// whatever their correlation. Each place gets the one of some discs that fits best to the heights known there, given or
+// laid before. Directions in space are kept. The same input gives the same bits. Precondition: a vertex of the sample
+// has `reach` of depth. Throws Cancelled.
 VectorX copied_heights(const BareSurface& surface, const SkinSample& sample, double reach);
 
 }  // namespace fairing

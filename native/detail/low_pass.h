@@ -1,4 +1,4 @@
-// What the edge of a rough surface would be without the roughness.
+// The edge of a rough surface without its roughness.
 #pragma once
 
 #include "base/types.h"
@@ -13,10 +13,10 @@ struct LowPass {
 };
 
 // Places and normals at `vertices` (each on the edge of the surface that `triangles` form, or within it) of that
-// surface without what repeats within less than `wavelength`, in units of the points. Spheres and quadrics are fitted
-// a quarter of a wavelength apart, over reaches from half a wavelength to two; of each place the fit is taken whose
-// normal is known best among those that no less certain one contradicts (Lepski 1990): wide fits where the surface has
-// one curvature, narrow ones where it has not. Each vertex takes the mean of the fits around it. Throws Cancelled.
+// surface without what repeats within less than `wavelength`, in units of the points. Spheres and quadrics are fitted a
+// quarter of a wavelength apart, over reaches from half a wavelength to two; each place takes the fit with the most
+// certain normal among those that no less certain one contradicts (Lepski 1990): wide fits where the curvature is
+// constant, narrow ones elsewhere. Each vertex takes the mean of the fits around it. Throws Cancelled.
 LowPass low_pass(const Points& points, const Triangles& triangles, const Indices& vertices, double wavelength);
 
 }  // namespace fairing

@@ -1,4 +1,4 @@
-// The old patch without its detail: what is left of a shape when everything shorter than a wavelength is taken away.
+// The old patch without its detail, that is without what is shorter than a wavelength.
 #pragma once
 
 #include <optional>
@@ -10,18 +10,18 @@ namespace fairing {
 
 struct OldPatch {
     const Points& points;   // 3 × local vertices, D = 1
-    const Points& outline;  // 3 × fixed vertices: where the base meets its outline
+    const Points& outline;  // 3 × fixed vertices: where the base meets its boundary
 };
 
 // Twelve mean edges of the old patch (3 × local vertices, D = 1), but 0.45 D at most: a patch of a few edges has no
 // detail.
 double detail_wavelength(const Patch& patch, const Points& old);
 
-// Takes away what is shorter than a wavelength, again and again from surfaces of one patch. S and M belong to the old
-// patch x; c holds the low-pass slopes at which x itself meets its outline. Refers to the patch and the stiffness.
+// Removes what is shorter than a wavelength, repeatedly, from surfaces of one patch. S and M belong to the old patch x;
+// c holds the low-pass slopes at which x itself meets its boundary. Refers to the patch and the stiffness.
 class BaseFilter {
 public:
-    // `stiffness`: of `old`; `wavelength`: of the slopes at the outline.
+    // `stiffness`: of `old`; `wavelength`: of the slopes at the boundary.
     BaseFilter(const Patch& patch, const Stiffness& stiffness, const OldPatch& old, double wavelength);
 
     // y + u − G M u/l⁴ with u = G S_I (2M)⁻¹ h, G = (K + M/l⁴)⁻¹, h = −½ S y + c, for a surface y (3 × local vertices)

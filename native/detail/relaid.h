@@ -1,4 +1,4 @@
-// A solved surface with its vertices where detail can be carried to them.
+// Vertices of a solved surface slid to where detail can be put on them.
 #pragma once
 
 #include "base/progress.h"

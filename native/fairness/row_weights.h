@@ -23,7 +23,7 @@ struct RowWeights {
 // λ_ij of symmetric weights. Throws std::invalid_argument, naming `what`, where a row has no positive weight.
 RowWeights row_weights(const Patch& patch, const InnerWeights& weights, const char* what);
 
-// λ = 1 on the edges of the patch: listed where that is needed, a large patch has no room for them meanwhile.
+// λ = 1 on the edges of the patch, listed only on demand: they would take too much memory on a large patch.
 struct UniformWeights {};
 
 // λ of a patch: symmetric where the kind allows it, else by rows.

@@ -1,4 +1,4 @@
-// A start for what bulges out far beyond its outline.
+// An initial surface for patches that bulge out far beyond their boundary.
 #pragma once
 
 #include <optional>
@@ -7,9 +7,9 @@
 
 namespace fairing {
 
-// Positions of all vertices of a patch with one loop: its flat mesh spread over the part of a ball that the outline's
-// normals ask for. `flat`: 3 × vertices, `normals`: unit, of the fixed ones. Nothing where the ball is narrower than
-// that: a flat start does. Nothing either where the normals name no ball.
+// Positions of all vertices of a patch with one loop: its flat mesh spread over the part of a ball that the boundary's
+// normals ask for. `flat`: 3 × vertices, `normals`: unit, of the fixed ones. Returns nothing where the ball is smaller
+// than that, since a flat initial surface is enough, and where the normals determine no ball.
 std::optional<Points> ball_start(const Patch& patch, const Points& flat, const Points& normals);
 
 }  // namespace fairing

@@ -1,4 +1,4 @@
-// A first surface over outlines that have none yet.
+// A first surface over boundary loops.
 #pragma once
 
 #include "base/progress.h"
@@ -7,21 +7,21 @@
 
 namespace fairing {
 
-// Outlines with the normals wanted there, in units of D.
+// Boundary loops with the normals wanted there, in units of D.
 struct OpenOutline {
-    Points points;               // 3 × vertices, all on the outline
+    Points points;               // 3 × vertices, all on the boundary
     Points normals;              // unit
     std::vector<Indices> loops;  // of vertices, the surface on their left
 };
 
-// A mesh of the engine's own with the surface on it. Fixed vertices: the outline's, in their order.
+// A mesh of the engine's own with the surface on it. Fixed vertices: the boundary's, in their order.
 struct FirstSurface {
     Patch patch;
     Solution solution;
 };
 
 // Some 300 free vertices or more, and the surface of the equation as `method` finds it there. Throws Cancelled,
-// SolverError, MeshError where no triangulation joins the outlines.
+// SolverError, MeshError where no triangulation joins the boundary loops.
 FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& options, const Progress& progress);
 
 }  // namespace fairing

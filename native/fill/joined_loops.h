@@ -1,4 +1,4 @@
-// Several outlines joined by one triangulation without inner vertices.
+// Several boundary loops joined by one triangulation without inner vertices.
 #pragma once
 
 #include "base/types.h"
@@ -9,8 +9,8 @@ namespace fairing {
 // the left of each loop. One loop: the triangulation of least area. Several: a sphere with as many holes (two loops: a
 // tube). Its triangles are those that cover each direction once, seen from between the loops, as far as they can. With
 // normals of the vertices (3 × their count), whatever the loops: triangles that lean away from those at their corners
-// cost up to twenty times as much, so that they go around a limb which the least area would close.
-// Preconditions: three vertices or more in a loop, none of them twice.
+// cost up to twenty times as much, so that they go around a limb that the least area would close. Preconditions: three
+// vertices or more in a loop, none of them twice.
 Triangles joined_loops(const Points& points, const std::vector<Indices>& loops, const Points* normals = nullptr);
 
 }  // namespace fairing

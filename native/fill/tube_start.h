@@ -1,11 +1,11 @@
-// A mesh of the tube between two outlines.
+// A mesh of the tube between two boundary loops.
 #pragma once
 
 #include "start/swept_tube.h"
 
 namespace fairing {
 
-// New vertices, and triangles over them (first) and the outlines' vertices.
+// New vertices, and triangles over them (first) and the boundary loops' vertices.
 struct TubeMesh {
     Points points;  // 3 × new vertices
     Triangles triangles;

@@ -16,11 +16,11 @@ class BoxTree {
 public:
     BoxTree(const Triangles& triangles, const Points& points);
 
-    // Gets one triangle and up to four others; true where one of them was settled.
+    // Receives one triangle and up to four others; returns true where one of them was settled.
     using Visit = std::function<bool(int, std::span<const int>)>;
     using IsSettled = std::function<bool(int)>;
     // Each pair once whose boxes have points inside in common: those that only touch don't count, nor do triangles that
-    // are not finite. Pairs of two settled triangles may be left out: of n that lie all in one another n² / 2 are. On
+    // are not finite. Pairs of two settled triangles may be skipped (n coincident triangles have n² / 2 pairs). On
     // several threads, in any order.
     void for_overlaps(const Visit& visit, const IsSettled& is_settled) const;
 

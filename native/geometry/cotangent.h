@@ -13,7 +13,7 @@ namespace fairing {
 // number that does not drown its neighbours'.
 constexpr double least_twice_area = 1e-12;
 
-// |a × b| of two edges of a triangle, bounded from below; `longest_squared`: of the edges that are looked at.
+// |a × b| of two edges of a triangle, bounded from below; `longest_squared`: of these edges.
 inline double safe_twice_area(double twice_area, double longest_squared) {
     return std::max({twice_area, least_twice_area * longest_squared, 1e-300});
 }

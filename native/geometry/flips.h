@@ -9,7 +9,7 @@ namespace fairing {
 // `points`: 3 × local vertices.
 Indices flipped_triangles(const Patch& patch, const Points& points);
 
-// The same without those that have no free corner: the outline alone turns them, no solution can turn them back.
+// The same without those that have no free corner: the boundary alone turns them, no solution can turn them back.
 Indices flipped_by_solution(const Patch& patch, const Points& points);
 
 // Whether one triangle is.

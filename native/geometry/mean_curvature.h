@@ -53,7 +53,7 @@ private:
 };
 using CurvatureLeastSquares = CurvatureRows<double>;
 
-// Points of which less than that part of the squared distance lies in the tangent plane have no direction.
+// Points with less than this share of their squared distance in the tangent plane have no direction.
 constexpr double no_direction = 1e-24;
 
 template <typename Scalar>
@@ -109,7 +109,7 @@ struct PatchCurvature {
     [[nodiscard]] CurvatureFit fit(int i) const { return {form(0, i), form(1, i), form(2, i)}; }
 };
 
-// From the neighbours and a virtual point between every two of them. In corners of the outline also from the turn of
+// From the neighbours and a virtual point between every two of them. In corners of the boundary also from the turn of
 // the normals along it, unless the normals are averaged ones: that is the paper's discretisation.
 PatchCurvature patch_curvature(const Patch& patch, const Points& points, FaceGeometry faces, const Points& normals,
                                NormalKind kind);

@@ -15,7 +15,7 @@ struct VertexAdjacency {
     VertexAdjacency(const Triangles& triangles, int vertex_count);
 };
 
-// A walk from a vertex along edges that stays within a ball: not what lies near across a gap. Keeps references.
+// A walk from a vertex along edges that stays within a ball, so that it does not cross gaps. Keeps references.
 class BallWalk {
 public:
     BallWalk(const VertexAdjacency& adjacency, const Points& points);

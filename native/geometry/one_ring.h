@@ -27,7 +27,7 @@ struct OneRing {
     [[nodiscard]] Vector3 offset_before() const { return (closed ? points.back() : points.front()) - centre; }
 };
 
-// The rings of two vertices side by side. The shorter one is filled up with its centre, which adds nothing to any sum.
+// The rings of two vertices side by side. The shorter one is padded with its centre, which adds nothing to any sum.
 class RingPair {
 public:
     using Scalar = Lanes;

@@ -1,4 +1,4 @@
-// How well a surface meets the normals along its outline.
+// How well a surface meets the normals along its boundary.
 #pragma once
 
 #include "mesh/patch.h"

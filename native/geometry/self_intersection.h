@@ -10,8 +10,8 @@ namespace fairing {
 // O(n log n) for surfaces with few crossings.
 Indices crossing_triangles(const Triangles& triangles, const Points& points);
 
-// Of such pairs only those with one of the triangles `few` in them: the numbers of both, ascending. One box test for
-// each of the others.
+// Only pairs that contain one of the triangles `few`: the numbers of both, ascending. One box test for each of the
+// other triangles.
 Indices crossings_with(const Triangles& triangles, const Points& points, const Indices& few);
 
 }  // namespace fairing

@@ -7,7 +7,7 @@ namespace fairing {
 
 // W with dn = W d for small steps d within the surface, a symmetric 3 × 3 tensor in space, 0 along the normal: the
 // entries xx, yy, zz, xy, xz, yz of a vertex are a column. 1/R in the tangent plane of a sphere with outward normals.
-// In single precision: iterations take it for their steps, never for where they end.
+// In single precision: it shapes the steps of an iteration, never the point where it ends.
 using ShapeOperators = Eigen::Matrix<float, 6, Eigen::Dynamic>;
 
 // W d of column i.

@@ -14,7 +14,7 @@ enum class Centre { met, free };
 
 struct SlopeFit {
     Vector3 normal;                // unit
-    double error = 0.0;            // of the slopes: their standard error, and what the last round still changed
+    double error = 0.0;            // of the slopes: their standard error plus the change in the last round
     double height = 0.0;           // of the surface over the centre, along the normal; 0 where the centre is met
     double scatter = 0.0;          // standard deviation of the points' heights from the surface
     double mean_curvature = 0.0;   // at the foot of the centre, in length⁻¹; −1/R on a sphere with outward normals
@@ -41,13 +41,12 @@ private:
     [[nodiscard]] Vector3 gradient(const Local& place) const;
 };
 
-// Fits h = a (x² + h²) + b xy + c y² (and cubic terms) by least squares with Gaussian weights. h = ⟨d, n⟩ − c₀ for
-// d = p − centre; x and y run along and across the direction that is curved most. Along x this is a circle: spheres and
+// Fits h = a (x² + h²) + b xy + c y² (and cubic terms) by least squares with Gaussian weights. h = ⟨d, n⟩ − c₀ for d =
+// p − centre; x and y run along and across the direction that is curved most. Along x this is a circle: spheres and
 // cylinders are met exactly, by any points, however far around they reach. c₀ = 0 where the centre is met. Where it is
 // free, c₀ is fitted and the centre is a point of weight 1. n, the direction and c₀ are iterated from `start`.
-// Degree::sphere: h = a (x² + y² + h²), with the same slopes and constant.
-// Nothing where the points are too few to estimate an error (6 and 10), don't determine the terms, or lead more than
-// 60° away from `start`.
+// Degree::sphere: h = a (x² + y² + h²), with the same slopes and constant. Returns nothing where the points are too few
+// to estimate an error (6 and 10), don't determine the terms, or lead more than 60° away from `start`.
 std::optional<SlopeFit> fit_slopes(const Vector3& centre, std::span<const Vector3> points, const Vector3& start,
                                    Degree degree, Centre at_centre = Centre::met);
 

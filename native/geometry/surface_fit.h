@@ -1,4 +1,4 @@
-// Surfaces fitted to nearby vertices: for outlines, where the one-ring sees one side only.
+// Surfaces fitted to nearby vertices: for boundary loops, where the one-ring sees one side only.
 #pragma once
 
 #include "base/direction.h"
@@ -15,10 +15,10 @@ public:
     // Coordinates beyond ±1e100 or within ±1e-100 lose their digits: scale them. Keeps references.
     SurfaceFits(const Points& points, const Triangles& triangles, Centre at_centres);
 
-    // The fit whose slopes have the least standard error, with the curvature of the fit that knows it best; nothing
-    // where the points are too few.
+    // The fit whose slopes have the least standard error, with the curvature of the fit that has the least standard
+    // error of that; nothing where the points are too few.
     std::optional<SlopeFit> at_vertex(int vertex) { return at_vertex(vertex, around_); }
-    // The same with a walk of the caller's own, for loops on several threads.
+    // The same with the caller's own walk, for loops on several threads.
     std::optional<SlopeFit> at_vertex(int vertex, Neighbourhood& around) const;
     [[nodiscard]] Neighbourhood walk() const { return {adjacency_, points_, reach_of(at_centres_)}; }
     // The normalised sum of the adjacent triangles' cross products; zero where there are none.
@@ -43,7 +43,7 @@ struct UnitSized {
 UnitSized to_unit_size(const Points& points, const Triangles& triangles);
 
 // Normals at the fixed vertices (3 × fixed count) of the surface through them that fits the patch's own side of the
-// outline; averaged ones where the fit has too few points.
+// boundary; averaged ones where the fit has too few points.
 Points one_sided_normals(const Patch& patch, const Points& points);
 
 }  // namespace fairing

@@ -1,12 +1,12 @@
-// Least-squares systems of many rows and few columns, as they are made and factorised again and again.
+// Least-squares systems of many rows and few columns, assembled and factorised repeatedly.
 #pragma once
 
 #include "base/types.h"
 
 namespace fairing {
 
-// A = Q R by Householder's reflections. Rows are kept in fours, which the processor works on at once, and filled up
-// with zeros: with Eigen's blocks of any size half of the time would go into their ends.
+// A = Q R by Householder's reflections. Rows are stored in groups of four (SIMD), padded with zeros: Eigen's blocks of
+// any size would spend half of the time on their ends.
 class TallSystem {
 public:
     using Four = Eigen::Array4d;

@@ -19,8 +19,8 @@ public:
     TargetSurface(const Patch& patch, const Points& points, const Points& normals, std::vector<char> walls = {});
 
     // The point of the mesh near `position` that a walk from `start` reaches. It goes across edges towards the foot of
-    // the perpendicular, never over the border or a wall. Where folded triangles send it to and fro, it takes the
-    // nearest point of those around. The walk is local: a surface that comes close to itself does not confuse it.
+    // the perpendicular, never over the border or a wall. Where folded triangles make it cycle, it takes the nearest
+    // point of those around. The walk is local: a surface that comes close to itself does not confuse it.
     [[nodiscard]] SurfacePoint project(const Vector3& position, int start) const;
 
     [[nodiscard]] Vector3 position(const SurfacePoint& where) const;

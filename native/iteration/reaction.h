@@ -9,7 +9,7 @@ namespace fairing {
 // H changes by ½ (Δu + (κ₁² + κ₂²) u) where a surface moves by u along its normals, and K knows the first term alone:
 // its answers u are too short by T u + T² u + …, T = ½ K⁻¹ S (κ₁² + κ₂²); by 4 to 30 % of the smooth part. Adds that to
 // moves that K has answered, where the equation has no other terms. On small levels T u is solved for, and `share`, the
-// size of T where it counts, is noted. Larger ones take the share that a coarser level has noted: a solve there costs
+// size of T where it counts, is stored. Larger ones use the share that a coarser level has stored: a solve there costs
 // more than it saves.
 void add_reaction(const Problem& problem, const SurfaceState& state, const NormalOperator& normal, double& share,
                   VectorX& u);

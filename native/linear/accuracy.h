@@ -6,8 +6,8 @@
 
 namespace fairing {
 
-// What an iteration may leave of a right-hand side, in the norm of its preconditioner: the smaller of both. Factors are
-// as exact as they are.
+// The residual that an iteration may leave, in the norm of its preconditioner: the smaller of both. Direct solves
+// ignore it.
 struct Accuracy {
     // With ten times that, hemispheres of 100k vertices need six outer iterations instead of four.
     double share = 0.003;

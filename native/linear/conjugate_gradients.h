@@ -17,21 +17,21 @@ double inner_product(const Field& a, const Field& b) {
 template <typename Field>
 struct GradientSolution {
     Field x;
-    bool positive = true;  // A was positive definite in all directions looked at
+    bool positive = true;  // A was positive definite in all directions tried
     Field left = {};       // r − A x
     int cycles = 0;
 };
 
 // x with A x ≈ r from x = 0, until the residual in the preconditioner's norm has fallen to `relative_tolerance` or
-// after `max_cycles`; earlier where A shows itself not to be positive definite. `apply(p, q)`: q ← A p;
-// `precondition(r, z)`: z ← about A⁻¹ r. Both get q and z in the right size.
+// after `max_cycles`; earlier where A turns out not to be positive definite. `apply(p, q)`: q ← A p; `precondition(r,
+// z)`: z ← about A⁻¹ r. q and z have the right size.
 template <typename Field, typename Apply, typename Precondition>
 GradientSolution<Field> conjugate_gradients(Field r, double relative_tolerance, int max_cycles, const Apply& apply,
                                             const Precondition& precondition) {
     const int count = static_cast<int>(r.cols());
     Field x = Field::Zero(r.rows(), count);
     Field z(r.rows(), count);
-    Field& product = z;  // one is used up before the other is made
+    Field& product = z;  // shared: one is consumed before the other is made
     precondition(r, z);
     Field p = z;
     double rz = inner_product(r, z);

@@ -1,5 +1,5 @@
-// How the fronts of a multifrontal factorisation hang together: who adds to whom, and which parts of the tree are
-// independent of each other (Liu 1992).
+// The tree of fronts of a multifrontal factorisation: which adds to which, and which parts are independent of each
+// other (Liu 1992).
 #pragma once
 
 #include <span>

@@ -21,7 +21,7 @@ public:
     [[nodiscard]] VectorX apply(const VectorX& values) const;
 
 private:
-    // Outlines are loops: factors have some three entries in a row, which fronts would only slow down.
+    // The graph is a set of loops: factors have some three entries in a row, which fronts would only slow down.
     using Factor = Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>>;
     struct Term {
         double weight = 0.0;

@@ -1,4 +1,4 @@
-// Conjugate gradients for one right-hand side after the other: what a solve finds out about a matrix serves the next.
+// Conjugate gradients for a sequence of right-hand sides: each solve reuses the directions of those before (deflation).
 #pragma once
 
 #include <cmath>
@@ -10,18 +10,18 @@
 
 namespace fairing {
 
-// Keeps directions p_i, conjugate to each other, with A p_i. A solve begins with what they know of it and keeps its own
-// directions conjugate to them: it has only the rest to find (Erhel & Guyomarc'h 2000, "An augmented conjugate gradient
-// method for solving consecutive symmetric positive definite linear systems").
+// Keeps conjugate directions p_i with A p_i. A solve begins with the projection of its solution on them and keeps its
+// own directions conjugate to them, so that only the rest is left to find (Erhel & Guyomarc'h 2000, "An augmented
+// conjugate gradient method for solving consecutive symmetric positive definite linear systems").
 class KnownDirections {
 public:
     using Row = Eigen::RowVectorXd;
 
-    // Another matrix follows.
+    // Forgets the directions: another matrix follows.
     void forget() { pairs_.clear(); }
 
-    // x with A x ≈ r, until no more of r is left than `accuracy` allows or after `max_cycles`, which `unfinished`
-    // counts; `apply` and `precondition` as conjugate_gradients has them.
+    // x with A x ≈ r to `accuracy`, or after `max_cycles`, which `unfinished` counts; `apply` and `precondition` as in
+    // conjugate_gradients.
     template <typename Apply, typename Precondition>
     [[nodiscard]] Row solve(Row r, const Accuracy& accuracy, int max_cycles, const Apply& apply,
                             const Precondition& precondition) {
@@ -51,7 +51,7 @@ public:
         return x + rest.x;
     }
 
-    // Solves so far that left more than they were allowed to.
+    // Solves so far that missed their accuracy.
     [[nodiscard]] int unfinished() const { return unfinished_; }
 
 private:

@@ -5,8 +5,8 @@
 
 namespace fairing {
 
-// Rows × columns, the front's own rows on top: [L₁₁; L₂₁], column-major. `Stored`: double, or float for a factor that
-// only has to be near: all is in single precision then.
+// Rows × columns, the front's own rows on top: [L₁₁; L₂₁], column-major. `Stored`: double, or float for an approximate
+// factor: all is in single precision then.
 template <typename Stored>
 using PanelOf = Eigen::Map<const Eigen::Matrix<Stored, Eigen::Dynamic, Eigen::Dynamic>>;
 using ConstPanel = PanelOf<double>;

@@ -12,7 +12,7 @@ public:
     // A step counts as shorter where it is less than `share` of the shortest before it.
     explicit ShrinkingSteps(double share = 1.0) : share_(share) {}
 
-    // Iterations in a row, this one too, without a shorter step: 0 where `length`, the largest move, is one.
+    // Iterations in a row, this one included, without a shorter step: 0 where `length`, the largest move, is shorter.
     int in_vain(double length) {
         if (length < share_ * shortest_) {
             shortest_ = length;
@@ -28,8 +28,8 @@ private:
 };
 
 // Whether the steps of an iteration shrink as they do near a surface. On regions of scans (3,000 and 10,000 vertices,
-// 51 runs) no iteration that arrived from a rough start had a step above 0.43 of the third before it. Those that did
-// not arrive had one after four to nine steps, and took up to twenty.
+// 51 runs) no iteration that converged from a rough start had a step above 0.43 of the third before it. Those that did
+// not converge had one after four to nine steps, and took up to twenty.
 class Contraction {
 public:
     // `length`: the largest move of the next iteration.

@@ -10,10 +10,10 @@
 
 namespace fairing {
 
-// What a factor is found and kept in. `singles` take half of the memory and of the time, and solves with them are right
-// to some 1e-7 times the matrix's condition: enough for a step of an iteration. A matrix that is positive definite by
-// less than their rounding may be refused; sums in double precision save nearly none of these, since the entries are
-// rounded as well.
+// The precision of a factor. `singles` take half of the memory and of the time, and their solves have a relative error
+// of some 1e-7 times the matrix's condition: enough for a step of an iteration. They may refuse a matrix that is
+// positive definite by less than their rounding; sums in double precision would save nearly none of these, since the
+// entries are rounded as well.
 enum class Kept { doubles, singles };
 
 class SparseCholesky {
@@ -22,15 +22,15 @@ public:
     // Places of the unknowns (3 × n), by which a large matrix is ordered.
     explicit SparseCholesky(Points layout, Kept kept = Kept::doubles) : layout_(std::move(layout)), kept_(kept) {}
 
-    // Finds the ordering of matrices with the pattern of `lower`, a lower triangle (diagonal included); values count
-    // for nothing.
+    // Finds the ordering of matrices with the pattern of `lower`, a lower triangle (diagonal included); its values are
+    // not read.
     void analyse_pattern(const SparseMatrix& lower);
 
     // Factorises a symmetric matrix given by its lower triangle (diagonal included). The ordering is found at the first
     // call, or before, and kept: the pattern must stay the same. False where the matrix is not positive definite; the
     // factor is then unusable until the next call, as it is after Cancelled. `what` names the stage for `progress`.
     [[nodiscard]] bool factorise(const SparseMatrix& lower, const char* what, const Progress& progress);
-    // The same of a matrix that no one else needs: it goes as soon as its entries are read.
+    // The same for a matrix that no one else needs: it is released as soon as its entries are read.
     [[nodiscard]] bool factorise(SparseMatrix&& lower, const char* what, const Progress& progress);
 
     // Solves for one or several right-hand sides (n × k). With a factor of singles all sums are singles, here and

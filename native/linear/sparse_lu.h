@@ -19,12 +19,13 @@ public:
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
 
 private:
-    // [D U; B ·] with D of the front's own unknowns: x ← D⁻¹x on the way up, B takes it to the rows below.
+    // [D U; B ·] with D of the front's own unknowns: the upward sweep computes x ← D⁻¹x, and B carries it to the rows
+    // below.
     struct Front {
         Eigen::PartialPivLU<Eigen::MatrixXd> pivot;  // of D
         Eigen::MatrixXd lower;                       // B
         Eigen::MatrixXd upper;                       // D⁻¹U
-        Eigen::MatrixXd update;                      // −B D⁻¹U and the children's, freed when the parent has taken it
+        Eigen::MatrixXd update;                      // −B D⁻¹U and the children's, freed once the parent has added it
     };
 
     [[nodiscard]] Eigen::MatrixXd gather(int supernode, const SparseMatrix& matrix, const SparseMatrix& transposed);

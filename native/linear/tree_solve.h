@@ -6,8 +6,8 @@
 
 namespace fairing {
 
-// Fronts that some unknowns belong to, and all above them: what a right-hand side with no other entries needs on the
-// way up, and a solution wanted only there on the way down.
+// Fronts that some unknowns belong to, and all above them: those that the upward sweep of a right-hand side with no
+// other entries needs, and the downward sweep of a solution wanted only there.
 class FrontReach {
 public:
     FrontReach() = default;  // all fronts

@@ -16,7 +16,7 @@ Indices triangles_at(const Patch& patch, const Indices& vertices);
 
 bool has_free_corner(const Patch& patch, int triangle);
 
-// Of some triangles those that have one, in their order.
+// Those of some triangles that have one of the vertices, in their order.
 Indices with_free_corner(const Patch& patch, Indices triangles);
 
 }  // namespace fairing

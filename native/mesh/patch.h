@@ -31,7 +31,7 @@ struct PatchMembers {
 class Patch : public PatchMembers {
 public:
     // Precondition: a manifold with consistent windings. `twins`: of its triangles where they are known; empty: they
-    // are looked for.
+    // are searched.
     explicit Patch(PatchMembers members, Twins twins = {});
 
     [[nodiscard]] int vertex_count() const { return static_cast<int>(to_input.size()); }

@@ -1,4 +1,4 @@
-// The same mesh with its vertices, edges and faces in another order: what is near is found near in memory.
+// The same mesh with its vertices, edges and faces in an order that keeps neighbours near in memory.
 #pragma once
 
 #include "mesh/surface_mesh.h"

@@ -13,12 +13,12 @@ struct VertexRoles {
     std::vector<char> border;      // on an edge with a single triangle
     std::vector<char> pin;         // position only: none of its neighbours is fixed, or its slope is free
     std::vector<char> used;        // in some triangle
-    std::vector<char> free_slope;  // of the pins: by the caller's word
+    std::vector<char> free_slope;  // pins that the caller named so
     std::vector<char> smooth;      // of these: the surface runs through, curves of them are not cut
     std::vector<char> faired;      // of these: on an open border that becomes fair itself
 };
 
-// The caller's words, per vertex; both kinds of free slopes may be empty.
+// The caller's choices, per vertex; both kinds of free slopes may be empty.
 struct GivenRoles {
     std::vector<char> fixed;
     std::vector<char> crease;  // the slope is free, on each side of a curve
@@ -48,12 +48,10 @@ VertexRoles classify_vertices(const EdgeTable& edges, const GivenRoles& given);
 // Throws NONMANIFOLD_EDGE where more than two triangles meet at an edge whose ends the caller has not both fixed.
 std::vector<char> find_cut_edges(const Triangles& triangles, const EdgeTable& edges, const VertexRoles& roles);
 
-// Cuts, orients (in each piece and across its curves the majority of the moving triangles along the outline wins, with
-// a warning), numbers pieces.
-// Pieces without free vertices that can't be joined (single-sided, or pockets of two triangles on the same three
-// vertices) are taken apart. Throws NONMANIFOLD_VERTEX (several fans at a free vertex), and where something moves
-// NONMANIFOLD_EDGE (a pocket) and NOT_ORIENTABLE.
-// `edges`: of `triangles`.
+// Cuts, orients (in each piece and across its curves the majority of the moving triangles along the boundary wins, with
+// a warning), numbers pieces. Pieces without free vertices that can't be joined (single-sided, or pockets of two
+// triangles on the same three vertices) are taken apart. Throws NONMANIFOLD_VERTEX (several fans at a free vertex), and
+// where something moves NONMANIFOLD_EDGE (a pocket) and NOT_ORIENTABLE. `edges`: of `triangles`.
 CutMesh cut_mesh(const Triangles& triangles, const EdgeTable& edges, const Indices& input_triangle,
                  const VertexRoles& roles, Diagnostics& warnings);
 

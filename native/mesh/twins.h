@@ -13,7 +13,7 @@ using Twins = Indices;
 // Across the edges that join two triangles and are not cut.
 Twins twins_across(const EdgeTable& edges, const std::vector<char>& cut);
 
-// A side that can't be joined to the others between its two vertices: they are two already, or run the same way.
+// A side of a non-manifold or inconsistently wound edge, which can't be joined to the others there.
 using Misfit = std::optional<int>;
 
 // Joins the sides without a twin that run to and fro between two vertices.

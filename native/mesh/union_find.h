@@ -17,7 +17,7 @@ public:
     // The set's representative, and whether `item` has the opposite parity to it.
     std::pair<int, bool> find(int item) {
         const int above = parent_[item];
-        if (parent_[above] == above) return {above, parity_[item] != 0};  // mostly; a root's own parity is none
+        if (parent_[above] == above) return {above, parity_[item] != 0};  // the usual case; a root's own parity is none
         int root = item;
         bool flipped = false;
         while (parent_[root] != root) {

@@ -14,8 +14,8 @@ struct CoarseLevel {
     Transfer transfer;     // to the next finer level
 };
 
-// Fine to coarse, each about a quarter of the one before, down to about `coarsest` free vertices; fewer where collapses
-// run out.
+// Fine to coarse, each about a quarter of the one before, down to about `coarsest` free vertices; fewer levels where no
+// collapse is left.
 std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights, const FixedPlaces& outline,
                                  int coarsest);
 

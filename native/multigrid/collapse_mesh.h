@@ -18,7 +18,7 @@ struct Removals {
     void append(const Removals& more);
 };
 
-// Where the fixed vertices are: thinned loops have to follow the outline. 3 × local vertices, free columns unused.
+// Where the fixed vertices are: thinned loops have to follow the boundary. 3 × local vertices, free columns unused.
 // Loops whose normals are 0 stay whole.
 struct FixedPlaces {
     const Points& points;
@@ -31,8 +31,8 @@ struct CoarseMesh {
     Twins twins;
 };
 
-// A mesh without positions inside: interior shapes are those of the graph, which uniform weights make even, and
-// otherwise of the weights, which are large along short edges.
+// A mesh without interior positions: shapes are those of the graph for uniform weights, and otherwise of the weights,
+// which are large along short edges.
 class CollapseMesh {
 public:
     CollapseMesh(const Patch& patch, const InnerWeights& weights, const FixedPlaces& outline);
@@ -89,8 +89,8 @@ private:
     Indices loop_;        // of a border vertex
     Indices loop_size_;
     Indices least_loop_size_;
-    // Side 3t + k runs from corner k to corner k + 1 of triangle t. What belongs to one lies together: a large mesh is
-    // walked over as fast as memory answers.
+    // Side 3t + k runs from corner k to corner k + 1 of triangle t. The data of one side lie together, since memory
+    // access limits the speed on large meshes.
     struct Side {
         int corner;
         int twin;

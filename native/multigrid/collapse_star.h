@@ -1,4 +1,4 @@
-// What a half-edge collapse looks at.
+// The star of a vertex, from which a half-edge collapse is judged.
 #pragma once
 
 #include <numeric>

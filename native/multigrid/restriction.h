@@ -5,8 +5,8 @@
 
 namespace fairing {
 
-// The transpose of Transfer::prolong, by what arrives at each vertex instead of what leaves it: on several threads.
-// Eight bytes for each weight that are not shared with the interpolation.
+// The transpose of Transfer::prolong, stored by target vertex so that several threads can apply it. Takes eight bytes
+// for each weight beside the interpolation's own.
 class Restriction {
 public:
     // Refers to it.

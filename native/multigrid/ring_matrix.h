@@ -33,7 +33,7 @@ struct RingMatrix {
         });
     }
 
-    // The same in single precision, of a field that is made as it is read: x(j) at vertex j, a Vector4f.
+    // The same in single precision for a field that is computed on access: x(j) at vertex j, a Vector4f.
     template <typename Field, typename Write>
     void apply_singles(const Field& x, int rows, const Write& write) const {
         for_ranges(rows, coarse_grain, [&](int first, int last) {
@@ -55,8 +55,8 @@ private:
     }
 };
 
-// Sweeps of x_i ← the lifted mean of its neighbours by the weights, for the first `free_count` vertices, normals
-// alongside: evens out an interpolated surface. Shape operators that are unknown become the mean of their neighbours'.
+// Sweeps of x_i ← the lifted mean of its neighbours by the weights, for the first `free_count` vertices, with the
+// normals: smooths an interpolated surface. Unknown shape operators become the mean of their neighbours'.
 void even_out(const RingMatrix& weights, int free_count, int sweeps, BentPoints& points);
 
 }  // namespace fairing

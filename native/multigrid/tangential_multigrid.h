@@ -15,9 +15,9 @@ public:
     LaplaceCycle(const LaplaceCycle&) = delete;
     LaplaceCycle& operator=(const LaplaceCycle&) = delete;
     virtual ~LaplaceCycle() = default;
-    // The λ-Laplacian over this, about its largest weight, is what `cycle` inverts: single precision has its limits.
+    // `cycle` inverts the λ-Laplacian over this, about its largest weight, for the range of single precision.
     [[nodiscard]] virtual double scale() const = 0;
-    // `r` and `x`: a column for each vertex of the level, 0 at fixed ones; x in the right size, r is used up.
+    // `r` and `x`: a column for each vertex of the level, 0 at fixed ones; x has the right size; r is overwritten.
     virtual void cycle(SingleField& r, SingleField& x) const = 0;
 };
 
@@ -54,15 +54,15 @@ private:
     [[nodiscard]] Points pull(const Points& points) const;
     struct Moves {
         Points d;
-        bool positive;  // the operator was
+        bool positive;  // whether the operator was positive definite
     };
-    // The projection across single normals, and what its turning adds; that may be empty.
+    // The projection across single-precision normals, and the term of its turning, which may be empty.
     struct Planes {
         SingleField normals;
         ShapeOperators turns;
     };
     [[nodiscard]] Moves solve(const Points& pull, const Planes* planes, const Effort& effort) const;
-    // Takes from the pull what is along the normals.
+    // Removes the pull's part along the normals.
     [[nodiscard]] Planes project(Points& pull, const Points& normals, ShapeOperators shapes) const;
     [[nodiscard]] Points solve_across(const Points& across, Planes planes, Effort effort) const;
     void subtract_product(const SingleField& x, SingleField& r) const;

@@ -8,8 +8,8 @@
 
 namespace fairing {
 
-// Vectors in single precision with a fourth entry of zero: a column fits a vector register. Enough for what only has to
-// be solved to a few per cent.
+// Vectors in single precision with a fourth entry of zero: a column fits a vector register. Enough for systems that are
+// solved to a few per cent.
 using SingleField = Eigen::Matrix<float, 4, Eigen::Dynamic>;
 
 // Points of a surface with their unit normals (3 × vertices) and shape operators (6 × vertices, NaN where they are
@@ -42,12 +42,12 @@ struct Transfer {
 };
 
 // The weighted mean of points, lifted about half-way to their tangent planes. Half-way is exact on parabolas only, and
-// lies inside of spheres by a fourth-order term that no step of a coarser level removes. With c, the length of the mean
-// of the unit normals, 1/(c (1 + c)) of the way is right on spheres, too, for points at the same angle from the middle.
-// The normal is the mean of theirs, each turned by half of what its shape operator says for the way to the mean:
-// without that it is tilted where the curvature varies, by a quarter of the squared spacing times the Laplacian of the
-// slope. Where one of the operators is unknown none is used: some alone would tilt it on a sphere.
-// No weights: all are 1.
+// lies inside of spheres by a fourth-order term that no step of a coarser level removes. A share of 1/(c (1 + c)), c
+// being the length of the mean of the unit normals, is exact on spheres, too, for points at the same angle from the
+// middle. The normal is the mean of theirs, each turned by half of what its shape operator predicts for the
+// displacement to the mean: otherwise it is tilted where the curvature varies, by a quarter of the squared spacing
+// times the Laplacian of the slope. Where one of the operators is unknown none is used: some alone would tilt it on a
+// sphere. No weights: all are 1.
 struct LiftedMean {
     Vector3 point;
     Vector3 normal;  // unit

@@ -21,7 +21,7 @@ private:
     [[nodiscard]] Eigen::MatrixXd solve_to(const Eigen::MatrixXd& rhs, const Accuracy& /*accuracy*/) const override {
         return factor_.solve(rhs);
     }
-    // Its lower triangle, made anew for each factorisation: a large patch has no room for it meanwhile.
+    // Its lower triangle, assembled for each factorisation and not kept, to save memory.
     [[nodiscard]] SparseMatrix lower(const Stiffness& stiffness) const;
 
     const Patch& patch_;

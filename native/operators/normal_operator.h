@@ -14,7 +14,7 @@ namespace fairing {
 class NormalOperator {
 public:
     virtual ~NormalOperator() = default;
-    // Finds the ordering of the factorisation, which depends on no surface. `update` does it otherwise.
+    // Finds the ordering of the factorisation, which does not depend on the surface. Otherwise the first `update` does.
     virtual void prepare() = 0;
     // Assembles the operator for a surface and factorises it. False where it is not positive definite (a surface that
     // has degenerated); solve may not be called then.
@@ -24,7 +24,7 @@ public:
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs, const Accuracy& accuracy = {}) const {
         return solve_to(rhs, accuracy);
     }
-    // Solves so far that left more than their accuracy allows.
+    // Solves so far that missed their accuracy.
     [[nodiscard]] int unfinished() const { return unfinished_solves(); }
 
 private:
@@ -32,8 +32,7 @@ private:
     [[nodiscard]] virtual int unfinished_solves() const { return 0; }
 };
 
-// What an operator is made for: a few solves with a factor that is needed once, or many more or new factors now and
-// then.
+// What an operator is used for: a few solves with a single factor, or many solves or repeated factorisations.
 enum class Solves { few, many };
 
 // The one of the problem's equation: Laplace for minimal surfaces, biharmonic for all others, split where the patch is

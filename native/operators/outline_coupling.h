@@ -18,7 +18,7 @@ public:
     [[nodiscard]] VectorX spread(const OutlineRow& outline) const;
     // Cᵀ a of a value for each free vertex.
     [[nodiscard]] OutlineRow gather(const VectorX& field) const;
-    // Free vertices beside the outline, with repetitions.
+    // Free vertices beside the boundary, with repetitions.
     [[nodiscard]] Indices beside() const;
 
 private:

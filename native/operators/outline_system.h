@@ -1,4 +1,4 @@
-// What the biharmonic operator leaves to be solved on the outline, approximately inverted.
+// An approximate inverse of the boundary system that Woodbury's identity leaves of the biharmonic operator.
 #pragma once
 
 #include "linear/half_order.h"
@@ -6,11 +6,11 @@
 
 namespace fairing {
 
-// G = 4M_B + Cᵀ S_II⁻¹ 4M_I S_II⁻¹ C takes a curvature on the outline to the turn of the tangent plane there, an
-// operator of order −1. On a straight outline it is ℓ (c + 2/k). ℓ is the length that falls to a vertex, c = 4M_B / ℓ
-// about twice the size of a triangle, k the frequency. Let A be the Laplacian of the outline by arc length (eigenvalues
-// k²) and f as HalfOrder has it. Then (ℓ c)^-½ f(c/2 A c/2) (c ℓ)^-½ is about the inverse. ℓ enters as it is, since
-// functions on the outline are smooth in arc length; c enters without its noise.
+// G = 4M_B + Cᵀ S_II⁻¹ 4M_I S_II⁻¹ C takes a curvature on the boundary to the turn of the tangent plane there, an
+// operator of order −1. On a straight boundary it is ℓ (c + 2/k). ℓ is the length that falls to a vertex, c = 4M_B / ℓ
+// about twice the size of a triangle, k the frequency. Let A be the Laplacian of the boundary by arc length
+// (eigenvalues k²) and f as HalfOrder has it. Then (ℓ c)^-½ f(c/2 A c/2) (c ℓ)^-½ is about the inverse. ℓ enters as it
+// is, since functions on the boundary are smooth in arc length; c enters smoothed.
 class OutlineSystem {
 public:
     using Row = Eigen::RowVectorXd;  // a value for each fixed vertex

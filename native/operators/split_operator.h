@@ -1,4 +1,4 @@
-// The operator of fourth order along the normals by Laplace solves and a system on the outline.
+// The operator of fourth order along the normals by Laplace solves and a system on the boundary.
 #pragma once
 
 #include "base/progress.h"
@@ -10,10 +10,10 @@
 namespace fairing {
 
 // K = S_I (4M)⁻¹ S_Iᵀ as BiharmonicOperator has it, split by free and fixed columns: S_II (4M_I)⁻¹ S_II, which two
-// Laplace solves invert, and C (4M_B)⁻¹ Cᵀ, of the rank of the outline. By Woodbury's identity what is left is a system
-// with G = 4M_B + Cᵀ S_II⁻¹ 4M_I S_II⁻¹ C (Glowinski & Pironneau 1979), for conjugate gradients. The factor of S_II is
-// far smaller than K's, a solve takes longer. It is kept in single precision. K's inverse to some parts in a thousand
-// of the outline's share.
+// Laplace solves invert, and C (4M_B)⁻¹ Cᵀ, of the rank of the boundary. By Woodbury's identity what is left is a
+// system with G = 4M_B + Cᵀ S_II⁻¹ 4M_I S_II⁻¹ C (Glowinski & Pironneau 1979), for conjugate gradients. The factor of
+// S_II is far smaller than K's, but a solve takes longer. It is kept in single precision. The inverse is accurate to
+// some parts in a thousand of the boundary's share.
 class SplitBiharmonicOperator : public NormalOperator {
 public:
     // `fixed_points`: 3 × fixed vertices. `layout` as for BiharmonicOperator.

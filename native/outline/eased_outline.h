@@ -1,4 +1,4 @@
-// Outlines too jagged to be met, and the smooth ones that stand for them.
+// Boundary loops too jagged to be met, and the low-passed ones that replace them.
 #pragma once
 
 #include "mesh/patch.h"
@@ -11,11 +11,12 @@ struct OutlineData {
     Points normals;
 };
 
-// How much any surface with this outline has to vary: (dκ/ds)² along the outline's edges, each over a square on it,
-// with dκ/ds = 6 ⟨n_i + n_j, e⟩ / |e|³ along an edge e. Zero for outlines on spheres and cylinders; of unit length⁻².
+// How much any surface with this boundary has to vary: (dκ/ds)² along the boundary's edges, each over a square on it,
+// with dκ/ds = 6 ⟨n_i + n_j, e⟩ / |e|³ along an edge e. Zero for boundary loops on spheres and cylinders; in units of
+// length⁻².
 double outline_variation(const Patch& patch, const OutlineData& outline);
 
-// The outline without its short waves: along each loop positions and normals minimise Σ |x − x₀|² + μ Σ |δ²x|², which
+// The boundary without its short waves: along each loop positions and normals minimise Σ |x − x₀|² + μ Σ |δ²x|², which
 // halves waves of `wave` vertices, and normals are then at right angles to it. Loops of no more than `wave` vertices
 // and what lies on no loop stay.
 OutlineData eased_outline(const Patch& patch, const OutlineData& outline, double wave);

@@ -1,4 +1,4 @@
-// A noisy outline moved onto the surface that its surroundings suggest.
+// A noisy boundary, fitted: moved onto the surface that its surroundings suggest.
 #pragma once
 
 #include "outline/surrounding_fit.h"
@@ -10,13 +10,13 @@ struct MendedOutline {
     Indices moved;               // ascending
     Indices held;                // ascending: a move would fold triangles outside
     double noise = 0.0;          // median distance of the points from the fits, in edges
-    SurroundingNormals normals;  // at the outline
+    SurroundingNormals normals;  // at the boundary
 };
 
 // Moves each vertex of `outline` onto the fit of `triangles` (those outside it). The two rings of vertices outside move
-// by ⅔ and ⅓ of the way to their fits. None moves by more than a quarter of its edges' mean length. Nothing moves where
-// the noise is less than a fiftieth of an edge: heights there are the fit's error, not the mesh's. Vertices whose move
-// would turn a triangle over are held.
+// by ⅔ and ⅓ of the distance to their fits. None moves by more than a quarter of its edges' mean length. Nothing moves
+// where the noise is less than a fiftieth of an edge: heights there are the fit's error, not the mesh's. Vertices whose
+// move would turn a triangle over are held.
 MendedOutline mend_outline(const Points& points, const Triangles& triangles, const Indices& outline);
 
 }  // namespace fairing

@@ -1,4 +1,4 @@
-// Surfaces fitted at the vertices of an outline to the triangles outside it, and the normals that follow from them.
+// Surfaces fitted at the vertices of a boundary to the triangles outside it, and the normals that follow from them.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace fairing {
 
-// Edges of an outline, as places in the list of vertices that were asked for.
+// Edges of a boundary, as places in the list of vertices that were asked for.
 using OutlineEdges = std::vector<std::array<int, 2>>;
 
 struct SurroundingFit {
@@ -33,7 +33,7 @@ struct SurroundingNormals {
 };
 
 // Normals at `vertices` of the surface formed by `triangles` alone (the surroundings of a patch), filtered along the
-// outline.
+// boundary.
 SurroundingNormals surrounding_normals(const Points& points, const Triangles& triangles, const Indices& vertices);
 SurroundingNormals normals_of(const SurroundingFit& fit);
 

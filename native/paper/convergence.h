@@ -1,4 +1,4 @@
-// When an iteration is done, and when it goes wrong.
+// When an iteration is done, and when it fails.
 #pragma once
 
 #include <deque>
@@ -36,8 +36,8 @@ enum class Verdict {
 };
 
 // Follows an iteration, cycle by cycle. The merit of the plain one is its residual, which must not grow or rest for
-// long. That of the accelerated one is its changes. They may grow for a while: the history tames modes that the plain
-// one doesn't. It may run into positions at which the two updates of a cycle undo each other. They are no solution.
+// long. That of the accelerated one is its changes. They may grow for a while, since the history damps modes that the
+// plain one doesn't. It may reach positions at which the two updates of a cycle undo each other. They are no solution.
 class ProgressWatch {
 public:
     explicit ProgressWatch(bool accelerated) : accelerated_(accelerated) {}

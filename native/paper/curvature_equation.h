@@ -6,7 +6,7 @@
 namespace fairing {
 
 // S H = rhs at the free vertices, H known at the fixed ones. S_I is symmetric positive definite while no triangle
-// vanishes (§5). Both solvers start from the H that they are given and are not meant to finish. Holds scratch memory.
+// vanishes (§5). Both solvers begin at the H given and are not meant to converge. Holds scratch memory.
 class CurvatureEquation {
 public:
     explicit CurvatureEquation(const Patch& patch);

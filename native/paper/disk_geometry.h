@@ -13,7 +13,7 @@ enum class VirtualPoints {
 };
 
 // The 1-disk D(q_i) of a vertex, however the connectivity is stored. `ring.rim[k]` is the column of `arcs` below that
-// belongs to the edge from neighbour k to k + 1; spokes are not looked at.
+// belongs to the edge from neighbour k to k + 1; spokes are not read.
 struct Disk {
     int centre = none;
     RingView ring;

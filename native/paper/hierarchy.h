@@ -29,7 +29,8 @@ Indices level_sizes(int free_count, int fixed_count, int levels);
 
 // Collapses free vertices, shortest edges first, so that the smallest edge is as long as possible; vetoes triangles
 // whose inner circle is small against their longest edge, folds, and edges between fixed vertices. Topology is kept.
-// `positions`: M0, 3 × local vertices. The levels may be fewer or larger than asked where vetoes stop the collapses.
+// `positions`: M0, 3 × local vertices. Vetoes may stop the collapses before the levels are as many or as small as
+// asked.
 Hierarchy build_hierarchy(const Patch& patch, const Points& positions, int levels);
 
 }  // namespace fairing

@@ -11,7 +11,7 @@ public:
     // `start`: 3 × level vertices.
     LevelUpdate(const LevelProblem& level, Points start);
 
-    // Everything that an update needs, S among it, from the present positions. Returns the residual: infinite where the
+    // Measures all that an update needs, S included, at the present positions. Returns the residual: infinite where the
     // surface has left all bounds (there the residual, a third power of 1/length, means nothing).
     double measure();
     // The same between two updates of a cycle, with the virtual points' arcs as they were and without a residual; false

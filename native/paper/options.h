@@ -1,4 +1,4 @@
-// What the paper lets one choose, and what was added to it.
+// The choices that the paper leaves open, and additions to it.
 #pragma once
 
 #include "paper/disk_geometry.h"

@@ -9,7 +9,7 @@
 
 namespace fairing {
 
-// What the construction needs besides the solver's problem, whose own weights it does not look at.
+// What the construction needs besides the solver's problem, whose own weights it ignores.
 struct PaperProblem {
     const Problem& problem;
     PaperOptions paper;

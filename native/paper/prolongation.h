@@ -9,7 +9,7 @@
 
 namespace fairing {
 
-// What the insertion of vertices needs to know. References must outlive the Prolongation.
+// The input of the insertion of vertices. References must outlive the Prolongation.
 struct ProlongationSetting {
     const Patch& patch;
     const Points& fixed_normals;

@@ -1,4 +1,4 @@
-// The surface that the coarsest level starts from (end of §7.4).
+// The initial surface of the coarsest level (end of §7.4).
 #pragma once
 
 #include "base/progress.h"
@@ -10,9 +10,8 @@ namespace fairing {
 // `reference`: positions of M0 at the patch's vertices.
 Stiffness start_stiffness(const Patch& patch, InnerFairness kind, const Points& reference);
 
-// A surface over the outline by which the hierarchy can judge edges and triangles without looking at the interior
-// given. It is the membrane or the bilaplacian with one of several bulges: whichever has the most even triangles.
-// Uniform λ.
+// A surface over the boundary on which the hierarchy judges edges and triangles, independent of the interior given: the
+// membrane or the bilaplacian with one of several bulges, whichever has the most regular triangles. Uniform λ.
 Points neutral_surface(const Problem& problem, const Progress& progress);
 
 // Positions of the level's vertices (3 × level vertices) from connectivity and boundary data alone.

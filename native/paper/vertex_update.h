@@ -5,7 +5,7 @@
 
 namespace fairing {
 
-// What one update needs to know of its vertex.
+// The input of one vertex update.
 struct VertexTarget {
     Vector3 normal;                   // n_i, unit
     std::span<const double> weights;  // of its curvature, see DiskFit

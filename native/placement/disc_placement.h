@@ -1,4 +1,4 @@
-// A start for the placement that is right as a map, whatever the surface's shape.
+// An initial placement that is a valid map, whatever the surface's shape.
 #pragma once
 
 #include <optional>
@@ -7,10 +7,10 @@
 
 namespace fairing {
 
-// Each vertex at the place that it shares in the unit disc: the problem's patch and that of the surface (`proxy`, the
-// target's) are laid out there with the outline on the circle and each inner vertex at the mean of its neighbours,
-// which folds nothing (Tutte 1963). No sheet is doubled then; triangles are as uneven as both layouts make them.
-// Nothing where the patch is no disc, or has fixed vertices off its outline.
+// Puts each vertex where both patches agree in the unit disc: the problem's patch and that of the surface (`proxy`, the
+// target's) are laid out there with the boundary on the circle and each inner vertex at the mean of its neighbours,
+// which folds nothing (Tutte 1963). No sheet is doubled then; triangles are as irregular as in both layouts. Nothing
+// where the patch is no disc, or has fixed vertices off its boundary.
 std::optional<Placement> by_disc(const Problem& problem, const Patch& proxy, const TargetSurface& target);
 
 }  // namespace fairing

@@ -13,7 +13,7 @@ namespace fairing {
 
 struct Placed {
     Placement placement;
-    Indices folded;                     // triangles of the problem's patch that no way of placing turned back
+    Indices folded;                     // triangles of the problem's patch that no placement turned back
     std::size_t folded_by_springs = 0;  // triangles that the least folded minimum of the springs alone turns over
 };
 

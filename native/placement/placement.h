@@ -17,7 +17,7 @@ Placement at_vertices(const Problem& problem, const TargetSurface& target, const
 // A placement whose free vertices are at these places.
 Placement placed_at(const Problem& problem, const TargetSurface& target, std::vector<SurfacePoint> where);
 
-// Puts one free vertex elsewhere.
+// Moves one free vertex.
 void put(Placement& placement, int vertex, const TargetSurface& target, const SurfacePoint& where);
 
 // Normals of the surface at the free vertices, 3 × free count.

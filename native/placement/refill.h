@@ -1,4 +1,4 @@
-// A part of a surface anew from what lies around it.
+// Part of a surface filled again from what lies around it.
 #pragma once
 
 #include "mesh/patch.h"

@@ -14,8 +14,8 @@ public:
     // `points`: 3 × local vertices. The patch has to stay.
     Tears(const Patch& patch, const Points& points);
 
-    // The same for a surface that differs from the last one in the places of some vertices. As torn_triangles finds
-    // them, but only what moved, what lies beside it and what was torn before is looked at.
+    // The same for a surface that differs from the last one in the places of some vertices. The result is that of a new
+    // search, but only triangles that moved, their neighbours and those torn before are tested.
     [[nodiscard]] Tears after(const Points& points, const Indices& moved) const;
 
     [[nodiscard]] const Indices& triangles() const { return torn_; }

@@ -1,4 +1,4 @@
-// What is turned over or passes through others beside an outline that lies off the surface.
+// What is turned over or passes through others beside a boundary that lies off the surface.
 #pragma once
 
 #include "mesh/patch.h"

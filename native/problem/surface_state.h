@@ -1,4 +1,4 @@
-// Positions of a patch with everything that is measured on them.
+// Positions of a patch with all quantities measured on them.
 #pragma once
 
 #include "geometry/mean_curvature.h"
@@ -15,11 +15,10 @@ struct SurfaceState {
 
     // Faces and stiffness of the present points.
     void measure_faces(const Patch& patch);
-    // Fitted (or averaged) normals and the curvature (paper §6) on top of them. The faces serve that and are then let
-    // go.
+    // Fitted (or averaged) normals and the curvature (paper §6) on top of them. The faces are released afterwards.
     void measure_curvature(const Problem& problem);
-    // Moves of the first vertices (3 × n): within the surface by `within`, whose curvature a long way there follows,
-    // and by `heights` (n) along the normals.
+    // Moves of the first vertices (3 × n): within the surface by `within`, along its curvature for long moves, and by
+    // `heights` (n) along the normals.
     [[nodiscard]] Points moves(Points within, const VectorX& heights) const;
 };
 

@@ -1,4 +1,4 @@
-// The engine's own mesh of a patch: the same outline, an interior of its own, well-shaped whatever it came from.
+// The engine's own mesh of a patch: the same boundary, an interior of its own, well-shaped whatever it came from.
 #pragma once
 
 #include <limits>
@@ -7,22 +7,23 @@
 
 namespace fairing {
 
-// A vertex that was taken out by a collapse, with the ring that it left behind.
+// A vertex that a collapse removed, with the ring that it left behind.
 struct RemovedVertex {
     int vertex;
     Indices ring;
 };
 
-// Edge lengths of the interior. They begin with the outline's own spacing and grow by `growth` per distance up to
-// `longest`. The normal turns by `turn` radians at most along an edge, down to a quarter of `longest`: a narrow pipe
-// would lose its shape otherwise. No edge is split beyond `free_limit` free vertices.
+// Edge lengths of the interior. They begin with the boundary's own spacing and grow by `growth` per distance up to
+// `longest`. The normal turns by `turn` radians at most along an edge, down to a quarter of `longest`, so that a narrow
+// pipe keeps its shape. No edge is split beyond `free_limit` free vertices.
 struct Sizing {
     double growth;
     double longest;
     int free_limit;
     double turn = std::numeric_limits<double>::infinity();
-    // No collapse makes an edge that would be split again (Botsch & Kobbelt 2004): four rounds do where twelve don't
-    // end. Proxies of harmonic surfaces do without: over what is mixed less, deep caps lose their surface.
+    // No collapse makes an edge that would be split again (Botsch & Kobbelt 2004): then four rounds are enough where
+    // twelve would not end. Proxies of harmonic surfaces go without it: deep caps lose their surface on a mesh that
+    // changes less.
     bool settles = false;
 };
 
@@ -41,10 +42,10 @@ public:
     // it, splits where they are longer than 4/3, flips and smoothing in between, until little changes. Topology-safe.
     void adapt(const Sizing& sizing);
 
-    // The vertices that collapses took out, in their order.
+    // The vertices that collapses removed, in this order.
     [[nodiscard]] const std::vector<RemovedVertex>& removed() const { return removed_; }
 
-    // Vertex numbers that were ever given out.
+    // Count of all vertex numbers ever used.
     [[nodiscard]] int number_count() const { return static_cast<int>(fixed_.size()); }
 
     // A patch of the present connectivity with the numbers of its vertices; read_back takes its positions.
@@ -62,7 +63,7 @@ private:
     using Halfedge = SurfaceMesh::HalfedgeHandle;
     using Edge = SurfaceMesh::EdgeHandle;
 
-    // What collapses must not do: make poor triangles, or edges that would be split again.
+    // Which collapses are refused: those that make poor triangles, or edges that would be split again.
     struct Care {
         bool for_shapes = false;
         bool for_lengths = false;

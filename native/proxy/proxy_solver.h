@@ -20,19 +20,19 @@ struct SolvedProxy {
     [[nodiscard]] bool converged() const { return solution.termination == Termination::converged; }
 };
 
-// Solves on a proxy from `guess`, positions of all vertices of the problem's patch near the surface, if there is one.
+// Solves on a proxy from `guess`, if there is one: positions of all vertices of the problem's patch near the surface.
 // Where that fails it begins again from `membrane`. The steps: a coarse proxy, Willmore descent with flips and
-// smoothing in between, the accurate iteration there and on a refined proxy. After a proxy that fails comes the next
-// finer one. When all fail, the least bent of their surfaces comes back and says that it did not converge.
-// `shown`: free vertices of the user's mesh, which the problem may be a coarse level of; a proxy of many more would
-// resolve what that mesh can't show.
+// smoothing in between, the accurate iteration there and on a refined proxy. Where a proxy fails the next finer one is
+// tried. When all fail, the least bent of their surfaces comes back, not converged. `shown`: free vertices of the
+// user's mesh, of which the problem may be a coarse level; a proxy of many more would resolve what that mesh can't
+// represent.
 SolvedProxy solve_proxy(const Problem& problem, const std::optional<Points>& guess, const Points& membrane, int shown,
                         const Progress& progress);
 
-// Free vertices shown from which a coarse proxy tells of finer ones.
+// Least number of `shown` for which a coarse proxy predicts finer ones.
 inline constexpr int smallest_telling = 5000;
 
-// What has become of a coarse proxy. `near`: the fine one may find a surface all the same.
+// How a coarse proxy ended. `near`: a fine one may find a surface all the same.
 enum class CoarseEnd { converged, near, far };
 
 struct CoarseProxy {
@@ -40,18 +40,18 @@ struct CoarseProxy {
     CoarseEnd end;
 };
 
-// The two halves of solve_proxy, with its first proxy alone. The coarse one may have converged over another outline
+// The two halves of solve_proxy, with its first proxy alone. The coarse one may have converged over another boundary
 // next to this one.
 CoarseProxy solve_coarse_proxy(const Problem& problem, const Points& membrane, int shown, const Progress& progress);
 SolvedProxy solve_fine_proxy(const Problem& problem, CoarseProxy coarse, int shown, const Progress& progress);
 
-// The first half from a surface that is found already, positions of all vertices of the problem's patch.
+// The first half from a known surface, positions of all vertices of the problem's patch.
 CoarseProxy coarse_proxy_from(const Problem& problem, const Points& surface, int shown, const Progress& progress);
 
-// Mean length of the outlines' edges; 0 without any.
+// Mean length of the boundary loops' edges; 0 without any.
 double mean_outline_edge(const Problem& problem);
 
-// The membrane of the outline by uniform weights, 3 × vertices of the problem's patch.
+// The membrane of the boundary by uniform weights, 3 × vertices of the problem's patch.
 Points proxy_membrane(const Problem& problem, const Progress& progress);
 
 }  // namespace fairing

@@ -1,4 +1,4 @@
-// A start for minimal surfaces: from a membrane over the outline to less and less area.
+// An initial surface for minimal surfaces: a membrane over the boundary, then descent of its area.
 #pragma once
 
 #include "base/progress.h"

@@ -1,4 +1,4 @@
-// The fill of the outline that a solve starts from.
+// The initial surface of a solve: a fill of the boundary.
 #pragma once
 
 #include "base/progress.h"
@@ -7,7 +7,7 @@
 
 namespace fairing {
 
-// Fill of the outline that has the least Willmore energy of a few bulges (3 × local vertices).
+// The fill of the boundary with the least Willmore energy among a few bulges (3 × local vertices).
 Points best_fill(const Problem& problem, Workspace& work, const Progress& progress);
 
 }  // namespace fairing

@@ -1,4 +1,4 @@
-// The surface that a solve starts from; it depends on connectivity and boundary data only.
+// Clamped fills of the boundary, which depend on connectivity and boundary data only.
 #pragma once
 
 #include "base/progress.h"
@@ -10,14 +10,14 @@ namespace fairing {
 // S and M of a mesh whose triangles are all equilateral (edge weight 2/√3, half of it on the border).
 Stiffness uniform_stiffness(const Patch& patch);
 
-// Clamped bi-Laplacian membranes over the outline: linear in the conormals, whose weight sigma decides how far the
+// Clamped bi-Laplacian membranes over the boundary: linear in the conormals, whose weight sigma decides how far the
 // surface bulges. positions(sigma) = flat + sigma · bulge, free vertices only.
 struct Fill {
     Points flat;
     Points bulge;
 };
 
-// `op`: biharmonic; it is left holding the factorisation for `stiffness`.
+// `op`: biharmonic; it keeps the factorisation for `stiffness`.
 Fill clamped_fill(const Patch& patch, const Stiffness& stiffness, const Points& fixed_points, const Points& conormals,
                   NormalOperator& op, const Progress& progress);
 // Displacement of the free vertices that continues one of the fixed vertices and the change of their conormals

@@ -8,7 +8,7 @@
 namespace fairing {
 
 // Positions of all vertices: Willmore descent, then fixed-point steps of mixed finite elements (H_mixed ← harmonic, and
-// within the surface). Never more energy than the start has. `start`: 3 × local vertices.
+// within the surface). The energy never exceeds the initial one. `start`: the initial surface, 3 × local vertices.
 Points globalise(const Problem& problem, Workspace& work, const Points& start, const Progress& progress);
 
 // One step of Willmore descent along u = −(½ S_I M⁻¹ S_Iᵀ)⁻¹ ⟨∇E, n⟩ with a line search.

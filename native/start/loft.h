@@ -1,4 +1,4 @@
-// The linear surface between several outlines that runs straight from one to the next.
+// A linear surface between several boundary loops, straight from one to the next.
 #pragma once
 
 #include <memory>
@@ -14,15 +14,15 @@ namespace fairing {
 
 class Loft {
 public:
-    // Factorised for the patch's connectivity and which outline of `problem` is the longest. `roundness`: the middle of
-    // a straight tube without slopes has its radius divided by cosh(roundness / 2); where it is larger, ripples of the
-    // outline die sooner. Two outlines joined by an edge are one loop, and no direction is preferred. Nothing for
-    // one outline, or with vertices held elsewhere.
+    // Factorised for the patch's connectivity and the longest boundary loop of `problem`. `roundness`: the middle of a
+    // straight tube without slopes has its radius divided by cosh(roundness / 2); a larger one damps ripples of the
+    // boundary sooner. Two boundary loops joined by an edge are one loop, and no direction is preferred. Nothing for a
+    // single loop, or with vertices held elsewhere.
     static std::optional<Loft> of(const Problem& problem, double roundness, const Progress& progress);
 
-    // Over an outline of that patch. `flat`: lines from the longest outline to the others. `bulge`: what the outline's
-    // tangent planes add, which they do less where the given normals turn by more than 30° along the outline, and not
-    // at all beyond 60°.
+    // For the boundary of that patch. `flat`: lines from the longest loop to the others. `bulge`: what the boundary's
+    // tangent planes add, less where the given normals turn by more than 30° along the boundary, and nothing beyond
+    // 60°.
     [[nodiscard]] Fill over(const Problem& problem) const;
 
 private:

@@ -1,4 +1,4 @@
-// The flattest start: a discrete harmonic map of the outline.
+// The flattest initial surface: a discrete harmonic map of the boundary.
 #pragma once
 
 #include "operators/workspace.h"
@@ -6,7 +6,7 @@
 
 namespace fairing {
 
-// The discrete harmonic map of the outline by the inner-fairness weights (3 × local vertices).
+// The discrete harmonic map of the boundary by the inner-fairness weights (3 × local vertices).
 Points membrane(const Problem& problem, const Workspace& work);
 
 }  // namespace fairing

@@ -1,4 +1,4 @@
-// A start that follows the normals: pipes stay pipes, however long.
+// An initial surface that follows the normals: pipes stay pipes, however long.
 #pragma once
 
 #include <optional>

@@ -1,31 +1,30 @@
-// What joining several outlines needs to know of them.
+// Measures of several boundary loops that are to be joined.
 #pragma once
 
 #include "problem/problem.h"
 
 namespace fairing {
 
-// Whether the patch lies between several outlines, of which two joined by an edge are one loop, and nothing is held
-// elsewhere.
+// Whether the patch lies between several boundary loops, of which two joined by an edge are one loop, and nothing is
+// held elsewhere.
 bool joins_outlines(const Problem& problem);
 
-// How long what lies between outlines is for their size: its area, or that of the straight tube between two of them
-// where this is more, over the sum of their squared lengths. L / 4π for a pipe of L radii. `points`: 3 × local
-// vertices.
+// Relative length of a patch between boundary loops: its area, or that of the straight tube between two of them where
+// this is more, over the sum of their squared lengths. L / 4π for a pipe of L radii. `points`: 3 × local vertices.
 double length_between(const Patch& patch, const Points& points);
 
-// The same of the straight tube between two outlines alone, whatever is at the free vertices.
+// The same of the straight tube between two boundary loops alone, whatever is at the free vertices.
 double straight_length_between(const Patch& patch, const Points& points);
 
-// Up to this length one surface fits between two outlines (a pipe of two and a half radii); two fit a pipe from 2π
-// radii on.
+// Up to this length one surface fits between two boundary loops (a pipe of two and a half radii); two fit a pipe from
+// 2π radii on.
 inline constexpr double longest_single = 0.2;
 
-// Whether several surfaces may fit between the outlines, by one that does (3 × local vertices).
+// Whether several surfaces may fit between the boundary loops, by one that does (3 × local vertices).
 bool may_fit_several(const Patch& patch, const Points& points);
 
-// How far the slope at each fixed vertex is believed: 1 where the given normals turn by less than 30° along the
-// outline, less and less up to 60°, 0 beyond.
+// How far the slope at each fixed vertex is trusted: 1 where the given normals turn by less than 30° along the
+// boundary, less and less up to 60°, 0 beyond.
 VectorX trust_in_slopes(const Problem& problem);
 
 }  // namespace fairing

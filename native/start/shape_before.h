@@ -1,4 +1,4 @@
-// The shape that a patch had, with as much of it smoothed away as is wanted.
+// The shape that a patch had before, smoothed as far as wanted.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace fairing {
 
-// `problem.before` (3 × local vertices), moved with the outline where that has moved: the displacement is harmonic on
+// `problem.before` (3 × local vertices), moved with the boundary where that has moved: the displacement is harmonic on
 // equilateral triangles. Nothing where no such shape is known, it has no area, or more than a twentieth of its
 // triangles are turned over.
 std::optional<Points> shape_before(const Problem& problem, const Progress& progress);
@@ -24,7 +24,7 @@ public:
 
     // The surface x over it for which ∫ |Δx|² + μ |x − points|² is least (Δ and area of the shape before): linear, with
     // the tangent planes given where these are trusted (start/several_outlines), elsewhere with its own. `wavelengths`,
-    // of the local vertices, in units of D: μ = (2π / wavelength)⁴, what is much longer stays; infinite: all is
+    // of the local vertices, in units of D: μ = (2π / wavelength)⁴, what is much longer stays; infinite: everything is
     // smoothed. Nothing where the system is not definite.
     [[nodiscard]] std::optional<Points> smoothed(const VectorX& wavelengths, const Progress& progress);
 

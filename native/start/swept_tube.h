@@ -1,4 +1,4 @@
-// The tube between two outlines that face each other along a bend.
+// The tube between two boundary loops that face each other along a bend.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace fairing {
 
-// Radians by which a tube turns from where membranes and lofts are drawn to its inner side.
+// From so many radians of turn on membranes and lofts are drawn to the inner side of a tube.
 inline constexpr double wide_bend = 1.2;
 
 // The end of a tube at a loop (columns of `points` and `normals`), the surface on its left. Nothing where the surface
@@ -20,13 +20,13 @@ std::optional<TubeEnd> tube_end(const Indices& loop, const Points& points, const
 // Nothing where there are other than two loops, or where they don't face each other along one tube.
 std::optional<double> tube_length(const std::vector<Indices>& loops, const Points& points, const Points& normals);
 
-// The area within a closed loop (columns of `points`): that of its shadow in the direction in which that is largest.
+// The area within a closed loop (columns of `points`): that of its projection in the direction where this is largest.
 double area_within(const Indices& loop, const Points& points);
 
-// Of the circle with that area.
+// Radius of the circle with that area.
 double radius_of_area(double area);
 
-// A closed section in its frame of the axis. Shares are those of its length, from 0 below 1.
+// A closed section in its frame of the axis. Shares are those of its length, in [0, 1).
 class TubeSection {
 public:
     // `loop`: counter-clockwise around the axis, columns of `points`; it begins at `first`.
@@ -45,15 +45,15 @@ private:
     double girth_;
 };
 
-// The sections are swept along the cubic that leaves each outline's middle into the gap, and blended in between.
+// The sections are swept along the cubic that leaves each loop's middle into the gap, and blended in between.
 class SweptTube {
 public:
-    // `loops`: columns of `points` and `normals` (3 × outline vertices), the surface on their left. Nothing where there
-    // are other than two, where they leave out a vertex, or where they don't face along one tube.
+    // `loops`: columns of `points` and `normals` (3 × boundary vertices), the surface on their left. Nothing where
+    // there are other than two, where they leave out a vertex, or where they don't face along one tube.
     static std::optional<SweptTube> between(const std::vector<Indices>& loops, const Points& points,
                                             const Points& normals);
 
-    // `s`: 0 at the first outline, 1 at the second one; `u`: share around.
+    // `s`: 0 at the first loop, 1 at the second one; `u`: share around.
     [[nodiscard]] Vector3 place(double s, double u) const;
     [[nodiscard]] const TubeSection& first() const { return first_; }
     [[nodiscard]] const TubeSection& last() const { return last_; }

@@ -1,4 +1,4 @@
-// The line that a tube between two outlines is swept along.
+// The line that a tube between two boundary loops is swept along.
 #pragma once
 
 #include <vector>

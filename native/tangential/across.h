@@ -1,4 +1,4 @@
-// The projection P across the normals, and what its turning adds to the λ-Laplacian.
+// The projection P across the normals, and the term that its turning adds to the λ-Laplacian.
 #pragma once
 
 #include "base/parallel.h"
@@ -6,7 +6,7 @@
 
 namespace fairing {
 
-// Takes from each column its part along the normal of the same column; `normals` may have more columns.
+// Removes from each column its part along the normal of the same column; `normals` may have more columns.
 inline void project_across(Eigen::Ref<Points> field, const Points& normals) {
     for_ranges(static_cast<int>(field.cols()), coarse_grain, [&](int begin, int end) {
         for (int i = begin; i < end; ++i) field.col(i) -= normals.col(i).dot(field.col(i)) * normals.col(i);
@@ -21,7 +21,7 @@ inline ShapeOperators turning(ShapeOperators shapes, const Points& normals, cons
     return shapes;
 }
 
-// The same of planes; empty where they count as fixed.
+// The same for tangent planes; empty where they count as fixed.
 inline ShapeOperators turning(const TangentPlanes& planes, const Points& pull) {
     return planes.shapes ? turning(*planes.shapes, planes.normals, pull) : ShapeOperators();
 }

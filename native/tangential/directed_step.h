@@ -7,7 +7,7 @@
 
 namespace fairing {
 
-// Solves P (Λ − 1) x = 0; no energy stands behind it.
+// Solves P (Λ − 1) x = 0; it has no energy.
 class DirectedStep : public TangentialStep {
 public:
     DirectedStep(const Patch& patch, const RowWeights& weights, const Points& fixed_points, const Progress& progress);

@@ -1,4 +1,4 @@
-// Moving vertices within a surface that is known from its own mesh alone.
+// Moves vertices within a surface that is known from its own mesh alone.
 #pragma once
 
 #include "geometry/target_surface.h"
@@ -7,12 +7,12 @@
 
 namespace fairing {
 
-// Whether steps count on how the tangent planes turn, which they read off the normals: where these are noise, as beside
-// a jagged outline, the planes are taken as fixed.
+// Whether steps use how the tangent planes turn, which is read off the normals. Where these are noisy, as beside a
+// jagged boundary, the planes count as fixed.
 enum class Turning { known, unknown };
 
-// Vertices nearer to their inner-fairness positions: some accelerated tangential steps, each of which ends on the
-// surface as it was given. `points`: 3 × local vertices; `normals`: unit, of the surface there (0 at pins).
+// Moves vertices nearer to their inner-fairness positions, by some accelerated tangential steps, each of which ends on
+// the surface as given. `points`: 3 × local vertices; `normals`: unit, of the surface there (0 at pins).
 void slide(const Problem& problem, const TangentialStep& tangential, const Points& normals, Turning turning,
            int most_steps, Points& points);
 

@@ -30,7 +30,7 @@ private:
     [[nodiscard]] Points applied(const Points& points) const;  // L
     [[nodiscard]] Points gradient(const Points& points) const;
     [[nodiscard]] Points precondition(const Points& field, const Points& normals) const;
-    // Across the normals; `turns`: what their turning adds, or nothing.
+    // Across the normals; `turns`: the term of their turning, or nothing.
     [[nodiscard]] GradientSolution<Points> solve_across(const Points& r, const Points& normals,
                                                         const ShapeOperators& turns, const Effort& effort) const;
 

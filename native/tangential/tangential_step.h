@@ -20,8 +20,7 @@ struct TangentPlanes {
     TangentPlanes(const Points& unit_normals, ShapeOperators&& gone) = delete;
 };
 
-// Vertices with tangent planes that turn, as a step takes them over: a large patch has no room for them while it is
-// solved for.
+// Vertices with turning tangent planes, moved into a step and released there, to save memory on large patches.
 struct TurningPlanes {
     Points points;  // 3 × local vertices
     Points normals;
@@ -45,11 +44,11 @@ public:
     // Moves the fixed vertices (3 × fixed count); the factorisation does not depend on them.
     virtual void hold(const Points& fixed_points) = 0;
 
-    // The positions with Σ_j λ_ij (x_i − x_j) = 0 in all three coordinates: the discrete harmonic map of the outline.
+    // The positions with Σ_j λ_ij (x_i − x_j) = 0 in all three coordinates: the discrete harmonic map of the boundary.
     [[nodiscard]] virtual Points harmonic_positions() const = 0;
 
-    // What a step is to lower. Symmetric λ: the Dirichlet energy ½ Σ λ_ij |x_i − x_j|², up to a constant of the fixed
-    // vertices. Others have none: ½ Σ |P (Λx − x)_i|².
+    // The merit that a step lowers. Symmetric λ: the Dirichlet energy ½ Σ λ_ij |x_i − x_j|², up to a constant of the
+    // fixed vertices. Others have none: ½ Σ |P (Λx − x)_i|².
     [[nodiscard]] virtual double merit(const Points& points, const Points& normals) const = 0;
 
     // |P L x|, the root of the sum of squares over the free vertices: 0 where no step is left.
@@ -57,13 +56,13 @@ public:
 
     // d with P L P d = −P L x; P is the projection across the unit normals, L the λ-Laplacian. Conjugate gradients
     // (GMRES where λ is not symmetric), preconditioned by P L⁻¹ P, to the relative residual `tolerance` or for
-    // `max_cycles`. Where it is known how the planes turn, Newton's step: P L P d − ⟨n, L x⟩ W d = −P L x, since P
-    // turns with the vertices and L x stands along the normals at the end. Without it smooth moves on a hemisphere are
-    // too short by 60 %. Where that system is not positive definite, or λ not symmetric, the planes count as fixed.
+    // `max_cycles`. Newton's step where it is known how the planes turn: P L P d − ⟨n, L x⟩ W d = −P L x, since P turns
+    // with the vertices and L x stands along the normals at the end. Without it smooth moves on a hemisphere are too
+    // short by 60 %. Where that system is not positive definite, or λ not symmetric, the planes count as fixed.
     [[nodiscard]] virtual Points displacement(const Points& points, const TangentPlanes& planes,
                                               Effort effort = {}) const = 0;
 
-    // The same, for planes that nobody needs any more.
+    // The same, for planes that are not needed any more.
     [[nodiscard]] virtual Points displacement(TurningPlanes&& gone, Effort effort) const {
         return displacement(gone.points, {gone.normals, gone.shapes}, effort);
     }

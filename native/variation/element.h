@@ -1,4 +1,4 @@
-// How much the normal curvatures vary over one triangle, with derivatives.
+// The variation of the normal curvatures over one triangle, with derivatives.
 #pragma once
 
 #include "variation/sheet.h"
@@ -19,8 +19,8 @@ struct ElementSums {
 // The derivative of the normal curvature along a pair of vertices is 6 ⟨n_i + n_j, x_j − x_i⟩ / |x_j − x_i|³ + O(h²):
 // zero on planes, spheres and circular cylinders for any pair. A cubic form C(t, t, t) is fitted to the pairs of the
 // stencil, and what doesn't fit counts `misfit` times. That is O(h²), and it ties the normals to the surface: normals
-// that lean by −(h²/12) C cancel C along pairs of length h, but not along longer ones. Without it the normals would
-// lean.
+// that lean by −(h²/12) C cancel C along pairs of length h, but not along longer ones. Without this term the normals
+// would lean.
 //
 // They still lean a little. C's part A cos θ, the only one that a lean cancels, counts `lean` times. Equilateral
 // triangles are left with 3 w k / (3 w + 2 k) of it (w: misfit, k: lean), where the normals are free: all of it with

@@ -1,4 +1,4 @@
-// Tubes of a start that have collapsed are opened.
+// Opens collapsed tubes of an initial surface.
 #pragma once
 
 #include "base/progress.h"
@@ -6,8 +6,8 @@
 
 namespace fairing {
 
-// Positions (3 × local vertices) near `start` whose edges are about as long as those of the nearest outlines: edges
-// shorter than 0.8 of that want to be that long, in their present direction, and all others stay as they are.
+// Positions (3 × local vertices) near `start` whose edges are about as long as those of the nearest boundary loops:
+// edges shorter than 0.8 of that want to be that long, in their present direction, and all others stay as they are.
 Points inflated(const Problem& problem, const Points& start, const Progress& progress);
 
 }  // namespace fairing

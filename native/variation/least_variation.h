@@ -11,21 +11,21 @@
 namespace fairing {
 
 // Minimises ∫ ⟨(dκ/ds)²⟩ dA · ∫ dA (variation/element.h; the product keeps its value when everything is scaled) with
-// the outline's positions and normals. Solved on a mesh of the engine's own, whose vertices and normals are the
-// unknowns; the patch's vertices are placed on that surface by their inner fairness. The interior of the patch is not
-// looked at. The solution's `termination` and `residual` (largest derivative of the product by a height, in units of D)
-// are of this problem; `polished` is false. Deterministic. Throws Cancelled, SolverError.
+// the boundary's positions and normals. Solved on a mesh of the engine's own, whose vertices and normals are the
+// unknowns; the patch's vertices are placed on that surface by their inner fairness. The interior given is not read.
+// The solution's `termination` and `residual` (largest derivative of the product by a height, in units of D) are of
+// this problem; `polished` is false. Deterministic. Throws Cancelled, SolverError.
 Solution solve_least_variation(const Problem& problem, const Progress& progress);
 
 // A surface near the one sought: 3 × local vertices of the problem's patch, of good triangles.
 struct NearVariation {
     Points points;
-    bool roughly;  // a coarse mesh will do: whoever asks solves again from what it finds
+    bool roughly;  // a coarse mesh is enough: the caller solves again from its result
 };
 
 struct VariationLimits {
-    double most_product = HUGE_VAL;  // nothing comes back where a coarse mesh shows more
-    int most_beginnings = 4;         // other meshes and dampings that are tried where the first ends nowhere
+    double most_product = HUGE_VAL;  // returns nothing where the product is larger on a coarse mesh
+    int most_beginnings = 4;         // other meshes and dampings that are tried where the first does not converge
     std::optional<NearVariation> near = std::nullopt;  // where to begin, instead of those
 };
 
@@ -33,7 +33,7 @@ struct VariationLimits {
 std::optional<Solution> solve_less_varying(const Problem& problem, const VariationLimits& limits,
                                            const Progress& progress);
 
-// The product for any surface of the problem's patch (3 × local vertices), its normals being those that suit it best.
+// The product for any surface of the problem's patch (3 × local vertices), with the normals that minimise it.
 double variation_energy(const Problem& problem, const Points& points);
 
 }  // namespace fairing

@@ -12,9 +12,9 @@ struct SurfaceSample {
     Vector3 normal;
 };
 
-// The sample near a point of the curved triangles of `target` (of the same sheet) that suits the triangle's neighbours:
-// along the pairs from it to the vertices of the stencil the normal curvature changes as along those of the
-// triangle. Exact on planes, spheres and circular cylinders; elsewhere as good as the curved triangles.
+// The sample near a point of the curved triangles of `target` (of the same sheet) that fits the triangle's neighbours:
+// along the pairs from it to the vertices of the stencil the normal curvature changes as along those of the triangle.
+// Exact on planes, spheres and circular cylinders; elsewhere as good as the curved triangles.
 class Lift {
 public:
     // The arguments must outlive the lift.

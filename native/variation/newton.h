@@ -11,12 +11,12 @@ namespace fairing {
 struct NewtonLimits {
     double tolerance;  // of the largest height of a full step, units of D
     int most_steps;
-    double damping = 0.0;          // at first; large damping removes roughness before anything moves far
-    double shortest_share = 0.0;   // of a step; where less of it can be taken, the mesh is in the way
-    double most_merit = HUGE_VAL;  // given up where it is more after ten steps
+    double damping = 0.0;          // initial; large damping removes roughness before anything moves far
+    double shortest_share = 0.0;   // of a step; the descent ends where only a smaller share can be taken
+    double most_merit = HUGE_VAL;  // the descent is given up where the merit is larger after ten steps
     double turns = HUGE_VAL;       // tolerance of the largest turn of a full step, radians
-    bool flattest = false;         // a descent that doesn't end gives the sheet of the least gradient that it met
-    double settled = 0.0;          // fall of the merit in a full step, relative to it, that is enough as well
+    bool flattest = false;         // a descent that doesn't converge returns its sheet with the least gradient
+    double settled = 0.0;          // the descent also ends where a full step lowers the merit by less than this share
 };
 
 struct NewtonResult {
@@ -31,8 +31,8 @@ struct NewtonResult {
 NewtonResult minimise(const VariationEnergy& energy, Sheet& sheet, const NewtonLimits& limits,
                       const Progress& progress);
 
-// Unit normals that suit points best: of least variation while the points stay, those of the problem where given
-// exactly. Begins at Max's normals.
+// The unit normals of least variation for fixed points, those of the problem where given exactly. Begins at Max's
+// normals.
 Points fitted_normals(const Problem& problem, const Points& points, Measure measure, const Progress& progress);
 
 }  // namespace fairing

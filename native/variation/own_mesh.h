@@ -1,4 +1,4 @@
-// The engine's own mesh of a patch with the surface that is solved on it.
+// The engine's own mesh of a patch with the surface solved on it.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ struct SolvedSheet {
     NewtonResult result;
 };
 
-// The same outline on another connectivity, with uniform weights. `patch` must outlive the problem.
+// The same boundary on another connectivity, with uniform weights. `patch` must outlive the problem.
 Problem on_patch(const Problem& problem, const Patch& patch);
 
 // A solved surface at the vertices of a later state of its mesh.

@@ -1,4 +1,4 @@
-// How much the normal curvatures of a sheet vary, and how far its normals are from the outline's.
+// How much the normal curvatures of a sheet vary, and how far its normals are from the boundary's.
 #pragma once
 
 #include "linear/tree_solve.h"
@@ -8,11 +8,11 @@
 
 namespace fairing {
 
-// What may move: the free vertices and all normals that are not given exactly, or the normals alone.
+// The unknowns: the free vertices and all normals that are not given exactly, or the normals alone.
 enum class Moving { points_and_normals, normals };
 
 // With V = ∫ ⟨(dκ/ds)²⟩ dA and A the area: V A, which no scaling changes; or V alone, in units of D⁻², which is lower
-// on larger surfaces and easier to descend from far away: there V A would shrink the area of a rough start.
+// on larger surfaces and easier to descend from far away: there V A would shrink the area of a rough initial surface.
 enum class Measure { scale_free, plain };
 
 // A merit near a sheet, by the unknown motions of its vertices.
@@ -34,8 +34,8 @@ public:
     [[nodiscard]] double merit(const Sheet& sheet) const;
     // Into a model of the same energy, or an empty one.
     void update(const Sheet& sheet, QuadraticModel& model) const;
-    // By how much the residuals leave their tangent along motions (element.h), measured over a share of these. What
-    // the geodesic acceleration makes up for (Transtrum & Sethna 2012).
+    // By how much the residuals leave their tangent along motions (element.h), measured over a share of these. The
+    // geodesic acceleration compensates it (Transtrum & Sethna 2012).
     [[nodiscard]] VectorX acceleration_load(const Sheet& sheet, const VectorX& motions, double share) const;
     // The sheet with its vertices moved by `share` of the motions (unknowns in their order).
     [[nodiscard]] Sheet moved(const Sheet& sheet, const VectorX& motions, double share) const;

@@ -217,7 +217,7 @@ def test_a_hard_edge_that_a_smoothed_outline_rounds_is_told() -> None:
     assert (given.grade, AS_SELECTED in given.remedies) == (LOOK, False)
     assert given.reason.startswith("A hard edge runs on outside")
     assert (mended.grade, AS_SELECTED in mended.remedies) == (LOOK, True)
-    assert mended.reason.startswith("Outline: Smooth has rounded")
+    assert mended.reason.startswith("Boundary: Smooth has rounded")
     assert (np.sort(mesh.positions[mended.spots], axis=1)[:, 1:] == 1.0).all()  # on the cube's edges
 
 

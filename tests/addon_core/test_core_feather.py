@@ -203,7 +203,7 @@ def test_weights_need_no_surroundings() -> None:
 @pytest.mark.parametrize(
     ("options", "text"),
     [
-        ({"outline": "MENDED"}, "Outline: Smooth"),
+        ({"outline": "MENDED"}, "Boundary: Smooth"),
         ({"continuity": "G2"}, "Join: Curvature"),
     ],
 )

@@ -86,7 +86,7 @@ def test_a_border_that_passes_a_place_twice_is_refused_in_words_for_a_person() -
     mesh = holed((4, 4), half=2)
     points = mesh.positions.copy()
     points[vertex(2, 4)] = points[vertex(6, 4)]
-    with pytest.raises(MeshRefusal, match=r"2 vertices of the outline, .* share their place") as error:
+    with pytest.raises(MeshRefusal, match=r"2 vertices of the boundary, .* share their place") as error:
         filled(replace(mesh, positions=points), vertex(2, 2))
     assert error.value.elements.tolist() == [vertex(2, 4), vertex(6, 4)]
 
@@ -142,17 +142,17 @@ def test_each_loop_for_itself_or_all_joined() -> None:
 
 
 def test_a_tube_turned_over_is_told_and_four_outlines_are_too_many() -> None:
-    with pytest.raises(MeshRefusal, match=r"faces around the outline through vertex .* are turned over") as error:
+    with pytest.raises(MeshRefusal, match=r"faces around the boundary through vertex .* are turned over") as error:
         filled(two_tubes(turned_over=True), 48, 72, bridge=True)
     assert set(error.value.elements.tolist()) == set(range(72, 96))
-    with pytest.raises(BorderRefusal, match=r"all 4 selected outlines.*belong together") as too_many:
+    with pytest.raises(BorderRefusal, match=r"all 4 selected boundary loops.*belong together") as too_many:
         filled(two_tubes(), 0, 48, 72, 120, bridge=True)
     assert len(too_many.value.elements) == 96
 
 
 def test_who_selected_just_two_outlines_is_not_told_to_select_fewer() -> None:
-    assert "all 3 selected outlines" in joining_advice(3)
-    assert "two outlines that face each other" in joining_advice(2)
+    assert "all 3 selected boundary loops" in joining_advice(3)
+    assert "two boundary loops that face each other" in joining_advice(2)
     assert "select only" not in joining_advice(2)
 
 
@@ -186,7 +186,7 @@ def test_a_waist_is_worth_a_look_and_names_the_shape_without_one() -> None:
     thin = judged(points, join, girth=(0.86, 1.0))
     assert (thin.grade, thin.reason) == (
         LOOK,
-        "The tube narrows to 86% of its ends: choose the shape Even Curvature",
+        "The tube narrows to 86% of its ends: choose the shape Least Variation",
     )
     assert judged(points, join, girth=(0.86, 1.0), equation="least_variation").reason.endswith("of its ends")
 
@@ -207,7 +207,7 @@ def test_what_has_not_converged_is_unusable() -> None:
     points, _, rim = disc(3)
     told = judged(points, Join(nothing(), np.empty(0)), converged=False, termination="stalled")
     assert told.grade == UNUSABLE
-    assert told.reason == f"No fair surface was found for an outline of {rim} edges"
+    assert told.reason == f"No fair surface was found for a boundary of {rim} edges"
     assert set(told.spots.tolist()) == set(range(rim))
 
 
@@ -215,7 +215,7 @@ def test_outlines_that_are_joined_are_told_as_several() -> None:
     points, _, rim = disc(3)
     join = Join(nothing(), np.empty(0))
     told = judged(points, join, converged=False, termination="stalled", loops=np.split(np.arange(rim), [3]))
-    assert told.reason == f"No fair surface was found for 2 outlines of {rim} edges in all"
+    assert told.reason == f"No fair surface was found for 2 boundary loops of {rim} edges in all"
 
 
 def joined(degrees: float = 0.0, limit: float = 12.0) -> Join:
@@ -228,9 +228,9 @@ def test_a_fold_is_unusable_and_a_substitute_worth_a_look() -> None:
     points, _, _ = disc(3)
     assert judged(points, joined()).grade == GOOD
     verdict = judged(points, joined(), equation="loft")
-    assert (verdict.grade, "the loft that joins them is a substitute" in verdict.reason) == (LOOK, True)
+    assert (verdict.grade, "the loft that joins them is a stand-in" in verdict.reason) == (LOOK, True)
     verdict = judged(points, joined(), equation="smoothed")
-    assert (verdict.grade, "the old shape was smoothed as far as it goes" in verdict.reason) == (LOOK, True)
+    assert (verdict.grade, "the old shape was smoothed" in verdict.reason) == (LOOK, True)
     points[-1, 0] += 2.5  # the middle, far beyond its neighbours
     verdict = judged(points, joined())
     assert (verdict.grade, "folded over" in verdict.reason) == (UNUSABLE, True)
@@ -240,7 +240,7 @@ def test_a_kink_is_worth_a_look_where_it_is_seen() -> None:
     points, _, _ = disc(3)
     verdict = judged(points, joined(30.0))
     assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [2])
-    assert "1 vertex of the outline, of 30°" in verdict.reason
+    assert "1 vertex of the boundary, of 30°" in verdict.reason
     assert judged(points, joined(20.0, limit=25.0)).grade == GOOD
 
 
@@ -261,7 +261,7 @@ def test_kinks_show_from_the_same_limit_as_in_a_faired_region() -> None:
     report = make_fill_report([("Cage", [piece])], FillOptions(), 1.0)
     values = {check.name: check.value for check in report.checks}
     assert values["Kinks show from"] == f"{piece.join.limit:.0f}°"
-    assert values["Kink at the outline"] == f"≤ {angle_text(piece.join.worst)}"
+    assert values["Kink at the boundary"] == f"≤ {angle_text(piece.join.worst)}"
 
 
 def crumpled(count: int) -> Floats:

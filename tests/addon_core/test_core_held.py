@@ -101,6 +101,6 @@ def test_both_sides_of_a_fold_come_back_and_no_fit_looks_across_it() -> None:
 def test_a_crease_that_runs_out_of_the_selection_does_not_go_with_a_smoothed_outline() -> None:
     mesh = with_curve(grid(16, 0.55, folded), "creases")
     options = FairOptions(pin_edges="SHARP", outline="MENDED")
-    with pytest.raises(ValueError, match="Outline: Smooth would round off the creases"):
+    with pytest.raises(ValueError, match="Boundary: Smooth would round off the creases"):
         solve.solve(mesh, np.eye(4), options)
     assert solve.solve(replace(mesh, creases=None), np.eye(4), options).result.converged

@@ -61,7 +61,7 @@ def test_of_several_objects_the_worst_counts(sphere: Fairing) -> None:
     assert (both.converged, both.residual, both.boundary_angle) == (False, 0.5, 3.0)
     assert both.free_vertices == 2 * len(sphere.vertices)
     assert both.join == (4.0, 30.0)
-    assert values(both)["Kink at the outline"] == "≤ 30°"
+    assert values(both)["Kink at the boundary"] == "≤ 30°"
     assert values(both)["Kinks show from"] == "12°"
     assert values(report(replace(sphere, join=replace(seen, limit=25.0))))["Kinks show from"] == "25°"
     assert states(both)["Kink at the outline"] == MISSED
@@ -88,8 +88,8 @@ def test_nothing_in_the_details_is_green_or_red(sphere: Fairing) -> None:
     lost = replace(sphere.result, converged=False, polished=False, termination="folded")
     details = [check for check in report(replace(sphere, result=lost)).checks if check.detail]
     assert {check.state for check in details} == {TOLD}
-    assert {"Equation solved", "Residual", "Ways tried"} <= {check.name for check in details}
-    (ways,) = (check.value for check in details if check.name == "Ways tried")
+    assert {"Equation solved", "Residual", "Strategies tried"} <= {check.name for check in details}
+    (ways,) = (check.value for check in details if check.name == "Strategies tried")
     assert re.fullmatch(r"direct \d+\.\d\d s", ways)
     assert values(report(replace(sphere, result=lost)))["Equation solved"] == "found, but with folds"
     # The surface exists: less of a bulge is no remedy.
@@ -120,7 +120,7 @@ def test_counts_must_not_grow(
 
 @pytest.mark.parametrize("options", [{"equation": "MINIMAL"}, {"factor": 0.5}])
 def test_a_soap_film_and_a_blend_promise_no_smooth_join(sphere: Fairing, options: dict[str, Any]) -> None:
-    assert "Kink at the outline" not in states(report(sphere, **options))
+    assert "Kink at the boundary" not in states(report(sphere, **options))
 
 
 @pytest.mark.parametrize(("distortion", "text"), [(0.0366, "3.7%"), (9.99, "999.0%"), (6.7e9, "> 1000%")])

@@ -38,7 +38,7 @@ def test_the_outline_is_compared_as_far_as_blender_looks(shift: float, axis: int
 
 
 def test_of_two_near_images_the_nearest_is_taken() -> None:
-    """Two vertices of the outline 0.5 NEAR apart: both lie near each other's mirror images."""
+    """Two vertices of the boundary 0.5 NEAR apart: both lie near each other's mirror images."""
     points = grid_points(4)
     points[[10, 14], 1] = 0.5 * NEAR  # left and right ends of the middle row …
     points[[5, 9], 1] = 0.0  # … and of the row below it

@@ -67,4 +67,4 @@ def test_the_shape_does_not_decide() -> None:
     flat = make_patch(grid(8, 0.8)).triangles
     crumpled = grid(8, 0.8, lambda points: points + np.random.default_rng(0).normal(size=points.shape))
     assert np.array_equal(make_patch(crumpled).triangles, flat)
-    assert not np.array_equal(make_patch(crumpled, even=False).triangles, flat)
+    assert not np.array_equal(make_patch(crumpled, by_connectivity=False).triangles, flat)

@@ -87,14 +87,14 @@ def test_a_clean_result_is_good(fine: Evidence) -> None:
 def test_a_hard_edge_that_was_rounded_deserves_a_look(fine: Evidence) -> None:
     verdict = judged(replace(fine, rounded=ints(3, 8)), outline="MENDED")
     assert (verdict.grade, verdict.spots.tolist(), verdict.remedies) == (LOOK, [3, 8], (GROW, AS_SELECTED))
-    assert verdict.reason == "Outline: Smooth has rounded a hard edge outside at 2 vertices: choose As Selected"
+    assert verdict.reason == "Boundary: Smooth has rounded a hard edge outside at 2 vertices: choose As Selected"
 
 
 def test_a_knob_deserves_a_look(fine: Evidence) -> None:
     knob = replace(fine, swollen=ints(7, 4))
     verdict = judged(knob)
     assert (verdict.grade, verdict.spots.tolist(), verdict.remedies) == (LOOK, [7, 4], (GROW, SMOOTH_OUTLINE))
-    assert verdict.reason == "The surface swells to a knob around 2 vertices: another outline may avoid it"
+    assert verdict.reason == "The surface swells to a knob around 2 vertices: another boundary may avoid it"
     for meant in ({"detail": 0.5}, {"equation": "CONSTANT", "bulge": 1.0}, {"factor": 0.5}):
         assert judged(knob, **meant).grade == GOOD, meant
 
@@ -131,7 +131,7 @@ def test_an_outline_on_a_slope_deserves_a_look_and_offers_the_way_over_it(fine: 
         spots = fine.problem.patch.vertices[outline].tolist()
         assert (verdict.grade, verdict.spots.tolist(), verdict.rings) == (LOOK, spots, 4)
         assert verdict.remedies == (GROW_OVER, GROW, SMOOTH_OUTLINE)
-        assert verdict.reason.startswith(f"The outline is on the slope of a {kind}, so that the {kind} stays")
+        assert verdict.reason.startswith(f"The boundary is on the slope of a {kind}, so that the {kind} stays")
         for meant in ({"detail": 0.5}, {"equation": "CONSTANT", "bulge": 1.0}, {"factor": 0.5}):
             assert judged(sloped, **meant).grade == GOOD, meant
     assert judged(fine).rings == 1
@@ -214,7 +214,7 @@ def test_a_loft_that_lets_slopes_go_deserves_a_look(fine: Evidence) -> None:
     told = fairing.Diagnostic("NO_SOLUTION", "", np.array([2, 4], np.int32), "vertex", {"loft": 1.0, "kinks": 2.0})
     verdict = judged(replace(fine, result=replace(fine.result, warnings=(told,))))
     assert verdict.grade == LOOK
-    assert "2 vertices of the outline" in verdict.reason
+    assert "2 vertices of the boundary" in verdict.reason
     assert verdict.spots.tolist() == fine.problem.vertices[[2, 4]].tolist()
 
 
@@ -231,7 +231,7 @@ def test_a_smooth_loft_deserves_a_look_where_it_bends_most(fine: Evidence) -> No
     points[spike] *= 1.2
     verdict = judged(replace(with_warning(fine, "NO_SOLUTION", ints(), loft=1.0), points=points))
     assert verdict.grade == LOOK
-    assert "loft" in verdict.reason and "substitute" in verdict.reason
+    assert "loft" in verdict.reason and "stand-in" in verdict.reason
     around = patch.vertices[np.unique(patch.triangles[(patch.triangles == spike).any(axis=1)])]
     assert 0 < len(verdict.spots) <= 0.05 * len(patch.free) + 1
     assert set(verdict.spots) <= set(around)
@@ -247,7 +247,7 @@ def test_a_smoothed_shape_deserves_a_look(fine: Evidence) -> None:
 def test_good_is_only_what_was_asked_for(fine: Evidence) -> None:
     verdict = judged(with_warning(fine, "G2_NOT_MET", ints(4, 2)), continuity="G2")
     assert (verdict.grade, verdict.spots.tolist()) == (LOOK, fine.problem.vertices[[4, 2]].tolist())
-    assert verdict.reason == "The curvature outside is not continued at 2 vertices of the outline, as was asked for"
+    assert verdict.reason == "The curvature outside is not continued at 2 vertices of the boundary, as was asked for"
     for skin in ("old_skin", "sample_skin"):
         verdict = judged(with_warning(fine, "REFERENCE_UNUSABLE", ints(), **{skin: 1.0}), detail=1.0)
         assert (verdict.grade, verdict.reason) == (
@@ -268,7 +268,7 @@ def test_on_a_new_mesh_the_engines_numbers_are_those_of_the_mesh_that_it_solved(
 def test_the_tip_of_a_needle_deserves_a_look(fine: Evidence) -> None:
     told = fairing.Diagnostic("PINS_NOT_SPREAD", "", np.array([3], np.int32), "vertex", {"tips": 1.0})
     verdict = judged(replace(fine, result=replace(fine.result, warnings=(told,))))
-    assert (verdict.grade, verdict.reason) == (LOOK, "The surface comes to a point at 1 pinned vertex")
+    assert (verdict.grade, verdict.reason) == (LOOK, "The surface forms a spike at 1 pinned vertex")
     assert verdict.spots.tolist() == fine.problem.vertices[[3]].tolist()
 
 
@@ -315,7 +315,7 @@ def test_a_hard_edge_that_was_eaten_deserves_a_look(fine: Evidence) -> None:
     assert judged(kinked).spots.tolist() == [3, 8, 9, 7]
     steep = replace(running, join=Join(ints(7, 8, 9), np.array([12.5, 3.0, 41.0]), ints(2, 0)))
     assert judged(steep).reason == (
-        "A kink shows at 2 vertices of the outline, of 41° at worst, and hard edges were rounded off at 2 vertices"
+        "A kink shows at 2 vertices of the boundary, of 41° at worst, and hard edges were rounded off at 2 vertices"
     )
     assert judged(steep).spots.tolist() == [9, 7, 3, 8]
     marked = replace(fine, eaten=Eaten(running_on=ints(3, 8), marked=ints(4)))
@@ -331,11 +331,11 @@ def test_a_kink_deserves_a_look_at_its_vertices(fine: Evidence) -> None:
     kinked = replace(fine, join=Join(ints(7, 8, 9), np.array([12.5, 3.0, 31.0]), ints(2, 0)))
     verdict = judged(kinked)
     assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [9, 7])
-    assert verdict.reason == "A kink shows at 2 vertices of the outline, of 31° at worst"
+    assert verdict.reason == "A kink shows at 2 vertices of the boundary, of 31° at worst"
     assert verdict.remedies == (GROW, SMOOTH_OUTLINE)
     turned = replace(fine, join=Join(ints(7, 8), np.array([12.5, 105.9]), ints(1, 0)))
     assert judged(turned).reason == (
-        "The surface turns back from the slope around it at 2 vertices of the outline, by 106°"
+        "The surface turns back from the slope around it at 2 vertices of the boundary, by 106°"
     )
     assert judged(kinked, equation="MINIMAL").grade == GOOD
     assert judged(kinked, factor=0.5).grade == GOOD
@@ -360,7 +360,7 @@ def test_needles_in_a_plane_are_not_seen(fine: Evidence) -> None:
 @pytest.mark.parametrize(
     ("ending", "steps", "told"),
     [
-        ("stalled", 0, "the search found no way to begin"),
+        ("stalled", 0, "no initial surface was found"),
         ("stalled", 14, "the search came to a halt"),
         ("iteration_limit", 20, "it was not there after the 20 steps that Iterations allows"),
     ],

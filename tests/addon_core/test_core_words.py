@@ -57,13 +57,13 @@ def test_a_skin_that_was_left_out_is_told_with_its_place() -> None:
 def test_a_curvature_that_is_not_met_is_told_with_its_share_and_why() -> None:
     """The figures of several islands are added."""
     of = {"vertices": 2.0, "outline_vertices": 5.0}
-    whys = {"smooth_share": "noise", "not_found": "converge", "own_mesh": "uneven", "no_tangent_join": "no surface"}
+    whys = {"smooth_share": "noise", "not_found": "converge", "own_mesh": "irregular", "no_tangent_join": "no surface"}
     for figure, why in whys.items():
         (text,) = told(diagnostic("G2_NOT_MET", [0, 1], **of, **{figure: 0.4}))
-        assert text.startswith("2 of the outline's 5 vertices are met in slope only")
+        assert text.startswith("2 of the boundary's 5 vertices are met in slope only")
         assert why in text.lower()
     (text,) = told(*2 * [diagnostic("G2_NOT_MET", [0, 1], **of)])
-    assert text.startswith("4 of the outline's 10 vertices")
+    assert text.startswith("4 of the boundary's 10 vertices")
     assert "three rings" in text
 
 
@@ -75,18 +75,20 @@ def test_triangles_are_counted_by_their_faces_and_edges_by_the_meshs_vertices() 
         "The surface was found, but 1 face can't be placed on it without folds",
     )
     assert told(diagnostic("NO_SOLUTION", [0, 1, 2], free_vertices=3.0, harmonic=1.0)) == (
-        "No harmonic surface fits these outlines: even curvature was used",
+        "No harmonic surface fits the boundary: Least Variation was used",
     )
     assert told(diagnostic("NO_SOLUTION", [0, 2], free_vertices=3.0, harmonic=1.0, loft=1.0, kinks=2.0)) == (
-        "No fair surface fits these outlines: they were joined by a loft, with a kink at 2 outline vertices",
+        "No fair surface fits these boundary loops: a loft joins them, with a kink at 2 vertices",
     )
     assert told(diagnostic("NO_SOLUTION", [0, 1, 2], free_vertices=3.0, harmonic=1.0, loft=1.0)) == (
-        "No fair surface fits these outlines: they were joined by a loft",
+        "No fair surface fits these boundary loops: a loft joins them",
     )
     assert told(diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0, worse=1.0)) == (
-        "Outline: Smooth was left out: with 2 outline vertices moved, the result is worse",
+        "Boundary: Smooth was left out: with 2 boundary vertices moved, the result is worse",
     )
-    assert told(diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0)) == ("2 vertices of a noisy outline keep their place",)
+    assert told(diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0)) == (
+        "2 vertices of a noisy boundary keep their place",
+    )
     edge = refusal(found(diagnostic("NONMANIFOLD_EDGE", [4, 1, 0, 2], edges=2.0), ORIGIN))
     assert "the edge 50–20" in str(edge)
     assert edge.elements.tolist() == [10, 20, 30, 50]
@@ -114,11 +116,10 @@ def test_warnings_of_several_islands_are_one() -> None:
         diagnostic("PRECISION", [], spacing=2e-3, edge=1e-2),
     ) == (
         "2 faces of the result are turned over (2 islands)",
-        "The normals along the outline turn by up to 31° from one vertex to the next; "
-        "a finer outline gives a more accurate surface (2 islands)",
+        "The normals along the boundary turn by up to 31° from one vertex to the next; "
+        "a finer boundary gives a more accurate surface (2 islands)",
         "No fair surface was found for 2 islands, of 75 free vertices in all",
-        "This far from the origin, coordinates can't be told apart finely enough: move the object nearer to it "
-        "(2 islands)",
+        "This far from the origin, coordinates are too coarse: move the object nearer to it (2 islands)",
     )
 
 
@@ -133,7 +134,7 @@ def test_cases_of_one_code_are_told_apart_by_their_figures() -> None:
         "2 islands, of 131 free vertices in all, have surfaces with 75% of their bulge at most; "
         "there may be none with more",
         "No fair surface was found for an island of 3 free vertices",
-        "The way to spread vertices turns faces over here: they were spread evenly instead",
+        "Spread Vertices would turn faces over here: Uniform was used instead",
     )
 
 

@@ -13,11 +13,9 @@ from extension import module
 
 DOCS = Path(__file__).parents[2] / "docs"
 README = Path(__file__).parents[2] / "README.md"
-PAGES = ("blender.md", "user_guide.md")
 EXAMPLES = [
-    pytest.param(code, id=f"{page} {number}")
-    for page in PAGES
-    for number, code in enumerate(re.findall(r"```python\n(.*?)```", (DOCS / page).read_text(), re.DOTALL))
+    pytest.param(code, id=f"example {number}")
+    for number, code in enumerate(re.findall(r"```python\n(.*?)```", (DOCS / "blender.md").read_text(), re.DOTALL))
 ]
 
 

@@ -82,7 +82,7 @@ def test_a_bridge_over_an_elbow_keeps_its_girth() -> None:
             assert (report.verdict, shape) == ("LOOK", [])
             assert report.reason.startswith("The tube narrows to 8"), report.reason
         else:
-            assert (report.verdict, shape, report.warnings) == ("GOOD", ["Even Curvature"], "")
+            assert (report.verdict, shape, report.warnings) == ("GOOD", ["Least Variation"], "")
         meshes.leave()
         new = meshes.positions(obj)[count:]
         section = new[np.abs((new - middle) @ normal) < 0.05]
@@ -492,7 +492,7 @@ def test_a_seam_of_colours_begins_with_the_mean_and_is_told(capfd: pytest.Captur
     assert values[:old].tolist() == sides
     assert ((values[old:] >= 0.0) & (values[old:] <= 1.0)).all()
     assert (values[old:] == 0.5).any()
-    assert "2 vertices of the outline lie where colours of two faces differ" in "".join(capfd.readouterr())
+    assert "2 vertices of the boundary lie where colours of two faces differ" in "".join(capfd.readouterr())
 
 
 def test_custom_normals_outside_stay_and_new_corners_have_none() -> None:
@@ -526,7 +526,7 @@ def test_the_report_tells_of_a_fill() -> None:
     assert int(checks["New faces"]) > 0
     assert "Surfaces" not in checks  # there is one
     assert checks["Kinks show from"] == "11°"  # as far as the faces of the sphere around bend
-    assert checks["Kink at the outline"].startswith("≤ ")
+    assert checks["Kink at the boundary"].startswith("≤ ")
     assert 0.0 < report.distortion < 0.5
     assert checks["Texture distortion"] == f"{report.distortion:.1%}"
 
@@ -543,7 +543,7 @@ def inside_new(obj: bpy.types.Object) -> Any:
 def test_all_rims_of_two_tubes_are_too_many_to_bridge() -> None:
     obj = tubes()
     select_vertices(obj, lambda _: True)
-    refused("joins all 4 selected outlines.*select only those that belong together", bridge=True)
+    refused("joins all 4 selected boundary loops.*select only those that belong together", bridge=True)
 
 
 def test_escape_leaves_the_hole_open() -> None:

@@ -97,7 +97,7 @@ def test_islands_of_a_run_are_told_once() -> None:
     meshes.move(obj, points)
     faces = meshes.faces_where(obj, lambda c: 0.15 < abs(c.x) < 0.8 and 0.15 < abs(c.y) < 0.8)
     meshes.select(obj, faces)
-    said = [text for text in told(obj, accept="ALL") if text.startswith("The normals along the outline turn")]
+    said = [text for text in told(obj, accept="ALL") if text.startswith("The normals along the boundary turn")]
     assert len(said) == 1
     assert said[0].endswith("(4 islands)")
 

@@ -73,6 +73,6 @@ def test_surroundings_wound_the_other_way_round() -> None:
     flip_lower_half(obj)
     text = warnings_of(obj, upper)
     assert "wound against each other" in text
-    assert "48 outline edges" in text
+    assert "48 boundary edges" in text
     # and the surface is the right one all the same
     assert off_sphere(meshes.positions(obj)) < BOUND[48]

@@ -48,7 +48,7 @@ def test_report_of_a_restored_hemisphere() -> None:
     assert meshes.report().verdict == "GOOD"
     assert [name for name in found if not details()[name]] == [
         "Shape",
-        "Kink at the outline",
+        "Kink at the boundary",
         "Kinks show from",
         "Folded faces",
         "Faces that cross",
@@ -57,7 +57,7 @@ def test_report_of_a_restored_hemisphere() -> None:
     ]
     assert found["Shape"] == ("Harmonic", "TOLD")
     assert found["Equation solved"] == ("yes", "TOLD")
-    assert found["Kink at the outline"][1] == "MET"
+    assert found["Kink at the boundary"][1] == "MET"
     # H = −1 inside and out: the maximum principle is met with equality
     inside, outline = map(float, re.split(" [≤>] ", found["Curvature inside"][0]))
     assert inside == pytest.approx(1.0, abs=5e-3)
@@ -76,7 +76,7 @@ def test_kink_of_a_soap_film_is_no_fault() -> None:
     obj, faces = meshes.domed_grid()
     meshes.fair(obj, faces, equation="MINIMAL")
     assert meshes.report().verdict == "GOOD"
-    assert "Kink at the outline" not in checks()
+    assert "Kink at the boundary" not in checks()
 
 
 def crossings() -> str:

@@ -188,7 +188,7 @@ def test_pins_of_a_group_and_hidden_faces_hold_in_the_band() -> None:
 @pytest.mark.parametrize(
     ("options", "text"),
     [
-        ({"outline": "MENDED"}, "Outline: Smooth"),
+        ({"outline": "MENDED"}, "Boundary: Smooth"),
         ({"continuity": "G2"}, "Join: Curvature"),
         ({"mesh": "NEW"}, "choose Mesh: Keep"),
     ],
@@ -260,7 +260,7 @@ def test_scripts_name_the_group_too() -> None:
         ({"factor_group": "Missing"}, "Factor Group: there is no vertex group named 'Missing'"),
         ({"factor_mask": "USED"}, "Sculpt Mask: nothing is masked"),
         ({"factor_group": "None"}, "leave every vertex of the selection where it is"),
-        ({"factor_group": "Soft", "outline": "MENDED"}, "Outline: Smooth"),
+        ({"factor_group": "Soft", "outline": "MENDED"}, "Boundary: Smooth"),
         ({"factor_group": "Soft", "mesh": "NEW"}, "choose Mesh: Keep"),
     ],
 )

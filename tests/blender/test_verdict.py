@@ -98,7 +98,7 @@ def test_grow_by_a_ring() -> None:
 
 
 def thorn(height: float = 0.06) -> tuple[bpy.types.Object, Any]:
-    """Return a plain with one vertex of the outline standing up: a kink is left there."""
+    """Return a plain with one vertex of the boundary standing up: a kink is left there."""
     obj = meshes.grid(24)
     points = meshes.positions(obj)
     points[np.linalg.norm(points[:, :2] - [-0.5, 0.0], axis=1).argmin(), 2] = height
@@ -167,7 +167,7 @@ def test_automatic_keeps_no_texture_that_folds(aside: float) -> None:
         meshes.leave()
         results[choice] = meshes.positions(obj).tobytes()
     folds = aside > 0.1
-    assert ("spread evenly instead" in meshes.report().warnings) == folds
+    assert ("Uniform was used instead" in meshes.report().warnings) == folds
     assert (results["AUTOMATIC"] == results["UNIFORM"]) == folds
 
 
@@ -185,7 +185,7 @@ def test_automatic_refuses_where_even_vertices_are_not_usable_either(monkeypatch
     with pytest.raises(RuntimeError, match="folded over, at 1 pinned vertex"):
         meshes.run(pin_group="Pin")
     assert tried == ["AUTOMATIC", "UNIFORM"]
-    assert "spread evenly instead" not in meshes.report().warnings
+    assert "Uniform was used instead" not in meshes.report().warnings
     meshes.leave()
 
 
@@ -236,7 +236,7 @@ def test_another_way_that_is_no_better_is_not_written() -> None:
 
 
 def test_the_region_is_selected_again() -> None:
-    """After the spots of a run and after Select Bad Outline."""
+    """After the spots of a run and after Select Bad Boundary."""
     obj, faces = thorn()
     meshes.select(obj, faces)
     meshes.edit(obj)
@@ -279,7 +279,7 @@ def test_a_changed_mesh_is_not_faired_again() -> None:
 
 
 def test_worst_spots_are_the_kinks() -> None:
-    """One vertex of the outline stands out of a plane: a kink is left there, and nowhere else."""
+    """One vertex of the boundary stands out of a plane: a kink is left there, and nowhere else."""
     obj, faces = thorn()
     points = meshes.positions(obj)
     meshes.fair(obj, faces)
@@ -423,7 +423,7 @@ def test_a_hard_edge_that_smoothing_rounds_is_told() -> None:
     meshes.fair(obj, faces, outline="MENDED")
     report = meshes.report()
     assert report.verdict == "LOOK"
-    assert report.reason.startswith("Outline: Smooth has rounded a hard edge outside")
+    assert report.reason.startswith("Boundary: Smooth has rounded a hard edge outside")
     assert "AS_SELECTED" in report.remedies
     assert np.abs(meshes.positions(obj) - before)[~meshes.free_vertices(obj, faces)].max() > 0.0
 

@@ -1,4 +1,4 @@
-"""Edges of an outline that touch or cross each other, and vertices that lie on its edges or on each other."""
+"""Edges of a boundary that touch or cross each other, and vertices that lie on its edges or on each other."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from fairing._types import FloatArray, IntArray
 
-_TOUCHING = 1e-9  # of the outline's extent
+_TOUCHING = 1e-9  # of the boundary's extent
 _ON_EDGE = 1e-5  # of an edge: what single precision leaves where coordinates are as large as a hundred edges
 _TINY = 1e-300
 
@@ -28,7 +28,7 @@ def crossing_edges(loops: Sequence[IntArray], vertices: FloatArray) -> IntArray:
 
 @dataclass(frozen=True)
 class Touches:
-    """Where vertices of an outline lie on others of its edges or vertices."""
+    """Where vertices of a boundary lie on others of its edges or vertices."""
 
     on_edges: IntArray
     """(t, 3) the ends of an edge and a vertex that lies on it between them."""

@@ -54,9 +54,9 @@ def fair(
     """Replace the free vertices of a mesh by the fairest surface with the given boundary data.
 
     Solves Δ_B H = 0 (Schneider & Kobbelt 2001, eq. 4) for the positions of all vertices that are not fixed,
-    with prescribed positions and normals at the fixed ones. The interior given is not looked at (conformal
-    weights without ``reference`` and default normals apart). No argument is ever changed. Large arrays are read where
-    they lie: they have to stay as they are during the call.
+    with prescribed positions and normals at the fixed ones. The interior given does not matter, except for
+    conformal weights without ``reference`` and for default normals. No argument is ever changed. Large arrays are not
+    copied: they must stay as they are during the call.
 
     Parameters
     ----------
@@ -79,23 +79,22 @@ def fair(
     equation : "harmonic" | "constant" | "minimal_energy" | "minimal" | "least_variation" | "automatic"
         Δ_B H = 0, Δ_B H = ``load`` or Δ_B H = −2H(H² − K) with tangent planes met (G1), or H = 0 with positions
         met only (G0). See §7.5. "least_variation": the surface whose normal curvatures vary least (G1), which exists
-        between outlines that no harmonic surface joins; docs/least_variation.md. "automatic", decided for each
+        between boundary loops that no harmonic surface joins; docs/least_variation.md. "automatic", decided for each
         component by its boundary alone: "least_variation" between two loops that face each other along a tube of more
         than 2 mean radii, where harmonic surfaces have waists and balloons; "harmonic" elsewhere, with "G2", and with
         ``method`` "paper".
     otherwise : "least_variation" | "stop"
-        What is taken where ``equation`` has no surface that is accepted (method "global", all but "minimal"); one that
-        is accepted is always returned. By default it is that of least variation. Several outlines that have none of it
-        either keep the shape of ``reference``, smoothed as far as it goes, or are joined by a loft where no such shape
-        is known, which may leave the tangent planes given:
-        docs/least_variation.md. ``result.equation`` names what holds, and the warning NO_SOLUTION says so. "stop": the
-        best surface found, not ``converged``. A solve that ran out of fewer than 200 ``max_iterations``, or has part of
-        its load, is never replaced.
+        What stands in where no surface of ``equation`` is accepted (method "global", all but "minimal"); one that is
+        accepted is always returned. The default is the surface of least variation. Where several boundary loops have
+        none either, the shape of ``reference`` is smoothed as far as it goes, or a loft joins them where no such shape
+        is known; it may leave the tangent planes given (docs/least_variation.md). ``result.equation`` and the warning
+        NO_SOLUTION report the stand-in. "stop": the best surface found, not ``converged``. A solve that ran out of
+        fewer than 200 ``max_iterations``, or has part of its load, is never replaced.
     load : float
         Of "constant", in length⁻³; positive bulges along the normals.
     bulge : float
-        Of "constant", by the outline's own size: adds 8 ``bulge`` / a³ to ``load``, for each component (see
-        :func:`fairing.components`) with a the RMS distance of its outline from the outline's centroid. 1 lifts a flat
+        Of "constant", by the boundary's own size: adds 8 ``bulge`` / a³ to ``load``, for each component (see
+        :func:`fairing.components`) with a the RMS distance of its boundary from the boundary's centroid. 1 lifts a flat
         disc by about a quarter of its radius, whatever its size.
     inner_fairness : "uniform" | "conformal" | "inverse_distance" | "shape_preserving" | (e, 3) array
         How vertices sit within the surface (§7.3); rows of the array: i, j, λ_ij ≥ 0, normalised for each i, one
@@ -108,12 +107,12 @@ def fair(
         "paper": levels of the hierarchy, 0: chosen, 1: none. "global": 0 or 1 likewise.
     tolerance : float
         "global": stop when an iteration moves no vertex by more than ``tolerance`` × D, or when the next one would
-        not move any by half of it, by how the steps shrink. "paper": see
-        ``epsilon`` of :class:`fairing.PaperOptions`.
+        move none by more than half of it, judged by how the steps shrink. "paper": see ``epsilon`` of
+        :class:`fairing.PaperOptions`.
     max_iterations : int
         "global": steps of each single iteration on one mesh. A solve consists of several: coarser levels, other
-        starts, and the engine's own mesh where the one given fails. A small number may therefore take longer; only
-        ``progress`` bounds the time. "paper": updates of the finest mesh; coarser ones may take more.
+        initial surfaces, and the engine's own mesh where the one given fails. A small number may therefore take longer;
+        only ``progress`` bounds the time. "paper": updates of the finest mesh; coarser ones may take more.
     normals : "fitted" | "averaged"
         Vertex normal behind H. "paper" always averages.
     threads : int
@@ -124,66 +123,63 @@ def fair(
     paper : PaperOptions
         What only "paper" has: damping, sweeps, acceleration, … (see :class:`fairing.PaperOptions`).
     outline : "given" | "mended"
-        "mended": a noisy outline is moved onto the fit of its surroundings first, and the two rings outside with it, as
-        :func:`fairing.mend_outline` does; the normals there are the fit's. The result names what ``moved``. Where that
-        gives folds, no solution, or a worst ``join`` above 12° that is larger than with the outline as given, the
-        latter is kept (warning OUTLINE_KEPT); both are solved then.
+        "mended": a noisy boundary is first moved onto the fit of its surroundings, with the two rings outside, as by
+        :func:`fairing.mend_outline`; the normals there are the fit's. ``moved`` names what moved. Where the fitted
+        boundary gives folds, no solution, or a worst ``join`` above 12° that is larger than with the given one, both
+        are solved and the given one is kept (warning OUTLINE_KEPT).
     continuity : "G1" | "G2"
         "G2": the surface continues the curvature of its surroundings, too, and Δ_B² H = 0 (docs/joins.md). Where that
-        is not known, or no such surface is found, the tangent join is kept, and the warning G2_NOT_MET says so. For
+        is not known, or no such surface is found, the tangent join is kept, with the warning G2_NOT_MET. For
         ``equation`` "harmonic".
     fixed_curvatures : (k,) float
         Of "G2": mean curvatures H at ``fixed``, in length⁻¹, −1/R on a sphere with outward normals; NaN where the
         curvature is not known. Default: fitted to the triangles outside.
     outside : (o, 3) int
-        Triangles around the patch, which stay: what "mended", "G2", ``detail`` and ``join`` look at. Triangles whose
+        Triangles around the patch, which stay; "mended", "G2", ``detail`` and ``join`` read them. Triangles whose
         corners are all ``fixed`` count among them.
     detail : float
         0 … 1: how much of the detail of ``reference`` is put back on the fair surface. The old patch is split into a
         smooth base and what is left, its detail, which the new surface takes over, turned as the base turns. Vertices
         then sit conformally to the old base, whatever ``inner_fairness`` says. With triangles ``outside`` both bases
-        meet the outline that these would have without their detail; so ``result.base`` does not pass through noise.
-        Normals given that are others than the triangles outside show stay. docs/detail.md.
+        meet the boundary that these would have without their detail, so that ``result.base`` does not pass through
+        noise. Given normals that differ from those of the triangles outside are kept. docs/detail.md.
     detail_size : float
         Shape that repeats within less than this counts as detail: a wavelength as a share of D. 0: twelve mean edges,
         .45 D at most.
     detail_from : (s, 3) int
-        Triangles of ``vertices``, a sample: their detail is put on the surface in place of the old patch's, for one
-        that has none, like a filled hole. Heights are copied from it piece by piece, and meet the outline's own detail.
+        Triangles of ``vertices``, a sample: their detail replaces that of an old patch that has none, like a filled
+        hole. Heights are copied from it piece by piece, and meet the boundary's own detail.
         ``detail_size`` 0 is then twelve mean edges of the sample. Needs ``detail`` above 0; not with ``feather`` or
         ``weights``. Triangles of the patch itself don't count. Vertices lie as ``inner_fairness`` says.
     feather : float
-        Width of a band outside the patch that takes part, as a share of D: the change fades out in it. The join is
-        made round: the base loses what repeats within less than two widths, D/2 at most, all of it at the old outline,
-        less and less on both sides of it, nothing at a width's distance. The detail that ``detail`` leaves out of the
-        band fades in alike. Needs the triangles ``outside``. The result names the vertices of
-        the band as ``moved``; all others keep their bits. docs/detail.md.
+        Width of a band outside the patch in which the change fades out, as a share of D. The join becomes round: the
+        base loses all that repeats within less than two widths (D/2 at most) at the old boundary, less on both sides of
+        it, and nothing at a width's distance. Detail that ``detail`` leaves out fades in likewise. Needs the triangles
+        ``outside``. ``moved`` names the band's vertices; all others keep their bits. docs/detail.md.
     weights : (n,) float
-        In place of ``feather``: the part of the way that each vertex goes, 0 … 1, those inside too. The band is where
+        In place of ``feather``: each vertex's share of its move, 0 … 1, inside too. The band is where
         vertices of ``outside`` have a weight.
     start : "outline" | "given" | "least_variation" | "loft" | "smoothed"
-        "given": begin at the vertices given, which lie near the surface. Where the iteration does not find it from
-        there, within a few steps and without folds, the outline alone decides as always. For all equations but
-        "minimal", and "global"; where conformal weights are those of these same vertices, these move along the normals
-        only.
-        "least_variation", "loft", "smoothed": begin with what is taken in place of the equation's surface, where
-        another solve has shown that it has none, the first at the vertices given; where that is not accepted the
-        outline alone decides.
+        "given": the initial surface is the vertices given, which lie near the solution. Where a few steps do not lead
+        there without folds, the boundary alone decides as always. For all equations but "minimal", and "global".
+        Vertices move along the normals only where conformal weights are those of these same vertices.
+        "least_variation" (from the vertices given), "loft", "smoothed": begin with that stand-in, where another solve
+        has shown that the equation has no surface. Where it is not accepted the boundary alone decides.
     creases : (c,) int
-        Some of the fixed vertices, those at which a crease ends on the outline among them: position only, whatever
+        Some of the fixed vertices, those at which a crease ends on the boundary among them: position only, whatever
         ``fixed_normals`` says there. Each side of a curve of them finds a slope of its own. A component with such a
-        curve is solved as "least_variation", one that is bounded by a single loop of them as "minimal";
-        ``result.equation`` says so. docs/curves.md.
+        curve is solved as "least_variation", one that is bounded by a single loop of them as "minimal", as
+        ``result.equation`` reports. docs/curves.md.
     smooth_curves : (s,) int
-        Some of the fixed vertices: position only, and curves of them are not cut. The surface runs through them with
-        one slope, which it finds, as one of "least_variation".
+        Some of the fixed vertices: position only, and curves of them are not cut. The surface, one of
+        "least_variation", runs through them with one slope that it finds.
     open_border : "held" | "faired"
         "faired": border vertices that are not in ``fixed``, which must be given, don't stay. The border becomes a fair
         curve on a surface of "least_variation" that ends there with a free slope.
     pin_radius : float
         Over which length, as a share of D, a pin lifts or holds the surface: the standard deviation of a Gaussian. 0:
-        in a point, which leaves a dent that sharpens with the mesh. For the harmonic equations and "G1"; where no
-        surface is found with the radius, the pins act in a point, and the warning PINS_NOT_SPREAD says so.
+        in a point, which leaves a dent that sharpens with the mesh. For the harmonic equations and "G1". Where no
+        surface is found with the radius, the pins act in a point, with the warning PINS_NOT_SPREAD.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""``feather`` and ``weights``: a band around the patch takes part, and its vertices go part of the way."""
+"""``feather`` and ``weights``: vertices of a band around the patch move in part."""
 
 from __future__ import annotations
 
@@ -139,7 +139,7 @@ def feather_weights(
 ) -> FloatArray:
     """Return the ``weights`` (n,) that ``feather`` stands for in :func:`fairing.fair`, to be changed by hand.
 
-    1 inside, 1 − s² (3 − 2 s) in the band, s the distance from the outline over the width, 0 beyond. The arguments
+    1 inside, 1 − s² (3 − 2 s) in the band, s the distance from the boundary over the width, 0 beyond. The arguments
     are those of :func:`fairing.fair`; ``feather`` is above 0.
     """
     points = _arguments.floats("vertices", vertices)
@@ -234,7 +234,7 @@ def _part(points: FloatArray, triangles: tuple[IntArray, IntArray], fixed: Marks
 
 
 def _diameter(outline: FloatArray) -> float:
-    """D of a patch with this outline (k, 3)."""
+    """D of a patch with this boundary (k, 3)."""
     return 2.0 * float(np.linalg.norm(outline - outline.mean(axis=0), axis=1).max())
 
 

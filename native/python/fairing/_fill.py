@@ -1,4 +1,4 @@
-"""Surfaces over holes and between outlines."""
+"""Surfaces over holes and between boundary loops."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def fill(
     progress: Progress | None = None,
     **options: Any,
 ) -> FillResult:
-    """Fill holes, or join outlines, with the fairest surface that continues the surroundings.
+    """Fill holes, or join boundary loops, with the fairest surface that continues the surroundings.
 
     The surface does not depend on ``spacing``: it is solved on a mesh that is fine enough, and a coarser mesh is cut
     from it. Vertices and edges given stay as they are. No argument is ever changed.
@@ -57,17 +57,17 @@ def fill(
         warning NOT_A_HOLE name. A loop that no triangle touches has the new surface on its left, seen from the side of
         the normals; it is turned where that leads away from the other loops of a bridge, or outside of a lone loop.
     normals : (n, 3), (Σ k, 3) float, or a list with a (k, 3) for each loop
-        Normals at the outline, of any length but zero; of the vertices, where n is Σ k and they are no list.
+        Normals at the boundary, of any length but zero; of the vertices, where n is Σ k and they are no list.
         Default: :func:`fairing.surrounding_normals`.
     bridge : bool
         False: each loop gets a surface of its own. True: one surface joins all loops, a tube between two, a blend
         between more.
     spacing : float
-        Length of the new edges away from the outline, in the unit of ``vertices``. 0: as the outline's own edges. From
-        the outline, whose edges stay, lengths grow or shrink by a half of the distance.
+        Length of the new edges away from the boundary, in the unit of ``vertices``. 0: that of the boundary's edges,
+        which stay. From there lengths grow or shrink by half of the distance.
     inner : "outline" | "even"
-        "outline": new edges are in proportion to those of the outline around them, and ``spacing`` long in the mean.
-        "even": all are ``spacing`` long; as the outline's mean edge for 0. Default: "outline" for a spacing of 0, else
+        "outline": new edges are in proportion to those of the boundary around them, and ``spacing`` long in the mean.
+        "even": all are ``spacing`` long; as the boundary's mean edge for 0. Default: "outline" for a spacing of 0, else
         "even".
     longest : int
         Without ``loops``: border loops with more edges than that are left open; 0: none.
@@ -75,19 +75,19 @@ def fill(
         More new vertices than that are refused, as soon as a first small surface shows that there would be so many. 0:
         20 times as many as flat surfaces over the loops would have, or 50 000 where that is less, 4 000 000 at most.
     fixed_curvatures : (n,), (Σ k,) float, or a list with a (k,) for each loop
-        Mean curvatures H at the outline, NaN where not known, for ``continuity="G2"``: the surface continues the
+        Mean curvatures H at the boundary, NaN where not known, for ``continuity="G2"``: the surface continues the
         curvature around it, too. Default: fitted to the triangles around.
     progress : callable(fraction, stage) -> None | bool
         As for :func:`fairing.fair`.
     options
-        Those of :func:`fairing.fair` that don't concern the outline: ``equation``, ``load``, ``bulge``, ``continuity``,
-        ``tolerance``, ``max_iterations``, ``threads``, … ``inner_fairness`` is by default that which keeps the
+        Those of :func:`fairing.fair` that don't concern the boundary: ``equation``, ``load``, ``bulge``,
+        ``continuity``, ``tolerance``, ``max_iterations``, ``threads``, … By default ``inner_fairness`` keeps the
         triangles' shapes.
 
     Raises
     ------
     MeshError
-        NOT_A_LOOP, NO_BOUNDARY, NONMANIFOLD_VERTEX (loops that touch or cross, or vertices of one outline in one place
+        NOT_A_LOOP, NO_BOUNDARY, NONMANIFOLD_VERTEX (loops that touch or cross, or vertices of one boundary in one place
         or on its edges), NONMANIFOLD_EDGE (also where the surface would double back onto a triangle that sticks out
         into a loop), NOT_A_HOLE (there are none but outer borders; or one that was named
         lies around a flat sheet, which no surface closes), OUT_OF_PROPORTION (``max_vertices``),
@@ -183,7 +183,7 @@ class Spacing:
 
 @dataclass(frozen=True)
 class Patch:
-    """A mesh to be solved or meshed anew, with its outline and the normals there."""
+    """A mesh to be solved or meshed anew, with its boundary and the normals there."""
 
     vertices: FloatArray
     triangles: IntArray
@@ -267,7 +267,7 @@ _MADE_HERE = ("fixed", "fixed_normals", "reference", "neighbours", "outline", "s
 def refuse_made_here(options: dict[str, Any], progress: Any) -> None:
     for name in _MADE_HERE:
         if name in options:
-            raise ValueError(f"{name}: not accepted here; the mesh and its outline are made by this call")
+            raise ValueError(f"{name}: not accepted here; the mesh and its boundary are made by this call")
     if options.get("equation") == "minimal":
         raise ValueError("equation: 'minimal' has no normals to continue; accepted are the others")
     _options.continuity(
@@ -278,7 +278,7 @@ def refuse_made_here(options: dict[str, Any], progress: Any) -> None:
 
 def spacing_of(value: Any, inner: str | None) -> Spacing:
     if _arguments.finite("spacing", value) < 0:
-        raise ValueError(f"spacing: a length, or 0 for that of the outline's edges, is needed, not {value!r}")
+        raise ValueError(f"spacing: a length, or 0 for that of the boundary's edges, is needed, not {value!r}")
     chosen = ("even" if value else "outline") if inner is None else inner
     return Spacing(float(value), _arguments.choice("inner", chosen, INNER) == "even")
 

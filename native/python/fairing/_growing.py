@@ -1,4 +1,4 @@
-"""Growing a selection over the bad vertices of its outline."""
+"""Growing a selection over the bad vertices of its boundary."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class _Mesh:
         return outline
 
     def grown(self, selected: Mask) -> Mask | None:
-        """With the faces at the bad vertices of the outline; None where there are none, or the outline would differ."""
+        """With the faces at the boundary's bad vertices; None where there are none, or the boundary would differ."""
         bad = bad_outline(self.vertices, self.triangles[~selected], self.outline(selected))
         touched = np.isin(self.triangles, bad).any(axis=1) & ~selected
         result = selected | np.isin(self.faces, self.faces[touched])
@@ -79,7 +79,7 @@ def grown_outline(
     rounds: int = 3,
     **options: Any,
 ) -> GrownOutline:
-    """Fair a selection, and larger ones that leave the bad vertices of its outline inside; keep the best.
+    """Fair a selection, and larger ones that leave the bad vertices of its boundary inside; keep the best.
 
     Each round adds the faces outside the vertices that :func:`bad_outline` names, as long as there are some and no new
     outline comes of it. Kept is the round that converges, has no folds, shows no kink (``join`` above
@@ -87,7 +87,7 @@ def grown_outline(
     ``boundary_angle``, in this order.
 
     triangles (m, 3): the whole mesh; selected (m,) bool; faces (m,): the polygon of each triangle, none of which is
-    divided; rounds: three at most are useful; options: those of :func:`fairing.fair` that don't concern the outline.
+    divided; rounds: three at most are useful; options: those of :func:`fairing.fair` that don't concern the boundary.
     """
     points = _arguments.floats("vertices", vertices)
     whole = _arguments.triangles_within(triangles, points.shape[0])

@@ -1,4 +1,4 @@
-"""``continuity="G2"``: the mean curvatures that a surface has to meet at its outline."""
+"""``continuity="G2"``: the mean curvatures that a surface has to meet at its boundary."""
 
 from __future__ import annotations
 

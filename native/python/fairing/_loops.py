@@ -108,8 +108,8 @@ def given_loops(loops: Any, vertices: FloatArray, triangles: IntArray) -> Outlin
     inside = [_arguments.indices_within("loops", loop, len(vertices)) for loop in named]
     sides = _directed_edges(triangles, len(vertices))
     sense = [_sense(loop, sides, len(vertices)) for loop in inside]
-    oriented = (loop[::-1].copy() if way > 0 else loop for loop, way in zip(inside, sense, strict=True))
-    return Outline(tuple(oriented), tuple(way > 0 for way in sense), tuple(way == 0 for way in sense))
+    oriented = (loop[::-1].copy() if sign > 0 else loop for loop, sign in zip(inside, sense, strict=True))
+    return Outline(tuple(oriented), tuple(sign > 0 for sign in sense), tuple(sign == 0 for sign in sense))
 
 
 def check(outline: Outline, vertices: FloatArray, joined: bool) -> None:
@@ -138,7 +138,7 @@ def check(outline: Outline, vertices: FloatArray, joined: bool) -> None:
         _refuse_touches(loops, vertices)
         crossing = np.unique(crossing_edges(loops, vertices))
         if len(crossing):
-            text = f"edges of an outline cross each other at {listed(crossing)}: move them apart"
+            text = f"edges of a boundary cross each other at {listed(crossing)}: move them apart"
             _refuse("NONMANIFOLD_VERTEX", text, crossing, crossing=float(len(crossing)))
 
 
@@ -148,7 +148,7 @@ def _refuse_pinch(what: str, twice: IntArray) -> None:
 
 
 def _refuse_touches(loops: Sequence[IntArray], vertices: FloatArray) -> None:
-    """MeshError where vertices of one surface's outline lie on its edges, or on each other."""
+    """MeshError where vertices of one surface's boundary lie on its edges, or on each other."""
     found = touches(loops, vertices)
     if len(found.on_edges):
         edge, on_edge = found.on_edges[0, :2], found.on_edges[:, 2]
@@ -156,15 +156,15 @@ def _refuse_touches(loops: Sequence[IntArray], vertices: FloatArray) -> None:
         lying = float(len(np.unique(on_edge)))
         what, them = ("lies on its", "it") if len(here) == 1 else ("lie on its", "them")
         more = f" ({lying:.0f} on edges in all)" if lying > len(here) else ""
-        text = f"{listed(here)} of an outline {what} edge {edge[0]}-{edge[1]}{more}: dissolve {them}"
+        text = f"{listed(here)} of a boundary {what} edge {edge[0]}-{edge[1]}{more}: dissolve {them}"
         figures = {"on_edge" if lying == 1.0 else "on_edges": lying}
         _refuse(
             "NONMANIFOLD_VERTEX", f"{text}, or split that edge there and merge", np.append(edge, on_edge), **figures
         )
     meeting = np.unique(found.pairs)
     if len(meeting):
-        advice = "merge them where the mesh is torn, move them apart where the outline touches itself"
-        text = f"an outline passes through one place several times, with {listed(meeting)}: {advice}"
+        advice = "merge them where the mesh is torn, move them apart where the boundary touches itself"
+        text = f"a boundary passes through one place several times, with {listed(meeting)}: {advice}"
         _refuse("NONMANIFOLD_VERTEX", text, meeting, meeting=float(len(meeting)))
 
 
@@ -198,10 +198,10 @@ def loop_normals(normals: Any, outline: Outline, vertices: FloatArray, triangles
 def _check_across(normals: FloatArray, outline: Outline, vertices: FloatArray) -> None:
     """ValueError where most of the unit normals lie along the outline: they belong to other vertices."""
     along = [np.roll(vertices[loop], -1, axis=0) - np.roll(vertices[loop], 1, axis=0) for loop in outline.loops]
-    ways = np.concatenate(along)
-    wrong = np.abs((normals * ways).sum(axis=1)) > np.sqrt(0.5) * np.linalg.norm(ways, axis=1)
+    tangents = np.concatenate(along)
+    wrong = np.abs((normals * tangents).sum(axis=1)) > np.sqrt(0.5) * np.linalg.norm(tangents, axis=1)
     if 2 * wrong.sum() > len(normals):
-        text = f"normals: {wrong.sum()} of {len(normals)} point along the outline, not across it"
+        text = f"normals: {wrong.sum()} of {len(normals)} point along the boundary, not across it"
         raise ValueError(f"{text}: are the rows in the order of the vertices, or of the loops as they were named?")
 
 
@@ -268,8 +268,8 @@ def listed(indices: IntArray) -> str:
 
 
 def _refuse(code: str, text: str, elements: IntArray, **figures: float) -> None:
-    told = {"vertices": float(len(elements)), **figures}
-    raise MeshError(Diagnostic(code, text, np.asarray(elements, np.int32), "vertex", told))
+    figures = {"vertices": float(len(elements)), **figures}
+    raise MeshError(Diagnostic(code, text, np.asarray(elements, np.int32), "vertex", figures))
 
 
 def check_doubles(new: IntArray, triangles: IntArray) -> None:

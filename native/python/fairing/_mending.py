@@ -1,4 +1,4 @@
-"""``outline="mended"``: solve with the outline moved onto the fit of its surroundings, or with the one given."""
+"""``outline="mended"``: solve with the boundary moved onto the fit of its surroundings, or with the one given."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Surroundings:
     def of(cls, vertices: FloatArray, triangles: IntArray, fixed: IntArray | None, given: Any) -> Surroundings:
         """Outside are the triangles ``given``; without these those of the patch's whose corners are all fixed.
 
-        None are where that leaves most fixed vertices without any: single triangles at the outline's corners.
+        None are where that leaves most fixed vertices without any: single triangles at the boundary's corners.
         """
         if given is not None:
             named = _arguments.integers("outside", given, 3)
@@ -77,7 +77,7 @@ def refuse_creases(creases: Any, around: Surroundings) -> None:
     ends = np.intersect1d([] if creases is None else creases, around.rim)
     if len(ends):
         raise ValueError(
-            f"outline: 'mended' can't follow creases outside, and {len(ends)} of `creases` lie on the outline, "
+            f"outline: 'mended' can't follow creases outside, and {len(ends)} of `creases` lie on the boundary, "
             f"vertex {int(ends[0])} among them: pass outline 'given', or leave `creases` out"
         )
 
@@ -85,9 +85,9 @@ def refuse_creases(creases: Any, around: Surroundings) -> None:
 def solve_mended(
     call: Callable[[Boundary], Answer], given: Boundary, triangles: IntArray, around: Surroundings
 ) -> Answer:
-    """The better of both answers: the mended outline's, unless the given one is solved, or folds less, or joins better.
+    """The better answer: the fitted boundary's, unless the given one is solved, or folds less, or joins better.
 
-    The given one is asked for only where the mended one leaves something to be wished for.
+    The given one is solved only where the fitted one has a fault.
     """
     if not len(around.rim):
         raise ValueError(
@@ -103,9 +103,9 @@ def solve_mended(
         kept = call(given)
         if _worth(kept, around) > worth:
             why = "its mended place gives folds, a larger kink or no solution"
-            return _told(kept, mended["moved"], why, worse=1.0)
+            return _reported(kept, mended["moved"], why, worse=1.0)
     answer["moved"] = mended["moved"]
-    return _told(answer, mended["held"], "moving it would turn triangles over")
+    return _reported(answer, mended["held"], "moving it would turn triangles over")
 
 
 def _moved(given: Boundary, triangles: IntArray, rim: IntArray, mended: Answer) -> Boundary:
@@ -139,11 +139,11 @@ def _folds(answer: Answer) -> int:
     return sum(len(warning.elements) for warning in answer["warnings"] if warning.code in FOLDS)
 
 
-def _told(answer: Answer, vertices: IntArray, why: str, **figures: float) -> Answer:
+def _reported(answer: Answer, vertices: IntArray, why: str, **figures: float) -> Answer:
     if len(vertices):
-        text = f"{len(vertices)} vertices of a noisy outline keep their place: {why}"
-        told = {"vertices": len(vertices), **figures}
-        answer["warnings"] += (Diagnostic("OUTLINE_KEPT", text, vertices, "vertex", told),)
+        text = f"{len(vertices)} vertices of a noisy boundary keep their place: {why}"
+        figures = {"vertices": len(vertices), **figures}
+        answer["warnings"] += (Diagnostic("OUTLINE_KEPT", text, vertices, "vertex", figures),)
     return answer
 
 

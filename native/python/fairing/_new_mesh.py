@@ -22,7 +22,7 @@ class NewMeshResult:
     mean_curvature: FloatArray
     """(k,) H at the new vertices."""
     fixed: IntArray
-    """(k',) the outline's vertices."""
+    """(k',) the boundary's vertices."""
     boundary_angle: FloatArray
     """(k',) degrees between prescribed and obtained normals, in the order of ``fixed``."""
     join: FloatArray

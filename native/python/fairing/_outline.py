@@ -1,4 +1,4 @@
-"""The outline of a patch: what its surroundings say about it."""
+"""The boundary of a patch: what its surroundings say about it."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class VisibleJoin(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class _OutlineNormals:
-    """Normals along an outline, fitted to the triangles outside it. All arrays are read-only."""
+    """Normals along a boundary, fitted to the triangles outside it. All arrays are read-only."""
 
     normals: FloatArray
     """(k, 3) unit normals; rows of zeros where no triangle is adjacent."""
@@ -63,16 +63,16 @@ class SurroundingNormals(_OutlineNormals):
 
 @dataclass(frozen=True, eq=False)
 class MendedOutline(_OutlineNormals):
-    """A noisy outline, moved onto the fit of its surroundings. All arrays are read-only."""
+    """A noisy boundary, moved onto the fit of its surroundings. All arrays are read-only."""
 
     vertices: FloatArray
     """(n, 3) positions; vertices that are not in ``moved`` keep their bits."""
     moved: IntArray
-    """Vertices that were moved, ascending: of the outline and the two rings outside."""
+    """Vertices that were moved, ascending: of the boundary and the two rings outside."""
     held: IntArray
     """Vertices that stay although the fit lies elsewhere: the move would turn triangles over."""
     noise: float
-    """Median distance of the vertices near the outline from their fits, in edges. Below 0.02 nothing is moved."""
+    """Median distance of the vertices near the boundary from their fits, in edges. Below 0.02 nothing is moved."""
 
 
 def _bounded(
@@ -92,13 +92,13 @@ def surrounding_normals(
 ) -> SurroundingNormals:
     """Normals at the vertices ``at`` of the surface that ``triangles`` alone form.
 
-    Made for the outline of a patch: ``triangles`` are those outside it. A polynomial is fitted to the nearest
-    of their vertices, a few rings wide; fits along the outline are reconciled with each other. Rows of vertices without
-    any of these triangles are zero, as along a border of the whole mesh: leave them out of ``fixed`` and
+    For the boundary of a patch: ``triangles`` are those outside it. A polynomial is fitted to the nearest of their
+    vertices, a few rings wide; a filter reconciles the fits along the boundary. Rows of vertices without any of these
+    triangles are zero, as along a border of the whole mesh: leave them out of ``fixed`` and
     ``fixed_normals``, where a normal of length zero is refused. Triangles with a corner that is NaN or infinite are
     left out.
 
-    ``creases``: (c, 2) edges along which the surface is broken. A fit looks at its own side alone. Where several sides
+    ``creases``: (c, 2) edges along which the surface is broken. A fit uses its own side alone. Where several sides
     meet in a vertex of ``at``, one of them is taken: such vertices belong to ``creases`` of :func:`fairing.fair`.
     """
     points, faces, where = _bounded(vertices, ("triangles", triangles), ("at", at))
@@ -111,19 +111,19 @@ def bad_outline(vertices: npt.ArrayLike, outside: npt.ArrayLike, outline: npt.Ar
     """Vertices of ``outline`` whose surroundings say little about the surface, in the order of ``outline``.
 
     There the standard error of the normal that is fitted to the triangles ``outside`` is above 0.15 rad and four times
-    the outline's median, or the vertex lies off its fit by more than 0.3 edges and four times the median: one vertex in
-    a fold is bad, noise everywhere is not. 15 % of the outline at most. Select the faces outside them, too, and fair
-    again.
+    the boundary's median, or the vertex lies off its fit by more than 0.3 edges and four times the median. One vertex
+    in a fold is bad, noise everywhere is not; 15 % of the boundary at most are. Select the faces outside them, too,
+    and fair again.
     """
     return _core.bad_outline(*_bounded(vertices, ("outside", outside), ("outline", outline)))
 
 
 def mend_outline(vertices: npt.ArrayLike, outside: npt.ArrayLike, outline: npt.ArrayLike) -> MendedOutline:
-    """Move a noisy outline onto the surface that the triangles outside it suggest.
+    """Move a noisy boundary onto the surface that the triangles outside it suggest.
 
-    The vertices of ``outline`` go onto their fits, those of the two rings outside by two thirds and one third of the
-    way, all by no more than a quarter of their edges' mean length. Nothing moves where the noise is less than 0.02
-    edges. Moves that would turn a triangle over are left out (``held``). No argument is changed.
+    The vertices of ``outline`` go onto their fits, those of the two rings outside by two thirds and one third of
+    the distance, all by no more than a quarter of their edges' mean length. Nothing moves where the noise is less than
+    0.02 edges. Moves that would turn a triangle over are left out (``held``). No argument is changed.
     """
     points, faces, where = _bounded(vertices, ("outside", outside), ("outline", outline))
     return MendedOutline(**_core.mend_outline(points, faces, where))

@@ -41,7 +41,7 @@ def remesh(
 ) -> RemeshResult:
     """Fair a patch on a new mesh: :func:`fairing.fair`, and then other vertices and triangles for its surface.
 
-    Fixed vertices and the outline's edges stay. ``origin`` says where each new vertex lies on the old patch, so that
+    Fixed vertices and the boundary's edges stay. ``origin`` says where each new vertex lies on the old patch, so that
     what belongs to its vertices or corners can be carried over: what :func:`fairing.fair` makes of the old mesh, with
     ``inner_fairness="conformal"`` by default, takes them there. ``spacing`` and ``inner`` are those of
     :func:`fairing.fill`, the other parameters those of :func:`fairing.fair`. Where the new mesh is coarser than the

@@ -1,4 +1,4 @@
-"""Outlines with edges far shorter than those around: what the first, coarse surface does without.
+"""Boundaries with edges far shorter than those around: what the first, coarse surface does without.
 
 Fitted normals are some hundredths of a radian off. Over a fiftieth of an edge that asks for a radius of curvature of an
 edge: the search for a surface that turns so sharply took up to 20 s, on a mesh as fine as the shortest edge.
@@ -21,7 +21,7 @@ _AROUND = 3  # edges on either side; their median is an ordinary one even where 
 
 @dataclass(frozen=True)
 class Thinned:
-    """An outline without the vertices at the heads of short edges."""
+    """A boundary without the vertices at the heads of short edges."""
 
     outline: Outline
     normals: FloatArray
@@ -55,7 +55,7 @@ def with_shared_normals(outline: Outline, vertices: FloatArray, normals: FloatAr
 
 
 def thinned(outline: Outline, vertices: FloatArray, normals: FloatArray) -> Thinned:
-    """The outline without the heads of edges shorter than a fiftieth of those around; three vertices stay at least."""
+    """The boundary without the heads of edges shorter than a fiftieth of those around; three vertices stay at least."""
     stay = [_staying(vertices[loop]) for loop in outline.loops]
     loops = tuple(loop[stays] for loop, stays in zip(outline.loops, stay, strict=True))
     left_out = [row for loop, stays in zip(outline.loops, stay, strict=True) for row in _between(loop, stays)]

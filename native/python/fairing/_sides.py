@@ -9,9 +9,9 @@ import numpy as np
 from fairing._loops import Outline, listed
 from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
 
-_AWAY = -0.3  # mean cosine between the ways into the surface and to the other loops; −.17 at a bend of 200°
-_ACROSS = 0.1  # of the same: a loop whose surface leads neither there nor away may be meant either way
-_FACING = 0.5  # of the same, and between normals and the ways from a loop's middle
+_AWAY = -0.3  # mean cosine between the directions into the surface and to the other loops; −.17 at a bend of 200°
+_ACROSS = 0.1  # of the same: the side of a loop whose surface leads neither there nor away is open
+_FACING = 0.5  # of the same, and between normals and the directions from a loop's middle
 _MOST_PLACES = 400  # of a loop, and of all others together
 _TINY = 1e-300
 
@@ -100,7 +100,7 @@ class _Rim:
     points: FloatArray
     normals: FloatArray
     way_to_others: float
-    """Mean cosine between the ways into its surface and to the nearest place of the other loops; 0 for a lone loop."""
+    """Mean cosine between the directions into its surface and to the other loops; 0 for a lone loop."""
 
 
 def _rims(outline: Outline, vertices: FloatArray, normals: FloatArray) -> list[_Rim]:

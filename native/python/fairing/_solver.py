@@ -36,16 +36,16 @@ class Solver:
 
     - its last answer is not one to start from: not ``converged`` or not ``polished``, triangles flipped, more than a
       tenth of them poor (7 : 1 and beyond), or λ had to be given up for uniform ones;
-    - its outline, after the best rotation and scaling, has moved by more than 0.05 D, or a normal by more than 45°;
+    - its boundary, after the best rotation and scaling, has moved by more than 0.05 D, or a normal by more than 45°;
     - the iteration from the last answer is not at its end after a few steps, or ends in flipped triangles;
     - it has more than 50000 free vertices, or ``method`` is "paper".
 
     Where the equation has no surface, that of least variation is taken (``otherwise``). The solver then stays with it
-    as long as the outline moves by no more than these limits from one solve to the next, so that the shape does not
+    as long as the boundary moves by no more than these limits from one solve to the next, so that the shape does not
     jump while it is dragged; and it stays with the equation's own surface where its last answer led to one, however it
     grows. A larger move, or :meth:`change`, has the equation tried again.
 
-    With ``detail`` the base meets its outline as it is given: fairing.fair has a low-pass one where it knows the
+    With ``detail`` the base meets its boundary as it is given: fairing.fair has a low-pass one where it knows the
     triangles outside.
 
     ``initial_residual`` is that of the surface that the solve started from. An error or a cancelled solve leaves the

@@ -16,7 +16,7 @@ _TOLD_ELSEWHERE = ("loft", "smoothed")  # by NO_SOLUTION, with their kinks
 def not_tangent(
     report: FairResult, outline: Outline, vertices: FloatArray, triangles: IntArray
 ) -> tuple[Diagnostic, ...]:
-    """Warnings with the outline's vertices where the surface turns back, or where a thin wall asks for finer edges.
+    """Warnings with the boundary's vertices where the surface turns back, or where a thin wall asks for finer edges.
 
     ``vertices``, ``triangles``: of the mesh around.
     """
@@ -25,7 +25,7 @@ def not_tangent(
     back = report.join > _core.LIMITS["turned_back"]
     off = (report.boundary_angle > _core.LIMITS["off_slope"]) & ~back
     off[off] = _at_thin_walls(report.fixed[off], outline, vertices, triangles)
-    refine = "the wall is thinner there than the outline's edges are long: refine these and what is around"
+    refine = "the wall is thinner there than the boundary's edges are long: refine these and what is around"
     cases = (
         (back, report.join, "folded_back", "turns back", "triangles around are folded over there: unfold them"),
         (off, report.boundary_angle, "coarse", "leaves its surroundings", refine),
@@ -34,7 +34,7 @@ def not_tangent(
     for bad, angle, figure, what, advice in cases:
         if bad.any():
             degrees, count = float(angle[bad].max()), float(bad.sum())
-            text = f"the surface {what} by up to {degrees:.0f}° at {count:.0f} vertices of the outline; {advice}"
+            text = f"the surface {what} by up to {degrees:.0f}° at {count:.0f} vertices of the boundary; {advice}"
             figures = {"vertices": count, "degrees": degrees, figure: 1.0}
             found.append(Diagnostic("NOT_TANGENT", text, report.fixed[bad], "vertex", figures))
     return tuple(found)
@@ -43,7 +43,7 @@ def not_tangent(
 def _at_thin_walls(
     chosen: IntArray, outline: Outline, vertices: FloatArray, triangles: IntArray
 ) -> npt.NDArray[np.bool_]:
-    """Which of these vertices of the outline have the other side of a wall nearer than their edges there are long."""
+    """Which of these vertices of the boundary have the other side of a wall nearer than their edges there are long."""
     reach = np.zeros(len(vertices))
     for loop in outline.loops:
         lengths = np.linalg.norm(vertices[np.roll(loop, -1)] - vertices[loop], axis=1)

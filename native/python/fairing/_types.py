@@ -119,21 +119,21 @@ class FairResult:
     """Steps of the iteration that led to the result (of the component with most), not of all that was tried."""
     residual: float
     """Largest |Δ_B H| D³ at a free vertex (|H| D for ``equation="minimal"``; for "least_variation" the
-    largest derivative of its energy by a height, times D). Without a unit, but not without the
-    mesh: the same surface has a larger one on a finer mesh, so there is no number that is good. Compare it with
-    ``initial_residual``, and judge by ``converged``."""
+    largest derivative of its energy by a height, times D). It has no unit, but grows
+    with finer meshes of the same surface: compare it with ``initial_residual``, and judge by ``converged``."""
     initial_residual: float
-    """The same for the rough fill that the solve starts from."""
+    """The same for the initial surface."""
     levels: tuple[int, ...]
     """Vertex counts of the levels, coarse to fine."""
     seconds: dict[str, float]
     """Wall-clock time of each stage and in ``"total"``. Stages need not add up to it: attempts that were given up are
     not listed."""
     way: tuple[tuple[str, float], ...]
-    """Name and seconds of each way that was tried, in order. The last one led to the result, unless none was accepted.
+    """Name and seconds of each strategy that was tried, in order. The last one led to the result, unless none was
+    accepted.
 
-    "warm" starts from the last answer, "nested" goes from coarse to fine, "direct" stays on the mesh given, "proxy"
-    takes a mesh of the engine's own, "eased" does so over the smoothed outline, "even" and "uniform" take uniform
+    "warm" begins at the last answer, "nested" goes from coarse to fine, "direct" stays on the mesh given, "proxy"
+    takes a mesh of the engine's own, "eased" does so over the low-passed boundary, "even" and "uniform" take uniform
     weights first or only. "minimal", "variation", "loft", "smoothed" and "paper" belong to the surfaces and the method
     of that name. Several components follow each other."""
     warnings: tuple[Diagnostic, ...]
