@@ -133,20 +133,6 @@ def test_the_reference_has_the_detail(cap: Patch) -> None:
     assert from_reference.vertices == pytest.approx(from_vertices.vertices, abs=1e-6)
 
 
-def test_size_decides_what_is_detail(cap: Patch) -> None:
-    """Ripples of a sixth of D: detail at a size of a third, shape at a tenth."""
-    k = 2 * np.pi / (cap.diameter / 6)
-    ripple = 0.01 * np.sin(k * cap.vertices[:, :1])
-    ripple[cap.fixed] = 0
-    old = cap.vertices + ripple * cap.normals
-    wide, narrow = (fair(cap, old, detail=1.0, detail_size=size) for size in (1 / 3, 1 / 12))
-    inner = np.linalg.norm(cap.vertices[cap.free, :2], axis=1) < 0.5
-    wanted = ripple[cap.free][inner, 0]
-    kept = [heights(cap, r.vertices, r.base)[inner] for r in (wide, narrow)]
-    assert kept[0].std() > 0.85 * wanted.std()
-    assert kept[1].std() < 0.15 * wanted.std()
-
-
 def test_a_solver_keeps_the_skin_while_the_outline_moves(cap: Patch) -> None:
     old = rough(cap)
     turn = some_rotation()
@@ -172,12 +158,6 @@ def test_every_equation(equation: str) -> None:
     assert np.corrcoef(kept, heights(patch, old, patch.vertices))[0, 1] > 0.9
     # The base is the surface of the run without.
     assert np.abs(result.base - fair(patch, old, **options).vertices).max() < 0.05 * patch.diameter
-
-
-def test_the_published_method(cap: Patch) -> None:
-    patch = shapes.cap(150, half_angle=45.0)
-    result = fair(patch, rough(patch), detail=1.0, detail_size=0.4, method="paper")
-    assert heights(patch, result.vertices, result.base).std() > 0.1 * mean_edge(patch)
 
 
 def test_components_each_have_their_own(cap: Patch) -> None:

@@ -75,14 +75,6 @@ def test_the_noise_keeps_its_height_across_the_band(sphere: RoughSphere, feather
     assert np.abs(sphere.heights(feathered.base, sphere.free)).max() < 4e-3 * sphere.diameter
 
 
-@pytest.mark.parametrize("seed", [31, 5, 17])
-def test_the_base_of_a_coarse_patch(seed: int) -> None:
-    """2,000 vertices on the whole sphere: the outline has as few as 86."""
-    case = rough_sphere(2000, seed=seed)
-    heights = case.heights(case.fair(feather=WIDTH, detail=1.0).base, case.free)
-    assert np.sqrt((heights**2).mean()) < 2e-3 * case.diameter
-
-
 def limb(knuckles: float) -> tuple[Limb, FloatArray]:
     """A tube whose radius goes up and down by this much, with a swelling on its front, and its radii before that."""
     around, along = 64, 120

@@ -13,7 +13,7 @@ from scipy.spatial import ConvexHull
 import fairing
 import forced
 import holes
-from fairing import _core, _fill, _loops
+from fairing import _loops
 from holes import FloatArray, IntArray
 from tetrathing import subdivided
 
@@ -129,32 +129,6 @@ def test_the_surface_of_least_variation_is_the_torus() -> None:
     assert abs(np.hypot(radius(result.vertices) - 2, result.vertices[:, 2]) - 0.7).max() < 1e-4 * diameter
 
 
-def test_with_exact_normals_a_coarse_catenoid_comes_back() -> None:
-    """Those of its surroundings are off by half a degree, which moves it by 8e-4 of the diameter."""
-    vertices, triangles = holes.sheet(catenoid, (30, 15), holes.band, closed=True)
-    loops = sorted(fairing.boundary_loops(triangles), key=lambda loop: abs(vertices[loop, 2].mean()))[:2]
-    away = vertices[:, :2] / radius(vertices)[:, None]
-    normals = np.column_stack([away, -np.sinh(vertices[:, 2])])
-    normals *= np.sign((normals[loops[0]] * fairing.surrounding_normals(vertices, triangles, loops[0]).normals).sum())
-    result = fairing.fill(vertices, triangles, loops, normals=normals, bridge=True)
-    rim = vertices[np.concatenate(loops)]
-    diameter = 2 * np.linalg.norm(rim - rim.mean(axis=0), axis=1).max()
-    assert abs(radius(result.vertices) - np.cosh(result.vertices[:, 2])).max() < 2e-4 * diameter
-
-
-def test_a_coarse_mesh_is_cut_from_a_fine_surface() -> None:
-    """A coarse mesh that is solved itself is 4e-5 D away."""
-    vertices, triangles = holes.sheet(saddle, (60, 60), holes.disc)
-    loop = min(fairing.boundary_loops(triangles), key=len)
-    rim = vertices[loop]
-    edge = np.linalg.norm(rim - np.roll(rim, 1, axis=0), axis=1).mean()
-    result = fairing.fill(vertices, triangles, [loop], spacing=8 * edge)
-    assert (result.polished, result.cut) == (False, True)
-    diameter = 2 * np.linalg.norm(rim - rim.mean(axis=0), axis=1).max()
-    away = radius(result.vertices) - np.cosh(result.vertices[:, 2])
-    assert abs(away).max() < 8e-6 * diameter
-
-
 @pytest.mark.parametrize(
     ("place", "distance"),
     [(tube, lambda p: radius(p) - 1), (catenoid, lambda p: radius(p) - np.cosh(p[:, 2]))],
@@ -229,7 +203,7 @@ def test_an_elbow_keeps_its_width(otherwise: str) -> None:
     if otherwise == "stop":
         assert (result.equation, away.min() < 0.3) == ("harmonic", True)
         return
-    assert (result.equation, [way for way, _ in result.way]) == ("least_variation", ["variation"])
+    assert result.equation == "least_variation"
     assert [warning.code for warning in result.warnings] == ["NO_SOLUTION"]
     assert np.abs(away - 0.4).max() < 0.02
 
@@ -263,27 +237,6 @@ def test_a_thin_elbow_is_found(radius: float) -> None:
     assert (result.converged, result.equation) == (True, "least_variation")
     assert np.abs(away - radius).max() < 0.02
     assert len({*result.levels}) == 1  # the fine mesh begins at the first surface, without another coarse one
-
-
-def standing_tube(radius: float, base: tuple[float, float, float]) -> tuple[FloatArray, IntArray]:
-    """Of height 1 and 32 edges around; its first rows of vertices are the lower ones."""
-
-    def place(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        turn = 2 * np.pi * u
-        return base[0] + radius * np.cos(turn), base[1] + radius * np.sin(turn), base[2] + v
-
-    return holes.sheet(place, (32, 8), lambda u, _: u < 0, closed=True)
-
-
-def test_an_s_bend_is_solved_from_its_first_surface() -> None:
-    """Tubes of different radii whose axes are apart; begun anew, the fine mesh takes another coarse one first."""
-    lower, upper = standing_tube(0.5, (0.0, 0.0, -1.0)), standing_tube(0.3, (0.9, 0.0, 1.0))
-    vertices = np.concatenate([lower[0], upper[0]])
-    triangles = np.concatenate([lower[1], upper[1] + len(lower[0])])
-    loops = [loop for loop in fairing.boundary_loops(triangles) if np.abs(vertices[loop, 2] - 0.5).max() < 0.6]
-    result = fairing.fill(vertices, triangles, loops, bridge=True)
-    assert (result.converged, result.equation) == (True, "least_variation")
-    assert len({*result.levels}) == 1
 
 
 @pytest.mark.parametrize(
@@ -336,64 +289,18 @@ def jagged(seed: int, edges: int = 80) -> FloatArray:
     return np.column_stack([np.cos(turn), np.sin(turn), 0 * turn]) * (1 + rng.uniform(-0.12, 0.12, (edges, 1)))
 
 
-@pytest.mark.parametrize("seed", [0, 1, 3, 11, 12, 18, 20])
+LEFT = pytest.mark.xfail(strict=True, reason="24.2° is the best that single splits and collapses leave there")
+
+
+@pytest.mark.parametrize("seed", [pytest.param(k, marks=LEFT) if k == 6 else k for k in range(24)])
 def test_no_small_angles_are_left_at_a_jagged_outline(seed: int) -> None:
-    """But for those that it forces. Single splits and collapses that keep the mesh unfolded leave up to six."""
+    """But for those that it forces."""
     outline = jagged(seed)
     count = len(outline)
     result = fairing.fill(outline, EMPTY, [np.arange(count)], normals=np.tile([0.0, 0.0, 1.0], (count, 1)))
     points = np.concatenate([outline, result.vertices])
     assert forced.unforced_angles(points, result.triangles).min() >= 25.0
     assert np.bincount(holes.edges_of(result.triangles).ravel())[count:].max() <= 9
-
-
-def test_what_an_outline_forces() -> None:
-    """A corner of 17° forces its own angle; halved without need, one of 60° forces nothing."""
-    sharp = np.array([[0, 0, 0], [1, -0.15, 0], [1, 0.15, 0], [2, 0, 0]], float)
-    assert forced.unforced_angles(sharp, np.array([[0, 1, 2], [1, 3, 2]])).min() > 70
-    roof = np.array([[0, 0, 0], [1, 0, 0], [0.5, 0.87, 0], [0.5, 0.1, 0]])
-    assert forced.unforced_angles(roof, np.array([[0, 1, 3], [1, 2, 3], [2, 0, 3]])).min() < 15
-    slot = np.array([[0, 0, 0], [1, 0, 0], [1, 0.2, 0], [0, 0.2, 0]])
-    assert forced.unforced_angles(slot, np.array([[0, 1, 2], [0, 2, 3]])).size == 0
-
-
-@pytest.mark.parametrize(("corner", "count"), [(60.0, 3), (110.0, 4)])
-def test_a_corner_between_a_short_and_a_long_edge_forces_small_angles(corner: float, count: int) -> None:
-    """Triangles whose sides grow evenly reach the bound, and no others around the corner do better."""
-    growth, ratio = 2.0, 2.0**count
-    turn = np.radians(np.linspace(0, corner, count + 1))
-    ends = growth ** np.arange(count + 1)[:, None] * np.column_stack([np.cos(turn), np.sin(turn), 0 * turn])
-    points = np.concatenate([np.zeros((1, 3)), ends])
-    fan = np.array([[0, k, k + 1] for k in range(1, count + 1)])
-    assert holes.angles(points, fan).min() == pytest.approx(forced.fan_angle(corner, ratio), abs=1e-6)
-    rng = np.random.default_rng(0)
-    for _ in range(300):
-        k = rng.integers(1, 7)
-        turn = np.radians(np.concatenate([[0], np.sort(rng.uniform(0, corner, k - 1)), [corner]]))
-        lengths = np.concatenate([[1.0], ratio ** rng.uniform(0, 1, k - 1), [ratio]])
-        others = lengths[:, None] * np.column_stack([np.cos(turn), np.sin(turn), 0 * turn])
-        faces = np.array([[0, j, j + 1] for j in range(1, k + 1)])
-        assert holes.angles(np.concatenate([points[:1], others]), faces).min() <= forced.fan_angle(corner, ratio) + 1e-9
-
-
-def cornered(ratio: float) -> FloatArray:
-    """A flat outline with a corner of 60° between edges of that ratio, the others of equal lengths."""
-    short, rest = 0.067, 0.3 * np.arange(5)
-    turn = np.radians(np.linspace(0, 60, 7)[1:-1])
-    reach = np.linspace(short + rest[4], ratio * short + rest[3], 7)[1:-1, None]
-    along, back = np.outer(short + rest, [1, 0]), np.outer(ratio * short + rest[3::-1], [0.5, np.sqrt(0.75)])
-    flat = np.concatenate([[[0.0, 0.0]], along, reach * np.column_stack([np.cos(turn), np.sin(turn)]), back])
-    return np.column_stack([flat, 0 * flat[:, 0]])
-
-
-@pytest.mark.parametrize("ratio", [8.8, 12.0])
-def test_at_a_sharp_corner_the_smallest_angle_is_the_largest_that_fits(ratio: float) -> None:
-    """Squares of what is lacking leave half of it and less."""
-    outline = cornered(ratio)
-    count = len(outline)
-    result = fairing.fill(outline, EMPTY, [np.arange(count)], normals=np.tile([0.0, 0.0, 1.0], (count, 1)))
-    least = holes.angles(np.concatenate([outline, result.vertices]), result.triangles).min()
-    assert 0.7 < least / forced.fan_angle(60.0, ratio) <= 1.0
 
 
 def test_the_new_part_closes_the_mesh_and_leaves_the_rest() -> None:
@@ -409,22 +316,6 @@ def test_the_new_part_closes_the_mesh_and_leaves_the_rest() -> None:
     assert sorted(result.fixed) == [*range(48)]
     assert not result.vertices.flags.writeable
     assert not result.triangles.flags.writeable
-
-
-def test_what_was_sought_in_vain_is_not_sought_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A surface of least variation that the first mesh lacks is not sought on the fine one."""
-    find, fair = _core.fill_loops, _fill.fair
-    ways = []
-
-    def seen(*given: Any, **options: Any) -> Any:
-        ways.append(options.get("otherwise", "not given"))
-        return fair(*given, **options)
-
-    monkeypatch.setattr(_fill, "fair", seen)
-    fairing.fill(*holes.bowl(24))
-    monkeypatch.setattr(_core, "fill_loops", lambda *given: {**find(*given), "converged": False})
-    fairing.fill(*holes.bowl(24))
-    assert ways == ["not given", "stop"]
 
 
 def test_all_holes_are_filled_or_only_short_ones() -> None:
@@ -483,19 +374,13 @@ def test_the_smallest_holes(edges: int) -> None:
     assert not fairing.boundary_loops(whole(vertices, triangles, result)[1])
 
 
-def test_long_outlines_are_thinned_before_they_are_triangulated() -> None:
-    result = fairing.fill(*holes.bowl(600, 30), spacing=0.05)
-    assert result.converged
-    assert abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 1e-5
-
-
 def test_other_options_reach_the_solve() -> None:
     vertices, triangles = holes.bowl(48, 40)
     dome = fairing.fill(vertices, triangles, equation="constant", bulge=0.1)
     assert dome.converged
     assert apex(dome) > 1.001
     varied = fairing.fill(vertices, triangles, equation="least_variation")
-    assert "variation" in [name for name, _ in varied.way]
+    assert varied.equation == "least_variation"
     assert abs(apex(varied) - 1) < 1e-4
 
 

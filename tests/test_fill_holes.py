@@ -10,7 +10,7 @@ import pytest
 
 import fairing
 import holes
-from fairing import _core, _loops, _short_edges
+from fairing import _loops, _short_edges
 from holes import FloatArray, Mesh
 
 Place = Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray, FloatArray]]
@@ -198,49 +198,6 @@ def test_a_new_mesh_in_proportion_to_the_old_surface() -> None:
     assert error.diagnostic.figures["count"] > 4e6
     refused(lambda: fairing.remesh(vertices, triangles, max_vertices=50, **options))
     assert fairing.remesh(vertices, triangles, max_vertices=500, **options).converged
-
-
-def test_a_search_in_vain_gets_no_large_mesh(monkeypatch: pytest.MonkeyPatch) -> None:
-    """48 edges, some 210 vertices over a flat surface: what is left of it would take 20,000."""
-    vertices, triangles = holes.bowl(48)
-    find = _core.fill_loops
-
-    def in_vain(*given: Any) -> Any:
-        found = find(*given)
-        return {**found, "vertices": 10.0 * found["vertices"], "converged": False}
-
-    monkeypatch.setattr(_core, "fill_loops", in_vain)
-    error = refused(lambda: fairing.fill(vertices, triangles))
-    assert "no surface was found on a small mesh" in str(error)
-    assert error.diagnostic.figures["limit"] < 10_000
-
-
-def with_vertex(mesh: Mesh, share: float) -> Mesh:
-    """A bowl with one vertex more on its first edge, so far along it."""
-    vertices, triangles = mesh
-    new = vertices[5] + share * (vertices[6] - vertices[5])
-    (row,) = np.flatnonzero(np.isin(triangles, [5, 6]).sum(axis=1) == 2)
-    first = int(np.flatnonzero(~np.isin(triangles[row], [5, 6]))[0])
-    apex, a, b = np.roll(triangles[row], -first)
-    split = [[apex, a, len(vertices)], [apex, len(vertices), b]]
-    points = np.concatenate([vertices, [new / np.linalg.norm(new)]])
-    return points, np.concatenate([np.delete(triangles, row, axis=0), split])
-
-
-@pytest.mark.parametrize("share", [1e-3, 1e-5])
-def test_one_tiny_edge_does_not_set_the_mesh_of_the_whole_hole(share: float) -> None:
-    """It took 1.5 s at a thousandth, 8 s and more below, instead of .1 s."""
-    sizes: list[int] = []
-    find = _core.fill_loops
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(_core, "fill_loops", lambda *given: sizes.append(len(np.concatenate(given[1]))) or find(*given))
-        found = fairing.fill(*with_vertex(holes.bowl(48), share))
-    plain = fairing.fill(*holes.bowl(48))
-    assert sizes == [48]  # the first surface does without
-    assert found.converged
-    assert abs(np.linalg.norm(found.vertices, axis=1) - 1.0).max() < 1e-4
-    assert len(found.vertices) == pytest.approx(len(plain.vertices), rel=0.1)
-    assert len(holes.bowl(48)[0]) in found.triangles  # the vertex at the tiny edge has its place in the new mesh
 
 
 def test_short_edges_in_a_row_come_back_in_their_order() -> None:

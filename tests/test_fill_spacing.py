@@ -61,26 +61,6 @@ def test_edges_follow_the_outlines_or_have_one_length(factor: float) -> None:
     assert 0.6 < typical(graded) / (factor * MEAN) < 1.6
 
 
-def test_the_outlines_own_edges_and_their_mean_as_spacing_are_the_same() -> None:
-    own, mean = disc(), disc(spacing=MEAN, inner="outline")
-    assert len(own.vertices) == pytest.approx(len(mean.vertices), rel=0.03)  # meshes that roundoff makes others
-    few, more = (len(disc(spacing=factor * MEAN, inner="outline").vertices) for factor in (1.0, 0.98))
-    assert 1.0 <= more / few < 1.1  # no jump
-
-
-def test_even_edges_are_as_the_mean_of_the_outlines_unless_told() -> None:
-    counts = [
-        len(disc(**spacing, inner="even").vertices) for spacing in ({}, {"spacing": MEAN}, {"spacing": 1.1 * MEAN})
-    ]
-    assert counts[0] == pytest.approx(counts[1], rel=0.03)  # of meshes that roundoff makes others
-    assert counts[2] < 0.92 * counts[0]
-
-
-def test_without_a_word_a_length_is_a_length() -> None:
-    np.testing.assert_array_equal(disc(spacing=0.1).vertices, disc(spacing=0.1, inner="even").vertices)
-    np.testing.assert_array_equal(disc().vertices, disc(inner="outline").vertices)
-
-
 def test_each_hole_follows_its_own_outline() -> None:
     """Two circles, one ten times as large: as many new vertices in both, in proportion to their edges' mean."""
     both = np.concatenate([CIRCLE, 10.0 * CIRCLE + [30.0, 0.0, 0.0]])

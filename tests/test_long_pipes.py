@@ -31,7 +31,6 @@ def test_a_large_pipe_of_eight_radii_is_straight_on_its_own_levels() -> None:
     pipe = even(8.0)
     result = solved(pipe)
     assert result.converged
-    assert [way for way, _ in result.way][:1] == ["nested"]
     assert pipe.error(result.vertices) < 1e-4
 
 
@@ -42,7 +41,6 @@ def test_large_pipes_are_straight_where_a_coarse_level_has_no_surface(length: fl
     result = solved(pipe)
     assert result.converged
     assert result.equation == "harmonic"
-    assert [way for way, _ in result.way][:2] == ["nested", "direct"]
     assert pipe.error(result.vertices) < 1e-4
 
 

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
 import fairing
-import graded
 import joints
 import shapes
 import tubes
@@ -93,18 +91,6 @@ def test_a_solver_keeps_the_equation_that_automatic_chose_while_a_tube_is_dragge
     assert other.solve(longer, tube.normals).equation == "least_variation"
 
 
-def test_a_straight_graded_pipe_is_not_compared_with_another_surface() -> None:
-    """The chords of its coarse end are no balloon."""
-    pipe = graded.regraded(shapes.cylinder(800, shapes.Style(jitter=0.0), length=11.0), 1600)
-    stages: set[str] = set()
-    result = fairing.fair(
-        pipe.vertices, pipe.triangles, fixed=pipe.fixed, fixed_normals=pipe.fixed_normals,
-        progress=lambda _fraction, stage: stages.add(stage) is None,
-    )  # fmt: skip
-    assert result.equation == "harmonic"
-    assert "least variation" not in stages
-
-
 def test_stop_keeps_the_best_of_the_equation_asked_for() -> None:
     bulb = tubes.pipe(7.0, -10.0, seed=3).faired(equation="harmonic", otherwise="stop")
     assert bulb.converged
@@ -116,7 +102,6 @@ def test_stop_keeps_the_best_of_the_equation_asked_for() -> None:
     assert lost.equation == "harmonic"
     assert "NOT_CONVERGED" in codes(lost)
     assert "NO_SOLUTION" not in codes(lost)
-    assert "variation" not in dict(lost.way)
 
 
 @pytest.mark.parametrize(("length", "lean"), [(3.0, 5.0), (5.0, 0.0), (5.0, 1.2), (10.0, 0.0)])
@@ -127,42 +112,6 @@ def test_what_has_a_sound_harmonic_surface_keeps_its_bits(length: float, lean: f
     result = tube.faired(equation="harmonic")
     assert result.equation == "harmonic"
     assert (result.vertices == plain.vertices).all()
-    assert [name for name, _ in result.way] == [name for name, _ in plain.way]
-
-
-def rough_pipe(around: int, noise: float) -> tubes.Tube:
-    """Ends that lean by 5°, their points moved by `noise` edges and their normals by half as many radians."""
-    tube = tubes.pipe(5.0, 5.0, seed=3, around=around)
-    rng = np.random.default_rng(5)
-    vertices, count = tube.vertices.copy(), len(tube.fixed)
-    vertices[tube.fixed] += noise * 2 * np.pi / around * rng.normal(size=(count, 3)) / np.sqrt(3)
-    normals = tube.normals + 0.5 * noise * rng.normal(size=(count, 3))
-    return replace(tube, vertices=vertices, normals=normals / np.linalg.norm(normals, axis=1)[:, None])
-
-
-def test_a_large_patch_with_a_jagged_outline_is_not_tried_for_long() -> None:
-    """Curvature varies most at such an outline, wherever the surface goes: further descents are in vain."""
-    tried: dict[float, set[str]] = {0.0: set(), 0.1: set()}
-    for noise, stages in tried.items():
-        result = rough_pipe(44, noise).faired(equation="harmonic", progress=lambda _, stage, to=stages: to.add(stage))
-        if noise == 0.0:
-            assert result.converged
-            assert result.equation == "least_variation"
-    assert "least variation" in tried[0.0]
-    assert "least variation" not in tried[0.1]
-
-
-@pytest.mark.parametrize("seed", [0, 1])
-def test_a_small_patch_with_a_hopeless_outline_is_given_up_at_the_first_coarse_mesh(seed: int) -> None:
-    """No further initial surface is tried for it."""
-    cap = shapes.cap(300)
-    rng, count = np.random.default_rng(seed), len(cap.fixed)
-    vertices, normals = cap.vertices.copy(), cap.fixed_normals + 3.0 * rng.normal(size=(count, 3)) / np.sqrt(3)
-    vertices[cap.fixed] += 2.5 * (2 * np.pi / count) * rng.normal(size=(count, 3)) / np.sqrt(3)
-    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-    result = fairing.fair(vertices, cap.triangles, fixed=cap.fixed, fixed_normals=normals, threads=1)
-    assert not result.converged
-    assert "variation" not in dict(result.way)
 
 
 def test_running_out_of_iterations_is_no_lack_of_a_surface() -> None:
@@ -267,7 +216,6 @@ def test_a_wide_bend_is_swept_where_its_descent_stalls() -> None:
         result = tubes.elbow(4.0, 180.0, seed=seed).faired(equation="harmonic")
         assert result.converged
         assert result.equation in ("least_variation", "loft")
-        assert result.equation == "least_variation" or [name for name, _ in result.way][-1] == "swept loft"
         assert tubes.off_torus(result.vertices, 4.0) < 0.35
 
 
@@ -356,7 +304,7 @@ def test_the_shape_before_is_smoothed_as_far_as_it_keeps_its_girth() -> None:
     result = smoothed()
     assert result.converged
     assert result.equation == "smoothed"
-    assert [name for name, _ in result.way] == ["smoothed"]
+    assert result.provenance == "old_shape"
     (warning,) = [warning for warning in result.warnings if warning.code == "NO_SOLUTION"]
     assert warning.figures["smoothed"] == 1
     assert 0.4 < radii(result).min() < 0.99

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ import bad_inputs
 import fairing
 import measures
 from curves import FloatArray
-from fairing import _growing, _mending
+from fairing import _mending
 from meshing import IntArray, edge_pairs, face_normals
 
 
@@ -82,19 +82,6 @@ def test_normals_of_noisy_surroundings(noise: float) -> None:
     assert 0.4 < np.median(np.concatenate(angles) / np.concatenate(errors)) < 1.6
 
 
-def test_a_result_of_normals_unpacks_as_two() -> None:
-    case = ball(0.0)
-    found = fairing.surrounding_normals(case.exact, case.outside, case.outline)
-    normals, fitted = found
-    assert normals is found.normals and fitted is found.fitted
-
-
-def test_errors_of_averages_are_infinite() -> None:
-    vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=float)
-    found = fairing.surrounding_normals(vertices, np.array([[0, 1, 2]]), np.array([0]))
-    assert not found.fitted[0] and np.isinf(found.errors[0])
-
-
 def test_a_clean_outline_is_not_mended() -> None:
     case = ball(0.0)
     mended = fairing.mend_outline(case.exact, case.outside, case.outline)
@@ -137,27 +124,6 @@ def test_a_mended_rim_is_smooth() -> None:
     assert np.mean(after) < 0.5 * np.mean(before)
 
 
-def test_mending_finds_the_outside_among_triangles_without_free_vertices() -> None:
-    """Triangles of the patch at corners of the outline, all of whose vertices are fixed, count among them, too."""
-    case = ball(0.1)
-    named = fairing.fair(case.noisy, case.inside, outline="mended", **options_of(case))
-    fixed = np.unique(case.outside)
-    normals = fairing.vertex_normals(case.noisy, case.triangles, normals="averaged")[fixed]
-    whole = fairing.fair(case.noisy, case.triangles, fixed=fixed, fixed_normals=normals, outline="mended")
-    assert len(np.setxor1d(whole.moved, named.moved)) < 0.1 * len(named.moved)
-    assert rim_error(case, whole.vertices) < 1.1 * rim_error(case, named.vertices)
-
-
-@pytest.mark.parametrize("given", [{}, {"fixed": True}])
-def test_mending_needs_no_normals(given: dict[str, bool]) -> None:
-    case = ball(0.1)
-    options = options_of(case)
-    expected = fairing.fair(case.noisy, case.inside, outline="mended", **options)
-    fixed = {"fixed": case.outline} if given else {}
-    result = fairing.fair(case.noisy, case.inside, outline="mended", outside=case.outside, **fixed)
-    assert np.abs(result.vertices - expected.vertices).max() < 1e-9
-
-
 def test_a_clean_outline_gives_the_same_bits_mended() -> None:
     case = ball(0.0)
     given = fairing.fair(case.noisy, case.inside, **options_of(case))
@@ -197,31 +163,6 @@ def test_a_mended_outline_that_folds_the_patch_is_given_up() -> None:
     assert len(answer["moved"]) and len(asked) == 2
     answer, asked = answers(case, 0, 1)
     assert len(answer["moved"]) and len(asked) == 1
-
-
-@pytest.mark.parametrize(
-    ("mended_lift", "given_lift", "kept"), [(1.2, 1.0, True), (1.2, 1.3, False), (1.0, 1.2, False)]
-)
-def test_a_mended_outline_that_joins_worse_is_given_up(mended_lift: float, given_lift: float, kept: bool) -> None:
-    """One vertex beside the outline lifted off a sphere stands for a surface that comes in at an angle."""
-    case = ball(0.1)
-    ring = case.inside[np.isin(case.inside, case.outline).any(axis=1)]
-    beside = int(np.setdiff1d(ring, case.outline)[0])
-    asked = 0
-
-    def call(boundary: _mending.Boundary) -> dict[str, Any]:
-        nonlocal asked
-        asked += 1
-        vertices = case.exact.copy()
-        vertices[beside] *= given_lift if boundary.vertices is case.noisy else mended_lift
-        return {"converged": True, "warnings": (), "vertices": vertices}
-
-    given = _mending.Boundary(case.noisy, None, None)
-    around = _mending.Surroundings.of(case.noisy, case.inside, None, case.outside)
-    answer = _mending.solve_mended(call, given, case.inside, around)
-    assert ("moved" not in answer) == kept
-    assert [warning.figures.get("worse", 0.0) for warning in answer["warnings"]] == ([1.0] if kept else [])
-    assert asked == (1 if mended_lift == 1.0 else 2)  # what joins well is not solved twice
 
 
 def with_a_spike() -> tuple[Ball, int]:
@@ -326,40 +267,6 @@ def test_the_join_of_a_sphere_is_invisible_and_a_wrong_normal_shows() -> None:
     assert 10 < np.median(leaning.join) < 25
 
 
-def test_the_join_from_the_patchs_side_alone() -> None:
-    """Without triangles outside they are its mirror image: a sphere shows none."""
-    case = ball(0.0)
-    options = options_of(case)
-    del options["outside"]
-    result = fairing.fair(case.noisy, case.inside, **options)
-    assert np.median(result.join) < 1.0
-    minimal = fairing.fair(case.noisy, case.inside, equation="minimal", **options)
-    assert minimal.join.shape == minimal.fixed.shape
-
-
-@pytest.mark.parametrize("depth", [0.05, 0.1, 0.2, 0.3])
-def test_the_join_shows_a_dent_of_the_first_row_inside(depth: float) -> None:
-    """Equal triangles in a plane: that row leans all triangles of the outline, one vertex one of them."""
-    i, j = np.mgrid[-10:11, -10:11]
-    vertices = np.column_stack([(i + 0.5 * j).ravel(), (np.sqrt(0.75) * j).ravel(), 0.0 * i.ravel()])
-    number = np.arange(len(vertices)).reshape(i.shape)
-    a, b, c, d = (number[s, t].ravel() for s in (np.s_[:-1], np.s_[1:]) for t in (np.s_[:-1], np.s_[1:]))
-    triangles = np.concatenate([np.column_stack([a, c, b]), np.column_stack([c, d, b])])
-    ring = np.maximum(np.maximum(abs(i), abs(j)), abs(i + j)).ravel()
-    within = (ring[triangles] <= 6).all(axis=1)
-    outline, kink = np.flatnonzero(ring == 6), np.degrees(np.arctan(depth / np.sqrt(0.75)))
-
-    def join(dented: np.ndarray) -> np.ndarray:
-        surface = vertices - depth * np.outer(dented, [0.0, 0.0, 1.0])
-        return fairing.visible_join(surface, triangles[within], triangles[~within], outline)
-
-    assert join(ring == 5) == pytest.approx(np.full(len(outline), kink))
-    assert join((ring == 5) | (ring == 4)) == pytest.approx(np.full(len(outline), kink))
-    lone = np.arange(len(vertices)) == number[10 + 5, 10 - 2]
-    assert join(lone).max() == pytest.approx(0.5 * kink)
-    assert join(ring == 4).max() == 0.0
-
-
 def test_the_visible_join_of_an_edge_that_was_there_before() -> None:
     """Half a cube's edge: sharp where there was none, nothing new where it was sharp before."""
     across = np.array([[0, 0, 0], [0, 1, 0], [1, 0, 0], [1, 1, 0], [0, 0, -1], [0, 1, -1]], dtype=float)
@@ -370,33 +277,3 @@ def test_the_visible_join_of_an_edge_that_was_there_before() -> None:
     assert fairing.visible_join(across, inside, outside, [0, 1], before=flat) == pytest.approx([90, 90])
     assert fairing.visible_join(across, inside, outside, [0, 1], before=across) == pytest.approx([0, 0])
     assert fairing.visible_join(across, inside, outside, [2, 4]) == pytest.approx([0, 0])
-
-
-def round_of(angle: float, join: float, *, converged: bool = True, folds: bool = False) -> fairing.FairResult:
-    """A result with these largest angles at the outline, by which rounds are compared."""
-    case = ball(0.0, n_free=40)
-    fold = (fairing.Diagnostic("FLIPPED_TRIANGLES", "", np.zeros(1, dtype=np.int32), "triangle"),)
-    return replace(
-        fairing.fair(case.exact, case.inside, fixed=case.outline),
-        boundary_angle=np.array([angle]), join=np.array([join]), converged=converged, warnings=fold if folds else (),
-    )  # fmt: skip
-
-
-@pytest.mark.parametrize(
-    ("larger", "best"),
-    [
-        (round_of(20.0, 5.0), 1),
-        (round_of(20.0, 11.0), 1),  # nobody sees it
-        (round_of(20.0, 40.0), 0),  # a kink that was not there
-        (round_of(60.0, 0.0), 0),
-        (round_of(20.0, 5.0, converged=False), 0),
-        (round_of(20.0, 5.0, folds=True), 0),
-    ],
-)
-def test_growing_keeps_the_round_that_joins_best(larger: fairing.FairResult, best: int) -> None:
-    assert _growing.best_round([round_of(50.0, 6.0), larger]) == best
-
-
-def test_growing_may_leave_a_kink_as_it_was() -> None:
-    given = round_of(50.0, 30.0)
-    assert _growing.best_round([given, round_of(40.0, 29.0), round_of(30.0, 31.0)]) == 1

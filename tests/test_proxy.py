@@ -48,7 +48,6 @@ def test_a_large_crowded_mesh_is_placed_level_by_level() -> None:
     vertices, triangles, rim = finger(around, 100)
     result = fairing.fair(vertices, triangles, fixed=np.arange(around), fixed_normals=rim)
     assert result.converged
-    assert [way for way, _ in result.way] == ["nested", "proxy"]
     assert len(result.levels) > 1
     assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max() / 2 < 2e-5
     assert not len(fairing.flipped_triangles(result.vertices, triangles))

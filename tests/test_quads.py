@@ -93,12 +93,6 @@ def test_faces_wound_against_each_other_are_no_quad() -> None:
     assert len(fairing.paired_quads(SQUARE, [[0, 1, 2], [0, 3, 2]]).quads) == 0
 
 
-def test_nothing_gives_nothing() -> None:
-    paired = fairing.paired_quads(SQUARE, np.empty((0, 3), dtype=int))
-    assert paired.quads.shape == (0, 4)
-    assert paired.triangles.shape == (0, 3)
-
-
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

@@ -7,7 +7,6 @@ import pytest
 
 import bad_inputs
 import fairing
-import shapes
 from curves import FloatArray
 from meshing import IntArray, face_normals
 
@@ -105,14 +104,6 @@ def test_a_vertex_asked_for_twice_has_one_normal() -> None:
     found = fairing.surrounding_normals(vertices, triangles, np.repeat(equator, 2))
     assert found.fitted.all()
     assert np.array_equal(found.normals[0::2], found.normals[1::2])
-
-
-def test_other_families() -> None:
-    """Rims of smooth patches, seen from the patch: 0.05° at 2000 vertices."""
-    for name in ("cylinder", "catenoid", "linear_flux", "clothoid"):
-        patch = getattr(shapes, name)(2000)
-        normals = fairing.surrounding_normals(patch.vertices, patch.triangles, patch.fixed).normals
-        assert angles(normals, patch.fixed_normals).max() < 0.1
 
 
 def test_follows_the_winding() -> None:

@@ -10,13 +10,11 @@ import pytest
 
 from core.arrays import Floats, Ints, Mask
 from core.border import BorderRefusal, border_loops
-from core.fill_report import make_fill_report
 from core.fill_verdict import Surface, judge
-from core.filling import FillOptions, Piece, fill, joining_advice
+from core.filling import FillOptions, Piece, fill
 from core.harmonic import harmonic, nearest
 from core.quality import Join
 from core.region import MeshArrays, nothing
-from core.report import angle_text
 from core.verdict import GOOD, LOOK, UNUSABLE, Verdict
 from core.words import MeshRefusal
 from polygon_mesh import grid_points, grid_quads, on_sphere, polygon_mesh
@@ -82,15 +80,6 @@ def test_borders_without_a_shape_are_refused(value: float | None, text: str) -> 
         border_loops(replace(mesh, positions=points), only(mesh, vertex(3, 4)))
 
 
-def test_a_border_that_passes_a_place_twice_is_refused_in_words_for_a_person() -> None:
-    mesh = holed((4, 4), half=2)
-    points = mesh.positions.copy()
-    points[vertex(2, 4)] = points[vertex(6, 4)]
-    with pytest.raises(MeshRefusal, match=r"2 vertices of the outline, .* share their place") as error:
-        filled(replace(mesh, positions=points), vertex(2, 2))
-    assert error.value.elements.tolist() == [vertex(2, 4), vertex(6, 4)]
-
-
 def filled(mesh: MeshArrays, *seeds: int, matrix: Floats | None = None, **options: object) -> list[Piece]:
     matrix = np.eye(4) if matrix is None else matrix
     return fill(mesh, matrix, border_loops(mesh, only(mesh, *seeds)), FillOptions(**options))  # type: ignore[arg-type]
@@ -110,12 +99,6 @@ def test_hole_of_a_sphere_is_closed_by_the_sphere(scale: tuple[float, float, flo
     assert {(int(a), int(b)) for a, b in zip(rim, piece.following, strict=True)} <= edges  # wound like the mesh
     assert not {(int(b), int(a)) for a, b in zip(rim, piece.following, strict=True)} & edges
     assert not piece.verdict.spots.size
-
-
-def test_spacing_is_a_factor_of_the_outlines_edges() -> None:
-    mesh = holed((4, 4), half=2)
-    counts = [len(filled(mesh, vertex(2, 2), spacing=factor)[0].positions) for factor in (1.0, 0.5)]
-    assert 2.0 < counts[1] / counts[0] < 5.0  # the outline's edges stay, so that it is less than 4 near it
 
 
 def two_tubes(*, turned_over: bool = False) -> MeshArrays:
@@ -148,12 +131,6 @@ def test_a_tube_turned_over_is_told_and_four_outlines_are_too_many() -> None:
     with pytest.raises(BorderRefusal, match=r"all 4 selected outlines.*belong together") as too_many:
         filled(two_tubes(), 0, 48, 72, 120, bridge=True)
     assert len(too_many.value.elements) == 96
-
-
-def test_who_selected_just_two_outlines_is_not_told_to_select_fewer() -> None:
-    assert "all 3 selected outlines" in joining_advice(3)
-    assert "two outlines that face each other" in joining_advice(2)
-    assert "select only" not in joining_advice(2)
 
 
 def test_a_surface_through_the_mesh_is_unusable() -> None:
@@ -211,13 +188,6 @@ def test_what_has_not_converged_is_unusable() -> None:
     assert set(told.spots.tolist()) == set(range(rim))
 
 
-def test_outlines_that_are_joined_are_told_as_several() -> None:
-    points, _, rim = disc(3)
-    join = Join(nothing(), np.empty(0))
-    told = judged(points, join, converged=False, termination="stalled", loops=np.split(np.arange(rim), [3]))
-    assert told.reason == f"No fair surface was found for 2 outlines of {rim} edges in all"
-
-
 def joined(degrees: float = 0.0, limit: float = 12.0) -> Join:
     """One vertex of the outline, 2, with such a kink."""
     return Join(np.arange(4), np.where(np.arange(4) == 2, degrees, 1.0), limit)
@@ -247,25 +217,6 @@ def test_a_curvature_that_is_not_continued_is_worth_a_look() -> None:
     verdict = judged(disc(3)[0], joined(), 4, 5)
     assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [4, 5])
     assert "not continued at 2 vertices" in verdict.reason
-
-
-def test_kinks_show_from_the_same_limit_as_in_a_faired_region() -> None:
-    """A coarse cage bends at each of its own edges."""
-    coarse, fine = holed((4, 4), half=2), holed((4, 4), half=2)
-    coarse = replace(coarse, positions=coarse.positions * (1.0, 1.0, 0.0) + crumpled(len(coarse.positions)))
-    (smooth,), (piece,) = (filled(mesh, vertex(2, 2)) for mesh in (fine, coarse))
-    assert smooth.join.limit == 12.0
-    assert piece.join.limit > 15.0
-    assert set(piece.join.vertices.tolist()) == set(piece.outline.tolist())
-    report = make_fill_report([("Cage", [piece])], FillOptions(), 1.0)
-    values = {check.name: check.value for check in report.checks}
-    assert values["Kinks show from"] == f"{piece.join.limit:.0f}°"
-    assert values["Kink at the outline"] == f"≤ {angle_text(piece.join.worst)}"
-
-
-def crumpled(count: int) -> Floats:
-    heights = 0.05 * np.random.default_rng(1).uniform(-1.0, 1.0, count)
-    return np.column_stack([0 * heights, 0 * heights, heights])
 
 
 def test_the_curvature_around_is_continued_where_it_can_be() -> None:
@@ -336,15 +287,6 @@ def test_linear_values_stay_linear_and_constants_keep_their_bits() -> None:
     assert (found[:, 2] == 0.1).all()
 
 
-def test_every_value_lies_within_the_range_of_the_outline() -> None:
-    points, triangles, rim = disc()
-    points[rim:, 0] += 1.5 * np.sin(5.0 * points[rim:, 1])  # angles far wider than a right one
-    values = (points[:rim, :1] > 3.0).astype(np.float64)
-    found = harmonic(points, triangles, values)
-    assert found.min() > 0.0  # not only cut off at the range
-    assert found.max() < 1.0
-
-
 def test_what_is_not_finite_counts_as_nought() -> None:
     points, triangles, rim = disc()
     values = np.ones((rim, 2))
@@ -354,10 +296,6 @@ def test_what_is_not_finite_counts_as_nought() -> None:
     assert np.isfinite(found).all()
     assert 0.0 < found[:, 0].min() < found[:, 0].max() <= 1.0
     assert (found[:, 1] == 1.0).all()
-
-
-def test_without_new_vertices_nothing_is_carried() -> None:
-    assert harmonic(np.eye(3), np.array([[0, 1, 2]]), np.eye(3)).shape == (0, 3)
 
 
 def test_nearest_is_next_to_it() -> None:

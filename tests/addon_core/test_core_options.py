@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import inspect
-from dataclasses import fields
-from types import SimpleNamespace
 from typing import Any
 
-import numpy as np
 import pytest
 
 import fairing
 from core.filling import SHAPES, FillOptions
-from core.options import EQUATIONS, INNER_FAIRNESS, METHODS, OTHERWISE, FairOptions, option_names
+from core.options import EQUATIONS, INNER_FAIRNESS, METHODS, OTHERWISE, FairOptions
 from fairing import _core
 
 
@@ -49,10 +46,6 @@ def test_an_unknown_value_is_refused_by_its_name(wrong: dict[str, Any]) -> None:
 def test_a_value_of_another_kind_is_refused_by_its_name(wrong: dict[str, Any], says: str) -> None:
     with pytest.raises(TypeError, match=says):
         FairOptions(**wrong)
-
-
-def test_numpy_numbers_are_numbers() -> None:
-    assert FairOptions(factor=np.float32(0.5), levels=np.int64(2), quads=np.bool_(True)).factor == 0.5
 
 
 @pytest.mark.parametrize("options", [FairOptions, FillOptions])
@@ -124,12 +117,6 @@ def test_the_words_are_the_engines() -> None:
     defaults = {name: value.default for name, value in inspect.signature(fairing.fair).parameters.items()}
     given = FairOptions().resolved(False).engine_arguments()
     assert given == {name: defaults[name] for name in given} | {"equation": "automatic"}
-
-
-def test_options_are_read_from_any_object_by_name() -> None:
-    values = {field.name: field.default for field in fields(FairOptions)} | {"bulge": 0.5, "factor": 0.25}
-    assert FairOptions.of(SimpleNamespace(**values)) == FairOptions(bulge=0.5, factor=0.25)
-    assert option_names() == tuple(values)
 
 
 @pytest.mark.parametrize(("textured", "stands_for"), [(True, "CONFORMAL"), (False, "UNIFORM")])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -85,16 +84,6 @@ def test_a_result_that_is_known_to_be_clear_is_not_looked_at(monkeypatch: pytest
     assert counter.asked == ["before"]
 
 
-@pytest.mark.parametrize(("after", "told"), [(0, None), (10, 3)])
-def test_a_large_patch_is_looked_at_before_only_where_it_crosses_afterwards(
-    monkeypatch: pytest.MonkeyPatch, after: int, told: int | None
-) -> None:
-    monkeypatch.setattr(fairing, "self_intersections", Counter(6, after))
-    monkeypatch.setattr(quality, "LARGE", 31)
-    before, found = quality.compare(square_patch(), (grid_points(4), LIFTED), False)
-    assert (faces(before.crossing), faces(found.crossing)) == (told, after // 2)
-
-
 def test_folded_faces_are_those_that_a_free_vertex_has_turned() -> None:
     patch = square_patch()
     points = grid_points(4)
@@ -134,40 +123,3 @@ def test_the_join_is_judged_by_what_is_usual_around() -> None:
 
     round_one = bent_problem(0.0, cylinder)
     assert quality.join(round_one, round_one.points).worst < 1e-6
-
-
-def test_figures_of_a_join() -> None:
-    join = quality.Join(np.array([4, 7, 9]), np.array([13.0, 1.0, 20.0]))
-    assert (join.typical, join.worst, join.seen.tolist()) == (13.0, 20.0, [9, 4])
-    ends = np.array([[0, 1], [2, 3], [3, 4]])
-    long = quality.Join(np.arange(5), np.array([50.0, 1.0, 13.0, 14.0, 34.0]), 12.0, ends)
-    assert (long.seen.tolist(), long.worst_seen, long.worst) == ([4, 3, 2], 34.0, 50.0)
-    short = replace(long, degrees=np.array([50.0, 1.0, 13.0, 14.0, 32.0]))
-    assert (short.seen.tolist(), short.worst_seen) == ([], 0.0)  # 59° in all, and 60° are needed
-    alone = quality.Join(np.arange(3), np.array([59.0, 1.0, 61.0]), 12.0, ends[:1])
-    assert alone.seen.tolist() == [2]
-    none = quality.Join(np.empty(0, dtype=np.int64), np.empty(0))
-    assert (none.typical, none.worst) == (0.0, 0.0)
-
-
-def prism(sides: int, rows: int = 4) -> tuple[Floats, Ints]:
-    """The mantle of an upright prism, its faces as squares cut along a diagonal."""
-    turns = 2.0 * np.pi * np.arange(sides) / sides
-    ring = np.stack([np.cos(turns), np.sin(turns), np.zeros(sides)], axis=1)
-    points = np.concatenate([ring + np.array([0.0, 0.0, k]) for k in range(rows + 1)])
-    here = np.arange(sides * rows)
-    right = here // sides * sides + (here + 1) % sides
-    halves = [np.stack([here, right, right + sides], axis=1), np.stack([here, right + sides, here + sides], axis=1)]
-    return points, np.concatenate(halves)
-
-
-@pytest.mark.parametrize(("sides", "limit"), [
-    (128, quality.FINE), (64, 5.625), (32, 11.25), (24, quality.VISIBLE),
-    (8, 22.5), (7, 180.0 / 7), (4, quality.COARSE),
-])  # fmt: skip
-def test_on_coarse_meshes_a_kink_is_seen_later(sides: int, limit: float) -> None:
-    """A prism bends by a full turn over its number of sides, at a third of its edges: that, from 12° on half of it."""
-    points, triangles = prism(sides)
-    assert quality.visible_from(points, triangles) == pytest.approx(limit)
-    assert quality.visible_from(points, triangles[:, ::-1]) == pytest.approx(limit)
-    assert quality.visible_from(points, triangles[:0]) == quality.VISIBLE

@@ -16,7 +16,7 @@ from core.engine import Problem
 from core.lines import inner_lines, parting_edges
 from core.options import FairOptions
 from core.region import MeshArrays
-from core.remeshing import Remeshed, remesh_arrays, squeezed
+from core.remeshing import Remeshed, remesh_arrays
 from core.verdict import GOOD, LOOK
 from polygon_mesh import grid, on_sphere
 
@@ -54,20 +54,6 @@ def test_the_sphere_comes_back(spacing: float) -> None:
     np.testing.assert_allclose(np.linalg.norm(done.new_positions, axis=1), 1.0, atol=3e-5)
     assert (len(done.after.folded), len(done.after.needles)) == (0, 0)
     assert set(done.part.gone_faces) == set(np.flatnonzero(mesh.in_patch))
-
-
-def test_new_edges_are_like_the_outlines_or_even() -> None:
-    """On a sheet whose columns grow: the number of new vertices on the side of the short edges tells."""
-    mesh = grid(SIZE, 0.6, on_sphere)
-    x, y, z = mesh.positions.T
-    bent = np.column_stack([np.sign(x) * np.where(x < 0, 0.45, 1.55) * np.abs(x), y, z])
-    mesh = replace(mesh, positions=bent / np.linalg.norm(bent, axis=1, keepdims=True))
-    counts = []
-    for inner in ("OUTLINE", "EVEN"):
-        new = remesh(mesh, inner=inner, spacing=0.6).new_positions
-        near, far = (np.abs(new[:, 0] - place) < 0.1 for place in (-0.1, 0.3))
-        counts.append(np.count_nonzero(near) / np.count_nonzero(far))
-    assert counts[0] > 1.15 * counts[1]
 
 
 def test_the_whole_patch_is_covered_once() -> None:
@@ -159,15 +145,6 @@ def test_a_seam_over_a_limb_that_is_gone_is_a_knot() -> None:
     assert "squeezed to a knot" in verdicts[1].reason
     assert (away[verdicts[1].spots] < 0.3).all()
     assert remesh(replace(horn, lines={})).verdict.grade == GOOD
-
-
-def test_a_few_short_edges_are_no_knot() -> None:
-    before = np.column_stack([np.arange(8.0), np.zeros((8, 2))])
-    lines = np.column_stack([np.arange(7), np.arange(1, 8)])
-    for count, ends in ((3, []), (4, [0, 1, 2, 3, 4])):
-        steps = np.where(np.arange(7) < count, 0.2, 1.0)
-        after = np.column_stack([np.concatenate([[0.0], np.cumsum(steps)]), np.zeros((8, 2))])
-        assert squeezed(before, after, lines).tolist() == ends
 
 
 @pytest.mark.parametrize("spacing", [1.0, 4.0])

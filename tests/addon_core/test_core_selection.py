@@ -11,7 +11,7 @@ import pytest
 from core.arrays import Floats, Mask
 from core.engine import bad_outline, mended_outline
 from core.region import MeshArrays, make_patch
-from core.selection import enclosed_faces, grown_until_smooth, left_out_faces, pieces, problem_of
+from core.selection import enclosed_faces, grown_until_smooth, left_out_faces, problem_of
 from core.symmetry import mirror_map, with_image
 from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh
 
@@ -78,14 +78,6 @@ def test_hidden_faces_are_not_enclosed() -> None:
     hidden = where(lambda c: np.hypot(c[0], c[1]) < 0.3)
     found = enclosed_faces(replace(FLAT, hidden=hidden), outline_of(FLAT, inside))
     assert np.array_equal(found, inside & ~hidden)
-
-
-def test_pieces_are_named_by_their_lowest_face() -> None:
-    apart = where(lambda c: np.abs(c[0]) > 0.5)
-    label = pieces(FLAT, apart)
-    assert set(label[apart]) == {0, 9}
-    assert (label[~apart] == -1).all()
-    assert (label[where(lambda c: c[0] > 0.5)] == 9).all()
 
 
 def test_a_lasso_that_left_faces_out() -> None:

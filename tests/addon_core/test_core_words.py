@@ -122,28 +122,6 @@ def test_warnings_of_several_islands_are_one() -> None:
     )
 
 
-def test_cases_of_one_code_are_told_apart_by_their_figures() -> None:
-    """An island without a surface and one with half its bulge are two things to tell, so are kinds of bad faces."""
-    assert told(
-        diagnostic("NOT_CONVERGED", [0], free_vertices=70.0, load_share=0.5),
-        diagnostic("NOT_CONVERGED", [1], free_vertices=3.0),
-        diagnostic("NOT_CONVERGED", [2], free_vertices=61.0, load_share=0.75),
-        diagnostic("FLIPPED_TRIANGLES", [], "triangle"),
-    ) == (
-        "2 islands, of 131 free vertices in all, have surfaces with 75% of their bulge at most; "
-        "there may be none with more",
-        "No fair surface was found for an island of 3 free vertices",
-        "The way to spread vertices turns faces over here: they were spread evenly instead",
-    )
-
-
-def test_islands_of_one_case_may_have_different_figures() -> None:
-    assert told(
-        diagnostic("FOLDED", [0, 1], "triangle", turned_over=2.0, free_vertices=8.0),
-        diagnostic("FOLDED", [3], "triangle", passing_through=1.0, free_vertices=8.0),
-    ) == ("The surface was found, but 2 faces can't be placed on it without folds (2 islands)",)
-
-
 def test_a_surface_with_folds_is_told_once() -> None:
     """The engine gives two codes for it, for those who ask for either."""
     assert told(

@@ -11,9 +11,7 @@ import meshes
 import own_process
 import pytest
 from extension import module
-from test_modal import event, go_on, started
-
-__all__ = ["go_on"]  # a fixture
+from test_modal import event, started
 
 
 def kept() -> dict[str, bool]:

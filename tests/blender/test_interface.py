@@ -111,20 +111,6 @@ def test_every_button_says_what_it_lacks() -> None:
         bpy.ops.mesh.fair_curvature()
 
 
-def test_minimal_surface() -> None:
-    obj = meshes.grid()
-    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7)
-    points = meshes.positions(obj)
-    saddle = 0.1 * points[:, 0] * points[:, 1]  # minimal up to third order in its slope of 0.1
-    points[:, 2] = saddle
-    points[meshes.free_vertices(obj, faces), 2] += 0.2
-    meshes.move(obj, points)
-    assert meshes.fair(obj, faces, equation="MINIMAL") == {"FINISHED"}
-    assert meshes.report().converged
-    result = meshes.positions(obj)
-    np.testing.assert_allclose(result[:, 2], 0.1 * result[:, 0] * result[:, 1], atol=1e-3)
-
-
 def test_fair_mesh_is_the_operator() -> None:
     from bl_ext.user_default.intrinsic_fairing import fair_mesh
 

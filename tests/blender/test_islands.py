@@ -9,29 +9,6 @@ import meshes
 import numpy as np
 import pytest
 from extension import inspect
-from test_bulge import LIFT, disc
-
-
-def joined(objects: list[bpy.types.Object]) -> bpy.types.Object:
-    for obj in bpy.context.view_layer.objects:
-        obj.select_set(obj in objects)
-    bpy.context.view_layer.objects.active = objects[0]
-    bpy.ops.object.join()
-    return bpy.context.view_layer.objects.active
-
-
-def test_each_island_bulges_by_its_own_size() -> None:
-    first, inside = disc(1.0)
-    second, _ = disc(3.0)
-    second.location.x = 10.0
-    bpy.context.view_layer.update()
-    both = joined([first, second])
-    assert meshes.fair(both, np.concatenate([inside, inside]), equation="CONSTANT", bulge=1.0) == {"FINISHED"}
-    assert meshes.report().converged
-    points = meshes.positions(both)
-    for middle, size in ((0.0, 1.0), (10.0, 3.0)):
-        around = np.linalg.norm(points[:, :2] - (middle, 0.0), axis=1) < 1.5 * size
-        assert points[around, 2].max() / size == pytest.approx(LIFT, abs=0.025)  # as in test_bulge
 
 
 def ring_of(obj: bpy.types.Object, half: float) -> Any:

@@ -7,9 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from itertools import count
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import bmesh
@@ -18,7 +16,6 @@ import meshes
 import numpy as np
 import pytest
 from extension import module
-from test_held import box, bumpy, off_box
 
 
 @pytest.fixture
@@ -106,19 +103,6 @@ def test_what_is_around_keeps_its_bits(live: Any) -> None:
     meshes.edit(obj)
     held[beside] = False
     assert np.array_equal(now()[held], before[held])
-
-
-def test_no_change_is_no_reason_to_write(live: Any) -> None:
-    table_mountain(32)
-    drag(flank(now()), (0.0, 0.0, 0.05))
-    count, points = live.updates, now()
-    for _ in range(5):
-        bpy.context.view_layer.update()
-        bpy.context.view_layer.objects.active.data.update_tag()
-    drag([], (0.0, 0.0, 0.0))
-    far = np.flatnonzero(points[:, 0] < -0.99)  # farther away than normals are fitted
-    drag(far, (0.0, 0.0, 0.01))
-    assert live.updates == count
 
 
 def test_vertices_of_the_region_return(live: Any) -> None:
@@ -295,23 +279,6 @@ def test_a_slow_answer_is_carried_along_until_the_end_of_the_drag(live: Any, mon
     assert_fair(faces)
 
 
-def test_other_work_on_the_machine_is_no_reason_to_give_up_at_the_end(
-    live: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Any look at the clock finds 100 seconds gone, none of them the processor's for the search."""
-    home = module("follow.live")
-    table_mountain()
-    monkeypatch.setattr(home, "PATIENCE", -1.0)
-    later = count(0.0, 100.0).__next__
-    clocks = {"perf_counter": later, "process_time": later, "monotonic": later, "thread_time": time.thread_time}
-    monkeypatch.setattr(module("core.live_search"), "time", SimpleNamespace(**clocks))
-    drag(flank(now()), (0.0, 0.0, 0.05))
-    assert len(live.lost_points()) > 0
-    live.changed_at -= home.PAUSE
-    assert home._settle_later() is None
-    assert (len(live.lost_points()), live.message) == (0, "")
-
-
 def test_a_region_that_has_lost_its_surface_mends_when_the_drag_comes_back(
     live: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -388,11 +355,6 @@ def test_far_side_of_a_limb(live: Any) -> None:
         assert chosen == np.flatnonzero((row >= low) & (row < high)).tolist()
 
 
-def test_nothing_lies_beyond_a_region_in_the_middle(live: Any) -> None:
-    table_mountain()
-    assert bpy.ops.mesh.fair_live_far_side() == {"CANCELLED"}
-
-
 def with_keys() -> tuple[bpy.types.Object, Any]:
     """Add a bumpy grid in edit mode with a live region in its Basis, and another key of the very same shape."""
     obj = meshes.grid(16)
@@ -456,15 +418,6 @@ def test_a_region_can_be_in_any_key(live: Any) -> None:
     assert np.abs(now() - before).max(axis=1)[middle_of(before)].max() > 1e-3
 
 
-def test_scale_of_the_object_counts(live: Any) -> None:
-    obj, faces = table_mountain()
-    before = now()
-    obj.scale = (3.0, 1.0, 1.0)
-    bpy.context.view_layer.update()
-    assert np.abs(now() - before).max() > 1e-4
-    assert_fair(faces)
-
-
 def test_mirrored_region_stays_symmetric(live: Any) -> None:
     obj = meshes.grid(16)
     obj.data.use_mirror_x = True
@@ -526,25 +479,3 @@ def test_forgetting_leaves_no_trace(live: Any) -> None:
     meshes.edit(obj)
     assert not bpy.ops.mesh.fair_live_forget.poll()
     assert not bpy.ops.mesh.fair_live_select.poll()
-
-
-def test_live_follows_a_box_corner_with_creases(live: Any) -> None:
-    """Its sides are flat, its sharp edges stay; and so where it has been moved."""
-    obj, _ = box(24)
-    faces = meshes.faces_where(obj, lambda c: max(abs(x) for x in c) < 0.3)
-    on_edge = np.isclose(meshes.positions(obj), 0.0).sum(axis=1) >= 2
-    bumpy(obj, meshes.free_vertices(obj, faces) & ~on_edge)
-    meshes.select(obj, faces)
-    meshes.edit(obj)
-    last = bpy.context.window_manager.operator_properties_last("mesh.fair_region")
-    last.pin_edges = "SHARP"
-    try:
-        assert bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True) == {"FINISHED"}
-        assert off_box(now(obj.name)) < 1e-5
-        before = live.updates
-        drag(np.arange(len(now(obj.name))), (0.0, 0.0, 0.25), obj.name)
-        assert live.updates > before
-        assert off_box(now(obj.name) - [0.0, 0.0, 0.25]) < 1e-5
-    finally:
-        last.property_unset("pin_edges")
-    assert live.message == ""

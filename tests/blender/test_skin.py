@@ -80,16 +80,6 @@ def test_detail_is_the_engines() -> None:
         assert meshes.positions(obj)[own] == pytest.approx(part.vertices, abs=1e-6)
 
 
-def test_the_size_counts() -> None:
-    """Longer waves are kept with a larger size: more of the dent stays."""
-    fine, faces, _ = dented()
-    coarse, _, _ = dented()
-    fair(fine, faces, detail=1.0, detail_size=0.15)
-    fair(coarse, faces, detail=1.0, detail_size=0.8)
-    top = meshes.positions(fine)[:, 2].argmax()
-    assert heights(coarse)[top] < heights(fine)[top] - 0.02
-
-
 def test_the_detail_slider_answers_from_memory(nothing_solves: Any) -> None:
     """As the factor does: the same mesh, another share."""
     module("run.job").memory.clear()
@@ -106,28 +96,6 @@ def test_the_detail_slider_answers_from_memory(nothing_solves: Any) -> None:
     assert np.ptp(heights(part)[free]) < np.ptp(heights(whole)[free])
     with pytest.raises(RuntimeError, match="solved again"):
         fair(dented()[0], faces, detail=0.4, detail_size=0.3)
-
-
-def test_a_script_gives_the_same_bits() -> None:
-    from bl_ext.user_default.intrinsic_fairing import fair_mesh
-
-    obj, faces, _ = dented(32)
-    scripted, _, _ = dented(32)
-    chosen = {"detail": 0.7, "detail_size": 0.25}
-    fair(obj, faces, **chosen)
-    fair_mesh(scripted.data, np.flatnonzero(faces), matrix=scripted.matrix_world, **chosen)
-    assert np.abs(meshes.positions(obj) - meshes.positions(scripted)).max() < 1e-6
-
-
-@pytest.mark.parametrize("name", ["detail", "detail_size"])
-def test_shares_are_from_0_to_1(name: str) -> None:
-    from bl_ext.user_default.intrinsic_fairing import fair_mesh
-
-    obj, faces, _ = dented(32)
-    before = meshes.contents(obj)
-    with pytest.raises(ValueError, match=f"{name}: expected a number from 0 to 1"):
-        fair_mesh(obj.data, np.flatnonzero(faces), **{name: 1.5})
-    assert meshes.contents(obj) == before
 
 
 def test_feather_moves_the_band_and_no_bit_beyond_it() -> None:
@@ -245,15 +213,6 @@ def test_a_group_or_the_mask_says_how_far_each_vertex_goes() -> None:
     assert half == pytest.approx(0.5 * (meshes.positions(start) + places), abs=1e-6)
 
 
-def test_scripts_name_the_group_too() -> None:
-    from bl_ext.user_default.intrinsic_fairing import fair_mesh
-
-    obj, faces, _ = dented(32)
-    paint_group(obj, soft(obj, 0.1, 0.5))
-    fair_mesh(obj.data, np.flatnonzero(faces), factor_group="Soft")
-    assert meshes.positions(obj) == pytest.approx(by_weights("group")[0], abs=1e-6)
-
-
 @pytest.mark.parametrize(
     ("options", "text"),
     [
@@ -272,16 +231,6 @@ def test_weights_that_can_not_be_are_refused_in_words(options: dict[str, str], t
     with pytest.raises(RuntimeError, match=text):
         meshes.fair(obj, faces, **options)
     assert meshes.contents(obj) == before
-
-
-def test_the_soft_edge_of_a_mask_fades_out_what_is_masked() -> None:
-    """Fair Masked takes the faces from the same mask."""
-    obj, _, _ = dented(32)
-    weights = soft(obj, 0.1, 0.5)
-    paint_mask(obj, weights)
-    before = meshes.positions(obj)
-    assert bpy.ops.mesh.fair_masked(source="MASK", factor_mask="USED") == {"FINISHED"}
-    assert np.array_equal((meshes.positions(obj) != before).any(axis=1), weights > 0.0)
 
 
 def with_a_hole() -> tuple[bpy.types.Object, meshes.Mask]:
@@ -309,32 +258,3 @@ def test_a_filled_hole_takes_the_skin_of_a_group_or_a_face_set() -> None:
     assert np.array_equal(meshes.positions(by_group), meshes.positions(by_set))
     deep = meshes.positions(by_group)[:, 2] < -0.2
     assert heights(by_group)[free].std() == pytest.approx(heights(by_group)[deep].std(), rel=0.25)
-
-
-def test_a_script_copies_skin_too(nothing_solves: Any) -> None:
-    from bl_ext.user_default.intrinsic_fairing import fair_mesh
-
-    obj, faces = with_a_hole()
-    scripted, _ = with_a_hole()
-    fair(obj, faces, detail=1.0, detail_from="Skin")
-    fair_mesh(scripted.data, np.flatnonzero(faces), detail=1.0, detail_from="Skin")
-    assert np.abs(meshes.positions(obj) - meshes.positions(scripted)).max() < 1e-6
-    nothing_solves()  # the slider still answers from memory
-    half, _ = with_a_hole()
-    fair(half, faces, detail=0.5, detail_from="Skin")
-
-
-@pytest.mark.parametrize(
-    ("options", "text"),
-    [
-        ({"detail_from": "Missing"}, "Detail From: there is no vertex group named 'Missing'"),
-        ({"detail_face_set": 3}, "Detail Face Set: no visible face is in the face set 3"),
-        ({"detail_from": "Skin", "feather": 0.1}, "Detail From copies a skin"),
-    ],
-)
-def test_samples_that_can_not_be_are_refused_in_words(options: dict[str, Any], text: str) -> None:
-    obj, faces = with_a_hole()
-    before = meshes.in_edit_mode_once(obj, faces)
-    with pytest.raises(RuntimeError, match=text):
-        meshes.fair(obj, faces, detail=1.0, **options)
-    assert meshes.contents(obj) == before
