@@ -7,11 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from scipy.sparse import coo_array, csr_array, diags_array
-from scipy.sparse.linalg import splu
 
 import fairing
-from curves import FloatArray
 from rough_sphere import IntArray, RoughSphere, rough_sphere
 
 COUNT = 6000
@@ -33,32 +30,6 @@ def dressed(sphere: RoughSphere, **options: Any) -> fairing.FairResult:
     return sphere.fair(**{"detail": 1.0, "detail_from": lower_half(sphere), **options})
 
 
-def over_base(sphere: RoughSphere, result: fairing.FairResult) -> FloatArray:
-    """Heights of the skin (n,), along the sphere's normals."""
-    assert result.base is not None
-    return np.asarray(((result.vertices - result.base) * sphere.exact).sum(axis=1))
-
-
-def in_bands(sphere: RoughSphere, heights: FloatArray, where: IntArray) -> FloatArray:
-    """Root mean squares of waves below 4, of 4 to 6 and of 6 to 9 edges, by filters of the fourth order."""
-    triangles = np.concatenate([sphere.inside, sphere.outside])
-    count = len(sphere.exact)
-    rows, columns, values = fairing.cotan_laplacian(sphere.exact, triangles)
-    stiffness: csr_array = coo_array((values, (rows, columns)), shape=(count, count)).tocsr()
-    corners = sphere.exact[triangles]
-    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 6
-    mass = np.zeros(count)
-    np.add.at(mass, triangles, area[:, None])
-    left, found = heights, []
-    for edges in (4.0, 6.0, 9.0):
-        factor = (edges * sphere.edge / (2 * np.pi)) ** 4 / 4
-        smooth = splu((diags_array(mass) + factor * (stiffness @ diags_array(1 / mass) @ stiffness)).tocsc())
-        longer = smooth.solve(mass * left)
-        found.append(np.sqrt(((left - longer)[where] ** 2).mean()))
-        left = longer
-    return np.array(found)
-
-
 @pytest.fixture(scope="module")
 def sphere() -> RoughSphere:
     return bare(11)
@@ -67,17 +38,6 @@ def sphere() -> RoughSphere:
 @pytest.fixture(scope="module")
 def grown(sphere: RoughSphere) -> fairing.FairResult:
     return dressed(sphere)
-
-
-def test_amplitude_and_spectrum_are_the_samples() -> None:
-    """Over some seeds, against the noise that was there before the patch was smoothed."""
-    powers = np.zeros((2, 4))
-    for seed in range(30, 36):
-        sphere = bare(seed)
-        noise = np.linalg.norm(sphere.skin, axis=1) - 1
-        for k, heights in enumerate((over_base(sphere, dressed(sphere)), noise)):
-            powers[k] += [heights[sphere.free].var(), *in_bands(sphere, heights, sphere.free) ** 2]
-    assert np.sqrt(powers[0] / powers[1]) == pytest.approx(np.ones(4), abs=0.15)
 
 
 def test_the_surface_beneath_is_fair(sphere: RoughSphere, grown: fairing.FairResult) -> None:

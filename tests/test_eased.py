@@ -32,17 +32,6 @@ def faired(cap: shapes.Patch) -> fairing.FairResult:
     return fairing.fair(cap.vertices, cap.triangles, fixed=cap.fixed, fixed_normals=cap.fixed_normals, threads=1)
 
 
-def roughened(patch: shapes.Patch, edges: float, radians: float, seed: int, wave: float = 0.0) -> shapes.Patch:
-    """Outlines moved by so many edges, and normals turned, along each loop in waves of `wave` vertices and more."""
-    rng = np.random.default_rng(seed)
-    vertices, normals = patch.vertices.copy(), patch.normals.copy()
-    for loop in fairing.boundary_loops(patch.triangles):
-        edge = np.linalg.norm(np.diff(patch.vertices[loop], axis=0), axis=1).mean()
-        vertices[loop] += edges * edge * _noise(len(loop), rng, wave)
-        normals[loop] += radians * _noise(len(loop), rng, wave)
-    return replace(patch, vertices=vertices, normals=normals / np.linalg.norm(normals, axis=1)[:, None])
-
-
 def _noise(count: int, rng: np.random.Generator, wave: float) -> np.ndarray:
     spectrum = np.fft.rfft(rng.normal(size=(count, 3)), axis=0)
     spectrum[np.arange(len(spectrum)) * wave > count] = 0
@@ -111,20 +100,3 @@ def test_fine_rims_with_wild_normals_have_a_sphere(radians: float) -> None:
     result = fairing.fair(rim.vertices, rim.triangles, fixed=rim.fixed, fixed_normals=rim.normals, threads=1)
     assert result.converged
     assert np.abs(np.linalg.norm(result.vertices[len(rim.fixed) :], axis=1) - 1).max() < 0.03
-
-
-def test_small_patches_pass_noise_by_as_well() -> None:
-    """Most small patches with a noisy outline converge beside it."""
-    rough = [
-        roughened(shapes.cap(800), edges, radians, seed, 8.0)
-        for edges, radians in ((3.0, 1.5), (2.0, 2.0))
-        for seed in range(3)
-    ]
-    assert sum(faired(patch).converged for patch in rough) >= 4
-
-
-def test_so_do_small_tubes_between_noisy_rims() -> None:
-    """Most tubes between noisy rims have a harmonic surface beside them."""
-    rough = [roughened(shapes.cylinder(900), edges, radians, 0) for edges, radians in ((0.8, 1.0), (1.0, 0.6))]
-    rough += [roughened(shapes.cylinder(900), 0.8, 1.0, seed) for seed in (1, 2)]
-    assert sum(faired(patch).equation == "harmonic" for patch in rough) >= 3

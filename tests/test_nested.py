@@ -49,18 +49,6 @@ def test_levels_change_the_way_and_not_the_surface(name: str) -> None:
     assert np.abs(nested.vertices - plain.vertices).max() <= 1e-8 * patch.diameter
 
 
-@pytest.mark.parametrize("inner_fairness", ["conformal", "inverse_distance", "shape_preserving"])
-def test_every_inner_fairness_is_nested(inner_fairness: str) -> None:
-    patch = shapes.cap(4000)
-    result = fairing.fair(
-        shapes.start_from_nothing(patch), patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals,
-        reference=patch.vertices, inner_fairness=inner_fairness, tolerance=1e-10,
-    )  # fmt: skip
-    assert result.converged
-    assert len(result.levels) > 1
-    assert patch.error(result.vertices) <= 1e-8  # a sphere is exact
-
-
 @pytest.mark.parametrize("seed", range(6))
 def test_deep_caps_of_few_vertices_are_spheres(seed: int) -> None:
     """A coarse level of some hundred vertices has no surface there."""
@@ -80,16 +68,6 @@ def test_the_split_operator_leads_to_the_same_sphere() -> None:
     assert patch.error(result.vertices) <= 1e-8
     again = fair_patch(patch, tolerance=1e-11, threads=1)
     assert np.array_equal(again.vertices, result.vertices)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("quads", [400, 568])
-def test_clusters_of_tiny_triangles_do_not_end_the_iteration(quads: int) -> None:
-    """Half a million and a million vertices: at the corners of the cube the residual is noise, the steps are not."""
-    result = from_border(cube_cap(quads), tolerance=1e-6)
-    assert result.converged
-    assert len(result.levels) > 1
-    assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max() <= 3e-6
 
 
 @pytest.mark.parametrize("quads", [30, 44, 60])

@@ -265,15 +265,3 @@ def test_the_join_of_a_sphere_is_invisible_and_a_wrong_normal_shows() -> None:
     options["fixed_normals"] = tilted / np.linalg.norm(tilted, axis=1)[:, None]
     leaning = fairing.fair(case.noisy, case.inside, **options)
     assert 10 < np.median(leaning.join) < 25
-
-
-def test_the_visible_join_of_an_edge_that_was_there_before() -> None:
-    """Half a cube's edge: sharp where there was none, nothing new where it was sharp before."""
-    across = np.array([[0, 0, 0], [0, 1, 0], [1, 0, 0], [1, 1, 0], [0, 0, -1], [0, 1, -1]], dtype=float)
-    flat = across * [1, 1, 0] + np.c_[across[:, 2], np.zeros((6, 2))]
-    inside, outside = np.array([[0, 2, 3], [0, 3, 1]]), np.array([[0, 1, 5], [0, 5, 4]])
-    sharp = fairing.visible_join(across, inside, outside, [0, 1])
-    assert sharp == pytest.approx([90, 90])
-    assert fairing.visible_join(across, inside, outside, [0, 1], before=flat) == pytest.approx([90, 90])
-    assert fairing.visible_join(across, inside, outside, [0, 1], before=across) == pytest.approx([0, 0])
-    assert fairing.visible_join(across, inside, outside, [2, 4]) == pytest.approx([0, 0])

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -207,16 +206,6 @@ def test_other_answers_are_refused(answer: Any) -> None:
         CLEAN.fair(progress=lambda fraction, stage: answer)
 
 
-@pytest.mark.parametrize("tolerance", [1e-15, 1e-16, 3e-17, 1e-30, 5e-324])
-def test_tolerances_below_rounding(tolerance: float) -> None:
-    """They count as 1e-15, which is met on this cap's own mesh."""
-    result = call(tolerance=tolerance)
-    assert result.converged
-    assert result.polished
-    assert not result.warnings
-    assert np.abs(result.vertices - call(tolerance=1e-14).vertices).max() < 1e-12
-
-
 def test_a_callback_may_call_again() -> None:
     """A fairing from within the progress of another: no lock is held."""
     inner: list[FloatArray] = []
@@ -274,14 +263,6 @@ def test_without_memory_it_refuses_and_lives() -> None:
     assert words[-2:] == ["solved", "solved"]
 
 
-@in_all_ways
-def test_two_threads_at_once_give_the_same_bits(method: str, kind: str) -> None:
-    control = CLEAN.fair(method=method, inner_fairness=kind).vertices
-    with ThreadPoolExecutor(2) as pool:
-        results = list(pool.map(lambda _: CLEAN.fair(method=method, inner_fairness=kind).vertices, range(4)))
-    assert all(np.array_equal(vertices, control) for vertices in results)
-
-
 FORKED = """
 import os, sys
 sys.path.insert(0, sys.argv[1])
@@ -304,14 +285,6 @@ def test_a_fork_goes_on() -> None:
 
 
 # Repetition
-
-
-@in_all_ways
-def test_again_moves_nothing_and_gives_the_same_bits(method: str, kind: str) -> None:
-    first = CLEAN.fair(method=method, inner_fairness=kind)
-    assert np.array_equal(CLEAN.fair(method=method, inner_fairness=kind).vertices, first.vertices)
-    again = CLEAN.changed(vertices=first.vertices).fair(method=method, inner_fairness=kind)
-    assert np.abs(again.vertices - first.vertices).max() < 1e-4 * D
 
 
 @in_all_ways

@@ -55,17 +55,6 @@ def test_outlines_without_length_or_area_do_no_harm(method: str, kind: str) -> N
         assert "DEGENERATE_FACE" in codes(result)
 
 
-@pytest.mark.parametrize("method", ["global", "paper"])
-def test_all_given_in_one_point_needs_given_normals(method: str) -> None:
-    """Averages of triangles without area are no normals; with normals the start doesn't matter."""
-    start = CAP.vertices.copy()
-    start[CAP.free] = start[CAP.fixed[0]]
-    result = CLEAN.changed(vertices=start).fair(method=method)
-    assert np.array_equal(result.vertices, CLEAN.fair(method=method).vertices)
-    bare = CLEAN.changed(vertices=start, normals=None).fair(method=method)
-    assert {"NORMALS_FROM_PATCH", "DEGENERATE_FACE"} <= codes(bare)
-
-
 @in_all_ways
 @pytest.mark.parametrize("spoil", [hard_inputs.spikes, hard_inputs.fold, hard_inputs.noise])
 def test_the_interior_given_does_not_matter(spoil: Callable[[Patch], FloatArray], method: str, kind: str) -> None:
@@ -154,19 +143,6 @@ def test_needles_in_the_reference(ratio: float, method: str, kind: str) -> None:
         assert off_the_sphere(result.vertices) < 5e-6
     assert not result.converged or off_the_sphere(result.vertices) < 4e-2
     assert ("NOT_CONVERGED" in codes(result)) == (not result.converged)
-
-
-@in_all_ways
-@pytest.mark.parametrize("share", [1e-2, 1e-4])
-def test_a_short_edge_on_the_outline(share: float, method: str, kind: str) -> None:
-    """Two outline vertices brought together to that share of their distance, on the sphere."""
-    vertices = CAP.vertices.copy()
-    i, j = CAP.fixed[:2]
-    vertices[j] = vertices[i] + share * (vertices[j] - vertices[i])
-    vertices[j] /= np.linalg.norm(vertices[j])
-    item = CLEAN.changed(vertices=vertices, reference=vertices, normals=vertices[CAP.fixed])
-    result = item.fair(method=method, inner_fairness=kind)
-    assert off_the_sphere(result.vertices) < (4e-2 if method == "paper" else 5e-6)
 
 
 @in_all_ways

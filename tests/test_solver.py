@@ -133,28 +133,6 @@ def test_answers_do_not_depend_on_what_was_solved_before(family: str) -> None:
     )
 
 
-@pytest.mark.parametrize(
-    "options",
-    [
-        {"equation": "constant", "load": 2.0},
-        {"equation": "minimal"},
-        {"equation": "minimal_energy"},
-        {"normals": "averaged"},
-        {"inner_fairness": "inverse_distance"},
-        {"inner_fairness": "shape_preserving"},
-    ],
-)
-def test_every_equation_and_fairness_starts_from_the_last_answer(options: dict[str, Any]) -> None:
-    patch = shapes.cap(SIZE, half_angle=50)
-    solver = solver_of(patch, **options)
-    solver.solve(patch.vertices, patch.fixed_normals, reference=patch.vertices)
-    vertices = dragged(patch, patch.vertices, 2, 0.01)
-    result, seen = stages(solver, vertices, patch.fixed_normals, reference=patch.vertices)
-    assert seen == WITHOUT_FACTORISATION
-    single = fair(patch, vertices, patch.fixed_normals, reference=patch.vertices, **options)
-    assert np.abs(result.vertices - single.vertices).max() <= 10 * SAME * patch.diameter
-
-
 def test_another_reference_changes_the_weights() -> None:
     patch = shapes.cap(SIZE, half_angle=60)
     stretched = patch.vertices * np.array([1.6, 1.0, 1.0])
@@ -185,29 +163,6 @@ def test_same_input_gives_the_same_bits_again() -> None:
     again = solver.solve(patch.vertices, patch.fixed_normals)
     assert np.array_equal(first.vertices, again.vertices)
     assert again.iterations == 1
-
-
-def two_caps() -> tuple[Patch, FloatArray, FloatArray, Any, Any]:
-    """Two copies of a cap beside each other: vertices, normals, triangles and fixed of both."""
-    patch = shapes.cap(300, half_angle=60)
-    count = len(patch.vertices)
-    vertices = np.vstack([patch.vertices, patch.vertices + np.array([5.0, 0.0, 0.0])])
-    triangles = np.vstack([patch.triangles, patch.triangles + count])
-    fixed = np.concatenate([patch.fixed, patch.fixed + count])
-    return patch, vertices, np.vstack([patch.fixed_normals] * 2), triangles, fixed
-
-
-def test_each_component_starts_from_its_own_last_answer() -> None:
-    """One of two islands jumps, so that it is solved from scratch; the other one keeps its bits."""
-    patch, vertices, normals, triangles, fixed = two_caps()
-    solver = fairing.Solver(triangles, fixed=fixed, tolerance=TOLERANCE)
-    first = solver.solve(vertices, normals)
-    count = len(patch.vertices)
-    vertices[count:] = dragged(patch, patch.vertices, 0, 0.2) + np.array([5.0, 0.0, 0.0])
-    result = solver.solve(vertices, normals)
-    single = fairing.fair(vertices, triangles, fixed=fixed, fixed_normals=normals, tolerance=TOLERANCE)
-    assert np.array_equal(result.vertices[:count], first.vertices[:count])
-    assert np.array_equal(result.vertices[count:], single.vertices[count:])
 
 
 PATCH = shapes.cap(300)

@@ -97,13 +97,6 @@ def counting_kept(ahead: bool = False) -> Kept:
     return Kept(results, solvers, ahead)
 
 
-def test_a_former_result_is_not_computed_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    mesh, kept = spoilt_sphere(), counting_kept()
-    first = solve(mesh, EYE, FairOptions(), kept=kept)
-    monkeypatch.setattr(fairing, "fair", lambda *_args, **_options: pytest.fail("solved again"))
-    assert solve(mesh, EYE, FairOptions(factor=0.5), kept=kept) is first
-
-
 def test_the_engine_is_asked_for_all_of_the_detail_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every share of it follows from that answer; none of it is another one."""
     mesh, kept = spoilt_sphere(), counting_kept()

@@ -134,16 +134,6 @@ def test_weights_are_the_engines() -> None:
     assert len(narrow.vertices) < len(fair(mesh).vertices)
 
 
-def test_a_weight_of_a_half_goes_half_the_way() -> None:
-    mesh = swollen()
-    half = np.where(soft(0.6) > 0.0, 0.5, 0.0)
-    part, whole = weighed(half), weighed(2.0 * half)
-    middle = 0.5 * (mesh.positions[whole.vertices] + whole.positions)
-    assert np.array_equal(part.vertices, whole.vertices)
-    # Both bases are blended, and what is left of the old skin, which lies still finer, is put back whole.
-    assert np.abs(part.positions - middle).max() < 0.05 * np.abs(whole.positions - mesh.positions[whole.vertices]).max()
-
-
 def test_weights_elsewhere_are_left_alone() -> None:
     """Only what weights join to the selection takes part: not the other end of the group."""
     apart = soft(0.5)
@@ -162,19 +152,6 @@ def test_feather_and_weights_are_multiplied() -> None:
     both = fair(replace(mesh, parts=left), feather=WIDTH, **BY_GROUP)
     whole = fair(mesh, feather=WIDTH)
     assert np.array_equal(both.vertices, whole.vertices[left[whole.vertices] > 0.0])
-
-
-def test_weights_need_no_surroundings() -> None:
-    """All faces are selected: their border is the outline."""
-    mesh = replace(swollen(), in_patch=np.ones(SIZE * SIZE, dtype=bool))
-    whole = fair(mesh, inner_fairness="CONFORMAL")
-    half = np.full(len(mesh.positions), 0.5)
-    done = fair(replace(mesh, parts=half), inner_fairness="CONFORMAL", **BY_GROUP)
-    assert np.array_equal(done.vertices, whole.vertices)
-    moves = np.linalg.norm(done.positions - mesh.positions[done.vertices], axis=1).max()
-    assert moves == pytest.approx(
-        0.5 * np.linalg.norm(whole.positions - mesh.positions[whole.vertices], axis=1).max(), rel=0.1
-    )
 
 
 @pytest.mark.parametrize(

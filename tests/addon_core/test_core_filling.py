@@ -12,7 +12,7 @@ from core.arrays import Floats, Ints, Mask
 from core.border import BorderRefusal, border_loops
 from core.fill_verdict import Surface, judge
 from core.filling import FillOptions, Piece, fill
-from core.harmonic import harmonic, nearest
+from core.harmonic import harmonic
 from core.quality import Join
 from core.region import MeshArrays, nothing
 from core.verdict import GOOD, LOOK, UNUSABLE, Verdict
@@ -115,15 +115,6 @@ def two_tubes(*, turned_over: bool = False) -> MeshArrays:
     return polygon_mesh(points, quads, np.zeros(len(quads), dtype=bool))
 
 
-def test_each_loop_for_itself_or_all_joined() -> None:
-    mesh = two_tubes()
-    seeds = (48, 72)
-    assert len(filled(mesh, *seeds)) == 2
-    (tube,) = filled(mesh, *seeds, bridge=True)
-    assert [len(loop) for loop in tube.loops] == [24, 24]
-    assert np.abs(np.linalg.norm(tube.positions[:, :2], axis=1) - 1.0).max() < 1e-2
-
-
 def test_a_tube_turned_over_is_told_and_four_outlines_are_too_many() -> None:
     with pytest.raises(MeshRefusal, match=r"faces around the outline through vertex .* are turned over") as error:
         filled(two_tubes(turned_over=True), 48, 72, bridge=True)
@@ -155,17 +146,6 @@ def test_the_outside_of_a_sheet_is_refused() -> None:
     ) as error:
         filled(flat, 0)
     assert len(error.value.elements) == 32
-
-
-def test_a_waist_is_worth_a_look_and_names_the_shape_without_one() -> None:
-    points, join = disc(3)[0], Join(np.arange(2), np.zeros(2))
-    assert judged(points, join, girth=(0.95, 1.3)).grade == GOOD
-    thin = judged(points, join, girth=(0.86, 1.0))
-    assert (thin.grade, thin.reason) == (
-        LOOK,
-        "The tube narrows to 86% of its ends: choose the shape Even Curvature",
-    )
-    assert judged(points, join, girth=(0.86, 1.0), equation="least_variation").reason.endswith("of its ends")
 
 
 def judged(points: Floats, join: Join, *tangent_only: int, **of_result: object) -> Verdict:
@@ -285,27 +265,6 @@ def test_linear_values_stay_linear_and_constants_keep_their_bits() -> None:
     found = harmonic(points, triangles, everywhere[:rim])
     np.testing.assert_allclose(found, everywhere[rim:], atol=1e-7)
     assert (found[:, 2] == 0.1).all()
-
-
-def test_what_is_not_finite_counts_as_nought() -> None:
-    points, triangles, rim = disc()
-    values = np.ones((rim, 2))
-    values[3, 0] = np.nan
-    values[5, 0] = np.inf
-    found = harmonic(points, triangles, values)
-    assert np.isfinite(found).all()
-    assert 0.0 < found[:, 0].min() < found[:, 0].max() <= 1.0
-    assert (found[:, 1] == 1.0).all()
-
-
-def test_nearest_is_next_to_it() -> None:
-    points, triangles, rim = disc()
-    label = nearest(triangles, len(points), rim)
-    np.testing.assert_array_equal(label[:rim], np.arange(rim))
-    second = np.linalg.norm(points[:, None] - points[None, :rim], axis=2).min(axis=1) < 1.001
-    distance = np.linalg.norm(points - points[label], axis=1)
-    assert (distance[second] < 1.001).all()
-    assert label.min() >= 0
 
 
 def test_a_face_at_the_outline_follows_the_face_across() -> None:

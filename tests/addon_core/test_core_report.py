@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-import fairing
 from core.arrays import Ints
 from core.options import FairOptions
 from core.outcome import Fairing, outcome
@@ -121,16 +120,3 @@ def test_a_bulge_that_is_not_found_is_explained(sphere: Fairing, converged: bool
     lost = replace(sphere, warnings=(), result=replace(sphere.result, converged=converged))
     notes = report(lost, equation="CONSTANT", bulge=bulge).warnings
     assert ["no surface with a bulge of 2" in note for note in notes] == [True] * told
-
-
-def test_the_largest_bulge_of_all_objects_is_told(sphere: Fairing) -> None:
-    def lost(share: float) -> Fairing:
-        told = fairing.Diagnostic("NOT_CONVERGED", "", np.empty(0, np.int32), "vertex", {"load_share": share})
-        return replace(sphere, warnings=(), result=replace(sphere.result, converged=False, warnings=(told,)))
-
-    (note,) = report(lost(0.59), lost(0.8), equation="CONSTANT", bulge=0.6).warnings
-    assert note.endswith("The largest that was found is 0.35")
-    (note,) = report(
-        replace(lost(0.5), result=replace(sphere.result, converged=False)), equation="CONSTANT", bulge=0.6
-    ).warnings
-    assert note.endswith("Try less")

@@ -10,7 +10,7 @@ import meshes
 import numpy as np
 import pytest
 from extension import module
-from test_restoration import BOUND, join_some_quads, off_sphere, spoil
+from test_restoration import join_some_quads
 
 
 def evaluated(obj: bpy.types.Object) -> meshes.Floats:
@@ -77,14 +77,6 @@ def mixed_sphere() -> tuple[bpy.types.Object, Any]:
     bm.to_mesh(obj.data)
     bm.free()
     return obj, meshes.faces_where(obj, lambda c: c.z > 1e-3)
-
-
-def test_mixed_faces() -> None:
-    obj, upper = mixed_sphere()
-    assert {len(p.vertices) for p, u in zip(obj.data.polygons, upper, strict=True) if u} == {3, 4, 6}
-    spoil(obj, upper)
-    meshes.fair(obj, upper)
-    assert off_sphere(meshes.positions(obj)) < BOUND[48]
 
 
 def test_selection_and_modes_stay() -> None:

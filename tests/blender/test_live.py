@@ -314,27 +314,6 @@ def test_a_region_that_has_lost_its_surface_mends_when_the_drag_comes_back(
     assert slowest < 0.6  # of the processor's time, two cores; 0.3 by the clock where nothing else runs
 
 
-def test_where_there_is_no_fair_surface_the_even_one_stands_in(live: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    home = module("follow.live")
-    table_mountain()
-    region = live.sessions["Grid"].region
-    monkeypatch.setattr(type(region), "answer", lambda *_: None)
-    drag(flank(now()), (0.0, 0.0, 0.05))
-    assert len(live.lost_points()) > 0
-    carried = now()
-    live.changed_at -= home.PAUSE
-    assert home._settle_later() is None
-    assert live.message == home.STAND_IN
-    assert len(live.lost_points()) == 0
-    assert 1e-4 < np.abs(now() - carried).max() < 0.1
-    monkeypatch.setattr(type(region), "stand_in", lambda *_: None)
-    drag(flank(now()), (0.0, 0.0, 0.05))
-    live.changed_at -= home.PAUSE
-    home._settle_later()
-    assert live.message == home.CARRIED
-    assert len(live.lost_points()) > 0
-
-
 def test_far_side_of_a_limb(live: Any) -> None:
     around, along = 12, 20
     angle = 2.0 * np.pi * np.arange(around) / around
@@ -416,21 +395,6 @@ def test_a_region_can_be_in_any_key(live: Any) -> None:
     drag(flank(before), (0.0, 0.0, 0.05))
     assert live.message == ""
     assert np.abs(now() - before).max(axis=1)[middle_of(before)].max() > 1e-3
-
-
-def test_mirrored_region_stays_symmetric(live: Any) -> None:
-    obj = meshes.grid(16)
-    obj.data.use_mirror_x = True
-    points = meshes.positions(obj)
-    points[:, 2] = 0.3 * np.cos(2.0 * points[:, 0])
-    meshes.move(obj, points)
-    meshes.select(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6))
-    meshes.edit(obj)
-    bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True)
-    drag(np.flatnonzero(np.abs(points[:, 1]) > 0.6), (0.0, 0.0, 0.1))
-    order = np.lexsort(np.round(points * (1, 1, 0), 4).T)
-    mirrored = np.lexsort(np.round(points * (-1, 1, 0), 4).T)
-    assert np.array_equal(now()[order], now()[mirrored] * (-1, 1, 1))
 
 
 def test_what_cannot_be_live_is_refused() -> None:

@@ -109,28 +109,6 @@ def test_triangles_and_ngons_stay_what_they_are(change: Any, sizes: set[int]) ->
     assert off_sphere(meshes.positions(obj)) < BOUND[48]
 
 
-def test_islands_as_alone() -> None:
-    alone = meshes.sphere()
-    upper = upper_half(alone)
-    spoil(alone, upper)
-    # multiples of this are floats there and four units further on
-    points = np.round(meshes.positions(alone) * 2.0**20) / 2.0**20
-    meshes.move(alone, points)
-    faces = [list(p.vertices) for p in alone.data.polygons]
-    count = len(points)
-    both = meshes.add(
-        np.concatenate([points, points + np.array([4.0, 0.0, 0.0])]),
-        faces + [[v + count for v in face] for face in faces],
-    )
-    meshes.fair(alone, upper)
-    assert meshes.fair(both, np.concatenate([upper, upper])) == {"FINISHED"}
-    together = meshes.positions(both)
-    expected = meshes.positions(alone)
-    # 1e-9 of the diameter from the engine, and two float32 next to 1 or 4
-    np.testing.assert_allclose(together[:count], expected, atol=2e-7)
-    np.testing.assert_allclose(together[count:] - np.array([4.0, 0.0, 0.0]), expected, atol=1e-6)
-
-
 def test_custom_normals() -> None:
     obj = meshes.sphere()
     upper = upper_half(obj)

@@ -8,7 +8,6 @@ import bpy
 import meshes
 import numpy as np
 import pytest
-from extension import module
 
 NOISE = 0.01
 LIMIT = 0.4  # faces above this height are selected
@@ -80,24 +79,6 @@ def test_detail_is_the_engines() -> None:
         assert meshes.positions(obj)[own] == pytest.approx(part.vertices, abs=1e-6)
 
 
-def test_the_detail_slider_answers_from_memory(nothing_solves: Any) -> None:
-    """As the factor does: the same mesh, another share."""
-    module("run.job").memory.clear()
-    whole, faces, _ = dented()
-    free = meshes.free_vertices(whole, faces)
-    fair(whole, faces, detail=1.0)
-    nothing_solves()
-    part, _, _ = dented()
-    fair(part, faces, detail=0.4)
-    blended, _, _ = dented()
-    old = meshes.positions(blended)
-    fair(blended, faces, detail=1.0, factor=0.5)
-    assert meshes.positions(blended)[free] == pytest.approx(0.5 * (old + meshes.positions(whole))[free], abs=1e-6)
-    assert np.ptp(heights(part)[free]) < np.ptp(heights(whole)[free])
-    with pytest.raises(RuntimeError, match="solved again"):
-        fair(dented()[0], faces, detail=0.4, detail_size=0.3)
-
-
 def test_feather_moves_the_band_and_no_bit_beyond_it() -> None:
     """The foot of a swelling that reaches beyond the selection goes too."""
     obj = meshes.sphere(32)
@@ -153,22 +134,6 @@ def test_pins_of_a_group_and_hidden_faces_hold_in_the_band() -> None:
     assert np.array_equal(changed, np.setdiff1d(band, [pin, *hidden.vertices]))
 
 
-@pytest.mark.parametrize(
-    ("options", "text"),
-    [
-        ({"outline": "MENDED"}, "Outline: Smooth"),
-        ({"continuity": "G2"}, "Join: Curvature"),
-        ({"mesh": "NEW"}, "choose Mesh: Keep"),
-    ],
-)
-def test_what_feather_does_not_go_with_is_refused_in_words(options: dict[str, str], text: str) -> None:
-    obj, faces, _ = dented(32)
-    before = meshes.in_edit_mode_once(obj, faces)
-    with pytest.raises(RuntimeError, match=text):
-        meshes.fair(obj, faces, feather=0.1, **options)
-    assert meshes.contents(obj) == before
-
-
 def soft(obj: bpy.types.Object, begin: float, end: float) -> meshes.Floats:
     """Weights by height: 0 below `begin`, 1 above `end`."""
     return np.clip((meshes.positions(obj)[:, 2] - begin) / (end - begin), 0.0, 1.0).astype(np.float64)
@@ -211,26 +176,6 @@ def test_a_group_or_the_mask_says_how_far_each_vertex_goes() -> None:
         assert np.abs(again - places).max() < 1e-6
     half, _ = by_weights("group", factor=0.5)
     assert half == pytest.approx(0.5 * (meshes.positions(start) + places), abs=1e-6)
-
-
-@pytest.mark.parametrize(
-    ("options", "text"),
-    [
-        ({"factor_group": "Missing"}, "Factor Group: there is no vertex group named 'Missing'"),
-        ({"factor_mask": "USED"}, "Sculpt Mask: nothing is masked"),
-        ({"factor_group": "None"}, "leave every vertex of the selection where it is"),
-        ({"factor_group": "Soft", "outline": "MENDED"}, "Outline: Smooth"),
-        ({"factor_group": "Soft", "mesh": "NEW"}, "choose Mesh: Keep"),
-    ],
-)
-def test_weights_that_can_not_be_are_refused_in_words(options: dict[str, str], text: str) -> None:
-    obj, faces, _ = dented(32)
-    paint_group(obj, soft(obj, 0.1, 0.5))
-    obj.vertex_groups.new(name="None")
-    before = meshes.in_edit_mode_once(obj, faces)
-    with pytest.raises(RuntimeError, match=text):
-        meshes.fair(obj, faces, **options)
-    assert meshes.contents(obj) == before
 
 
 def with_a_hole() -> tuple[bpy.types.Object, meshes.Mask]:

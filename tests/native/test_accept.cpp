@@ -46,9 +46,6 @@ struct Solved {
     }
 };
 
-std::optional<Solution> nothing(const Problem&, Situation&, const Progress&) { return std::nullopt; }
-bool always(const Problem&, const Situation&) { return true; }
-
 }  // namespace
 
 TEST_CASE("a good solution has no flaw") {
@@ -65,17 +62,6 @@ TEST_CASE("what did not converge is no solution, whatever it looks like") {
         solution.termination = end;
         CHECK(flaw_of(solved.problem, solution) == Flaw::not_converged);
     }
-}
-
-TEST_CASE("more iterations than a good mesh needs are a flaw, but from the surface itself") {
-    const Solved solved;
-    Solution solution = solved.solution();
-    solution.iterations = 20;
-    CHECK(flaw_of(solved.problem, solution) == Flaw::absent);
-    solution.iterations = 21;
-    CHECK(flaw_of(solved.problem, solution) == Flaw::many_iterations);
-    solution.from_surface = true;
-    CHECK(flaw_of(solved.problem, solution) == Flaw::absent);
 }
 
 TEST_CASE("folds are a flaw and are named, unless the weights come from as many") {
@@ -207,73 +193,4 @@ TEST_CASE("two surfaces agree within their errors, or within the coarser one's e
     own.points = placed.solution.points;
     own.mean_curvature *= 1.3;
     CHECK(!placed.agrees(own, fine));
-}
-
-TEST_CASE("vertices that slid along the surface agree with it") {
-    const Solved solved;
-    const Placed placed{solved};
-    Solution own = placed.solution;
-    for (int v = 0; v < solved.patch().free_count; ++v) {
-        const int other = solved.patch().ring(v).vertices.front();
-        const Vector3 between = placed.solution.points.col(v) + placed.solution.points.col(other);
-        own.points.col(v) = between.normalized();
-    }
-    CHECK((own.points - placed.solution.points).colwise().norm().maxCoeff() > 0.4 * placed.mean);
-    CHECK(placed.agrees(own, 0.5 * placed.mean));
-}
-
-TEST_CASE("a graded mesh is not finer than another one for its mean edge") {
-    const Solved solved;
-    const Placed placed{solved};
-    Solution own = placed.solution;
-    own.points.col(0) *= 1.0 + 1e-3;
-    CHECK(placed.agrees(own, 2.0 * placed.mean));
-    const Points even = own.points;
-    for (auto point : own.points.colwise()) point *= std::exp(4.0 * point[0]) / std::exp(4.0 * even.row(0).maxCoeff());
-    const Points graded = own.points;
-    const TargetSurface target(solved.patch(), graded, placed.solution.points);
-    const auto agrees = [&](double lifted) {
-        own.points.col(0) = graded.col(0) + Vector3(0.0, 0.0, lifted);
-        return agree(solved.problem, own,
-                     {target, placed.solution.mean_curvature, 2.0 * mean_edge(solved.patch(), graded), placed.where});
-    };
-    CHECK(agrees(0.0));
-    CHECK(!agrees(1e-3));
-}
-
-TEST_CASE("the first way that is accepted ends the ladder, and all that were tried are listed") {
-    const Solved solved;
-    static const Solution good = solved.solution();
-    static Solution bad = solved.solution();
-    bad.termination = Termination::stalled;
-    const auto solve_well = [](const Problem&, Situation&, const Progress&) { return std::optional(good); };
-    const auto solve_badly = [](const Problem&, Situation&, const Progress&) { return std::optional(bad); };
-    const std::array ways{Way{"no", [](const Problem&, const Situation&) { return false; }, solve_well, 0.0, 0.1},
-                          Way{"empty", always, nothing, 0.1, 0.2}, Way{"bad", always, solve_badly, 0.2, 0.3},
-                          Way{"good", always, solve_well, 0.3, 0.4}, Way{"late", always, solve_well, 0.4, 0.5}};
-    const Solution found = run_ways(ways, solved.problem, Progress());
-    CHECK(found.flaw == Flaw::absent);
-    REQUIRE(found.ways.size() == 3);
-    CHECK(found.ways[0].name == "empty");
-    CHECK(found.ways[1].name == "bad");
-    CHECK(found.ways[2].name == "good");
-}
-
-TEST_CASE("where nothing is accepted, what converged comes first, then what is least bent") {
-    const Solved solved;
-    static Solution flat = solved.solution();
-    static Solution bent = solved.solution();
-    static Solution slow = solved.solution();
-    flat.termination = bent.termination = Termination::stalled;
-    slow.iterations = 60;
-    for (int v = 0; v < solved.patch().free_count; ++v) bent.points.col(v) *= v % 2 == 0 ? 1.1 : 0.9;
-    const auto give_flat = [](const Problem&, Situation&, const Progress&) { return std::optional(flat); };
-    const auto give_bent = [](const Problem&, Situation&, const Progress&) { return std::optional(bent); };
-    const auto give_slow = [](const Problem&, Situation&, const Progress&) { return std::optional(slow); };
-    const std::array unsolved{Way{"bent", always, give_bent, 0.0, 0.5}, Way{"flat", always, give_flat, 0.5, 1.0}};
-    CHECK(run_ways(unsolved, solved.problem, Progress()).points == flat.points);
-    const std::array mixed{Way{"slow", always, give_slow, 0.0, 0.5}, Way{"flat", always, give_flat, 0.5, 1.0}};
-    const Solution best = run_ways(mixed, solved.problem, Progress());
-    CHECK(best.iterations == 60);
-    CHECK(best.ways.size() == 2);
 }

@@ -43,26 +43,7 @@ std::set<Corners> collapse(const std::set<Corners>& triangles, const Collapse& c
     return result;
 }
 
-int euler_number(const Patch& patch) { return patch.vertex_count() - patch.edge_count() + patch.triangle_count(); }
-
 }  // namespace
-
-TEST_CASE("levels grow exponentially and keep the outline") {
-    const test::Single single = test::single_patch(test::grid(40, 0.3, test::sphere));
-    const Patch& patch = single.patch();
-    const Hierarchy hierarchy = build_hierarchy(patch, single.points, 3);
-    REQUIRE(hierarchy.level_count() == 3);
-    const int fixed = patch.vertex_count() - patch.free_count;
-    const Indices sizes = level_sizes(patch.free_count, fixed, 3);
-    for (int k = 0; k < 2; ++k) {
-        const Patch& level = hierarchy.patches[static_cast<std::size_t>(k)];
-        CHECK(level.vertex_count() - level.free_count == fixed);
-        CHECK(level.free_count == sizes[static_cast<std::size_t>(k)]);
-        CHECK(euler_number(level) == euler_number(patch));
-    }
-    CHECK(static_cast<double>(sizes[1]) / sizes[0] ==
-          doctest::Approx(static_cast<double>(sizes[2]) / sizes[1]).epsilon(0.05));
-}
 
 TEST_CASE("the recorded collapses lead from the fine mesh to every level") {
     const test::Single single = test::single_patch(test::grid(16, 0.3, test::sphere));
@@ -73,24 +54,6 @@ TEST_CASE("the recorded collapses lead from the fine mesh to every level") {
     for (std::size_t k = hierarchy.patches.size(); k-- > 0;) {
         while (made < hierarchy.collapsed[k]) triangles = collapse(triangles, hierarchy.collapses[made++]);
         CHECK(triangles == triangles_of(hierarchy.patches[k].triangles, hierarchy.patches[k].to_input));
-    }
-}
-
-TEST_CASE("coarse triangles are not distorted") {
-    const test::Single single = test::single_patch(test::grid(30, 0.3, test::sphere));
-    const Hierarchy hierarchy = build_hierarchy(single.patch(), single.points, 0);
-    REQUIRE(hierarchy.level_count() > 1);
-    const Patch& base = hierarchy.patches.front();
-    for (const auto t : base.triangles.colwise()) {
-        std::array<Vector3, 3> p;
-        for (std::size_t k = 0; k < 3; ++k) {
-            p[k] = single.points.col(base.to_input[static_cast<std::size_t>(t[static_cast<int>(k)])]);
-        }
-        const double a = (p[1] - p[0]).norm();
-        const double b = (p[2] - p[1]).norm();
-        const double c = (p[0] - p[2]).norm();
-        const double inner_radius = (p[1] - p[0]).cross(p[2] - p[0]).norm() / (a + b + c);
-        CHECK(inner_radius / std::max({a, b, c}) > 0.05);
     }
 }
 

@@ -92,10 +92,3 @@ TEST_CASE("weights can be cancelled while they are made") {
     CHECK(asks([&] { row_weights(single.patch(), single.points, InnerFairness::inverse_distance); }));
     CHECK(asks([&] { row_weights(single.patch(), uniform_weights(single.patch()), "x"); }));
 }
-
-TEST_CASE("shape-preserving weights of a large ring can be cancelled") {
-    std::vector<Vector3> rim;
-    for (int k = 0; k < 3000; ++k) rim.emplace_back(std::cos(k * 2e-3), std::sin(k * 2e-3), 0.1);
-    std::vector<double> weights;
-    CHECK(asks([&] { shape_preserving_ring_weights({Vector3::Zero(), rim}, weights); }));
-}

@@ -52,27 +52,6 @@ Points of_level(const CoarseLevel& level, const Points& finest) {
 
 }  // namespace
 
-TEST_CASE("a level that was left has its edges and rings again when it comes back") {
-    const Ball ball(60);
-    const Points fixed = ball.fixed_points();
-    const Problem problem{ball.patch(), fixed, fixed, ball.weights, {}};
-    Levels levels(problem, Outlines::kept, coarsest_size);
-    REQUIRE(levels.coarsest() >= 1);
-    const Patch& patch = levels.problem(1).patch;
-    const Patch before = patch;
-    levels.leave(1);
-    CHECK(patch.vertex_count() == before.vertex_count());
-    CHECK(patch.free_count == before.free_count);
-    CHECK(patch.edge_count() == 0);
-    for (int times = 0; times < 2; ++times) {  // once more changes nothing
-        levels.come_back(1);
-        CHECK(patch.edge_ends == before.edge_ends);
-        CHECK(patch.triangles == before.triangles);
-        for (int v = 0; v < patch.vertex_count(); ++v)
-            CHECK(std::ranges::equal(patch.ring(v).vertices, before.ring(v).vertices));
-    }
-}
-
 TEST_CASE("outlines without normals stay whole on all levels") {
     const Ball ball(60);
     const Points unknown = Points::Zero(3, ball.patch().vertex_count());
@@ -212,70 +191,6 @@ TEST_CASE("an interpolated sphere is one to the fourth order in the spacing") {
     CHECK(errors[1] < errors[0] / 8.0);
 }
 
-TEST_CASE("the weights of a coarse level put its vertices where the fine level has them") {
-    // Edges in the half x > 0 are nine times as strong: they draw vertices there together.
-    const Ball ball(40, 0.3, 100);
-    InnerWeights uneven = ball.weights;
-    for (WeightedEdge& edge : uneven) {
-        if (ball.single.points(0, edge.i) + ball.single.points(0, edge.j) > 0.0) edge.weight = 9.0;
-    }
-    const SymmetricStep fine(ball.patch(), uneven, ball.fixed_points(), Progress());
-    const auto levels = coarsen(ball.patch(), uneven, {ball.single.points, ball.single.points}, 100);
-    const CoarseLevel& level = levels.front();
-    const Points all = of_level(level, ball.single.points);
-    const Points fixed = all.rightCols(level.patch.vertex_count() - level.patch.free_count);
-    Points wanted = ball.single.points;
-    wanted.leftCols(ball.patch().free_count) = fine.harmonic_positions();
-    const auto mean_error = [&](const InnerWeights& weights) {
-        const Points positions = SymmetricStep(level.patch, weights, fixed, Progress()).harmonic_positions();
-        const Points difference = positions - of_level(level, wanted).leftCols(level.patch.free_count);
-        return difference.colwise().norm().mean();
-    };
-    // Of an outline two units wide. Weights that know nothing of the fine ones are far off.
-    CHECK(mean_error(level.weights) < 0.04);
-    CHECK(mean_error(level.weights) < 0.5 * mean_error(uniform_weights(level.patch)));
-}
-
-TEST_CASE("before and after the coarse level a cycle smooths by the Chebyshev polynomial of the fourth kind") {
-    class Nothing : public LaplaceCycle {
-    public:
-        [[nodiscard]] double scale() const override { return 1.0; }
-        void cycle(SingleField& /*r*/, SingleField& x) const override { x.setZero(); }
-    };
-    const Ball ball(14, 0.3, 30);
-    REQUIRE(!ball.levels.empty());
-    const int count = ball.patch().vertex_count();
-    const int free = ball.patch().free_count;
-    InnerWeights weights = ball.weights;
-    for (std::size_t k = 0; k < weights.size(); ++k) weights[k].weight = 1.0 + 0.5 * std::sin(static_cast<double>(k));
-    for (const bool uniform : {true, false}) {
-        const RingMatrix laplacian(count, uniform ? ball.weights : weights);
-        Eigen::MatrixXd L = Eigen::MatrixXd::Zero(count, count);
-        for (int i = 0; i < count; ++i) {
-            for (int k = laplacian.begin[i]; k < laplacian.begin[i + 1]; ++k) {
-                L(i, i) += laplacian.weight(k);
-                L(i, laplacian.columns[k]) -= laplacian.weight(k);
-            }
-        }
-        const Eigen::MatrixXd A = L.topLeftCorner(free, free);
-        const Nothing nothing;
-        const MultigridStep step(ball.patch(), laplacian, ball.fixed_points(), Restriction(ball.levels[0].transfer),
-                                 nothing);
-        SingleField r = SingleField::Random(4, count);
-        r.rightCols(count - free).setZero();
-        SingleField x = SingleField::Random(4, count);
-        const Eigen::MatrixXd exact = A.llt().solve(Eigen::MatrixXd(r.leftCols(free).cast<double>().transpose()));
-        step.cycle(r, x);
-        // sin 5θ/2 over 5 sin θ/2, of cos θ = 1 − the eigenvalue of D⁻¹A, twice.
-        const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(free, free);
-        const Eigen::MatrixXd c = identity - A.diagonal().cwiseInverse().asDiagonal() * A;
-        const Eigen::MatrixXd left = (4.0 * c * c + 2.0 * c - identity) / 5.0;
-        const Eigen::MatrixXd expected = exact - left * left * exact;
-        CHECK((x.leftCols(free).cast<double>().transpose() - expected).norm() < 1e-5 * expected.norm());
-        CHECK(x.rightCols(count - free).isZero());
-    }
-}
-
 TEST_CASE("multigrid and a factorisation give the same tangential steps") {
     const Ball ball(40, 0.3, 60);
     REQUIRE(ball.levels.size() >= 2);
@@ -303,128 +218,6 @@ TEST_CASE("multigrid and a factorisation give the same tangential steps") {
           0.0);  // and both measure the energy that steps lower
 }
 
-TEST_CASE("on a sphere a tangential step that knows how the planes turn is Newton's") {
-    // Out to 70° from the pole, 100° in the corners.
-    const Ball ball(40, 0.2, 300, [](double u, double v) {
-        const double x = 2.0 * u - 1.0;
-        const double y = 2.0 * v - 1.0;
-        const double r = std::max(std::hypot(x, y), 1e-9);
-        return Vector3(std::sin(1.22 * r) / r * x, std::sin(1.22 * r) / r * y, std::cos(1.22 * r));
-    });
-    REQUIRE(ball.levels.size() == 1);
-    const int free = ball.patch().free_count;
-    const CoarseLevel& level = ball.levels[0];
-    const Points of_coarse = of_level(level, ball.single.points);
-    const FactorisedLaplacian base(level.patch, level.weights,
-                                   of_coarse.rightCols(level.patch.vertex_count() - level.patch.free_count),
-                                   Progress());
-    const MultigridStep multigrid(ball.patch(), RingMatrix(ball.patch().vertex_count(), ball.weights),
-                                  ball.fixed_points(), Restriction(level.transfer), base);
-    const SymmetricStep factorised(ball.patch(), ball.weights, ball.fixed_points(), Progress());
-    PatchCurvature curvature{VectorX::Constant(free, -1.0), Points::Zero(3, free)};
-    curvature.form.row(0).setConstant(-1.0);
-    curvature.form.row(2).setConstant(-1.0);
-    // Points of the unit sphere are their own normals.
-    const auto moved = [&](const TangentialStep& step, Points points, bool turning) {
-        const Points normals = points.leftCols(free);
-        const ShapeOperators turns = turning ? shape_operators(curvature, normals, free) : ShapeOperators();
-        points.leftCols(free) += step.displacement(points, {normals, turns}, {0.05, 30});
-        points.colwise().normalize();
-        return points;
-    };
-    Points even = ball.single.points;
-    for (int k = 0; k < 12; ++k) even = moved(factorised, even, true);
-    const double balance = moved(factorised, even, true).leftCols(free).operator-(even.leftCols(free)).norm();
-    CHECK(balance < 1e-6);
-    Points start = even;
-    for (int v = 0; v < free; ++v) {
-        const double bump = 0.02 * std::max(even(2, v) - 0.3, 0.0);
-        start.col(v) = (even.col(v) + bump * Vector3::UnitX()).normalized();
-    }
-    const double off = (start - even).norm();
-    for (const TangentialStep* step :
-         {static_cast<const TangentialStep*>(&multigrid), static_cast<const TangentialStep*>(&factorised)}) {
-        const double known = (moved(*step, start, true) - even).norm() / off;
-        const double fixed = (moved(*step, start, false) - even).norm() / off;
-        CHECK(known < 0.12);
-        CHECK(fixed > 0.2);
-    }
-}
-
-TEST_CASE("where turning planes leave no positive definite system they count as fixed") {
-    const Ball ball(20);
-    const SymmetricStep step(ball.patch(), ball.weights, ball.fixed_points(), Progress());
-    const Points& points = ball.single.points;
-    ShapeOperators wild = ShapeOperators::Zero(6, ball.patch().free_count);
-    wild.topRows<3>().setConstant(1e6F);  // about the radius of a millionth of the patch
-    CHECK(step.displacement(points, {points, wild}) == step.displacement(points, points));
-}
-
-TEST_CASE("means are lifted onto the sphere that points at the same angle lie on") {
-    for (const double angle : {0.1, 0.4}) {
-        Points ring(3, 5);
-        for (int k = 0; k < 5; ++k) {
-            const double phi = 1.3 * k + 0.2 * k * k;
-            ring.col(k) << std::sin(angle) * std::cos(phi), std::sin(angle) * std::sin(phi), std::cos(angle);
-        }
-        // Weights that balance the ring: the mean lies on the axis.
-        const Eigen::Matrix<double, 3, 5> rows =
-            (Eigen::Matrix<double, 3, 5>() << ring.topRows<2>(), Eigen::RowVectorXd::Ones(5)).finished();
-        const Eigen::VectorXf weights = rows.completeOrthogonalDecomposition().solve(Vector3::UnitZ()).cast<float>();
-        const std::vector<int> all{0, 1, 2, 3, 4};
-        const LiftedMean lifted = lifted_mean({ring, ring, {}}, all.data(), weights.data(), 5);
-        CHECK((lifted.point - Vector3::UnitZ()).norm() < 1e-6);  // half-way: 7e-5 and .02
-        CHECK((lifted.normal - Vector3::UnitZ()).norm() < 1e-6);
-    }
-}
-
-TEST_CASE("interpolated normals know how the curvature varies") {
-    // z = x³ + x y²: at the origin the plane is level, and the mean of the normals around leans by 2 h².
-    const double h = 0.05;
-    BentPoints ring{Points(3, 6), Points(3, 6), ShapeOperators(6, 6)};
-    for (int k = 0; k < 6; ++k) {
-        const double phi = 1.0471975512 * k + 0.1;
-        const double x = h * std::cos(phi);
-        const double y = h * std::sin(phi);
-        ring.points.col(k) << x, y, x * x * x + x * y * y;
-        ring.normals.col(k) = Vector3(-(3.0 * x * x + y * y), -2.0 * x * y, 1.0).normalized();
-        ring.shapes.col(k) << static_cast<float>(-6.0 * x), static_cast<float>(-2.0 * x), 0.0F,
-            static_cast<float>(-2.0 * y), 0.0F, 0.0F;
-    }
-    const std::vector<int> all{0, 1, 2, 3, 4, 5};
-    const std::vector<float> weights(6, 1.0F);
-    const auto lean = [&](const BentPoints& points) {
-        return (lifted_mean(points, all.data(), weights.data(), 6).normal - Vector3::UnitZ()).norm();
-    };
-    const double plain = lean({ring.points, ring.normals, {}});
-    CHECK(plain == doctest::Approx(2.0 * h * h).epsilon(0.01));
-    CHECK(lean(ring) < 0.01 * plain);
-    ring.shapes(0, 2) = std::numeric_limits<float>::quiet_NaN();  // one alone is missing: none counts
-    CHECK(lean(ring) == doctest::Approx(plain));
-    CHECK(mean_shape(ring.shapes, all.data(), weights.data(), 6).allFinite());
-}
-
-TEST_CASE("fixed vertices that a coarse level lacks bend as their neighbours do") {
-    const Ball ball(40, 0.2, 100);
-    const CoarseLevel& level = ball.levels.front();
-    const Points coarse = of_level(level, ball.single.points);
-    ShapeOperators shapes(6, coarse.cols());  // I − n nᵀ
-    for (Eigen::Index v = 0; v < coarse.cols(); ++v) {
-        const Eigen::Matrix3d w = Eigen::Matrix3d::Identity() - coarse.col(v) * coarse.col(v).transpose();
-        shapes.col(v) << Eigen::Vector<double, 6>(w(0, 0), w(1, 1), w(2, 2), w(0, 1), w(0, 2), w(1, 2)).cast<float>();
-    }
-    Points fixed = ball.single.points;
-    const int free = ball.patch().free_count;
-    fixed.leftCols(free).setZero();
-    BentPoints fine{fixed, fixed, {}};
-    level.transfer.prolong_surface({coarse, coarse, shapes}, free, fine);
-    REQUIRE(fine.shapes.cols() == fixed.cols());
-    CHECK(fine.shapes.rightCols(fixed.cols() - free).array().isNaN().any());
-    even_out(RingMatrix(ball.patch().vertex_count(), ball.weights), free, 1, fine);
-    CHECK(fine.shapes.allFinite());
-    CHECK((fine.normals - fine.points.colwise().normalized()).colwise().norm().maxCoeff() < 0.01);
-}
-
 TEST_CASE("shape operators: of spheres by either way, and of a cylinder across and along it") {
     const Ball ball(40, 0.2);
     const int free = ball.patch().free_count;
@@ -444,24 +237,6 @@ TEST_CASE("shape operators: of spheres by either way, and of a cylinder across a
     const ShapeOperators shape = shape_operators(cylinder, normal, 1);
     CHECK((turn(shape, 0, around.cast<float>()) - 0.5F * around.cast<float>()).norm() < 1e-6F);
     CHECK(turn(shape, 0, Eigen::Vector3f::UnitZ()).norm() < 1e-6F);
-}
-
-TEST_CASE("raised vertices have the normals of the surface that they lead to") {
-    const test::Single single = test::single_patch(test::grid(12, 0.3, test::flat));
-    const Patch& patch = single.patch();
-    SurfaceState state;
-    state.points = single.points;
-    state.normals = Vector3::UnitZ().replicate(1, patch.vertex_count());
-    const VectorX heights =
-        (0.02 * single.points.row(0) - 0.01 * single.points.row(1)).head(patch.free_count).transpose();
-    const Raised up = raised(patch, state, heights);
-    const Vector3 exact = Vector3(-0.02, 0.01, 1.0).normalized();
-    for (int v = 0; v < patch.free_count; ++v) {
-        CHECK(up.points(2, v) == doctest::Approx(heights[v]));
-        const auto ring = patch.ring(v).vertices;
-        const bool inside = std::ranges::all_of(ring, [&](int j) { return patch.is_free(j); });
-        if (inside) CHECK((up.normals.col(v) - exact).norm() < 1e-5);
-    }
 }
 
 TEST_CASE("harmonic positions are balanced to double precision, whatever the factor is kept in") {

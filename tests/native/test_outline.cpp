@@ -119,18 +119,6 @@ TEST_CASE("fits that predict each other's normals are left alone") {
     for (int k = 0; k < 3; ++k) CHECK((filtered.col(k) - fit.fits[k]->normal).norm() < 1e-12);
 }
 
-TEST_CASE("fits that predict different turns have less to tell each other") {
-    SurroundingFit fit = row_of_planes({0.0, 0.01}, {0.01, 0.01});
-    const double smooth = lean(filtered_normals(fit).col(0));
-    fit.fits[1]->y = Vector3::UnitY();
-    fit.fits[1]->x = Vector3::UnitX();
-    fit.fits[1]->terms[1] = 2.0;  // a twist: the other end's normal would lean by 63°
-    CHECK(std::abs(lean(filtered_normals(fit).col(0))) < 0.15);
-    CHECK(smooth > 0.004);
-    fit.edges.clear();
-    CHECK(lean(filtered_normals(fit).col(0)) == doctest::Approx(0.0));
-}
-
 TEST_CASE("bad is what stands out by four medians and by an absolute bound, the worst 15 % at most") {
     std::vector<double> errors(20, 0.01);
     const std::vector<double> angles(20, 0.0);
@@ -216,18 +204,6 @@ TEST_CASE("mended: noise is moved out of the outline and two rings, by a quarter
     CHECK(spread(mended.vertices) < 0.7 * spread(noisy));
 }
 
-TEST_CASE("mended: a vertex far off its fit moves by a quarter of its edges' mean length") {
-    Points noisy = rough_plane(3, 0.05);
-    const int far = 4 * columns + seam;
-    noisy(2, far) += 2.0;
-    const Triangles outside = grid_triangles(columns, rows, seam, columns - 1);
-    const SurroundingFit fit = fit_surroundings(noisy, outside, {far});
-    const MendedOutline mended = mend_outline(noisy, outside, seam_vertices());
-    const double length = fit.size * fit.lengths[0];
-    CHECK((mended.vertices.col(far) - noisy.col(far)).norm() == doctest::Approx(0.25 * length));
-    CHECK(mended.vertices(2, far) < noisy(2, far));
-}
-
 TEST_CASE("mended: what is not noisy stays") {
     const auto bowl = [](int i, int j) { return 0.01 * (i * i + j * j); };
     const Points clean = grid_points(columns, rows, bowl);
@@ -307,28 +283,4 @@ TEST_CASE("eased: curvature does not vary along a circle of a sphere or a cone; 
     scaled.points *= 2.0;
     CHECK(outline_variation(coarse.patch(), scaled) ==
           doctest::Approx(outline_variation(coarse.patch(), zigzag(coarse)) / 4.0));
-}
-
-TEST_CASE("eased: waves of sixteen vertices are halved, a circle keeps its radius, normals stand on the outline") {
-    const Ring ring(32);  // 128 vertices
-    const double height = 0.01;
-    const OutlineData wavy =
-        ring.data([](double) { return 1.0; }, [&](double angle) { return height * std::cos(8.0 * angle); });
-    const OutlineData eased = eased_outline(ring.patch(), wavy, 16.0);
-    CHECK(eased.points.row(2).maxCoeff() == doctest::Approx(0.5 * height).epsilon(1e-9));
-    CHECK(eased.points.topRows(2).colwise().norm().minCoeff() > 1.0 - 3e-4);  // (16/128)⁴
-    for (std::size_t k = 0; k < ring.loop.size(); ++k) {
-        const auto place = [&](std::size_t j) { return eased.points.col(ring.loop[j % ring.loop.size()]); };
-        const Vector3 along = place(k + 1) - place(k + ring.loop.size() - 1);
-        const Vector3 normal = eased.normals.col(ring.loop[k]);
-        CHECK(std::abs(normal.dot(along)) < 1e-12);
-        CHECK(normal.norm() == doctest::Approx(1.0));
-    }
-}
-
-TEST_CASE("eased: an outline of few vertices stays") {
-    const Ring ring(4);  // 16 vertices
-    const OutlineData wavy =
-        ring.data([](double) { return 1.0; }, [](double angle) { return 0.1 * std::cos(5.0 * angle); });
-    CHECK(eased_outline(ring.patch(), wavy, 16.0).points == wavy.points);
 }

@@ -90,30 +90,3 @@ TEST_CASE("a pipe open at both ends has no caps") {
     REQUIRE(caps);
     CHECK(caps->count() == 0);
 }
-
-TEST_CASE("a finger that is thinner is a blemish, one that is smaller or gone is none") {
-    Revolved patch;
-    const Profile before = finger(0.2, 1.2);
-    CHECK(patch.changed(before, before).absent());
-    const Blemishes half = patch.changed(before, finger(0.1, 1.2));
-    CHECK_FALSE(half.thin.empty());
-    for (const int v : half.thin) CHECK(patch.single.points(2, v) > 0.2 * patch.single.points.row(2).maxCoeff());
-    CHECK(half.all().size() == half.torn.size() + half.bent.size() + half.thin.size());
-    CHECK_FALSE(patch.changed(before, finger(0.02, 1.2)).thin.empty());
-    const auto claw = [](double s) {
-        return std::pair(s < 0.6 ? s / 3.0 : 1.0 - 2.0 * (1.0 - s), 2.0 * std::max(0.6 - s, 0.0));
-    };
-    CHECK_FALSE(patch.changed(before, claw).thin.empty());
-    CHECK(patch.changed(before, finger(0.17, 1.2)).thin.empty());
-    CHECK(patch.changed(before, finger(0.1, 0.6)).thin.empty());
-    CHECK(patch.changed(before, finger(0.2, 0.6)).thin.empty());
-    CHECK(patch.changed(before, finger(0.015, 0.12)).thin.empty());
-    CHECK(patch.changed(before, cone(0.5 * std::numbers::pi)).thin.empty());
-}
-
-TEST_CASE("a wall may become narrower, what was blunt no claw") {
-    Revolved patch;
-    const Profile before = cone(std::atan(0.95));
-    CHECK(patch.changed(before, cone(std::atan(0.6))).thin.empty());
-    CHECK_FALSE(patch.changed(before, cone(std::atan(0.2))).thin.empty());
-}

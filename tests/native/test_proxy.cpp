@@ -31,39 +31,7 @@ struct Ball {
     TargetSurface surface{single.patch(), single.points, normals};
 };
 
-// A square whose normals lean to and fro along the outline, as none of a surface do.
-struct Rough {
-    test::Single single = test::single_patch(test::grid(24, 0.2, test::flat));
-    Points fixed = single.points.rightCols(single.patch().vertex_count() - single.patch().free_count);
-    Points normals = Points::Zero(3, fixed.cols());
-
-    Rough() {
-        for (Eigen::Index k = 0; k < normals.cols(); ++k) {
-            const double x = std::sin(12.9898 * static_cast<double>(k));
-            const double y = std::sin(78.233 * static_cast<double>(k));
-            normals.col(k) = Vector3(2.0 * x, 2.0 * y, 1.0).normalized();
-        }
-    }
-
-    // As for a user's mesh of so many free vertices.
-    [[nodiscard]] SolvedProxy solved(int shown) const {
-        const Problem problem{single.patch(), fixed, normals, uniform_weights(single.patch()), {}};
-        const Progress progress;
-        return solve_proxy(problem, std::nullopt, proxy_membrane(problem, progress), shown, progress);
-    }
-};
-
 }  // namespace
-
-TEST_CASE("of a large mesh no fine proxy is solved where the coarse one is far from a surface") {
-    const Rough rough;
-    const SolvedProxy tried = rough.solved(4000);
-    const SolvedProxy refused = rough.solved(6000);
-    REQUIRE(!tried.converged());
-    CHECK(!refused.converged());
-    CHECK(refused.mesh.points.allFinite());
-    CHECK(refused.mesh.patch.free_count < tried.mesh.patch.free_count / 2);
-}
 
 TEST_CASE("adapting keeps the outline, the topology and the numbers of vertices") {
     const test::Single single = test::single_patch(test::grid(14, 0.4, test::sphere));
@@ -82,20 +50,6 @@ TEST_CASE("adapting keeps the outline, the topology and the numbers of vertices"
         CHECK(number == single.patch().free_count + k);
         CHECK(coarse.points.col(coarse.patch.free_count + k) == single.points.col(number));
     }
-}
-
-TEST_CASE("collapses and splits don't go on undoing each other") {
-    // A mesh that has settled changes in the first rounds, which are rough; without care a third of it in every one.
-    const test::Single single = test::single_patch(test::grid(30, 0.4, test::sphere));
-    Sizing sizing{0.15, 0.06, 5000};
-    sizing.settles = true;
-    ProxyMesh mesh(single.patch(), single.points);
-    mesh.adapt(sizing);
-    const auto changes = [&] { return mesh.number_count() + static_cast<int>(mesh.removed().size()); };
-    const int before = changes();
-    mesh.adapt(sizing);
-    CHECK(mesh.free_count() > 300);
-    CHECK(changes() - before <= mesh.free_count());
 }
 
 TEST_CASE("a crumpled start becomes a mesh of even edges") {

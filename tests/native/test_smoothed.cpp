@@ -64,8 +64,6 @@ Points waved(const Known& pipe, double height) {
     return pipe.shaped([=](double t) { return 1.0 + 0.5 * height * (1.0 - std::cos(2.0 * std::numbers::pi * t)); });
 }
 
-BlemishFinder finder(const Known& pipe) { return {pipe.problem, *pipe.problem.before, Progress()}; }
-
 // A wall that bulges through the wall across from it, without folds.
 Points pierced(const Known& pipe, double height) {
     constexpr double width = 0.6;
@@ -144,69 +142,6 @@ TEST_CASE("a shape that is not known, or crumpled, is not smoothed") {
     CHECK_FALSE(smoothed(pipe.problem, {}, Progress()));
 }
 
-TEST_CASE("blemishes are what the shape before has not") {
-    const Known pipe(40);
-    CHECK(finder(pipe).in(pipe.single.points).absent());
-
-    const Points torn = pierced(pipe, 0.5);
-    const int pulled = pipe.vertex_near({1.0, 0.0, 0.5 * pipe.length()});
-    const Blemishes found = finder(pipe).in(torn);
-    CHECK_FALSE(found.torn.empty());
-    Known before = pipe;
-    before.problem.before = torn;
-    CHECK(finder(before).in(torn).absent());
-
-    Points knob = pipe.single.points;
-    knob.col(pulled).head<2>() *= 1.15;
-    const Indices bent = finder(pipe).in(knob).bent;
-    CHECK(std::find(bent.begin(), bent.end(), pulled) != bent.end());
-    before.problem.before = knob;
-    CHECK(finder(before).in(knob).bent.empty());
-
-    const Points thread = pipe.shaped([](double t) { return 1.0 - 0.6 * std::sin(std::numbers::pi * t); });
-    const Blemishes narrow = finder(pipe).in(thread);
-    REQUIRE_FALSE(narrow.narrow.empty());
-    for (const int v : narrow.narrow) CHECK(thread.col(v).head<2>().norm() < 0.8);
-    CHECK(finder(pipe).in(waved(pipe, -0.2)).narrow.empty());
-    before.problem.before = thread;
-    CHECK(finder(before).in(thread).narrow.empty());
-
-    const Blemishes slender = finder(pipe).in(waved(pipe, -0.4));
-    CHECK(slender.bent.empty());
-    CHECK(slender.all() == slender.narrow);
-    CHECK_FALSE(slender.absent());
-
-    const Indices wide = finder(pipe).in(waved(pipe, 0.5)).wide;
-    REQUIRE_FALSE(wide.empty());
-    for (const int v : wide) CHECK(waved(pipe, 0.5).col(v).head<2>().norm() > 1.28);
-    CHECK(finder(pipe).in(waved(pipe, 0.3)).wide.empty());
-    before.problem.before = waved(pipe, 0.5);
-    CHECK(finder(before).in(waved(pipe, 0.5)).wide.empty());
-    CHECK(finder(before).in(waved(pipe, 0.0)).narrow.empty());  // a swelling that is gone leaves no waist
-    before.problem.before = waved(pipe, -0.5);
-    CHECK(finder(before).in(waved(pipe, 0.0)).wide.empty());
-}
-
-TEST_CASE("edges of flat sections that are drawn in are a blemish, waists of round ones as small are none") {
-    const auto flattened = [](Points points, double thickness) {
-        points.row(1) *= thickness;
-        return points;
-    };
-    for (const double thickness : {0.12, 0.3, 1.0}) {  // flatness 1.52, 1.43 and 1
-        Known wing(40);
-        wing.problem.before = flattened(wing.single.points, thickness);
-        wing.problem.fixed_points = wing.problem.before->rightCols(wing.problem.fixed_points.cols());
-        const auto drawn_in = [&](double height) {
-            Points points = waved(wing, height);
-            if (thickness < 1.0) points.row(1) = wing.problem.before->row(1);
-            return points;
-        };
-        CHECK(finder(wing).in(*wing.problem.before).narrow.empty());
-        CHECK(finder(wing).in(drawn_in(-0.03)).narrow.empty());
-        CHECK(finder(wing).in(drawn_in(-0.12)).narrow.empty() == (thickness == 1.0));
-    }
-}
-
 TEST_CASE("an accepted surface is the answer, whatever its girth") {
     for (const double height : {0.6, -0.6}) {
         const Known pipe(10);
@@ -215,18 +150,6 @@ TEST_CASE("an accepted surface is the answer, whatever its girth") {
         CHECK(solution.provenance == Provenance::equation);
         CHECK(solution.points == wave);
     }
-}
-
-TEST_CASE("a long pipe is smoothed as far as it keeps three quarters of its girth") {
-    const Known pipe(90);
-    REQUIRE(pipe.middle_radius(smoothed_by(pipe, endless)) < 0.1);
-    const auto solution = smoothed(pipe.problem, {}, Progress());
-    REQUIRE(solution);
-    CHECK(solution->provenance == Provenance::old_shape);
-    CHECK(end_of(*solution) == Termination::converged);
-    CHECK(finder(pipe).in(solution->points).absent());
-    const double kept = std::pow(2.0 * std::numbers::pi, 4);  // μ of a wavelength of 1, the first that is tried
-    CHECK(pipe.middle_radius(solution->points) == doctest::Approx(kept / (1.0 + kept)).epsilon(1e-5));
 }
 
 TEST_CASE("a smoothed shape may keep the crossings that were there, and no others") {
@@ -242,33 +165,6 @@ TEST_CASE("a smoothed shape may keep the crossings that were there, and no other
     CHECK(flaw_at(crossing, Provenance::old_shape) == Flaw::absent);
     CHECK(flaw_at(crossing, Provenance::loft) == Flaw::crossing);
     CHECK(flaw_at(pierced(pipe, 0.25), Provenance::old_shape) == Flaw::crossing);
-}
-
-TEST_CASE("the shape before stands in where it is known, a loft where it is not") {
-    Known pipe(30);
-    const Patch& patch = pipe.single.patch();
-    Points twisted = pipe.single.points;
-    for (int v = 0; v < patch.vertex_count(); ++v) {
-        const double twist = 2.6 * pipe.single.points(2, v) / pipe.length();  // of the lines: their waist is cos 1.3
-        twisted.col(v) = Eigen::AngleAxisd(twist, Vector3::UnitZ()) * Vector3(pipe.single.points.col(v));
-    }
-    pipe.problem.before = twisted;
-    Points& outline = pipe.problem.fixed_points;
-    outline = pipe.problem.before->rightCols(outline.cols());
-    for (Eigen::Index k = 0; k < outline.cols(); ++k) {
-        const double up = k % 2 == 0 ? std::sin(0.6) : -std::sin(0.6);
-        pipe.problem.fixed_normals.col(k) << std::cos(0.6) * outline(0, k), std::cos(0.6) * outline(1, k), up;
-    }
-    Solution failed;
-    failed.points = *pipe.problem.before;
-    failed.flaw = Flaw::not_converged;
-    const Solution solution = or_else(pipe.problem, failed, Progress());
-    CHECK(solution.provenance == Provenance::old_shape);
-    CHECK(solution.ways.back().name == "smoothed");
-    CHECK(finder(pipe).in(solution.points).narrow.empty());
-    pipe.problem.before = Points(3, 0);
-    const Solution alone = or_else(pipe.problem, failed, Progress());
-    CHECK(is_loft(alone.provenance));
 }
 
 TEST_CASE("a surface beside its boundary that crosses itself where the shape before did not gives way to that") {

@@ -25,16 +25,6 @@ TEST_CASE("what is turned over beside the outline is filled anew, and what is fa
     CHECK(off < 0.02);
 }
 
-TEST_CASE("what is too much to be tried one by one is filled anew all the same") {
-    const test::Single single = test::single_patch(test::grid(80, 0.2, test::sphere));
-    const Patch& patch = single.patch();
-    Points points = single.points;
-    test::push_beyond_outline(patch, 60, points);
-    const std::size_t torn = torn_triangles(patch, points).size();
-    REQUIRE(torn > 100);
-    CHECK(10 * torn_triangles(patch, untorn(patch, points)).size() < torn);
-}
-
 TEST_CASE("a vertex that no filling brings back is tried elsewhere") {
     // The outline's tooth, bent inwards over the row behind it: evenly filled vertices lie under it.
     const test::Single single = test::single_patch(test::grid(12, 0.0, test::flat));
