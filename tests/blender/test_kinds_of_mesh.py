@@ -67,18 +67,6 @@ def test_open_border_stays() -> None:
     assert f"{border.sum()} border vertices have no faces outside" in meshes.report().warnings
 
 
-def mixed_sphere() -> tuple[bpy.types.Object, Any]:
-    """Triangles, quads and hexagons in one selection."""
-    obj = meshes.sphere()
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    join_some_quads(bm)
-    bmesh.ops.triangulate(bm, faces=[f for f in bm.faces if f.calc_center_median().x > 0.2 and len(f.verts) == 4])
-    bm.to_mesh(obj.data)
-    bm.free()
-    return obj, meshes.faces_where(obj, lambda c: c.z > 1e-3)
-
-
 def test_selection_and_modes_stay() -> None:
     obj, faces = meshes.domed_grid()
     meshes.select(obj, faces)

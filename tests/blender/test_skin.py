@@ -35,21 +35,6 @@ def fair(obj: bpy.types.Object, faces: meshes.Mask, **options: Any) -> Any:
     return meshes.moved(before, meshes.contents(obj))
 
 
-@pytest.fixture
-def nothing_solves(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """From the call on no solver answers."""
-    import fairing
-
-    def refuse(*_arguments: Any, **_options: Any) -> None:
-        raise AssertionError("solved again")
-
-    def call() -> None:
-        monkeypatch.setattr(fairing, "fair", refuse)
-        monkeypatch.setattr(fairing.Solver, "solve", refuse)
-
-    return call
-
-
 def test_the_skin_comes_back_and_the_dent_goes() -> None:
     """Without detail noise and dent go. With it the same noise stays, vertex by vertex."""
     smooth, faces, noise = dented(96)
