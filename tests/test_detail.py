@@ -47,14 +47,6 @@ def cap() -> Patch:
     return shapes.cap(1500, half_angle=60.0)
 
 
-def test_without_detail_nothing_changes(cap: Patch) -> None:
-    plain = fair(cap, rough(cap))
-    assert plain.base is not None
-    assert np.array_equal(plain.base, plain.vertices)
-    again = fair(cap, rough(cap), detail=0.0, detail_size=0.3)
-    assert np.array_equal(plain.vertices, again.vertices)
-
-
 def test_a_rough_swelling_turns_into_a_rough_sphere(cap: Patch) -> None:
     """The swelling goes, the noise stays: its amplitude within 15 %, and the same noise vertex by vertex."""
     noisy = rough(cap)
@@ -94,14 +86,6 @@ def test_detail_is_linear(cap: Patch) -> None:
     half, full = (fair(cap, rough(cap), detail=share) for share in (0.5, 1.0))
     assert np.array_equal(half.base, full.base)
     assert half.vertices == pytest.approx(0.5 * (full.base + full.vertices), abs=1e-14)
-
-
-def test_a_fair_patch_stays_as_it_is() -> None:
-    """Flat, with vertices anywhere: base and old patch are one, and so are the places of all vertices."""
-    disc = shapes.plane(800)
-    result = fair(disc, disc.vertices, detail=1.0, detail_size=0.2)
-    assert np.abs(result.vertices - disc.vertices).max() < 1e-3 * disc.diameter
-    assert disc.distance(result.vertices).max() < 1e-9
 
 
 def test_a_crease_along_the_outline_is_no_detail() -> None:

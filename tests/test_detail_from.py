@@ -73,13 +73,6 @@ def test_the_old_patch_does_not_matter(sphere: RoughSphere, grown: fairing.FairR
     assert np.abs(other.vertices - grown.vertices).max() < 1e-3
 
 
-def test_it_is_linear(sphere: RoughSphere, grown: fairing.FairResult) -> None:
-    assert grown.base is not None
-    half = dressed(sphere, detail=0.5)
-    middle = 0.5 * (grown.base + grown.vertices)
-    assert half.vertices[sphere.free] == pytest.approx(middle[sphere.free], abs=1e-12)
-
-
 def test_skin_on_a_turned_and_scaled_mesh(sphere: RoughSphere, grown: fairing.FairResult) -> None:
     turn, _ = np.linalg.qr(np.random.default_rng(1).normal(size=(3, 3)))
     turn *= np.sign(np.linalg.det(turn))
@@ -98,15 +91,6 @@ def test_the_patch_is_no_sample(sphere: RoughSphere, grown: fairing.FairResult) 
     assert np.array_equal(dressed(sphere, detail_from=[*lower_half(sphere), *middle]).vertices, grown.vertices)
     with pytest.raises(ValueError, match="detail_from: all of the sample lies in the patch itself"):
         sphere.fair(detail=1.0, detail_from=middle)
-
-
-def test_a_sample_without_area_has_no_skin(sphere: RoughSphere) -> None:
-    flat = sphere.vertices.copy()
-    below = sphere.exact[:, 2] < 0.1
-    flat[below] = [0, 0, -1]
-    result = replace(sphere, vertices=flat).fair(detail=1.0, detail_from=lower_half(sphere), outside=None)
-    assert {"sample_skin": 1.0} in [told.figures for told in result.warnings if told.code == "REFERENCE_UNUSABLE"]
-    assert np.array_equal(result.base, result.vertices)
 
 
 @pytest.mark.parametrize(

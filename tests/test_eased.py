@@ -32,13 +32,6 @@ def faired(cap: shapes.Patch) -> fairing.FairResult:
     return fairing.fair(cap.vertices, cap.triangles, fixed=cap.fixed, fixed_normals=cap.fixed_normals, threads=1)
 
 
-def _noise(count: int, rng: np.random.Generator, wave: float) -> np.ndarray:
-    spectrum = np.fft.rfft(rng.normal(size=(count, 3)), axis=0)
-    spectrum[np.arange(len(spectrum)) * wave > count] = 0
-    noise = np.fft.irfft(spectrum, count, axis=0)
-    return np.asarray(noise / (np.sqrt(3) * noise.std()))
-
-
 def rows_from_outline(cap: shapes.Patch) -> np.ndarray:
     """Edges to the next fixed vertex, at most ROWS + 1."""
     return np.asarray(sum(measures.beyond_rings(cap.triangles, cap.fixed, k).astype(int) for k in range(ROWS + 1)))

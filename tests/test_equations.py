@@ -102,15 +102,6 @@ def test_a_load_that_is_too_much_keeps_the_surface_of_the_last_one(bulge: float)
     assert np.abs(result.vertices - reached.vertices).max() < 2e-3
 
 
-def test_the_load_scales_with_length() -> None:
-    """Load is length⁻³: ten times the size with a thousandth of the load is ten times the surface."""
-    vertices, triangles, rim = flat_disc(300)
-    up = np.tile([0.0, 0.0, 1.0], (len(rim), 1))
-    small = fairing.fair(vertices, triangles, fixed=rim, fixed_normals=up, equation="constant", load=4.0)
-    large = fairing.fair(10 * vertices, triangles, fixed=rim, fixed_normals=up, equation="constant", load=4e-3)
-    np.testing.assert_allclose(large.vertices, 10 * small.vertices, atol=1e-9)
-
-
 def willmore(result: fairing.FairResult, patch: shapes.Patch) -> float:
     """∫ 4 H² dA; ∫ K is the same for all surfaces with the same boundary data (Gauss–Bonnet)."""
     a, b, c = (result.vertices[patch.triangles[:, k]] for k in range(3))

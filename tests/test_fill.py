@@ -8,14 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull
 
 import fairing
 import forced
 import holes
 from fairing import _loops
 from holes import FloatArray, IntArray
-from tetrathing import subdivided
 
 EMPTY = np.empty((0, 3), dtype=int)
 
@@ -233,26 +231,6 @@ def test_a_thin_elbow_is_found(radius: float) -> None:
     assert len({*result.levels}) == 1  # the fine mesh begins at the first surface, without another coarse one
 
 
-@pytest.mark.parametrize("edges", [6, 24, 48, 96])
-@pytest.mark.parametrize("factor", [0.25, 0.5, 1.0, 2.0])
-def test_triangles_are_nearly_equilateral(edges: int, factor: float) -> None:
-    vertices, triangles = holes.bowl(edges)
-    wanted = factor * 2 * np.sin(np.pi / edges)
-    result = fairing.fill(vertices, triangles, spacing=wanted)
-    points = np.concatenate([vertices, result.vertices])
-    assert holes.angles(points, result.triangles).min() >= 25
-    sides = holes.edges_of(result.triangles)
-    assert np.bincount(sides.ravel())[len(vertices) :].max() <= 9
-    # Lengths come to the wanted one within a distance of twice the difference.
-    reach = 2 * abs(2 * np.sin(np.pi / edges) - wanted) + 2 * wanted
-    middle = points[sides].mean(axis=1)
-    away = np.linalg.norm(middle[:, None] - vertices[None, :edges], axis=2).min(axis=1) > reach
-    lengths = np.linalg.norm(points[sides[away, 0]] - points[sides[away, 1]], axis=1) / wanted
-    if len(lengths) > 20:
-        assert 1 / np.sqrt(2) < np.median(lengths) < np.sqrt(2)
-        assert np.mean((lengths > 1 / np.sqrt(2)) & (lengths < np.sqrt(2))) > 0.97
-
-
 def jagged(seed: int, edges: int = 80) -> FloatArray:
     """A flat outline that goes in and out by more than the length of its edges."""
     rng = np.random.default_rng(seed)
@@ -343,16 +321,6 @@ def test_the_smallest_holes(edges: int) -> None:
     result = fairing.fill(vertices, triangles)
     assert len(result.vertices) >= 1
     assert not fairing.boundary_loops(whole(vertices, triangles, result)[1])
-
-
-def test_other_options_reach_the_solve() -> None:
-    vertices, triangles = holes.bowl(48, 40)
-    dome = fairing.fill(vertices, triangles, equation="constant", bulge=0.1)
-    assert dome.converged
-    assert apex(dome) > 1.001
-    varied = fairing.fill(vertices, triangles, equation="least_variation")
-    assert varied.equation == "least_variation"
-    assert abs(apex(varied) - 1) < 1e-4
 
 
 def refused(code: str, elements: set[int], *arguments: Any, **options: Any) -> None:
@@ -466,21 +434,6 @@ def test_the_same_bits_for_any_number_of_threads() -> None:
     one, two = (fairing.fill(*holes.bowl(48), spacing=0.4 * edge, threads=threads) for threads in (1, 2))
     assert np.array_equal(one.vertices, two.vertices)
     assert np.array_equal(one.triangles, two.triangles)
-
-
-def icosphere(times: int) -> tuple[FloatArray, IntArray]:
-    """An icosahedron, its triangles cut in four a few times."""
-    gold = (1.0 + np.sqrt(5.0)) / 2.0
-    corners = [(0.0, s, t * gold) for s in (-1, 1) for t in (-1, 1)]
-    points = np.array([np.roll(corner, k) for k in range(3) for corner in corners])
-    triangles = ConvexHull(points).simplices.astype(np.int64)
-    inward = np.einsum("ij,ij->i", np.cross(*(points[triangles[:, k]] - points[triangles[:, 0]] for k in (1, 2))),
-                       points[triangles[:, 0]]) < 0.0  # fmt: skip
-    triangles[inward] = triangles[inward][:, ::-1]
-    for _ in range(times):
-        triangles, ends = subdivided(triangles, len(points))
-        points = np.vstack([points, points[ends].sum(axis=1)])
-    return points / np.linalg.norm(points, axis=1)[:, None], triangles
 
 
 def test_a_second_wall_is_refused() -> None:

@@ -9,7 +9,7 @@ import pytest
 
 import fairing
 import holes
-from holes import FloatArray, IntArray
+from holes import FloatArray
 
 EMPTY = np.empty((0, 3), dtype=int)
 
@@ -73,23 +73,3 @@ def test_each_hole_follows_its_own_outline() -> None:
         counts.append((np.count_nonzero(small), np.count_nonzero(~small)))
     for small, large in counts:
         assert small == pytest.approx(large, rel=0.05)
-
-
-def test_a_patch_is_meshed_anew_likewise() -> None:
-    result = disc(spacing=0.1)
-    vertices = np.concatenate([CIRCLE, result.vertices])
-    options: dict[str, Any] = {"fixed": np.arange(64), "fixed_normals": np.tile([0.0, 0.0, 1.0], (64, 1))}
-
-    def again(**more: Any) -> fairing.RemeshResult:
-        return fairing.remesh(vertices, result.triangles, spacing=MEAN, **options, **more)
-
-    assert ratio(again(), vertices) == pytest.approx(1.0, abs=0.15)
-    assert ratio(again(inner="outline"), vertices) > 1.5
-
-
-def test_other_words_are_refused() -> None:
-    with pytest.raises(ValueError, match="inner"):
-        disc(inner="graded")
-    triangles: IntArray = np.array([[0, 1, 2]])
-    with pytest.raises(ValueError, match="inner"):
-        fairing.remesh(np.eye(3), triangles, inner="graded")

@@ -74,12 +74,3 @@ def test_error_falls_with_the_edge_length(name: str, style: str) -> None:
     order = measures.observed_order((len(coarse.free), len(fine.free)), errors)
     assert order > (1.6 if name == "cylinder" else 0.8)
     assert errors[1] < 0.02
-
-
-def test_border_is_fixed_by_default() -> None:
-    """Without normals the border has those of the patch itself; the rest does not change."""
-    patch = shapes.cap(500)
-    alone = fairing.mean_curvature(patch.vertices, patch.triangles)
-    assert alone.shape == (len(patch.vertices),)
-    away = measures.beyond_rings(patch.triangles, patch.fixed, 2)
-    assert np.abs(alone[away] + 1).max() < 1e-7

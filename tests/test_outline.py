@@ -175,15 +175,6 @@ def with_a_spike() -> tuple[Ball, int]:
     return Ball(case.exact, vertices, case.triangles, case.above), spike
 
 
-def test_bad_vertices_are_those_beside_a_spike() -> None:
-    case, spike = with_a_spike()
-    bad = fairing.bad_outline(case.noisy, case.outside, case.outline)
-    around = np.unique(case.outside[(case.outside == spike).any(axis=1)])
-    assert np.isin(bad, around).any()
-    away = np.linalg.norm(case.exact[bad] - case.exact[spike], axis=1)
-    assert 0 < len(bad) <= np.ceil(0.15 * len(case.outline)) and away.max() < 0.5
-
-
 @pytest.mark.parametrize("noise", [0.0, 0.144])
 def test_noise_everywhere_makes_no_vertex_bad(noise: float) -> None:
     case = ball(noise)
@@ -219,13 +210,6 @@ def test_growing_takes_whole_polygons() -> None:
     assert np.array_equal(np.isin(faces, faces[grown.selected]), grown.selected)
     divided = fairing.grown_outline(case.noisy, case.triangles, case.above)
     assert not np.array_equal(np.isin(faces, faces[divided.selected]), divided.selected)
-
-
-def test_a_clean_selection_does_not_grow() -> None:
-    case = ball(0.0)
-    grown = fairing.grown_outline(case.noisy, case.triangles, case.above)
-    assert grown.round == 0 and len(grown.angles) == 1
-    assert np.array_equal(grown.selected, case.above)
 
 
 def test_growing_makes_no_new_outline() -> None:

@@ -11,15 +11,7 @@ import blend
 import fairing
 import shapes
 from fairing import _core
-from test_paper import MILD, PAPER_FIELDS, fair, solved
-
-
-@pytest.mark.parametrize("tolerance", [1e-4, 1e-5])
-def test_default_epsilon_leaves_changes_of_about_the_tolerance(tolerance: float) -> None:
-    for family in ("cylinder", "clothoid"):
-        patch = shapes.FAMILIES[family](300, MILD)
-        rough, fine = fair(patch, tolerance=tolerance), fair(patch, epsilon=1e-7)
-        assert np.abs(rough.vertices - fine.vertices).max() < 2 * tolerance * patch.diameter
+from test_paper import PAPER_FIELDS, fair, solved
 
 
 @pytest.mark.parametrize(
@@ -90,29 +82,6 @@ def test_defaults_of_the_paper_are_the_engines() -> None:
     assert (python.acceleration, python.vertex_sweeps) == ("anderson", 2)
     assert fairing.PaperOptions(acceleration="none").vertex_sweeps == 1
     assert fairing.PaperOptions(acceleration="none", vertex_sweeps=3).vertex_sweeps == 3
-
-
-def test_an_unknown_word_never_becomes_a_default() -> None:
-    """In the engine itself, behind the package's checks."""
-    engine = _core.PaperOptions()
-    for option in ("acceleration", "virtual_points", "start"):
-        with pytest.raises(ValueError, match=f"{option}: 'plain' is not accepted"):
-            setattr(engine, option, "plain")
-    words = {
-        "equation": "harmonic",
-        "otherwise": "stop",
-        "inner_fairness": "uniform",
-        "method": "global",
-        "normals": "fitted",
-    }
-    numbers: dict[str, Any] = {"load": 0.0, "bulge": 0.0, "tolerance": 1e-6, "max_iterations": 9, "threads": 1}
-    triangles = np.array([[0, 1, 2]], dtype=np.int32)
-    for option in words:
-        options = _core.Options(**{**words, option: "any"}, **numbers)
-        with pytest.raises(ValueError, match=f"{option}: 'any' is not accepted"):
-            _core.Solver(triangles, None, None, None, (options, engine))
-    with pytest.raises(ValueError, match="normals: 'any' is not accepted"):
-        _core.vertex_normals(np.eye(3), triangles, "any")
 
 
 @pytest.mark.parametrize(

@@ -157,15 +157,6 @@ def test_a_moebius_strip_that_does_not_move_is_ignored(method: str) -> None:
     assert np.array_equal(item.fair(method=method).vertices[: len(CAP.vertices)], control.vertices)
 
 
-@in_all_ways
-@pytest.mark.parametrize("valence", [3, 4, 6])
-def test_one_free_vertex(method: str, kind: str, valence: int) -> None:
-    """The rim is a circle of radius 0.48 about the only free vertex."""
-    result = hard_inputs.single_fan(valence).fair(method=method, inner_fairness=kind)
-    assert result.converged
-    assert off_the_sphere(result) < 5e-3
-
-
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("rounds", [1, 3])
 def test_clusters_of_valence_3(kind: str, rounds: int) -> None:
@@ -184,15 +175,6 @@ def test_fans_of_high_valence(valence: int, kind: str) -> None:
         result = item.fair(inner_fairness=kind)
         assert result.converged
         assert off_the_sphere(result) < 5e-3
-
-
-@in_all_ways
-def test_an_open_mesh_without_arguments_keeps_its_border(method: str, kind: str) -> None:
-    result = fairing.fair(CAP.vertices, CAP.triangles, method=method, inner_fairness=kind)
-    assert set(result.fixed) == set(CAP.fixed)
-    assert np.array_equal(result.vertices[CAP.fixed], CAP.vertices[CAP.fixed])
-    assert np.isfinite(result.vertices).all()
-    assert "NORMALS_FROM_PATCH" in codes(result)
 
 
 @in_all_ways

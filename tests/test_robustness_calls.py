@@ -134,23 +134,6 @@ def test_named_indices_out_of_range_are_elements(value: Any) -> None:
         assert option.rstrip("s") in str(caught.value)
 
 
-@in_all_ways
-def test_layout_and_byte_order_do_not_matter(method: str, kind: str) -> None:
-    """Read-only, Fortran, reversed and swapped arrays for every argument: the same bits."""
-    control = CLEAN.fair(method=method, inner_fairness=kind)
-
-    def odd(array: Any) -> Any:
-        result = np.asfortranarray(array[::-1])[::-1].astype(array.dtype.newbyteorder(">"))
-        result.setflags(write=False)
-        return result
-
-    result = call(
-        vertices=odd(CAP.vertices), triangles=odd(CAP.triangles), fixed=odd(CAP.fixed),
-        fixed_normals=odd(CAP.fixed_normals), reference=odd(CAP.vertices), method=method, inner_fairness=kind,
-    )  # fmt: skip
-    assert np.array_equal(result.vertices, control.vertices)
-
-
 # Interruptions
 
 

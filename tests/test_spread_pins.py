@@ -98,20 +98,6 @@ def clamped_profile(rho: float) -> tuple[FloatArray, FloatArray]:
     return r, height / height[0]
 
 
-def test_several_pins_and_pins_nearer_than_two_radii() -> None:
-    patch = shapes.plane(1000)
-    result, places = lifted(patch, near(patch, [(-0.2, 0.0), (0.2, 0.05), (0.0, -0.2)]), [0.05, -0.05, 0.05])
-    assert result.converged
-    assert not result.warnings
-    for gap in (0.06, 0.12):
-        pins = near(patch, [(-gap / 2, 0.0), (gap / 2, 0.0)])
-        result, places = lifted(patch, pins, [0.05, -0.05])
-        assert np.linalg.norm(places[1] - places[0]) < 0.2 * size(patch)
-        assert result.converged
-        assert not result.warnings
-        assert np.sign(result.mean_curvature[pins]).tolist() == [-1.0, 1.0]
-
-
 def test_the_pin_acts_on_its_own_side_of_a_slit() -> None:
     """A flat square with a slit whose edges are held: beyond it, two edges away from the pin, nothing rises."""
     n = 40

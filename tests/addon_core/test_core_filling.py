@@ -12,7 +12,6 @@ from core.arrays import Floats, Ints, Mask
 from core.border import BorderRefusal, border_loops
 from core.fill_verdict import Surface, judge
 from core.filling import FillOptions, Piece, fill
-from core.harmonic import harmonic
 from core.quality import Join
 from core.region import MeshArrays, nothing
 from core.verdict import GOOD, LOOK, UNUSABLE, Verdict
@@ -48,12 +47,6 @@ def test_one_vertex_stands_for_its_whole_loop() -> None:
     # Seen from above the hole is on the left: counter-clockwise.
     around = [(1, 1), (1, 2), (1, 3), (2, 3), (3, 3), (3, 2), (3, 1), (2, 1)]
     assert loop.tolist() == [vertex(*place) for place in around]
-
-
-def test_seeds_of_two_loops_give_both_and_inner_ones_none() -> None:
-    mesh = holed((2, 2), (6, 6))
-    assert len(border_loops(mesh, only(mesh, vertex(1, 1), vertex(3, 3), vertex(5, 6)))) == 2
-    assert border_loops(mesh, only(mesh, vertex(4, 4))) == []
 
 
 def test_loops_that_touch_are_refused() -> None:
@@ -257,22 +250,3 @@ def disc(rings: int = 6) -> tuple[Floats, Ints, int]:
     ]
     points = np.array([(i + 0.5 * j, np.sqrt(0.75) * j, 0.0) for i, j in places])
     return points, np.array(triangles), 6 * rings
-
-
-def test_linear_values_stay_linear_and_constants_keep_their_bits() -> None:
-    points, triangles, rim = disc()
-    everywhere = np.column_stack([points[:, 0], 3.0 * points[:, 1] - 1.0, np.full(len(points), 0.1)])
-    found = harmonic(points, triangles, everywhere[:rim])
-    np.testing.assert_allclose(found, everywhere[rim:], atol=1e-7)
-    assert (found[:, 2] == 0.1).all()
-
-
-def test_a_face_at_the_outline_follows_the_face_across() -> None:
-    (piece,) = filled(holed((4, 4), half=2), vertex(2, 2))
-    _, of_face = piece.examples()
-    following = piece.following
-    rim = len(piece.outline)
-    for triangle, example in zip(piece.triangles.tolist(), of_face.tolist(), strict=True):
-        for tail, head in zip(triangle, triangle[1:] + triangle[:1], strict=True):
-            if tail < rim and following[tail] == head:
-                assert example == tail

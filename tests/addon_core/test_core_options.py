@@ -77,22 +77,6 @@ def test_what_nothing_looks_at_is_told(given: dict[str, Any], beside: dict[str, 
     assert FairOptions(**beside).idle == ()
 
 
-@pytest.mark.parametrize("beside", [{"equation": "MINIMAL_ENERGY"}, {"method": "PAPER"}])
-def test_curvature_is_continued_by_the_harmonic_shape_of_the_fast_solver_alone(beside: dict[str, Any]) -> None:
-    assert FairOptions(continuity="G2").idle == ()
-    assert FairOptions(continuity="G2", **beside).idle == ("continuity",)
-
-
-def test_a_soap_film_looks_at_no_slope() -> None:
-    assert FairOptions(boundary_normals="AVERAGE").idle == ()
-    assert FairOptions(boundary_normals="AVERAGE", equation="MINIMAL").idle == ("boundary_normals",)
-
-
-def test_a_new_mesh_looks_at_no_open_border() -> None:
-    assert FairOptions(open_border="FAIRED").idle == ()
-    assert FairOptions(open_border="FAIRED", mesh="NEW").idle == ("open_border",)
-
-
 def test_every_argument_for_the_engine_is_one_that_it_knows() -> None:
     known = inspect.signature(fairing.fair).parameters
     given = FairOptions().resolved(False).engine_arguments()

@@ -112,14 +112,3 @@ def test_the_join_is_seen_where_the_bend_is() -> None:
     assert join.worst == pytest.approx(30.0)
     flat = bent_problem(0.0)
     assert quality.join(flat, flat.points).worst == pytest.approx(0.0, abs=1e-9)
-
-
-def test_the_join_is_judged_by_what_is_usual_around() -> None:
-    """Around a cylinder that bends by 18° at every edge a bend of 18° at the outline is none."""
-
-    def cylinder(points: Floats) -> Floats:
-        turn = np.radians(18.0) * 8.0 * points[:, 0]
-        return np.column_stack([0.4 * np.sin(turn), points[:, 1], 0.4 * np.cos(turn)])  # squares
-
-    round_one = bent_problem(0.0, cylinder)
-    assert quality.join(round_one, round_one.points).worst < 1e-6

@@ -92,19 +92,6 @@ def test_corners_take_values_of_their_own_side() -> None:
     assert np.array_equal(np.where(rows < SIZE // 2, -1.0, 1.0), carried[:, 0])
 
 
-def test_an_open_seam_keeps_both_sides_apart() -> None:
-    """One that ends inside the patch: walls are known by their direction, not by a region."""
-    mesh = spoilt_sphere()
-    half = seam(mesh) & (mesh.edges % (SIZE + 1) <= SIZE // 2).all(axis=1)
-    values = np.where(mesh.positions[mesh.corner_vertices, :1] < 0.0, sides(mesh), 0.0)
-    done = remesh(replace(mesh, lines={"half": half}), spacing=0.7)
-    carried = done.part.corners.mean(values).reshape(-1, 3)
-    kept = np.isin(done.part.triangles, np.arange(done.part.fixed_count, len(done.part.stay)))
-    both = {round(float(value), 9) for value in carried[kept]}
-    assert {-1.0, 1.0} <= both
-    assert (np.ptp(carried, axis=1) < 1.5).all()  # no face has a corner of each side
-
-
 def test_nothing_but_lines_is_refused() -> None:
     every = np.ones(len(spoilt_sphere().edges), dtype=bool)
     mesh = replace(spoilt_sphere(), lines={"UVMap": every & False, "sharp_edge": every, "crease_edge": every & False})
@@ -124,13 +111,6 @@ def test_a_matrix_that_mirrors_keeps_the_winding_of_the_mesh() -> None:
         assert (outwards > 0.0).all()
         made = done.part.corners.mean(local[mesh.corner_vertices])
         np.testing.assert_allclose(made, corners.reshape(-1, 3), atol=0.02)
-
-
-def test_the_factor_blends_with_the_old_surface() -> None:
-    mesh = spoilt_sphere()
-    whole, half = remesh(mesh), remesh(mesh, factor=0.5)
-    old = half.part.vertices.mean(mesh.positions)
-    np.testing.assert_allclose(half.new_positions, 0.5 * (old + whole.new_positions), atol=1e-12)
 
 
 def test_a_seam_over_a_limb_that_is_gone_is_a_knot() -> None:

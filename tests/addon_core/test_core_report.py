@@ -82,11 +82,6 @@ def test_what_is_not_usable_is_not_written_unless_all_is_accepted(sphere: Fairin
     assert summary(report(look)).startswith("Look here: faired ")
 
 
-def test_a_result_on_the_engines_own_mesh_says_so(sphere: Fairing) -> None:
-    placed = replace(sphere, result=replace(sphere.result, polished=False))
-    assert values(report(placed))["Equation solved"] == "yes, on a proxy"
-
-
 @pytest.mark.parametrize(
     ("before", "after", "value", "state"),
     [

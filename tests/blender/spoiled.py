@@ -85,18 +85,6 @@ def moebius_strip(around: int = 24, across: int = 4) -> bpy.types.Object:
     return meshes.add(points, faces, "Moebius")
 
 
-def split_seam(obj: bpy.types.Object) -> int:
-    """Cut the mesh open where x = 0; return how many vertices there are twice now."""
-
-    def change(bm: bmesh.types.BMesh) -> int:
-        seam = [e for e in bm.edges if all(abs(v.co.x) < 1e-6 for v in e.verts)]
-        before = len(bm.verts)
-        bmesh.ops.split_edges(bm, edges=seam)
-        return len(bm.verts) - before
-
-    return edited(obj, change)
-
-
 def join(first: bpy.types.Object, second: bpy.types.Object) -> bpy.types.Object:
     """Make one object of two; the first one's elements come first."""
     for obj in bpy.context.view_layer.objects:

@@ -79,40 +79,6 @@ def test_a_fin_in_the_selection_is_refused(method: str) -> None:
     assert selected == sorted(edge)
 
 
-def test_a_fin_on_the_outline_changes_nothing() -> None:
-    clean, faces = meshes.domed_grid()
-    meshes.fair(clean, faces)
-    obj, _ = meshes.domed_grid()
-    spoiled.raise_fin(obj, (0.625, 0.75))
-    with_fin = np.append(faces, True)
-    text = solved(obj, with_fin, np.append(meshes.free_vertices(clean, faces), False))
-    assert "1 face stands on an edge with more than two faces" in text
-    np.testing.assert_allclose(meshes.positions(obj)[:-1], meshes.positions(clean), atol=1e-6)
-
-
-def test_lobes_that_share_a_vertex_are_solved_each_as_alone() -> None:
-    results = []
-    for corners in (((-0.5, -0.5), (0.5, 0.5)), ((-0.5, -0.5),), ((0.5, 0.5),)):
-        obj, _ = meshes.domed_grid()
-        faces = meshes.faces_where(obj, lambda c, at=corners: any(max(abs(c.x - x), abs(c.y - y)) < 0.5 for x, y in at))
-        solved(obj, faces, boundary_normals="AVERAGE")  # the other lobe is among the surroundings of one alone
-        results.append(meshes.positions(obj))
-    both, low, high = results
-    original = meshes.positions(meshes.domed_grid()[0])
-    np.testing.assert_allclose(both, low + high - original, atol=1e-6)
-
-
-@pytest.mark.parametrize("boundary_normals", ["SURROUNDING", "AVERAGE"])
-def test_an_unwelded_seam_stays_and_is_told(boundary_normals: str) -> None:
-    obj, _ = meshes.domed_grid()
-    doubled = spoiled.split_seam(obj)
-    assert doubled == 9
-    seam = np.abs(meshes.positions(obj)[:, 0]) < 1e-6
-    faces = spoiled.central(obj)
-    text = solved(obj, faces, meshes.free_vertices(obj, faces) & ~seam, boundary_normals=boundary_normals)
-    assert "Merge by Distance" in text
-
-
 def test_a_closed_component_beside_others_is_left_alone() -> None:
     clean, faces = meshes.domed_grid()
     meshes.fair(clean, faces)
@@ -124,15 +90,6 @@ def test_a_closed_component_beside_others_is_left_alone() -> None:
     free[:count] = meshes.free_vertices(clean, faces)
     assert "A closed part of the selection has nothing to hold it" in solved(obj, everything, free)
     np.testing.assert_allclose(meshes.positions(obj)[:count], meshes.positions(clean), atol=1e-6)
-
-
-def test_the_normal_of_a_pin_is_told_to_be_ignored() -> None:
-    obj, faces = meshes.domed_grid()
-    pin = spoiled.middle(obj)
-    obj.vertex_groups.new(name="Pin").add([pin], 1.0, "REPLACE")
-    free = meshes.free_vertices(obj, faces)
-    free[pin] = False
-    assert "1 pinned vertex has no pinned neighbour" in solved(obj, faces, free, pin_group="Pin")
 
 
 @pytest.mark.parametrize("count", [0, 1, 2])

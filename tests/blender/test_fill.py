@@ -116,18 +116,6 @@ def test_hole_of_a_sphere_becomes_the_sphere() -> None:
     assert chosen == list(range(before, len(obj.data.polygons)))
 
 
-def test_edges_in_edge_mode_stand_for_the_loop() -> None:
-    obj = open_sphere()
-    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
-    meshes.select(obj, np.zeros(len(obj.data.polygons), dtype=bool))
-    meshes.edit(obj)
-    bm = bmesh.from_edit_mesh(obj.data)
-    next(edge for edge in bm.edges if edge.is_boundary).select_set(True)
-    assert fill() == {"FINISHED"}
-    meshes.leave()
-    assert border_edges(obj) == 0
-
-
 def test_bits_outside_are_kept() -> None:
     obj = open_sphere()
     dress(obj)
@@ -179,15 +167,6 @@ def dressed() -> tuple[bpy.types.Object, Any, Any]:
     old, points = len(obj.data.polygons), len(obj.data.vertices)
     assert fill_hole(obj) == {"FINISHED"}
     return obj, list(obj.data.polygons)[old:], np.arange(points, len(obj.data.vertices))
-
-
-def test_new_faces_are_like_their_neighbours(dressed: tuple[bpy.types.Object, Any, Any]) -> None:
-    obj, new, _ = dressed
-    assert new
-    assert {(polygon.material_index, polygon.use_smooth) for polygon in new} == {(1, True)}
-    sets, numbers = obj.data.attributes[".sculpt_face_set"].data, obj.data.attributes["number"].data
-    assert {sets[polygon.index].value for polygon in new} == {7}
-    assert {numbers[corner].value for polygon in new for corner in polygon.loop_indices} == {5}
 
 
 def test_values_are_carried_over(dressed: tuple[bpy.types.Object, Any, Any]) -> None:
@@ -400,15 +379,6 @@ def test_custom_normals_outside_stay_and_new_corners_have_none() -> None:
     assert ((normals[old:] * centres[old:]).sum(axis=1) > 0.8).all()
 
 
-def test_several_holes_at_once_and_an_object_without_a_border() -> None:
-    obj = open_sphere(lambda c: abs(c.z) > 0.8)
-    assert fill_hole(obj) == {"FINISHED"}
-    assert border_edges(obj) == 0
-    assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 2e-3
-    select_vertices(meshes.sphere(16), lambda _: True)
-    refused("No border is selected")
-
-
 def test_all_rims_of_two_tubes_are_too_many_to_bridge() -> None:
     obj = tubes()
     select_vertices(obj, lambda _: True)
@@ -472,14 +442,6 @@ def test_a_script_fills_without_edit_mode() -> None:
         module().fill_mesh(obj.data)
     with pytest.raises(IndexError):
         module().fill_mesh(obj.data, [10**6])
-
-
-def test_a_script_is_told_which_outlines_can_not_be_joined() -> None:
-    obj = tubes()
-    before = meshes.contents(obj)
-    with pytest.raises(ValueError, match="belong together"):
-        module().fill_mesh(obj.data, bridge=True)
-    assert meshes.contents(obj) == before
 
 
 def pierced() -> bpy.types.Object:

@@ -75,14 +75,6 @@ def test_with_everything_selected_holes_are_filled_and_the_outer_border_is_named
     assert open_edges(obj) == 4 * SIZE
 
 
-def test_a_sheet_without_a_hole_is_refused_at_once() -> None:
-    obj = sheet(30.0, ())
-    select_all(obj)
-    with pytest.raises(RuntimeError, match="around the outside of a sheet of faces, there is no hole"):
-        fill()
-    assert open_edges(obj) == 4 * SIZE
-
-
 def test_more_vertices_than_allowed_are_refused() -> None:
     obj = sheet(90.0, ((2, 2), (3, 3), (4, 4)))
     select_loop(obj, 2 * (SIZE + 1) + 2)

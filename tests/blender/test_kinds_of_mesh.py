@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import bmesh
 import bpy
 import meshes
 import numpy as np
 import pytest
 from extension import module
-from test_restoration import join_some_quads
 
 
 def evaluated(obj: bpy.types.Object) -> meshes.Floats:

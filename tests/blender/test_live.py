@@ -93,27 +93,6 @@ def test_region_follows_every_change(live: Any) -> None:
     assert_fair(faces)
 
 
-def test_what_is_around_keeps_its_bits(live: Any) -> None:
-    obj, faces = table_mountain()
-    before = now()
-    beside = flank(before)
-    drag(beside, (0.02, 0.0, 0.05))
-    meshes.leave()
-    held = ~meshes.free_vertices(obj, faces)
-    meshes.edit(obj)
-    held[beside] = False
-    assert np.array_equal(now()[held], before[held])
-
-
-def test_vertices_of_the_region_return(live: Any) -> None:
-    """A free vertex that is pulled out goes back: the region is a function of its surroundings."""
-    table_mountain()
-    before = now()
-    middle = int(np.argmin(np.abs(before).sum(axis=1)))
-    drag([middle], (0.0, 0.0, 0.5))
-    np.testing.assert_allclose(now(), before, atol=2e-6)
-
-
 def test_one_undo_takes_edit_and_fairing_back(live: Any) -> None:
     table_mountain()
     start = now()
@@ -176,17 +155,6 @@ def test_off_is_off(live: Any) -> None:
     assert set(changed) == set(flank(before))
     switch(True)  # and back on: what was missed is made good
     assert_fair(faces)
-
-
-def test_off_by_default_and_nothing_left(live: Any) -> None:
-    events = (bpy.app.handlers.depsgraph_update_post, bpy.app.handlers.undo_post, bpy.app.handlers.redo_post)
-    counts = [len(event) for event in events]
-    assert not bpy.context.window_manager.fairing_live.on
-    table_mountain()
-    assert [len(event) for event in events] == [count + 1 for count in counts]
-    switch(False)
-    assert [len(event) for event in events] == counts
-    assert live.sessions == {}
 
 
 def test_region_is_saved_with_the_mesh(live: Any, tmp_path: Path) -> None:
@@ -385,16 +353,6 @@ def test_a_key_that_gets_locked_is_left_alone(live: Any) -> None:
     drag(flank(before), (0.0, 0.0, 0.05))
     assert set(np.flatnonzero(np.abs(now() - before).max(axis=1))) == set(flank(before))
     assert "locked" in live.message
-
-
-def test_a_region_can_be_in_any_key(live: Any) -> None:
-    obj, _ = with_keys()
-    obj.active_shape_key_index = 1
-    assert bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True) == {"FINISHED"}
-    before = now()
-    drag(flank(before), (0.0, 0.0, 0.05))
-    assert live.message == ""
-    assert np.abs(now() - before).max(axis=1)[middle_of(before)].max() > 1e-3
 
 
 def test_what_cannot_be_live_is_refused() -> None:

@@ -76,59 +76,6 @@ def test_the_sphere_comes_back_with_other_faces() -> None:
     assert used == {v for polygon in obj.data.polygons for v in polygon.vertices} == set(range(len(obj.data.vertices)))
 
 
-def test_values_are_carried_over() -> None:
-    """Everything dressed is linear in the place on the old sphere, or constant; the surface is the old one again."""
-    obj, chosen = dented()
-    assert fair_new(obj, chosen, spacing=0.7) == {"FINISHED"}
-    points, inner = meshes.positions(obj), inner_vertices(obj)
-    assert len(inner) > 100
-    x = points[inner, 0]
-    heat = np.array([item.value for item in obj.data.attributes["heat"].data])[inner]
-    np.testing.assert_allclose(heat, x, atol=0.02)
-    paint = np.array([item.color[:] for item in obj.data.color_attributes["Paint"].data])[inner]
-    np.testing.assert_allclose(paint[:, 0], 0.5 + 0.4 * heat, atol=1e-5)
-    weights = [obj.data.vertices[vertex].groups[0].weight for vertex in inner.tolist()]
-    np.testing.assert_allclose(weights, 0.5 + 0.4 * heat, atol=1e-5)
-    for polygon in new_polygons(obj):
-        assert (polygon.material_index, polygon.use_smooth) == (1, True)
-        for corner in polygon.loop_indices:
-            uv = obj.data.uv_layers["Map"].uv[corner].vector
-            place = points[obj.data.loops[corner].vertex_index]
-            np.testing.assert_allclose(uv, 0.5 + 0.4 * place[:2], atol=0.01)
-    sets, numbers = obj.data.attributes[".sculpt_face_set"].data, obj.data.attributes["number"].data
-    assert {sets[polygon.index].value for polygon in new_polygons(obj)} == {7}
-    assert {numbers[corner].value for polygon in new_polygons(obj) for corner in polygon.loop_indices} == {5}
-    keys = obj.data.shape_keys.key_blocks
-    basis, wide = (np.array([point.co[:] for point in keys[name].data])[inner] for name in ("Basis", "Wide"))
-    np.testing.assert_array_equal(basis, points[inner])
-    np.testing.assert_allclose(wide - basis, np.column_stack([heat, 0 * heat, 0 * heat + 0.25]), atol=1e-5)
-
-
-def contents_by_place(obj: bpy.types.Object, polygons: Any) -> list[Any]:
-    """What polygons and their corners have, to the bit, whatever their numbers are."""
-    mesh = obj.data
-    uv, sets = mesh.uv_layers["Map"].uv, mesh.attributes[".sculpt_face_set"].data
-    wide = mesh.shape_keys.key_blocks["Wide"].data
-    return [
-        (
-            [tuple(mesh.vertices[v].co) for v in polygon.vertices],
-            [tuple(wide[v].co) for v in polygon.vertices],
-            [[(g.group, g.weight) for g in mesh.vertices[v].groups] for v in polygon.vertices],
-            [tuple(uv[corner].vector) for corner in polygon.loop_indices],
-            (polygon.material_index, polygon.use_smooth, sets[polygon.index].value),
-        )
-        for polygon in polygons
-    ]
-
-
-def test_everything_outside_keeps_its_bits() -> None:
-    obj, chosen = dented()
-    spoil(obj, chosen)
-    before = contents_by_place(obj, [p for p, inside in zip(obj.data.polygons, chosen, strict=True) if not inside])
-    assert fair_new(obj, chosen) == {"FINISHED"}
-    assert contents_by_place(obj, [p for p in obj.data.polygons if not p.select]) == before
-
-
 def halved(obj: bpy.types.Object) -> None:
     """Two islands of UVs, left and right of x = 0, each with the places of the other's mirror image far away."""
     mesh = obj.data
@@ -172,23 +119,6 @@ def test_marks_and_borders_of_materials_stay() -> None:
     assert sum(edge.use_edge_sharp for edge in mesh.edges) == sharp
     for polygon in new_polygons(obj):
         assert polygon.material_index == int(polygon.center.x > 0.0)
-
-
-def test_a_mesh_that_is_all_seams_is_refused() -> None:
-    obj, chosen = dented()
-    corners = np.arange(2 * len(obj.data.loops), dtype=np.float32)
-    obj.data.uv_layers["Map"].uv.foreach_set("vector", corners)
-    meshes.edit(obj)
-    meshes.leave()
-    before = unselected(obj)
-    with pytest.raises(RuntimeError, match=r"by Map\), and would stay: there is nothing to mesh anew"):
-        fair_new(obj, chosen)
-    assert unselected(obj) == before
-
-
-def unselected(obj: bpy.types.Object) -> dict[str, bytes]:
-    """All that it has but the selection."""
-    return {name: data for name, data in meshes.contents(obj).items() if "select" not in name}
 
 
 @pytest.mark.parametrize(
@@ -254,22 +184,6 @@ def test_a_script_gets_it_without_edit_mode() -> None:
     basis, wide = (np.array([point.co[:] for point in keys[name].data]) for name in ("Basis", "Wide"))
     np.testing.assert_array_equal(basis, meshes.positions(obj))
     np.testing.assert_allclose((wide - basis)[:, 2], 0.25, atol=1e-5)
-
-
-def test_the_last_run_knows_the_new_faces() -> None:
-    obj, chosen = dented()
-    spoil(obj, chosen)
-    meshes.select(obj, chosen)
-    meshes.edit(obj)
-    bpy.ops.mesh.fair_region("EXEC_DEFAULT", True, mesh="NEW")
-    report = bpy.context.window_manager.fairing_report
-    assert (report.verdict, report.written) == ("GOOD", True)
-    assert "SMOOTH_OUTLINE" not in report.remedies
-    new = sum(face.select for face in bmesh.from_edit_mesh(obj.data).faces)
-    bpy.ops.mesh.select_all(action="DESELECT")
-    extension.module("run.last_run").select_region(bpy.context)
-    assert sum(face.select for face in bmesh.from_edit_mesh(obj.data).faces) == new
-    meshes.leave()
 
 
 @pytest.mark.parametrize(("uvs", "wave"), [(True, 0.0), (False, 0.1)])

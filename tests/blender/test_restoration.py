@@ -7,9 +7,6 @@ make another cap through the same rim, off by less than δ times the radius: tho
 
 from __future__ import annotations
 
-from typing import Any
-
-import bmesh
 import bpy
 import meshes
 import numpy as np
@@ -65,48 +62,6 @@ def test_fair_in_world_space(scale: tuple[float, float, float]) -> None:
         obj.data.flip_normals()  # the mesh itself is inside out so that the object is not
     meshes.fair(obj, upper)
     assert off_sphere(meshes.positions(obj) @ world[:3, :3].T + world[:3, 3]) < BOUND[48] + 1e-5
-
-
-def test_inside_out_sphere() -> None:
-    obj = meshes.sphere()
-    upper = upper_half(obj)
-    spoil(obj, upper)
-    obj.data.flip_normals()
-    meshes.fair(obj, upper)
-    assert off_sphere(meshes.positions(obj)) < BOUND[48]
-
-
-def triangulate(bm: bmesh.types.BMesh) -> None:
-    bmesh.ops.triangulate(bm, faces=bm.faces[:])
-
-
-def join_some_quads(bm: bmesh.types.BMesh) -> None:
-    """Dissolve edges of the upper half that share no vertex with each other: hexagons."""
-    taken: set[bmesh.types.BMVert] = set()
-    chosen = []
-    for edge in bm.edges:
-        around = {vertex for face in edge.link_faces for vertex in face.verts}
-        if min(vertex.co.z for vertex in around) > 0.1 and not around & taken:
-            taken |= around
-            chosen.append(edge)
-    bmesh.ops.dissolve_edges(bm, edges=chosen, use_verts=False)
-
-
-@pytest.mark.parametrize(("change", "sizes"), [(triangulate, {3}), (join_some_quads, {4, 6})])
-def test_triangles_and_ngons_stay_what_they_are(change: Any, sizes: set[int]) -> None:
-    obj = meshes.sphere()
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    change(bm)
-    bm.to_mesh(obj.data)
-    bm.free()
-    before = [tuple(polygon.vertices) for polygon in obj.data.polygons]
-    assert {len(corners) for corners in before} == sizes
-    upper = upper_half(obj)
-    spoil(obj, upper)
-    meshes.fair(obj, upper)
-    assert [tuple(polygon.vertices) for polygon in obj.data.polygons] == before
-    assert off_sphere(meshes.positions(obj)) < BOUND[48]
 
 
 def test_custom_normals() -> None:

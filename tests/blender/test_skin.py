@@ -119,50 +119,6 @@ def test_pins_of_a_group_and_hidden_faces_hold_in_the_band() -> None:
     assert np.array_equal(changed, np.setdiff1d(band, [pin, *hidden.vertices]))
 
 
-def soft(obj: bpy.types.Object, begin: float, end: float) -> meshes.Floats:
-    """Weights by height: 0 below `begin`, 1 above `end`."""
-    return np.clip((meshes.positions(obj)[:, 2] - begin) / (end - begin), 0.0, 1.0).astype(np.float64)
-
-
-def paint_group(obj: bpy.types.Object, weights: meshes.Floats) -> None:
-    group = obj.vertex_groups.new(name="Soft")
-    for vertex, weight in enumerate(weights.tolist()):
-        if weight > 0.0:
-            group.add([vertex], weight, "REPLACE")
-
-
-def paint_mask(obj: bpy.types.Object, weights: meshes.Floats) -> None:
-    obj.data.attributes.new(".sculpt_mask", "FLOAT", "POINT").data.foreach_set("value", weights.astype(np.float32))
-
-
-def by_weights(way: str, **options: Any) -> tuple[meshes.Floats, meshes.Mask]:
-    """Run the operator with the same weights by a group, a mask, or half by each; places and what moved."""
-    obj, faces, _ = dented(32)
-    weights = soft(obj, 0.1, 0.5)
-    if way != "mask":
-        paint_group(obj, weights if way == "group" else np.sqrt(weights))
-    if way != "group":
-        paint_mask(obj, weights if way == "mask" else np.sqrt(weights))
-    chosen = {"factor_group": "" if way == "mask" else "Soft", "factor_mask": "IGNORED" if way == "group" else "USED"}
-    changed = fair(obj, faces, **chosen, **options)
-    return meshes.positions(obj), changed
-
-
-def test_a_group_or_the_mask_says_how_far_each_vertex_goes() -> None:
-    """Outside too, and no bit where there is no weight. Group and mask are multiplied."""
-    start, faces, _ = dented(32)
-    weights = soft(start, 0.1, 0.5)
-    places, changed = by_weights("group")
-    assert np.array_equal(changed, weights > 0.0)
-    assert (changed & ~meshes.free_vertices(start, faces)).any()
-    for other in ("mask", "both"):
-        again, moved = by_weights(other)
-        assert np.array_equal(moved, changed)
-        assert np.abs(again - places).max() < 1e-6
-    half, _ = by_weights("group", factor=0.5)
-    assert half == pytest.approx(0.5 * (meshes.positions(start) + places), abs=1e-6)
-
-
 def with_a_hole() -> tuple[bpy.types.Object, meshes.Mask]:
     """A rough sphere with a smooth patch; the group "Skin" and the face set 7 are its lower half."""
     obj = meshes.sphere(48)

@@ -148,23 +148,6 @@ TEST_CASE("four rings become a sphere with four holes") {
     CHECK(open_sides(triangles).size() == 4 * n);
 }
 
-TEST_CASE("lengths are the outline's at the outline and grow by half of the way") {
-    const test::Single single = test::single_patch(test::grid(24, 0.0, test::flat));
-    const Patch& patch = single.patch();
-    const double edge = (single.points.col(patch.edge_ends[0][0]) - single.points.col(patch.edge_ends[0][1])).norm();
-    for (const double spacing : {0.25 * edge, 4.0 * edge}) {
-        const VectorX lengths = edge_lengths(patch, single.points, {spacing, 0, Spread::even});
-        for (int e = 0; e < patch.edge_count(); ++e) {
-            const auto [a, b] = patch.edge_ends[e];
-            const double length = (single.points.col(a) - single.points.col(b)).norm();
-            if (patch.edge_triangles[e][1] == none) CHECK(lengths[a] > 0.0);
-            CHECK(std::abs(lengths[a] - lengths[b]) <= 0.5 * length + 1e-12);
-        }
-        const double middle = spacing < edge ? lengths.minCoeff() : lengths.maxCoeff();
-        CHECK(middle == doctest::Approx(spacing));
-    }
-}
-
 namespace {
 
 // A flat square of n × n quads, stretched so that a fan of its triangles has wide angles; the border is fixed.
@@ -278,4 +261,3 @@ TEST_CASE("a start that bulges out beyond its outline lies on the ball of the ou
         }
     }
 }
-

@@ -41,13 +41,6 @@ bool asks(const Work& work) {
 
 }  // namespace
 
-TEST_CASE("a planar mesh is a fixed point of its own conformal weights") {
-    const test::Single single = test::single_patch(test::grid(8, 0.35, test::flat));
-    const InnerWeights weights = conformal_weights(single.patch(), single.points);
-    CHECK(imbalance(single.patch(), weights, single.points).cwiseAbs().maxCoeff() < 1e-13);
-    CHECK(imbalance(single.patch(), uniform_weights(single.patch()), single.points).cwiseAbs().maxCoeff() > 1e-3);
-}
-
 TEST_CASE("intrinsic Delaunay weights are not negative, and flips keep the area") {
     // Sheared so far that the stored triangles have negative weights.
     const test::Single single =

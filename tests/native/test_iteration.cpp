@@ -69,22 +69,6 @@ TEST_CASE("the iteration finds the sphere that its border belongs to") {
     CHECK(off_the_sphere(solution.points) < 1e-6);
 }
 
-TEST_CASE("damped, it finds the same surface by shorter steps") {
-    const Ball ball;
-    const Solution plain = ball.solve(iterate);
-    const Solution damped = ball.solve(iterate_damped);
-    CHECK(damped.termination == Termination::converged);
-    CHECK(distance(damped.points, plain.points) < 1e-5);
-    CHECK(damped.iterations > plain.iterations);
-    // Before any history, one step goes 0.4 of the way that the plain one goes.
-    Ball once;
-    once.problem.options.max_iterations = 2;  // the second one measures where the first has led
-    const auto first_step = [&](const auto& iteration) { return Points(once.solve(iteration).points - once.start); };
-    const Points whole = first_step(iterate);
-    CHECK(whole.norm() > 0.0);
-    CHECK(distance(first_step(iterate_damped), 0.4 * whole) < 1e-12);
-}
-
 TEST_CASE("however far off the surface is, no step is longer than a tenth of the diameter") {
     Ball far;
     blow_up(far);
@@ -108,4 +92,3 @@ TEST_CASE("steps that shrank by luck end no iteration whose residual says otherw
         CHECK(distance(ball.solve(iterate).points, tight.solve(iterate).points) < c.tolerance);
     }
 }
-

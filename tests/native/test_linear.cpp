@@ -152,19 +152,6 @@ TEST_CASE("the LU factor solves diagonally dominant systems that are not symmetr
     }
 }
 
-TEST_CASE("the LU factor has the same bits for any number of threads") {
-    const SparseMatrix matrix = grid_rows(120);
-    const Eigen::MatrixXd rhs = Eigen::MatrixXd::Random(matrix.rows(), 3);
-    SparseLu alone;
-    REQUIRE(alone.factorise(matrix, "x", Progress()));
-    const Eigen::MatrixXd control = alone.solve(rhs);
-    CHECK((matrix * control - rhs).norm() < 1e-11 * rhs.norm());
-    const Threads threads(3);
-    SparseLu together;
-    REQUIRE(together.factorise(matrix, "x", Progress()));
-    CHECK(together.solve(rhs) == control);
-}
-
 TEST_CASE("the LU factor refuses a singular matrix") {
     SparseMatrix matrix = random_rows(50, 1, 7);
     matrix.prune([](Eigen::Index row, Eigen::Index, double) { return row != 20; });
@@ -208,16 +195,6 @@ TEST_CASE("solves that end at the limit of their cycles, or on a matrix that is 
     CHECK(known.unfinished() == 3);
     diagonal[2] = -3.0;
     CHECK(unfinished_after(50) == 1);
-}
-
-TEST_CASE("Anderson acceleration ends a linear iteration within its dimension") {
-    // x ← x + (b − A x) with eigenvalues of A in (0, 2): slow by itself, exact after dimension + 1 accelerated steps.
-    const VectorX diagonal = VectorX::LinSpaced(5, 0.01, 1.99);
-    const VectorX b = VectorX::Ones(5);
-    VectorX x = VectorX::Zero(5);
-    Anderson anderson(6);
-    for (int k = 0; k < 7; ++k) x += anderson.step(x, b - diagonal.cwiseProduct(x));
-    CHECK((diagonal.cwiseProduct(x) - b).norm() < 1e-8);
 }
 
 TEST_CASE("GMRES solves systems that are not symmetric, at the latest after as many steps as unknowns") {

@@ -52,16 +52,6 @@ Points of_level(const CoarseLevel& level, const Points& finest) {
 
 }  // namespace
 
-TEST_CASE("outlines without normals stay whole on all levels") {
-    const Ball ball(60);
-    const Points unknown = Points::Zero(3, ball.patch().vertex_count());
-    const auto levels = coarsen(ball.patch(), ball.weights, {ball.single.points, unknown}, 40);
-    REQUIRE(!levels.empty());
-    const int fixed = ball.patch().vertex_count() - ball.patch().free_count;
-    for (const CoarseLevel& level : levels) CHECK(level.patch.vertex_count() - level.patch.free_count == fixed);
-    CHECK(ball.levels.back().patch.vertex_count() - ball.levels.back().patch.free_count < fixed);
-}
-
 TEST_CASE("levels shrink evenly and keep the topology, the outline and which vertices are fixed") {
     for (const int n : {60, 120}) {  // one domain, and several
         const Ball ball(n);
@@ -93,21 +83,6 @@ TEST_CASE("levels are the same for any number of threads") {
         for (std::size_t k = 0; k < alone.levels.size(); ++k) {
             CHECK(together.levels[k].patch.triangles == alone.levels[k].patch.triangles);
             CHECK(together.levels[k].transfer.removals.weights == alone.levels[k].transfer.removals.weights);
-        }
-    }
-}
-
-TEST_CASE("corners of the outline and pins stay on all levels") {
-    const Ball ball(40);
-    const Patch& coarsest = ball.levels.back().patch;
-    for (const double x : {-1.0, 1.0}) {
-        for (const double y : {-1.0, 1.0}) {
-            int corner = 0;
-            for (int v = 0; v < ball.patch().vertex_count(); ++v) {
-                const auto score = [&](int k) { return x * ball.single.points(0, k) + y * ball.single.points(1, k); };
-                if (score(v) > score(corner)) corner = v;
-            }
-            CHECK(std::count(coarsest.to_input.begin(), coarsest.to_input.end(), corner) == 1);
         }
     }
 }
@@ -216,27 +191,6 @@ TEST_CASE("multigrid and a factorisation give the same tangential steps") {
     CHECK((step - other).norm() < 0.15 * step.norm());
     CHECK(multigrid.merit(ball.single.points, ball.single.points) >
           0.0);  // and both measure the energy that steps lower
-}
-
-TEST_CASE("shape operators: of spheres by either way, and of a cylinder across and along it") {
-    const Ball ball(40, 0.2);
-    const int free = ball.patch().free_count;
-    const ShapeOperators shapes = shape_operators(ball.patch(), ball.single.points, ball.single.points);
-    for (int v = 0; v < free; ++v) {
-        const Vector3 n = ball.single.points.col(v);
-        const Vector3 t = n.cross(Vector3(0.3, 0.5, 0.1)).normalized();
-        CHECK((turn(shapes, v, t.cast<float>()).cast<double>() - t).norm() < 0.02);
-        CHECK(turn(shapes, v, n.cast<float>()).norm() < 1e-5F);
-    }
-    PatchCurvature cylinder{VectorX(1), Points(3, 1)};
-    const Points normal = Vector3(0.6, 0.8, 0.0);  // of radius 2 around the z axis
-    const Frame frame(normal.col(0));
-    const Vector3 around(-0.8, 0.6, 0.0);
-    const Eigen::Vector2d t(around.dot(frame.u), around.dot(frame.v));
-    cylinder.form << -0.5 * t.x() * t.x(), -t.x() * t.y(), -0.5 * t.y() * t.y();
-    const ShapeOperators shape = shape_operators(cylinder, normal, 1);
-    CHECK((turn(shape, 0, around.cast<float>()) - 0.5F * around.cast<float>()).norm() < 1e-6F);
-    CHECK(turn(shape, 0, Eigen::Vector3f::UnitZ()).norm() < 1e-6F);
 }
 
 TEST_CASE("harmonic positions are balanced to double precision, whatever the factor is kept in") {

@@ -119,19 +119,6 @@ TEST_CASE("fits that predict each other's normals are left alone") {
     for (int k = 0; k < 3; ++k) CHECK((filtered.col(k) - fit.fits[k]->normal).norm() < 1e-12);
 }
 
-TEST_CASE("bad is what stands out by four medians and by an absolute bound, the worst 15 % at most") {
-    std::vector<double> errors(20, 0.01);
-    const std::vector<double> angles(20, 0.0);
-    CHECK(bad_vertices(row_of_planes(angles, errors)).empty());
-    errors[7] = 0.14;  // fourteen medians, but small
-    CHECK(bad_vertices(row_of_planes(angles, errors)).empty());
-    errors[7] = 0.16;
-    CHECK(bad_vertices(row_of_planes(angles, errors)) == Indices{7});
-    CHECK(bad_vertices(row_of_planes(angles, std::vector<double>(20, 0.5))).empty());  // noise everywhere
-    for (int k = 0; k < 5; ++k) errors[k] = 0.3 + 0.1 * k;
-    CHECK(bad_vertices(row_of_planes(angles, errors)) == Indices{2, 3, 4});
-}
-
 TEST_CASE("a vertex far off its fit, or without one, is bad; one without triangles is not") {
     SurroundingFit fit = row_of_planes(std::vector<double>(20, 0.0), std::vector<double>(20, 0.01));
     for (auto& here : fit.fits) here->height = 0.02;
@@ -154,33 +141,6 @@ TEST_CASE("a kink between planes is as visible as its angle") {
     const auto valley = [&](int i, int j) { return -ridge(i, j); };
     CHECK(joined(valley, grid_points(columns, rows, ridge)).minCoeff() ==
           doctest::Approx(std::atan(slope) * degrees).epsilon(1e-9));
-}
-
-TEST_CASE("coarse curved surfaces have no visible join, but a kink the other way shows") {
-    const auto tube = [](int i, int) { return std::sqrt(100.0 - (i - seam) * (i - seam)); };
-    CHECK(joined(tube).maxCoeff() < 0.5);
-    const auto dented = [&](int i, int j) { return tube(i, j) - (i == seam ? 0.2 : 0.0); };
-    CHECK(joined(dented).minCoeff() > 15.0);
-}
-
-TEST_CASE("a one-sided join looks at three rings beside the outline, however much lies behind them") {
-    const auto join_of = [](int n) {
-        const test::Mesh mesh = test::grid(n, 0.2, test::sphere);
-        const test::Single single = test::single_patch(mesh);
-        const Patch& patch = single.patch();
-        Points prescribed = single.points.rightCols(patch.vertex_count() - patch.free_count);
-        prescribed.row(2).array() += 0.4;  // leaning normals: a join that shows
-        prescribed.colwise().normalize();
-        Points dented = single.points;
-        for (int v = 0; v < patch.free_count; ++v) {
-            const bool is_far = single.points.col(v).head<2>().cwiseAbs().maxCoeff() < 0.1;
-            if (is_far) dented(2, v) += 0.3;
-        }
-        return std::pair(one_sided_join(patch, single.points, prescribed), one_sided_join(patch, dented, prescribed));
-    };
-    const auto [join, behind] = join_of(24);
-    CHECK(join.maxCoeff() > 1.0);
-    CHECK(join == behind);
 }
 
 TEST_CASE("mended: noise is moved out of the outline and two rings, by a quarter of an edge at most") {

@@ -8,11 +8,6 @@
 
 using namespace fairing;
 
-TEST_CASE("what is not finite is lost") {
-    ProgressWatch watch(true);
-    CHECK(watch.judge({1.0, 1.0, std::nan("")}) == Verdict::lost);
-}
-
 namespace {
 
 // A jittered spherical patch with exact normals on its border, scaled to D = 1.

@@ -89,22 +89,6 @@ TEST_CASE("H has no jump where two of three neighbours come to lie opposite to e
     CHECK(largest_jump(tee, true, 8001) < 0.35 * largest_jump(tee, true, 2001));
 }
 
-TEST_CASE("the fit is that of the shared least squares, for odd and even numbers of points") {
-    for (const std::size_t m : {4U, 5U, 6U, 7U}) {
-        std::vector<Vector3> ring;
-        for (std::size_t k = 0; k < m; ++k) {
-            const double angle = 2.0 * pi * (static_cast<double>(k) + 0.2 * std::sin(3.0 * static_cast<double>(k))) /
-                                 static_cast<double>(m);
-            ring.emplace_back(std::cos(angle), 1.3 * std::sin(angle), 0.1 * std::cos(5.0 * angle));
-        }
-        const Wheel wheel(ring);
-        const CurvatureFit expected = fit_curvature(Vector3::Zero(), ring, Vector3::UnitZ());
-        const CurvatureFit fit = DiskFit()(wheel.disk(false), wheel.field(), Vector3::UnitZ());
-        CHECK(fit.mean() == doctest::Approx(expected.mean()).epsilon(1e-10));
-        CHECK(fit.gaussian() == doctest::Approx(expected.gaussian()).epsilon(1e-8));
-    }
-}
-
 namespace {
 
 const std::vector<Vector3> uneven_pentagon{{1, 0, 0}, {0.2, 1.1, 0}, {-0.9, 0.4, 0}, {-0.5, -0.8, 0}, {0.6, -0.9, 0}};

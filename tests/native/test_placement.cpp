@@ -55,16 +55,6 @@ struct Square {
     }
 };
 
-// λ that pull every free vertex to its neighbours on the right.
-Lambda one_sided_pull(const Square& square) {
-    InnerWeights weights;
-    for (const auto& [a, b] : square.patch().edge_ends) {
-        const double x = 0.5 * (square.single.points(0, a) + square.single.points(0, b));
-        weights.push_back({a, b, std::exp(-25.0 * std::abs(x - 0.4) * (1.0 + std::sin(40.0 * x)))});
-    }
-    return weights;
-}
-
 }  // namespace
 
 TEST_CASE("vertices slide on a surface to where their springs balance") {
@@ -98,18 +88,6 @@ TEST_CASE("a sheet that lies on the other one is folded, although no triangle di
     CHECK(seen_by_neighbours == 0);
 }
 
-TEST_CASE("untangling turns all folds back and leaves the vertices on the surface") {
-    const Square square;
-    for (const double turn : {1.0, 2.0, std::numbers::pi}) {
-        Placement placement = square.twirled(turn);
-        REQUIRE(square.folds(placement) > 10);
-        untangle(square.problem, square.target, placement);
-        CHECK(square.folds(placement) == 0);
-        for (int v = 0; v < square.patch().free_count; ++v)
-            CHECK((placement.points.col(v) - square.target.position(placement.where[v])).norm() == 0.0);
-    }
-}
-
 TEST_CASE("vertices that follow a surface of their own mesh land where they are on it") {
     const Square square;
     const Placement found =
@@ -121,21 +99,6 @@ TEST_CASE("vertices that follow a surface of their own mesh land where they are 
     for (int v = 0; v < square.patch().free_count; ++v) lifted(2, v) = 0.3 * std::sin(9.0 * lifted(0, v));
     const Placement again = by_surface(square.problem, lifted, square.patch(), square.target);
     CHECK((again.points - square.single.points).cwiseAbs().maxCoeff() < 1e-12);
-}
-
-TEST_CASE("springs that hold folds back get less than all they pull for, and fold nothing") {
-    const Square square;
-    const Problem problem = square.make_problem(one_sided_pull(square));
-    const auto tangential = make_tangential_step(square.patch(), problem.weights, problem.fixed_points, Progress());
-    // From a placement without folds next to one with many.
-    Placement start = square.twirled(2.0);
-    untangle(problem, square.target, start);
-    REQUIRE(square.folds(start) == 0);
-    Placement held = start;
-    const double before = tangential->merit(start.points, normals_at(start, square.target));
-    const double after = relax(problem, *tangential, square.target, held, Folds::held_back);
-    CHECK(after < before);
-    CHECK(folded_mask(problem, square.target, held) == std::vector<char>(square.patch().triangle_count(), 0));
 }
 
 TEST_CASE("a refill restores a plane around a vertex pulled out of it, and nothing else moves") {

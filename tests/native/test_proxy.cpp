@@ -72,25 +72,6 @@ TEST_CASE("a crumpled start becomes a mesh of even edges") {
     }
 }
 
-TEST_CASE("a walk that folded triangles send to and fro ends at the nearest point nevertheless") {
-    // One vertex of a flat grid lies beyond its neighbours: the triangles around it overlap others.
-    test::Single single = test::single_patch(test::grid(10, 0.0, test::flat));
-    int moved = 0;
-    for (int v = 0; v < single.patch().free_count; ++v) {
-        const auto distance = [&](int k) { return (single.points.col(k) - Vector3(0.5, 0.5, 0.0)).norm(); };
-        if (distance(v) < distance(moved)) moved = v;
-    }
-    single.points.col(moved) += Vector3(0.13, 0.04, 0.0);
-    const Points normals = Vector3::UnitZ().replicate(1, single.points.cols());
-    const TargetSurface surface(single.patch(), single.points, normals);
-    for (int v = 0; v < single.patch().free_count; ++v) {
-        for (const Vector3& target : {Vector3(0.45, 0.5, 0.0), Vector3(0.55, 0.48, 0.0), Vector3(0.62, 0.55, 0.0)}) {
-            const SurfacePoint where = surface.project(target, surface.at_vertex(v).triangle);
-            CHECK((surface.position(where) - target).norm() < 1e-12);
-        }
-    }
-}
-
 TEST_CASE("splits stop at the limit") {
     const test::Single single = test::single_patch(test::grid(4, 0.0, test::flat));
     ProxyMesh mesh(single.patch(), single.points);

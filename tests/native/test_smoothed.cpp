@@ -84,23 +84,6 @@ Solution taken(const Points& points, Provenance provenance) {
 
 }  // namespace
 
-TEST_CASE("cross-sections of a pipe have the lengths of its circles") {
-    const Known pipe(40);
-    const auto sections = CrossSections::of(pipe.single.patch(), Progress());
-    REQUIRE(sections);
-    REQUIRE(sections->outline_count() == 2);
-    const Points waisted = pipe.shaped([](double t) { return 1.0 - 0.7 * std::sin(std::numbers::pi * t); });
-    for (int k = 0; k < 2; ++k) {
-        const double circle = 2.0 * around * std::sin(std::numbers::pi / around);
-        const VectorX straight = sections->lengths(k, pipe.single.points);
-        CHECK(straight.minCoeff() == doctest::Approx(circle).epsilon(2e-3));
-        CHECK(straight.maxCoeff() == doctest::Approx(circle).epsilon(2e-3));
-        CHECK(sections->lengths(k, waisted).minCoeff() == doctest::Approx(0.3 * circle).epsilon(5e-3));
-        CHECK(sections->widths(k, pipe.single.points).minCoeff() == doctest::Approx(2.0).epsilon(5e-3));
-        CHECK(sections->widths(k, pipe.single.points).maxCoeff() == doctest::Approx(2.0).epsilon(5e-3));
-    }
-}
-
 TEST_CASE("a pipe that is smoothed as a whole has the waist of the closed form") {
     for (const double lean : {0.0, 0.3}) {
         const Known pipe(30, lean);

@@ -30,20 +30,6 @@ Triangles octahedron() {
 
 }  // namespace
 
-TEST_CASE("every side lies on one edge, and the edge knows it") {
-    const Triangles triangles = test::grid(4, 0.0, test::flat).triangles;
-    const EdgeTable edges = make_edges(triangles, 25);
-    CHECK(25 - edges.size() + triangles.cols() == 1);  // Euler number of a disc
-    for (int e = 0; e < edges.size(); ++e) {
-        for (int k = 0; k < edges.side_count(e); ++k) {
-            const int s = edges.side(e, k);
-            CHECK(edges.edge_of_side[static_cast<std::size_t>(s)] == e);
-            CHECK(std::min(side_tail(triangles, s), side_head(triangles, s)) ==
-                  edges.ends[static_cast<std::size_t>(e)][0]);
-        }
-    }
-}
-
 TEST_CASE("a fixed equator splits an octahedron into two pieces with vertices of their own") {
     Diagnostics warnings;
     const CutMesh mesh = cut(octahedron(), {1, 1, 1, 1, 0, 0}, warnings);
@@ -115,14 +101,6 @@ TEST_CASE("boundary loops keep the mesh on their left") {
     CHECK(loops[0] == Indices{0, 1, 2, 5, 8, 7, 6, 3});
 }
 
-TEST_CASE("two squares that share a corner have two loops") {
-    Triangles triangles(3, 2);
-    triangles << 0, 2,  //
-        1, 3,           //
-        2, 4;
-    CHECK(boundary_loops(triangles, 5) == std::vector<Indices>{{0, 1, 2}, {2, 3, 4}});
-}
-
 namespace {
 
 // A permutation of 0 … count − 1 that leaves few neighbours together; `count` is no multiple of 7919.
@@ -181,4 +159,3 @@ TEST_CASE("pieces are numbered by their lowest triangles, whatever their vertice
         CHECK(cut.piece[t] == (cut.input_triangle[t] < mesh.triangles.cols() ? 0 : 1));
     }
 }
-
