@@ -1,16 +1,10 @@
 #include <doctest/doctest.h>
 
-#include <fstream>
+#include <new>
+#include <optional>
 #include <string>
-#include <vector>
-
-#ifdef __linux__
-#include <malloc.h>
-#include <unistd.h>
-#endif
 
 #include "api/memory.h"
-#include "base/kept_memory.h"
 
 using namespace fairing;
 
@@ -36,10 +30,6 @@ TEST_CASE("a run that needs more memory than there is says how much, before it t
         CHECK(text.find("1.3 GB are available") != std::string::npos);
     }
 }
-
-}  // namespace
-
-#endif
 
 #ifdef __linux__
 TEST_CASE("Linux says what is available") {

@@ -84,28 +84,6 @@ TEST_CASE("surfaces without crossings have none, whether they touch or lie close
     CHECK(crossing_triangles(Triangles(3, 0), Points(3, 0)).empty());
 }
 
-TEST_CASE("a wall through a floor crosses the triangles along one line, as a brute-force search finds them") {
-    const test::Mesh floor = test::grid(9, 0.2, test::flat);
-    const test::Mesh both = join(floor, test::grid(7, 0.2, wall), {0.03, 0.47, -0.51});
-    const Indices found = crossing_triangles(both.triangles, both.points);
-    // The wall's plane is y = 0.47 and it spans the floor's width: every floor triangle with corners on both sides.
-    for (int t = 0; t < floor.triangles.cols(); ++t) {
-        const auto corners = floor.triangles.col(t);
-        double lowest = 1.0;
-        double highest = 0.0;
-        double nearest = 1.0;
-        for (int v : corners) {
-            lowest = std::min(lowest, floor.points(1, v));
-            highest = std::max(highest, floor.points(1, v));
-            nearest = std::min(nearest, floor.points(0, v));
-        }
-        if (nearest < 0.05) continue;  // the wall begins at x = 0.03
-        const bool crossed = lowest < 0.47 && highest > 0.47;
-        CHECK((std::find(found.begin(), found.end(), t) != found.end()) == crossed);
-    }
-    CHECK(std::is_sorted(found.begin(), found.end()));
-}
-
 TEST_CASE("triangles that share a vertex may cross, those that share an edge fold") {
     Points points(3, 5);
     points << 0.0, 2.0, 2.0, 1.0, 1.0,  //

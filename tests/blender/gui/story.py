@@ -22,10 +22,8 @@ from ends_chapters import (
 )
 from live_chapters import (
     live_begins_in_the_background,
-    live_finds_no_surface,
     live_follows_a_drag,
     live_follows_a_pin,
-    live_is_left_while_it_searches,
     live_moves_the_far_side,
 )
 from long_run_chapters import (
@@ -214,8 +212,6 @@ CHAPTERS = (
     live_follows_a_drag,
     live_follows_a_pin,
     live_moves_the_far_side,
-    live_finds_no_surface,
-    live_is_left_while_it_searches,
     live_begins_in_the_background,
     undo_and_removal_end_a_run,
     disabling_ends_a_run,
