@@ -11,7 +11,9 @@ import meshes
 import own_process
 import pytest
 from extension import module
-from test_modal import event, started
+from test_modal import event, go_on, started
+
+__all__ = ["go_on"]  # a fixture
 
 
 def kept() -> dict[str, bool]:
