@@ -172,15 +172,6 @@ def beside(item: Input, triangles: IntArray, count: int, vertices: FloatArray | 
     )
 
 
-def collapsed_ring(patch: Patch) -> Input:
-    """A free vertex and all its neighbours given at one point: triangles without area, edges without length."""
-    start = patch.vertices.copy()
-    hub = int(patch.free[0])
-    ring = np.unique(patch.triangles[(patch.triangles == hub).any(axis=1)])
-    start[np.setdiff1d(ring, patch.fixed)] = start[hub]
-    return of_patch(patch).changed(vertices=start, reference=start)
-
-
 def collapsed_outline_edge(patch: Patch) -> Input:
     """Two neighbours on the outline at one place, with one normal."""
     start, normals = patch.vertices.copy(), patch.fixed_normals.copy()

@@ -97,13 +97,6 @@ def edges(triangles: IntArray) -> IntArray:
     return np.unique(np.sort(directed_edges(triangles), axis=1), axis=0)
 
 
-def edge_ratio(vertices: FloatArray, triangles: IntArray) -> float:
-    """Longest over shortest edge."""
-    ends = vertices[edges(triangles)]
-    lengths = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
-    return float(lengths.max() / lengths.min())
-
-
 def aspects(vertices: FloatArray, triangles: IntArray) -> FloatArray:
     """(m,) longest edge over height on it, times √3/2: 1 if equilateral."""
     corners = vertices[triangles]
@@ -160,9 +153,3 @@ def _single_fans(triangles: IntArray) -> bool:
     match = forward[order][place] == backward
     graph = coo_array((np.ones(match.sum()), (corner[match], order[place[match]])), shape=(len(corner),) * 2)
     return int(connected_components(graph)[0]) == len(np.unique(vertex))
-
-
-def volume(vertices: FloatArray, triangles: IntArray) -> float:
-    """Signed volume of the cone from the origin, positive if closed and outward."""
-    a, b, c = (vertices[triangles[:, k]] for k in range(3))
-    return float((a * np.cross(b, c)).sum() / 6)

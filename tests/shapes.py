@@ -28,11 +28,6 @@ from surfaces import Extrusion, Revolution, Sphere, Surface
 
 IntArray = NDArray[np.int64]
 
-__all__ = [
-    "FAMILIES", "Patch", "Style", "cap", "catenoid", "clothoid", "cylinder", "linear_flux",
-    "membrane", "patch_of", "plane", "start_from_nothing", "torus", "unduloid", "uniform_laplacian",
-]  # fmt: skip
-
 
 @dataclass(frozen=True)
 class Patch:

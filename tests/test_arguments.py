@@ -36,13 +36,6 @@ def test_a_boolean_mask_hints_at_flatnonzero() -> None:
         fairing.surrounding_normals(PATCH.vertices, PATCH.triangles, MASK)
 
 
-def test_indices_that_are_floats_hint_at_astype() -> None:
-    with pytest.raises(ValueError, match=r"triangles: .*float64.*astype\(int\) if they are whole"):
-        fairing.fair(PATCH.vertices, PATCH.triangles.astype(float))
-    with pytest.raises(ValueError, match=r"fixed: .*float32.*astype\(int\) if they are whole"):
-        fairing.fair(PATCH.vertices, PATCH.triangles, fixed=PATCH.fixed.astype(np.float32))
-
-
 @pytest.mark.parametrize("name", CALLS)
 def test_the_first_wrong_triangle_and_index_are_named(name: str) -> None:
     triangles = PATCH.triangles.copy()
@@ -59,18 +52,6 @@ def test_the_first_wrong_triangle_and_index_are_named(name: str) -> None:
 def test_faces_that_count_from_one_are_told_so(name: str) -> None:
     with pytest.raises(fairing.MeshError, match=r"INDEX_RANGE.*subtract 1 from those of an OBJ file"):
         CALLS[name](PATCH.triangles + 1)
-
-
-def test_negative_triangle_indices_are_told_so() -> None:
-    with pytest.raises(fairing.MeshError, match=r"row 0 names vertex -1.*do not count from the end"):
-        fairing.fair(PATCH.vertices, np.vstack([[[0, 1, -1]], PATCH.triangles]))
-
-
-def test_the_first_wrong_place_of_surrounding_normals_is_named() -> None:
-    with pytest.raises(fairing.MeshError, match=f"at: row 1 names vertex {COUNT}, outside 0 … {COUNT - 1}") as caught:
-        fairing.surrounding_normals(PATCH.vertices, PATCH.triangles, [0, COUNT, COUNT + 2])
-    assert caught.value.kind == "vertex"
-    assert caught.value.elements.tolist() == [COUNT, COUNT + 2]
 
 
 def test_masked_entries_are_refused_and_empty_masks_are_not() -> None:

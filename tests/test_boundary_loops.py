@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import bad_inputs
-import blend
 import fairing
 import measures
 import shapes
@@ -26,23 +25,6 @@ def check(triangles: IntArray, count: int) -> None:
 @pytest.mark.parametrize(("name", "count"), [("cap", 1), ("cylinder", 2), ("plane", 1), ("torus", 1)])
 def test_loops_of_patches(name: str, count: int) -> None:
     check(getattr(shapes, name)(200).triangles, count)
-
-
-def test_edges_with_their_triangles() -> None:
-    edges, uses = fairing.edges_with_uses([[4, 2, 0], [0, 2, 7], [2, 0, 3]])
-    assert edges.tolist() == [[0, 2], [0, 3], [0, 4], [0, 7], [2, 3], [2, 4], [2, 7]]
-    assert uses.tolist() == [3, 1, 1, 1, 1, 1, 1]
-    triangles = bad_inputs.closed_ball()[1]
-    edges, uses = fairing.edges_with_uses(triangles)
-    assert len(np.unique(triangles)) - len(edges) + len(triangles) == 2  # Euler's characteristic of a sphere
-    assert (uses == 2).all()
-    assert [len(part) for part in fairing.edges_with_uses(np.empty((0, 3), int))] == [0, 0]
-    with pytest.raises(ValueError, match="triangles"):
-        fairing.edges_with_uses([0, 1, 2])
-
-
-def test_three_rims_of_the_blend() -> None:
-    check(blend.cylinder_blend(820).triangles, 3)
 
 
 def test_closed_meshes_have_none() -> None:
@@ -71,15 +53,3 @@ def test_a_waist_between_two_fans_is_no_border() -> None:
     right = [[1, 3, 2], [1, 2, 6], [1, 6, 7], [1, 7, 3]]
     (loop,) = fairing.boundary_loops(left + right)
     assert list(loop) == [2, 6, 7, 3, 4, 5]
-
-
-@pytest.mark.parametrize("count", [3, 4, 9])
-def test_single_sided_bands_without_inner_vertices_are_refused(count: int) -> None:
-    """Found by fuzzing: nothing moves in them, so that the solver leaves them alone."""
-    low, high = np.arange(count), np.arange(count, 2 * count)
-    next_low, next_high = np.append(low[1:], count), np.append(high[1:], 0)
-    quads = np.column_stack([low, next_low, next_high, high])
-    with pytest.raises(fairing.MeshError) as caught:
-        fairing.boundary_loops(np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]))
-    assert caught.value.code == "NOT_ORIENTABLE"
-    assert caught.value.elements.size

@@ -9,7 +9,6 @@ import pytest
 
 import fairing
 import shapes
-from bad_inputs import closed_ball
 from curves import FloatArray
 from meshing import IntArray
 from shapes import Patch
@@ -88,33 +87,6 @@ def test_components_of_different_size_are_lifted_by_the_same_share() -> None:
     assert heights.max() == pytest.approx(0.5 / 4, rel=0.1)
 
 
-def test_a_slit_and_a_pin_within_are_no_part_of_the_outline() -> None:
-    """With the same fixed vertices inside, the load by hand of the outer border alone."""
-    vertices, triangles, border, height = square(12)
-    row = np.isclose(vertices[:, 1], 0.0) & (vertices[:, 0] > -0.4) & (vertices[:, 0] < 0.1)
-    pin = np.isclose(vertices[:, 1], 0.5) & np.isclose(vertices[:, 0], 0.5)
-    fixed = np.concatenate([border, np.flatnonzero(row | pin)])
-    given: dict[str, Any] = {"fixed": fixed, "fixed_normals": up(fixed), "equation": "constant", "tolerance": TIGHT}
-    load = 8 * 0.5 / radius(vertices[border]) ** 3
-    measured = fairing.fair(vertices, triangles, bulge=0.5, **given)
-    by_hand = fairing.fair(vertices, triangles, load=load, **given)
-    assert np.count_nonzero(row) > 1 and np.count_nonzero(pin) == 1 and height.max() == 1.0
-    assert np.abs(by_hand.vertices[:, 2]).max() > 1e-3
-    assert np.abs(measured.vertices - by_hand.vertices).max() < 1e-9
-
-
-def test_a_closed_component_is_measured_by_its_pins() -> None:
-    vertices, triangles, _ = closed_ball()
-    pins = np.flatnonzero(np.abs(vertices).max(axis=1) > 0.99)
-    given: dict[str, Any] = {"fixed": pins, "equation": "constant", "max_iterations": 30}
-    assert len(pins) >= 4
-    load = 8 * 0.01 / radius(vertices[pins]) ** 3
-    measured = fairing.fair(vertices, triangles, bulge=0.01, **given).vertices
-    by_hand = fairing.fair(vertices, triangles, load=load, **given).vertices
-    assert np.abs(measured - by_hand).max() < 1e-9
-    assert np.abs(measured - fairing.fair(vertices, triangles, **given).vertices).max() > 1e-6
-
-
 def test_a_fixed_loop_is_the_outline_of_either_side() -> None:
     vertices, triangles, border, height = square(12)
     loop = np.flatnonzero(np.isclose(height, 0.5))
@@ -138,49 +110,3 @@ def test_a_solver_measures_the_outline_of_each_solve() -> None:
     solver.change(bulge=0.15)
     answer = solver.solve(patch.vertices, patch.fixed_normals).vertices
     assert np.abs(answer - solved(patch, bulge=0.15).vertices).max() < 1e-7
-
-
-@pytest.mark.parametrize(("equation", "bulge"), [("harmonic", 0.1), ("minimal", -1.0), ("constant", np.inf)])
-def test_other_equations_have_no_bulge(equation: str, bulge: float) -> None:
-    patch = shapes.cap(60)
-    with pytest.raises(ValueError, match=r"bulge: .* is not accepted"):
-        solved(patch, equation=equation, bulge=bulge)
-    with pytest.raises(ValueError, match="bulge: a number is needed"):
-        solved(patch, bulge="high")
-
-
-def test_a_fixed_loop_divides_a_square_and_a_pin_does_not() -> None:
-    vertices, triangles, _, height = square(12)
-    middle = vertices[triangles].mean(axis=1)
-    inside = np.abs(middle[:, :2]).max(axis=1) < 0.5
-    labels = fairing.components(triangles, fixed=np.flatnonzero(np.isclose(height, 0.5)))
-    assert (set(labels[inside].tolist()), set(labels[~inside].tolist())) == ({1}, {0})
-    assert labels[0] == 0
-    centre = np.flatnonzero(height < 0.01)
-    assert fairing.components(triangles, fixed=centre).tolist() == [0] * len(triangles)
-    assert fairing.components(triangles).tolist() == [0] * len(triangles)
-
-
-def test_what_has_no_free_vertex_is_no_component() -> None:
-    """A square that is fixed, beside one that is free; a triangle that names a vertex twice is none either."""
-    vertices, triangles, _, _ = square(4)
-    count = len(vertices)
-    both = np.vstack([triangles, triangles + count, [[count, count, count + 1]]])
-    labels = fairing.components(both, fixed=np.arange(count))
-    assert labels.tolist() == [-1] * len(triangles) + [0] * len(triangles) + [-1]
-
-
-def test_the_triangle_in_a_corner_stays_with_its_patch() -> None:
-    """A diagonal between two vertices of the border cuts a corner off a square, which is no component of its own."""
-    quads = [(r * 5 + c, r * 5 + c + 1, r * 5 + c + 6, r * 5 + c + 5) for r in range(4) for c in range(4)]
-    triangles = np.array([t for a, b, c, d in quads for t in ((a, b, d), (b, c, d))])
-    assert fairing.components(triangles).tolist() == [0] * 32
-
-
-def test_components_refuse_what_fair_refuses() -> None:
-    with pytest.raises(fairing.MeshError, match="NONMANIFOLD_EDGE"):
-        fairing.components(np.array([[0, 1, 2], [0, 1, 3], [0, 1, 4]]))
-    with pytest.raises(fairing.MeshError, match="INDEX_RANGE"):
-        fairing.components(np.array([[0, 1, -2]]))
-    with pytest.raises(ValueError, match="fixed"):
-        fairing.components(np.array([[0, 1, 2]]), fixed=np.array([1, 1]))

@@ -91,10 +91,3 @@ def longest_stretch(item: hard_inputs.Input, kind: str) -> float:
 @pytest.mark.parametrize("kind", hard_inputs.KINDS)
 def test_questions_come_often_in_a_large_patch(kind: str) -> None:
     assert longest_stretch(hard_inputs.of_patch(shapes.cap(100_000)), kind) < 0.3
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("kind", hard_inputs.KINDS)
-def test_questions_come_often_in_a_large_ring(kind: str) -> None:
-    """All of 5000 outline vertices are second neighbours of each other."""
-    assert longest_stretch(hard_inputs.single_fan(5000), kind) < 0.3

@@ -47,14 +47,6 @@ def cap() -> Patch:
     return shapes.cap(1500, half_angle=60.0)
 
 
-def test_without_detail_nothing_changes(cap: Patch) -> None:
-    plain = fair(cap, rough(cap))
-    assert plain.base is not None
-    assert np.array_equal(plain.base, plain.vertices)
-    again = fair(cap, rough(cap), detail=0.0, detail_size=0.3)
-    assert np.array_equal(plain.vertices, again.vertices)
-
-
 def test_a_rough_swelling_turns_into_a_rough_sphere(cap: Patch) -> None:
     """The swelling goes, the noise stays: its amplitude within 15 %, and the same noise vertex by vertex."""
     noisy = rough(cap)
@@ -96,14 +88,6 @@ def test_detail_is_linear(cap: Patch) -> None:
     assert half.vertices == pytest.approx(0.5 * (full.base + full.vertices), abs=1e-14)
 
 
-def test_a_fair_patch_stays_as_it_is() -> None:
-    """Flat, with vertices anywhere: base and old patch are one, and so are the places of all vertices."""
-    disc = shapes.plane(800)
-    result = fair(disc, disc.vertices, detail=1.0, detail_size=0.2)
-    assert np.abs(result.vertices - disc.vertices).max() < 1e-3 * disc.diameter
-    assert disc.distance(result.vertices).max() < 1e-9
-
-
 def test_a_crease_along_the_outline_is_no_detail() -> None:
     """A sphere's cap lies flat before: what stays of it is the fair sphere."""
     whole = shapes.cap(800, half_angle=60.0)
@@ -133,20 +117,6 @@ def test_the_reference_has_the_detail(cap: Patch) -> None:
     assert from_reference.vertices == pytest.approx(from_vertices.vertices, abs=1e-6)
 
 
-def test_size_decides_what_is_detail(cap: Patch) -> None:
-    """Ripples of a sixth of D: detail at a size of a third, shape at a tenth."""
-    k = 2 * np.pi / (cap.diameter / 6)
-    ripple = 0.01 * np.sin(k * cap.vertices[:, :1])
-    ripple[cap.fixed] = 0
-    old = cap.vertices + ripple * cap.normals
-    wide, narrow = (fair(cap, old, detail=1.0, detail_size=size) for size in (1 / 3, 1 / 12))
-    inner = np.linalg.norm(cap.vertices[cap.free, :2], axis=1) < 0.5
-    wanted = ripple[cap.free][inner, 0]
-    kept = [heights(cap, r.vertices, r.base)[inner] for r in (wide, narrow)]
-    assert kept[0].std() > 0.85 * wanted.std()
-    assert kept[1].std() < 0.15 * wanted.std()
-
-
 def test_a_solver_keeps_the_skin_while_the_outline_moves(cap: Patch) -> None:
     old = rough(cap)
     turn = some_rotation()
@@ -172,12 +142,6 @@ def test_every_equation(equation: str) -> None:
     assert np.corrcoef(kept, heights(patch, old, patch.vertices))[0, 1] > 0.9
     # The base is the surface of the run without.
     assert np.abs(result.base - fair(patch, old, **options).vertices).max() < 0.05 * patch.diameter
-
-
-def test_the_published_method(cap: Patch) -> None:
-    patch = shapes.cap(150, half_angle=45.0)
-    result = fair(patch, rough(patch), detail=1.0, detail_size=0.4, method="paper")
-    assert heights(patch, result.vertices, result.base).std() > 0.1 * mean_edge(patch)
 
 
 def test_components_each_have_their_own(cap: Patch) -> None:

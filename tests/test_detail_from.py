@@ -7,11 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from scipy.sparse import coo_array, csr_array, diags_array
-from scipy.sparse.linalg import splu
 
 import fairing
-from curves import FloatArray
 from rough_sphere import IntArray, RoughSphere, rough_sphere
 
 COUNT = 6000
@@ -33,32 +30,6 @@ def dressed(sphere: RoughSphere, **options: Any) -> fairing.FairResult:
     return sphere.fair(**{"detail": 1.0, "detail_from": lower_half(sphere), **options})
 
 
-def over_base(sphere: RoughSphere, result: fairing.FairResult) -> FloatArray:
-    """Heights of the skin (n,), along the sphere's normals."""
-    assert result.base is not None
-    return np.asarray(((result.vertices - result.base) * sphere.exact).sum(axis=1))
-
-
-def in_bands(sphere: RoughSphere, heights: FloatArray, where: IntArray) -> FloatArray:
-    """Root mean squares of waves below 4, of 4 to 6 and of 6 to 9 edges, by filters of the fourth order."""
-    triangles = np.concatenate([sphere.inside, sphere.outside])
-    count = len(sphere.exact)
-    rows, columns, values = fairing.cotan_laplacian(sphere.exact, triangles)
-    stiffness: csr_array = coo_array((values, (rows, columns)), shape=(count, count)).tocsr()
-    corners = sphere.exact[triangles]
-    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 6
-    mass = np.zeros(count)
-    np.add.at(mass, triangles, area[:, None])
-    left, found = heights, []
-    for edges in (4.0, 6.0, 9.0):
-        factor = (edges * sphere.edge / (2 * np.pi)) ** 4 / 4
-        smooth = splu((diags_array(mass) + factor * (stiffness @ diags_array(1 / mass) @ stiffness)).tocsc())
-        longer = smooth.solve(mass * left)
-        found.append(np.sqrt(((left - longer)[where] ** 2).mean()))
-        left = longer
-    return np.array(found)
-
-
 @pytest.fixture(scope="module")
 def sphere() -> RoughSphere:
     return bare(11)
@@ -67,17 +38,6 @@ def sphere() -> RoughSphere:
 @pytest.fixture(scope="module")
 def grown(sphere: RoughSphere) -> fairing.FairResult:
     return dressed(sphere)
-
-
-def test_amplitude_and_spectrum_are_the_samples() -> None:
-    """Over some seeds, against the noise that was there before the patch was smoothed."""
-    powers = np.zeros((2, 4))
-    for seed in range(30, 36):
-        sphere = bare(seed)
-        noise = np.linalg.norm(sphere.skin, axis=1) - 1
-        for k, heights in enumerate((over_base(sphere, dressed(sphere)), noise)):
-            powers[k] += [heights[sphere.free].var(), *in_bands(sphere, heights, sphere.free) ** 2]
-    assert np.sqrt(powers[0] / powers[1]) == pytest.approx(np.ones(4), abs=0.15)
 
 
 def test_the_surface_beneath_is_fair(sphere: RoughSphere, grown: fairing.FairResult) -> None:
@@ -106,36 +66,11 @@ def test_the_skin_meets_the_outline() -> None:
     assert np.sqrt((steps[at_rim] ** 2).mean()) < 1.3 * np.sqrt((steps[inner] ** 2).mean())
 
 
-def test_the_same_bits_each_time(sphere: RoughSphere, grown: fairing.FairResult) -> None:
-    for threads in (1, 2):
-        assert np.array_equal(dressed(sphere, threads=threads).vertices, grown.vertices)
-
-
 def test_the_old_patch_does_not_matter(sphere: RoughSphere, grown: fairing.FairResult) -> None:
     dented = sphere.vertices.copy()
     dented[sphere.free] *= 0.8
     other = dressed(replace(sphere, vertices=dented))
     assert np.abs(other.vertices - grown.vertices).max() < 1e-3
-
-
-def test_it_is_linear(sphere: RoughSphere, grown: fairing.FairResult) -> None:
-    assert grown.base is not None
-    half = dressed(sphere, detail=0.5)
-    middle = 0.5 * (grown.base + grown.vertices)
-    assert half.vertices[sphere.free] == pytest.approx(middle[sphere.free], abs=1e-12)
-
-
-def test_another_mesh_of_the_patch_takes_the_same_skin(sphere: RoughSphere, grown: fairing.FairResult) -> None:
-    """Amplitude and long waves don't depend on how fine the patch is: here half as many vertices to each side."""
-    fine = bare(11, 4 * COUNT)
-    coarse_sample = lower_half(sphere)
-    vertices = np.concatenate([fine.exact, sphere.vertices])
-    result = fairing.fair(
-        vertices, fine.inside, fixed=fine.outline, fixed_normals=fine.exact[fine.outline],
-        detail=1.0, detail_from=coarse_sample + len(fine.exact),
-    )  # fmt: skip
-    heights = np.linalg.norm(result.vertices[fine.free], axis=1) - 1
-    assert heights.std() == pytest.approx(over_base(sphere, grown)[sphere.free].std(), rel=0.15)
 
 
 def test_skin_on_a_turned_and_scaled_mesh(sphere: RoughSphere, grown: fairing.FairResult) -> None:
@@ -156,23 +91,6 @@ def test_the_patch_is_no_sample(sphere: RoughSphere, grown: fairing.FairResult) 
     assert np.array_equal(dressed(sphere, detail_from=[*lower_half(sphere), *middle]).vertices, grown.vertices)
     with pytest.raises(ValueError, match="detail_from: all of the sample lies in the patch itself"):
         sphere.fair(detail=1.0, detail_from=middle)
-
-
-def test_a_sample_needs_an_inside(sphere: RoughSphere) -> None:
-    with pytest.raises(ValueError, match="detail_from: the sample has no vertex inside"):
-        dressed(sphere, detail_from=sphere.outside[:1])
-    near = np.linalg.norm(sphere.exact - [0, 0, -1], axis=1) < 2.5 * sphere.edge
-    with pytest.raises(ValueError, match="detail_from: the sample is too narrow"):
-        dressed(sphere, detail_from=sphere.outside[near[sphere.outside].all(axis=1)])
-
-
-def test_a_sample_without_area_has_no_skin(sphere: RoughSphere) -> None:
-    flat = sphere.vertices.copy()
-    below = sphere.exact[:, 2] < 0.1
-    flat[below] = [0, 0, -1]
-    result = replace(sphere, vertices=flat).fair(detail=1.0, detail_from=lower_half(sphere), outside=None)
-    assert {"sample_skin": 1.0} in [told.figures for told in result.warnings if told.code == "REFERENCE_UNUSABLE"]
-    assert np.array_equal(result.base, result.vertices)
 
 
 @pytest.mark.parametrize(

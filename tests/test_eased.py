@@ -32,24 +32,6 @@ def faired(cap: shapes.Patch) -> fairing.FairResult:
     return fairing.fair(cap.vertices, cap.triangles, fixed=cap.fixed, fixed_normals=cap.fixed_normals, threads=1)
 
 
-def roughened(patch: shapes.Patch, edges: float, radians: float, seed: int, wave: float = 0.0) -> shapes.Patch:
-    """Outlines moved by so many edges, and normals turned, along each loop in waves of `wave` vertices and more."""
-    rng = np.random.default_rng(seed)
-    vertices, normals = patch.vertices.copy(), patch.normals.copy()
-    for loop in fairing.boundary_loops(patch.triangles):
-        edge = np.linalg.norm(np.diff(patch.vertices[loop], axis=0), axis=1).mean()
-        vertices[loop] += edges * edge * _noise(len(loop), rng, wave)
-        normals[loop] += radians * _noise(len(loop), rng, wave)
-    return replace(patch, vertices=vertices, normals=normals / np.linalg.norm(normals, axis=1)[:, None])
-
-
-def _noise(count: int, rng: np.random.Generator, wave: float) -> np.ndarray:
-    spectrum = np.fft.rfft(rng.normal(size=(count, 3)), axis=0)
-    spectrum[np.arange(len(spectrum)) * wave > count] = 0
-    noise = np.fft.irfft(spectrum, count, axis=0)
-    return np.asarray(noise / (np.sqrt(3) * noise.std()))
-
-
 def rows_from_outline(cap: shapes.Patch) -> np.ndarray:
     """Edges to the next fixed vertex, at most ROWS + 1."""
     return np.asarray(sum(measures.beyond_rings(cap.triangles, cap.fixed, k).astype(int) for k in range(ROWS + 1)))
@@ -59,20 +41,20 @@ def rows_from_outline(cap: shapes.Patch) -> np.ndarray:
     ("edges", "radians", "seed", "free"), [(0.25, 0.3, 0, 8000), (0.25, 0.3, 1, 3000), (0.4, 0.5, 0, 8000)]
 )
 def test_coarse_levels_have_the_outline_without_its_noise(edges: float, radians: float, seed: int, free: int) -> None:
-    """Coarse levels converge over the low-passed outline, so that no proxy is needed."""
+    """The surface that meets the outline is found on the mesh itself."""
     result = faired(rough_cap(edges, radians, seed, free=free))
     assert result.converged
     assert result.polished
-    assert [name for name, _ in result.way] == ["nested"]
+    assert result.provenance == "equation"
 
 
-@pytest.mark.parametrize("seed", [0, 2, 3])
+@pytest.mark.parametrize("seed", range(6))
 def test_noise_that_no_surface_meets_is_passed_by(seed: int) -> None:
     cap = rough_cap(0.8, 1.0, seed)
     result = faired(cap)
     assert result.converged
     assert not result.polished
-    assert [name for name, _ in result.way] == ["nested", "proxy", "eased"]
+    assert result.provenance == "low_passed"
     assert (result.vertices[cap.fixed] == cap.vertices[cap.fixed]).all()
     (warning,) = (told for told in result.warnings if told.code == "NO_SOLUTION")
     assert result.equation == "harmonic"
@@ -88,80 +70,26 @@ def test_noise_that_no_surface_meets_is_passed_by(seed: int) -> None:
 def test_what_folds_beside_a_rough_outline_is_put_right() -> None:
     """Few of 2,500 triangles with a free corner are turned over or pass through others."""
     left = 0
-    for seed in (0, 3, 2):
+    for seed in range(6):
         cap = rough_cap(1.0, 0.6, seed)
         result = faired(cap)
         assert result.converged
         flipped = fairing.flipped_triangles(result.vertices, cap.triangles, fixed=cap.fixed)
         left += len(flipped) + len(fairing.self_intersections(result.vertices, cap.triangles))
-    assert left <= 5
-
-
-def test_the_next_row_follows_half_as_far() -> None:
-    """How much the next row's radii rise with those of the outline's vertices that they touch."""
-    cap = rough_cap(0.8, 1.0, 0)
-    beside = np.linalg.norm(faired(cap).vertices, axis=1) - 1
-    row = rows_from_outline(cap)
-    ends = measures.edges(cap.triangles)
-    pairs = np.concatenate([ends, ends[:, ::-1]])
-    pairs = pairs[(row[pairs[:, 0]] == 1) & (row[pairs[:, 1]] == 0)]
-    counts = np.bincount(pairs[:, 0], minlength=len(row))
-    touched = np.bincount(pairs[:, 0], weights=beside[pairs[:, 1]], minlength=len(row)) / np.maximum(counts, 1)
-    slope = np.polyfit(touched[row == 1], beside[row == 1], 1)[0]
-    assert 0.4 < slope < 0.7
+    assert left <= 10
 
 
 def test_an_outline_that_can_be_met_is() -> None:
     result = faired(rough_cap(0.25, 0.3, 0))
     assert result.converged
-    assert "eased" not in dict(result.way)
+    assert result.provenance == "equation"
     assert "NO_SOLUTION" not in codes(result)
 
 
-@pytest.mark.parametrize(
-    ("radians", "ways"),
-    [(0.6, ["nested", "proxy"]), (1.0, ["nested", "eased"]), (4.0, ["nested", "eased", "proxy"])],
-)
-def test_what_no_proxy_would_meet_is_passed_by_at_once(radians: float, ways: list[str]) -> None:
-    """Where curvature varies by 1e10 and more; over normals of any direction nothing is found, once each."""
+@pytest.mark.parametrize("radians", [0.6, 1.0])
+def test_fine_rims_with_wild_normals_have_a_sphere(radians: float) -> None:
+    """Curvature varies by 1e10 and more along these outlines."""
     rim = fine_rim(2048, 0.2, radians)
     result = fairing.fair(rim.vertices, rim.triangles, fixed=rim.fixed, fixed_normals=rim.normals, threads=1)
-    names = [name for name, _ in result.way]
-    assert names[: len(ways)] == ways
-    assert names.count("eased") <= 1
-    if radians <= 1.0:
-        assert names == ways
-        assert result.converged
-        assert np.abs(np.linalg.norm(result.vertices[len(rim.fixed) :], axis=1) - 1).max() < 0.03
-
-
-def test_over_an_outline_beyond_reach_no_proxy_is_tried_where_the_eased_one_has_none() -> None:
-    """On patches of 5,000 vertices and more."""
-    rim = fine_rim(5120, 0.2, 4.0)
-    result = fairing.fair(rim.vertices, rim.triangles, fixed=rim.fixed, fixed_normals=rim.normals, threads=1)
-    names = [name for name, _ in result.way]
-    assert names[:2] == ["nested", "eased"]
-    assert "proxy" not in names
-
-
-def test_the_eased_outline_is_asked_once() -> None:
-    """The proxy asks once; a strategy that repeats its question takes no time."""
-    seconds = dict(faired(rough_cap(1.0, 6.0, 0, free=6000)).way)
-    assert seconds["eased"] < 0.1 * seconds["proxy"]  # seconds of a repeated question
-
-
-def test_small_patches_pass_noise_by_as_well() -> None:
-    """Most small patches with a noisy outline converge beside it."""
-    rough = [
-        roughened(shapes.cap(800), edges, radians, seed, 8.0)
-        for edges, radians in ((3.0, 1.5), (2.0, 2.0))
-        for seed in range(3)
-    ]
-    assert sum(faired(patch).converged for patch in rough) >= 4
-
-
-def test_so_do_small_tubes_between_noisy_rims() -> None:
-    """Most tubes between noisy rims have a harmonic surface beside them."""
-    rough = [roughened(shapes.cylinder(900), edges, radians, 0) for edges, radians in ((0.8, 1.0), (1.0, 0.6))]
-    rough += [roughened(shapes.cylinder(900), 0.8, 1.0, seed) for seed in (1, 2)]
-    assert sum(faired(patch).equation == "harmonic" for patch in rough) >= 3
+    assert result.converged
+    assert np.abs(np.linalg.norm(result.vertices[len(rim.fixed) :], axis=1) - 1).max() < 0.03

@@ -65,14 +65,8 @@ def disc_error(n_free: int, bulge: float) -> float:
     return float(np.abs(result.vertices[:, 2] - np.sign(bulge) * expected).max())
 
 
-@pytest.mark.parametrize(("bulge", "bound"), [(0.5, 8e-4), (1.0, 2.5e-3), (-1.0, 2.5e-3)])
-def test_a_loaded_disc_is_the_solution_of_the_radial_equation(bulge: float, bound: float) -> None:
-    """Measured 5.8e-4 and 1.8e-3 at 2000 vertices; linear theory is off by 5e-3 and 6e-2."""
-    assert disc_error(2000, bulge) < bound
-
-
 def test_a_loaded_disc_converges_to_second_order() -> None:
-    """Measured 6.7e-3, 1.8e-3, 4.5e-4 at 500, 2000, 8000."""
+    """At 500, 2000 and 8000 vertices."""
     assert disc_error(500, 1.0) > 3.4 * disc_error(2000, 1.0)
 
 
@@ -106,15 +100,6 @@ def test_a_load_that_is_too_much_keeps_the_surface_of_the_last_one(bulge: float)
     assert reached.converged
     # Stages of the load are solved to 1e-4 D.
     assert np.abs(result.vertices - reached.vertices).max() < 2e-3
-
-
-def test_the_load_scales_with_length() -> None:
-    """Load is length⁻³: ten times the size with a thousandth of the load is ten times the surface."""
-    vertices, triangles, rim = flat_disc(300)
-    up = np.tile([0.0, 0.0, 1.0], (len(rim), 1))
-    small = fairing.fair(vertices, triangles, fixed=rim, fixed_normals=up, equation="constant", load=4.0)
-    large = fairing.fair(10 * vertices, triangles, fixed=rim, fixed_normals=up, equation="constant", load=4e-3)
-    np.testing.assert_allclose(large.vertices, 10 * small.vertices, atol=1e-9)
 
 
 def willmore(result: fairing.FairResult, patch: shapes.Patch) -> float:

@@ -103,34 +103,6 @@ def test_unknown_and_later_options_list_what_is_accepted(option: str, value: Any
     assert all(word in str(caught.value) for word in accepted)
 
 
-@pytest.mark.parametrize(
-    ("option", "value"),
-    [
-        ("tolerance", 0.0),
-        ("tolerance", -1e-6),
-        ("tolerance", float("nan")),
-        ("max_iterations", 0),
-        ("threads", -1),
-        ("load", float("inf")),
-        ("vertices", PATCH.vertices[:, :2]),
-        ("vertices", PATCH.vertices.ravel()),
-        ("vertices", np.array([["a", "b", "c"]])),
-        ("triangles", PATCH.triangles[:, :2]),
-        ("triangles", PATCH.triangles + 0.5),
-        ("fixed", PATCH.fixed[:, None]),
-        ("fixed", np.append(PATCH.fixed, PATCH.fixed[0])),
-        ("fixed_normals", PATCH.fixed_normals[:-1]),
-        ("fixed_normals", 0 * PATCH.fixed_normals),
-        ("reference", PATCH.vertices[:-1]),
-        ("neighbours", np.array([[0, 1, 2]])),
-        ("neighbours", np.array([[0, 100000]])),
-    ],
-)
-def test_wrong_arguments_are_named(option: str, value: Any) -> None:
-    with pytest.raises(ValueError, match=option):
-        fair(**{option: value})
-
-
 def test_normals_without_their_vertices_are_refused() -> None:
     with pytest.raises(ValueError, match="fixed_normals"):
         fair(fixed=None)
@@ -139,18 +111,6 @@ def test_normals_without_their_vertices_are_refused() -> None:
 def test_empty_arrays_are_refused() -> None:
     with pytest.raises(ValueError):
         fairing.fair(np.zeros((0, 3)), np.zeros((0, 3), dtype=int))
-
-
-def test_any_memory_layout_gives_the_same_bits() -> None:
-    """Fortran order, strides, read-only, 32-bit indices, nested lists."""
-    control = fair().vertices
-    strided = np.repeat(PATCH.vertices, 2, axis=0)[::2]
-    frozen = PATCH.vertices.copy()
-    frozen.setflags(write=False)
-    for vertices in (np.asfortranarray(PATCH.vertices), strided, frozen, PATCH.vertices.tolist()):
-        assert np.array_equal(fair(vertices=vertices).vertices, control)
-    for kind in (np.int32, np.uint32, np.int64):
-        assert np.array_equal(fair(triangles=PATCH.triangles.astype(kind)).vertices, control)
 
 
 def test_border_vertices_left_out_of_fixed_are_added_with_a_warning() -> None:

@@ -75,45 +75,6 @@ def test_the_noise_keeps_its_height_across_the_band(sphere: RoughSphere, feather
     assert np.abs(sphere.heights(feathered.base, sphere.free)).max() < 4e-3 * sphere.diameter
 
 
-@pytest.mark.parametrize("seed", [31, 5, 17])
-def test_the_base_of_a_coarse_patch(seed: int) -> None:
-    """2,000 vertices on the whole sphere: the outline has as few as 86."""
-    case = rough_sphere(2000, seed=seed)
-    heights = case.heights(case.fair(feather=WIDTH, detail=1.0).base, case.free)
-    assert np.sqrt((heights**2).mean()) < 2e-3 * case.diameter
-
-
-def limb(knuckles: float) -> tuple[Limb, FloatArray]:
-    """A tube whose radius goes up and down by this much, with a swelling on its front, and its radii before that."""
-    around, along = 64, 120
-    turn = (np.arange(around) + 0.5 * (np.arange(along) % 2)[:, None]) * 2 * np.pi / around
-    z = np.repeat(np.linspace(-2.5, 2.5, along), around)
-    radii = 1 + knuckles * np.cos(2 * np.pi * z / 1.6)
-    unit = np.stack([np.cos(turn.ravel()), np.sin(turn.ravel()), 0 * z], axis=1)
-    row, k = (part.ravel() for part in np.meshgrid(np.arange(along - 1), np.arange(around), indexing="ij"))
-    a, b = row * around + k, row * around + (k + 1) % around
-    even = np.where(row[:, None] % 2 == 0, np.stack([a, b, a + around], 1), np.stack([a, b, b + around], 1))
-    odd = np.where(
-        row[:, None] % 2 == 0, np.stack([b, b + around, a + around], 1), np.stack([a, b + around, a + around], 1)
-    )
-    triangles = np.concatenate([even, odd])
-    away = (np.arctan2(unit[:, 1], unit[:, 0]) / 1.2) ** 2 + z**2
-    swollen = radii + 0.3 * np.clip(1 - 1.3 * away, 0, 1) ** 2
-    inside = (away < 1)[triangles].all(axis=1)
-    points = swollen[:, None] * unit + z[:, None] * [0, 0, 1]
-    return Limb(points, triangles[inside], triangles[~inside]), radii
-
-
-def test_a_limb_keeps_its_knuckles_in_the_band() -> None:
-    """The fair surface of patch and band together would have none: waves of the shape, longer than two bands, stay."""
-    finger, radii = limb(0.1)
-    result = finger.fair(feather=0.15)
-    band = result.moved
-    change = np.linalg.norm(result.vertices[band, :2], axis=1) - radii[band]
-    assert np.abs(change).max() < 0.015
-    assert np.sqrt((change**2).mean()) < 0.005
-
-
 def test_a_ridge_that_runs_into_the_patch_ends_softly() -> None:
     """Shorter than two bands: it is met by the fair surface, and fades on its way there."""
     count = 81
@@ -131,15 +92,6 @@ def test_a_ridge_that_runs_into_the_patch_ends_softly() -> None:
     assert np.array_equal(plain.vertices[top, 2], ridge[top])
     assert (soft.vertices[top, 2] < 0.8 * ridge[top]).all()
     assert np.array_equal(soft.vertices[beyond, 2], ridge[beyond])
-
-
-def test_a_wide_band_on_a_closed_mesh(clean: RoughSphere) -> None:
-    """What has no weight holds the rest; where nothing is left, the message says what to do."""
-    wide = clean.fair(feather=0.7, detail=1.0)
-    assert 0 < len(np.setdiff1d(np.arange(len(clean.vertices)), np.union1d(wide.moved, clean.free))) < 800
-    assert np.abs(clean.heights(wide.vertices, wide.moved)).max() < 0.01
-    with pytest.raises(fairing.MeshError, match="feather: the band covers all that lies around the patch"):
-        clean.fair(feather=3.0)
 
 
 def test_the_change_fades_without_slope_at_either_end(clean: RoughSphere) -> None:
@@ -218,17 +170,3 @@ def test_warnings_name_the_callers_triangles() -> None:
 def test_what_is_refused(sphere: RoughSphere, options: dict[str, Any], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         sphere.fair(**options)
-
-
-def test_the_weights_of_a_width_are_to_be_had(clean: RoughSphere) -> None:
-    """They stand for the width bit by bit; a patch of its own with nothing around it moves all the way."""
-    outline = {"fixed": clean.outline}
-    weights = fairing.feather_weights(clean.vertices, clean.inside, clean.outside, WIDTH, **outline)
-    assert np.array_equal(clean.fair(weights=weights).vertices, clean.fair(feather=WIDTH).vertices)
-    lone = np.concatenate([clean.vertices, [[9, 0, 0], [9, 1, 0], [9, 0, 1]]])
-    count = len(clean.vertices)
-    inside = np.concatenate([clean.inside, [[count, count + 1, count + 2]]])
-    more = fairing.feather_weights(lone, inside, clean.outside, WIDTH, **outline)
-    assert np.array_equal(more, [*weights, 1.0, 1.0, 1.0])
-    with pytest.raises(ValueError, match="feather: a number above 0 is needed"):
-        fairing.feather_weights(clean.vertices, clean.inside, clean.outside, 0.0)

@@ -8,14 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull
 
 import fairing
 import forced
 import holes
-from fairing import _core, _fill, _loops
+from fairing import _loops
 from holes import FloatArray, IntArray
-from tetrathing import subdivided
 
 EMPTY = np.empty((0, 3), dtype=int)
 
@@ -129,32 +127,6 @@ def test_the_surface_of_least_variation_is_the_torus() -> None:
     assert abs(np.hypot(radius(result.vertices) - 2, result.vertices[:, 2]) - 0.7).max() < 1e-4 * diameter
 
 
-def test_with_exact_normals_a_coarse_catenoid_comes_back() -> None:
-    """Those of its surroundings are off by half a degree, which moves it by 8e-4 of the diameter."""
-    vertices, triangles = holes.sheet(catenoid, (30, 15), holes.band, closed=True)
-    loops = sorted(fairing.boundary_loops(triangles), key=lambda loop: abs(vertices[loop, 2].mean()))[:2]
-    away = vertices[:, :2] / radius(vertices)[:, None]
-    normals = np.column_stack([away, -np.sinh(vertices[:, 2])])
-    normals *= np.sign((normals[loops[0]] * fairing.surrounding_normals(vertices, triangles, loops[0]).normals).sum())
-    result = fairing.fill(vertices, triangles, loops, normals=normals, bridge=True)
-    rim = vertices[np.concatenate(loops)]
-    diameter = 2 * np.linalg.norm(rim - rim.mean(axis=0), axis=1).max()
-    assert abs(radius(result.vertices) - np.cosh(result.vertices[:, 2])).max() < 2e-4 * diameter
-
-
-def test_a_coarse_mesh_is_cut_from_a_fine_surface() -> None:
-    """A coarse mesh that is solved itself is 4e-5 D away."""
-    vertices, triangles = holes.sheet(saddle, (60, 60), holes.disc)
-    loop = min(fairing.boundary_loops(triangles), key=len)
-    rim = vertices[loop]
-    edge = np.linalg.norm(rim - np.roll(rim, 1, axis=0), axis=1).mean()
-    result = fairing.fill(vertices, triangles, [loop], spacing=8 * edge)
-    assert (result.polished, result.cut) == (False, True)
-    diameter = 2 * np.linalg.norm(rim - rim.mean(axis=0), axis=1).max()
-    away = radius(result.vertices) - np.cosh(result.vertices[:, 2])
-    assert abs(away).max() < 8e-6 * diameter
-
-
 @pytest.mark.parametrize(
     ("place", "distance"),
     [(tube, lambda p: radius(p) - 1), (catenoid, lambda p: radius(p) - np.cosh(p[:, 2]))],
@@ -210,12 +182,6 @@ def elbow(radius: float, bend: float = 90.0, around: int = 32) -> tuple[FloatArr
     return np.concatenate([part, part @ mirror]), np.concatenate([faces, faces[:, ::-1] + len(part)])
 
 
-def rims_of_elbow(vertices: FloatArray, triangles: IntArray) -> list[IntArray]:
-    """Those at the gap, where v is 0."""
-    half = len(vertices) // 2
-    return [loop for loop in fairing.boundary_loops(triangles) if (loop % half % 9 == 0).all()]
-
-
 @pytest.mark.parametrize("otherwise", ["least_variation", "stop"])
 def test_an_elbow_keeps_its_width(otherwise: str) -> None:
     """The harmonic one has a waist of two thirds, which the first surface shows: the fine mesh is solved once."""
@@ -229,7 +195,7 @@ def test_an_elbow_keeps_its_width(otherwise: str) -> None:
     if otherwise == "stop":
         assert (result.equation, away.min() < 0.3) == ("harmonic", True)
         return
-    assert (result.equation, [way for way, _ in result.way]) == ("least_variation", ["variation"])
+    assert result.equation == "least_variation"
     assert [warning.code for warning in result.warnings] == ["NO_SOLUTION"]
     assert np.abs(away - 0.4).max() < 0.02
 
@@ -265,70 +231,6 @@ def test_a_thin_elbow_is_found(radius: float) -> None:
     assert len({*result.levels}) == 1  # the fine mesh begins at the first surface, without another coarse one
 
 
-def standing_tube(radius: float, base: tuple[float, float, float]) -> tuple[FloatArray, IntArray]:
-    """Of height 1 and 32 edges around; its first rows of vertices are the lower ones."""
-
-    def place(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        turn = 2 * np.pi * u
-        return base[0] + radius * np.cos(turn), base[1] + radius * np.sin(turn), base[2] + v
-
-    return holes.sheet(place, (32, 8), lambda u, _: u < 0, closed=True)
-
-
-def test_an_s_bend_is_solved_from_its_first_surface() -> None:
-    """Tubes of different radii whose axes are apart; begun anew, the fine mesh takes another coarse one first."""
-    lower, upper = standing_tube(0.5, (0.0, 0.0, -1.0)), standing_tube(0.3, (0.9, 0.0, 1.0))
-    vertices = np.concatenate([lower[0], upper[0]])
-    triangles = np.concatenate([lower[1], upper[1] + len(lower[0])])
-    loops = [loop for loop in fairing.boundary_loops(triangles) if np.abs(vertices[loop, 2] - 0.5).max() < 0.6]
-    result = fairing.fill(vertices, triangles, loops, bridge=True)
-    assert (result.converged, result.equation) == (True, "least_variation")
-    assert len({*result.levels}) == 1
-
-
-@pytest.mark.parametrize(
-    ("radius", "bend", "off"), [(0.4, 120.0, 0.1), (0.25, 120.0, 0.1), (0.25, 135.0, 0.1), (0.4, 180.0, 0.15)]
-)
-def test_a_bridge_leads_around_a_wide_bend(radius: float, bend: float, off: float) -> None:
-    """A tube of least variation, a few tenths of a radius at most off the torus, whose variation is not the least."""
-    vertices, triangles = elbow(radius, bend)
-    result = fairing.fill(vertices, triangles, rims_of_elbow(vertices, triangles), bridge=True)
-    away = np.hypot(np.hypot(result.vertices[:, 0], result.vertices[:, 1]) - 1, result.vertices[:, 2])
-    assert (result.converged, result.equation) == (True, "least_variation")
-    assert np.abs(away - radius).max() < off * radius
-    assert result.iterations < 40
-
-
-def test_a_thin_u_is_bridged_by_the_tube_along_it() -> None:
-    """Descents of least variation do not converge there; the swept tube is the answer."""
-    vertices, triangles = elbow(0.25, 180.0, around=16)
-    result = fairing.fill(vertices, triangles, rims_of_elbow(vertices, triangles), bridge=True)
-    away = np.hypot(np.hypot(result.vertices[:, 0], result.vertices[:, 1]) - 1, result.vertices[:, 2])
-    assert result.converged
-    assert result.equation in ("least_variation", "loft")
-    assert np.abs(away - 0.25).max() < 0.15 * 0.25
-
-
-@pytest.mark.parametrize("edges", [6, 24, 48, 96])
-@pytest.mark.parametrize("factor", [0.25, 0.5, 1.0, 2.0])
-def test_triangles_are_nearly_equilateral(edges: int, factor: float) -> None:
-    vertices, triangles = holes.bowl(edges)
-    wanted = factor * 2 * np.sin(np.pi / edges)
-    result = fairing.fill(vertices, triangles, spacing=wanted)
-    points = np.concatenate([vertices, result.vertices])
-    assert holes.angles(points, result.triangles).min() >= 25
-    sides = holes.edges_of(result.triangles)
-    assert np.bincount(sides.ravel())[len(vertices) :].max() <= 9
-    # Lengths come to the wanted one within a distance of twice the difference.
-    reach = 2 * abs(2 * np.sin(np.pi / edges) - wanted) + 2 * wanted
-    middle = points[sides].mean(axis=1)
-    away = np.linalg.norm(middle[:, None] - vertices[None, :edges], axis=2).min(axis=1) > reach
-    lengths = np.linalg.norm(points[sides[away, 0]] - points[sides[away, 1]], axis=1) / wanted
-    if len(lengths) > 20:
-        assert 1 / np.sqrt(2) < np.median(lengths) < np.sqrt(2)
-        assert np.mean((lengths > 1 / np.sqrt(2)) & (lengths < np.sqrt(2))) > 0.97
-
-
 def jagged(seed: int, edges: int = 80) -> FloatArray:
     """A flat outline that goes in and out by more than the length of its edges."""
     rng = np.random.default_rng(seed)
@@ -336,64 +238,18 @@ def jagged(seed: int, edges: int = 80) -> FloatArray:
     return np.column_stack([np.cos(turn), np.sin(turn), 0 * turn]) * (1 + rng.uniform(-0.12, 0.12, (edges, 1)))
 
 
-@pytest.mark.parametrize("seed", [0, 1, 3, 11, 12, 18, 20])
+LEFT = pytest.mark.xfail(strict=True, reason="24.2° is the best that single splits and collapses leave there")
+
+
+@pytest.mark.parametrize("seed", [pytest.param(k, marks=LEFT) if k == 6 else k for k in range(24)])
 def test_no_small_angles_are_left_at_a_jagged_outline(seed: int) -> None:
-    """But for those that it forces. Single splits and collapses that keep the mesh unfolded leave up to six."""
+    """But for those that it forces."""
     outline = jagged(seed)
     count = len(outline)
     result = fairing.fill(outline, EMPTY, [np.arange(count)], normals=np.tile([0.0, 0.0, 1.0], (count, 1)))
     points = np.concatenate([outline, result.vertices])
     assert forced.unforced_angles(points, result.triangles).min() >= 25.0
     assert np.bincount(holes.edges_of(result.triangles).ravel())[count:].max() <= 9
-
-
-def test_what_an_outline_forces() -> None:
-    """A corner of 17° forces its own angle; halved without need, one of 60° forces nothing."""
-    sharp = np.array([[0, 0, 0], [1, -0.15, 0], [1, 0.15, 0], [2, 0, 0]], float)
-    assert forced.unforced_angles(sharp, np.array([[0, 1, 2], [1, 3, 2]])).min() > 70
-    roof = np.array([[0, 0, 0], [1, 0, 0], [0.5, 0.87, 0], [0.5, 0.1, 0]])
-    assert forced.unforced_angles(roof, np.array([[0, 1, 3], [1, 2, 3], [2, 0, 3]])).min() < 15
-    slot = np.array([[0, 0, 0], [1, 0, 0], [1, 0.2, 0], [0, 0.2, 0]])
-    assert forced.unforced_angles(slot, np.array([[0, 1, 2], [0, 2, 3]])).size == 0
-
-
-@pytest.mark.parametrize(("corner", "count"), [(60.0, 3), (110.0, 4)])
-def test_a_corner_between_a_short_and_a_long_edge_forces_small_angles(corner: float, count: int) -> None:
-    """Triangles whose sides grow evenly reach the bound, and no others around the corner do better."""
-    growth, ratio = 2.0, 2.0**count
-    turn = np.radians(np.linspace(0, corner, count + 1))
-    ends = growth ** np.arange(count + 1)[:, None] * np.column_stack([np.cos(turn), np.sin(turn), 0 * turn])
-    points = np.concatenate([np.zeros((1, 3)), ends])
-    fan = np.array([[0, k, k + 1] for k in range(1, count + 1)])
-    assert holes.angles(points, fan).min() == pytest.approx(forced.fan_angle(corner, ratio), abs=1e-6)
-    rng = np.random.default_rng(0)
-    for _ in range(300):
-        k = rng.integers(1, 7)
-        turn = np.radians(np.concatenate([[0], np.sort(rng.uniform(0, corner, k - 1)), [corner]]))
-        lengths = np.concatenate([[1.0], ratio ** rng.uniform(0, 1, k - 1), [ratio]])
-        others = lengths[:, None] * np.column_stack([np.cos(turn), np.sin(turn), 0 * turn])
-        faces = np.array([[0, j, j + 1] for j in range(1, k + 1)])
-        assert holes.angles(np.concatenate([points[:1], others]), faces).min() <= forced.fan_angle(corner, ratio) + 1e-9
-
-
-def cornered(ratio: float) -> FloatArray:
-    """A flat outline with a corner of 60° between edges of that ratio, the others of equal lengths."""
-    short, rest = 0.067, 0.3 * np.arange(5)
-    turn = np.radians(np.linspace(0, 60, 7)[1:-1])
-    reach = np.linspace(short + rest[4], ratio * short + rest[3], 7)[1:-1, None]
-    along, back = np.outer(short + rest, [1, 0]), np.outer(ratio * short + rest[3::-1], [0.5, np.sqrt(0.75)])
-    flat = np.concatenate([[[0.0, 0.0]], along, reach * np.column_stack([np.cos(turn), np.sin(turn)]), back])
-    return np.column_stack([flat, 0 * flat[:, 0]])
-
-
-@pytest.mark.parametrize("ratio", [8.8, 12.0])
-def test_at_a_sharp_corner_the_smallest_angle_is_the_largest_that_fits(ratio: float) -> None:
-    """Squares of what is lacking leave half of it and less."""
-    outline = cornered(ratio)
-    count = len(outline)
-    result = fairing.fill(outline, EMPTY, [np.arange(count)], normals=np.tile([0.0, 0.0, 1.0], (count, 1)))
-    least = holes.angles(np.concatenate([outline, result.vertices]), result.triangles).min()
-    assert 0.7 < least / forced.fan_angle(60.0, ratio) <= 1.0
 
 
 def test_the_new_part_closes_the_mesh_and_leaves_the_rest() -> None:
@@ -409,22 +265,6 @@ def test_the_new_part_closes_the_mesh_and_leaves_the_rest() -> None:
     assert sorted(result.fixed) == [*range(48)]
     assert not result.vertices.flags.writeable
     assert not result.triangles.flags.writeable
-
-
-def test_what_was_sought_in_vain_is_not_sought_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A surface of least variation that the first mesh lacks is not sought on the fine one."""
-    find, fair = _core.fill_loops, _fill.fair
-    ways = []
-
-    def seen(*given: Any, **options: Any) -> Any:
-        ways.append(options.get("otherwise", "not given"))
-        return fair(*given, **options)
-
-    monkeypatch.setattr(_fill, "fair", seen)
-    fairing.fill(*holes.bowl(24))
-    monkeypatch.setattr(_core, "fill_loops", lambda *given: {**find(*given), "converged": False})
-    fairing.fill(*holes.bowl(24))
-    assert ways == ["not given", "stop"]
 
 
 def test_all_holes_are_filled_or_only_short_ones() -> None:
@@ -481,22 +321,6 @@ def test_the_smallest_holes(edges: int) -> None:
     result = fairing.fill(vertices, triangles)
     assert len(result.vertices) >= 1
     assert not fairing.boundary_loops(whole(vertices, triangles, result)[1])
-
-
-def test_long_outlines_are_thinned_before_they_are_triangulated() -> None:
-    result = fairing.fill(*holes.bowl(600, 30), spacing=0.05)
-    assert result.converged
-    assert abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 1e-5
-
-
-def test_other_options_reach_the_solve() -> None:
-    vertices, triangles = holes.bowl(48, 40)
-    dome = fairing.fill(vertices, triangles, equation="constant", bulge=0.1)
-    assert dome.converged
-    assert apex(dome) > 1.001
-    varied = fairing.fill(vertices, triangles, equation="least_variation")
-    assert "variation" in [name for name, _ in varied.way]
-    assert abs(apex(varied) - 1) < 1e-4
 
 
 def refused(code: str, elements: set[int], *arguments: Any, **options: Any) -> None:
@@ -610,60 +434,6 @@ def test_the_same_bits_for_any_number_of_threads() -> None:
     one, two = (fairing.fill(*holes.bowl(48), spacing=0.4 * edge, threads=threads) for threads in (1, 2))
     assert np.array_equal(one.vertices, two.vertices)
     assert np.array_equal(one.triangles, two.triangles)
-
-
-def icosphere(times: int) -> tuple[FloatArray, IntArray]:
-    """An icosahedron, its triangles cut in four a few times."""
-    gold = (1.0 + np.sqrt(5.0)) / 2.0
-    corners = [(0.0, s, t * gold) for s in (-1, 1) for t in (-1, 1)]
-    points = np.array([np.roll(corner, k) for k in range(3) for corner in corners])
-    triangles = ConvexHull(points).simplices.astype(np.int64)
-    inward = np.einsum("ij,ij->i", np.cross(*(points[triangles[:, k]] - points[triangles[:, 0]] for k in (1, 2))),
-                       points[triangles[:, 0]]) < 0.0  # fmt: skip
-    triangles[inward] = triangles[inward][:, ::-1]
-    for _ in range(times):
-        triangles, ends = subdivided(triangles, len(points))
-        points = np.vstack([points, points[ends].sum(axis=1)])
-    return points / np.linalg.norm(points, axis=1)[:, None], triangles
-
-
-def ball_and_limb() -> tuple[FloatArray, IntArray]:
-    """A unit sphere with a hole of radius 1/2 towards x, and a thin tube before it, off the middle."""
-    vertices, triangles = icosphere(4)
-    near = np.linalg.norm(vertices[triangles].mean(axis=1) - (1.0, 0.0, 0.0), axis=1) < 0.5
-    angle, along = np.meshgrid(2.0 * np.pi * np.arange(24) / 24, np.linspace(2.0, 3.0, 7))
-    limb = np.stack([along, 0.25 * np.sin(angle), 0.25 * np.cos(angle) + 0.1], axis=-1).reshape(-1, 3)
-    row, column = (index.ravel() for index in np.mgrid[:6, :24])
-    a, b = 24 * row + column, 24 * row + (column + 1) % 24
-    faces = np.concatenate([np.column_stack([a, a + 24, b + 24]), np.column_stack([a, b + 24, b])])
-    return np.concatenate([vertices, limb]), np.concatenate([triangles[~near], faces + len(vertices)])
-
-
-def test_a_bridge_without_a_harmonic_surface_is_one_of_least_variation() -> None:
-    """It equals the one of `equation="least_variation"`: a failed solve leaves no guess."""
-    vertices, triangles = ball_and_limb()
-    loops = [loop for loop in fairing.boundary_loops(triangles) if vertices[loop, 0].max() < 2.5]
-    assert len(loops) == 2
-    found = fairing.fill(vertices, triangles, loops, bridge=True)
-    assert (found.converged, found.equation) == (True, "least_variation")
-    assert [warning.code for warning in found.warnings] == ["NO_SOLUTION"]
-    asked = fairing.fill(vertices, triangles, loops, bridge=True, equation="least_variation")
-    widths = [np.abs(result.vertices[:, 1]).max() for result in (found, asked)]
-    assert widths[0] == pytest.approx(widths[1], abs=1e-2)
-    assert not fairing.fill(vertices, triangles, loops, bridge=True, otherwise="stop").converged
-
-
-@pytest.mark.parametrize("height", [0.3, 0.31])
-def test_teeth_around_a_hole_get_no_second_wall(height: float) -> None:
-    """Single triangles stick out into it: the surface runs around their tips, to the sphere, not back over them."""
-    points, triangles = icosphere(3)
-    around = triangles[points[triangles].mean(axis=1) @ points[0] <= height]  # the way to a corner
-    assert (np.bincount(around.ravel(), minlength=len(points)) == 1).sum() >= 5  # tips
-    result = fairing.fill(points, around)
-    assert result.converged
-    old = {tuple(corners) for corners in np.sort(around, axis=1).tolist()}
-    assert not [corners for corners in np.sort(result.triangles, axis=1).tolist() if tuple(corners) in old]
-    assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1.0).max() < 1e-3
 
 
 def test_a_second_wall_is_refused() -> None:

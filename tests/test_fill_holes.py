@@ -120,16 +120,6 @@ def without_cap(degrees: float) -> tuple[FloatArray, Any, Any]:
     return vertices, triangles, fairing.boundary_loops(triangles)[0]
 
 
-def test_noise_makes_no_hole_of_a_border_and_no_border_of_a_hole() -> None:
-    rng = np.random.default_rng(7)
-    for name in ("sheet bent by 180°, with a hole", "torn tube", "flat sheet with twelve holes"):
-        (vertices, triangles), inner, outer = SHAPES[name]
-        edges = vertices[holes.edges_of(triangles)]
-        noise = 0.1 * np.linalg.norm(edges[:, 0] - edges[:, 1], axis=1).mean()
-        rough = vertices + rng.normal(0.0, noise, vertices.shape)
-        assert sorted_out((rough, triangles)) == (inner, outer)
-
-
 def test_loops_may_run_either_way_and_are_taken_alone() -> None:
     (vertices, triangles), _, _ = SHAPES["sheet bent by 180°, with a hole"]
     hole, border = sorted(fairing.boundary_loops(triangles), key=len)
@@ -161,14 +151,6 @@ def test_what_a_fill_takes_is_known_before(half_angle: float) -> None:
     assert expected == pytest.approx(len(fairing.fill(*mesh).vertices), rel=0.25)
     finer = fairing.expected_vertices(*mesh, spacing=0.5 * 2.0 * np.sin(np.radians(half_angle)) * np.sin(np.pi / 48))
     assert finer == pytest.approx(4.0 * expected, rel=0.02)
-
-
-def test_a_bridge_is_measured_from_rim_to_rim() -> None:
-    vertices, triangles = holes.sheet(tube, (30, 30), holes.band, closed=True)
-    loops = [loop for loop in fairing.boundary_loops(triangles) if 0.1 < vertices[loop, 2].mean() < 2.9]
-    expected = fairing.expected_vertices(vertices, triangles, loops, bridge=True)
-    found = fairing.fill(vertices, triangles, loops, bridge=True)
-    assert expected == pytest.approx(len(found.vertices), rel=0.25)
 
 
 def refused(call: Callable[[], Any]) -> fairing.MeshError:

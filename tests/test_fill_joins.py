@@ -119,27 +119,6 @@ def test_two_outlines_without_faces_around_have_no_curvature_to_continue() -> No
         fairing.fill(circle, np.empty((0, 3), int), [np.arange(24)], normals=normals, continuity="G2")
 
 
-def two_tubes() -> tuple[FloatArray, IntArray, list[IntArray]]:
-    """Of radius 1 around the z-axis with a gap of one unit; and the inner rims."""
-    steps = np.linspace(0.0, 2.0 * np.pi, 25)[:-1]
-    heights = (-1.1, -0.8, -0.5, 0.5, 0.8, 1.1)
-    points = np.array([(np.cos(s), np.sin(s), z) for z in heights for s in steps])
-    ring, i = (index.ravel() for index in np.meshgrid([0, 1, 3, 4], np.arange(24), indexing="ij"))
-    a, b = 24 * ring + i, 24 * ring + (i + 1) % 24
-    triangles = np.concatenate([np.column_stack([a, b, b + 24]), np.column_stack([a, b + 24, a + 24])])
-    return points, triangles, [loop for loop in fairing.boundary_loops(triangles) if abs(points[loop, 2]).max() < 0.6]
-
-
-def test_least_variation_is_sought_from_the_first_surface() -> None:
-    """The first surface is its initial surface, not the outline alone."""
-    vertices, triangles, loops = two_tubes()
-    result = fairing.fill(vertices, triangles, loops, bridge=True, equation="least_variation")
-    assert (result.converged, result.equation, result.warnings) == (True, "least_variation", ())
-    assert [way for way, _ in result.way] == ["variation"]
-    assert "fill" not in result.seconds  # no initial surface from the outline alone
-    assert abs(np.linalg.norm(result.vertices[:, :2], axis=1) - 1).max() < 1e-4
-
-
 def test_a_bridge_continues_curvature_too() -> None:
     """Between two parts of an ellipsoid's side, which no harmonic surface is."""
 

@@ -10,7 +10,7 @@ import pytest
 
 import fairing
 import holes
-from fairing import _crossings, _loops, _sides
+from fairing import _crossings
 from holes import FloatArray, IntArray
 
 EMPTY = np.empty((0, 3), dtype=int)
@@ -43,17 +43,6 @@ def test_bare_circles_are_joined_whichever_way_they_run(turned: tuple[bool, bool
     assert result.boundary_angle.max() < 3.0  # 0.6 and 1.3 on two meshes of the engine's; turned ones have 90
     first, second = (np.ptp(loop) and loop[1] - loop[0] for loop in result.loops)
     assert first * second < 0  # the surface lies on the left of both
-
-
-def test_a_bare_loop_at_a_bend_is_only_turned_where_it_leads_away() -> None:
-    """At a bend of 180° the other rim lies across: as given. Beside it: towards the other one."""
-    points, normals = ring(32)
-    across = np.concatenate([points, ring(32, 1.0, (3.0, 0.0, 0.0))[0]])
-    for loop in (np.arange(32), np.arange(32)[::-1]):
-        outline = _loops.given_loops([loop, np.arange(32, 64)], across, EMPTY)
-        settled, _ = _sides.settled(outline, across, np.concatenate([normals[loop], normals]), True)
-        np.testing.assert_array_equal(settled.loops[0], loop)
-        assert settled.turned == (False, False)
 
 
 def test_rows_are_those_of_the_vertices_where_they_may_be_of_the_loops() -> None:

@@ -10,7 +10,6 @@ import pytest
 
 import fairing
 import holes
-from fairing import _loops, _sides
 from holes import FloatArray, Mesh
 
 
@@ -44,28 +43,6 @@ def test_a_t_junction_is_named_with_its_edge(bend: float, extra: int, placed: An
     assert caught.value.code == "NONMANIFOLD_VERTEX"
     assert caught.value.elements.tolist() == [5, 6, *lying]
     assert caught.value.diagnostic.figures["on_edge" if extra == 1 else "on_edges"] == extra
-
-
-@pytest.mark.parametrize("gap", [0.0, 1e-7])
-def test_a_tear_of_no_width_is_to_be_merged(gap: float) -> None:
-    vertices, triangles = holes.sheet(lambda u, v: (u, v, 0 * u), (12, 12), lambda u, v: np.zeros(u.shape, dtype=bool))
-    torn = [13 * 6 + k for k in range(4, 9)]
-    number = np.arange(len(vertices))
-    number[torn] = len(vertices) + np.arange(len(torn))
-    upper = vertices[triangles].mean(axis=1)[:, 0] > 0.5
-    opened = np.where(upper[:, None], number[triangles], triangles)
-    opened = np.where(np.isin(triangles, [torn[0], torn[-1]]), triangles, opened)
-    points = np.concatenate([vertices, vertices[torn] + [gap, 0.0, 0.0]])
-    loop = min(fairing.boundary_loops(opened), key=len)
-    with pytest.raises(fairing.MeshError, match="merge them where the mesh is torn") as caught:
-        fairing.fill(points, opened, [loop])
-    assert {*caught.value.elements} == {*loop} - {torn[0], torn[-1]}
-
-
-def test_a_crack_that_is_narrow_but_open_is_none_of_these() -> None:
-    turn = 2.0 * np.pi * np.arange(24) / 24
-    points = np.column_stack([np.cos(turn), 0.02 * np.sin(turn), 0.0 * turn])
-    assert fairing.fill(points, np.empty((0, 3), int), [np.arange(24)], normals=np.tile([0.0, 0.0, 1.0], (24, 1))).loops
 
 
 def rings(deepest: float, folded: int) -> tuple[FloatArray, Any, Any]:
@@ -119,19 +96,3 @@ def test_a_wall_thinner_than_the_edges_of_its_rim_is_named() -> None:
     assert "coarse" in warning.figures
     assert {*warning.elements} <= {*np.concatenate(loops)}
     assert warning.figures["degrees"] > 45.0
-
-
-def test_triangles_that_lie_between_the_rims_are_not_to_be_flipped() -> None:
-    """Flipped they would lie there, too. Two discs above each other: each border leads away from the other one."""
-    turn = 2.0 * np.pi * np.arange(24) / 24
-    disc = np.column_stack([np.cos(turn), np.sin(turn), 0.0 * turn])
-    points = np.concatenate([disc, disc + np.array([0.0, 0.0, 1.0])])
-    up = np.tile([0.0, 0.0, 1.0], (24, 1))
-    loops = (np.arange(23, -1, -1, dtype=np.int32), np.arange(24, 48, dtype=np.int32))
-    held = _loops.Outline(loops, (False, False), (False, False))
-    error = _sides.not_joined(held, points, np.concatenate([up, -up]))
-    assert error.code == "LOOPS_NOT_JOINED"
-    assert "between" in error.diagnostic.figures
-    assert "flip" not in str(error)
-    bare = _loops.Outline(loops, (False, False), (True, True))
-    assert "turned" in _sides.not_joined(bare, points, np.concatenate([up, -up])).diagnostic.figures

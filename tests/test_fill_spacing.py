@@ -9,7 +9,7 @@ import pytest
 
 import fairing
 import holes
-from holes import FloatArray, IntArray
+from holes import FloatArray
 
 EMPTY = np.empty((0, 3), dtype=int)
 
@@ -61,26 +61,6 @@ def test_edges_follow_the_outlines_or_have_one_length(factor: float) -> None:
     assert 0.6 < typical(graded) / (factor * MEAN) < 1.6
 
 
-def test_the_outlines_own_edges_and_their_mean_as_spacing_are_the_same() -> None:
-    own, mean = disc(), disc(spacing=MEAN, inner="outline")
-    assert len(own.vertices) == pytest.approx(len(mean.vertices), rel=0.03)  # meshes that roundoff makes others
-    few, more = (len(disc(spacing=factor * MEAN, inner="outline").vertices) for factor in (1.0, 0.98))
-    assert 1.0 <= more / few < 1.1  # no jump
-
-
-def test_even_edges_are_as_the_mean_of_the_outlines_unless_told() -> None:
-    counts = [
-        len(disc(**spacing, inner="even").vertices) for spacing in ({}, {"spacing": MEAN}, {"spacing": 1.1 * MEAN})
-    ]
-    assert counts[0] == pytest.approx(counts[1], rel=0.03)  # of meshes that roundoff makes others
-    assert counts[2] < 0.92 * counts[0]
-
-
-def test_without_a_word_a_length_is_a_length() -> None:
-    np.testing.assert_array_equal(disc(spacing=0.1).vertices, disc(spacing=0.1, inner="even").vertices)
-    np.testing.assert_array_equal(disc().vertices, disc(inner="outline").vertices)
-
-
 def test_each_hole_follows_its_own_outline() -> None:
     """Two circles, one ten times as large: as many new vertices in both, in proportion to their edges' mean."""
     both = np.concatenate([CIRCLE, 10.0 * CIRCLE + [30.0, 0.0, 0.0]])
@@ -93,23 +73,3 @@ def test_each_hole_follows_its_own_outline() -> None:
         counts.append((np.count_nonzero(small), np.count_nonzero(~small)))
     for small, large in counts:
         assert small == pytest.approx(large, rel=0.05)
-
-
-def test_a_patch_is_meshed_anew_likewise() -> None:
-    result = disc(spacing=0.1)
-    vertices = np.concatenate([CIRCLE, result.vertices])
-    options: dict[str, Any] = {"fixed": np.arange(64), "fixed_normals": np.tile([0.0, 0.0, 1.0], (64, 1))}
-
-    def again(**more: Any) -> fairing.RemeshResult:
-        return fairing.remesh(vertices, result.triangles, spacing=MEAN, **options, **more)
-
-    assert ratio(again(), vertices) == pytest.approx(1.0, abs=0.15)
-    assert ratio(again(inner="outline"), vertices) > 1.5
-
-
-def test_other_words_are_refused() -> None:
-    with pytest.raises(ValueError, match="inner"):
-        disc(inner="graded")
-    triangles: IntArray = np.array([[0, 1, 2]])
-    with pytest.raises(ValueError, match="inner"):
-        fairing.remesh(np.eye(3), triangles, inner="graded")

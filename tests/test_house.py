@@ -41,18 +41,6 @@ def test_the_picture_is_up_to_date() -> None:
     assert done.returncode == 0, done.stderr
 
 
-def test_a_new_room_makes_it_out_of_date(house: Path) -> None:
-    assert check(house).returncode == 0
-    (house / "native/cellar").mkdir()
-    (house / "native/cellar/wine.h").write_text('#include "base/types.h"\n', encoding="utf-8")
-    assert "out of date" in check(house).stderr
-
-
-def test_a_new_arrow_makes_it_out_of_date(house: Path) -> None:
-    include(house, "native/outline/bad_outline.cpp", "problem/problem.h")
-    assert "out of date" in check(house).stderr
-
-
 def test_a_circle_is_refused(house: Path) -> None:
     include(house, "native/base/errors.h", "mesh/patch.h")
     done = check(house)

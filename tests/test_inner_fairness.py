@@ -80,14 +80,6 @@ def test_custom_weights_are_balanced_and_leave_the_surface_alone(name: str) -> N
     assert patch.error(result.vertices) < 2.0 * patch.error(uniform.vertices) + 1e-9
 
 
-def test_symmetric_custom_weights_are_the_uniform_ones() -> None:
-    """λ = 1 by hand takes the way of weights that are not symmetric, to the same place."""
-    patch = CURVED["cap"]
-    ends = measures.edges(patch.triangles)
-    rows = np.column_stack([np.vstack([ends, ends[:, ::-1]]), np.ones(2 * len(ends))])
-    assert np.abs(fair_patch(patch, inner_fairness=rows).vertices - fair_patch(patch).vertices).max() < 1e-7
-
-
 def test_custom_weights_that_lead_to_no_fixed_vertex_are_refused() -> None:
     patch = CURVED["cap"]
     edges = measures.edges(patch.triangles)
@@ -118,13 +110,6 @@ def test_reference_defaults_to_the_vertices() -> None:
         inner_fairness="conformal",
     )  # fmt: skip
     assert np.array_equal(given.vertices, default.vertices)
-
-
-def test_reference_does_not_matter_for_uniform_weights() -> None:
-    patch = shapes.cap(300)
-    noise = np.random.default_rng(0).standard_normal(patch.vertices.shape)
-    with_noise = fair_patch(patch, reference=patch.vertices + noise)
-    assert np.array_equal(with_noise.vertices, fair_patch(patch).vertices)
 
 
 def quad_edges(patch: Patch, quads: int) -> IntArray:

@@ -152,38 +152,6 @@ def test_an_outline_in_steps_is_met_in_its_curvature(size: int) -> None:
     assert off[1] < 0.75 * off[0]
 
 
-def ellipsoid_of_rows(rings: int) -> tuple[FloatArray, IntArray]:
-    """Half-axes 2, 1 and 0.8: the image of a sphere of meridians and parallels; without its poles."""
-    up = np.pi * np.arange(1, rings) / rings
-    around = 2 * np.pi * np.arange(4 * rings // 3) / (4 * rings // 3)
-    height, angle = (part.ravel() for part in np.meshgrid(up, around, indexing="ij"))
-    sphere = np.column_stack([np.sin(height) * np.cos(angle), np.sin(height) * np.sin(angle), np.cos(height)])
-    row, column = (part.ravel() for part in np.mgrid[: rings - 2, : len(around)])
-    here, beside = row * len(around) + column, row * len(around) + (column + 1) % len(around)
-    below, across = here + len(around), beside + len(around)
-    quads = np.column_stack([here, below, across, beside])
-    return sphere * [2.0, 1.0, 0.8], np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]])
-
-
-@pytest.mark.parametrize("rings", [48, 96])
-def test_waves_that_do_not_settle_leave_longer_ones(rings: int) -> None:
-    """The outline runs in steps: waves of six vertices find no surface there, with the exact H either."""
-    vertices, triangles = ellipsoid_of_rows(rings)
-    middle = np.tile((vertices[triangles].mean(axis=1).reshape(2, -1, 3)).mean(axis=0), (2, 1))
-    within = np.linalg.norm(middle - [0.8, -0.8, 0.3], axis=1) < 0.75
-    off = []
-    for result in both_joins(vertices, triangles, within):
-        level = ((result.vertices / [2.0, 1.0, 0.8]) ** 2).sum(axis=1) - 1.0
-        off.append(np.abs(level / (2.0 * np.linalg.norm(result.vertices / [4.0, 1.0, 0.64], axis=1))).max())
-    assert off[1] < 0.3 * off[0]
-
-
-def test_slopes_are_met_as_well() -> None:
-    _, tangent, curved = joined("torus", 4000)
-    assert curved.boundary_angle.max() < 0.05
-    assert tangent.continuity == "G1"
-
-
 def test_tangent_join_where_no_surface_has_the_curvature() -> None:
     """H of the other sign and ten times as large: the answer with tangent joins comes back, bit for bit."""
     patch, tangent, _ = joined("cubic", 1000)
@@ -211,13 +179,6 @@ def test_unknown_curvature_is_left_to_the_surface() -> None:
     assert patch.error(partly.vertices) < 0.2 * patch.error(tangent.vertices)
 
 
-def test_single_gaps_are_bridged() -> None:
-    patch, _, _ = joined("cubic", 1000)
-    part = patch.mean_curvature[patch.fixed].copy()
-    part[::9] = np.nan
-    assert not codes(with_curvature(patch, part))
-
-
 def test_noise_is_not_followed() -> None:
     patch, tangent, _ = joined("torus", 1000)
     noise = np.random.default_rng(4).normal(0.0, 0.5, len(patch.fixed))
@@ -226,32 +187,6 @@ def test_noise_is_not_followed() -> None:
     assert rough.warnings[0].figures["smooth_share"] < 1 / 3
     assert f"all {len(patch.fixed)} boundary vertices" in str(rough.warnings[0])
     np.testing.assert_array_equal(rough.vertices, tangent.vertices)
-
-
-@pytest.mark.parametrize(("family", "size", "seed"), [("torus", 0.05, 1), ("ellipsoid", 0.05, 0), ("cubic", 0.3, 1)])
-def test_what_is_smooth_beside_noise_is_followed(family: str, size: float, seed: int) -> None:
-    """Long waves are 35 to 46 % of what the tangent surface lacks: with them it comes nearer to the exact one."""
-    patch, tangent, exact = joined(family, 1000)
-    noise = np.random.default_rng(seed).normal(0.0, size, len(patch.fixed))
-    rough = with_curvature(patch, patch.mean_curvature[patch.fixed] + noise)
-    assert (rough.continuity, codes(rough)) == ("G2", set())
-    assert largest(rough, exact) < 0.6 * largest(tangent, exact)
-
-
-def largest(result: fairing.FairResult, exact: fairing.FairResult) -> float:
-    """The largest distance between two surfaces' vertices."""
-    return float(np.linalg.norm(result.vertices - exact.vertices, axis=1).max())
-
-
-def test_roughness_alone_is_nothing_that_lacks() -> None:
-    """H that alternates from vertex to vertex, as it does on coarse outlines in steps: its mean is met."""
-    patch, tangent, _ = joined("hemisphere", 1000)
-    (loop,) = fairing.boundary_loops(patch.triangles)
-    curvatures = patch.mean_curvature.copy()
-    curvatures[loop] += np.where(np.arange(len(loop)) % 2, 0.1, -0.1)
-    result = with_curvature(patch, curvatures[patch.fixed])
-    assert (result.continuity, codes(result)) == ("G2", set())
-    np.testing.assert_array_equal(result.vertices, tangent.vertices)
 
 
 def test_unit_sign_and_place_do_not_matter() -> None:

@@ -31,24 +31,22 @@ def test_a_large_pipe_of_eight_radii_is_straight_on_its_own_levels() -> None:
     pipe = even(8.0)
     result = solved(pipe)
     assert result.converged
-    assert [way for way, _ in result.way][:1] == ["nested"]
     assert pipe.error(result.vertices) < 1e-4
 
 
 @pytest.mark.parametrize("length", [10.0, 12.0])
 def test_large_pipes_are_straight_where_a_coarse_level_has_no_surface(length: float) -> None:
-    """Measured 1e-6 and 5e-6."""
+    """The straight surface to 1e-4 D, though longer pipes have others."""
     pipe = even(length)
     result = solved(pipe)
     assert result.converged
     assert result.equation == "harmonic"
-    assert [way for way, _ in result.way][:2] == ["nested", "direct"]
     assert pipe.error(result.vertices) < 1e-4
 
 
 @pytest.mark.parametrize("length", [8.0, 9.0])
 def test_large_graded_pipes_are_straight(length: float) -> None:
-    """Edges of 40 : 1, 24 around the coarser rim: measured 1.0e-4 and 1.2e-3; bulbs of .06 and .09 fit them as well."""
+    """Edges of 40 : 1, 24 around the coarser rim; bulbs of .06 and .09 D fit the same outlines."""
     pipe = graded.regraded(even(length), int(500 * length))
     result = solved(pipe)
     assert result.converged
@@ -59,7 +57,7 @@ def test_large_graded_pipes_are_straight(length: float) -> None:
 
 @pytest.mark.parametrize("size", [4257, 4264])
 def test_graded_pipes_of_eight_and_a_half_radii_keep_to_the_straight_surface(size: int) -> None:
-    """Where a surface is about to lose its hold Newton's steps along the normals led to bulbs of .08 D."""
+    """Bulbs of .08 D fit the same outlines."""
     pipe = graded.regraded(even(8.5), size)
     result = solved(pipe)
     assert result.converged

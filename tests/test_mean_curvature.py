@@ -74,21 +74,3 @@ def test_error_falls_with_the_edge_length(name: str, style: str) -> None:
     order = measures.observed_order((len(coarse.free), len(fine.free)), errors)
     assert order > (1.6 if name == "cylinder" else 0.8)
     assert errors[1] < 0.02
-
-
-@pytest.mark.parametrize("name", ["cylinder", "torus", "clothoid"])
-def test_averaged_normals_do_not_converge(name: str) -> None:
-    """Why the fitted ones are the default: no better at 4k than at 500, 20 times worse."""
-    coarse, fine = getattr(shapes, name)(500), getattr(shapes, name)(4000)
-    averaged = [typical_error(patch, normals="averaged") for patch in (coarse, fine)]
-    assert averaged[1] > 0.8 * averaged[0]
-    assert averaged[1] > 10 * typical_error(fine)
-
-
-def test_border_is_fixed_by_default() -> None:
-    """Without normals the border has those of the patch itself; the rest does not change."""
-    patch = shapes.cap(500)
-    alone = fairing.mean_curvature(patch.vertices, patch.triangles)
-    assert alone.shape == (len(patch.vertices),)
-    away = measures.beyond_rings(patch.triangles, patch.fixed, 2)
-    assert np.abs(alone[away] + 1).max() < 1e-7

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-import ctypes
-import platform
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
-import fairing
 import shapes
 
 # 2.4 with all fields in double precision and a copy of everything for each level, 1.7 with copies of the input, lists
@@ -50,56 +45,3 @@ def test_a_large_patch_takes_little_for_each_vertex(tmp_path: Path) -> None:
     call = [sys.executable, "-c", CALL, str(path)]
     peaks = [float(subprocess.run(call, capture_output=True, text=True, check=True).stdout) for _ in range(3)]
     assert min(peaks) <= MOST * len(patch.free)
-
-
-class _Heap(ctypes.Structure):
-    """What the GNU C library says of its heap, bytes (mallinfo2)."""
-
-    _fields_ = [
-        (name, ctypes.c_size_t)
-        for name in ("arena", "pieces", "a", "b", "mapped", "c", "d", "taken", "free", "end")
-    ]  # fmt: skip
-
-
-def _square(n: int) -> tuple[dict[str, Any], int]:
-    """A flat square of n² vertices for `fair`, its border fixed, and the number of free vertices."""
-    i, j = np.divmod(np.arange(n * n), n)
-    a = np.arange(n * n).reshape(n, n)[:-1, :-1].ravel()
-    triangles = np.vstack([np.column_stack([a, a + 1, a + n + 1]), np.column_stack([a, a + n + 1, a + n])])
-    fixed = np.flatnonzero((i == 0) | (i == n - 1) | (j == 0) | (j == n - 1))
-    given = {
-        "vertices": np.column_stack([j, i, 0 * i]) / n,
-        "triangles": triangles,
-        "fixed": fixed,
-        "fixed_normals": np.tile([0.0, 0.0, 1.0], (len(fixed), 1)),
-    }
-    return given, n * n - len(fixed)
-
-
-def _by_fair(given: dict[str, Any], progress: Callable[[float, str], bool]) -> None:
-    fairing.fair(**given, threads=1, progress=progress)
-
-
-def _by_solver(given: dict[str, Any], progress: Callable[[float, str], bool]) -> None:
-    solver = fairing.Solver(given["triangles"], fixed=given["fixed"], threads=1)
-    solver.solve(given["vertices"], fixed_normals=given["fixed_normals"], progress=progress)
-
-
-@pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="only its allocator is told to keep memory")
-@pytest.mark.parametrize("call", [_by_fair, _by_solver])
-def test_a_large_call_takes_its_arrays_from_memory_that_it_keeps(
-    call: Callable[[dict[str, Any], Callable[[float, str], bool]], None],
-) -> None:
-    libc = ctypes.CDLL(None)
-    libc.mallinfo2.restype = _Heap
-    mapped: list[int] = []
-
-    def note(fraction: float, _stage: str) -> bool:
-        mapped.append(libc.mallinfo2().mapped)
-        return fraction < 0.3
-
-    given, free = _square(720)
-    with pytest.raises(fairing.Cancelled):
-        call(given, note)
-    grown = max(mapped) - mapped[0]
-    assert grown < 10 * free, f"{grown / free:.0f} bytes a vertex came from the system"

@@ -49,50 +49,13 @@ def test_levels_change_the_way_and_not_the_surface(name: str) -> None:
     assert np.abs(nested.vertices - plain.vertices).max() <= 1e-8 * patch.diameter
 
 
-@pytest.mark.parametrize("inner_fairness", ["conformal", "inverse_distance", "shape_preserving"])
-def test_every_inner_fairness_is_nested(inner_fairness: str) -> None:
-    patch = shapes.cap(4000)
-    result = fairing.fair(
-        shapes.start_from_nothing(patch), patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals,
-        reference=patch.vertices, inner_fairness=inner_fairness, tolerance=1e-10,
-    )  # fmt: skip
-    assert result.converged
-    assert len(result.levels) > 1
-    assert patch.error(result.vertices) <= 1e-8  # a sphere is exact
-
-
-def test_over_smooth_outlines_small_patches_have_levels_too() -> None:
-    """A coarsest level of 150 to 300 vertices tells the surface; over jagged ones it takes 600."""
-    cap = shapes.cap(800)
-    result = faired(cap)
-    assert [way for way, _ in result.way] == ["nested"]
-    assert len(result.levels) == 2
-    assert result.levels[0] < 400
-    assert result.iterations <= 4
-    assert cap.error(result.vertices) < 1e-6
-    rng = np.random.default_rng(1)
-    normals = cap.fixed_normals + 0.3 * rng.normal(size=cap.fixed_normals.shape)
-    normals /= np.linalg.norm(normals, axis=1)[:, None]
-    rough = fairing.fair(cap.vertices, cap.triangles, fixed=cap.fixed, fixed_normals=normals, otherwise="stop")
-    assert "nested" not in [way for way, _ in rough.way]
-
-
-@pytest.mark.parametrize("seed", [2, 3])
-def test_what_a_small_coarsest_level_does_not_tell_the_next_one_does(seed: int) -> None:
-    """Of a deep cap 80 to 105 vertices come to nothing, 390 to its sphere."""
+@pytest.mark.parametrize("seed", range(6))
+def test_deep_caps_of_few_vertices_are_spheres(seed: int) -> None:
+    """A coarse level of some hundred vertices has no surface there."""
     cap = shapes.cap(1300, Style(seed=seed), half_angle=130.0)
     result = faired(cap)
-    assert [way for way, _ in result.way] == ["nested"]
-    assert result.levels[0] < 200
+    assert result.converged
     assert cap.error(result.vertices) < 1e-5
-
-
-def test_few_iterations_remain_for_the_finest_level() -> None:
-    """A start at a coarser level's surface: at most eight steps, whatever the size."""
-    for n_free in (3000, 12000, 30000):
-        result = fair_patch(shapes.cap(n_free), tolerance=1e-6)
-        assert result.converged
-        assert result.iterations <= 8
 
 
 def test_the_split_operator_leads_to_the_same_sphere() -> None:
@@ -105,26 +68,6 @@ def test_the_split_operator_leads_to_the_same_sphere() -> None:
     assert patch.error(result.vertices) <= 1e-8
     again = fair_patch(patch, tolerance=1e-11, threads=1)
     assert np.array_equal(again.vertices, result.vertices)
-
-
-@pytest.mark.slow
-def test_a_fold_between_levels_holds_no_vertex_back() -> None:
-    """Conformal weights shear the interpolated mesh until some triangles are folded: a walk must get past them."""
-    patch = shapes.cap(256_000)
-    result = fair_patch(patch, tolerance=1e-6, reference=patch.vertices, inner_fairness="conformal")
-    assert result.converged
-    assert len(result.levels) > 1
-    assert patch.error(result.vertices) <= 3e-6
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("quads", [400, 568])
-def test_clusters_of_tiny_triangles_do_not_end_the_iteration(quads: int) -> None:
-    """Half a million and a million vertices: at the corners of the cube the residual is noise, the steps are not."""
-    result = from_border(cube_cap(quads), tolerance=1e-6)
-    assert result.converged
-    assert len(result.levels) > 1
-    assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max() <= 3e-6
 
 
 @pytest.mark.parametrize("quads", [30, 44, 60])

@@ -30,19 +30,6 @@ def test_a_noisy_window_comes_back(kind: Kind, around: int) -> None:
     assert np.array_equal(result.vertices[window.outline], start[window.outline])
 
 
-@pytest.mark.parametrize("kind", ["cylinder", "sphere"])
-def test_the_border_is_as_good_as_least_squares_that_know_it(kind: Kind) -> None:
-    """Mean of six windows: at most a tenth worse than the best fit by waves, whose number is picked by the answer."""
-    found, best = [], []
-    for seed in range(10, 16):
-        window = windows.window(kind, 48, seed)
-        start = window.noisy(0.25, seed)
-        found.append(window.off_border(fair(window, start, open_border="faired").vertices))
-        best.append(window.least_squares(start))
-    assert np.mean(found) < 1.1 * np.mean(best)
-    assert np.mean(found) < 0.02
-
-
 def test_the_fair_curve_does_not_drift_within_the_surface() -> None:
     """Another noise across the surface alone leaves the border where it is within the surface, to .01 edges."""
     window = windows.window("sphere", 24, 11)

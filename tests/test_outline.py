@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ import bad_inputs
 import fairing
 import measures
 from curves import FloatArray
-from fairing import _growing, _mending
+from fairing import _mending
 from meshing import IntArray, edge_pairs, face_normals
 
 
@@ -82,19 +82,6 @@ def test_normals_of_noisy_surroundings(noise: float) -> None:
     assert 0.4 < np.median(np.concatenate(angles) / np.concatenate(errors)) < 1.6
 
 
-def test_a_result_of_normals_unpacks_as_two() -> None:
-    case = ball(0.0)
-    found = fairing.surrounding_normals(case.exact, case.outside, case.outline)
-    normals, fitted = found
-    assert normals is found.normals and fitted is found.fitted
-
-
-def test_errors_of_averages_are_infinite() -> None:
-    vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=float)
-    found = fairing.surrounding_normals(vertices, np.array([[0, 1, 2]]), np.array([0]))
-    assert not found.fitted[0] and np.isinf(found.errors[0])
-
-
 def test_a_clean_outline_is_not_mended() -> None:
     case = ball(0.0)
     mended = fairing.mend_outline(case.exact, case.outside, case.outline)
@@ -135,27 +122,6 @@ def test_a_mended_rim_is_smooth() -> None:
         before.append(rim_error(case, given.vertices))
         after.append(rim_error(case, mended.vertices))
     assert np.mean(after) < 0.5 * np.mean(before)
-
-
-def test_mending_finds_the_outside_among_triangles_without_free_vertices() -> None:
-    """Triangles of the patch at corners of the outline, all of whose vertices are fixed, count among them, too."""
-    case = ball(0.1)
-    named = fairing.fair(case.noisy, case.inside, outline="mended", **options_of(case))
-    fixed = np.unique(case.outside)
-    normals = fairing.vertex_normals(case.noisy, case.triangles, normals="averaged")[fixed]
-    whole = fairing.fair(case.noisy, case.triangles, fixed=fixed, fixed_normals=normals, outline="mended")
-    assert len(np.setxor1d(whole.moved, named.moved)) < 0.1 * len(named.moved)
-    assert rim_error(case, whole.vertices) < 1.1 * rim_error(case, named.vertices)
-
-
-@pytest.mark.parametrize("given", [{}, {"fixed": True}])
-def test_mending_needs_no_normals(given: dict[str, bool]) -> None:
-    case = ball(0.1)
-    options = options_of(case)
-    expected = fairing.fair(case.noisy, case.inside, outline="mended", **options)
-    fixed = {"fixed": case.outline} if given else {}
-    result = fairing.fair(case.noisy, case.inside, outline="mended", outside=case.outside, **fixed)
-    assert np.abs(result.vertices - expected.vertices).max() < 1e-9
 
 
 def test_a_clean_outline_gives_the_same_bits_mended() -> None:
@@ -199,31 +165,6 @@ def test_a_mended_outline_that_folds_the_patch_is_given_up() -> None:
     assert len(answer["moved"]) and len(asked) == 1
 
 
-@pytest.mark.parametrize(
-    ("mended_lift", "given_lift", "kept"), [(1.2, 1.0, True), (1.2, 1.3, False), (1.0, 1.2, False)]
-)
-def test_a_mended_outline_that_joins_worse_is_given_up(mended_lift: float, given_lift: float, kept: bool) -> None:
-    """One vertex beside the outline lifted off a sphere stands for a surface that comes in at an angle."""
-    case = ball(0.1)
-    ring = case.inside[np.isin(case.inside, case.outline).any(axis=1)]
-    beside = int(np.setdiff1d(ring, case.outline)[0])
-    asked = 0
-
-    def call(boundary: _mending.Boundary) -> dict[str, Any]:
-        nonlocal asked
-        asked += 1
-        vertices = case.exact.copy()
-        vertices[beside] *= given_lift if boundary.vertices is case.noisy else mended_lift
-        return {"converged": True, "warnings": (), "vertices": vertices}
-
-    given = _mending.Boundary(case.noisy, None, None)
-    around = _mending.Surroundings.of(case.noisy, case.inside, None, case.outside)
-    answer = _mending.solve_mended(call, given, case.inside, around)
-    assert ("moved" not in answer) == kept
-    assert [warning.figures.get("worse", 0.0) for warning in answer["warnings"]] == ([1.0] if kept else [])
-    assert asked == (1 if mended_lift == 1.0 else 2)  # what joins well is not solved twice
-
-
 def with_a_spike() -> tuple[Ball, int]:
     """An exact sphere but for one vertex in the ring outside the outline, which sticks out by half the radius."""
     case = ball(0.0)
@@ -232,15 +173,6 @@ def with_a_spike() -> tuple[Ball, int]:
     vertices = case.exact.copy()
     vertices[spike] *= 1.5
     return Ball(case.exact, vertices, case.triangles, case.above), spike
-
-
-def test_bad_vertices_are_those_beside_a_spike() -> None:
-    case, spike = with_a_spike()
-    bad = fairing.bad_outline(case.noisy, case.outside, case.outline)
-    around = np.unique(case.outside[(case.outside == spike).any(axis=1)])
-    assert np.isin(bad, around).any()
-    away = np.linalg.norm(case.exact[bad] - case.exact[spike], axis=1)
-    assert 0 < len(bad) <= np.ceil(0.15 * len(case.outline)) and away.max() < 0.5
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.144])
@@ -280,13 +212,6 @@ def test_growing_takes_whole_polygons() -> None:
     assert not np.array_equal(np.isin(faces, faces[divided.selected]), divided.selected)
 
 
-def test_a_clean_selection_does_not_grow() -> None:
-    case = ball(0.0)
-    grown = fairing.grown_outline(case.noisy, case.triangles, case.above)
-    assert grown.round == 0 and len(grown.angles) == 1
-    assert np.array_equal(grown.selected, case.above)
-
-
 def test_growing_makes_no_new_outline() -> None:
     """A ring with a gap, and a spike in the gap: growing over it would close the ring."""
     size = 18
@@ -324,130 +249,3 @@ def test_the_join_of_a_sphere_is_invisible_and_a_wrong_normal_shows() -> None:
     options["fixed_normals"] = tilted / np.linalg.norm(tilted, axis=1)[:, None]
     leaning = fairing.fair(case.noisy, case.inside, **options)
     assert 10 < np.median(leaning.join) < 25
-
-
-def test_the_join_from_the_patchs_side_alone() -> None:
-    """Without triangles outside they are its mirror image: a sphere shows none."""
-    case = ball(0.0)
-    options = options_of(case)
-    del options["outside"]
-    result = fairing.fair(case.noisy, case.inside, **options)
-    assert np.median(result.join) < 1.0
-    minimal = fairing.fair(case.noisy, case.inside, equation="minimal", **options)
-    assert minimal.join.shape == minimal.fixed.shape
-
-
-@pytest.mark.parametrize("depth", [0.05, 0.1, 0.2, 0.3])
-def test_the_join_shows_a_dent_of_the_first_row_inside(depth: float) -> None:
-    """Equal triangles in a plane: that row leans all triangles of the outline, one vertex one of them."""
-    i, j = np.mgrid[-10:11, -10:11]
-    vertices = np.column_stack([(i + 0.5 * j).ravel(), (np.sqrt(0.75) * j).ravel(), 0.0 * i.ravel()])
-    number = np.arange(len(vertices)).reshape(i.shape)
-    a, b, c, d = (number[s, t].ravel() for s in (np.s_[:-1], np.s_[1:]) for t in (np.s_[:-1], np.s_[1:]))
-    triangles = np.concatenate([np.column_stack([a, c, b]), np.column_stack([c, d, b])])
-    ring = np.maximum(np.maximum(abs(i), abs(j)), abs(i + j)).ravel()
-    within = (ring[triangles] <= 6).all(axis=1)
-    outline, kink = np.flatnonzero(ring == 6), np.degrees(np.arctan(depth / np.sqrt(0.75)))
-
-    def join(dented: np.ndarray) -> np.ndarray:
-        surface = vertices - depth * np.outer(dented, [0.0, 0.0, 1.0])
-        found = fairing.visible_join(surface, triangles[within], triangles[~within], outline)
-        assert found.limit == 5.0  # all is flat outside
-        return found.degrees
-
-    assert join(ring == 5) == pytest.approx(np.full(len(outline), kink))
-    assert join((ring == 5) | (ring == 4)) == pytest.approx(np.full(len(outline), kink))
-    lone = np.arange(len(vertices)) == number[10 + 5, 10 - 2]
-    assert join(lone).max() == pytest.approx(0.5 * kink)
-    assert join(ring == 4).max() == 0.0
-
-
-def test_the_visible_join_of_an_edge_that_was_there_before() -> None:
-    """Half a cube's edge: sharp where there was none, nothing new where it was sharp before."""
-    across = np.array([[0, 0, 0], [0, 1, 0], [1, 0, 0], [1, 1, 0], [0, 0, -1], [0, 1, -1]], dtype=float)
-    flat = across * [1, 1, 0] + np.c_[across[:, 2], np.zeros((6, 2))]
-    inside, outside = np.array([[0, 2, 3], [0, 3, 1]]), np.array([[0, 1, 5], [0, 5, 4]])
-
-    def join(outline: list[int], **before: np.ndarray) -> np.ndarray:
-        return fairing.visible_join(across, inside, outside, outline, **before).degrees
-
-    assert join([0, 1]) == pytest.approx([90, 90])
-    assert join([0, 1], before=flat) == pytest.approx([90, 90])
-    assert join([0, 1], before=across) == pytest.approx([0, 0])
-    assert join([2, 4]) == pytest.approx([0, 0])
-
-
-@pytest.mark.parametrize(
-    ("degrees", "length", "is_seen"),
-    [(4.0, 9, False), (6.0, 3, False), (6.0, 5, True), (24.0, 1, False), (26.0, 1, True)],
-)
-def test_a_short_kink_has_to_be_steep_to_be_seen(degrees: float, length: int, is_seen: bool) -> None:
-    """Two planes: neighbours among the vertices asked for add up to five times the limit, which is 5° there."""
-    x, y = (part.ravel() for part in np.meshgrid(np.arange(9.0), np.arange(9.0), indexing="ij"))
-    vertices = np.column_stack([x, y, -np.tan(np.radians(degrees)) * (x - 4.0).clip(min=0.0)])
-    here = np.flatnonzero((x < 8) & (y < 8))
-    triangles = np.concatenate(
-        [np.column_stack([here, here + 9, here + 10]), np.column_stack([here, here + 10, here + 1])]
-    )
-    inside = (x[triangles] >= 4.0).all(axis=1)
-    seam = np.flatnonzero(x == 4.0)[:length]
-    found = fairing.visible_join(vertices, triangles[inside], triangles[~inside], seam)
-    assert found.degrees == pytest.approx(degrees)
-    assert found.seen.tolist() == (list(range(length)) if is_seen else [])
-
-
-def prism(sides: int, rows: int = 4) -> tuple[FloatArray, IntArray]:
-    """The mantle of an upright prism, its faces as squares cut along a diagonal."""
-    turns = 2.0 * np.pi * np.arange(sides) / sides
-    ring = np.stack([np.cos(turns), np.sin(turns), np.zeros(sides)], axis=1)
-    points = np.concatenate([ring + np.array([0.0, 0.0, k]) for k in range(rows + 1)])
-    here = np.arange(sides * rows)
-    right = here // sides * sides + (here + 1) % sides
-    halves = [np.stack([here, right, right + sides], axis=1), np.stack([here, right + sides, here + sides], axis=1)]
-    return points, np.concatenate(halves)
-
-
-@pytest.mark.parametrize(("sides", "limit"), [
-    (128, 5.0), (64, 5.625), (32, 11.25), (24, 12.0),
-    (8, 22.5), (7, 180.0 / 7), (4, 30.0),
-])  # fmt: skip
-def test_on_coarse_meshes_a_kink_is_seen_later(sides: int, limit: float) -> None:
-    """A prism bends by a full turn over its number of sides, at a third of its edges: that, from 12° on half of it."""
-    points, triangles = prism(sides)
-
-    def found(around: IntArray) -> float:
-        return fairing.visible_join(points, triangles[:0], around, []).limit
-
-    assert found(triangles) == pytest.approx(limit)
-    assert found(triangles[:, ::-1]) == pytest.approx(limit)
-    assert found(triangles[:0]) == fairing.LIMITS["visible_kink"]
-
-
-def round_of(angle: float, join: float, *, converged: bool = True, folds: bool = False) -> fairing.FairResult:
-    """A result with these largest angles at the outline, by which rounds are compared."""
-    case = ball(0.0, n_free=40)
-    fold = (fairing.Diagnostic("FLIPPED_TRIANGLES", "", np.zeros(1, dtype=np.int32), "triangle"),)
-    return replace(
-        fairing.fair(case.exact, case.inside, fixed=case.outline),
-        boundary_angle=np.array([angle]), join=np.array([join]), converged=converged, warnings=fold if folds else (),
-    )  # fmt: skip
-
-
-@pytest.mark.parametrize(
-    ("larger", "best"),
-    [
-        (round_of(20.0, 5.0), 1),
-        (round_of(20.0, 11.0), 1),  # nobody sees it
-        (round_of(20.0, 40.0), 0),  # a kink that was not there
-        (round_of(60.0, 0.0), 0),
-        (round_of(20.0, 5.0, converged=False), 0),
-        (round_of(20.0, 5.0, folds=True), 0),
-    ],
-)
-def test_growing_keeps_the_round_that_joins_best(larger: fairing.FairResult, best: int) -> None:
-    assert _growing.best_round([round_of(50.0, 6.0), larger]) == best
-
-
-def test_growing_may_leave_a_kink_as_it_was() -> None:
-    given = round_of(50.0, 30.0)
-    assert _growing.best_round([given, round_of(40.0, 29.0), round_of(30.0, 31.0)]) == 1

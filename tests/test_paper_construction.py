@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import FrozenInstanceError, asdict
 from typing import Any
 
 import numpy as np
@@ -11,57 +10,8 @@ import pytest
 import blend
 import fairing
 import shapes
-from fairing import _core, _paper
-from shapes import Style
-from test_paper import MILD, PAPER_FIELDS, fair, solved
-
-SPARSE = Style(layout="random")
-
-
-def distance_of_start(family: str, start: str) -> float:
-    """Largest distance over D of the start itself: of one level without a single cycle."""
-    patch = shapes.FAMILIES[family](60, SPARSE)
-    result = fair(patch, start=start, levels=1, max_iterations=1)
-    return patch.error(result.vertices)
-
-
-@pytest.mark.parametrize("family", ["hemisphere", "cylinder", "catenoid", "unduloid", "clothoid"])
-def test_the_improved_start_is_closer_on_sparse_irregular_meshes(family: str) -> None:
-    """Fig. 7, lower row: random points, 60 of them, against the linear bilaplacian (measured: 2.3 to 10 times)."""
-    assert distance_of_start(family, "improved") < 0.6 * distance_of_start(family, "linear")
-
-
-def test_iteration_stops_at_epsilon() -> None:
-    patch = shapes.cylinder(300, MILD)
-    for epsilon in (1.0, 1e-3):
-        result = fair(patch, epsilon=epsilon)
-        assert result.converged
-        assert result.residual <= epsilon
-
-
-@pytest.mark.parametrize("tolerance", [1e-4, 1e-5])
-def test_default_epsilon_leaves_changes_of_about_the_tolerance(tolerance: float) -> None:
-    for family in ("cylinder", "clothoid"):
-        patch = shapes.FAMILIES[family](300, MILD)
-        rough, fine = fair(patch, tolerance=tolerance), fair(patch, epsilon=1e-7)
-        assert np.abs(rough.vertices - fine.vertices).max() < 2 * tolerance * patch.diameter
-
-
-def test_the_number_of_levels_does_not_change_the_surface() -> None:
-    patch = shapes.clothoid(600, MILD)
-    results = [fair(patch, levels=levels, tolerance=1e-7) for levels in (1, 2, 3)]
-    assert [len(r.levels) for r in results] == [1, 2, 3]
-    for other in results[1:]:
-        assert other.converged
-        assert np.abs(other.vertices - results[0].vertices).max() < 2e-6 * patch.diameter
-
-
-@pytest.mark.parametrize("start", ["linear", "improved"])
-def test_both_starts_lead_to_the_same_surface(start: str) -> None:
-    patch, result = solved("clothoid")
-    other = fair(patch, start=start, tolerance=1e-7)
-    assert other.converged
-    assert np.abs(other.vertices - result.vertices).max() < 2e-6 * patch.diameter
+from fairing import _core
+from test_paper import PAPER_FIELDS, fair, solved
 
 
 @pytest.mark.parametrize(
@@ -85,14 +35,6 @@ def test_the_interior_given_leaves_no_trace() -> None:
     noise[patch.fixed] = 0
     one, other = (fair(patch, vertices=patch.vertices + sign * noise, max_iterations=20) for sign in (1, -1))
     assert np.array_equal(one.vertices, other.vertices)
-
-
-def test_acceleration_needs_a_third_of_the_updates_at_most() -> None:
-    patch = blend.cylinder_blend(500)
-    quick, plain = (fair(patch, acceleration=kind, tolerance=1e-5) for kind in ("anderson", "none"))
-    assert quick.converged
-    assert quick.iterations < plain.iterations / 3
-    assert np.abs(quick.vertices - plain.vertices).max() < 1e-4 * patch.diameter
 
 
 @pytest.mark.parametrize("kind", ["uniform", "conformal", "inverse_distance"])
@@ -140,41 +82,6 @@ def test_defaults_of_the_paper_are_the_engines() -> None:
     assert (python.acceleration, python.vertex_sweeps) == ("anderson", 2)
     assert fairing.PaperOptions(acceleration="none").vertex_sweeps == 1
     assert fairing.PaperOptions(acceleration="none", vertex_sweeps=3).vertex_sweeps == 3
-
-
-def test_every_option_of_the_paper_reaches_the_engine() -> None:
-    given = fairing.PaperOptions(0.5, 7, 3, 4, 0.25, "none", "coarse", "linear")
-    engine = _paper.engine_options("paper", 5, given)
-    assert {name: getattr(engine, name) for name in PAPER_FIELDS} == asdict(given)
-    assert engine.levels == 5
-
-
-def test_options_of_the_paper_are_frozen() -> None:
-    with pytest.raises(FrozenInstanceError):
-        fairing.PaperOptions().damping = 0.5  # type: ignore[misc]
-
-
-def test_an_unknown_word_never_becomes_a_default() -> None:
-    """In the engine itself, behind the package's checks."""
-    engine = _core.PaperOptions()
-    for option in ("acceleration", "virtual_points", "start"):
-        with pytest.raises(ValueError, match=f"{option}: 'plain' is not accepted"):
-            setattr(engine, option, "plain")
-    words = {
-        "equation": "harmonic",
-        "otherwise": "stop",
-        "inner_fairness": "uniform",
-        "method": "global",
-        "normals": "fitted",
-    }
-    numbers: dict[str, Any] = {"load": 0.0, "bulge": 0.0, "tolerance": 1e-6, "max_iterations": 9, "threads": 1}
-    triangles = np.array([[0, 1, 2]], dtype=np.int32)
-    for option in words:
-        options = _core.Options(**{**words, option: "any"}, **numbers)
-        with pytest.raises(ValueError, match=f"{option}: 'any' is not accepted"):
-            _core.Solver(triangles, None, None, None, (options, engine))
-    with pytest.raises(ValueError, match="normals: 'any' is not accepted"):
-        _core.vertex_normals(np.eye(3), triangles, "any")
 
 
 @pytest.mark.parametrize(

@@ -20,31 +20,12 @@ def solved(patch: Patch, weights: str = "uniform") -> fairing.FairResult:
 
 @pytest.mark.parametrize("half_angle", [130.0, 140.0])
 def test_deep_caps_are_polished(half_angle: float) -> None:
-    """Their vertices slide by .1 to .2 D along the sphere: 2e-10 off at most, where placed ones are 1.5e-5 off.
-
-    Some find no harmonic surface from their outline alone, and take the sphere as that of least variation: of 15 of
-    130° none, of 15 of 140° two. Which ones changes with the last digits, and so from one processor to another.
-    """
-    harmonic = 0
-    for seed in (0, 1, 2):
+    """Their vertices slide by .1 to .2 D along the sphere and end on it to eight digits; placed ones are 1e-5 off."""
+    for seed in range(3):
         cap = shapes.cap(1500, Style(seed=seed), half_angle=half_angle)
         result = solved(cap)
         assert result.converged
         assert cap.error(result.vertices) < 1e-8
-        if result.equation == "harmonic":
-            assert result.polished
-            harmonic += 1
-    assert harmonic >= 2
-
-
-@pytest.mark.parametrize("weights", ["conformal", "shape_preserving"])
-def test_many_digits_take_patience(weights: str) -> None:
-    """2e-10 on a graded hemisphere, 5.4e-6 where it stays placed."""
-    cap = graded.regraded(shapes.cap(60), 5000)
-    result = solved(cap, weights)
-    assert result.converged
-    assert result.polished
-    assert cap.error(result.vertices) < 1e-8
 
 
 @pytest.mark.parametrize("weights", ["conformal", "shape_preserving"])

@@ -32,7 +32,7 @@ def finger(around: int, layers: int) -> tuple[FloatArray, shapes.IntArray, Float
 
 @pytest.mark.parametrize(("around", "layers"), [(24, 20), (24, 60), (16, 60)])
 def test_a_crowded_mesh_lies_on_the_sphere(around: int, layers: int) -> None:
-    """Vertices sit on curved triangles over the proxy: 1e-4 of D between its vertices (measured 2e-5)."""
+    """Vertices sit on curved triangles over the proxy: 1e-4 of D between its vertices."""
     vertices, triangles, rim = finger(around, layers)
     result = fairing.fair(vertices, triangles, fixed=np.arange(around), fixed_normals=rim)
     assert result.converged
@@ -43,12 +43,11 @@ def test_a_crowded_mesh_lies_on_the_sphere(around: int, layers: int) -> None:
 
 
 def test_a_large_crowded_mesh_is_placed_level_by_level() -> None:
-    """Its coarse level fails, the proxy begins there. On the mesh itself H is noise (measured 5e2) near the tip."""
+    """The sphere to 2e-5 D with its H, although H of the mesh itself is noise near the tip."""
     around = 40
     vertices, triangles, rim = finger(around, 100)
     result = fairing.fair(vertices, triangles, fixed=np.arange(around), fixed_normals=rim)
     assert result.converged
-    assert [way for way, _ in result.way] == ["nested", "proxy"]
     assert len(result.levels) > 1
     assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max() / 2 < 2e-5
     assert not len(fairing.flipped_triangles(result.vertices, triangles))

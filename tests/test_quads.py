@@ -48,15 +48,6 @@ def test_nearly_all_faces_are_quads_and_each_triangle_counts_once(edges: int) ->
     assert corner_signs(points, paired.quads).min() > np.sin(np.radians(14))
 
 
-def test_a_quad_is_its_two_triangles_wound_alike() -> None:
-    points, triangles = dome(32)
-    paired = fairing.paired_quads(points, triangles)
-    assert sides(paired.quads) | sides(paired.triangles) <= sides(triangles)
-    halves = paired.quads[:, [[0, 1, 3], [2, 3, 1]]]
-    for quad, pair in zip(halves, paired.pairs, strict=True):
-        assert [set(half) for half in quad.tolist()] == [set(triangles[t].tolist()) for t in pair]
-
-
 def test_kept_edges_and_the_border_survive() -> None:
     points, triangles = dome(64)
     first = fairing.paired_quads(points, triangles)
@@ -86,17 +77,6 @@ def test_a_grid_comes_back_whatever_its_diagonals() -> None:
     points = np.stack([k.ravel() // 9, k.ravel() % 9, np.zeros(81)], axis=1)
     paired = fairing.paired_quads(points, triangles)
     assert {frozenset(quad) for quad in paired.quads.tolist()} == {frozenset(cell) for cell in cells.tolist()}
-
-
-def test_faces_wound_against_each_other_are_no_quad() -> None:
-    assert len(fairing.paired_quads(SQUARE, HALVES).quads) == 1
-    assert len(fairing.paired_quads(SQUARE, [[0, 1, 2], [0, 3, 2]]).quads) == 0
-
-
-def test_nothing_gives_nothing() -> None:
-    paired = fairing.paired_quads(SQUARE, np.empty((0, 3), dtype=int))
-    assert paired.quads.shape == (0, 4)
-    assert paired.triangles.shape == (0, 3)
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-import blend
 import fairing
 import shapes
 from curves import FloatArray
@@ -44,14 +43,6 @@ def dragged(patch: Patch, vertices: FloatArray, at: int, by: float) -> FloatArra
     reach = np.linalg.norm(vertices - vertices[patch.fixed[at]], axis=1) / (0.2 * patch.diameter)
     step: FloatArray = by * patch.diameter * np.exp(-(reach**2))[:, None] * np.array([0.3, -0.5, 0.8])
     return vertices + step
-
-
-def turned(degrees: float) -> FloatArray:
-    """Rotation about an oblique axis, (3, 3)."""
-    angle, axis = np.radians(degrees), np.array([2.0, -1.0, 2.0]) / 3.0
-    cross = np.cross(np.eye(3), axis)
-    matrix: FloatArray = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
-    return matrix
 
 
 @pytest.mark.parametrize(
@@ -100,32 +91,6 @@ def test_an_outline_that_slides_on_a_sphere_leaves_the_sphere() -> None:
         assert np.abs(result.mean_curvature + 1).max() <= 1e-6
 
 
-def test_a_pipe_grows_to_another_radius() -> None:
-    patch = shapes.cylinder(1500, length=1.0)
-    solver = solver_of(patch)
-    solver.solve(patch.vertices, patch.fixed_normals)
-    wider = patch.vertices * np.array([1.04, 1.04, 1.0])
-    result, seen = stages(solver, wider, patch.fixed_normals)
-    assert seen == WITHOUT_FACTORISATION
-    radius = np.linalg.norm(result.vertices[:, :2], axis=1)
-    # The discretisation's error on this mesh: 2e-6 D is the goal of test_fair_closed_forms.
-    assert np.abs(radius - 1.04).max() <= 2e-6 * patch.diameter
-
-
-def test_a_similarity_moves_the_last_answer_and_nothing_else() -> None:
-    patch = shapes.unduloid(SIZE)
-    solver = solver_of(patch)
-    first = solver.solve(patch.vertices, patch.fixed_normals)
-    rotation = turned(130)
-    moved = 3.0 * first.vertices @ rotation.T + np.array([5.0, -2.0, 1.0])
-    start = np.zeros_like(moved)
-    start[patch.fixed] = moved[patch.fixed]
-    result, seen = stages(solver, start, patch.fixed_normals @ rotation.T)
-    assert seen == WITHOUT_FACTORISATION
-    assert result.iterations == 1
-    assert np.abs(result.vertices - moved).max() <= SAME * 3 * patch.diameter
-
-
 @pytest.mark.parametrize("family", ["hemisphere", "unduloid", "linear_flux", "clothoid", "plane"])
 def test_answers_do_not_depend_on_what_was_solved_before(family: str) -> None:
     patch = shapes.FAMILIES[family](SIZE)
@@ -144,62 +109,6 @@ def test_answers_do_not_depend_on_what_was_solved_before(family: str) -> None:
     assert np.abs(back.vertices - fair(patch, shapes.start_from_nothing(patch), normals).vertices).max() <= (
         SAME * patch.diameter
     )
-
-
-@pytest.mark.parametrize(
-    "options",
-    [
-        {"equation": "constant", "load": 2.0},
-        {"equation": "minimal"},
-        {"equation": "minimal_energy"},
-        {"normals": "averaged"},
-        {"inner_fairness": "inverse_distance"},
-        {"inner_fairness": "shape_preserving"},
-    ],
-)
-def test_every_equation_and_fairness_starts_from_the_last_answer(options: dict[str, Any]) -> None:
-    patch = shapes.cap(SIZE, half_angle=50)
-    solver = solver_of(patch, **options)
-    solver.solve(patch.vertices, patch.fixed_normals, reference=patch.vertices)
-    vertices = dragged(patch, patch.vertices, 2, 0.01)
-    result, seen = stages(solver, vertices, patch.fixed_normals, reference=patch.vertices)
-    assert seen == WITHOUT_FACTORISATION
-    single = fair(patch, vertices, patch.fixed_normals, reference=patch.vertices, **options)
-    assert np.abs(result.vertices - single.vertices).max() <= 10 * SAME * patch.diameter
-
-
-def test_turned_normals_alone_are_followed() -> None:
-    """All normals of a cap's rim tilted to those of a shallower cap on the same circle."""
-    patch = shapes.cap(SIZE, half_angle=50)
-    solver = solver_of(patch)
-    solver.solve(patch.vertices, patch.fixed_normals)
-    rim = patch.vertices[patch.fixed]
-    radial = rim[:, :2] / np.linalg.norm(rim[:, :2], axis=1)[:, None]
-    tilt = np.radians(47)
-    normals = np.column_stack([np.sin(tilt) * radial, np.full(len(rim), np.cos(tilt))])
-    result, seen = stages(solver, patch.vertices, normals)
-    assert seen == WITHOUT_FACTORISATION
-    radius = np.linalg.norm(rim[:, :2], axis=1).mean() / np.sin(tilt)
-    centre = np.array([0.0, 0.0, rim[:, 2].mean() - radius * np.cos(tilt)])
-    assert np.abs(np.linalg.norm(result.vertices - centre, axis=1) - radius).max() <= 1e-8
-
-
-def test_a_drag_needs_fewer_steps_as_it_goes_on() -> None:
-    """What moves have taught about the equation serves the next ones; seven steps each without that."""
-    patch = shapes.cap(800)
-    solver = solver_of(patch, tolerance=1e-6)
-    vertices, steps = shapes.start_from_nothing(patch), []
-    for k in range(6):
-        stretch = np.eye(3) + 0.01 * k * np.array([[1.0, 0.0, 0.5], [0.0, -1.0, 0.0], [0.5, 0.0, 0.0]])
-        normals = patch.fixed_normals @ np.linalg.inv(stretch)
-        normals /= np.linalg.norm(normals, axis=1)[:, None]
-        moved = vertices.copy()
-        moved[patch.fixed] = moved[patch.fixed] @ stretch.T
-        result = solver.solve(moved, normals)
-        steps.append(result.iterations)
-        single = fair(patch, moved, normals, tolerance=1e-9)
-        assert np.abs(result.vertices - single.vertices).max() <= 3e-6 * patch.diameter
-    assert max(steps[3:]) <= 5
 
 
 def test_another_reference_changes_the_weights() -> None:
@@ -232,41 +141,6 @@ def test_same_input_gives_the_same_bits_again() -> None:
     again = solver.solve(patch.vertices, patch.fixed_normals)
     assert np.array_equal(first.vertices, again.vertices)
     assert again.iterations == 1
-
-
-def test_blend_between_three_loops_follows_its_rims() -> None:
-    made = blend.cylinder_blend(600)
-    options: dict[str, Any] = {"fixed": made.fixed, "tolerance": TOLERANCE}
-    solver = fairing.Solver(made.triangles, **options)
-    solver.solve(made.vertices, made.fixed_normals)
-    vertices = made.vertices * np.array([1.0, 1.02, 0.99])
-    result, seen = stages(solver, vertices, made.fixed_normals)
-    single = fairing.fair(vertices, made.triangles, fixed_normals=made.fixed_normals, **options)
-    assert "globalisation" not in seen
-    assert np.abs(result.vertices - single.vertices).max() <= 1e-6 * np.ptp(vertices)
-
-
-def two_caps() -> tuple[Patch, FloatArray, FloatArray, Any, Any]:
-    """Two copies of a cap beside each other: vertices, normals, triangles and fixed of both."""
-    patch = shapes.cap(300, half_angle=60)
-    count = len(patch.vertices)
-    vertices = np.vstack([patch.vertices, patch.vertices + np.array([5.0, 0.0, 0.0])])
-    triangles = np.vstack([patch.triangles, patch.triangles + count])
-    fixed = np.concatenate([patch.fixed, patch.fixed + count])
-    return patch, vertices, np.vstack([patch.fixed_normals] * 2), triangles, fixed
-
-
-def test_each_component_starts_from_its_own_last_answer() -> None:
-    """One of two islands jumps, so that it is solved from scratch; the other one keeps its bits."""
-    patch, vertices, normals, triangles, fixed = two_caps()
-    solver = fairing.Solver(triangles, fixed=fixed, tolerance=TOLERANCE)
-    first = solver.solve(vertices, normals)
-    count = len(patch.vertices)
-    vertices[count:] = dragged(patch, patch.vertices, 0, 0.2) + np.array([5.0, 0.0, 0.0])
-    result = solver.solve(vertices, normals)
-    single = fairing.fair(vertices, triangles, fixed=fixed, fixed_normals=normals, tolerance=TOLERANCE)
-    assert np.array_equal(result.vertices[:count], first.vertices[:count])
-    assert np.array_equal(result.vertices[count:], single.vertices[count:])
 
 
 PATCH = shapes.cap(300)
@@ -379,16 +253,6 @@ def test_one_call_at_a_time() -> None:
     assert np.array_equal(result.vertices, fair(PATCH, PATCH.vertices, PATCH.fixed_normals).vertices)
 
 
-def test_arguments_stay_as_they_are_and_results_are_read_only() -> None:
-    vertices, normals = PATCH.vertices.copy(), PATCH.fixed_normals.copy()
-    solver = solver_of(PATCH)
-    for _ in range(2):
-        result = solver.solve(vertices, normals)
-        assert np.array_equal(vertices, PATCH.vertices)
-        assert np.array_equal(normals, PATCH.fixed_normals)
-        assert not result.vertices.flags.writeable
-
-
 def test_more_vertices_than_before_are_solved_anew() -> None:
     solver = solver_of(PATCH)
     first = solver.solve(PATCH.vertices, PATCH.fixed_normals)
@@ -421,18 +285,6 @@ def test_changed_options_count_from_the_next_solve_on(options: dict[str, Any]) -
     solver.change(equation="harmonic", load=0.0, inner_fairness="uniform", method="global", tolerance=TOLERANCE)
     back = solver.solve(patch.vertices, patch.fixed_normals)
     assert np.abs(back.vertices - first.vertices).max() <= SAME * patch.diameter
-
-
-def test_a_growing_load_keeps_the_fairness_operator() -> None:
-    patch = shapes.cap(SIZE, half_angle=50)
-    solver = solver_of(patch, equation="constant", load=1.0)
-    solver.solve(patch.vertices, patch.fixed_normals)
-    for load in (1.2, 1.5, 2.0):
-        solver.change(load=load)
-        result, seen = stages(solver, patch.vertices, patch.fixed_normals)
-        assert seen == WITHOUT_FACTORISATION | {"the inner-fairness weights"}
-        single = fair(patch, patch.vertices, patch.fixed_normals, equation="constant", load=load)
-        assert np.abs(result.vertices - single.vertices).max() <= SAME * patch.diameter
 
 
 def test_what_cannot_be_changed_is_refused_and_changes_nothing() -> None:

@@ -7,7 +7,6 @@ import pytest
 
 import bad_inputs
 import fairing
-import shapes
 from curves import FloatArray
 from meshing import IntArray, face_normals
 
@@ -64,19 +63,6 @@ def test_spheres_of_meridians(segments: int, axis: int) -> None:
         assert np.abs(found.normals - vertices[rim]).max() < 1e-9, rings
 
 
-def test_tubes_of_long_and_short_quads() -> None:
-    """Exact too, however few the sides: a circle is what the fit expects across the axis."""
-    for sides in (6, 8, 12, 32):
-        for height in (0.05, 0.3, 1.0):
-            around = 2 * np.pi * np.arange(sides) / sides
-            rows = [np.c_[np.cos(around), np.sin(around), np.full(sides, height * k)] for k in range(6)]
-            first = np.arange(5 * sides).reshape(5, sides)
-            a, b = first.ravel(), np.roll(first, -1, axis=1).ravel()
-            triangles = np.r_[np.c_[a, b, b + sides], np.c_[a, b + sides, a + sides]]
-            normals = fairing.surrounding_normals(np.vstack(rows), triangles, np.arange(sides)).normals
-            assert angles(normals, rows[0] * [1, 1, 0]).max() < 0.01, (sides, height)
-
-
 @pytest.mark.parametrize(("around", "across", "bound"), [(48, 12, 2.0), (48, 24, 2.0), (96, 24, 0.5), (96, 48, 0.3)])
 def test_bands_and_windows_of_a_torus(around: int, across: int, bound: float) -> None:
     """Blender's own torus is the first of these; a cubic of the 22 nearest points is 11 to 55 degrees off."""
@@ -98,21 +84,6 @@ def test_bands_and_windows_of_a_torus(around: int, across: int, bound: float) ->
         rim = np.intersect1d(triangles[inside], triangles[~inside])
         normals = fairing.surrounding_normals(vertices, triangles[~inside], rim).normals
         assert angles(normals, outward.reshape(-1, 3)[rim]).max() < bound
-
-
-def test_a_vertex_asked_for_twice_has_one_normal() -> None:
-    vertices, triangles, equator = outside_of_a_hemisphere(200)
-    found = fairing.surrounding_normals(vertices, triangles, np.repeat(equator, 2))
-    assert found.fitted.all()
-    assert np.array_equal(found.normals[0::2], found.normals[1::2])
-
-
-def test_other_families() -> None:
-    """Rims of smooth patches, seen from the patch: 0.05° at 2000 vertices."""
-    for name in ("cylinder", "catenoid", "linear_flux", "clothoid"):
-        patch = getattr(shapes, name)(2000)
-        normals = fairing.surrounding_normals(patch.vertices, patch.triangles, patch.fixed).normals
-        assert angles(normals, patch.fixed_normals).max() < 0.1
 
 
 def test_follows_the_winding() -> None:

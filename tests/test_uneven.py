@@ -49,7 +49,7 @@ def apart(made: Blend, vertices: FloatArray, kind: str) -> float:
     return float(max(there, back) / made.diameter)
 
 
-@pytest.mark.parametrize("seed", [0, 1, 3])
+@pytest.mark.parametrize("seed", range(5))
 @pytest.mark.parametrize("kind", list(MAKE))
 def test_every_vertex_keeps_its_sheet(kind: str, seed: int) -> None:
     """2 % of D at 1,000 vertices, chords included; a double cover would be 30 % off."""
@@ -60,9 +60,9 @@ def test_every_vertex_keeps_its_sheet(kind: str, seed: int) -> None:
     assert apart(made, result.vertices, kind) < 0.02
 
 
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", range(3))
 def test_large_ones_too(seed: int) -> None:
-    """By levels or a proxy: .7 % of D (chords of the coarse bridge: .5 %)."""
+    """.7 % of D; chords of the coarse bridge are .5 %."""
     made = uneven.tetrathing_corner(4000, seed=seed)
     result = solved(made)
     assert result.converged
@@ -80,7 +80,7 @@ def test_the_start_does_not_matter() -> None:
     assert np.array_equal(again.vertices, result.vertices)
 
 
-@pytest.mark.parametrize("seed", [0, 1, 2])
+@pytest.mark.parametrize("seed", range(3))
 def test_pipes_graded_around(seed: int) -> None:
     """Edges four times as long on one side: the cylinder."""
     pipe = cylinder(1500, length=3.0)
@@ -89,13 +89,3 @@ def test_pipes_graded_around(seed: int) -> None:
     assert result.converged
     assert not codes(result)
     assert made.error(result.vertices) < 5e-4
-
-
-def test_the_way_is_told() -> None:
-    easy = solved(blend.cylinder_blend(600, jitter=0.2))
-    assert [name for name, _ in easy.way] == ["direct"]
-    hard = solved(uneven.tetrathing_corner(1000, seed=1))
-    assert [name for name, _ in hard.way] == ["direct", "proxy"]
-    assert all(seconds >= 0 for _, seconds in hard.way)
-    paper = solved(blend.cylinder_blend(300, jitter=0.2), method="paper", max_iterations=5)
-    assert [name for name, _ in paper.way] == ["paper"]

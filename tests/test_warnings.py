@@ -121,17 +121,3 @@ def test_coordinates_too_far_from_the_origin_are_told() -> None:
     far = fairing.fair(CAP.vertices + 1e12, CAP.triangles, fixed=CAP.fixed, fixed_normals=CAP.fixed_normals)
     assert "PRECISION" in codes(far)
     assert np.isfinite(far.vertices).all()
-
-
-def test_one_element_is_told_in_the_singular() -> None:
-    """And eleven, whose number ends in a one, are not."""
-    for count, text in (
-        (1, "1 triangle is wound against the others"),
-        (11, "11 triangles are wound against the others"),
-    ):
-        turned = CAP.triangles.copy()
-        inner = np.flatnonzero(~np.isin(CAP.triangles, CAP.fixed).any(axis=1))[:count]
-        turned[inner] = turned[inner][:, ::-1]
-        result = fairing.fair(CAP.vertices, turned, fixed=CAP.fixed, fixed_normals=CAP.fixed_normals)
-        (warning,) = (w for w in result.warnings if w.code == "INCONSISTENT_WINDING")
-        assert warning.message.startswith(text)

@@ -131,11 +131,21 @@ def elbows() -> Iterator[str]:
         )
 
 
+def cornered(ratio: float) -> FloatArray:
+    """A flat outline with a corner of 60° between edges of that ratio, the others of equal lengths."""
+    short, rest = 0.067, 0.3 * np.arange(5)
+    turn = np.radians(np.linspace(0, 60, 7)[1:-1])
+    reach = np.linspace(short + rest[4], ratio * short + rest[3], 7)[1:-1, None]
+    along, back = np.outer(short + rest, [1, 0]), np.outer(ratio * short + rest[3::-1], [0.5, np.sqrt(0.75)])
+    flat = np.concatenate([[[0.0, 0.0]], along, reach * np.column_stack([np.cos(turn), np.sin(turn)]), back])
+    return np.column_stack([flat, 0 * flat[:, 0]])
+
+
 def corners() -> Iterator[str]:
     """Flat outlines with a corner of 60° between a short edge and a long one: the least angle, and what they force."""
     yield "| ratio of the edges | least angle | no more than |"
     for ratio in (2.0, 4.0, 6.0, 8.8, 12.0):
-        outline = test_fill.cornered(ratio)
+        outline = cornered(ratio)
         count = len(outline)
         up = np.tile([0.0, 0.0, 1.0], (count, 1))
         result, _ = timed(outline, test_fill.EMPTY, [np.arange(count)], normals=up)

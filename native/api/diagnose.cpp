@@ -9,13 +9,13 @@
 
 #include "api/component.h"
 #include "base/text.h"
+#include "continuity/joined.h"
 #include "geometry/angle.h"
 #include "geometry/face_geometry.h"
 #include "geometry/flips.h"
 #include "geometry/outline_angles.h"
 #include "geometry/self_intersection.h"
 #include "method/traits.h"
-#include "continuity/joined.h"
 #include "pins/sharp_pins.h"
 #include "pins/spread_pins.h"
 #include "shape/limits.h"
@@ -335,7 +335,8 @@ Diagnostic no_solution(const Problem& problem, const Solution& solution) {
     const std::string text = "no " + name + " fits the boundary of a component of " + free;
     if (solution.provenance == Provenance::low_passed) {
         figures["distance"] = distance_of_low_passed(problem);
-        return {Code::no_solution, text + " as they are: it follows them smoothly, and they stay beside it",
+        return {Code::no_solution,
+                text + " as it is: the surface follows it smoothly, and the boundary stays beside it",
                 Indices(free_vertices(patch).begin(), free_vertices(patch).end()), ElementKind::vertex, figures};
     }
     const auto all = free_vertices(patch);

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <set>
 
+#include "accept/accept.h"
 #include "api/component.h"
 #include "base/errors.h"
 #include "base/parallel.h"
 #include "fill/even_mesh.h"
 #include "fill/first_surface.h"
 #include "mesh/pieces.h"
-#include "accept/accept.h"
 
 namespace fairing {
 

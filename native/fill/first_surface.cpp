@@ -12,11 +12,11 @@
 #include "fill/even_mesh.h"
 #include "fill/joined_loops.h"
 #include "fill/tube_start.h"
-#include "stand_in/lofted.h"
 #include "method/solve.h"
 #include "problem/surface_state.h"
 #include "proxy/proxy_mesh.h"
 #include "reuse/near_start.h"
+#include "stand_in/lofted.h"
 #include "start/automatic_equation.h"
 
 namespace fairing {

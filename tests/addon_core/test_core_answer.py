@@ -96,13 +96,6 @@ def counting_kept(ahead: bool = False) -> Kept:
     return Kept(results, solvers, ahead)
 
 
-def test_a_former_result_is_not_computed_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    mesh, kept = spoilt_sphere(), counting_kept()
-    first = solve(mesh, EYE, FairOptions(), kept=kept)
-    monkeypatch.setattr(fairing, "fair", lambda *_args, **_options: pytest.fail("solved again"))
-    assert solve(mesh, EYE, FairOptions(factor=0.5), kept=kept) is first
-
-
 def test_the_engine_is_asked_for_all_of_the_detail_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every share of it follows from that answer; none of it is another one."""
     mesh, kept = spoilt_sphere(), counting_kept()
@@ -117,14 +110,6 @@ def test_the_engine_is_asked_for_all_of_the_detail_once(monkeypatch: pytest.Monk
     again, anew = solve(mesh, EYE, longer, kept=kept).result, solve(mesh, EYE, longer).result
     np.testing.assert_allclose(again.vertices, anew.vertices, atol=1e-5)
     assert np.abs(again.vertices - whole.vertices).max() > 0.01
-
-
-def test_detail_belongs_to_the_triangles_of_the_old_shape() -> None:
-    """Quads are cut as for a texture, which belongs to the old shape too."""
-    mesh = spoilt_sphere()
-    posed = [pose(mesh, EYE, FairOptions(**chosen))[0] for chosen in ({"detail": 1.0}, {"inner_fairness": "CONFORMAL"})]
-    assert np.array_equal(posed[0].patch.triangles, posed[1].patch.triangles)
-    assert not np.array_equal(posed[0].patch.triangles, pose(mesh, EYE, FairOptions())[0].patch.triangles)
 
 
 def test_other_options_start_from_the_solver_that_was_kept(monkeypatch: pytest.MonkeyPatch) -> None:

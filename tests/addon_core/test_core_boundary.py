@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.around import RINGS, numbered, outside_triangles, wound_alike
+from core.around import RINGS, numbered, outside_triangles
 from core.arrays import Floats
 from core.boundary import average_normals, prescribed_curvatures, prescribed_normals
 from core.region import MeshArrays, Patch, make_patch
@@ -38,14 +38,6 @@ def test_average_normals_of_a_plane_and_of_a_corner() -> None:
     np.testing.assert_allclose(normals[2], [0.0, 0.0, 1.0])
 
 
-def test_average_normals_take_each_face_once_whatever_its_size() -> None:
-    """A large and a small face at a right angle: half-way between, not nearer to the large one."""
-    points = np.array([[0, 0, 0], [0, 1, 0], [-9, 1, 0], [-9, 0, 0], [0, 0, 1], [0, 1, 1]], dtype=np.float64)
-    mesh = polygon_mesh(points, [[0, 1, 2, 3], [0, 4, 5, 1]], [True, False])
-    expected = np.array([-1.0, 0.0, 1.0]) / np.sqrt(2.0)
-    np.testing.assert_allclose(average_normals(mesh, np.array([0, 1])), [expected, expected], atol=1e-15)
-
-
 def test_custom_normals_are_the_mean_of_the_corners() -> None:
     mesh = grid(6, 0.67)
     patch = make_patch(mesh)
@@ -67,15 +59,6 @@ def test_a_border_without_faces_outside_is_told_and_takes_the_patch_average() ->
     pinned[12] = True
     inner = replace(mesh, pinned=pinned)
     assert normals_of(inner, make_patch(inner), "SURROUNDING")[1] == told  # a pin is none of them
-
-
-def test_surroundings_wound_against_the_patch_are_turned_round() -> None:
-    selected = grid(16, 0.6).in_patch
-    quads = [loop if k else loop[::-1] for loop, k in zip(grid_quads(16), selected, strict=True)]
-    mesh = polygon_mesh(on_sphere(grid_points(16)), quads, selected)
-    patch = make_patch(mesh)
-    normals, _ = normals_of(mesh, patch, "SURROUNDING")
-    np.testing.assert_allclose(normals, mesh.positions[patch.vertices[patch.fixed]], atol=1e-9)
 
 
 def test_what_is_not_finite_outside_is_left_out() -> None:
@@ -104,16 +87,6 @@ def test_triangles_around_are_those_within_four_rings() -> None:
     assert np.array_equal(vertices[: len(patch.vertices)], patch.vertices)
     assert np.array_equal(vertices[around], outside)
     assert len(np.unique(vertices)) == len(vertices)
-
-
-@pytest.mark.parametrize("turned", [False, True])
-def test_triangles_around_are_wound_like_the_patch(turned: bool) -> None:
-    selected = grid(16, 0.6).in_patch
-    quads = [loop[::-1] if k and turned else loop for loop, k in zip(grid_quads(16), selected, strict=True)]
-    mesh = polygon_mesh(grid_points(16), quads, selected)
-    outside = wound_alike(mesh, outside_triangles(mesh, make_patch(mesh)))
-    a, b, c = (mesh.positions[column] for column in outside.T)
-    assert (np.sign(np.cross(b - a, c - a)[:, 2]) == (-1.0 if turned else 1.0)).all()
 
 
 def test_curvatures_of_the_faces_outside() -> None:

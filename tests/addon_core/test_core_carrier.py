@@ -18,16 +18,6 @@ def test_a_common_shift_is_followed_exactly_and_none_moves_nothing() -> None:
     np.testing.assert_array_equal(Carrier(FIXED, FREE).carried(FIXED), FREE)
 
 
-def test_near_vertices_go_with_their_neighbour() -> None:
-    moved = FIXED.copy()
-    moved[7] += [0.0, 0.0, 1.0]
-    near = FIXED[[7]] + 1e-4
-    far = FIXED.mean(axis=0, keepdims=True) + np.array([[50.0, 0.0, 0.0]])
-    both = Carrier(FIXED, np.vstack([near, far])).carried(moved) - np.vstack([near, far])
-    np.testing.assert_allclose(both[0], [0.0, 0.0, 1.0], atol=1e-6)
-    np.testing.assert_allclose(both[1], [0.0, 0.0, 1.0 / 30.0], atol=5e-3)
-
-
 def test_a_vertex_on_a_fixed_one_and_what_is_not_finite() -> None:
     broken = FIXED.copy()
     broken[3] = np.nan

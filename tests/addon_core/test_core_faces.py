@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from core.arrays import Floats, Ints
-from core.faces import Faces, faces_of, inner_edges, paired_faces
+from core.faces import Faces, paired_faces
 from core.lines import parting_edges
 from core.options import FairOptions
 from core.remeshing import remesh_arrays
@@ -42,15 +42,6 @@ def test_every_pair_of_a_grid_becomes_its_quad_again() -> None:
     assert directed(faces.polygons) <= directed(triangles.tolist())  # wound alike
 
 
-def test_corners_name_the_vertices_of_the_faces() -> None:
-    points, triangles = sheet()
-    kinds = (points[triangles].mean(axis=1)[:, 0] > 0.1).astype(np.int64)
-    for faces in (faces_of(triangles), paired_faces(points, triangles, NO_EDGES, kinds)):
-        assert triangles.ravel()[faces.corners].tolist() == [v for polygon in faces.polygons for v in polygon]
-        assert all(one in of for one, of in zip(faces.triangles.tolist(), beneath(faces), strict=True))
-    assert sorted(t for of in beneath(faces) for t in of) == list(range(len(triangles)))  # each once
-
-
 def test_no_quad_has_two_kinds() -> None:
     points, triangles = sheet()
     kinds = np.arange(len(triangles)) // 2 % 2 + np.arange(len(triangles)) % 2  # mixed within the quads of the grid
@@ -66,14 +57,6 @@ def test_kept_edges_stay() -> None:
     sides = {tuple(sorted(side)) for side in directed(faces.polygons)}
     assert {tuple(sorted(edge)) for edge in diagonals.tolist()} <= sides
     assert 4 in {len(polygon) for polygon in faces.polygons}  # across other edges
-
-
-def test_inner_edges_lie_between_their_sides() -> None:
-    _, triangles = sheet()
-    edges, sides = inner_edges(triangles)
-    assert len(edges) == 3 * SIZE**2 - 2 * SIZE
-    for edge, (first, second) in zip(edges.tolist(), sides.tolist(), strict=True):
-        assert set(edge) == set(triangles[first].tolist()) & set(triangles[second].tolist())
 
 
 @pytest.mark.parametrize("spacing", [0.7, 1.0])

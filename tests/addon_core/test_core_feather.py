@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import json
-from dataclasses import asdict, replace
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -78,14 +77,6 @@ def test_without_feather_it_is_the_same_answer() -> None:
     assert np.array_equal(plain.positions, none.positions)
 
 
-def test_the_factor_blends_the_band_too() -> None:
-    mesh = swollen()
-    whole, half = fair(mesh, feather=WIDTH), fair(mesh, feather=WIDTH, factor=0.5)
-    assert np.array_equal(whole.vertices, half.vertices)
-    middle = 0.5 * (mesh.positions[whole.vertices] + whole.positions)
-    np.testing.assert_allclose(half.positions, middle, atol=1e-14)
-
-
 def test_the_mirror_holds_in_the_band() -> None:
     mesh = replace(swollen(), mirror_x=True)
     rows = np.arange((SIZE + 1) ** 2).reshape(SIZE + 1, SIZE + 1)
@@ -143,25 +134,6 @@ def test_weights_are_the_engines() -> None:
     assert len(narrow.vertices) < len(fair(mesh).vertices)
 
 
-def test_a_weight_of_a_half_goes_half_the_way() -> None:
-    mesh = swollen()
-    half = np.where(soft(0.6) > 0.0, 0.5, 0.0)
-    part, whole = weighed(half), weighed(2.0 * half)
-    middle = 0.5 * (mesh.positions[whole.vertices] + whole.positions)
-    assert np.array_equal(part.vertices, whole.vertices)
-    # Both bases are blended, and what is left of the old skin, which lies still finer, is put back whole.
-    assert np.abs(part.positions - middle).max() < 0.05 * np.abs(whole.positions - mesh.positions[whole.vertices]).max()
-
-
-def test_all_the_way_inside_and_nothing_outside_is_as_without_weights() -> None:
-    mesh = swollen()
-    inside = np.zeros(len(mesh.positions))
-    inside[fair(mesh).vertices] = 1.0
-    assert pose(replace(mesh, parts=inside), EYE, FairOptions(**BY_GROUP))[0].weights is None
-    inside[fair(mesh).vertices[0]] = 0.99
-    assert pose(replace(mesh, parts=inside), EYE, FairOptions(**BY_GROUP))[0].weights is not None
-
-
 def test_weights_elsewhere_are_left_alone() -> None:
     """Only what weights join to the selection takes part: not the other end of the group."""
     apart = soft(0.5)
@@ -182,24 +154,6 @@ def test_feather_and_weights_are_multiplied() -> None:
     assert np.array_equal(both.vertices, whole.vertices[left[whole.vertices] > 0.0])
 
 
-def test_weights_that_move_nothing_are_refused() -> None:
-    with pytest.raises(ValueError, match="Factor Group and Mask leave every vertex"):
-        weighed(np.zeros(len(swollen().positions)))
-
-
-def test_weights_need_no_surroundings() -> None:
-    """All faces are selected: their border is the outline."""
-    mesh = replace(swollen(), in_patch=np.ones(SIZE * SIZE, dtype=bool))
-    whole = fair(mesh, inner_fairness="CONFORMAL")
-    half = np.full(len(mesh.positions), 0.5)
-    done = fair(replace(mesh, parts=half), inner_fairness="CONFORMAL", **BY_GROUP)
-    assert np.array_equal(done.vertices, whole.vertices)
-    moves = np.linalg.norm(done.positions - mesh.positions[done.vertices], axis=1).max()
-    assert moves == pytest.approx(
-        0.5 * np.linalg.norm(whole.positions - mesh.positions[whole.vertices], axis=1).max(), rel=0.1
-    )
-
-
 @pytest.mark.parametrize(
     ("options", "text"),
     [
@@ -212,19 +166,3 @@ def test_options_that_a_band_can_not_have_are_refused(options: dict[str, object]
         fair(swollen(), feather=WIDTH, **options)
     with pytest.raises(ValueError, match=f"^{text}.*no Factor Group and no Mask$"):
         fair(replace(swollen(), parts=soft(0.6)), **BY_GROUP, **options)
-
-
-@pytest.mark.parametrize("value", [-0.1, float("nan"), float("inf")])
-def test_a_width_is_a_positive_number(value: float) -> None:
-    with pytest.raises(ValueError, match="feather: expected 0 or a positive number"):
-        FairOptions(feather=value)
-
-
-def test_options_of_another_version_are_read_as_far_as_they_are_known() -> None:
-    known = asdict(FairOptions(equation="MINIMAL", feather=0.2))
-    assert FairOptions.parsed(json.dumps(known)) == FairOptions(equation="MINIMAL", feather=0.2)
-    assert FairOptions.parsed(json.dumps({"load": 1.0, "equation": "MINIMAL"})) == FairOptions(equation="MINIMAL")
-    with pytest.raises(TypeError, match="options"):
-        FairOptions.parsed("[1]")
-    with pytest.raises(ValueError, match="equation"):
-        FairOptions.parsed('{"equation": "ROUND"}')

@@ -10,13 +10,10 @@ import pytest
 
 from core.arrays import Floats, Ints, Mask
 from core.border import BorderRefusal, border_loops
-from core.fill_report import make_fill_report
 from core.fill_verdict import Surface, judge
-from core.filling import FillOptions, Piece, fill, joining_advice
-from core.harmonic import harmonic, nearest
+from core.filling import FillOptions, Piece, fill
 from core.quality import Join
 from core.region import MeshArrays, nothing
-from core.report import angle_text
 from core.verdict import GOOD, LOOK, UNUSABLE, Verdict
 from core.words import MeshRefusal
 from polygon_mesh import grid_points, grid_quads, on_sphere, polygon_mesh
@@ -52,12 +49,6 @@ def test_one_vertex_stands_for_its_whole_loop() -> None:
     assert loop.tolist() == [vertex(*place) for place in around]
 
 
-def test_seeds_of_two_loops_give_both_and_inner_ones_none() -> None:
-    mesh = holed((2, 2), (6, 6))
-    assert len(border_loops(mesh, only(mesh, vertex(1, 1), vertex(3, 3), vertex(5, 6)))) == 2
-    assert border_loops(mesh, only(mesh, vertex(4, 4))) == []
-
-
 def test_loops_that_touch_are_refused() -> None:
     mesh = holed((2, 2), (4, 4))
     with pytest.raises(BorderRefusal, match="touches itself") as error:
@@ -82,15 +73,6 @@ def test_borders_without_a_shape_are_refused(value: float | None, text: str) -> 
         border_loops(replace(mesh, positions=points), only(mesh, vertex(3, 4)))
 
 
-def test_a_border_that_passes_a_place_twice_is_refused_in_words_for_a_person() -> None:
-    mesh = holed((4, 4), half=2)
-    points = mesh.positions.copy()
-    points[vertex(2, 4)] = points[vertex(6, 4)]
-    with pytest.raises(MeshRefusal, match=r"2 vertices of the boundary, .* share their place") as error:
-        filled(replace(mesh, positions=points), vertex(2, 2))
-    assert error.value.elements.tolist() == [vertex(2, 4), vertex(6, 4)]
-
-
 def filled(mesh: MeshArrays, *seeds: int, matrix: Floats | None = None, **options: object) -> list[Piece]:
     matrix = np.eye(4) if matrix is None else matrix
     return fill(mesh, matrix, border_loops(mesh, only(mesh, *seeds)), FillOptions(**options))  # type: ignore[arg-type]
@@ -112,12 +94,6 @@ def test_hole_of_a_sphere_is_closed_by_the_sphere(scale: tuple[float, float, flo
     assert not piece.verdict.spots.size
 
 
-def test_spacing_is_a_factor_of_the_outlines_edges() -> None:
-    mesh = holed((4, 4), half=2)
-    counts = [len(filled(mesh, vertex(2, 2), spacing=factor)[0].positions) for factor in (1.0, 0.5)]
-    assert 2.0 < counts[1] / counts[0] < 5.0  # the outline's edges stay, so that it is less than 4 near it
-
-
 def two_tubes(*, turned_over: bool = False) -> MeshArrays:
     """Along z with a gap between the vertices from 48 and those from 72 on; the upper one inside out if wanted."""
     steps = np.linspace(0.0, 2.0 * np.pi, 25)[:-1]
@@ -132,15 +108,6 @@ def two_tubes(*, turned_over: bool = False) -> MeshArrays:
     return polygon_mesh(points, quads, np.zeros(len(quads), dtype=bool))
 
 
-def test_each_loop_for_itself_or_all_joined() -> None:
-    mesh = two_tubes()
-    seeds = (48, 72)
-    assert len(filled(mesh, *seeds)) == 2
-    (tube,) = filled(mesh, *seeds, bridge=True)
-    assert [len(loop) for loop in tube.loops] == [24, 24]
-    assert np.abs(np.linalg.norm(tube.positions[:, :2], axis=1) - 1.0).max() < 1e-2
-
-
 def test_a_tube_turned_over_is_told_and_four_outlines_are_too_many() -> None:
     with pytest.raises(MeshRefusal, match=r"faces around the boundary through vertex .* are turned over") as error:
         filled(two_tubes(turned_over=True), 48, 72, bridge=True)
@@ -148,12 +115,6 @@ def test_a_tube_turned_over_is_told_and_four_outlines_are_too_many() -> None:
     with pytest.raises(BorderRefusal, match=r"all 4 selected boundary loops.*belong together") as too_many:
         filled(two_tubes(), 0, 48, 72, 120, bridge=True)
     assert len(too_many.value.elements) == 96
-
-
-def test_who_selected_just_two_outlines_is_not_told_to_select_fewer() -> None:
-    assert "all 3 selected boundary loops" in joining_advice(3)
-    assert "two boundary loops that face each other" in joining_advice(2)
-    assert "select only" not in joining_advice(2)
 
 
 def test_a_surface_through_the_mesh_is_unusable() -> None:
@@ -180,17 +141,6 @@ def test_the_outside_of_a_sheet_is_refused() -> None:
     assert len(error.value.elements) == 32
 
 
-def test_a_waist_is_worth_a_look_and_names_the_shape_without_one() -> None:
-    points, join = disc(3)[0], Join(np.arange(2), np.zeros(2))
-    assert judged(points, join, girth=(0.95, 1.3)).grade == GOOD
-    thin = judged(points, join, girth=(0.86, 1.0))
-    assert (thin.grade, thin.reason) == (
-        LOOK,
-        "The tube narrows to 86% of its ends: choose the shape Least Variation",
-    )
-    assert judged(points, join, girth=(0.86, 1.0), equation="least_variation").reason.endswith("of its ends")
-
-
 def judged(points: Floats, join: Join, *tangent_only: int, **of_result: object) -> Verdict:
     """The verdict on a disc with these points, whose outline comes first, and nothing around it."""
     flat, triangles, rim = disc(3)
@@ -209,13 +159,6 @@ def test_what_has_not_converged_is_unusable() -> None:
     assert told.grade == UNUSABLE
     assert told.reason == f"No fair surface was found for a boundary of {rim} edges"
     assert set(told.spots.tolist()) == set(range(rim))
-
-
-def test_outlines_that_are_joined_are_told_as_several() -> None:
-    points, _, rim = disc(3)
-    join = Join(nothing(), np.empty(0))
-    told = judged(points, join, converged=False, termination="stalled", loops=np.split(np.arange(rim), [3]))
-    assert told.reason == f"No fair surface was found for 2 boundary loops of {rim} edges in all"
 
 
 def joined(degrees: float = 0.0, limit: float = 12.0) -> Join:
@@ -248,25 +191,6 @@ def test_a_curvature_that_is_not_continued_is_worth_a_look() -> None:
     verdict = judged(disc(3)[0], joined(), 4, 5)
     assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [4, 5])
     assert "not continued at 2 vertices" in verdict.reason
-
-
-def test_kinks_show_from_the_same_limit_as_in_a_faired_region() -> None:
-    """A coarse cage bends at each of its own edges."""
-    coarse, fine = holed((4, 4), half=2), holed((4, 4), half=2)
-    coarse = replace(coarse, positions=coarse.positions * (1.0, 1.0, 0.0) + crumpled(len(coarse.positions)))
-    (smooth,), (piece,) = (filled(mesh, vertex(2, 2)) for mesh in (fine, coarse))
-    assert smooth.join.limit == 12.0
-    assert piece.join.limit > 15.0
-    assert set(piece.join.vertices.tolist()) == set(piece.outline.tolist())
-    report = make_fill_report([("Cage", [piece])], FillOptions(), 1.0)
-    values = {check.name: check.value for check in report.checks}
-    assert values["Kinks show from"] == f"{piece.join.limit:.0f}°"
-    assert values["Kink at the boundary"] == f"≤ {angle_text(piece.join.worst)}"
-
-
-def crumpled(count: int) -> Floats:
-    heights = 0.05 * np.random.default_rng(1).uniform(-1.0, 1.0, count)
-    return np.column_stack([0 * heights, 0 * heights, heights])
 
 
 def test_the_curvature_around_is_continued_where_it_can_be() -> None:
@@ -327,56 +251,3 @@ def disc(rings: int = 6) -> tuple[Floats, Ints, int]:
     ]
     points = np.array([(i + 0.5 * j, np.sqrt(0.75) * j, 0.0) for i, j in places])
     return points, np.array(triangles), 6 * rings
-
-
-def test_linear_values_stay_linear_and_constants_keep_their_bits() -> None:
-    points, triangles, rim = disc()
-    everywhere = np.column_stack([points[:, 0], 3.0 * points[:, 1] - 1.0, np.full(len(points), 0.1)])
-    found = harmonic(points, triangles, everywhere[:rim])
-    np.testing.assert_allclose(found, everywhere[rim:], atol=1e-7)
-    assert (found[:, 2] == 0.1).all()
-
-
-def test_every_value_lies_within_the_range_of_the_outline() -> None:
-    points, triangles, rim = disc()
-    points[rim:, 0] += 1.5 * np.sin(5.0 * points[rim:, 1])  # angles far wider than a right one
-    values = (points[:rim, :1] > 3.0).astype(np.float64)
-    found = harmonic(points, triangles, values)
-    assert found.min() > 0.0  # not only cut off at the range
-    assert found.max() < 1.0
-
-
-def test_what_is_not_finite_counts_as_nought() -> None:
-    points, triangles, rim = disc()
-    values = np.ones((rim, 2))
-    values[3, 0] = np.nan
-    values[5, 0] = np.inf
-    found = harmonic(points, triangles, values)
-    assert np.isfinite(found).all()
-    assert 0.0 < found[:, 0].min() < found[:, 0].max() <= 1.0
-    assert (found[:, 1] == 1.0).all()
-
-
-def test_without_new_vertices_nothing_is_carried() -> None:
-    assert harmonic(np.eye(3), np.array([[0, 1, 2]]), np.eye(3)).shape == (0, 3)
-
-
-def test_nearest_is_next_to_it() -> None:
-    points, triangles, rim = disc()
-    label = nearest(triangles, len(points), rim)
-    np.testing.assert_array_equal(label[:rim], np.arange(rim))
-    second = np.linalg.norm(points[:, None] - points[None, :rim], axis=2).min(axis=1) < 1.001
-    distance = np.linalg.norm(points - points[label], axis=1)
-    assert (distance[second] < 1.001).all()
-    assert label.min() >= 0
-
-
-def test_a_face_at_the_outline_follows_the_face_across() -> None:
-    (piece,) = filled(holed((4, 4), half=2), vertex(2, 2))
-    _, of_face = piece.examples()
-    following = piece.following
-    rim = len(piece.outline)
-    for triangle, example in zip(piece.triangles.tolist(), of_face.tolist(), strict=True):
-        for tail, head in zip(triangle, triangle[1:] + triangle[:1], strict=True):
-            if tail < rim and following[tail] == head:
-                assert example == tail

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core import engine, solve
+from core import solve
 from core.options import FairOptions
 from core.region import MeshArrays, make_patch
 from polygon_mesh import grid, grid_points
@@ -37,21 +37,6 @@ def test_a_crease_reaches_the_outline_and_a_smooth_curve_stops_before_it() -> No
     assert np.allclose(np.sort(inner), [-0.25, 0.0, 0.25])
     assert len(sharp.smooth_curves) == len(rounded.creases) == 0
     assert np.isin(sharp.creases, sharp.fixed).all()
-
-
-def test_creases_at_the_outline_are_no_bad_vertices() -> None:
-    """A ridge crosses the outline: where it is marked its ends are meant, and nothing else is bad."""
-    roof = grid(24, 0.5, lambda points: points - [0.0, 0.0, 0.8] * np.abs(points[:, :1]))
-    ends = np.flatnonzero(np.isclose(roof.positions[:, 0], 0.0) & np.isclose(np.abs(roof.positions[:, 1]), 0.5))
-    plain, _ = solve.pose(roof, np.eye(4), FairOptions())
-    creased, _ = solve.pose(with_curve(roof, "creases"), np.eye(4), FairOptions(pin_edges="SHARP"))
-    assert set(ends) <= set(engine.bad_outline(plain))
-    assert len(engine.bad_outline(creased)) == 0
-
-
-def test_a_patch_without_marks_has_neither() -> None:
-    patch = make_patch(grid(SIZE, 0.6))
-    assert len(patch.creases) == len(patch.smooth_curves) == 0
 
 
 def test_a_border_that_becomes_fair_is_free_but_where_the_selection_ends() -> None:

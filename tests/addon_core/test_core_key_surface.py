@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 
 import fairing
 import holes
-from core import key_surface
 from core.arrays import Floats
 from core.key_surface import NewSurface, Surroundings, key_surfaces
 
@@ -78,18 +76,3 @@ def test_a_surface_through_itself_is_not_taken() -> None:
     turn = np.arctan2(places[:, 1], places[:, 0])
     eight = np.column_stack([np.sin(turn), np.sin(2 * turn), 0.1 * places[:, 2]]) * np.hypot(*places[:, :2].T)[:, None]
     assert key_surfaces(surface, around, [eight], [larger(surface)]) == [None]
-
-
-def test_large_meshes_keep_their_offsets(monkeypatch: pytest.MonkeyPatch) -> None:
-    surface, around, places = filled()
-    count = len(surface.points) - RIM
-    keys, carried = [1.5 * places, places, 1.2 * places], [larger(surface), surface.points[RIM:], larger(surface, 1.2)]
-    monkeypatch.setattr(key_surface, "MOST_VERTICES", 2 * count)  # the second one does not bend the outline
-    assert [each is None for each in key_surfaces(surface, around, keys, carried)] == [False, True, False]
-    monkeypatch.setattr(key_surface, "MOST_VERTICES", 2 * count - 1)
-    assert key_surfaces(surface, around, keys, carried) == [None] * 3
-
-
-def test_without_keys_there_is_nothing_to_do() -> None:
-    surface, around, _ = filled()
-    assert key_surfaces(surface, around, [], []) == []

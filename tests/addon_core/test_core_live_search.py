@@ -31,32 +31,11 @@ def region(solvable: str, tried: list[str], failing: type[Exception] | None = No
     return SimpleNamespace(**{name: way(name) for name in ("answer", "afresh", "stand_in")})
 
 
-@pytest.mark.parametrize("failing", [None, fairing.SolverError])
-@pytest.mark.parametrize(("solvable", "asked"), [("answer", 1), ("afresh", 2), ("stand_in", 3), ("", 3)])
-def test_another_surface_stands_in_only_where_none_is_found_afresh(solvable: str, asked: int, failing: Any) -> None:
-    """After steps that were too long to follow, the last answer may be no start: the region is solved anew then."""
-    tried: list[str] = []
-    found = sought(region(solvable, tried, failing), NOWHERE, NOWHERE, lambda *_: True)
-    assert (found.positions is None) == (not solvable)
-    assert found.stands_in == (solvable == "stand_in")
-    assert tried == ["answer", "afresh", "stand_in"][:asked]
-
-
 def test_a_search_that_was_stopped_tries_no_other_way() -> None:
     tried: list[str] = []
     go_on = iter([True, False])
     assert sought(region("stand_in", tried), NOWHERE, NOWHERE, lambda *_: next(go_on)).positions is None
     assert tried == ["answer"]
-
-
-@pytest.mark.parametrize("failing", [None, fairing.SolverError])
-@pytest.mark.parametrize(("solvable", "asked"), [("answer", 1), ("stand_in", 2)])
-def test_a_new_region_takes_the_even_surface_only_without_another(solvable: str, asked: int, failing: Any) -> None:
-    tried: list[str] = []
-    found = first(region(solvable, tried, failing), NOWHERE, NOWHERE, lambda *_: True)
-    assert found.positions is not None
-    assert found.stands_in == (solvable == "stand_in")
-    assert tried == ["answer", "stand_in"][:asked]
 
 
 def test_a_new_region_without_any_surface_is_refused() -> None:

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import inspect
-from dataclasses import fields
-from types import SimpleNamespace
 from typing import Any
 
-import numpy as np
 import pytest
 
 import fairing
 from core.filling import SHAPES, FillOptions
-from core.options import EQUATIONS, INNER_FAIRNESS, METHODS, OTHERWISE, FairOptions, option_names
+from core.options import EQUATIONS, INNER_FAIRNESS, METHODS, OTHERWISE, FairOptions
 from fairing import _core
 
 
@@ -51,10 +48,6 @@ def test_a_value_of_another_kind_is_refused_by_its_name(wrong: dict[str, Any], s
         FairOptions(**wrong)
 
 
-def test_numpy_numbers_are_numbers() -> None:
-    assert FairOptions(factor=np.float32(0.5), levels=np.int64(2), quads=np.bool_(True)).factor == 0.5
-
-
 @pytest.mark.parametrize("options", [FairOptions, FillOptions])
 def test_a_property_that_does_not_exist_is_named(options: Any) -> None:
     with pytest.raises(TypeError, match=r"There is no property 'spacings': did you mean 'spacing'\?"):
@@ -84,22 +77,6 @@ def test_what_nothing_looks_at_is_told(given: dict[str, Any], beside: dict[str, 
     assert FairOptions(**beside).idle == ()
 
 
-@pytest.mark.parametrize("beside", [{"equation": "MINIMAL_ENERGY"}, {"method": "PAPER"}])
-def test_curvature_is_continued_by_the_harmonic_shape_of_the_fast_solver_alone(beside: dict[str, Any]) -> None:
-    assert FairOptions(continuity="G2").idle == ()
-    assert FairOptions(continuity="G2", **beside).idle == ("continuity",)
-
-
-def test_a_soap_film_looks_at_no_slope() -> None:
-    assert FairOptions(boundary_normals="AVERAGE").idle == ()
-    assert FairOptions(boundary_normals="AVERAGE", equation="MINIMAL").idle == ("boundary_normals",)
-
-
-def test_a_new_mesh_looks_at_no_open_border() -> None:
-    assert FairOptions(open_border="FAIRED").idle == ()
-    assert FairOptions(open_border="FAIRED", mesh="NEW").idle == ("open_border",)
-
-
 def test_every_argument_for_the_engine_is_one_that_it_knows() -> None:
     known = inspect.signature(fairing.fair).parameters
     given = FairOptions().resolved(False).engine_arguments()
@@ -124,12 +101,6 @@ def test_the_words_are_the_engines() -> None:
     defaults = {name: value.default for name, value in inspect.signature(fairing.fair).parameters.items()}
     given = FairOptions().resolved(False).engine_arguments()
     assert given == {name: defaults[name] for name in given} | {"equation": "automatic"}
-
-
-def test_options_are_read_from_any_object_by_name() -> None:
-    values = {field.name: field.default for field in fields(FairOptions)} | {"bulge": 0.5, "factor": 0.25}
-    assert FairOptions.of(SimpleNamespace(**values)) == FairOptions(bulge=0.5, factor=0.25)
-    assert option_names() == tuple(values)
 
 
 @pytest.mark.parametrize(("textured", "stands_for"), [(True, "CONFORMAL"), (False, "UNIFORM")])

@@ -20,17 +20,6 @@ def bent_grid(degrees: float) -> Floats:
     return points + beyond[:, None] * np.array([np.cos(turn) - 1.0, 0.0, np.sin(turn)])
 
 
-def test_a_plain_selection_has_nothing_odd() -> None:
-    assert outline_notes(grid(6, 0.67)) == ()
-
-
-def test_outline_edges_of_a_square() -> None:
-    mesh = grid(6, 0.67)
-    edges = mesh.edges[outline_edges(mesh)]
-    assert len(edges) == 16
-    assert np.allclose(np.abs(mesh.positions[edges]).max(axis=2), 2.0 / 3.0)
-
-
 @pytest.mark.parametrize("degrees", [10.0, 45.0, 89.0])
 def test_turns_are_the_angle_between_two_faces(degrees: float) -> None:
     mesh = grid(6, 0.67, lambda _: bent_grid(degrees))
@@ -64,16 +53,6 @@ def test_faces_outside_wound_the_other_way() -> None:
     rim = np.isclose(np.abs(mesh.positions).max(axis=1), 2.0 / 3.0)
     assert np.array_equal(turned_over(mesh), rim)
     assert turns(mesh, two_sided_edges(mesh, outline_edges(mesh))).max() == pytest.approx(0.0, abs=1e-5)
-
-
-def test_a_single_face_left_out() -> None:
-    mesh = grid(6, 0.67)
-    hole = mesh.in_patch.copy()
-    hole[6 * 2 + 2] = False
-    (note,) = outline_notes(replace(mesh, in_patch=hole))
-    assert note.startswith("1 single face is left out")
-    hole[6 * 2 + 3] = False  # its neighbour too: two faces, neither of them alone
-    assert outline_notes(replace(mesh, in_patch=hole)) == ()
 
 
 def test_faces_outside_folded_over() -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -85,16 +84,6 @@ def test_a_result_that_is_known_to_be_clear_is_not_looked_at(monkeypatch: pytest
     assert counter.asked == ["before"]
 
 
-@pytest.mark.parametrize(("after", "told"), [(0, None), (10, 3)])
-def test_a_large_patch_is_looked_at_before_only_where_it_crosses_afterwards(
-    monkeypatch: pytest.MonkeyPatch, after: int, told: int | None
-) -> None:
-    monkeypatch.setattr(fairing, "self_intersections", Counter(6, after))
-    monkeypatch.setattr(quality, "LARGE", 31)
-    before, found = quality.compare(square_patch(), (grid_points(4), LIFTED), False)
-    assert (faces(before.crossing), faces(found.crossing)) == (told, after // 2)
-
-
 def test_folded_faces_are_those_that_a_free_vertex_has_turned() -> None:
     patch = square_patch()
     points = grid_points(4)
@@ -123,23 +112,3 @@ def test_the_join_is_seen_where_the_bend_is() -> None:
     assert join.worst == pytest.approx(30.0)
     flat = bent_problem(0.0)
     assert quality.join(flat, flat.points).worst == pytest.approx(0.0, abs=1e-9)
-
-
-def test_the_join_is_judged_by_what_is_usual_around() -> None:
-    """Around a cylinder that bends by 18° at every edge a bend of 18° at the outline is none."""
-
-    def cylinder(points: Floats) -> Floats:
-        turn = np.radians(18.0) * 8.0 * points[:, 0]
-        return np.column_stack([0.4 * np.sin(turn), points[:, 1], 0.4 * np.cos(turn)])  # squares
-
-    round_one = bent_problem(0.0, cylinder)
-    assert quality.join(round_one, round_one.points).worst < 1e-6
-
-
-def test_figures_of_a_join() -> None:
-    join = quality.Join(np.array([4, 7, 9]), np.array([13.0, 1.0, 20.0]), np.array([2, 0]))
-    assert (join.typical, join.worst, join.seen.tolist(), join.worst_seen) == (13.0, 20.0, [9, 4], 20.0)
-    short = replace(join, kinks=np.empty(0, dtype=np.int64))
-    assert (short.worst, short.seen.tolist(), short.worst_seen) == (20.0, [], 0.0)
-    none = quality.Join(np.empty(0, dtype=np.int64), np.empty(0))
-    assert (none.typical, none.worst) == (0.0, 0.0)

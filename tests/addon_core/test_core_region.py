@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import fairing
-from core.region import fins, free_vertices, make_patch, to_local
+from core.region import fins, free_vertices, make_patch
 from polygon_mesh import grid, grid_points, grid_quads, polygon_mesh
 
 
@@ -38,12 +38,6 @@ def test_patch_of_a_grid() -> None:
     assert np.array_equal(np.unique(corners), patch.vertices)
 
 
-def test_triangles_have_no_edges_of_their_own() -> None:
-    points = grid_points(2)
-    triangles = [[q[0], q[1], q[2]] for q in grid_quads(2)] + [[q[0], q[2], q[3]] for q in grid_quads(2)]
-    assert make_patch(polygon_mesh(points, triangles, [True] * 8)).neighbours is None
-
-
 def test_triangles_of_the_patch_cover_it_once_and_face_up() -> None:
     mesh = grid(8, 0.8)
     patch = make_patch(mesh)
@@ -67,16 +61,6 @@ def test_a_mirroring_map_keeps_the_outside_outside() -> None:
 def test_a_flattening_map_is_refused(scale: float) -> None:
     with pytest.raises(ValueError, match="scale is zero or not finite"):
         grid(4, 0.6).transformed(np.diag([1.0, 1.0, scale, 1.0]))
-
-
-def test_there_and_back() -> None:
-    points = np.random.default_rng(3).normal(size=(20, 3))
-    matrix = np.eye(4)
-    matrix[:3] = np.random.default_rng(4).normal(size=(3, 4))
-    there = points @ matrix[:3, :3].T + matrix[:3, 3]
-    np.testing.assert_allclose(to_local(there, matrix), points, atol=1e-12)
-    with pytest.raises(fairing.SolverError, match="not finite"):
-        to_local(np.full((1, 3), np.nan), matrix)
 
 
 def with_a_fin() -> list[list[int]]:

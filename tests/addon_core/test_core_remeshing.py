@@ -16,7 +16,7 @@ from core.engine import Problem
 from core.lines import inner_lines, parting_edges
 from core.options import FairOptions
 from core.region import MeshArrays
-from core.remeshing import Remeshed, remesh_arrays, squeezed
+from core.remeshing import Remeshed, remesh_arrays
 from core.verdict import GOOD, LOOK
 from polygon_mesh import grid, on_sphere
 
@@ -56,20 +56,6 @@ def test_the_sphere_comes_back(spacing: float) -> None:
     assert set(done.part.gone_faces) == set(np.flatnonzero(mesh.in_patch))
 
 
-def test_new_edges_are_like_the_outlines_or_even() -> None:
-    """On a sheet whose columns grow: the number of new vertices on the side of the short edges tells."""
-    mesh = grid(SIZE, 0.6, on_sphere)
-    x, y, z = mesh.positions.T
-    bent = np.column_stack([np.sign(x) * np.where(x < 0, 0.45, 1.55) * np.abs(x), y, z])
-    mesh = replace(mesh, positions=bent / np.linalg.norm(bent, axis=1, keepdims=True))
-    counts = []
-    for inner in ("OUTLINE", "EVEN"):
-        new = remesh(mesh, inner=inner, spacing=0.6).new_positions
-        near, far = (np.abs(new[:, 0] - place) < 0.1 for place in (-0.1, 0.3))
-        counts.append(np.count_nonzero(near) / np.count_nonzero(far))
-    assert counts[0] > 1.15 * counts[1]
-
-
 def test_the_whole_patch_is_covered_once() -> None:
     mesh = spoilt_sphere()
     done = remesh(mesh)
@@ -106,19 +92,6 @@ def test_corners_take_values_of_their_own_side() -> None:
     assert np.array_equal(np.where(rows < SIZE // 2, -1.0, 1.0), carried[:, 0])
 
 
-def test_an_open_seam_keeps_both_sides_apart() -> None:
-    """One that ends inside the patch: walls are known by their direction, not by a region."""
-    mesh = spoilt_sphere()
-    half = seam(mesh) & (mesh.edges % (SIZE + 1) <= SIZE // 2).all(axis=1)
-    values = np.where(mesh.positions[mesh.corner_vertices, :1] < 0.0, sides(mesh), 0.0)
-    done = remesh(replace(mesh, lines={"half": half}), spacing=0.7)
-    carried = done.part.corners.mean(values).reshape(-1, 3)
-    kept = np.isin(done.part.triangles, np.arange(done.part.fixed_count, len(done.part.stay)))
-    both = {round(float(value), 9) for value in carried[kept]}
-    assert {-1.0, 1.0} <= both
-    assert (np.ptp(carried, axis=1) < 1.5).all()  # no face has a corner of each side
-
-
 def test_nothing_but_lines_is_refused() -> None:
     every = np.ones(len(spoilt_sphere().edges), dtype=bool)
     mesh = replace(spoilt_sphere(), lines={"UVMap": every & False, "sharp_edge": every, "crease_edge": every & False})
@@ -140,13 +113,6 @@ def test_a_matrix_that_mirrors_keeps_the_winding_of_the_mesh() -> None:
         np.testing.assert_allclose(made, corners.reshape(-1, 3), atol=0.02)
 
 
-def test_the_factor_blends_with_the_old_surface() -> None:
-    mesh = spoilt_sphere()
-    whole, half = remesh(mesh), remesh(mesh, factor=0.5)
-    old = half.part.vertices.mean(mesh.positions)
-    np.testing.assert_allclose(half.new_positions, 0.5 * (old + whole.new_positions), atol=1e-12)
-
-
 def test_a_seam_over_a_limb_that_is_gone_is_a_knot() -> None:
     """The old surface has a horn in the middle of the seam, which its edges climb."""
     mesh = grid(SIZE, 0.6, on_sphere)
@@ -159,15 +125,6 @@ def test_a_seam_over_a_limb_that_is_gone_is_a_knot() -> None:
     assert "squeezed to a knot" in verdicts[1].reason
     assert (away[verdicts[1].spots] < 0.3).all()
     assert remesh(replace(horn, lines={})).verdict.grade == GOOD
-
-
-def test_a_few_short_edges_are_no_knot() -> None:
-    before = np.column_stack([np.arange(8.0), np.zeros((8, 2))])
-    lines = np.column_stack([np.arange(7), np.arange(1, 8)])
-    for count, ends in ((3, []), (4, [0, 1, 2, 3, 4])):
-        steps = np.where(np.arange(7) < count, 0.2, 1.0)
-        after = np.column_stack([np.concatenate([[0.0], np.cumsum(steps)]), np.zeros((8, 2))])
-        assert squeezed(before, after, lines).tolist() == ends
 
 
 @pytest.mark.parametrize("spacing", [1.0, 4.0])

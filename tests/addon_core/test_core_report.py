@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
-import fairing
 from core.arrays import Ints
 from core.options import FairOptions
 from core.outcome import Fairing, outcome
 from core.quality import Join, Quality
-from core.report import MET, MISSED, TOLD, Report, angle_text, make_report, summary
+from core.report import MET, MISSED, TOLD, Report, make_report, summary
 from core.solve import solve
 from core.verdict import GOOD, LOOK, UNUSABLE, Verdict
 from polygon_mesh import grid, on_sphere
@@ -84,23 +82,6 @@ def test_what_is_not_usable_is_not_written_unless_all_is_accepted(sphere: Fairin
     assert summary(report(look)).startswith("Look here: faired ")
 
 
-def test_nothing_in_the_details_is_green_or_red(sphere: Fairing) -> None:
-    lost = replace(sphere.result, converged=False, polished=False, termination="folded")
-    details = [check for check in report(replace(sphere, result=lost)).checks if check.detail]
-    assert {check.state for check in details} == {TOLD}
-    assert {"Equation solved", "Residual", "Strategies tried"} <= {check.name for check in details}
-    (ways,) = (check.value for check in details if check.name == "Strategies tried")
-    assert re.fullmatch(r"direct \d+\.\d\d s", ways)
-    assert values(report(replace(sphere, result=lost)))["Equation solved"] == "found, but with folds"
-    # The surface exists: less of a bulge is no remedy.
-    assert report(replace(sphere, result=lost), equation="CONSTANT", bulge=0.3).warnings == ()
-
-
-def test_a_result_on_the_engines_own_mesh_says_so(sphere: Fairing) -> None:
-    placed = replace(sphere, result=replace(sphere.result, polished=False))
-    assert values(report(placed))["Equation solved"] == "yes, on a proxy"
-
-
 @pytest.mark.parametrize(
     ("before", "after", "value", "state"),
     [
@@ -123,11 +104,6 @@ def test_a_soap_film_and_a_blend_promise_no_smooth_join(sphere: Fairing, options
     assert "Kink at the boundary" not in states(report(sphere, **options))
 
 
-@pytest.mark.parametrize(("distortion", "text"), [(0.0366, "3.7%"), (9.99, "999.0%"), (6.7e9, "> 1000%")])
-def test_texture_distortion_beyond_sense_is_told_as_such(sphere: Fairing, distortion: float, text: str) -> None:
-    assert values(report(replace(sphere, distortion=distortion)))["Texture distortion"] == text
-
-
 def test_warnings_name_their_object_where_there_are_several(sphere: Fairing) -> None:
     odd = replace(sphere, warnings=("odd",))
     assert report(odd).warnings == ("odd",)
@@ -139,33 +115,3 @@ def test_a_bulge_that_is_not_found_is_explained(sphere: Fairing, converged: bool
     lost = replace(sphere, warnings=(), result=replace(sphere.result, converged=converged))
     notes = report(lost, equation="CONSTANT", bulge=bulge).warnings
     assert ["no surface with a bulge of 2" in note for note in notes] == [True] * told
-
-
-def test_the_largest_bulge_of_all_objects_is_told(sphere: Fairing) -> None:
-    def lost(share: float) -> Fairing:
-        told = fairing.Diagnostic("NOT_CONVERGED", "", np.empty(0, np.int32), "vertex", {"load_share": share})
-        return replace(sphere, warnings=(), result=replace(sphere.result, converged=False, warnings=(told,)))
-
-    (note,) = report(lost(0.59), lost(0.8), equation="CONSTANT", bulge=0.6).warnings
-    assert note.endswith("The largest that was found is 0.35")
-    (note,) = report(
-        replace(lost(0.5), result=replace(sphere.result, converged=False)), equation="CONSTANT", bulge=0.6
-    ).warnings
-    assert note.endswith("Try less")
-
-
-def test_distortion_is_weighted_by_size(sphere: Fairing) -> None:
-    one, three = replace(sphere, free_count=1, distortion=0.4), replace(sphere, free_count=3, distortion=0.0)
-    assert report(one, three).distortion == pytest.approx(0.1)
-
-
-def test_an_angle_above_the_limit_never_reads_like_the_limit() -> None:
-    texts = {
-        0.02: "0°",
-        0.123: "0.12°",
-        fairing.LIMITS["visible_kink"]: "12°",
-        12.04: "12.04°",
-        12.0004: "12.0004°",
-        14.6: "15°",
-    }
-    assert {angle: angle_text(angle) for angle in texts} == texts

@@ -11,7 +11,7 @@ import pytest
 from core.arrays import Floats, Mask
 from core.engine import bad_outline, mended_outline
 from core.region import MeshArrays, make_patch
-from core.selection import enclosed_faces, grown_until_smooth, left_out_faces, pieces, problem_of
+from core.selection import enclosed_faces, grown_until_smooth, left_out_faces, problem_of
 from core.symmetry import mirror_map, with_image
 from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh
 
@@ -53,11 +53,6 @@ def test_a_loop_of_edges_encloses_the_smaller_side() -> None:
     assert np.array_equal(enclosed_faces(FLAT, outline_of(FLAT, inside)), inside)
 
 
-def test_two_loops_far_apart_enclose_one_region_each() -> None:
-    inside = where(lambda c: (np.abs(np.abs(c[0]) - 0.55) < 0.3) & (np.abs(c[1]) < 0.4))
-    assert np.array_equal(enclosed_faces(FLAT, outline_of(FLAT, inside)), inside)
-
-
 @pytest.mark.parametrize(("low", "high"), [(3, 6), (12, 19), (5, 15), (2, 18)])
 def test_two_loops_round_a_limb_enclose_what_is_between(low: int, high: int) -> None:
     mesh = tube()
@@ -71,21 +66,6 @@ def test_a_loop_that_does_not_close_encloses_nothing() -> None:
     walls[np.flatnonzero(walls)[0]] = False
     assert not enclosed_faces(FLAT, walls).any()
     assert not enclosed_faces(FLAT, np.zeros_like(walls)).any()
-
-
-def test_hidden_faces_are_not_enclosed() -> None:
-    inside = where(lambda c: np.abs(c).max(axis=0) < 0.5)
-    hidden = where(lambda c: np.hypot(c[0], c[1]) < 0.3)
-    found = enclosed_faces(replace(FLAT, hidden=hidden), outline_of(FLAT, inside))
-    assert np.array_equal(found, inside & ~hidden)
-
-
-def test_pieces_are_named_by_their_lowest_face() -> None:
-    apart = where(lambda c: np.abs(c[0]) > 0.5)
-    label = pieces(FLAT, apart)
-    assert set(label[apart]) == {0, 9}
-    assert (label[~apart] == -1).all()
-    assert (label[where(lambda c: c[0] > 0.5)] == 9).all()
 
 
 def test_a_lasso_that_left_faces_out() -> None:

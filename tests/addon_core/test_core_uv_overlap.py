@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from core.arrays import Floats
-from core.uv_overlap import covering, meeting
+from core.uv_overlap import covering
 
 
 def sheet(cells: int, low: tuple[float, float] = (0.0, 0.0), size: float = 1.0) -> Floats:
@@ -32,11 +32,6 @@ def test_what_lies_over_an_island_is_told_whichever_is_finer() -> None:
         assert not found[(middles < 0.5).any(axis=1)].any()
 
 
-def test_a_small_island_under_a_large_face_is_told() -> None:
-    """The face's own middle lies beside it."""
-    assert covering(sheet(1), sheet(2, (0.9, 0.05), 0.08)).tolist() == [True, False]
-
-
 def test_the_winding_of_either_makes_no_difference() -> None:
     new, other = sheet(4), sheet(3, (0.3, 0.2), 0.4)
     for a, b in ((new[:, ::-1], other), (new, other[:, ::-1])):
@@ -55,19 +50,3 @@ def test_what_is_not_finite_or_has_no_size_lies_nowhere() -> None:
     odd[-2:, 0] = np.inf
     assert not covering(odd, sheet(3)).any()
     assert not covering(sheet(3), odd).any()
-
-
-def test_only_faces_whose_boxes_meet_are_looked_at() -> None:
-    """Faces of three, four and five corners; one box touches, one lies inside, one around, one holds what is none."""
-    faces = [
-        [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)],  # touches at a corner of its box
-        [(1.4, 1.4), (1.5, 1.4), (1.5, 1.5), (1.4, 1.5)],  # inside
-        [(-9.0, -9.0), (9.0, -9.0), (9.0, 9.0), (0.0, 9.5), (-9.0, 9.0)],  # around
-        [(1.2, 3.0), (1.3, 3.0), (1.2, 3.1)],  # above
-        [(0.0, 1.5), (0.9, 1.5), (0.9, 1.6)],  # beside
-        [(np.nan, 1.5), (1.4, 1.5), (1.4, 1.6)],
-    ]
-    starts = np.cumsum([0, *(len(face) for face in faces)])[:-1]
-    found = meeting(np.array([place for face in faces for place in face]), starts, np.array([[1.0, 1.0], [2.0, 2.0]]))
-    assert found.tolist() == [True, True, True, False, False, False]
-    assert meeting(np.empty((0, 2)), np.empty(0, np.int64), np.zeros((2, 2))).tolist() == []

@@ -51,15 +51,6 @@ def _following(mesh: MeshArrays) -> np.ndarray:
     return np.roll(mesh.corner_vertices.reshape(-1, 4), -1, axis=1).ravel()
 
 
-def test_what_is_wound_alike_or_not_selected_stays() -> None:
-    plain = sphere(np.array([]))
-    assert with_one_winding(plain) == (plain, 0)
-    outside = sphere(some_of(~plain.in_patch, 3))
-    assert with_one_winding(outside)[1] == 0
-    inverted = sphere(np.flatnonzero(plain.in_patch))
-    assert with_one_winding(inverted)[1] == 0  # alike among themselves; what is outside is turned to them
-
-
 def test_custom_normals_stay_with_their_corners() -> None:
     plain = sphere(np.array([]))
     some = some_of(plain.in_patch, 7)

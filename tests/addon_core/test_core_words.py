@@ -48,25 +48,6 @@ def _fields(words: Words) -> set[str]:
     return {field for text in (words.one, words.many) for _, field, _, _ in Formatter().parse(text) if field}
 
 
-def test_a_skin_that_was_left_out_is_told_with_its_place() -> None:
-    own, sample = (told(diagnostic("REFERENCE_UNUSABLE", [], **{skin: 1.0})) for skin in ("old_skin", "sample_skin"))
-    assert own[0].startswith("Some faces of the selection have no area, so that no skin can be read off it")
-    assert sample[0].startswith("Some faces of the sample have no area, so that no skin can be copied")
-
-
-def test_a_curvature_that_is_not_met_is_told_with_its_share_and_why() -> None:
-    """The figures of several islands are added."""
-    of = {"vertices": 2.0, "outline_vertices": 5.0}
-    whys = {"smooth_share": "noise", "not_found": "converge", "own_mesh": "irregular", "no_tangent_join": "no surface"}
-    for figure, why in whys.items():
-        (text,) = told(diagnostic("G2_NOT_MET", [0, 1], **of, **{figure: 0.4}))
-        assert text.startswith("2 of the boundary's 5 vertices are met in slope only")
-        assert why in text.lower()
-    (text,) = told(*2 * [diagnostic("G2_NOT_MET", [0, 1], **of)])
-    assert text.startswith("4 of the boundary's 10 vertices")
-    assert "three rings" in text
-
-
 def test_triangles_are_counted_by_their_faces_and_edges_by_the_meshs_vertices() -> None:
     assert told(diagnostic("FLIPPED_TRIANGLES", [0, 2, 3], "triangle", triangles=3.0)) == (
         "2 faces of the result are turned over",
@@ -102,47 +83,6 @@ def test_an_error_speaks_of_the_mesh_and_keeps_its_code() -> None:
     assert refused.value.code == "NOT_ORIENTABLE"
     assert "NOT_ORIENTABLE" not in str(refused.value)
     assert refused.value.elements.tolist() == [20, 30, 60]
-
-
-def test_warnings_of_several_islands_are_one() -> None:
-    assert told(
-        diagnostic("FLIPPED_TRIANGLES", [0], "triangle", triangles=1.0),
-        diagnostic("SHARP_BOUNDARY", [0, 1], degrees=24.2, edges=1.0),
-        diagnostic("FLIPPED_TRIANGLES", [2, 3], "triangle", triangles=2.0),
-        diagnostic("NOT_CONVERGED", [0], free_vertices=5.0),
-        diagnostic("SHARP_BOUNDARY", [1, 2], degrees=30.8, edges=1.0),
-        diagnostic("PRECISION", [], spacing=1e-3, edge=1e-2),
-        diagnostic("NOT_CONVERGED", [2], free_vertices=70.0),
-        diagnostic("PRECISION", [], spacing=2e-3, edge=1e-2),
-    ) == (
-        "2 faces of the result are turned over (2 islands)",
-        "The normals along the boundary turn by up to 31° from one vertex to the next; "
-        "a finer boundary gives a more accurate surface (2 islands)",
-        "No fair surface was found for 2 islands, of 75 free vertices in all",
-        "This far from the origin, coordinates are too coarse: move the object nearer to it (2 islands)",
-    )
-
-
-def test_cases_of_one_code_are_told_apart_by_their_figures() -> None:
-    """An island without a surface and one with half its bulge are two things to tell, so are kinds of bad faces."""
-    assert told(
-        diagnostic("NOT_CONVERGED", [0], free_vertices=70.0, load_share=0.5),
-        diagnostic("NOT_CONVERGED", [1], free_vertices=3.0),
-        diagnostic("NOT_CONVERGED", [2], free_vertices=61.0, load_share=0.75),
-        diagnostic("FLIPPED_TRIANGLES", [], "triangle"),
-    ) == (
-        "2 islands, of 131 free vertices in all, have surfaces with 75% of their bulge at most; "
-        "there may be none with more",
-        "No fair surface was found for an island of 3 free vertices",
-        "Spread Vertices would turn faces over here: Uniform was used instead",
-    )
-
-
-def test_islands_of_one_case_may_have_different_figures() -> None:
-    assert told(
-        diagnostic("FOLDED", [0, 1], "triangle", turned_over=2.0, free_vertices=8.0),
-        diagnostic("FOLDED", [3], "triangle", passing_through=1.0, free_vertices=8.0),
-    ) == ("The surface was found, but 2 faces can't be placed on it without folds (2 islands)",)
 
 
 def test_a_surface_with_folds_is_told_once() -> None:

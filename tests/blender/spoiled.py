@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import Any
 
 import bmesh
@@ -83,37 +83,6 @@ def moebius_strip(around: int = 24, across: int = 4) -> bpy.types.Object:
         for j in range(across)
     ]
     return meshes.add(points, faces, "Moebius")
-
-
-def globe(segments: int, rings: Iterable[float]) -> bpy.types.Object:
-    """The unit sphere around its pole, vertex 0: rings of `segments` vertices at these polar angles."""
-    turns = 2.0 * np.pi * np.arange(segments) / segments
-    points = [(0.0, 0.0, 1.0)]
-    faces: list[list[int]] = []
-    for row, angle in enumerate(rings):
-        first = len(points)
-        points += [(np.sin(angle) * np.cos(t), np.sin(angle) * np.sin(t), np.cos(angle)) for t in turns]
-        for k in range(segments):
-            this, other = first + k, first + (k + 1) % segments
-            faces.append([0, this, other] if row == 0 else [this - segments, this, other, other - segments])
-    return meshes.add(points, faces, "Globe")
-
-
-def split_seam(obj: bpy.types.Object) -> int:
-    """Cut the mesh open where x = 0; return how many vertices there are twice now."""
-
-    def change(bm: bmesh.types.BMesh) -> int:
-        seam = [e for e in bm.edges if all(abs(v.co.x) < 1e-6 for v in e.verts)]
-        before = len(bm.verts)
-        bmesh.ops.split_edges(bm, edges=seam)
-        return len(bm.verts) - before
-
-    return edited(obj, change)
-
-
-def turn_face(obj: bpy.types.Object, face: int) -> None:
-    """Wind one face the other way."""
-    edited(obj, lambda bm: bmesh.ops.reverse_faces(bm, faces=[bm.faces[face]]))
 
 
 def join(first: bpy.types.Object, second: bpy.types.Object) -> bpy.types.Object:

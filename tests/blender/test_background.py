@@ -163,22 +163,3 @@ def test_redo_with_other_options_starts_from_the_last_answer() -> None:
             assert "globalisation" not in stages
     job.memory.clear()
     job.solvers.clear()
-
-
-def test_a_single_run_prepares_nothing() -> None:
-    """The second run on the same mesh makes the solver that the third one starts from."""
-    job, options = module("run.job"), module("core.options").FairOptions
-    obj, faces = meshes.domed_grid()
-    meshes.select(obj, faces)
-    meshes.edit(obj)
-    job.memory.clear()
-    job.solvers.clear()
-    tasks = job.read(bpy.context, options())
-    seen = []
-    for tolerance in (1e-6, 1e-7, 1e-8):
-        stages: set[str] = set()
-        job.solve(tasks, options(tolerance=tolerance), lambda _, stage, stages=stages: stages.add(stage))
-        seen.append("globalisation" in stages)
-    assert seen == [True, True, False]
-    job.memory.clear()
-    job.solvers.clear()

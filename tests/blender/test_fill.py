@@ -66,31 +66,6 @@ def elbow() -> bpy.types.Object:
     return meshes.add(points, faces, "Elbow")
 
 
-def test_a_bridge_over_an_elbow_keeps_its_girth() -> None:
-    """By default; the harmonic one has a waist, and the panel says so. Blender's own Bridge keeps .79 of .80."""
-    middle, normal = np.array([0.0, 0.0, 0.6]), np.array([np.sin(np.radians(35.0)), 0.0, np.cos(np.radians(35.0))])
-    widths = {}
-    for equation in ("", "HARMONIC"):
-        bpy.ops.wm.read_homefile(use_empty=True)
-        obj = elbow()
-        count = len(obj.data.vertices)
-        select_vertices(obj, lambda c: c.z > -0.5 and c.x < 1.1)
-        assert fill(bridge=True, **({"equation": equation} if equation else {})) == {"FINISHED"}
-        report = meshes.report()
-        shape = [check.value for check in report.checks if check.name == "Shape"]
-        if equation:
-            assert (report.verdict, shape) == ("LOOK", [])
-            assert report.reason.startswith("The tube narrows to 8"), report.reason
-        else:
-            assert (report.verdict, shape, report.warnings) == ("GOOD", ["Least Variation"], "")
-        meshes.leave()
-        new = meshes.positions(obj)[count:]
-        section = new[np.abs((new - middle) @ normal) < 0.05]
-        widths[equation] = np.ptp(section[:, 1])
-    assert widths[""] >= 0.78
-    assert widths["HARMONIC"] < 0.75
-
-
 def select_vertices(obj: bpy.types.Object, chosen: Chosen, most: int | None = None) -> None:
     """Enter edit mode with these vertices selected, in vertex mode; with nothing else."""
     bpy.context.tool_settings.mesh_select_mode = (True, False, False)
@@ -139,18 +114,6 @@ def test_hole_of_a_sphere_becomes_the_sphere() -> None:
     assert meshes.positions(obj)[:, 2].max() > 0.99
     chosen = [polygon.index for polygon in obj.data.polygons if polygon.select]
     assert chosen == list(range(before, len(obj.data.polygons)))
-
-
-def test_edges_in_edge_mode_stand_for_the_loop() -> None:
-    obj = open_sphere()
-    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
-    meshes.select(obj, np.zeros(len(obj.data.polygons), dtype=bool))
-    meshes.edit(obj)
-    bm = bmesh.from_edit_mesh(obj.data)
-    next(edge for edge in bm.edges if edge.is_boundary).select_set(True)
-    assert fill() == {"FINISHED"}
-    meshes.leave()
-    assert border_edges(obj) == 0
 
 
 def test_bits_outside_are_kept() -> None:
@@ -204,15 +167,6 @@ def dressed() -> tuple[bpy.types.Object, Any, Any]:
     old, points = len(obj.data.polygons), len(obj.data.vertices)
     assert fill_hole(obj) == {"FINISHED"}
     return obj, list(obj.data.polygons)[old:], np.arange(points, len(obj.data.vertices))
-
-
-def test_new_faces_are_like_their_neighbours(dressed: tuple[bpy.types.Object, Any, Any]) -> None:
-    obj, new, _ = dressed
-    assert new
-    assert {(polygon.material_index, polygon.use_smooth) for polygon in new} == {(1, True)}
-    sets, numbers = obj.data.attributes[".sculpt_face_set"].data, obj.data.attributes["number"].data
-    assert {sets[polygon.index].value for polygon in new} == {7}
-    assert {numbers[corner].value for polygon in new for corner in polygon.loop_indices} == {5}
 
 
 def test_values_are_carried_over(dressed: tuple[bpy.types.Object, Any, Any]) -> None:
@@ -302,17 +256,6 @@ def test_two_rims_are_bridged_or_capped() -> None:
     assert meshes.positions(capped)[:, 2].max() > 1.5
 
 
-def test_spacing_gives_more_faces_on_the_same_surface() -> None:
-    counts = []
-    for spacing in (2.0, 1.0, 0.5):
-        obj = open_sphere()
-        old = len(obj.data.vertices)
-        assert fill_hole(obj, spacing=spacing) == {"FINISHED"}
-        counts.append(len(obj.data.vertices) - old)
-        assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 2e-3
-    assert counts[0] < counts[1] < counts[2]
-
-
 def waves() -> bpy.types.Object:
     """A wavy sheet with a hole in it, whose curvature no harmonic surface has."""
     obj = meshes.grid(40)
@@ -326,76 +269,6 @@ def waves() -> bpy.types.Object:
     bm.to_mesh(obj.data)
     bm.free()
     return obj
-
-
-def test_the_curvature_around_is_continued_if_asked_for(tmp_path: Any) -> None:
-    """By the operator, a script and the command line."""
-    inner: Chosen = lambda co: co.xy.length < 0.6  # noqa: E731
-
-    def by_script(obj: bpy.types.Object) -> None:
-        rim = [v.index for v in obj.data.vertices if v.co.xy.length < 0.45]
-        module().fill_mesh(obj.data, rim, continuity="G2")
-
-    def by_command(obj: bpy.types.Object) -> None:
-        obj.vertex_groups.new(name="Rim").add([v.index for v in obj.data.vertices if inner(v.co)], 1.0, "REPLACE")
-        target = str(tmp_path / "filled.blend")
-        given = ["--object", obj.name, "--output", target, "--fill", "--vertex-group", "Rim", "--continuity", "G2"]
-        assert module("run.cli").execute(given) == 0
-
-    ways: tuple[Callable[[Any], Any], ...] = (
-        lambda obj: fill_hole(obj, inner), lambda obj: fill_hole(obj, inner, continuity="G2"), by_script, by_command,
-    )  # fmt: skip
-    off = []
-    for way in ways:
-        obj = waves()
-        way(obj)
-        assert border_edges(obj) == 160
-        x, y, z = meshes.positions(obj).T
-        off.append(np.abs(z - 0.3 * np.sin(2.5 * x) * np.cos(2.0 * y)).max())
-    assert max(off[1:]) < 0.5 * off[0]
-
-
-def uneven_sphere() -> bpy.types.Object:
-    """A sphere with a hole whose outline is four times as fine at x > 0."""
-    steps = np.linspace(0.0, 2.0 * np.pi, 2001)[:-1]
-    density = 4.0 ** (0.5 * (1.0 + np.tanh(6.0 * np.cos(steps))))
-    turn = np.interp(np.arange(48) / 48, np.cumsum(density) / density.sum(), steps)
-    rings = [(np.cos(turn) * np.sin(a), np.sin(turn) * np.sin(a), np.full(48, np.cos(a))) for a in (0.9, 1.0, 1.1, 1.2)]
-    points = np.concatenate([np.stack(ring, axis=1) for ring in rings])
-    faces = [
-        [48 * ring + i, 48 * ring + 48 + i, 48 * ring + 48 + (i + 1) % 48, 48 * ring + (i + 1) % 48]
-        for ring in range(3)
-        for i in range(48)
-    ]
-    return meshes.add(points, faces, "Uneven")
-
-
-def test_new_edges_are_like_the_outlines_or_even(tmp_path: Any) -> None:
-    def ratio(fill_it: Chosen) -> float:
-        obj = uneven_sphere()
-        old = len(obj.data.polygons)
-        fill_it(obj)
-        mesh = obj.data
-        found: dict[bool, list[float]] = {True: [], False: []}
-        for polygon in list(mesh.polygons)[old:]:
-            if abs(polygon.center.x) > 0.2 and polygon.center.xy.length < 0.55:
-                found[polygon.center.x > 0.0].append(polygon.area)
-        return float(np.sqrt(np.median(found[False]) / np.median(found[True])))
-
-    def by_command(obj: Any) -> bool:
-        given = ["--object", obj.name, "--output", str(tmp_path / "filled.blend"), "--fill", "--inner", "EVEN"]
-        obj.vertex_groups.new(name="Rim").add(list(range(48)), 1.0, "REPLACE")
-        return bool(module("run.cli").execute([*given, "--vertex-group", "Rim", "--spacing", "0.8"]) == 0)
-
-    upper: Chosen = lambda co: co.z > 0.6  # noqa: E731
-    for spacing in (1.0, 0.8):
-        like, even = (
-            ratio(lambda obj, f=spacing, w=inner: fill_hole(obj, upper, spacing=f, inner=w))  # type: ignore[misc]
-            for inner in ("OUTLINE", "EVEN")
-        )
-        assert like > 1.4
-        assert even < 1.2
-    assert ratio(by_command) < 1.2
 
 
 def test_scale_of_the_object_counts() -> None:
@@ -506,40 +379,6 @@ def test_custom_normals_outside_stay_and_new_corners_have_none() -> None:
     assert ((normals[old:] * centres[old:]).sum(axis=1) > 0.8).all()
 
 
-def test_several_holes_at_once_and_an_object_without_a_border() -> None:
-    obj = open_sphere(lambda c: abs(c.z) > 0.8)
-    assert fill_hole(obj) == {"FINISHED"}
-    assert border_edges(obj) == 0
-    assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 2e-3
-    select_vertices(meshes.sphere(16), lambda _: True)
-    refused("No border is selected")
-
-
-def test_the_report_tells_of_a_fill() -> None:
-    obj = open_sphere()
-    dress(obj)
-    assert fill_hole(obj) == {"FINISHED"}
-    report = bpy.context.window_manager.fairing_report
-    assert (report.verdict, report.written, report.objects) == ("GOOD", True, obj.name)
-    assert report.free_vertices == np.count_nonzero(inside_new(obj))
-    checks = {check.name: check.value for check in report.checks}
-    assert int(checks["New faces"]) > 0
-    assert "Surfaces" not in checks  # there is one
-    assert checks["Kinks show from"] == "11°"  # as far as the faces of the sphere around bend
-    assert checks["Kink at the boundary"].startswith("≤ ")
-    assert 0.0 < report.distortion < 0.5
-    assert checks["Texture distortion"] == f"{report.distortion:.1%}"
-
-
-def inside_new(obj: bpy.types.Object) -> Any:
-    """The mask of vertices that only selected faces have."""
-    mask = np.ones(len(obj.data.vertices), dtype=bool)
-    for polygon in obj.data.polygons:
-        if not polygon.select:
-            mask[list(polygon.vertices)] = False
-    return mask
-
-
 def test_all_rims_of_two_tubes_are_too_many_to_bridge() -> None:
     obj = tubes()
     select_vertices(obj, lambda _: True)
@@ -603,14 +442,6 @@ def test_a_script_fills_without_edit_mode() -> None:
         module().fill_mesh(obj.data)
     with pytest.raises(IndexError):
         module().fill_mesh(obj.data, [10**6])
-
-
-def test_a_script_is_told_which_outlines_can_not_be_joined() -> None:
-    obj = tubes()
-    before = meshes.contents(obj)
-    with pytest.raises(ValueError, match="belong together"):
-        module().fill_mesh(obj.data, bridge=True)
-    assert meshes.contents(obj) == before
 
 
 def pierced() -> bpy.types.Object:
@@ -693,48 +524,3 @@ def test_quads_carry_what_triangles_do() -> None:
     distortion = report.distortion
     assert fill_hole(triangles) == {"FINISHED"}
     assert distortion == pytest.approx(bpy.context.window_manager.fairing_report.distortion, rel=1e-6)
-
-
-@pytest.mark.parametrize("mark", ["material", "smooth", "face_set"])
-def test_no_quad_lies_on_both_sides_of_a_border(mark: str) -> None:
-    """With triangles each takes after the nearest face of the outline; with quads no more of them change sides."""
-    areas = []
-    for quads in (False, True):
-        obj = open_sphere()
-        mesh = obj.data
-        sides = [int(polygon.center.x + 0.3 * polygon.center.y > 0.0) for polygon in mesh.polygons]
-        if mark == "material":
-            mesh.materials.append(bpy.data.materials.new("One"))
-            mesh.materials.append(bpy.data.materials.new("Two"))
-            mesh.polygons.foreach_set("material_index", sides)
-        elif mark == "smooth":
-            mesh.polygons.foreach_set("use_smooth", [side == 1 for side in sides])
-        else:
-            mesh.attributes.new(".sculpt_face_set", "INT", "FACE").data.foreach_set("value", sides)
-        assert fill_hole(obj, quads=quads) == {"FINISHED"}
-        new = [polygon for polygon in obj.data.polygons if polygon.select]
-        if mark == "face_set":
-            values = [obj.data.attributes[".sculpt_face_set"].data[polygon.index].value for polygon in new]
-        else:
-            values = [polygon.material_index if mark == "material" else int(polygon.use_smooth) for polygon in new]
-        borders: dict[Any, set[int]] = {}
-        for polygon, value in zip(new, values, strict=True):
-            for edge in polygon.edge_keys:
-                borders.setdefault(edge, set()).add(value)
-        places = meshes.positions(obj)
-        line = {edge for edge, both in borders.items() if len(both) == 2}
-        areas.append(sorted(tuple(places[list(edge)].mean(axis=0).round(4)) for edge in line))
-    assert areas[0]
-    assert areas[0] == areas[1]
-
-
-def test_a_script_and_the_command_line_make_quads(tmp_path: Any) -> None:
-    obj = open_sphere(lambda c: abs(c.z) > 0.8)
-    old = len(obj.data.polygons)
-    module().fill_mesh(obj.data, [v.index for v in obj.data.vertices if v.co.z > 0.5], quads=True)
-    assert 4 in {len(polygon.vertices) for polygon in list(obj.data.polygons)[old:]}
-    old = len(obj.data.polygons)
-    given = ["--object", obj.name, "--output", str(tmp_path / "filled.blend"), "--fill", "--quads"]
-    assert module("run.cli").execute(given) == 0
-    counts = [len(polygon.vertices) for polygon in list(obj.data.polygons)[old:]]
-    assert counts.count(4) > 0.8 * len(counts)

@@ -9,7 +9,6 @@ import bpy
 import meshes
 import numpy as np
 import pytest
-from extension import module
 
 SIZE = 12
 
@@ -74,29 +73,6 @@ def test_with_everything_selected_holes_are_filled_and_the_outer_border_is_named
     (told,) = warnings()
     assert told.startswith("1 border runs around the outside of a sheet of faces and stays open (48 edges")
     assert open_edges(obj) == 4 * SIZE
-
-
-def test_a_sheet_without_a_hole_is_refused_at_once() -> None:
-    obj = sheet(30.0, ())
-    select_all(obj)
-    with pytest.raises(RuntimeError, match="around the outside of a sheet of faces, there is no hole"):
-        fill()
-    assert open_edges(obj) == 4 * SIZE
-
-
-def test_a_border_that_is_selected_is_filled() -> None:
-    obj = sheet(120.0, ())
-    select_loop(obj, 0)
-    assert fill(accept="ALL") == {"FINISHED"}
-    assert open_edges(obj) == 0
-
-
-def test_a_script_fills_holes_alone() -> None:
-    obj = sheet(90.0)
-    assert len(module().fill_mesh(obj.data)) == 1
-    assert open_edges(obj) == 4 * SIZE
-    with pytest.raises(ValueError, match="there is no hole"):
-        module().fill_mesh(obj.data)
 
 
 def test_more_vertices_than_allowed_are_refused() -> None:

@@ -8,13 +8,12 @@ from typing import Any
 
 import bpy
 import meshes
-import numpy as np
 import pytest
 from extension import module
-from test_new_mesh import dented, fair_new, spoil
+from test_new_mesh import dented, fair_new
 from test_panel import Layout
 
-from test_fill import border_edges, open_sphere, tubes
+from test_fill import border_edges, open_sphere
 
 
 class Rows(Layout):
@@ -70,15 +69,6 @@ def test_it_is_in_the_menu_face_and_in_the_context_menu_of_edges_and_vertices() 
         assert menu.layout.told == [offered]
 
 
-@pytest.mark.parametrize("equation", ["HARMONIC", "MINIMAL_ENERGY", "LEAST_VARIATION"])
-def test_the_shape_asked_for_is_the_one_that_is_found(equation: str) -> None:
-    obj = tubes()
-    rims = [v.index for v in obj.data.vertices if abs(v.co.z) < 0.6]
-    (result,) = module().fill_mesh(obj.data, rims, bridge=True, equation=equation)
-    assert result.equation == equation.lower()
-    assert np.abs(np.linalg.norm(meshes.positions(obj)[:, :2], axis=1) - 1.0).max() < 0.05
-
-
 def test_a_new_mesh_under_multiresolution_is_refused() -> None:
     obj, chosen = dented()
     obj.modifiers.new("Levels", "MULTIRES")
@@ -86,19 +76,6 @@ def test_a_new_mesh_under_multiresolution_is_refused() -> None:
     with pytest.raises(RuntimeError, match="Multiresolution modifier can't be kept"):
         fair_new(obj, chosen)
     assert len(obj.data.polygons) == count
-
-
-def test_a_command_gives_a_new_mesh(tmp_path: Any) -> None:
-    obj, chosen = dented()
-    spoil(obj, chosen)
-    old = len(obj.data.polygons)
-    meshes.select(obj, chosen)
-    target = tmp_path / "new.blend"
-    given = ["--object", obj.name, "--output", str(target), "--mesh", "NEW", "--spacing", "0.5", "--inner", "EVEN"]
-    assert module("run.cli").execute(given) == 0
-    assert target.exists()
-    assert len(obj.data.polygons) > old
-    assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 1e-3
 
 
 def test_a_part_of_an_outline_stands_for_all_of_it_in_scripts_too() -> None:

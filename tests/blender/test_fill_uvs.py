@@ -9,7 +9,7 @@ import meshes
 import numpy as np
 import pytest
 
-from test_fill import Chosen, fill_hole, open_sphere, tubes
+from test_fill import Chosen, fill_hole, open_sphere
 
 Floats = meshes.Floats
 SIZE = 0.25  # of an island, whose centres lie at 1, 2, 3, …
@@ -124,57 +124,3 @@ def test_each_map_has_seams_of_its_own() -> None:
     assert parted(obj, "Box")
     assert not parted(obj, "Plain")
     assert {len(polygon.vertices) for polygon in obj.data.polygons if polygon.select} == {3, 4}
-
-
-def strip(obj: bpy.types.Object, upper: tuple[float, float] = (1.0, 0.0)) -> None:
-    """Lay tubes out around their axis, cut at −x; those above z = 0 scaled and moved."""
-    mesh = obj.data
-    points = meshes.positions(obj)
-    places = np.zeros((len(mesh.loops), 2))
-    for polygon in mesh.polygons:
-        middle = np.arctan2(polygon.center.y, polygon.center.x)
-        for corner in polygon.loop_indices:
-            x, y, z = points[mesh.loops[corner].vertex_index]
-            turn = (np.arctan2(y, x) - middle + np.pi) % (2 * np.pi) - np.pi + middle
-            row = np.array([turn, z])
-            places[corner] = row * upper[0] + upper[1] if polygon.center.z > 0.0 else row
-    mesh.uv_layers.new(name="Map").uv.foreach_set("vector", places.astype(np.float32).ravel())
-
-
-@pytest.mark.parametrize("upper", [(1.0, 0.0), (0.5, 9.0)])
-def test_a_bridge_between_cut_tubes(upper: tuple[float, float]) -> None:
-    """One seam from end to end where both ends are of one island; a ring more where they are not."""
-    obj = tubes()
-    strip(obj, upper)
-    assert fill_hole(obj, lambda co: abs(co.z) < 0.6, bridge=True) == {"FINISHED"}
-    seams = parted(obj)
-    heights = np.array([[obj.data.vertices[v].co.z for v in key] for key in seams])
-    if upper[1] == 0.0:
-        assert 4 <= len(seams) <= 8
-        assert np.ptp(heights) == pytest.approx(1.0, abs=1e-5)
-    else:
-        assert len(seams) > 24
-    assert bpy.context.window_manager.fairing_report.distortion < 0.05
-    assert all(flat_area(places(obj, polygon)) > 0.0 for polygon in obj.data.polygons)
-
-
-def test_a_scale_that_turns_inside_out_keeps_the_texture_as_it_is() -> None:
-    obj = open_sphere(HOLES["edge"][0])
-    box_map(obj)
-    points = meshes.positions(obj)
-    meshes.move(obj, points / (-1.0, 1.0, 1.0))
-    obj.scale = (-1.0, 1.0, 1.0)
-    assert fill_hole(obj) == {"FINISHED"}
-    assert all(flat_area(places(obj, polygon)) > 0.0 for polygon in obj.data.polygons)
-    assert bpy.context.window_manager.fairing_report.distortion < 0.1
-
-
-def test_uvs_that_are_no_numbers_do_not_stop_it() -> None:
-    obj = open_sphere(HOLES["edge"][0])
-    box_map(obj)
-    rim = next(loop for loop in obj.data.loops if obj.data.vertices[loop.vertex_index].co.z > 0.3)
-    obj.data.uv_layers["Map"].uv[rim.index].vector = (float("nan"), 0.0)
-    old = len(obj.data.loops)
-    assert fill_hole(obj) == {"FINISHED"}
-    uv = np.array([item.vector[:] for item in obj.data.uv_layers["Map"].uv])
-    assert np.isfinite(uv[old:]).all()

@@ -52,51 +52,6 @@ def test_a_box_corner_with_sharp_edges_comes_back_flat(slope: str, flat: bool) -
     assert (off_box(after) < 1e-5) == flat
 
 
-def test_sharp_edges_along_the_outline_are_creases_too() -> None:
-    """A part of one side, up to two sharp edges: flat, whatever the sides around it are."""
-    obj, _ = box()
-    faces = meshes.faces_where(obj, lambda c: abs(c.x) < 1e-6 and max(abs(c.y), abs(c.z)) < 0.6)
-    free = meshes.free_vertices(obj, faces)
-    bumpy(obj, free)
-    meshes.fair(obj, faces, pin_edges="SHARP")
-    assert np.abs(meshes.positions(obj)[free, 0]).max() < 1e-5
-
-
-def test_the_surface_runs_smoothly_through_a_lifted_curve() -> None:
-    obj = meshes.grid(16)
-    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.8)
-    points = meshes.positions(obj)
-    curve = (np.abs(points[:, 0]) < 1e-6) & (np.abs(points[:, 1]) < 0.4)
-    points[curve, 2] = 0.125
-    meshes.move(obj, points)
-    seam = [bool(curve[list(edge.vertices)].all()) for edge in obj.data.edges]
-    obj.data.edges.foreach_set("use_seam", seam)
-    meshes.fair(obj, faces, pin_edges="SEAM", pin_slope="SMOOTH")
-    after = meshes.positions(obj)
-    assert after[curve].tobytes() == meshes.positions(obj)[curve].tobytes()
-    left = np.isclose(points[:, 0], -0.125) & np.isclose(points[:, 1], 0.0)
-    right = np.isclose(points[:, 0], 0.125) & np.isclose(points[:, 1], 0.0)
-    assert 0.1 < after[left, 2][0] < 0.13
-    assert after[left, 2][0] == pytest.approx(after[right, 2][0], abs=5e-3)
-
-
-def test_a_pin_lifts_more_with_a_radius() -> None:
-    heights = []
-    for radius in (0.0, 0.1):
-        obj = meshes.grid(24)
-        faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.8)
-        points = meshes.positions(obj)
-        centre = int(np.argmin(np.linalg.norm(points, axis=1)))
-        points[centre, 2] = 0.25
-        meshes.move(obj, points)
-        obj.vertex_groups.new(name="Pin").add([centre], 1.0, "REPLACE")
-        meshes.fair(obj, faces, pin_group="Pin", pin_radius=radius)
-        after = meshes.positions(obj)
-        assert after[centre].tobytes() == points[centre].astype(np.float32).astype(np.float64).tobytes()
-        heights.append(after[np.linalg.norm(after[:, :2] - after[centre, :2], axis=1) < 0.13, 2].min())
-    assert heights[1] > 1.02 * heights[0]
-
-
 @pytest.mark.parametrize("border", ["HELD", "FAIRED"])
 def test_a_noisy_open_border(border: str) -> None:
     """A strip of a cylinder, selected up to its open border."""

@@ -11,7 +11,6 @@ import bpy
 import meshes
 import numpy as np
 import pytest
-from extension import module
 
 DEFAULTS = {
     "factor": 1.0,
@@ -98,33 +97,6 @@ def test_every_button_says_that_it_needs_edit_mode(name: str) -> None:
         operator()
 
 
-def test_every_button_says_what_it_lacks() -> None:
-    module("run.compare").forget()
-    meshes.edit(meshes.grid())
-    for name, lack in (("fair_live_forget", "no live region"), ("fair_compare", "Nothing has been faired")):
-        with pytest.raises(RuntimeError, match=lack):
-            getattr(bpy.ops.mesh, name)()
-    meshes.leave()
-    bpy.ops.object.select_all(action="DESELECT")
-    bpy.context.view_layer.objects.active = None
-    with pytest.raises(RuntimeError, match="mesh object"):
-        bpy.ops.mesh.fair_curvature()
-
-
-def test_minimal_surface() -> None:
-    obj = meshes.grid()
-    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7)
-    points = meshes.positions(obj)
-    saddle = 0.1 * points[:, 0] * points[:, 1]  # minimal up to third order in its slope of 0.1
-    points[:, 2] = saddle
-    points[meshes.free_vertices(obj, faces), 2] += 0.2
-    meshes.move(obj, points)
-    assert meshes.fair(obj, faces, equation="MINIMAL") == {"FINISHED"}
-    assert meshes.report().converged
-    result = meshes.positions(obj)
-    np.testing.assert_allclose(result[:, 2], 0.1 * result[:, 0] * result[:, 1], atol=1e-3)
-
-
 def test_fair_mesh_is_the_operator() -> None:
     from bl_ext.user_default.intrinsic_fairing import fair_mesh
 
@@ -183,14 +155,6 @@ def test_operator_without_a_window(named: bool) -> None:
     meshes.leave()
     assert meshes.positions(obj).tobytes() == meshes.positions(expected).tobytes()
     assert meshes.positions(other).tobytes() == before.tobytes()
-
-
-def test_fair_mesh_warns_of_what_has_no_effect() -> None:
-    from bl_ext.user_default.intrinsic_fairing import fair_mesh
-
-    obj, faces = meshes.domed_grid()
-    with pytest.warns(UserWarning, match="quads has no effect"):
-        fair_mesh(obj.data, np.flatnonzero(faces).tolist(), quads=True)
 
 
 def test_fair_mesh_refuses() -> None:

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import bmesh
 import bpy
 import meshes
 import numpy as np
 import pytest
 from extension import module
-from test_restoration import BOUND, join_some_quads, off_sphere, spoil
 
 
 def evaluated(obj: bpy.types.Object) -> meshes.Floats:
@@ -65,26 +61,6 @@ def test_open_border_stays() -> None:
     assert after[border].tobytes() == before[border].tobytes()
     assert (after[~border] != before[~border]).any(axis=1).all()
     assert f"{border.sum()} border vertices have no faces outside" in meshes.report().warnings
-
-
-def mixed_sphere() -> tuple[bpy.types.Object, Any]:
-    """Triangles, quads and hexagons in one selection."""
-    obj = meshes.sphere()
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    join_some_quads(bm)
-    bmesh.ops.triangulate(bm, faces=[f for f in bm.faces if f.calc_center_median().x > 0.2 and len(f.verts) == 4])
-    bm.to_mesh(obj.data)
-    bm.free()
-    return obj, meshes.faces_where(obj, lambda c: c.z > 1e-3)
-
-
-def test_mixed_faces() -> None:
-    obj, upper = mixed_sphere()
-    assert {len(p.vertices) for p, u in zip(obj.data.polygons, upper, strict=True) if u} == {3, 4, 6}
-    spoil(obj, upper)
-    meshes.fair(obj, upper)
-    assert off_sphere(meshes.positions(obj)) < BOUND[48]
 
 
 def test_selection_and_modes_stay() -> None:

@@ -7,9 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from itertools import count
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import bmesh
@@ -18,7 +16,6 @@ import meshes
 import numpy as np
 import pytest
 from extension import module
-from test_held import box, bumpy, off_box
 
 
 @pytest.fixture
@@ -96,40 +93,6 @@ def test_region_follows_every_change(live: Any) -> None:
     assert_fair(faces)
 
 
-def test_what_is_around_keeps_its_bits(live: Any) -> None:
-    obj, faces = table_mountain()
-    before = now()
-    beside = flank(before)
-    drag(beside, (0.02, 0.0, 0.05))
-    meshes.leave()
-    held = ~meshes.free_vertices(obj, faces)
-    meshes.edit(obj)
-    held[beside] = False
-    assert np.array_equal(now()[held], before[held])
-
-
-def test_no_change_is_no_reason_to_write(live: Any) -> None:
-    table_mountain(32)
-    drag(flank(now()), (0.0, 0.0, 0.05))
-    count, points = live.updates, now()
-    for _ in range(5):
-        bpy.context.view_layer.update()
-        bpy.context.view_layer.objects.active.data.update_tag()
-    drag([], (0.0, 0.0, 0.0))
-    far = np.flatnonzero(points[:, 0] < -0.99)  # farther away than normals are fitted
-    drag(far, (0.0, 0.0, 0.01))
-    assert live.updates == count
-
-
-def test_vertices_of_the_region_return(live: Any) -> None:
-    """A free vertex that is pulled out goes back: the region is a function of its surroundings."""
-    table_mountain()
-    before = now()
-    middle = int(np.argmin(np.abs(before).sum(axis=1)))
-    drag([middle], (0.0, 0.0, 0.5))
-    np.testing.assert_allclose(now(), before, atol=2e-6)
-
-
 def test_one_undo_takes_edit_and_fairing_back(live: Any) -> None:
     table_mountain()
     start = now()
@@ -192,17 +155,6 @@ def test_off_is_off(live: Any) -> None:
     assert set(changed) == set(flank(before))
     switch(True)  # and back on: what was missed is made good
     assert_fair(faces)
-
-
-def test_off_by_default_and_nothing_left(live: Any) -> None:
-    events = (bpy.app.handlers.depsgraph_update_post, bpy.app.handlers.undo_post, bpy.app.handlers.redo_post)
-    counts = [len(event) for event in events]
-    assert not bpy.context.window_manager.fairing_live.on
-    table_mountain()
-    assert [len(event) for event in events] == [count + 1 for count in counts]
-    switch(False)
-    assert [len(event) for event in events] == counts
-    assert live.sessions == {}
 
 
 def test_region_is_saved_with_the_mesh(live: Any, tmp_path: Path) -> None:
@@ -295,23 +247,6 @@ def test_a_slow_answer_is_carried_along_until_the_end_of_the_drag(live: Any, mon
     assert_fair(faces)
 
 
-def test_other_work_on_the_machine_is_no_reason_to_give_up_at_the_end(
-    live: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Any look at the clock finds 100 seconds gone, none of them the processor's for the search."""
-    home = module("follow.live")
-    table_mountain()
-    monkeypatch.setattr(home, "PATIENCE", -1.0)
-    later = count(0.0, 100.0).__next__
-    clocks = {"perf_counter": later, "process_time": later, "monotonic": later, "thread_time": time.thread_time}
-    monkeypatch.setattr(module("core.live_search"), "time", SimpleNamespace(**clocks))
-    drag(flank(now()), (0.0, 0.0, 0.05))
-    assert len(live.lost_points()) > 0
-    live.changed_at -= home.PAUSE
-    assert home._settle_later() is None
-    assert (len(live.lost_points()), live.message) == (0, "")
-
-
 def test_a_region_that_has_lost_its_surface_mends_when_the_drag_comes_back(
     live: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -347,27 +282,6 @@ def test_a_region_that_has_lost_its_surface_mends_when_the_drag_comes_back(
     assert slowest < 0.6  # of the processor's time, two cores; 0.3 by the clock where nothing else runs
 
 
-def test_where_there_is_no_fair_surface_the_even_one_stands_in(live: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    home = module("follow.live")
-    table_mountain()
-    region = live.sessions["Grid"].region
-    monkeypatch.setattr(type(region), "answer", lambda *_: None)
-    drag(flank(now()), (0.0, 0.0, 0.05))
-    assert len(live.lost_points()) > 0
-    carried = now()
-    live.changed_at -= home.PAUSE
-    assert home._settle_later() is None
-    assert live.message == home.STAND_IN
-    assert len(live.lost_points()) == 0
-    assert 1e-4 < np.abs(now() - carried).max() < 0.1
-    monkeypatch.setattr(type(region), "stand_in", lambda *_: None)
-    drag(flank(now()), (0.0, 0.0, 0.05))
-    live.changed_at -= home.PAUSE
-    home._settle_later()
-    assert live.message == home.CARRIED
-    assert len(live.lost_points()) > 0
-
-
 def test_far_side_of_a_limb(live: Any) -> None:
     around, along = 12, 20
     angle = 2.0 * np.pi * np.arange(around) / around
@@ -386,11 +300,6 @@ def test_far_side_of_a_limb(live: Any) -> None:
         assert bpy.ops.mesh.fair_live_far_side() == {"FINISHED"}
         chosen = [face.index for face in bmesh.from_edit_mesh(obj.data).faces if face.select]
         assert chosen == np.flatnonzero((row >= low) & (row < high)).tolist()
-
-
-def test_nothing_lies_beyond_a_region_in_the_middle(live: Any) -> None:
-    table_mountain()
-    assert bpy.ops.mesh.fair_live_far_side() == {"CANCELLED"}
 
 
 def with_keys() -> tuple[bpy.types.Object, Any]:
@@ -446,40 +355,6 @@ def test_a_key_that_gets_locked_is_left_alone(live: Any) -> None:
     assert "locked" in live.message
 
 
-def test_a_region_can_be_in_any_key(live: Any) -> None:
-    obj, _ = with_keys()
-    obj.active_shape_key_index = 1
-    assert bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True) == {"FINISHED"}
-    before = now()
-    drag(flank(before), (0.0, 0.0, 0.05))
-    assert live.message == ""
-    assert np.abs(now() - before).max(axis=1)[middle_of(before)].max() > 1e-3
-
-
-def test_scale_of_the_object_counts(live: Any) -> None:
-    obj, faces = table_mountain()
-    before = now()
-    obj.scale = (3.0, 1.0, 1.0)
-    bpy.context.view_layer.update()
-    assert np.abs(now() - before).max() > 1e-4
-    assert_fair(faces)
-
-
-def test_mirrored_region_stays_symmetric(live: Any) -> None:
-    obj = meshes.grid(16)
-    obj.data.use_mirror_x = True
-    points = meshes.positions(obj)
-    points[:, 2] = 0.3 * np.cos(2.0 * points[:, 0])
-    meshes.move(obj, points)
-    meshes.select(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6))
-    meshes.edit(obj)
-    bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True)
-    drag(np.flatnonzero(np.abs(points[:, 1]) > 0.6), (0.0, 0.0, 0.1))
-    order = np.lexsort(np.round(points * (1, 1, 0), 4).T)
-    mirrored = np.lexsort(np.round(points * (-1, 1, 0), 4).T)
-    assert np.array_equal(now()[order], now()[mirrored] * (-1, 1, 1))
-
-
 def test_what_cannot_be_live_is_refused() -> None:
     obj = meshes.grid(6)
     meshes.select(obj, meshes.faces_where(obj, lambda c: False))
@@ -526,25 +401,3 @@ def test_forgetting_leaves_no_trace(live: Any) -> None:
     meshes.edit(obj)
     assert not bpy.ops.mesh.fair_live_forget.poll()
     assert not bpy.ops.mesh.fair_live_select.poll()
-
-
-def test_live_follows_a_box_corner_with_creases(live: Any) -> None:
-    """Its sides are flat, its sharp edges stay; and so where it has been moved."""
-    obj, _ = box(24)
-    faces = meshes.faces_where(obj, lambda c: max(abs(x) for x in c) < 0.3)
-    on_edge = np.isclose(meshes.positions(obj), 0.0).sum(axis=1) >= 2
-    bumpy(obj, meshes.free_vertices(obj, faces) & ~on_edge)
-    meshes.select(obj, faces)
-    meshes.edit(obj)
-    last = bpy.context.window_manager.operator_properties_last("mesh.fair_region")
-    last.pin_edges = "SHARP"
-    try:
-        assert bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True) == {"FINISHED"}
-        assert off_box(now(obj.name)) < 1e-5
-        before = live.updates
-        drag(np.arange(len(now(obj.name))), (0.0, 0.0, 0.25), obj.name)
-        assert live.updates > before
-        assert off_box(now(obj.name) - [0.0, 0.0, 0.25]) < 1e-5
-    finally:
-        last.property_unset("pin_edges")
-    assert live.message == ""

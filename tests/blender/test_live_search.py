@@ -8,7 +8,6 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any
 
 import bpy
@@ -185,30 +184,6 @@ def test_a_search_that_nobody_waits_for_writes_nothing(home: Any, slow: Slow, wa
     assert home.live.message in ("", home.SEARCHING)
 
 
-def test_what_has_no_surface_is_searched_for_once(home: Any, slow: Slow, monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("afresh", "stand_in"):
-        monkeypatch.setattr(module("core.live_region").LiveRegion, name, lambda *_: None)
-    slow.real = lambda *_: None
-    slow.go.set()
-    carried = lose_at_once(home)
-    assert home.live.message == home.CARRIED
-    assert slow.begun == 1
-    bpy.context.view_layer.objects.active.data.update_tag()
-    bpy.context.view_layer.update()
-    assert not home.live.waits(bpy.data.objects["Grid"])
-    assert tick(home) is None
-    assert slow.begun == 1
-    assert np.array_equal(now(), carried)
-
-
-def lose_at_once(home: Any) -> Any:
-    """Drag, and look until the search has ended."""
-    drag(flank(now()), (0.0, 0.0, 0.05))
-    carried = now()
-    wait_for(home)
-    return carried
-
-
 def test_a_script_waits_for_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without a window nobody would look at the timer: switching Live on gives the fair surface at once."""
     home = module("follow.live")
@@ -222,12 +197,3 @@ def test_a_script_waits_for_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
     assert len(home.live.lost_points()) == 0
     assert np.abs(now() - before).max(axis=1)[np.abs(before[:, :2]).max(axis=1) < 0.5].max() > 1e-4
     switch(False)
-
-
-def test_a_file_is_saved_while_a_search_goes_on(home: Any, slow: Slow, tmp_path: Path) -> None:
-    carried = lose(home)
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "searching.blend"), copy=True)
-    with bpy.data.libraries.load(str(tmp_path / "searching.blend")) as (found, taken):
-        taken.meshes = found.meshes
-    points = np.array([vertex.co[:] for vertex in taken.meshes[0].vertices])
-    np.testing.assert_array_equal(points, carried)

@@ -90,18 +90,6 @@ def test_a_pin_group_that_pins_nothing(weight: float | None) -> None:
     assert ("'Pin' has no vertex inside" in "".join(inspect(obj, faces, pin_group="Pin").notes)) == bool(notes)
 
 
-def test_islands_of_a_run_are_told_once() -> None:
-    obj = meshes.grid(24)
-    points = meshes.grid_points(24)
-    points[:, 2] = 0.4 * np.cos(12.0 * points[:, 0]) * np.cos(11.0 * points[:, 1])
-    meshes.move(obj, points)
-    faces = meshes.faces_where(obj, lambda c: 0.15 < abs(c.x) < 0.8 and 0.15 < abs(c.y) < 0.8)
-    meshes.select(obj, faces)
-    said = [text for text in told(obj, accept="ALL") if text.startswith("The normals along the boundary turn")]
-    assert len(said) == 1
-    assert said[0].endswith("(4 islands)")
-
-
 @pytest.mark.parametrize("nothing", ["no face", "no free vertex", "no border"])
 def test_where_there_is_nothing_to_do_the_report_is_not_that_of_the_run_before(nothing: str) -> None:
     obj, faces = meshes.domed_grid()

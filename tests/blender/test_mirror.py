@@ -52,28 +52,6 @@ def test_result_is_symmetric_to_the_bit(scale: tuple[float, float, float]) -> No
     assert "mirror" not in meshes.report().warnings
 
 
-def test_symmetric_result_is_the_fair_one() -> None:
-    results = []
-    for mirror in (True, False):
-        obj, faces = symmetric_dome()
-        obj.data.use_mirror_x = mirror
-        meshes.fair(obj, faces)
-        results.append(meshes.positions(obj))
-    # without the option the diagonals of quads, chosen by connectivity, need not be symmetric
-    np.testing.assert_allclose(results[0], results[1], atol=2e-3)
-
-
-def test_two_islands_that_mirror_each_other() -> None:
-    obj, _ = symmetric_dome()
-    points = _even(meshes.positions(obj), np.zeros(169, dtype=bool))
-    meshes.move(obj, points)
-    faces = meshes.faces_where(obj, lambda c: 0.2 < abs(c.x) < 0.9 and abs(c.y) < 0.7)
-    obj.data.use_mirror_x = True
-    meshes.fair(obj, faces)
-    assert asymmetry(obj) == 0.0
-    assert "mirror" not in meshes.report().warnings
-
-
 @pytest.mark.parametrize("what", ["selection", "outline"])
 def test_asymmetry_is_told(what: str) -> None:
     obj, faces = symmetric_dome()

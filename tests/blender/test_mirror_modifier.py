@@ -9,7 +9,6 @@ import bpy
 import meshes
 import numpy as np
 import pytest
-from extension import inspect
 from mathutils import Euler, Matrix
 
 
@@ -85,23 +84,6 @@ def test_a_new_mesh_tells_of_the_plane() -> None:
     assert meshes.fair(obj, faces, mesh="NEW") == {"FINISHED"}
     assert "Mirror modifier" in meshes.report().warnings
     assert "open borders" not in meshes.report().warnings
-
-
-def test_a_new_mesh_tells_that_it_holds_open_borders() -> None:
-    obj, faces = half_dome()
-    obj.modifiers.clear()
-    assert meshes.fair(obj, faces, mesh="NEW", open_border="FAIRED") == {"FINISHED"}
-    assert "A new mesh holds open borders" in meshes.report().warnings
-    assert "Mirror modifier" not in meshes.report().warnings
-
-
-def test_what_is_said_before_the_run_is_about_the_whole() -> None:
-    """The plane is no outline: one loop runs around both halves."""
-    obj, faces = half_dome()
-    found = inspect(obj, faces)
-    assert (found.refusal, found.loops, found.free_vertices, found.notes) == ("", 1, 4 * 7, ())
-    obj.modifiers.clear()
-    assert inspect(obj, faces).free_vertices == 3 * 7
 
 
 def test_a_hole_that_the_plane_cuts_is_no_hole_of_the_half() -> None:

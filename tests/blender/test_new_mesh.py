@@ -15,8 +15,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "scripts"))
 
-import demo_scenes
-from test_fill import border_edges, dress, fill_hole
+from test_fill import border_edges, dress
 
 UPPER = 0.45  # faces of the sphere above are selected
 
@@ -77,70 +76,6 @@ def test_the_sphere_comes_back_with_other_faces() -> None:
     assert used == {v for polygon in obj.data.polygons for v in polygon.vertices} == set(range(len(obj.data.vertices)))
 
 
-def test_spacing_gives_more_faces_on_the_same_surface() -> None:
-    counts = []
-    for spacing in (2.0, 1.0, 0.5):
-        obj, chosen = dented()
-        spoil(obj, chosen)
-        assert fair_new(obj, chosen, spacing=spacing) == {"FINISHED"}
-        counts.append(len(new_polygons(obj)))
-        assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 3e-3
-    assert counts[0] < counts[1] < counts[2]
-
-
-def test_values_are_carried_over() -> None:
-    """Everything dressed is linear in the place on the old sphere, or constant; the surface is the old one again."""
-    obj, chosen = dented()
-    assert fair_new(obj, chosen, spacing=0.7) == {"FINISHED"}
-    points, inner = meshes.positions(obj), inner_vertices(obj)
-    assert len(inner) > 100
-    x = points[inner, 0]
-    heat = np.array([item.value for item in obj.data.attributes["heat"].data])[inner]
-    np.testing.assert_allclose(heat, x, atol=0.02)
-    paint = np.array([item.color[:] for item in obj.data.color_attributes["Paint"].data])[inner]
-    np.testing.assert_allclose(paint[:, 0], 0.5 + 0.4 * heat, atol=1e-5)
-    weights = [obj.data.vertices[vertex].groups[0].weight for vertex in inner.tolist()]
-    np.testing.assert_allclose(weights, 0.5 + 0.4 * heat, atol=1e-5)
-    for polygon in new_polygons(obj):
-        assert (polygon.material_index, polygon.use_smooth) == (1, True)
-        for corner in polygon.loop_indices:
-            uv = obj.data.uv_layers["Map"].uv[corner].vector
-            place = points[obj.data.loops[corner].vertex_index]
-            np.testing.assert_allclose(uv, 0.5 + 0.4 * place[:2], atol=0.01)
-    sets, numbers = obj.data.attributes[".sculpt_face_set"].data, obj.data.attributes["number"].data
-    assert {sets[polygon.index].value for polygon in new_polygons(obj)} == {7}
-    assert {numbers[corner].value for polygon in new_polygons(obj) for corner in polygon.loop_indices} == {5}
-    keys = obj.data.shape_keys.key_blocks
-    basis, wide = (np.array([point.co[:] for point in keys[name].data])[inner] for name in ("Basis", "Wide"))
-    np.testing.assert_array_equal(basis, points[inner])
-    np.testing.assert_allclose(wide - basis, np.column_stack([heat, 0 * heat, 0 * heat + 0.25]), atol=1e-5)
-
-
-def contents_by_place(obj: bpy.types.Object, polygons: Any) -> list[Any]:
-    """What polygons and their corners have, to the bit, whatever their numbers are."""
-    mesh = obj.data
-    uv, sets = mesh.uv_layers["Map"].uv, mesh.attributes[".sculpt_face_set"].data
-    wide = mesh.shape_keys.key_blocks["Wide"].data
-    return [
-        (
-            [tuple(mesh.vertices[v].co) for v in polygon.vertices],
-            [tuple(wide[v].co) for v in polygon.vertices],
-            [[(g.group, g.weight) for g in mesh.vertices[v].groups] for v in polygon.vertices],
-            [tuple(uv[corner].vector) for corner in polygon.loop_indices],
-            (polygon.material_index, polygon.use_smooth, sets[polygon.index].value),
-        )
-        for polygon in polygons
-    ]
-
-
-def test_everything_outside_keeps_its_bits() -> None:
-    obj, chosen = dented()
-    spoil(obj, chosen)
-    before = contents_by_place(obj, [p for p, inside in zip(obj.data.polygons, chosen, strict=True) if not inside])
-    assert fair_new(obj, chosen) == {"FINISHED"}
-    assert contents_by_place(obj, [p for p in obj.data.polygons if not p.select]) == before
-
-
 def halved(obj: bpy.types.Object) -> None:
     """Two islands of UVs, left and right of x = 0, each with the places of the other's mirror image far away."""
     mesh = obj.data
@@ -184,23 +119,6 @@ def test_marks_and_borders_of_materials_stay() -> None:
     assert sum(edge.use_edge_sharp for edge in mesh.edges) == sharp
     for polygon in new_polygons(obj):
         assert polygon.material_index == int(polygon.center.x > 0.0)
-
-
-def test_a_mesh_that_is_all_seams_is_refused() -> None:
-    obj, chosen = dented()
-    corners = np.arange(2 * len(obj.data.loops), dtype=np.float32)
-    obj.data.uv_layers["Map"].uv.foreach_set("vector", corners)
-    meshes.edit(obj)
-    meshes.leave()
-    before = unselected(obj)
-    with pytest.raises(RuntimeError, match=r"by Map\), and would stay: there is nothing to mesh anew"):
-        fair_new(obj, chosen)
-    assert unselected(obj) == before
-
-
-def unselected(obj: bpy.types.Object) -> dict[str, bytes]:
-    """All that it has but the selection."""
-    return {name: data for name, data in meshes.contents(obj).items() if "select" not in name}
 
 
 @pytest.mark.parametrize(
@@ -268,57 +186,6 @@ def test_a_script_gets_it_without_edit_mode() -> None:
     np.testing.assert_allclose((wide - basis)[:, 2], 0.25, atol=1e-5)
 
 
-def test_the_last_run_knows_the_new_faces() -> None:
-    obj, chosen = dented()
-    spoil(obj, chosen)
-    meshes.select(obj, chosen)
-    meshes.edit(obj)
-    bpy.ops.mesh.fair_region("EXEC_DEFAULT", True, mesh="NEW")
-    report = bpy.context.window_manager.fairing_report
-    assert (report.verdict, report.written) == ("GOOD", True)
-    assert "SMOOTH_OUTLINE" not in report.remedies
-    new = sum(face.select for face in bmesh.from_edit_mesh(obj.data).faces)
-    bpy.ops.mesh.select_all(action="DESELECT")
-    extension.module("run.last_run").select_region(bpy.context)
-    assert sum(face.select for face in bmesh.from_edit_mesh(obj.data).faces) == new
-    meshes.leave()
-
-
-def test_quads_have_all_that_triangles_have() -> None:
-    obj, chosen = dented()
-    halved(obj)
-    spoil(obj, chosen)
-    assert fair_new(obj, chosen, spacing=0.7, quads=True) == {"FINISHED"}
-    counts = [len(polygon.vertices) for polygon in new_polygons(obj)]
-    assert counts.count(4) > 0.9 * len(counts)
-    assert border_edges(obj) == 0
-    points = meshes.positions(obj)
-    assert np.abs(np.linalg.norm(points, axis=1) - 1.0).max() < 2e-3
-    uv, sets = obj.data.uv_layers["Map"].uv, obj.data.attributes[".sculpt_face_set"].data
-    for polygon in new_polygons(obj):
-        assert (polygon.material_index, polygon.use_smooth, sets[polygon.index].value) == (1, True, 7)
-        u = np.array([uv[corner].vector[0] for corner in polygon.loop_indices])
-        x = points[list(polygon.vertices), 0]
-        assert abs(u - x - np.sign(u) * 5.0).max() < 0.1  # each corner is of the one island of its quad
-        assert np.ptp(np.sign(u)) == 0
-
-
-def test_no_quad_lies_on_both_sides_of_a_mark() -> None:
-    obj, chosen = dented()
-    mesh = obj.data
-    for polygon in mesh.polygons:
-        polygon.use_smooth = polygon.center.x > 0.0
-    for edge in mesh.edges:
-        a, b = (mesh.vertices[v].co for v in edge.vertices)
-        edge.use_edge_sharp = abs(a.y) < 1e-5 and abs(b.y) < 1e-5
-    sharp = sum(edge.use_edge_sharp for edge in mesh.edges)
-    assert fair_new(obj, chosen, quads=True) == {"FINISHED"}
-    assert sum(edge.use_edge_sharp for edge in mesh.edges) == sharp
-    for polygon in new_polygons(obj):
-        y = [obj.data.vertices[v].co.y for v in polygon.vertices]
-        assert min(y) > -1e-2 or max(y) < 1e-2
-
-
 @pytest.mark.parametrize(("uvs", "wave"), [(True, 0.0), (False, 0.1)])
 def test_corners_of_the_selection_and_seams_leave_no_loose_ends(uvs: bool, wave: float) -> None:
     """Faces without a vertex inside stay; a new triangle that was there already, along a seam, does not come twice."""
@@ -334,24 +201,3 @@ def test_corners_of_the_selection_and_seams_leave_no_loose_ends(uvs: bool, wave:
     triples = [tuple(sorted(polygon.vertices)) for polygon in obj.data.polygons]
     assert len(set(triples)) == len(triples)
     assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 2e-3
-
-
-def test_seams_of_an_ear_that_is_gone_are_a_knot_and_a_fill_has_none() -> None:
-    obj = demo_scenes.suzanne()
-    ear = demo_scenes.ear_faces(obj.data)
-    assert fair_new(obj, ear) == {"FINISHED"}
-    report = bpy.context.window_manager.fairing_report
-    assert (report.verdict, "squeezed to a knot" in report.reason) == ("LOOK", True)
-    obj = demo_scenes.suzanne()
-    count = len(obj.data.vertices)
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    bm.faces.ensure_lookup_table()
-    bmesh.ops.delete(bm, geom=[face for face, gone in zip(list(bm.faces), ear, strict=True) if gone], context="FACES")
-    bm.to_mesh(obj.data)
-    bm.free()
-    assert fill_hole(obj, lambda co: co.x > 0.3 and co.y > -0.35) == {"FINISHED"}  # the eyes have borders, too
-    assert bpy.context.window_manager.fairing_report.verdict == "GOOD"
-    areas = np.array([polygon.area for polygon in new_polygons(obj)])
-    assert areas.min() > 0.1 * np.median(areas)
-    assert len(obj.data.vertices) < count

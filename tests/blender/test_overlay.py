@@ -39,30 +39,6 @@ def test_sphere_has_its_normals_and_curvature(overlay: Any, scale: float) -> Non
     assert len(surface.triangles) == 2 * len(obj.data.polygons)
 
 
-def test_selection_is_measured_as_part_of_the_whole(overlay: Any) -> None:
-    obj = meshes.sphere(48)
-    faces = meshes.faces_where(obj, lambda c: c.z > 0.5)
-    meshes.select(obj, faces)
-    meshes.edit(obj)
-    settings().show = True
-    (part,) = overlay.surfaces
-    assert len(part.triangles) == 2 * faces.sum()
-    used = np.unique(part.triangles)
-    np.testing.assert_allclose(part.curvature[used], -1.0, rtol=5e-3)  # also on the selection's rim
-    settings().scope = "OBJECT"
-    (whole,) = overlay.surfaces
-    assert len(whole.triangles) == 2 * len(faces)
-
-
-def test_modifiers_are_seen_in_object_mode(overlay: Any) -> None:
-    obj = meshes.grid()
-    obj.modifiers.new("Subdivision", "SUBSURF").levels = 2
-    settings().show = True
-    (surface,) = overlay.surfaces
-    assert len(surface.triangles) == 2 * 16 * len(obj.data.polygons)
-    np.testing.assert_allclose(surface.curvature, 0.0, atol=1e-4)
-
-
 def test_follows_edits(overlay: Any) -> None:
     obj, faces = meshes.domed_grid()
     meshes.select(obj, faces)

@@ -139,22 +139,6 @@ def test_selecting_makes_the_last_look_stale() -> None:
     assert not watch.stale  # looking is no change
 
 
-def test_no_look_in_the_middle_of_a_drag() -> None:
-    watch = module("follow.watch")
-    obj, faces = meshes.domed_grid()
-    meshes.select(obj, faces)
-    meshes.edit(obj)
-    watch.watch.look(bpy.context)
-    bpy.ops.transform.translate(value=(0.0, 0.0, 0.1))
-    bpy.context.view_layer.update()
-    wait = watch._look_later()
-    assert 0.0 < wait <= watch.DELAY
-    assert watch.watch.stale
-    watch.watch.changed_at -= watch.DELAY  # the drag has ended a while ago
-    assert watch._look_later() is None
-    assert not watch.watch.stale
-
-
 def test_large_meshes_are_looked_at_on_demand() -> None:
     watch = module("follow.watch")
     obj, faces = meshes.domed_grid()
@@ -207,20 +191,6 @@ EVERYDAY = [
 
 def test_redo_panel_shows_what_is_set_often() -> None:
     assert in_redo_panel(opened=False) == EVERYDAY
-
-
-@pytest.mark.parametrize(
-    ("chosen", "shown"),
-    [
-        ({"equation": "CONSTANT"}, {"bulge"}),
-        ({"mesh": "NEW"}, {"spacing", "inner", "max_vertices", "quads", "limit_total"}),
-        ({"detail": 0.5}, {"detail_size"}),
-        ({"pin_group": "Pin"}, {"pin_radius"}),
-        ({"pin_edges": "SEAM"}, {"pin_slope"}),
-    ],
-)
-def test_redo_panel_shows_what_other_options_look_at(chosen: dict[str, Any], shown: set[str]) -> None:
-    assert set(in_redo_panel(opened=True, **chosen)) - set(in_redo_panel(opened=True)) == shown
 
 
 def test_redo_panel_has_every_option() -> None:
@@ -277,12 +247,6 @@ def test_every_option_and_choice_has_a_german_name() -> None:
         if option.identifier != "rna_type":
             names = [option.name, *(item.name for item in getattr(option, "enum_items", ()))]
             assert [name for name in names if name not in german and name not in same] == []
-
-
-def test_sentences_that_are_whole_are_told_in_german() -> None:
-    german = module("translations").languages()["de"]
-    polling = module("host.polling")
-    assert {polling.NO_FACE, polling.NO_FREE, module("run.background").CANCELLED} <= set(german)
 
 
 def footprint() -> dict[str, Any]:

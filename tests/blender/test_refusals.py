@@ -74,13 +74,6 @@ def test_a_refused_run_takes_the_place_of_the_one_before() -> None:
     assert not bpy.types.VIEW3D_PT_fairing_report.poll(bpy.context)
 
 
-def test_a_band_all_around_is_told_by_its_name() -> None:
-    obj = meshes.sphere(24)
-    upper = meshes.faces_where(obj, lambda c: c.z > 0.3)
-    with pytest.raises(RuntimeError, match="Feather reaches all around to the far side"):
-        meshes.fair(obj, upper, feather=3.0)
-
-
 def test_refused_run_adds_no_undo_step() -> None:
     obj, faces = meshes.domed_grid()
     original = meshes.positions(obj)
@@ -142,19 +135,6 @@ def test_messages_name_the_meshs_vertices(text: str, ahead: bool) -> None:
     with pytest.raises(job.Refused, match=f"{text} {vertex} ") as refusal:
         job.solve(job.read(bpy.context, options), options, lambda *_: True, ahead=ahead)
     assert refusal.value.cause.elements.tolist() == [vertex]
-
-
-def test_edge_with_four_faces() -> None:
-    obj, _ = meshes.domed_grid()
-    add_tent(obj)
-    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7)
-    before = meshes.in_edit_mode_once(obj, faces)
-    with pytest.raises(RuntimeError, match="More than two faces"):
-        meshes.fair(obj, faces)
-    after = meshes.contents(obj)
-    assert after["POINT position"] == before["POINT position"]
-    selected = [v.index for v in obj.data.vertices if v.select]
-    assert len(selected) == 2
 
 
 def test_too_little_memory_is_a_refusal(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -5,12 +5,9 @@ from __future__ import annotations
 import re
 from typing import Any
 
-import bmesh
 import bpy
 import meshes
-import numpy as np
 import pytest
-import spoiled
 from extension import module
 from test_restoration import spoil, upper_half
 
@@ -77,41 +74,6 @@ def test_kink_of_a_soap_film_is_no_fault() -> None:
     meshes.fair(obj, faces, equation="MINIMAL")
     assert meshes.report().verdict == "GOOD"
     assert "Kink at the boundary" not in checks()
-
-
-def crossings() -> str:
-    found: str = checks()["Faces that cross"][0].split(" → ")[1]
-    return found
-
-
-def test_islands_that_run_into_each_other_are_counted() -> None:
-    """Two flat squares become domes; the upper one bulges down through the lower one."""
-    lower, faces = meshes.domed_grid()
-    points = meshes.grid_points()
-    both = meshes.add(
-        np.vstack([points, points + np.array([0.05, 0.03, 0.1])]),
-        [[v + shift for v in p.vertices] for shift in (0, len(points)) for p in lower.data.polygons],
-    )
-    meshes.fair(both, np.concatenate([faces, faces]))
-    assert crossings() == "0"
-    meshes.fair(both, np.concatenate([faces, faces]), equation="CONSTANT", bulge=0.6, accept="ALL")
-    assert crossings() == "0"  # both bulge upwards
-    spoiled.edited(both, lambda bm: bmesh.ops.reverse_faces(bm, faces=bm.faces[len(faces) :]))
-    meshes.fair(both, np.concatenate([faces, faces]), equation="CONSTANT", bulge=0.6, accept="ALL")
-    assert int(crossings()) > 0
-
-
-@pytest.mark.parametrize("factor", [1.0, 0.999])
-def test_a_patch_that_runs_into_itself_is_counted(factor: float) -> None:
-    """An outline that goes round twice; at the factor 1 the engine has looked already."""
-    obj = meshes.grid(16)
-    points = meshes.grid_points(16)
-    rim = np.isclose(np.abs(points[:, :2]).max(axis=1), 1.0)
-    turn = np.arctan2(points[rim, 1], points[rim, 0])
-    points[rim] = np.column_stack([np.cos(2.0 * turn), np.sin(2.0 * turn), 0.3 * np.cos(turn)])
-    meshes.move(obj, points)
-    meshes.fair(obj, np.ones(len(obj.data.polygons), dtype=bool), factor=factor, equation="MINIMAL", accept="ALL")
-    assert int(crossings()) > 0
 
 
 def test_before_and_after() -> None:

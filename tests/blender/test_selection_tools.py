@@ -125,34 +125,6 @@ def test_bad_outline_vertices_are_marked_selected_and_grown_over() -> None:
     meshes.leave()
 
 
-def test_a_clean_outline_offers_nothing() -> None:
-    obj = bumpy()
-    assert len(inspect(obj, square(obj)).bad) == 0
-    meshes.select(obj, square(obj))
-    meshes.edit(obj)
-    for tool in (bpy.ops.mesh.fair_select_bad, bpy.ops.mesh.fair_grow, bpy.ops.mesh.fair_smooth_outline):
-        assert tool() == {"CANCELLED"}
-    assert chosen_faces(obj) == np.flatnonzero(square(obj)).tolist()
-    meshes.leave()
-
-
-def test_smoothing_the_outline_moves_nothing_inside() -> None:
-    obj = meshes.grid(16)
-    points = meshes.positions(obj)
-    points[:, 2] = 0.012 * np.random.default_rng(8).normal(size=len(points))
-    meshes.move(obj, points)
-    faces = square(obj, 0.5)
-    before = meshes.in_edit_mode_once(obj, faces)
-    meshes.select(obj, faces)
-    meshes.edit(obj)
-    assert bpy.ops.mesh.fair_smooth_outline() == {"FINISHED"}
-    meshes.leave()
-    moved = meshes.moved(before, meshes.contents(obj))
-    assert moved.any()
-    assert not moved[meshes.free_vertices(obj, faces)].any()
-    assert np.abs(meshes.positions(obj)[moved, 2]).mean() < 0.8 * np.abs(points[moved, 2]).mean()
-
-
 def test_with_x_mirror_one_side_stands_for_both() -> None:
     obj = bumpy(24)
     obj.data.use_mirror_x = True

@@ -8,7 +8,6 @@ import bpy
 import meshes
 import numpy as np
 import pytest
-from extension import module
 
 NOISE = 0.01
 LIMIT = 0.4  # faces above this height are selected
@@ -34,21 +33,6 @@ def fair(obj: bpy.types.Object, faces: meshes.Mask, **options: Any) -> Any:
     before = meshes.in_edit_mode_once(obj, faces)
     assert meshes.fair(obj, faces, **options) == {"FINISHED"}
     return meshes.moved(before, meshes.contents(obj))
-
-
-@pytest.fixture
-def nothing_solves(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """From the call on no solver answers."""
-    import fairing
-
-    def refuse(*_arguments: Any, **_options: Any) -> None:
-        raise AssertionError("solved again")
-
-    def call() -> None:
-        monkeypatch.setattr(fairing, "fair", refuse)
-        monkeypatch.setattr(fairing.Solver, "solve", refuse)
-
-    return call
 
 
 def test_the_skin_comes_back_and_the_dent_goes() -> None:
@@ -78,56 +62,6 @@ def test_detail_is_the_engines() -> None:
         assert part.vertices == pytest.approx(result.base + share * (result.vertices - result.base), abs=1e-12)
         own = np.unique([v for face in chosen for v in obj.data.polygons[int(face)].vertices])
         assert meshes.positions(obj)[own] == pytest.approx(part.vertices, abs=1e-6)
-
-
-def test_the_size_counts() -> None:
-    """Longer waves are kept with a larger size: more of the dent stays."""
-    fine, faces, _ = dented()
-    coarse, _, _ = dented()
-    fair(fine, faces, detail=1.0, detail_size=0.15)
-    fair(coarse, faces, detail=1.0, detail_size=0.8)
-    top = meshes.positions(fine)[:, 2].argmax()
-    assert heights(coarse)[top] < heights(fine)[top] - 0.02
-
-
-def test_the_detail_slider_answers_from_memory(nothing_solves: Any) -> None:
-    """As the factor does: the same mesh, another share."""
-    module("run.job").memory.clear()
-    whole, faces, _ = dented()
-    free = meshes.free_vertices(whole, faces)
-    fair(whole, faces, detail=1.0)
-    nothing_solves()
-    part, _, _ = dented()
-    fair(part, faces, detail=0.4)
-    blended, _, _ = dented()
-    old = meshes.positions(blended)
-    fair(blended, faces, detail=1.0, factor=0.5)
-    assert meshes.positions(blended)[free] == pytest.approx(0.5 * (old + meshes.positions(whole))[free], abs=1e-6)
-    assert np.ptp(heights(part)[free]) < np.ptp(heights(whole)[free])
-    with pytest.raises(RuntimeError, match="solved again"):
-        fair(dented()[0], faces, detail=0.4, detail_size=0.3)
-
-
-def test_a_script_gives_the_same_bits() -> None:
-    from bl_ext.user_default.intrinsic_fairing import fair_mesh
-
-    obj, faces, _ = dented(32)
-    scripted, _, _ = dented(32)
-    chosen = {"detail": 0.7, "detail_size": 0.25}
-    fair(obj, faces, **chosen)
-    fair_mesh(scripted.data, np.flatnonzero(faces), matrix=scripted.matrix_world, **chosen)
-    assert np.abs(meshes.positions(obj) - meshes.positions(scripted)).max() < 1e-6
-
-
-@pytest.mark.parametrize("name", ["detail", "detail_size"])
-def test_shares_are_from_0_to_1(name: str) -> None:
-    from bl_ext.user_default.intrinsic_fairing import fair_mesh
-
-    obj, faces, _ = dented(32)
-    before = meshes.contents(obj)
-    with pytest.raises(ValueError, match=f"{name}: expected a number from 0 to 1"):
-        fair_mesh(obj.data, np.flatnonzero(faces), **{name: 1.5})
-    assert meshes.contents(obj) == before
 
 
 def test_feather_moves_the_band_and_no_bit_beyond_it() -> None:
@@ -185,105 +119,6 @@ def test_pins_of_a_group_and_hidden_faces_hold_in_the_band() -> None:
     assert np.array_equal(changed, np.setdiff1d(band, [pin, *hidden.vertices]))
 
 
-@pytest.mark.parametrize(
-    ("options", "text"),
-    [
-        ({"outline": "MENDED"}, "Boundary: Smooth"),
-        ({"continuity": "G2"}, "Join: Curvature"),
-        ({"mesh": "NEW"}, "choose Mesh: Keep"),
-    ],
-)
-def test_what_feather_does_not_go_with_is_refused_in_words(options: dict[str, str], text: str) -> None:
-    obj, faces, _ = dented(32)
-    before = meshes.in_edit_mode_once(obj, faces)
-    with pytest.raises(RuntimeError, match=text):
-        meshes.fair(obj, faces, feather=0.1, **options)
-    assert meshes.contents(obj) == before
-
-
-def soft(obj: bpy.types.Object, begin: float, end: float) -> meshes.Floats:
-    """Weights by height: 0 below `begin`, 1 above `end`."""
-    return np.clip((meshes.positions(obj)[:, 2] - begin) / (end - begin), 0.0, 1.0).astype(np.float64)
-
-
-def paint_group(obj: bpy.types.Object, weights: meshes.Floats) -> None:
-    group = obj.vertex_groups.new(name="Soft")
-    for vertex, weight in enumerate(weights.tolist()):
-        if weight > 0.0:
-            group.add([vertex], weight, "REPLACE")
-
-
-def paint_mask(obj: bpy.types.Object, weights: meshes.Floats) -> None:
-    obj.data.attributes.new(".sculpt_mask", "FLOAT", "POINT").data.foreach_set("value", weights.astype(np.float32))
-
-
-def by_weights(way: str, **options: Any) -> tuple[meshes.Floats, meshes.Mask]:
-    """Run the operator with the same weights by a group, a mask, or half by each; places and what moved."""
-    obj, faces, _ = dented(32)
-    weights = soft(obj, 0.1, 0.5)
-    if way != "mask":
-        paint_group(obj, weights if way == "group" else np.sqrt(weights))
-    if way != "group":
-        paint_mask(obj, weights if way == "mask" else np.sqrt(weights))
-    chosen = {"factor_group": "" if way == "mask" else "Soft", "factor_mask": "IGNORED" if way == "group" else "USED"}
-    changed = fair(obj, faces, **chosen, **options)
-    return meshes.positions(obj), changed
-
-
-def test_a_group_or_the_mask_says_how_far_each_vertex_goes() -> None:
-    """Outside too, and no bit where there is no weight. Group and mask are multiplied."""
-    start, faces, _ = dented(32)
-    weights = soft(start, 0.1, 0.5)
-    places, changed = by_weights("group")
-    assert np.array_equal(changed, weights > 0.0)
-    assert (changed & ~meshes.free_vertices(start, faces)).any()
-    for other in ("mask", "both"):
-        again, moved = by_weights(other)
-        assert np.array_equal(moved, changed)
-        assert np.abs(again - places).max() < 1e-6
-    half, _ = by_weights("group", factor=0.5)
-    assert half == pytest.approx(0.5 * (meshes.positions(start) + places), abs=1e-6)
-
-
-def test_scripts_name_the_group_too() -> None:
-    from bl_ext.user_default.intrinsic_fairing import fair_mesh
-
-    obj, faces, _ = dented(32)
-    paint_group(obj, soft(obj, 0.1, 0.5))
-    fair_mesh(obj.data, np.flatnonzero(faces), factor_group="Soft")
-    assert meshes.positions(obj) == pytest.approx(by_weights("group")[0], abs=1e-6)
-
-
-@pytest.mark.parametrize(
-    ("options", "text"),
-    [
-        ({"factor_group": "Missing"}, "Factor Group: there is no vertex group named 'Missing'"),
-        ({"factor_mask": "USED"}, "Sculpt Mask: nothing is masked"),
-        ({"factor_group": "None"}, "leave every vertex of the selection where it is"),
-        ({"factor_group": "Soft", "outline": "MENDED"}, "Boundary: Smooth"),
-        ({"factor_group": "Soft", "mesh": "NEW"}, "choose Mesh: Keep"),
-    ],
-)
-def test_weights_that_can_not_be_are_refused_in_words(options: dict[str, str], text: str) -> None:
-    obj, faces, _ = dented(32)
-    paint_group(obj, soft(obj, 0.1, 0.5))
-    obj.vertex_groups.new(name="None")
-    before = meshes.in_edit_mode_once(obj, faces)
-    with pytest.raises(RuntimeError, match=text):
-        meshes.fair(obj, faces, **options)
-    assert meshes.contents(obj) == before
-
-
-def test_the_soft_edge_of_a_mask_fades_out_what_is_masked() -> None:
-    """Fair Masked takes the faces from the same mask."""
-    obj, _, _ = dented(32)
-    weights = soft(obj, 0.1, 0.5)
-    paint_mask(obj, weights)
-    before = meshes.positions(obj)
-    assert bpy.ops.mesh.fair_masked(source="MASK", factor_mask="USED") == {"FINISHED"}
-    assert np.array_equal((meshes.positions(obj) != before).any(axis=1), weights > 0.0)
-
-
 def with_a_hole() -> tuple[bpy.types.Object, meshes.Mask]:
     """A rough sphere with a smooth patch; the group "Skin" and the face set 7 are its lower half."""
     obj = meshes.sphere(48)
@@ -309,32 +144,3 @@ def test_a_filled_hole_takes_the_skin_of_a_group_or_a_face_set() -> None:
     assert np.array_equal(meshes.positions(by_group), meshes.positions(by_set))
     deep = meshes.positions(by_group)[:, 2] < -0.2
     assert heights(by_group)[free].std() == pytest.approx(heights(by_group)[deep].std(), rel=0.25)
-
-
-def test_a_script_copies_skin_too(nothing_solves: Any) -> None:
-    from bl_ext.user_default.intrinsic_fairing import fair_mesh
-
-    obj, faces = with_a_hole()
-    scripted, _ = with_a_hole()
-    fair(obj, faces, detail=1.0, detail_from="Skin")
-    fair_mesh(scripted.data, np.flatnonzero(faces), detail=1.0, detail_from="Skin")
-    assert np.abs(meshes.positions(obj) - meshes.positions(scripted)).max() < 1e-6
-    nothing_solves()  # the slider still answers from memory
-    half, _ = with_a_hole()
-    fair(half, faces, detail=0.5, detail_from="Skin")
-
-
-@pytest.mark.parametrize(
-    ("options", "text"),
-    [
-        ({"detail_from": "Missing"}, "Detail From: there is no vertex group named 'Missing'"),
-        ({"detail_face_set": 3}, "Detail Face Set: no visible face is in the face set 3"),
-        ({"detail_from": "Skin", "feather": 0.1}, "Detail From copies a skin"),
-    ],
-)
-def test_samples_that_can_not_be_are_refused_in_words(options: dict[str, Any], text: str) -> None:
-    obj, faces = with_a_hole()
-    before = meshes.in_edit_mode_once(obj, faces)
-    with pytest.raises(RuntimeError, match=text):
-        meshes.fair(obj, faces, detail=1.0, **options)
-    assert meshes.contents(obj) == before

@@ -62,17 +62,6 @@ TEST_CASE("what did not converge is no solution, whatever it looks like") {
     }
 }
 
-TEST_CASE("more iterations than a good mesh needs are a flaw, but from the surface itself") {
-    const Solved solved;
-    Solution solution = solved.solution();
-    solution.iterations = 20;
-    CHECK(flaw_of(solved.problem, solution) == Flaw::absent);
-    solution.iterations = 21;
-    CHECK(flaw_of(solved.problem, solution) == Flaw::many_iterations);
-    solution.from_surface = true;
-    CHECK(flaw_of(solved.problem, solution) == Flaw::absent);
-}
-
 TEST_CASE("folds are a flaw and are named, unless the weights come from as many") {
     Solved solved;
     Solution solution = solved.solution();

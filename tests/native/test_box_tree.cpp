@@ -76,21 +76,3 @@ TEST_CASE("each pair of boxes that overlap is visited once; those of two settled
     CHECK(twice == 0);
     CHECK(settled < count * count / 16);
 }
-
-TEST_CASE("of triangles that all lie in one another only a few pairs are visited") {
-    constexpr int count = 4096;
-    const test::Mesh mesh = crumpled(count);
-    std::vector<std::atomic<char>> known(count);
-    std::atomic<int> visits = 0;
-    BoxTree(mesh.triangles, mesh.points)
-        .for_overlaps(
-            [&](int t, std::span<const int> others) {
-                visits += static_cast<int>(others.size());
-                known[t] = 1;
-                for (const int other : others) known[other] = 1;
-                return true;
-            },
-            [&](int t) { return known[t] != 0; });
-    CHECK(visits < 10 * count);  // 4 million otherwise
-    CHECK(visits > count / 4);
-}

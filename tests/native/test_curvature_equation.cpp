@@ -45,12 +45,3 @@ TEST_CASE("constant H solves the homogeneous equation exactly") {
     const VectorX none_wanted = VectorX::Zero(s.single.patch().free_count);
     CHECK(s.equation.defect(none_wanted, H).cwiseAbs().maxCoeff() < 1e-13);
 }
-
-TEST_CASE("a few conjugate gradient steps reach further than as many sweeps") {
-    Setting s;
-    VectorX swept = s.field();
-    VectorX stepped = s.field();
-    s.equation.sweep(s.load(), 20, swept);
-    s.equation.conjugate_gradients(s.load(), 20, stepped);
-    CHECK(s.equation.defect(s.load(), stepped).norm() < 0.2 * s.equation.defect(s.load(), swept).norm());
-}

@@ -77,16 +77,6 @@ TEST_CASE("on the old base the old patch comes back") {
     CHECK(skinned.error(skinned.skin->base(), skinned.detail()) < 1e-12);
 }
 
-TEST_CASE("a base may meet its outline beside the patch's own") {
-    const Skinned skinned(test::grid(24, 0.3, wavy), 0.4, {0.01, -0.02, 0.03});
-    const Points& base = skinned.skin->base();
-    CHECK(base.rightCols(skinned.outline.cols()) == skinned.outline);
-    CHECK(skinned.error(base, skinned.detail()) < 1e-12);
-    const Eigen::Matrix3d rotation = some_rotation();
-    const Points rim = rotation * (outline_of(skinned.single) - skinned.outline);
-    CHECK(skinned.error(rotation * base, rotation * skinned.detail(), rim) < 1e-12);
-}
-
 TEST_CASE("detail turns with its base, and keeps its size when that grows") {
     const Skinned skinned(test::grid(24, 0.3, wavy), 0.4);
     const Eigen::Matrix3d rotation = some_rotation();
@@ -110,27 +100,6 @@ TEST_CASE("detail stands on a sheet rolled up as it stood on the flat one") {
         if (v < expected.cols()) expected.col(v) = turn * detail.col(v);
     }
     CHECK(skinned.error(rolled, expected) < 0.05 * detail.cwiseAbs().maxCoeff());
-}
-
-TEST_CASE("a wave of the wavelength keeps half of its height, shorter ones nothing, longer ones all") {
-    const auto kept = [](double length) {
-        const double k = 2.0 * std::numbers::pi / length;
-        const auto single = test::single_patch(
-            test::grid(96, 0.0, [k](double u, double v) { return Vector3(u, v, 1e-4 * std::sin(k * u)); }));
-        const Points base = smoothed(single, 0.2);
-        double product = 0.0;
-        double square = 0.0;
-        for (int v = 0; v < single.patch().free_count; ++v) {
-            const bool inner = (single.points.col(v).head<2>().array() - 0.5).abs().maxCoeff() < 0.25;
-            if (!inner) continue;
-            product += base(2, v) * single.points(2, v);
-            square += single.points(2, v) * single.points(2, v);
-        }
-        return product / square;
-    };
-    CHECK(kept(0.2) == doctest::Approx(0.5).epsilon(0.02));
-    CHECK(std::abs(kept(0.05)) < 0.02);
-    CHECK(kept(1.0) == doctest::Approx(1.0).epsilon(0.005));
 }
 
 TEST_CASE("a plane has no detail, however its vertices lie and at whatever slope") {
@@ -158,14 +127,4 @@ TEST_CASE("what the new base turns over is told from what was turned over before
     Points mirrored = skinned.single.points;
     mirrored.row(0) *= -1.0;
     CHECK(skinned.skin->turned_over(base, mirrored).size() > 1000);
-}
-
-TEST_CASE("Size is twelve edges, .45 of the patch at most") {
-    const auto wavelength = [](int n) {
-        const test::Single single = test::single_patch(test::grid(n, 0.0, test::flat, false));
-        return detail_wavelength(single.patch(), single.points);
-    };
-    CHECK(wavelength(10) == 0.45);
-    // Two sides and a diagonal for each two triangles.
-    CHECK(wavelength(100) == doctest::Approx(0.12 * (2.0 + std::numbers::sqrt2) / 3.0).epsilon(0.01));
 }

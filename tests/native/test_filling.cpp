@@ -113,17 +113,6 @@ TEST_CASE("a flat polygon that is not convex is covered once") {
     CHECK(covered == doctest::Approx(area));
 }
 
-TEST_CASE("a long polygon is triangulated in little time and completely") {
-    constexpr int n = 5000;
-    const Points points = ring(n, 0.0);
-    const auto triangles = cheapest_triangulation(first_numbers(n), TriangleCost(points));
-    CHECK(triangles.size() == n - 2);
-    double area = 0.0;
-    for (const Eigen::Vector3i& t : triangles)
-        area += 0.5 * (points.col(t[1]) - points.col(t[0])).cross(points.col(t[2]) - points.col(t[0])).z();
-    CHECK(area == doctest::Approx(std::numbers::pi).epsilon(1e-5));
-}
-
 TEST_CASE("two rings become a tube without caps, however far apart") {
     for (const double gap : {0.2, 2.0, 8.0}) {
         Points points(3, 36);
@@ -157,32 +146,6 @@ TEST_CASE("four rings become a sphere with four holes") {
     const Triangles triangles = joined_loops(points, loops);
     CHECK(triangles.cols() == 4 * n + 2 * 2);  // n − 2 + 2 (holes − 1) triangles for holes of n edges in all
     CHECK(open_sides(triangles).size() == 4 * n);
-}
-
-TEST_CASE("lengths are the outline's at the outline and grow by half of the way") {
-    const test::Single single = test::single_patch(test::grid(24, 0.0, test::flat));
-    const Patch& patch = single.patch();
-    const double edge = (single.points.col(patch.edge_ends[0][0]) - single.points.col(patch.edge_ends[0][1])).norm();
-    for (const double spacing : {0.25 * edge, 4.0 * edge}) {
-        const VectorX lengths = edge_lengths(patch, single.points, {spacing, 0, Spread::even});
-        for (int e = 0; e < patch.edge_count(); ++e) {
-            const auto [a, b] = patch.edge_ends[e];
-            const double length = (single.points.col(a) - single.points.col(b)).norm();
-            if (patch.edge_triangles[e][1] == none) CHECK(lengths[a] > 0.0);
-            CHECK(std::abs(lengths[a] - lengths[b]) <= 0.5 * length + 1e-12);
-        }
-        const double middle = spacing < edge ? lengths.minCoeff() : lengths.maxCoeff();
-        CHECK(middle == doctest::Approx(spacing));
-    }
-}
-
-TEST_CASE("lengths shrink until they give the vertices wanted") {
-    const test::Single single = test::single_patch(test::grid(12, 0.0, test::flat));
-    const VectorX few = edge_lengths(single.patch(), single.points, {0.0, 0});
-    const VectorX many = edge_lengths(single.patch(), single.points, {0.0, 1000});
-    CHECK(expected_count(single.patch(), single.points, few) < 500.0);
-    CHECK(expected_count(single.patch(), single.points, many) >= 1000.0);
-    CHECK(expected_count(single.patch(), single.points, many) < 1100.0);
 }
 
 namespace {
@@ -259,23 +222,6 @@ TEST_CASE("a mesh over a crumpled surface does not grow without end") {
     CHECK(static_cast<double>(mesh.result().points.cols()) < 3.0 * expected);  // six times without a limit
 }
 
-TEST_CASE("chords at sharp corners stay but where their triangle is turned against the outline's normals") {
-    Stretched square = stretched_square(6);
-    square.points.row(0) -= 1.6 / 0.3 * square.points.row(1);  // sheared to the other side: chords at sharp corners
-    const auto count = square.points.cols();
-    const Points flat = Points::Zero(3, count);
-    const TargetSurface surface(square.patch, square.points, flat);
-    const VectorX lengths = VectorX::Ones(count);
-    const auto splits = [&](const Points& normals) {
-        EvenMesh mesh(square.patch, square.points, surface, lengths);
-        return mesh.split_chords(normals);
-    };
-    const Points up = Vector3::UnitZ().replicate(1, count - square.patch.free_count);
-    CHECK(splits(up) == 0);
-    CHECK(splits({}) == 0);
-    CHECK(splits(-up) == 2);
-}
-
 namespace {
 
 // A flat disc with its rim on a unit ball around the origin, at this angle from the direction of `side` · z.
@@ -314,123 +260,4 @@ TEST_CASE("a start that bulges out beyond its outline lies on the ball of the ou
             CHECK(faces.areas.sum() > 0.9 * 2.0 * std::numbers::pi * (1.0 - std::cos(angle * degree)));
         }
     }
-}
-
-TEST_CASE("no ball is taken where a flat start does, or where the normals name none") {
-    constexpr double degree = std::numbers::pi / 180.0;
-    for (const double angle : {40.0, 90.0, 110.0}) {
-        const test::Single disc = disc_on_ball(angle * degree, 1.0);
-        const int fixed_count = disc.patch().vertex_count() - disc.patch().free_count;
-        CHECK_FALSE(ball_start(disc.patch(), disc.points, disc.points.rightCols(fixed_count)).has_value());
-    }
-    const test::Single wide = disc_on_ball(150.0 * degree, 1.0);
-    const int fixed_count = wide.patch().vertex_count() - wide.patch().free_count;
-    Points upright = Points::Zero(3, fixed_count);
-    upright.row(2).setOnes();
-    CHECK_FALSE(ball_start(wide.patch(), wide.points, upright).has_value());
-}
-
-TEST_CASE("the surface over a rim that asks for nearly a whole ball is found from there at once") {
-    constexpr int n = 36;
-    constexpr double degree = std::numbers::pi / 180.0;
-    for (const double half_angle : {100.0 * degree, 150.0 * degree}) {
-        const double radius = 0.5 / std::sin(half_angle);
-        const Points rim = radius * (ring(n, 1.0 / std::tan(half_angle)) * std::sin(half_angle));
-        const FirstSurface found = first_surface({rim, rim / radius, {first_numbers(n)}}, SolverOptions(), Progress());
-        CHECK(found.solution.termination == Termination::converged);
-        CHECK((found.solution.points.colwise().norm().array() / radius - 1.0).abs().maxCoeff() < 1e-3);
-        const bool at_once = found.solution.ways.size() == 1 && found.solution.ways.front().name == "near";
-        CHECK(at_once == (half_angle > 115.0 * degree));
-    }
-}
-
-namespace {
-
-// The rims of a part of a torus of radius 1 around the z axis.
-struct Elbow {
-    Points points;
-    Points normals;
-    std::vector<Indices> loops;
-};
-
-Elbow elbow(int n, double radius, int shift = 0, double bend = 0.5 * std::numbers::pi) {
-    Elbow result{Points(3, 2 * n), Points(3, 2 * n), {}};
-    for (int k = 0; k < 2 * n; ++k) {
-        const double angle = 2.0 * std::numbers::pi * (k + (k < n ? 0 : shift)) / n;
-        const Vector3 out = k < n ? Vector3::UnitX() : Vector3(std::cos(bend), std::sin(bend), 0.0);
-        result.normals.col(k) = std::cos(angle) * out + std::sin(angle) * Vector3::UnitZ();
-        result.points.col(k) = out + radius * result.normals.col(k);
-    }
-    Indices below = first_numbers(n);
-    std::reverse(below.begin(), below.end());
-    result.loops = {below, first_numbers(n, n)};
-    return result;
-}
-
-}  // namespace
-
-TEST_CASE("a start between two rims follows the bend, however thin the tube and wherever its rims begin") {
-    for (const double radius : {0.4, 0.1, 0.02}) {
-        for (const int shift : {0, 7}) {
-            for (const double bend : {0.5, 1.0}) {
-                const Elbow rims = elbow(24, radius, shift, bend * std::numbers::pi);
-                const auto swept = SweptTube::between(rims.loops, rims.points, rims.normals);
-                REQUIRE(swept.has_value());
-                const TubeMesh tube = tube_start(*swept);
-                CHECK(open_sides(tube.triangles).size() == 48);
-                Points points(3, tube.points.cols() + rims.points.cols());
-                points << tube.points, rims.points;
-                for (const auto place : tube.points.colwise()) {
-                    // A cubic is .0003 off an arc of 90° of radius 1, and .02 off one of 180°.
-                    const double away = std::hypot(std::hypot(place.x(), place.y()) - 1.0, place.z());
-                    CHECK(std::abs(away - radius) < 0.03 * radius + (bend > 0.9 ? 0.02 : 0.0));
-                }
-                FaceGeometry faces;
-                faces.update(points, tube.triangles);
-                const double area = 2.0 * bend * std::numbers::pi * std::numbers::pi * radius;
-                CHECK(faces.areas.sum() == doctest::Approx(area).epsilon(0.02));
-            }
-        }
-    }
-}
-
-TEST_CASE("no tube begins between rims around a flat ring, or where one of them is seen from inside") {
-    const Elbow rims = elbow(24, 0.4);
-    Elbow flat = rims;
-    flat.points << ring(24, 0.0), 2.0 * ring(24, 0.0);
-    flat.normals << 0.2 * ring(24, 0.0), 0.2 * ring(24, 0.0);  // nearly flat, seen from outside like a tube
-    flat.normals.row(2).setOnes();
-    flat.normals.colwise().normalize();
-    CHECK_FALSE(SweptTube::between(flat.loops, flat.points, flat.normals).has_value());
-    Points half = rims.normals;
-    half.leftCols(24) *= -1.0;
-    CHECK_FALSE(SweptTube::between(rims.loops, rims.points, half).has_value());
-    CHECK_FALSE(SweptTube::between({rims.loops[0]}, rims.points, rims.normals).has_value());
-}
-
-TEST_CASE("a thin elbow is found at once") {
-    const Elbow rims = elbow(32, 0.2);
-    const Vector3 middle = rims.points.rowwise().mean();
-    const double size = 2.0 * (rims.points.colwise() - middle).colwise().norm().maxCoeff();
-    SolverOptions options;
-    const OpenOutline outline{rims.points / size, rims.normals, rims.loops};
-    const FirstSurface found = first_surface(outline, options, Progress());
-    CHECK(found.solution.termination == Termination::converged);
-    CHECK(found.solution.ways.size() == 1);
-    const Points surface = size * found.solution.points;
-    const Eigen::RowVectorXd across = surface.topRows<2>().colwise().norm().array() - 1.0;
-    const Eigen::RowVectorXd away = (across.array().square() + surface.row(2).array().square()).sqrt();
-    CHECK((away.array() / 0.2 - 1.0).abs().maxCoeff() < 0.1);
-}
-
-TEST_CASE("a search in vain leaves a mesh of few vertices") {
-    const Elbow rims = elbow(16, 0.1);
-    const Vector3 middle = rims.points.rowwise().mean();
-    const double size = 2.0 * (rims.points.colwise() - middle).colwise().norm().maxCoeff();
-    SolverOptions options;
-    options.otherwise = Otherwise::stop;
-    const OpenOutline outline{rims.points / size, rims.normals, rims.loops};
-    const FirstSurface in_vain = first_surface(outline, options, Progress());
-    CHECK(in_vain.solution.termination != Termination::converged);
-    CHECK(in_vain.patch.free_count < 1000);  // 464; 3130 where the search goes on
 }

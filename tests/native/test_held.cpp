@@ -88,24 +88,6 @@ TEST_CASE("noise leaves a closed border, and most of an open one") {
     }
 }
 
-TEST_CASE("a clean border of many waves stays") {
-    const int count = 120;
-    Points exact = ellipse(count);
-    for (int k = 0; k < count; ++k) exact(2, k) += 0.1 * std::sin(10.0 * std::numbers::pi * k / count);
-    Points points = exact;
-    fair_border(everything(count), std::vector<char>(count, 1), points);
-    CHECK((points - exact).cwiseAbs().maxCoeff() < 2e-3);
-}
-
-TEST_CASE("short runs of a border stay") {
-    Points points = noise(30, 1.0);
-    const Points given = points;
-    std::vector<char> marked(30, 0);
-    std::fill_n(marked.begin() + 3, 5, 1);
-    fair_border(everything(30), marked, points);
-    CHECK(points == given);
-}
-
 TEST_CASE("released pins come behind the free vertices, and the way back is known") {
     const test::Single single = test::single_patch(test::grid(8, 0.0, test::flat));
     const Patch pinned = with_pins(single, {10, 30});

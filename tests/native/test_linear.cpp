@@ -152,19 +152,6 @@ TEST_CASE("the LU factor solves diagonally dominant systems that are not symmetr
     }
 }
 
-TEST_CASE("the LU factor has the same bits for any number of threads") {
-    const SparseMatrix matrix = grid_rows(120);
-    const Eigen::MatrixXd rhs = Eigen::MatrixXd::Random(matrix.rows(), 3);
-    SparseLu alone;
-    REQUIRE(alone.factorise(matrix, "x", Progress()));
-    const Eigen::MatrixXd control = alone.solve(rhs);
-    CHECK((matrix * control - rhs).norm() < 1e-11 * rhs.norm());
-    const Threads threads(3);
-    SparseLu together;
-    REQUIRE(together.factorise(matrix, "x", Progress()));
-    CHECK(together.solve(rhs) == control);
-}
-
 TEST_CASE("the LU factor refuses a singular matrix") {
     SparseMatrix matrix = random_rows(50, 1, 7);
     matrix.prune([](Eigen::Index row, Eigen::Index, double) { return row != 20; });
@@ -190,36 +177,6 @@ TEST_CASE("an LU factorisation can be cancelled between its fronts and done agai
     CHECK((matrix * factor.solve(rhs) - rhs).norm() < 1e-10);
 }
 
-TEST_CASE("a solve that knows what the last ones found has less to find") {
-    // Eigenvalues from 1 to 2 and twelve far off, which take a plain solve a direction each.
-    const int count = 400;
-    Eigen::RowVectorXd diagonal = Eigen::RowVectorXd::LinSpaced(count, 1.0, 2.0);
-    for (int k = 0; k < 12; ++k) diagonal[30 * k] = 10.0 * std::pow(3.0, k);
-    using Row = KnownDirections::Row;
-    int products = 0;
-    const auto apply = [&](const Row& p, Row& product) {
-        ++products;
-        product = p.cwiseProduct(diagonal);
-    };
-    const auto precondition = [](const Row& r, Row& z) { z = r; };
-    KnownDirections known;
-    Indices taken;
-    for (int times = 0; times < 3; ++times) {
-        const Row wanted = Row::Random(count);
-        products = 0;
-        const Row found = known.solve(wanted.cwiseProduct(diagonal), {1e-10}, 100, apply, precondition);
-        CHECK((found - wanted).norm() < 1e-3 * wanted.norm());
-        taken.push_back(products);
-    }
-    CHECK(taken[0] > 15);
-    CHECK(taken[1] <= taken[0] / 2);
-    CHECK(taken[2] <= taken[0] / 2);
-    known.forget();
-    products = 0;
-    (void)known.solve(diagonal, {1e-10}, 100, apply, precondition);
-    CHECK(products > 12);
-}
-
 TEST_CASE("solves that end at the limit of their cycles, or on a matrix that is not positive, are counted") {
     using Row = KnownDirections::Row;
     Row diagonal = Row::LinSpaced(4, 1.0, 4.0);  // as many cycles as there are eigenvalues
@@ -240,70 +197,6 @@ TEST_CASE("solves that end at the limit of their cycles, or on a matrix that is 
     CHECK(unfinished_after(50) == 1);
 }
 
-TEST_CASE("Anderson acceleration ends a linear iteration within its dimension") {
-    // x ← x + (b − A x) with eigenvalues of A in (0, 2): slow by itself, exact after dimension + 1 accelerated steps.
-    const VectorX diagonal = VectorX::LinSpaced(5, 0.01, 1.99);
-    const VectorX b = VectorX::Ones(5);
-    VectorX x = VectorX::Zero(5);
-    Anderson anderson(6);
-    for (int k = 0; k < 7; ++k) x += anderson.step(x, b - diagonal.cwiseProduct(x));
-    CHECK((diagonal.cwiseProduct(x) - b).norm() < 1e-8);
-}
-
-TEST_CASE("differences of one iteration serve the next one of the same matrix") {
-    const VectorX diagonal = VectorX::LinSpaced(5, 0.01, 1.99);
-    const VectorX b = VectorX::Ones(5);
-    const VectorX other = VectorX::LinSpaced(5, -3.0, 2.0);
-    const auto left_after_one_step = [&](const auto& in_between) {
-        VectorX x = VectorX::Zero(5);
-        Anderson anderson(6);
-        for (int k = 0; k < 6; ++k) x += anderson.step(x, b - diagonal.cwiseProduct(x));
-        in_between(anderson);
-        x += anderson.step(x, other - diagonal.cwiseProduct(x));
-        return (diagonal.cwiseProduct(x) - other).norm();
-    };
-    CHECK(left_after_one_step([](Anderson& anderson) { anderson.begin_again(); }) < 1e-5);  // they are singles
-    CHECK(left_after_one_step([](Anderson& anderson) { anderson.reset(); }) > 0.1);
-}
-
-TEST_CASE("an accelerated move is the step, shortened as a whole where a point would go too far") {
-    Points plain(3, 2);
-    plain << 0.3, 0.0, 0.4, 0.1, 0.0, 0.0;  // of lengths 0.5 and 0.1
-    for (const double longest : {0.05, 1.0}) {
-        Points points = Points::Constant(3, 3, 7.0);
-        Anderson anderson(4);
-        anderson.move(points, plain, longest);
-        CHECK((points.leftCols(2).array() - 7.0 - plain.array() * std::min(1.0, longest / 0.5)).abs().maxCoeff() <
-              1e-15);
-        CHECK(points.col(2) == Vector3::Constant(7.0));
-    }
-}
-
-TEST_CASE("steps shrink in vain while none is shorter than the share of the shortest") {
-    ShrinkingSteps steps(0.9);
-    CHECK(steps.in_vain(1.0) == 0);
-    CHECK(steps.in_vain(0.95) == 1);
-    CHECK(steps.in_vain(0.91) == 2);
-    CHECK(steps.in_vain(0.89) == 0);
-    CHECK(steps.in_vain(0.85) == 1);
-}
-
-TEST_CASE("steps contract that halve in three") {
-    const auto slow_at = [](std::initializer_list<double> lengths) {
-        Contraction contraction;
-        int k = 0;
-        for (const double length : lengths) {
-            if (contraction.is_slow(length)) return k;
-            ++k;
-        }
-        return -1;
-    };
-    CHECK(slow_at({1.0, 5.0, 0.9, 0.3, 0.4, 0.14, 0.14, 0.19}) == -1);
-    CHECK(slow_at({1.0, 0.3, 0.2, 0.51}) == 3);
-    CHECK(slow_at({1.0, 0.8, 0.2, 0.3, 0.41}) == 4);
-    CHECK(slow_at({1.0, 0.8, 0.2, 0.3, 0.3, 0.09, 0.16}) == 6);
-}
-
 TEST_CASE("GMRES solves systems that are not symmetric, at the latest after as many steps as unknowns") {
     std::srand(5);
     const int n = 30;
@@ -321,47 +214,4 @@ TEST_CASE("GMRES solves systems that are not symmetric, at the latest after as m
         last = left;
     }
     CHECK(gmres(apply, precondition, VectorX::Zero(n), 1e-12, n).norm() == 0.0);
-}
-
-TEST_CASE("GMRES keeps its directions at right angles where the system is nearly singular") {
-    // With one pass of orthogonalisation the residual stays at 1e-4.
-    const int n = 30;
-    const VectorX b = VectorX::Ones(n);
-    const LinearMap apply = [](const VectorX& x) {
-        const Eigen::Index last = x.size() - 1;
-        VectorX y = x;
-        y.head(last) += 0.1 * x.tail(last);
-        for (Eigen::Index i = 0; i <= last; ++i) y[i] *= std::pow(10.0, -10.0 * double(i) / double(last));
-        return y;
-    };
-    const LinearMap same = [](const VectorX& x) { return x; };
-    CHECK((apply(gmres(apply, same, b, 0.0, n)) - b).norm() < 1e-6 * b.norm());
-}
-
-TEST_CASE("GMRES takes the same steps in any units, and ends where no direction is left") {
-    const int n = 30;
-    std::srand(7);
-    const Eigen::MatrixXd full = Eigen::MatrixXd::Random(n, n) + 3.0 * Eigen::MatrixXd::Identity(n, n);
-    const Eigen::MatrixXd spectrum = VectorX::LinSpaced(n, 1.0, 2.0).asDiagonal();
-    const VectorX any = VectorX::Random(n);
-    VectorX few = VectorX::Zero(n);
-    few.head(3).setOnes();
-    const VectorX wanted = full.lu().solve(any);
-    const LinearMap same = [](const VectorX& x) { return x; };
-    for (const double of_matrix : {1e-25, 1.0, 1e25}) {
-        for (const double of_load : {1e-25, 1.0, 1e25}) {
-            int steps = 0;
-            const auto apply = [&](const Eigen::MatrixXd& matrix) -> LinearMap {
-                return [&](const VectorX& x) { return ++steps, VectorX(of_matrix * (matrix * x)); };
-            };
-            CAPTURE(of_matrix);
-            CAPTURE(of_load);
-            const VectorX found = gmres(apply(full), same, of_load * any, 0.0, n) * of_matrix / of_load;
-            CHECK((found - wanted).norm() < 1e-10 * wanted.norm());
-            CHECK(steps == n);
-            steps = 0;
-            gmres(apply(spectrum), same, of_load * few, 0.0, n);
-            CHECK(steps == 3);
-        }
-    }
 }

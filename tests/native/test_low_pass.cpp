@@ -83,13 +83,6 @@ TEST_CASE("a saddle is followed through noise, though no sphere fits it") {
     CHECK(errors.place < 0.12);
 }
 
-TEST_CASE("waves longer than the wavelength stay: the reach shrinks where wide fits are contradicted") {
-    // Two wavelengths reach over most of a wave of 0.9.
-    const Edge::Errors errors = Edge(waves, 0.0).errors(0.25);
-    CHECK(errors.normal < 1.5);
-    CHECK(errors.place < 0.15);
-}
-
 TEST_CASE("size, place and turn don't matter") {
     const Edge edge(waves, 0.25, 7);
     const LowPass here = low_pass(edge.mesh.points, edge.mesh.triangles, edge.vertices, 0.2);

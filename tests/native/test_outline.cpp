@@ -119,31 +119,6 @@ TEST_CASE("fits that predict each other's normals are left alone") {
     for (int k = 0; k < 3; ++k) CHECK((filtered.col(k) - fit.fits[k]->normal).norm() < 1e-12);
 }
 
-TEST_CASE("fits that predict different turns have less to tell each other") {
-    SurroundingFit fit = row_of_planes({0.0, 0.01}, {0.01, 0.01});
-    const double smooth = lean(filtered_normals(fit).col(0));
-    fit.fits[1]->y = Vector3::UnitY();
-    fit.fits[1]->x = Vector3::UnitX();
-    fit.fits[1]->terms[1] = 2.0;  // a twist: the other end's normal would lean by 63°
-    CHECK(std::abs(lean(filtered_normals(fit).col(0))) < 0.15);
-    CHECK(smooth > 0.004);
-    fit.edges.clear();
-    CHECK(lean(filtered_normals(fit).col(0)) == doctest::Approx(0.0));
-}
-
-TEST_CASE("bad is what stands out by four medians and by an absolute bound, the worst 15 % at most") {
-    std::vector<double> errors(20, 0.01);
-    const std::vector<double> angles(20, 0.0);
-    CHECK(bad_vertices(row_of_planes(angles, errors)).empty());
-    errors[7] = 0.14;  // fourteen medians, but small
-    CHECK(bad_vertices(row_of_planes(angles, errors)).empty());
-    errors[7] = 0.16;
-    CHECK(bad_vertices(row_of_planes(angles, errors)) == Indices{7});
-    CHECK(bad_vertices(row_of_planes(angles, std::vector<double>(20, 0.5))).empty());  // noise everywhere
-    for (int k = 0; k < 5; ++k) errors[k] = 0.3 + 0.1 * k;
-    CHECK(bad_vertices(row_of_planes(angles, errors)) == Indices{2, 3, 4});
-}
-
 TEST_CASE("a vertex far off its fit, or without one, is bad; one without triangles is not") {
     SurroundingFit fit = row_of_planes(std::vector<double>(20, 0.0), std::vector<double>(20, 0.01));
     for (auto& here : fit.fits) here->height = 0.02;
@@ -168,33 +143,6 @@ TEST_CASE("a kink between planes is as visible as its angle") {
           doctest::Approx(std::atan(slope) * degrees).epsilon(1e-9));
 }
 
-TEST_CASE("coarse curved surfaces have no visible join, but a kink the other way shows") {
-    const auto tube = [](int i, int) { return std::sqrt(100.0 - (i - seam) * (i - seam)); };
-    CHECK(joined(tube).maxCoeff() < 0.5);
-    const auto dented = [&](int i, int j) { return tube(i, j) - (i == seam ? 0.2 : 0.0); };
-    CHECK(joined(dented).minCoeff() > 15.0);
-}
-
-TEST_CASE("a one-sided join looks at three rings beside the outline, however much lies behind them") {
-    const auto join_of = [](int n) {
-        const test::Mesh mesh = test::grid(n, 0.2, test::sphere);
-        const test::Single single = test::single_patch(mesh);
-        const Patch& patch = single.patch();
-        Points prescribed = single.points.rightCols(patch.vertex_count() - patch.free_count);
-        prescribed.row(2).array() += 0.4;  // leaning normals: a join that shows
-        prescribed.colwise().normalize();
-        Points dented = single.points;
-        for (int v = 0; v < patch.free_count; ++v) {
-            const bool is_far = single.points.col(v).head<2>().cwiseAbs().maxCoeff() < 0.1;
-            if (is_far) dented(2, v) += 0.3;
-        }
-        return std::pair(one_sided_join(patch, single.points, prescribed), one_sided_join(patch, dented, prescribed));
-    };
-    const auto [join, behind] = join_of(24);
-    CHECK(join.maxCoeff() > 1.0);
-    CHECK(join == behind);
-}
-
 TEST_CASE("mended: noise is moved out of the outline and two rings, by a quarter of an edge at most") {
     const Points noisy = rough_plane(3, 0.15);
     const Triangles outside = grid_triangles(columns, rows, seam, columns - 1);
@@ -214,18 +162,6 @@ TEST_CASE("mended: noise is moved out of the outline and two rings, by a quarter
         return std::sqrt(sum / rows);
     };
     CHECK(spread(mended.vertices) < 0.7 * spread(noisy));
-}
-
-TEST_CASE("mended: a vertex far off its fit moves by a quarter of its edges' mean length") {
-    Points noisy = rough_plane(3, 0.05);
-    const int far = 4 * columns + seam;
-    noisy(2, far) += 2.0;
-    const Triangles outside = grid_triangles(columns, rows, seam, columns - 1);
-    const SurroundingFit fit = fit_surroundings(noisy, outside, {far});
-    const MendedOutline mended = mend_outline(noisy, outside, seam_vertices());
-    const double length = fit.size * fit.lengths[0];
-    CHECK((mended.vertices.col(far) - noisy.col(far)).norm() == doctest::Approx(0.25 * length));
-    CHECK(mended.vertices(2, far) < noisy(2, far));
 }
 
 TEST_CASE("mended: what is not noisy stays") {
@@ -307,28 +243,4 @@ TEST_CASE("eased: curvature does not vary along a circle of a sphere or a cone; 
     scaled.points *= 2.0;
     CHECK(outline_variation(coarse.patch(), scaled) ==
           doctest::Approx(outline_variation(coarse.patch(), zigzag(coarse)) / 4.0));
-}
-
-TEST_CASE("eased: waves of sixteen vertices are halved, a circle keeps its radius, normals stand on the outline") {
-    const Ring ring(32);  // 128 vertices
-    const double height = 0.01;
-    const OutlineData wavy =
-        ring.data([](double) { return 1.0; }, [&](double angle) { return height * std::cos(8.0 * angle); });
-    const OutlineData eased = eased_outline(ring.patch(), wavy, 16.0);
-    CHECK(eased.points.row(2).maxCoeff() == doctest::Approx(0.5 * height).epsilon(1e-9));
-    CHECK(eased.points.topRows(2).colwise().norm().minCoeff() > 1.0 - 3e-4);  // (16/128)⁴
-    for (std::size_t k = 0; k < ring.loop.size(); ++k) {
-        const auto place = [&](std::size_t j) { return eased.points.col(ring.loop[j % ring.loop.size()]); };
-        const Vector3 along = place(k + 1) - place(k + ring.loop.size() - 1);
-        const Vector3 normal = eased.normals.col(ring.loop[k]);
-        CHECK(std::abs(normal.dot(along)) < 1e-12);
-        CHECK(normal.norm() == doctest::Approx(1.0));
-    }
-}
-
-TEST_CASE("eased: an outline of few vertices stays") {
-    const Ring ring(4);  // 16 vertices
-    const OutlineData wavy =
-        ring.data([](double) { return 1.0; }, [](double angle) { return 0.1 * std::cos(5.0 * angle); });
-    CHECK(eased_outline(ring.patch(), wavy, 16.0).points == wavy.points);
 }

@@ -8,67 +8,6 @@
 
 using namespace fairing;
 
-TEST_CASE("what remains of a geometric sequence is not underestimated, nor by much overestimated") {
-    for (const double contraction : {0.81, 0.9, 0.99}) {
-        RemainingChange remaining;
-        double step = 1.0;
-        for (int k = 0; k < 20; ++k) remaining.add(step *= contraction);
-        const double tail = step * contraction / (1.0 - contraction);
-        CHECK(remaining.estimate() >= tail);
-        // The step is the largest of the last three.
-        CHECK(remaining.estimate() == doctest::Approx(tail / (contraction * contraction)));
-    }
-}
-
-TEST_CASE("nothing is said about what remains before there are four steps") {
-    RemainingChange remaining;
-    for (int k = 0; k < 3; ++k) {
-        remaining.add(1e-12);
-        CHECK(std::isinf(remaining.estimate()));
-    }
-    remaining.add(0.0);
-    CHECK(std::isfinite(remaining.estimate()));
-}
-
-TEST_CASE("the share that is done grows from 0 to 1 as the estimate falls to the tolerance") {
-    RemainingChange remaining;
-    double last = 0.0;
-    double step = 1.0;
-    for (int k = 0; k < 60; ++k) {
-        remaining.add(step *= 0.7);
-        CHECK(remaining.share_done(1e-6) >= last - 1e-12);
-        last = remaining.share_done(1e-6);
-    }
-    CHECK(last == 1.0);
-}
-
-TEST_CASE("two updates that undo each other are no convergence") {
-    ProgressWatch watch(true);
-    Verdict verdict = Verdict::fair;
-    for (int k = 0; k < 5; ++k) verdict = watch.judge({1e-2, 1e-8, 1e-2});
-    CHECK(verdict == Verdict::alternating);
-}
-
-TEST_CASE("a plain iteration whose residual grows or rests alternates, one that falls does not") {
-    const auto last_verdict = [](double factor) {
-        ProgressWatch watch(false);
-        double residual = 1.0;
-        Verdict verdict = Verdict::fair;
-        for (int k = 0; k < 40 && verdict != Verdict::alternating; ++k) {
-            verdict = watch.judge({1e-3, 1e-3, residual *= factor});
-        }
-        return verdict;
-    };
-    CHECK(last_verdict(1.1) == Verdict::alternating);
-    CHECK(last_verdict(0.9999) == Verdict::alternating);
-    CHECK(last_verdict(0.9) == Verdict::better);
-}
-
-TEST_CASE("what is not finite is lost") {
-    ProgressWatch watch(true);
-    CHECK(watch.judge({1.0, 1.0, std::nan("")}) == Verdict::lost);
-}
-
 namespace {
 
 // A jittered spherical patch with exact normals on its border, scaled to D = 1.

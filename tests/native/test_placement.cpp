@@ -87,18 +87,6 @@ TEST_CASE("a sheet that lies on the other one is folded, although no triangle di
     CHECK(seen_by_neighbours == 0);
 }
 
-TEST_CASE("untangling turns all folds back and leaves the vertices on the surface") {
-    const Square square;
-    for (const double turn : {1.0, 2.0, std::numbers::pi}) {
-        Placement placement = square.twirled(turn);
-        REQUIRE(square.folds(placement) > 10);
-        untangle(square.problem, square.target, placement);
-        CHECK(square.folds(placement) == 0);
-        for (int v = 0; v < square.patch().free_count; ++v)
-            CHECK((placement.points.col(v) - square.target.position(placement.where[v])).norm() == 0.0);
-    }
-}
-
 TEST_CASE("vertices that follow a surface of their own mesh land where they are on it") {
     const Square square;
     const Placement found =
@@ -110,4 +98,23 @@ TEST_CASE("vertices that follow a surface of their own mesh land where they are 
     for (int v = 0; v < square.patch().free_count; ++v) lifted(2, v) = 0.3 * std::sin(9.0 * lifted(0, v));
     const Placement again = by_surface(square.problem, lifted, square.patch(), square.target);
     CHECK((again.points - square.single.points).cwiseAbs().maxCoeff() < 1e-12);
+}
+
+TEST_CASE("a refill restores a plane around a vertex pulled out of it, and nothing else moves") {
+    const Square square;
+    const Patch& patch = square.patch();
+    Points points = square.single.points;
+    const int pulled = patch.free_count / 2;
+    points.col(pulled) += Vector3(0.4, -0.3, 2.0);
+    Indices around;
+    for (int t = 0; t < patch.triangle_count(); ++t) {
+        if ((patch.triangles.col(t).array() == pulled).any()) around.push_back(t);
+    }
+    points.col(0).z() += 1e-3;  // a corner, far from them
+    for (const int rings : {0, 1}) {
+        const Points result = refilled(patch, points, around, rings);
+        CHECK((result.col(pulled) - square.single.points.col(pulled)).norm() < 1e-12);
+        const bool kept = result.col(0) == points.col(0);
+        CHECK(kept);
+    }
 }

@@ -31,39 +31,7 @@ struct Ball {
     TargetSurface surface{single.patch(), single.points, normals};
 };
 
-// A square whose normals lean to and fro along the outline, as none of a surface do.
-struct Rough {
-    test::Single single = test::single_patch(test::grid(24, 0.2, test::flat));
-    Points fixed = single.points.rightCols(single.patch().vertex_count() - single.patch().free_count);
-    Points normals = Points::Zero(3, fixed.cols());
-
-    Rough() {
-        for (Eigen::Index k = 0; k < normals.cols(); ++k) {
-            const double x = std::sin(12.9898 * static_cast<double>(k));
-            const double y = std::sin(78.233 * static_cast<double>(k));
-            normals.col(k) = Vector3(2.0 * x, 2.0 * y, 1.0).normalized();
-        }
-    }
-
-    // As for a user's mesh of so many free vertices.
-    [[nodiscard]] SolvedProxy solved(int shown) const {
-        const Problem problem{single.patch(), fixed, normals, uniform_weights(single.patch()), {}};
-        const Progress progress;
-        return solve_proxy(problem, std::nullopt, proxy_membrane(problem, progress), shown, progress);
-    }
-};
-
 }  // namespace
-
-TEST_CASE("of a large mesh no fine proxy is solved where the coarse one is far from a surface") {
-    const Rough rough;
-    const SolvedProxy tried = rough.solved(4000);
-    const SolvedProxy refused = rough.solved(6000);
-    REQUIRE(!tried.converged());
-    CHECK(!refused.converged());
-    CHECK(refused.mesh.points.allFinite());
-    CHECK(refused.mesh.patch.free_count < tried.mesh.patch.free_count / 2);
-}
 
 TEST_CASE("adapting keeps the outline, the topology and the numbers of vertices") {
     const test::Single single = test::single_patch(test::grid(14, 0.4, test::sphere));
@@ -84,20 +52,6 @@ TEST_CASE("adapting keeps the outline, the topology and the numbers of vertices"
     }
 }
 
-TEST_CASE("collapses and splits don't go on undoing each other") {
-    // A mesh that has settled changes in the first rounds, which are rough; without care a third of it in every one.
-    const test::Single single = test::single_patch(test::grid(30, 0.4, test::sphere));
-    Sizing sizing{0.15, 0.06, 5000};
-    sizing.settles = true;
-    ProxyMesh mesh(single.patch(), single.points);
-    mesh.adapt(sizing);
-    const auto changes = [&] { return mesh.number_count() + static_cast<int>(mesh.removed().size()); };
-    const int before = changes();
-    mesh.adapt(sizing);
-    CHECK(mesh.free_count() > 300);
-    CHECK(changes() - before <= mesh.free_count());
-}
-
 TEST_CASE("a crumpled start becomes a mesh of even edges") {
     // The inner vertices sit in a heap a thousandth of the patch wide.
     test::Single single = test::single_patch(test::grid(10, 0.0, test::flat));
@@ -115,25 +69,6 @@ TEST_CASE("a crumpled start becomes a mesh of even edges") {
         const Vector3 ab = result.points.col(result.patch.triangles(1, t)) - a;
         const Vector3 ac = result.points.col(result.patch.triangles(2, t)) - a;
         CHECK(ab.cross(ac).z() > 0.0);
-    }
-}
-
-TEST_CASE("a walk that folded triangles send to and fro ends at the nearest point nevertheless") {
-    // One vertex of a flat grid lies beyond its neighbours: the triangles around it overlap others.
-    test::Single single = test::single_patch(test::grid(10, 0.0, test::flat));
-    int moved = 0;
-    for (int v = 0; v < single.patch().free_count; ++v) {
-        const auto distance = [&](int k) { return (single.points.col(k) - Vector3(0.5, 0.5, 0.0)).norm(); };
-        if (distance(v) < distance(moved)) moved = v;
-    }
-    single.points.col(moved) += Vector3(0.13, 0.04, 0.0);
-    const Points normals = Vector3::UnitZ().replicate(1, single.points.cols());
-    const TargetSurface surface(single.patch(), single.points, normals);
-    for (int v = 0; v < single.patch().free_count; ++v) {
-        for (const Vector3& target : {Vector3(0.45, 0.5, 0.0), Vector3(0.55, 0.48, 0.0), Vector3(0.62, 0.55, 0.0)}) {
-            const SurfacePoint where = surface.project(target, surface.at_vertex(v).triangle);
-            CHECK((surface.position(where) - target).norm() < 1e-12);
-        }
     }
 }
 

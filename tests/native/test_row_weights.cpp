@@ -41,28 +41,10 @@ TEST_CASE("every row of weights is a convex combination") {
     }
 }
 
-TEST_CASE("a planar mesh is a fixed point of conformal and shape-preserving weights") {
-    const test::Single single = test::single_patch(test::grid(8, 0.35, test::flat));
-    CHECK(largest_defect(single, InnerFairness::conformal) < 1e-13);
-    CHECK(largest_defect(single, InnerFairness::shape_preserving) < 1e-13);
-    CHECK(largest_defect(single, InnerFairness::uniform) > 1e-3);
-    CHECK(largest_defect(single, InnerFairness::inverse_distance) > 1e-3);
-}
-
 TEST_CASE("shape-preserving weights reproduce planar meshes with negative cotangents too") {
     const test::Single single =
         test::single_patch(test::grid(8, 0.2, [](double u, double v) { return Vector3(u + 2.5 * v, v, 0.0); }));
     CHECK(largest_defect(single, InnerFairness::shape_preserving) < 1e-13);
-}
-
-TEST_CASE("inverse-distance weights are in proportion to 1/|q_i - q_j|") {
-    const test::Single single = test::single_patch(test::grid(4, 0.3, test::flat));
-    const RowWeights rows = row_weights(single.patch(), single.points, InnerFairness::inverse_distance);
-    const auto columns = rows.columns_of(0);
-    const auto distance = [&](std::size_t k) { return (single.points.col(columns[k]) - single.points.col(0)).norm(); };
-    for (std::size_t k = 1; k < columns.size(); ++k) {
-        CHECK(rows.values_of(0)[k] / rows.values_of(0)[0] == doctest::Approx(distance(0) / distance(k)));
-    }
 }
 
 TEST_CASE("custom rows are normalised, and a free vertex without one is refused") {

@@ -84,49 +84,6 @@ TEST_CASE("surfaces without crossings have none, whether they touch or lie close
     CHECK(crossing_triangles(Triangles(3, 0), Points(3, 0)).empty());
 }
 
-TEST_CASE("a wall through a floor crosses the triangles along one line, as a brute-force search finds them") {
-    const test::Mesh floor = test::grid(9, 0.2, test::flat);
-    const test::Mesh both = join(floor, test::grid(7, 0.2, wall), {0.03, 0.47, -0.51});
-    const Indices found = crossing_triangles(both.triangles, both.points);
-    // The wall's plane is y = 0.47 and it spans the floor's width: every floor triangle with corners on both sides.
-    for (int t = 0; t < floor.triangles.cols(); ++t) {
-        const auto corners = floor.triangles.col(t);
-        double lowest = 1.0;
-        double highest = 0.0;
-        double nearest = 1.0;
-        for (int v : corners) {
-            lowest = std::min(lowest, floor.points(1, v));
-            highest = std::max(highest, floor.points(1, v));
-            nearest = std::min(nearest, floor.points(0, v));
-        }
-        if (nearest < 0.05) continue;  // the wall begins at x = 0.03
-        const bool crossed = lowest < 0.47 && highest > 0.47;
-        CHECK((std::find(found.begin(), found.end(), t) != found.end()) == crossed);
-    }
-    CHECK(std::is_sorted(found.begin(), found.end()));
-}
-
-TEST_CASE("with a few triangles only the pairs with one of them count") {
-    const test::Mesh floor = test::grid(9, 0.2, test::flat);
-    const test::Mesh both = join(floor, test::grid(7, 0.2, wall), {0.03, 0.47, -0.51});
-    const auto count = static_cast<int>(floor.triangles.cols());
-    const Indices all = crossing_triangles(both.triangles, both.points);
-    Indices walls;
-    for (int t = count; t < both.triangles.cols(); ++t) walls.push_back(t);
-    CHECK(crossings_with(both.triangles, both.points, walls) == all);
-    CHECK(crossings_with(both.triangles, both.points, {}).empty());
-    REQUIRE(all.size() > 4);
-    const Indices first = crossings_with(both.triangles, both.points, {all[0]});
-    CHECK(first.front() == all[0]);
-    CHECK(first.size() > 1);
-    CHECK(first.size() < all.size());
-    CHECK(std::all_of(first.begin() + 1, first.end(), [&](int t) { return t >= count; }));  // of the floor it alone
-    // What crosses without them is not told, though it lies in their box.
-    const test::Mesh three = join(both, floor, {0.0, 0.0, 0.01});
-    const Indices third = crossings_with(three.triangles, three.points, {static_cast<int>(both.triangles.cols())});
-    CHECK(std::none_of(third.begin(), third.end(), [&](int t) { return t < count; }));
-}
-
 TEST_CASE("triangles that share a vertex may cross, those that share an edge fold") {
     Points points(3, 5);
     points << 0.0, 2.0, 2.0, 1.0, 1.0,  //

@@ -44,16 +44,6 @@ Points fixed_points(const test::Single& single) {
 
 Points layout_of(const test::Single& single) { return single.points.leftCols(single.patch().free_count); }
 
-// 4M_B + Cᵀ S_II⁻¹ 4M_I S_II⁻¹ C.
-Eigen::MatrixXd outline_matrix(const Patch& patch, const Stiffness& stiffness) {
-    const int free = patch.free_count;
-    const Eigen::MatrixXd S = test::dense(patch, stiffness);
-    const Eigen::MatrixXd harmonic = S.topLeftCorner(free, free).llt().solve(S.topRightCorner(free, S.cols() - free));
-    Eigen::MatrixXd G = 4.0 * harmonic.transpose() * stiffness.mass.head(free).asDiagonal() * harmonic;
-    G.diagonal() += 4.0 * stiffness.mass.tail(S.cols() - free);
-    return G;
-}
-
 }  // namespace
 
 TEST_CASE("solves in part are those of the whole, where they are wanted") {
@@ -130,71 +120,6 @@ TEST_CASE("split by free and fixed vertices, the biharmonic operator has the sam
             const Eigen::MatrixXd found = split.solve(rhs, {accuracy});
             CAPTURE(accuracy);
             for (int k = 0; k < 2; ++k) CHECK((found - wanted).col(k).norm() < most * wanted.col(k).norm());
-        }
-    }
-}
-
-TEST_CASE("what an absolute accuracy leaves of a rough load moves the surface by no more than a clamped disc") {
-    for (const Case& item : cases(24)) {
-        CAPTURE(item.name);
-        const Patch& patch = item.single.patch();
-        const Stiffness stiffness = stiffness_of(item.single);
-        BiharmonicOperator assembled(patch);
-        REQUIRE(assembled.update(stiffness, Progress()));
-        VectorX load(patch.free_count);
-        for (int k = 0; k < patch.free_count; ++k) load[k] = k % 3 == 0 ? 1.0 : -0.4;
-        const VectorX wanted = assembled.solve(load);
-        const Points fixed = fixed_points(item.single);
-        const double diameter = 2.0 * (fixed.colwise() - fixed.rowwise().mean()).colwise().norm().maxCoeff();
-        const auto off = [&](const Accuracy& accuracy) {
-            SplitBiharmonicOperator split(patch, fixed, layout_of(item.single));
-            REQUIRE(split.update(stiffness, Progress()));
-            return (split.solve(load, accuracy) - wanted).cwiseAbs().maxCoeff();
-        };
-        const double loose = off({1.0});
-        // Half of what the outline's share amounts to is asked for, a tenth, and so on.
-        for (const double part : {0.5, 0.1, 0.02}) {
-            const double size = part * loose / (0.07 * diameter);
-            CAPTURE(part);
-            CHECK(off({1.0, size}) < 1.5 * 0.07 * diameter * size);  // 1.5: the preconditioner's norm is near
-        }
-    }
-}
-
-TEST_CASE("an absolute accuracy asks for no more than single precision has, and for no less than the relative one") {
-    CHECK(Accuracy{}.left_of(2.0) == 0.003 * 2.0);
-    CHECK(Accuracy{0.02, 1e-3}.left_of(2.0) == 1e-3);
-    CHECK(Accuracy{0.02, 1.0}.left_of(2.0) == 0.02 * 2.0);
-    CHECK(Accuracy{0.02, 1e-9}.left_of(2.0) == 1e-4 * 2.0);
-    CHECK(Accuracy{1e-6, 1e-9}.left_of(2.0) == 1e-6 * 2.0);
-}
-
-TEST_CASE("the outline's system takes few cycles on fine meshes as on coarse ones") {
-    for (const int n : {12, 24, 48}) {
-        for (const Case& item : cases(n)) {
-            const Patch& patch = item.single.patch();
-            const Stiffness stiffness = stiffness_of(item.single);
-            const Eigen::MatrixXd G = outline_matrix(patch, stiffness);
-            OutlineSystem system(patch, fixed_points(item.single));
-            REQUIRE(system.update(4.0 * stiffness.mass.tail(G.cols())));
-            const auto cycles_with = [&](const auto& precondition) {
-                int cycles = 0;
-                const auto apply = [&](const OutlineSystem::Row& p, OutlineSystem::Row& product) {
-                    ++cycles;
-                    product = p * G;
-                };
-                OutlineSystem::Row noise(G.cols());
-                for (Eigen::Index k = 0; k < G.cols(); ++k) noise[k] = std::sin(1e4 * static_cast<double>(k * k));
-                (void)conjugate_gradients(OutlineSystem::Row(noise * G), 3e-3, 200, apply, precondition);
-                return cycles;
-            };
-            using Row = OutlineSystem::Row;
-            const int cycles = cycles_with([&](const Row& r, Row& z) { z = system.approximate_inverse(r); });
-            const int plain = cycles_with([&](const Row& r, Row& z) { z = r; });
-            CAPTURE(n);
-            CAPTURE(item.name);
-            CHECK(cycles <= item.most_cycles);
-            if (n == 48) CHECK(cycles < 0.75 * plain);
         }
     }
 }

@@ -30,20 +30,6 @@ Triangles octahedron() {
 
 }  // namespace
 
-TEST_CASE("every side lies on one edge, and the edge knows it") {
-    const Triangles triangles = test::grid(4, 0.0, test::flat).triangles;
-    const EdgeTable edges = make_edges(triangles, 25);
-    CHECK(25 - edges.size() + triangles.cols() == 1);  // Euler number of a disc
-    for (int e = 0; e < edges.size(); ++e) {
-        for (int k = 0; k < edges.side_count(e); ++k) {
-            const int s = edges.side(e, k);
-            CHECK(edges.edge_of_side[static_cast<std::size_t>(s)] == e);
-            CHECK(std::min(side_tail(triangles, s), side_head(triangles, s)) ==
-                  edges.ends[static_cast<std::size_t>(e)][0]);
-        }
-    }
-}
-
 TEST_CASE("a fixed equator splits an octahedron into two pieces with vertices of their own") {
     Diagnostics warnings;
     const CutMesh mesh = cut(octahedron(), {1, 1, 1, 1, 0, 0}, warnings);
@@ -115,14 +101,6 @@ TEST_CASE("boundary loops keep the mesh on their left") {
     CHECK(loops[0] == Indices{0, 1, 2, 5, 8, 7, 6, 3});
 }
 
-TEST_CASE("two squares that share a corner have two loops") {
-    Triangles triangles(3, 2);
-    triangles << 0, 2,  //
-        1, 3,           //
-        2, 4;
-    CHECK(boundary_loops(triangles, 5) == std::vector<Indices>{{0, 1, 2}, {2, 3, 4}});
-}
-
 namespace {
 
 // A permutation of 0 … count − 1 that leaves few neighbours together; `count` is no multiple of 7919.
@@ -179,80 +157,5 @@ TEST_CASE("pieces are numbered by their lowest triangles, whatever their vertice
     CHECK(cut.input_triangle.front() == mesh.triangles.cols());
     for (std::size_t t = 0; t < cut.piece.size(); t += 1000) {
         CHECK(cut.piece[t] == (cut.input_triangle[t] < mesh.triangles.cols() ? 0 : 1));
-    }
-}
-
-namespace {
-
-// The mean distance of neighbouring free vertices in memory.
-double mean_distance(const Patch& patch) {
-    double sum = 0.0;
-    double count = 0.0;
-    for (const auto& [a, b] : patch.edge_ends) {
-        if (!patch.is_free(a) || !patch.is_free(b)) continue;
-        sum += std::abs(a - b);
-        count += 1.0;
-    }
-    return sum / count;
-}
-
-}  // namespace
-
-TEST_CASE("neighbours that a shuffled mesh leaves far apart come together, and nothing else changes") {
-    constexpr int n = 60;
-    const test::Mesh mesh = test::grid(n, 0.0, test::flat);
-    const test::Single ordered = test::single_patch(mesh);
-    CHECK(std::is_sorted(ordered.patch().to_input.begin(),
-                         ordered.patch().to_input.begin() + ordered.patch().free_count));
-    const Indices number = scattered(static_cast<int>(mesh.points.cols()));
-    const Indices order = scattered(static_cast<int>(mesh.triangles.cols()));
-    test::Mesh shuffled = mesh;
-    for (Eigen::Index v = 0; v < mesh.points.cols(); ++v)
-        shuffled.points.col(number[std::size_t(v)]) = mesh.points.col(v);
-    for (std::size_t t = 0; t < order.size(); ++t) {
-        for (int k = 0; k < 3; ++k)
-            shuffled.triangles(k, static_cast<Eigen::Index>(t)) = number[mesh.triangles(k, order[t])];
-    }
-    const test::Single single = test::single_patch(shuffled);
-    const Patch& patch = single.patch();
-    CHECK(mean_distance(patch) < 3.0 * mean_distance(ordered.patch()));  // 30 times as given
-    CHECK(patch.free_count == ordered.patch().free_count);
-    CHECK(std::is_sorted(patch.to_input.begin() + patch.free_count, patch.to_input.end()));
-    Indices numbers = patch.to_input;
-    std::sort(numbers.begin(), numbers.end());
-    bool all = true;
-    for (std::size_t v = 0; v < numbers.size(); ++v) all = all && numbers[v] == static_cast<int>(v);
-    CHECK(all);
-    bool same = true;
-    for (int t = 0; t < patch.triangle_count(); ++t) {
-        const Eigen::Vector3i corners = patch.triangles.col(t).unaryExpr([&](int v) { return patch.to_input[v]; });
-        same = same && corners == shuffled.triangles.col(patch.input_triangle[t]);
-    }
-    CHECK(same);
-    CHECK(patch.edge_count() == ordered.patch().edge_count());
-    CHECK(patch.loop_count() == 1);
-}
-
-TEST_CASE("a tube and a closed surface held by one pin are brought together as well") {
-    // A torus of n × n; the tube lacks a column of triangles.
-    constexpr int n = 60;
-    const Indices number = scattered(n * n);
-    for (const int open : {0, 1}) {
-        Triangles triangles(3, 2 * n * (n - open));
-        int t = 0;
-        for (int i = 0; i < n - open; ++i) {
-            for (int j = 0; j < n; ++j) {
-                const auto v = [&](int a, int b) { return number[(i + a) % n * n + (j + b) % n]; };
-                triangles.col(t++) << v(0, 0), v(1, 0), v(1, 1);
-                triangles.col(t++) << v(0, 0), v(1, 1), v(0, 1);
-            }
-        }
-        const Points anywhere = Points::Zero(3, n * n);
-        const MeshTopology topology =
-            check_topology({anywhere, triangles, open == 1 ? std::nullopt : std::optional(Indices{5}), {}});
-        const std::vector<Patch> patches = make_patches(topology.cut, topology.roles);
-        REQUIRE(patches.size() == 1);
-        CHECK(mean_distance(patches[0]) < 4.0 * n);  // 1,200 as given
-        CHECK(patches[0].loop_count() == 2 * open);
     }
 }

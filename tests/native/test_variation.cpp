@@ -83,25 +83,6 @@ TEST_CASE("on irregular meshes the sum converges to the integral over the torus"
     CHECK(fine < 0.2 * coarse);
 }
 
-TEST_CASE("on equilateral triangles normals that may lean leave all of the variation") {
-    // Of the part that they can cancel a fifth would be gone with a misfit of 3, if that part had no weight of its own.
-    const auto excess = [](int n) {
-        const auto equilateral = [](double u, double v) {
-            const double along = 0.2 * (u - 0.5 * v) / (wide + thin * std::cos(0.6));
-            return torus(along, 0.6 + 0.2 * std::sqrt(0.75) * (v - 0.5) / thin);
-        };
-        const Exact exact(test::grid(n, 0.0, equilateral, false), torus_normal);
-        FaceGeometry faces;
-        faces.update(exact.sheet.points, exact.single.patch().triangles);
-        const double product = exact.merit(Measure::plain) * faces.areas.sum();
-        return variation_energy(exact.problem, exact.sheet.points) / product - 1.0;
-    };
-    const double coarse = std::abs(excess(12));
-    const double fine = std::abs(excess(36));
-    CHECK(fine < 0.005);
-    CHECK(fine < 0.5 * coarse);  // of the rows beside the rim, which may not lean
-}
-
 TEST_CASE("derivatives are those of differences") {
     Exact exact = torus_patch(6);
     exact.problem.normal_weights = VectorX::Constant(exact.problem.fixed_points.cols(), 0.3);
@@ -121,20 +102,6 @@ TEST_CASE("derivatives are those of differences") {
                   doctest::Approx(slope).epsilon(1e-5).scale(model.gradient.cwiseAbs().maxCoeff()));
         }
     }
-}
-
-TEST_CASE("the load of the acceleration is what bends the residuals away from their tangent") {
-    // On a sphere they vanish, so that V(t) = t² |R'|² + t³ ⟨R', R''⟩ + O(t⁴) along motions, and the load is 2 Jᵀ R''.
-    const Exact ball(test::grid(9, 0.35, test::sphere), [](const Vector3& p) { return p; });
-    const VariationEnergy energy(ball.problem, Moving::points_and_normals, Measure::plain);
-    VectorX motions(energy.unknowns().count());
-    for (Eigen::Index k = 0; k < motions.size(); ++k) motions[k] = std::sin(1.7 * static_cast<double>(k * k));
-    const auto merit = [&](double t) { return energy.merit(energy.moved(ball.sheet, motions, t)); };
-    constexpr double t = 1e-4;
-    const double cubic = (merit(t) - merit(-t)) / (t * t * t);
-    const double found = energy.acceleration_load(ball.sheet, motions, 1e-6).dot(motions);
-    CHECK(found == doctest::Approx(cubic).epsilon(0.01));
-    CHECK(std::abs(cubic) > 1.0);
 }
 
 TEST_CASE("the product of variation and area has no unit, the variation that of length to the power of minus two") {
@@ -157,39 +124,6 @@ TEST_CASE("a sphere comes back from its outline's points alone where the slope i
     CHECK(result.steps < 15);
     CHECK((sheet.points.colwise().norm().array() - 1.0).abs().maxCoeff() < 1e-8);
     CHECK((sheet.normals - sheet.points).cwiseAbs().maxCoeff() < 1e-7);
-}
-
-TEST_CASE("a descent that need not be exact ends where the merit no longer falls") {
-    const Exact exact = torus_patch(9);
-    const VariationEnergy energy(exact.problem, Moving::points_and_normals, Measure::plain);
-    const VectorX bump = 2e-2 * (0.3 * VectorX::LinSpaced(energy.unknowns().count(), 0.0, 99.0)).array().sin();
-    const auto descended = [&](double settled) {
-        Sheet sheet = energy.moved(exact.sheet, bump, 1.0);
-        NewtonLimits limits{1e-10, 30};
-        limits.settled = settled;
-        return minimise(energy, sheet, limits, Progress());
-    };
-    const NewtonResult whole = descended(0.0);
-    const NewtonResult part = descended(0.01);
-    CHECK(whole.converged);
-    CHECK(part.converged);
-    CHECK(part.steps < whole.steps);
-    CHECK(part.merit < 1.01 * whole.merit);
-}
-
-TEST_CASE("normals of small weight give way to the surface, those of large weight hold") {
-    Exact exact(test::grid(8, 0.3, test::sphere), [](const Vector3& p) { return p; });
-    exact.problem.fixed_normals.col(3) = (exact.problem.fixed_normals.col(3) + Vector3(0.1, 0.0, 0.0)).normalized();
-    const Vector3 given = exact.problem.fixed_normals.col(3);
-    const auto angle_to_given = [&](double weight) {
-        exact.problem.normal_weights = VectorX::Constant(exact.problem.fixed_points.cols(), weight);
-        const VariationEnergy energy(exact.problem, Moving::points_and_normals, Measure::plain);
-        Sheet sheet = exact.sheet;
-        minimise(energy, sheet, {1e-10, 30}, Progress());
-        return (sheet.normals.col(exact.single.patch().free_count + 3) - given).norm();
-    };
-    CHECK(angle_to_given(1e-4) > 0.08);
-    CHECK(angle_to_given(1e6) < 1e-3);
 }
 
 TEST_CASE("fitted normals are exact on spheres, and the energy of points alone is that of the best normals") {

@@ -16,7 +16,6 @@ from long_run_chapters import seconds_of_redraw
 from panel import drag, module, open_tab, report, run_operator, set_options, wait_until
 
 STEPS = 40  # of the mouse in one drag
-DEEP = (0, -470)  # pixels by which the neck goes down to the bottom, where no fair surface is found in time
 SELECTION = (1250, 781)  # header of the panel Selection, whose height changes: it is folded
 HEADER = (1250, 754)  # of the panel Live below it, where there is no report
 SWITCH = (1081, 754)
@@ -104,89 +103,6 @@ def live_begins_in_the_background() -> Story:
 def _off_sphere() -> float:
     """By how much a vertex is off the unit sphere at most."""
     return float(np.abs(np.linalg.norm(scenes.positions(), axis=1) - 1.0).max())
-
-
-def live_finds_no_surface() -> Story:
-    """The neck is pulled through the body: the region goes along, says so, and mends when the drag is given up."""
-    yield from _make_live("live_lost", scenes.bottle)
-    run_operator("mesh.fair_live_far_side")
-    yield 1.0
-    start = scenes.positions()
-    with _answers() as spent:
-        yield from drag(STEPS, DEEP, "Z")
-    tell(f"lost: {len(spent)} steps, marked {len(_live().lost_points())} points")
-    assert len(_live().lost_points())
-    _tell_longest(spent)
-    screenshot("live_lost_during")
-    press("LEFTMOUSE", *_target(DEEP))
-    yield from _searched()
-    screenshot("live_lost_released")
-    assert np.isfinite(scenes.positions()).all()
-    press("Z", *middle(), ctrl=True)
-    yield 1.5
-    yield from wait_until(settled, 20.0)
-    np.testing.assert_allclose(scenes.positions(), start, atol=AGAIN)
-    assert _live().message == "", _live().message
-    screenshot("live_lost_undone")
-    yield from _switch(False)
-
-
-def live_is_left_while_it_searches() -> Story:
-    """Esc, another edit and undo while a lost region's surface is searched for: none waits, and all come back."""
-    yield from _make_live("live_left", scenes.bottle)
-    run_operator("mesh.fair_live_far_side")
-    yield 1.0
-    start = scenes.positions()
-    yield from drag(STEPS, DEEP, "Z")
-    press("LEFTMOUSE", *_target(DEEP))
-    yield from wait_until(_is_searching, 5.0)
-    press("ESC", *middle())
-    yield 0.3
-    assert _is_searching(), "Esc is no reason to stop"
-    lost = scenes.positions()
-    yield from drag(8, (40, 0))
-    press("LEFTMOUSE", *_target((40, 0)))
-    yield 0.5
-    assert np.abs(scenes.positions() - lost).max() > 0.05, "the drag during the search moved nothing"
-    yield from wait_until(_is_searching, 5.0)
-    for _ in range(2):  # the drag during the search, and the one before
-        press("Z", *middle(), ctrl=True)
-        yield 1.0
-    yield from wait_until(settled, 20.0)
-    np.testing.assert_allclose(scenes.positions(), start, atol=AGAIN)
-    screenshot("live_left_undone")
-    yield from _switch(False)
-
-
-def _is_searching() -> bool:
-    return bool(_live().message == module("follow.live").SEARCHING)
-
-
-def _searched() -> Story:
-    """Wait for the search that follows the release, with a picture of it; no look at it may hold Blender up."""
-    home, looks, pictured = module("follow.live"), list[tuple[float, str]](), False
-    settle_all, begin = home.settle_all, time.perf_counter()
-
-    def timed() -> bool:
-        spent = time.thread_time()
-        goes_on = bool(settle_all())
-        looks.append((time.thread_time() - spent, _live().message))
-        return goes_on
-
-    home.settle_all = timed
-    try:
-        while not looks or (not settled() and time.perf_counter() < begin + 30.0):
-            yield 0.02
-            if _is_searching() and not pictured:
-                pictured = True
-                screenshot("live_lost_searching")
-    finally:
-        home.settle_all = settle_all
-    longest = 1e3 * max(spent for spent, _ in looks)
-    tell(f"after the release: {time.perf_counter() - begin:.1f} s, {len(looks)} looks, of {longest:.0f} ms at most")
-    tell(f"at the end: {_live().message or 'no message'}")
-    assert any(said == home.SEARCHING for _, said in looks), "nothing was searched for"
-    assert longest < 300.0
 
 
 def _live() -> Any:

@@ -20,21 +20,10 @@ from ends_chapters import (
     quits_during_a_search,
     undo_and_removal_end_a_run,
 )
-from held_chapters import (
-    copies_fairly,
-    fairs_an_open_border,
-    feathers,
-    holds_sharp_edges,
-    lifts_a_pin,
-    misses_sharp_edges,
-    runs_through_a_curve,
-)
 from live_chapters import (
     live_begins_in_the_background,
-    live_finds_no_surface,
     live_follows_a_drag,
     live_follows_a_pin,
-    live_is_left_while_it_searches,
     live_moves_the_far_side,
 )
 from long_run_chapters import (
@@ -43,7 +32,6 @@ from long_run_chapters import (
     finish_a_long_run,
     redo_after_a_long_run,
 )
-from new_mesh_chapters import fills_finer, gets_a_new_mesh
 from panel import (
     extension,
     module,
@@ -219,22 +207,11 @@ CHAPTERS = (
     keeps_detail,
     joins_curvature,
     fills_a_hole,
-    fills_finer,
-    gets_a_new_mesh,
-    holds_sharp_edges,
-    misses_sharp_edges,
-    runs_through_a_curve,
-    lifts_a_pin,
-    fairs_an_open_border,
-    feathers,
-    copies_fairly,
     masked_in_sculpt_mode,
     face_set_by_a_click,
     live_follows_a_drag,
     live_follows_a_pin,
     live_moves_the_far_side,
-    live_finds_no_surface,
-    live_is_left_while_it_searches,
     live_begins_in_the_background,
     undo_and_removal_end_a_run,
     disabling_ends_a_run,
