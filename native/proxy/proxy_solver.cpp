@@ -132,13 +132,6 @@ public:
         return coarse_by_descent(std::move(mesh), fineness.growth);
     }
 
-    // From a surface that is found already.
-    CoarseProxy coarse_from(const Points& surface) {
-        ProxyMesh mesh(problem_.patch, surface);
-        mesh.adapt({first_fineness.growth, longest_coarse, free_limit_});
-        return iterate_coarse(std::move(mesh), [](const Problem&, Workspace&, const Points& points) { return points; });
-    }
-
     SolvedProxy fine(CoarseProxy coarse, const Fineness& fineness) {
         lay_over_outline(coarse.mesh);
         if (coarse.end == CoarseEnd::far) return given_up(std::move(coarse.mesh));
@@ -285,10 +278,6 @@ SolvedProxy solve_proxy(const Problem& problem, const std::optional<Points>& gue
 
 CoarseProxy solve_coarse_proxy(const Problem& problem, const Points& membrane, int shown, const Progress& progress) {
     return ProxySolve(problem, shown, progress).coarse(membrane, first_fineness);
-}
-
-CoarseProxy coarse_proxy_from(const Problem& problem, const Points& surface, int shown, const Progress& progress) {
-    return ProxySolve(problem, shown, progress).coarse_from(surface);
 }
 
 SolvedProxy solve_fine_proxy(const Problem& problem, CoarseProxy coarse, int shown, const Progress& progress) {

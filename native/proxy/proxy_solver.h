@@ -45,9 +45,6 @@ struct CoarseProxy {
 CoarseProxy solve_coarse_proxy(const Problem& problem, const Points& membrane, int shown, const Progress& progress);
 SolvedProxy solve_fine_proxy(const Problem& problem, CoarseProxy coarse, int shown, const Progress& progress);
 
-// The first half from a known surface, positions of all vertices of the problem's patch.
-CoarseProxy coarse_proxy_from(const Problem& problem, const Points& surface, int shown, const Progress& progress);
-
 // Mean length of the boundary loops' edges; 0 without any.
 double mean_outline_edge(const Problem& problem);
 
