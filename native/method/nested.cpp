@@ -26,6 +26,7 @@ constexpr double small_tolerance = 7e-4;    // units of D, there: triangles are 
 constexpr double between_tolerance = 1e-4;  // units of D, of levels that are only starts
 // Levels between are good enough as starts even where single poor triangles keep them from converging.
 constexpr int most_between = 6;
+constexpr int most_small = 14;  // where little is lost: graded meshes that don't carry their surface took 19 and 20
 constexpr int evening_sweeps = 3;
 constexpr int most_slides = 8;
 // Free vertices of a level whose ordering is kept while coarser ones are solved; larger ones have no room for it.
@@ -64,6 +65,7 @@ public:
             conduct.limits = nearby;
             conduct.contracts = traits_.is_jagged && k == 0;
             conduct.begins_near = k == 0;
+            if (k == 0 && !traits_.is_large) conduct.limits.steps = most_small;
             if (k == 0) continue;
             conduct.limits.steps = most_between;
             conduct.start_only = true;

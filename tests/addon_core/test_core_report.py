@@ -62,9 +62,9 @@ def test_of_several_objects_the_worst_counts(sphere: Fairing) -> None:
     assert values(both)["Kink at the boundary"] == "≤ 30°"
     assert values(both)["Kinks show from"] == "12°"
     assert values(report(replace(sphere, join=replace(seen, limit=25.0))))["Kinks show from"] == "25°"
-    assert states(both)["Kink at the outline"] == MISSED
+    assert states(both)["Kink at the boundary"] == MISSED
     alone = report(replace(sphere, join=replace(seen, kinks=np.empty(0, dtype=np.int64))))
-    assert (values(alone)["Kink at the outline"], states(alone)["Kink at the outline"]) == ("≤ 30°, short", MET)
+    assert (values(alone)["Kink at the boundary"], states(alone)["Kink at the boundary"]) == ("≤ 30°, short", MET)
     assert values(both)["Equation solved"] == "no further progress, yes"
     assert (both.verdict.grade, both.verdict.reason) == (UNUSABLE, f"Object 0: {BAD.reason}")
     assert both.verdict.spots.tolist() == [3, 4]

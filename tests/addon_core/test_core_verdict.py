@@ -311,7 +311,7 @@ def test_a_hard_edge_that_was_eaten_deserves_a_look(fine: Evidence) -> None:
     assert judged(running).reason.startswith("A hard edge runs on outside, but was rounded off at 2 vertices")
     assert judged(running).reason.endswith("to keep it")
     kinked = replace(running, join=Join(ints(7, 8, 9), np.array([12.5, 3.0, 28.0]), ints(2, 0)))
-    assert judged(kinked).reason.endswith("or grow the selection: a kink of 28° shows at the outline")
+    assert judged(kinked).reason.endswith("or grow the selection: a kink of 28° shows at the boundary")
     assert judged(kinked).spots.tolist() == [3, 8, 9, 7]
     steep = replace(running, join=Join(ints(7, 8, 9), np.array([12.5, 3.0, 41.0]), ints(2, 0)))
     assert judged(steep).reason == (
