@@ -22,17 +22,17 @@ FrontTree::FrontTree(Supernodes supernodes) : nodes_(std::move(supernodes)) {
 
 std::span<const int> FrontTree::children(int s) const {
     const int begin = children_begin_[s];
-    return std::span<const int>(children_.data() + begin, children_begin_[s + 1] - begin);
+    return {children_.data() + begin, static_cast<std::size_t>(children_begin_[s + 1] - begin)};
 }
 
 std::span<const int> FrontTree::below(int s) const {
     const int own = nodes_.column_count(s);
-    return std::span<const int>(nodes_.row_list(s) + own, nodes_.row_count(s) - own);
+    return {nodes_.row_list(s) + own, static_cast<std::size_t>(nodes_.row_count(s) - own)};
 }
 
 std::span<const int> FrontTree::of_below(const Indices& values, int s) const {
     const int begin = below_begin_[s];
-    return std::span<const int>(values.data() + begin, below_begin_[s + 1] - begin);
+    return {values.data() + begin, static_cast<std::size_t>(below_begin_[s + 1] - begin)};
 }
 
 std::span<const int> FrontTree::below_in_parent(int s) const { return of_below(below_in_parent_, s); }

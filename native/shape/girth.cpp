@@ -199,6 +199,7 @@ std::optional<GirthRange> girth_range(const Patch& patch, const Points& points, 
     const auto sections = CrossSections::of(patch);
     if (!sections) return std::nullopt;
     std::vector<double> areas;
+    areas.reserve(loops.size());
     for (const Indices& loop : loops) areas.push_back(area_within(loop, points));
     const double whole = std::accumulate(areas.begin(), areas.end(), 0.0);
     GirthRange range;
