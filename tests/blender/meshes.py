@@ -21,6 +21,7 @@ LAYOUT: dict[str, tuple[str, int, Any]] = {
     "INT8": ("value", 1, np.int32),
     "BOOLEAN": ("value", 1, bool),
     "FLOAT2": ("vector", 2, np.float32),
+    "FLOAT4": ("vector", 4, np.float32),  # since Blender 5.2
     "FLOAT_VECTOR": ("vector", 3, np.float32),
     "FLOAT_COLOR": ("color", 4, np.float32),
     "BYTE_COLOR": ("color", 4, np.float32),
