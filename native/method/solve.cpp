@@ -12,6 +12,7 @@
 #include "method/nested.h"
 #include "method/own_mesh.h"
 #include "method/pinned.h"
+#include "method/placed.h"
 #include "method/plan.h"
 #include "problem/surface_state.h"
 #include "stand_in/lofted.h"
@@ -46,6 +47,14 @@ Found least_variation(const Problem& problem, const VariationLimits& limits, con
     }
     if (found) found->provenance = Provenance::least_variation;
     return found;
+}
+
+Found with_placed_weights(const Problem& problem, const Traits& traits, const Progress& progress) {
+    Problem uniform = problem;
+    uniform.weights = uniform_weights(problem.patch);
+    Found solution = solve_nested(uniform, traits, progress.range(0.0, 0.5));
+    if (!solution || flaw_of(uniform, *solution) != Flaw::absent) return std::nullopt;
+    return placed_by_weights(problem, *solution, progress.range(0.5, 1.0));
 }
 
 Found with_uniform_weights(const Problem& problem, const Progress& progress) {
@@ -129,7 +138,7 @@ private:
         switch (step) {
             case Step::levels: {
                 Found solution = solve_nested(problem_, traits_, progress);
-                const bool has_other = plan_.equation.size() > 1 && plan_.equation[1] == Step::direct;
+                const bool has_other = std::count(plan_.equation.begin(), plan_.equation.end(), Step::direct) > 0;
                 return solution || has_other ? std::move(solution) : try_directly(problem_, progress);
             }
             case Step::direct: {
@@ -137,6 +146,7 @@ private:
                 return is_all ? solve_directly(problem_, progress) : try_directly(problem_, progress);
             }
             case Step::own_mesh: return solve_on_own_mesh(problem_, traits_, attempts_, progress);
+            case Step::placed_weights: return with_placed_weights(problem_, traits_, progress);
             case Step::uniform_weights: return with_uniform_weights(problem_, progress);
             case Step::low_passed: return solve_low_passed(problem_, traits_, attempts_, progress);
             case Step::lifted_pins: return lift_pins(problem_, pin_radius_, std::nullopt, progress);

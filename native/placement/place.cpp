@@ -107,6 +107,13 @@ Placed place_roughly(const Problem& problem, const TangentialStep& tangential, c
     return {std::move(placement), {}, 0};
 }
 
+Placed place_own(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
+                 const Points& points, const Progress& progress) {
+    Placing placing(problem, tangential, target, progress);
+    placing.from(at_vertices(problem, target, points));
+    return std::move(placing).best();
+}
+
 Placed place_settled(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
                      Placement settled, const Progress& progress) {
     Placing placing(problem, tangential, target, progress);

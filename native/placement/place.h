@@ -39,6 +39,10 @@ std::optional<Placed> place_by_disc(const Problem& problem, const TangentialStep
 Placed place_roughly(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
                      const std::optional<Points>& guess, const Progress& progress);
 
+// The same from where the vertices of a surface of the problem's own patch are (3 × local vertices; the target's).
+Placed place_own(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
+                 const Points& points, const Progress& progress);
+
 // The same from vertices that springs have spread already.
 Placed place_settled(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
                      Placement settled, const Progress& progress);
