@@ -11,6 +11,7 @@ import blend
 import fairing
 import measures
 import six_arms
+import tetrathing
 import uneven
 from blend import Blend
 from curves import FloatArray
@@ -89,3 +90,20 @@ def test_pipes_graded_around(seed: int) -> None:
     assert result.converged
     assert not codes(result)
     assert made.error(result.vertices) < 5e-4
+
+
+def test_a_corner_of_the_tetrathing_is_found_in_any_order_of_its_vertices() -> None:
+    """Of this order the coarse levels of one corner fold, and so do vertices placed on a mesh of the engine's own."""
+    rng = np.random.default_rng(65)
+    made = tetrathing.tetrathing(float(rng.uniform(0.25, 0.45)), 4)
+    order = rng.permutation(len(made.vertices))
+    number = np.argsort(order)
+    triangles = number[made.triangles]
+    triangles, fixed = triangles[rng.permutation(len(triangles))], number[made.fixed]
+    vertices = made.vertices[order]
+    free = np.setdiff1d(number, fixed)
+    vertices[free] += 0.01 * rng.normal(size=(len(free), 3))
+    result = fairing.fair(vertices, triangles, fixed=fixed, fixed_normals=made.fixed_normals)
+    assert result.converged
+    assert result.provenance == "equation"
+    assert not result.warnings

@@ -12,11 +12,11 @@ namespace {
 constexpr int largest_direct = 25'000;
 
 // On the user's own connectivity. What a coarse level of a disc refuses, the whole mesh would only refuse later; but
-// long pipes may have no straight surface on a coarse mesh and keep it on their own.
+// between smooth loops pipes and blends may have no surface on a coarse mesh and keep it on their own.
 std::vector<Step> on_the_users_mesh(const Problem& problem, const Traits& traits) {
     if (!traits.has_levels) return {Step::direct};
-    const bool is_smooth_tube = traits.is_tube && !traits.is_jagged;
-    const bool goes_on = !traits.is_large || (is_smooth_tube && problem.patch.free_count <= largest_direct);
+    const bool is_smooth = problem.patch.loop_count() > 1 && !traits.is_jagged;
+    const bool goes_on = !traits.is_large || (is_smooth && problem.patch.free_count <= largest_direct);
     return goes_on ? std::vector{Step::levels, Step::direct} : std::vector{Step::levels};
 }
 

@@ -92,3 +92,9 @@ TEST_CASE("between jagged loops far apart, whose membrane is poor, no mesh of th
     CHECK(traits.poor_share_of_membrane() > 0.1);
     CHECK(text_of(plan_for(pipe.problem, traits, false)) == "levels | old shape, loft");
 }
+
+TEST_CASE("what coarse levels refuse between smooth loops the whole mesh may keep") {
+    const test::Pipe pipe(60);
+    CHECK(text_of(plan_for(pipe.problem, Traits(pipe.problem), false)) ==
+          "levels, direct, own mesh | least variation, loft");
+}
