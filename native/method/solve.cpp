@@ -98,6 +98,7 @@ public:
         const bool may_replace = !is_answer(first) && first.reached_load == 0.0 && !has_run_out(first);
         if (!may_replace) return first;
         const bool is_found = first.flaw == Flaw::folded;  // only its vertices fold: they would on another one, too
+        attempts_.found.clear();
         attempts_.found.push_back(std::move(first));
         for (const Step step : plan_.stand_ins) {
             if (is_found && step == Step::least_variation) continue;
@@ -108,7 +109,7 @@ public:
     }
 
 private:
-    // Others weights help where vertices turned over.
+    // Other weights help where vertices turned over.
     [[nodiscard]] bool is_wanted(Step step) const {
         if (step != Step::uniform_weights) return true;
         return std::any_of(attempts_.found.begin(), attempts_.found.end(),
@@ -196,7 +197,8 @@ Found answer(const Problem& problem, Found solution, const char* name, const Sto
 }  // namespace
 
 Solution solve(const Problem& problem, double pin_radius, const Progress& progress) {
-    return with_stand_in(problem, PlanRun(problem, pin_radius, progress).equation(), progress);
+    PlanRun run(problem, pin_radius, progress);
+    return run.stand_in(run.equation());
 }
 
 Solution with_stand_in(const Problem& problem, Solution first, const Progress& progress) {
