@@ -6,7 +6,6 @@
 #include "outline/creased.h"
 #include "outline/feather.h"
 #include "outline/mended_outline.h"
-#include "shape/visible_join.h"
 
 namespace fairing::bindings {
 
@@ -93,14 +92,6 @@ py::dict mended_outline_arrays(const DoubleArray& vertices, const IntArray& tria
     return dict;
 }
 
-py::tuple visible_join_arrays(const DoubleArray& vertices, const IntArray& inside, const IntArray& outside,
-                              const IntArray& outline, const std::optional<DoubleArray>& before) {
-    const JoinedMesh mesh{to_points(vertices), to_triangles(inside), to_triangles(outside),
-                          to_optional(before, to_points)};
-    const VisibleJoin join = visible_join(mesh, to_indices(outline));
-    return py::make_tuple(from_vector(join.degrees), join.limit, from_indices(join.seen));
-}
-
 }  // namespace
 
 void bind_outline(py::module_& module) {
@@ -112,8 +103,6 @@ void bind_outline(py::module_& module) {
                py::arg("width"));
     module.def("soft_base", &soft_base_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("base"), py::arg("faired"), py::arg("sizes"), py::arg("threads"), py::arg("progress"));
-    module.def("visible_join", &visible_join_arrays, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
-               py::arg("outline"), py::arg("before"));
 }
 
 }  // namespace fairing::bindings
