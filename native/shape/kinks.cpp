@@ -4,8 +4,9 @@
 #include <map>
 #include <numeric>
 
+#include "geometry/dihedral_bands.h"
+#include "mesh/collapsed.h"
 #include "mesh/union_find.h"
-#include "shape/dihedral_bands.h"
 #include "shape/limits.h"
 
 namespace fairing {
@@ -38,17 +39,6 @@ Welded weld(const Points& points, Indices held) {
     return welded;
 }
 
-// Without triangles that have two corners in one place.
-Triangles renumbered(const Triangles& triangles, const Indices& number) {
-    Triangles result(3, triangles.cols());
-    Eigen::Index count = 0;
-    for (const auto corners : triangles.colwise()) {
-        const Eigen::Vector3i next(number[corners[0]], number[corners[1]], number[corners[2]]);
-        if (next[0] != next[1] && next[1] != next[2] && next[2] != next[0]) result.col(count++) = next;
-    }
-    return result.leftCols(count);
-}
-
 }  // namespace
 
 Indices seen_along(const std::vector<std::array<int, 2>>& edges, const Indices& vertices, const VectorX& degrees,
@@ -76,7 +66,8 @@ Indices seen_along(const std::vector<std::array<int, 2>>& edges, const Indices& 
 Indices seam_kinks(const Points& points, const Triangles& triangles, const Indices& held, double limit) {
     const Welded welded = weld(points, held);
     if (std::find(welded.doubled.begin(), welded.doubled.end(), 1) == welded.doubled.end()) return {};
-    const Triangles joined = renumbered(triangles, welded.number);
+    Triangles joined = triangles.unaryExpr([&](int v) { return welded.number[v]; });
+    joined = without_collapsed(joined);
     const DihedralBands bands(points, joined);
     DihedralBands::Walk walk = bands.walk();
     std::vector<std::array<int, 2>> seam;
