@@ -9,17 +9,16 @@ import numpy as np
 import fairing
 
 from . import quality
+from .around import numbered, wide_outside, wound_alike
 from .arrays import Floats, Ints
 from .eaten import Eaten, eaten_edges
 from .engine import Problem, Progress, go_on, islands
-from .evidence import Evidence
-from .flank import Flank, flank
+from .evidence import Evidence, Flank
 from .options import FairOptions
 from .piercing import Sheet, pierced, places
 from .quality import Join, Quality
 from .region import MeshArrays, Patch, to_local
 from .rounded import rounded_edges
-from .seams import seam_kinks
 from .selection import left_out
 from .solve import Solved
 from .symmetry import mirror_map, symmetrised, with_band
@@ -70,11 +69,12 @@ def outcome(
     odd = _rounded(problem, after, moving, options), swollen, _eaten(mesh, problem, after)
     go_on(progress)
     through = _pierced(mesh, matrix, problem, after)
-    seams = seam_kinks(patch, after[:own], join.limit)
+    held = np.intersect1d(patch.fixed, patch.outline)
+    seams = patch.vertices[fairing.seam_kinks(after[:own], patch.triangles, held, join.limit)]
     go_on(progress)
     evidence = Evidence(
         problem, result, solved.failures, quality_before, quality_after, join, *odd, pierced=through, points=after,
-        flank=_flank(mesh, matrix, problem, after), left_out=left_out(mesh), seams=seams,
+        flank=flank_of(mesh, matrix, problem, after), left_out=left_out(mesh), seams=seams,
     )  # fmt: skip
     go_on(progress)
     verdict = judge(evidence, options.resolved(mesh.textured))
@@ -108,9 +108,20 @@ def _pierced(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) 
     return pierced(mesh, Sheet(before, own), Sheet(moved, own))
 
 
-def _flank(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -> Flank | None:
+def flank_of(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -> Flank | None:
+    """Find a boundary on the slope of a bump or a dent."""
     with np.errstate(invalid="ignore", over="ignore"):  # what is not finite outside the patch
-        return flank(mesh.transformed(matrix), problem, after)
+        world = mesh.transformed(matrix)
+    world.positions[problem.vertices] = after
+    around = wound_alike(world, wide_outside(world, problem.patch))
+    vertices, around = numbered(problem.patch, around)
+    points = world.positions[vertices]
+    found = fairing.flank(points, problem.patch.triangles, around, fixed=problem.patch.fixed)
+    if found is None:
+        return None
+    edges, _ = fairing.edges_with_uses(around)
+    edge = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1).mean()
+    return Flank(found.boundary.astype(np.int64), found.is_bump, int(np.ceil(found.width / edge)))
 
 
 def _eaten(mesh: MeshArrays, problem: Problem, after: Floats) -> Eaten:

@@ -9,7 +9,6 @@
 #include "outline/feather.h"
 #include "outline/least_variation_curve.h"
 #include "outline/mended_outline.h"
-#include "shape/visible_join.h"
 
 namespace fairing::bindings {
 
@@ -112,14 +111,6 @@ py::dict mended_outline_arrays(const DoubleArray& vertices, const IntArray& tria
     return dict;
 }
 
-py::tuple visible_join_arrays(const DoubleArray& vertices, const IntArray& inside, const IntArray& outside,
-                              const IntArray& outline, const std::optional<DoubleArray>& before) {
-    const JoinedMesh mesh{to_points(vertices), to_triangles(inside), to_triangles(outside),
-                          to_optional(before, to_points)};
-    const VisibleJoin join = visible_join(mesh, to_indices(outline));
-    return py::make_tuple(from_vector(join.degrees), join.limit, from_indices(join.seen));
-}
-
 // Rows: beginning and end.
 py::array fair_curve_array(const DoubleArray& places, const DoubleArray& directions,
                            const std::vector<double>& shares) {
@@ -149,8 +140,6 @@ void bind_outline(py::module_& module) {
                py::arg("base"), py::arg("faired"), py::arg("sizes"), py::arg("threads"), py::arg("progress"));
     module.def("fair_curve", &fair_curve_array, py::arg("places"), py::arg("directions"), py::arg("shares"));
     module.def("chain_end", &chain_end, py::arg("chain"));
-    module.def("visible_join", &visible_join_arrays, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
-               py::arg("outline"), py::arg("before"));
 }
 
 }  // namespace fairing::bindings

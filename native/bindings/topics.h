@@ -10,5 +10,6 @@ void bind_fill(pybind11::module_& module);
 void bind_hierarchy(pybind11::module_& module);
 void bind_measure(pybind11::module_& module);
 void bind_outline(pybind11::module_& module);
+void bind_shape(pybind11::module_& module);
 
 }  // namespace fairing::bindings

@@ -17,14 +17,12 @@ from fairing._measure import (
     cotan_laplacian,
     edges_with_uses,
     flipped_triangles,
-    knobs,
     mean_curvature,
     self_intersections,
     vertex_normals,
 )
 from fairing._new_mesh import FillResult, RemeshResult
 from fairing._outline import (
-    LIMITS,
     MendedOutline,
     SurroundingNormals,
     VisibleJoin,
@@ -36,6 +34,7 @@ from fairing._outline import (
 from fairing._paper import PaperOptions
 from fairing._quads import PairedQuads, paired_quads
 from fairing._remesh import remesh
+from fairing._shape import LIMITS, Flank, Girth, Needles, flank, girth, is_spoilt, knobs, needles, seam_kinks
 from fairing._solver import Solver
 from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, SolverError
 
@@ -46,9 +45,12 @@ __all__ = [
     "Diagnostic",
     "FairResult",
     "FillResult",
+    "Flank",
+    "Girth",
     "GrownOutline",
     "MendedOutline",
     "MeshError",
+    "Needles",
     "PairedQuads",
     "PaperOptions",
     "RemeshResult",
@@ -68,17 +70,22 @@ __all__ = [
     "fair",
     "feather_weights",
     "fill",
+    "flank",
     "flipped_triangles",
+    "girth",
     "grown_outline",
     "hard_edges",
     "hierarchy",
     "interpolate",
+    "is_spoilt",
     "knobs",
     "mean_curvature",
     "mend_outline",
+    "needles",
     "outer_borders",
     "paired_quads",
     "remesh",
+    "seam_kinks",
     "self_intersections",
     "surrounding_normals",
     "vertex_normals",

@@ -12,8 +12,6 @@ import numpy.typing as npt
 from fairing import _arguments, _core
 from fairing._types import FloatArray, IntArray
 
-LIMITS: dict[str, float] = _core.LIMITS  # from where on a surface looks wrong
-
 
 class VisibleJoin(NamedTuple):
     """How much a join shows, and where the eye finds a kink."""
