@@ -8,6 +8,7 @@ from fairing._feather import feather_weights
 from fairing._fill import fill
 from fairing._growing import GrownOutline, grown_outline
 from fairing._hierarchy import hierarchy
+from fairing._hole_loops import HoleLoops, hole_loops
 from fairing._interpolate import interpolate
 from fairing._measure import (
     boundary_loops,
@@ -46,6 +47,7 @@ __all__ = [
     "FairResult",
     "FillResult",
     "GrownOutline",
+    "HoleLoops",
     "MendedOutline",
     "MeshError",
     "PairedQuads",
@@ -70,6 +72,7 @@ __all__ = [
     "flipped_triangles",
     "grown_outline",
     "hierarchy",
+    "hole_loops",
     "interpolate",
     "knobs",
     "mean_curvature",
