@@ -13,7 +13,7 @@ import fairing
 
 from .around import nearby
 from .arrays import Floats, Ints
-from .border import BorderRefusal
+from .border import BorderRefusal, Left, left_by
 from .checked import refuse_negative, refuse_other_kinds, refuse_unknown
 from .engine import Progress, sub_range
 from .faces import Faces, faces_of, paired_faces
@@ -22,6 +22,7 @@ from .findings import Origin
 from .harmonic import harmonic, nearest
 from .key_surface import NewSurface, Surroundings, key_surfaces
 from .options import ACCEPT, CONTINUITIES, INNER, LEAST_SPACING, OF_CURVATURE
+from .passes import numbered_by_pass
 from .quality import Join, join_at
 from .region import MeshArrays, nothing, to_local
 from .verdict import UNUSABLE, Verdict
@@ -29,7 +30,7 @@ from .words import in_mesh_words, sentences
 
 _TOO_MANY = "Bridge joins all {} selected boundary loops in one surface: select only those that belong together"
 _TWO = "Bridge needs two boundary loops that face each other: switch it off to close each of them by itself"
-SHAPES = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY", "LEAST_VARIATION")
+SHAPES = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION")
 
 
 @dataclass(frozen=True)
@@ -45,6 +46,8 @@ class FillOptions:
     spacing: float = 1.0  # of new edges, as a factor of the boundary's
     inner: str = "OUTLINE"  # in proportion to the boundary's nearby; EVEN: of one length
     quads: bool = False  # triangles are written in pairs, as far as they can be
+    longest: int = 0  # edges: longer borders stay open; 0: any number
+    longest_length: float = 0.0  # likewise by their lengths in world space
     max_vertices: int = 0  # more new ones for a surface are refused; 0: twenty times as many as over flat ones
     limit_total: int = 0  # vertex groups of bones of a new vertex; 0: as many as one vertex of the boundary has
     accept: str = "USABLE"  # ALL: written whatever it is worth
@@ -61,8 +64,10 @@ class FillOptions:
         refuse_other_kinds(self)
         if not self.spacing >= LEAST_SPACING:
             raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
-        refuse_negative(self, "max_vertices")
-        refuse_negative(self, "limit_total")
+        for name in ("longest", "max_vertices", "limit_total"):
+            refuse_negative(self, name)
+        if not 0.0 <= self.longest_length < float("inf"):
+            raise ValueError(f"longest_length: expected 0 or a positive number, got {self.longest_length!r}")
 
     @classmethod
     def named(cls, properties: dict[str, Any]) -> FillOptions:
@@ -102,7 +107,8 @@ class Piece:
 
         lines: (l, 2) edges that no quad runs across.
         """
-        if not self.quads:
+        closes_at_once = not len(self.positions) and len(self.triangles) == 2
+        if not (self.quads or closes_at_once):
             return faces_of(self.triangles)
         return paired_faces(self.points, self.triangles, lines, kinds)
 
@@ -146,21 +152,59 @@ class Piece:
         return near[rim:], of_face
 
 
+@dataclass(frozen=True)
+class Filled:
+    """The surfaces of one mesh, and the holes that can't be filled."""
+
+    pieces: list[Piece]
+    left: tuple[Left, ...] = ()
+
+    @property
+    def left_vertices(self) -> Ints:
+        """The vertices of the holes that stay open, ascending."""
+        vertices: Ints = np.unique(np.concatenate([nothing(), *(each.vertices for each in self.left)]))
+        return vertices
+
+    def with_left(self, left: tuple[Left, ...]) -> Filled:
+        """Return it with more holes that stay open, before its own."""
+        return replace(self, left=(*left, *self.left))
+
+    def unfilled(self) -> Filled:
+        """Return it without any surface."""
+        left = (Left(np.unique(piece.outline), piece.verdict.reason, piece.verdict.spots) for piece in self.pieces)
+        return Filled([], (*self.left, *left))
+
+    def settled(self, options: FillOptions) -> Filled:
+        """Return what is to be written: surfaces that are not usable are left out where others are."""
+        usable = [piece for piece in self.pieces if piece.verdict.grade != UNUSABLE]
+        if options.accept == "ALL" or not usable or len(usable) == len(self.pieces):
+            return self
+        bad = Filled([piece for piece in self.pieces if piece.verdict.grade == UNUSABLE])
+        return Filled(usable, (*self.left, *bad.unfilled().left))
+
+
 def fill(
     mesh: MeshArrays, matrix: Floats, loops: list[Ints], options: FillOptions, progress: Progress | None = None
-) -> list[Piece]:
+) -> Filled:
     """Fill each loop of border_loops, or join all of them, in the space that the 4×4 `matrix` leads to.
 
-    Raises MeshRefusal, ValueError, fairing.SolverError and fairing.Cancelled. `mesh` is never changed.
+    What is wrong with one loop stops no other. Raises the first MeshRefusal, BorderRefusal or fairing.SolverError where
+    there is no surface at all; ValueError and fairing.Cancelled. `mesh` is never changed.
     """
     with np.errstate(invalid="ignore", over="ignore"):  # elsewhere
         world = mesh.transformed(matrix)
     groups = [loops] if options.bridge else [[loop] for loop in loops]
-    count = len(groups)
-    return [
-        _piece(world, matrix, group, options, sub_range(progress, i / count, (i + 1) / count))
-        for i, group in enumerate(groups)
-    ]
+    pieces, errors, left = [], [], []
+    for i, group in enumerate(groups):
+        part = sub_range(progress, i / len(groups), (i + 1) / len(groups))
+        try:
+            pieces.append(_piece(world, matrix, group, options, part))
+        except (fairing.MeshError, BorderRefusal, fairing.SolverError) as error:
+            errors.append(error)
+            left.append(left_by(error, np.unique(np.concatenate(group))))
+    if errors and not pieces:
+        raise errors[0]
+    return Filled(pieces, tuple(left)).settled(options)
 
 
 def _piece(
@@ -177,10 +221,7 @@ def _piece(
             continuity="G2" if options.joins_curvature else "G1", max_vertices=options.max_vertices,
             progress=progress,
         )  # fmt: skip
-    number = np.full(len(vertices) + len(result.vertices), -1, dtype=np.int64)
-    number[np.concatenate(given)] = np.arange(len(outline))
-    number[len(vertices) :] = len(outline) + np.arange(len(result.vertices))
-    triangles = number[result.triangles]
+    triangles = numbered_by_pass(result.triangles.astype(np.int64), given, len(vertices))
     points = np.concatenate([world.positions[outline], result.vertices])
     whole = np.concatenate([world.positions[vertices], result.vertices])
     join = join_at(vertices[result.fixed], fairing.visible_join(whole, result.triangles, around, result.fixed))

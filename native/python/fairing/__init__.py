@@ -9,6 +9,7 @@ from fairing._fill import fill
 from fairing._growing import GrownOutline, grown_outline
 from fairing._hard_edges import hard_edges
 from fairing._hierarchy import hierarchy
+from fairing._hole_loops import HoleLoops, hole_loops
 from fairing._interpolate import interpolate
 from fairing._measure import (
     boundary_loops,
@@ -48,6 +49,7 @@ __all__ = [
     "Flank",
     "Girth",
     "GrownOutline",
+    "HoleLoops",
     "MendedOutline",
     "MeshError",
     "Needles",
@@ -76,6 +78,7 @@ __all__ = [
     "grown_outline",
     "hard_edges",
     "hierarchy",
+    "hole_loops",
     "interpolate",
     "is_spoilt",
     "knobs",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from fairing import _arguments, _core, _cut_loops, _loops, _short_edges
 from fairing._fair import fair
 from fairing._loops import Outline
-from fairing._new_mesh import FillResult, read_only, report_fields
+from fairing._new_mesh import read_only, report_fields
 from fairing._run_on import Curves
 from fairing._types import Diagnostic, FairResult, FloatArray, IntArray
 from fairing._watch import Progress, Watch
@@ -21,25 +21,20 @@ _TAKEN = ("tolerance", "max_iterations", "threads", "normals", "otherwise")  # b
 Task = tuple[Outline, FloatArray, IntArray, tuple[float, int, bool], dict[str, Any]]
 """Loops, normals (Σ k, 3), the triangles around, the lengths wanted, and the options of :func:`fairing.fair`."""
 
-Others = Callable[[Outline, FloatArray, Any, "Progress | None"], FillResult]
-"""Fills the other loops; the third argument are their rows of ``fixed_curvatures``, or None."""
+Others = Callable[[list[int], "Progress | None"], dict[str, Any]]
+"""Fills the other loops, which it is told by their numbers."""
 
 
-def filled_along(curves: Curves, task: Task, others: Others, progress: Progress | None) -> FillResult:
-    """Fill loops: with creases those through which curves run, the others as they are always filled."""
+def filled_along(curves: Curves, task: Task, others: Others, progress: Progress | None) -> dict[str, Any]:
+    """The fields of a result but for the loops: those through which curves run with creases, the others as always."""
     outline, normals, around, wanted, options = task
     mine = [k for k, cut in enumerate(curves.cut) if cut is not None]
     rest = [k for k, cut in enumerate(curves.cut) if cut is None]
     watch = Watch(progress)
     share = len(mine) / len(curves.cut)
     along = _Along(curves, _some(outline, mine), _rows(outline, normals, mine), wanted, options)
-    result = along.filled(around, outline, watch, share)
-    if rest:
-        given = options.get("fixed_curvatures")
-        rows = None if given is None else _rows(outline, given, rest)
-        other = others(_some(outline, rest), _rows(outline, normals, rest), rows, watch.part(share, 1.0))
-        result = _joined(result, other, curves)
-    return result
+    values = along.filled(around, watch, share)
+    return _joined(values, others(rest, watch.part(share, 1.0)), curves.old_count) if rest else values
 
 
 def _some(outline: Outline, which: list[int]) -> Outline:
@@ -60,7 +55,7 @@ class _Along:
     wanted: tuple[float, int, bool]
     options: dict[str, Any]
 
-    def filled(self, around: IntArray, whole: Outline, watch: Watch, share: float) -> FillResult:
+    def filled(self, around: IntArray, watch: Watch, share: float) -> dict[str, Any]:
         film = self._film(watch.part(0.0, 0.2 * share))
         watch.lap("first")
         mesh = self._meshed(film, watch.part(0.2 * share, 0.4 * share))
@@ -68,16 +63,12 @@ class _Along:
         _loops.check_doubles(mesh[1], around)
         report = self._solved(around, mesh, watch.part(0.4 * share, share))
         values = report_fields(report, self.curves.old_count)
+        values["triangles"] = read_only(mesh[1])
         values["seconds"] = {**values["seconds"], **watch.seconds}
         values["warnings"] += self.curves.warnings
-        return FillResult(
-            **values,
-            triangles=read_only(mesh[1]),
-            loops=tuple(read_only(loop) for loop in whole.loops),
-            left_open=(),
-            curves=tuple(read_only(curve) for curve in self.curves.curves),
-            marked=self.curves.marked,
-        )
+        values["curves"] = tuple(read_only(curve) for curve in self.curves.curves)
+        values["marked"] = self.curves.marked
+        return values
 
     def _film(self, progress: Progress | None) -> tuple[FloatArray, IntArray]:
         """A soap film over each side, on a coarse mesh: vertices (all of them) and triangles."""
@@ -116,30 +107,30 @@ class _Along:
         )  # fmt: skip
 
 
-def _joined(one: FillResult, other: FillResult, curves: Curves) -> FillResult:
+def _joined(one: dict[str, Any], other: dict[str, Any], old_count: int) -> dict[str, Any]:
     """Both results, the new vertices of the second one behind those of the first."""
-    added = len(one.vertices)
+    added = len(one["vertices"])
 
     def behind(indices: IntArray) -> IntArray:
-        return np.where(indices >= curves.old_count, indices + added, indices).astype(np.int32)
+        return np.where(indices >= old_count, indices + added, indices).astype(np.int32)
 
     def moved(told: Diagnostic) -> Diagnostic:
-        by = behind(told.elements) if told.kind == "vertex" else told.elements + len(one.triangles)
+        by = behind(told.elements) if told.kind == "vertex" else told.elements + len(one["triangles"])
         return replace(told, elements=by)
 
-    values: dict[str, Any] = {each.name: getattr(one, each.name) for each in fields(FillResult)}
+    values = dict(one)
     for name in ("vertices", "mean_curvature", "boundary_angle", "join"):
-        values[name] = read_only(np.concatenate([getattr(one, name), getattr(other, name)]))
+        values[name] = read_only(np.concatenate([one[name], other[name]]))
     for name in ("triangles", "fixed"):
-        values[name] = read_only(np.concatenate([getattr(one, name), behind(getattr(other, name))]))
+        values[name] = read_only(np.concatenate([one[name], behind(other[name])]))
     for name in ("converged", "polished", "cut"):
-        values[name] = getattr(one, name) and getattr(other, name)
+        values[name] = one[name] and other[name]
     for name in ("iterations", "residual", "initial_residual"):
-        values[name] = max(getattr(one, name), getattr(other, name))
-    if one.converged and not other.converged:
-        values["termination"] = other.termination
-    values["warnings"] = one.warnings + tuple(map(moved, other.warnings))
-    values["way"] = one.way + other.way
-    seconds = one.seconds.keys() | other.seconds.keys()
-    values["seconds"] = {name: one.seconds.get(name, 0.0) + other.seconds.get(name, 0.0) for name in seconds}
-    return FillResult(**values)
+        values[name] = max(one[name], other[name])
+    if one["converged"] and not other["converged"]:
+        values["termination"] = other["termination"]
+    values["warnings"] = one["warnings"] + tuple(map(moved, other["warnings"]))
+    values["way"] = one["way"] + other["way"]
+    seconds = one["seconds"].keys() | other["seconds"].keys()
+    values["seconds"] = {name: one["seconds"].get(name, 0.0) + other["seconds"].get(name, 0.0) for name in seconds}
+    return values

@@ -59,7 +59,10 @@ class FillResult(NewMeshResult):
     loops: tuple[IntArray, ...]
     """The loops that were filled, each in the direction that has the new surface on its left."""
     left_open: tuple[IntArray, ...]
-    """Border loops around the outside of a sheet, left open where no ``loops`` were named (see NOT_A_HOLE)."""
+    """Loops that stay open: without named ``loops`` those around the outside of a sheet (NOT_A_HOLE), and always those
+    that can't be filled while others can."""
+    left_because: tuple[Diagnostic, ...]
+    """Why, one for each of ``left_open``; ``elements`` are vertices."""
     curves: tuple[IntArray, ...] = ()
     """Hard edges that run on through the holes, and wires: the vertices of each from end to end. New ones among them
     come first in ``vertices`` and are ``fixed``."""
