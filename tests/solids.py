@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -55,3 +57,54 @@ def sphere(meridians: int, parallels: int) -> Solid:
     """Radius 1; `parallels` rows of faces."""
     polar = np.pi * (1 - np.arange(1, parallels) / parallels)
     return _revolved([_ring(meridians, np.sin(t), np.cos(t)) for t in polar], -1.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A bent panel with a crease of 45° beside a selection, which its noise is to leave.
+
+    clean, vertices (n, 3): without the crease, and with it and noise inside; triangles inside and outside.
+    """
+
+    clean: FloatArray
+    vertices: FloatArray
+    inside: IntArray
+    outside: IntArray
+
+    @property
+    def rim(self) -> IntArray:
+        return np.intersect1d(self.inside, self.outside)
+
+    @property
+    def free(self) -> IntArray:
+        return np.setdiff1d(self.inside, self.outside)
+
+    @property
+    def normals(self) -> FloatArray:
+        """(n, 3) of the clean panel."""
+        x, y, _ = self.clean.T
+        across = np.column_stack([0.4 * x, 0.2 * y, np.ones_like(x)])
+        return across / np.linalg.norm(across, axis=1)[:, None]
+
+    def error(self, vertices: FloatArray) -> float:
+        """Largest height of free vertices over the clean panel, over D."""
+        x, y, z = vertices[self.free].T
+        held = self.clean[self.rim]
+        size = 2.0 * np.linalg.norm(held - held.mean(axis=0), axis=1).max()
+        return float(np.abs(z + 0.2 * x**2 + 0.1 * y**2).max() / size)
+
+
+def panel(rings: float, step: float = 0.05) -> Panel:
+    """z = −.2 x² − .1 y², selected within |x| < .45 and |y| < .3; the crease runs so many rows beyond that."""
+    x, y = (a.ravel() for a in np.meshgrid(step * np.arange(-20, 21), step * np.arange(-16, 17), indexing="ij"))
+    clean = np.column_stack([x, y, -0.2 * x**2 - 0.1 * y**2])
+    number = np.arange(41 * 33).reshape(41, 33)
+    a, b, c, d = (q.ravel() for q in (number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]))
+    triangles = np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
+    centre = np.abs(clean[triangles].mean(axis=1))
+    inside = (centre[:, 0] < 0.45) & (centre[:, 1] < 0.3)
+    vertices = clean.copy()
+    vertices[:, 2] -= np.maximum(0.0, y - 0.3 - rings * step - 1e-12)
+    free = np.setdiff1d(triangles[inside], triangles[~inside])
+    vertices[free] += 0.2 * step * np.random.default_rng(0).normal(size=(len(free), 3))
+    return Panel(clean, vertices, triangles[inside], triangles[~inside])

@@ -4,7 +4,6 @@
 #include "bindings/topics.h"
 #include "geometry/hard_edges.h"
 #include "outline/bad_outline.h"
-#include "outline/creased.h"
 #include "outline/feather.h"
 #include "outline/mended_outline.h"
 #include "shape/visible_join.h"
@@ -48,26 +47,10 @@ py::array hard_edge_array(const DoubleArray& vertices, const IntArray& triangles
     return std::move(result);
 }
 
-// Of vertices with several copies the first one counts; those without triangles have none and stay what they are.
 py::dict surrounding_normal_arrays(const DoubleArray& vertices, const IntArray& triangles, const IntArray& where,
                                    const IntArray& creases) {
-    const Points points = to_points(vertices);
-    Indices places = to_indices(where);
-    const VertexPairs edges = to_pairs(creases);
-    if (edges.empty()) return to_dict(surrounding_normals(points, to_triangles(triangles), places));
-    BrokenSurface broken = broken_along(to_triangles(triangles), static_cast<int>(points.cols()), edges);
-    std::vector<int> copy(static_cast<std::size_t>(points.cols()), none);
-    for (int v = 0; v < static_cast<int>(broken.input_vertex.size()); ++v) {
-        if (int& first = copy[broken.input_vertex[v]]; first == none) first = v;
-    }
-    for (int& place : places) {
-        if (copy[place] == none) {
-            copy[place] = static_cast<int>(broken.input_vertex.size());
-            broken.input_vertex.push_back(place);
-        }
-        place = copy[place];
-    }
-    return to_dict(surrounding_normals(points(Eigen::all, broken.input_vertex), broken.triangles, places));
+    return to_dict(
+        surrounding_normals(to_points(vertices), to_triangles(triangles), to_indices(where), to_pairs(creases)));
 }
 
 py::array bad_outline_array(const DoubleArray& vertices, const IntArray& triangles, const IntArray& outline) {

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "base/progress.h"
-#include "geometry/surface_fit.h"
 #include "outline/normal_filter.h"
+#include "outline/sided_fits.h"
 
 namespace fairing {
 
@@ -55,9 +55,10 @@ VectorX edge_lengths(const Points& points, const Triangles& triangles, const Ind
 
 }  // namespace
 
-SurroundingFit fit_surroundings(const Points& given, const Triangles& triangles, const Indices& vertices) {
+SurroundingFit fit_surroundings(const Points& given, const Triangles& triangles, const Indices& vertices,
+                                const VertexPairs& creases) {
     const auto [points, size] = to_unit_size(given, triangles);
-    SurfaceFits fits(points, triangles, Centre::free);
+    SidedFits fits(points, triangles, vertices, creases);
     const Indices place = first_places(vertices, points.cols());
     SurroundingFit result{{},
                           points(Eigen::all, vertices),
@@ -92,8 +93,9 @@ SurroundingNormals normals_of(const SurroundingFit& fit) {
     return result;
 }
 
-SurroundingNormals surrounding_normals(const Points& points, const Triangles& triangles, const Indices& vertices) {
-    return normals_of(fit_surroundings(points, triangles, vertices));
+SurroundingNormals surrounding_normals(const Points& points, const Triangles& triangles, const Indices& vertices,
+                                       const VertexPairs& creases) {
+    return normals_of(fit_surroundings(points, triangles, vertices, creases));
 }
 
 }  // namespace fairing
