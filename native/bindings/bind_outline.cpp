@@ -4,6 +4,7 @@
 #include "bindings/topics.h"
 #include "geometry/hard_edges.h"
 #include "outline/bad_outline.h"
+#include "outline/boundary_fit.h"
 #include "outline/feather.h"
 #include "outline/mended_outline.h"
 #include "shape/visible_join.h"
@@ -51,6 +52,19 @@ py::dict surrounding_normal_arrays(const DoubleArray& vertices, const IntArray& 
                                    const IntArray& creases) {
     return to_dict(
         surrounding_normals(to_points(vertices), to_triangles(triangles), to_indices(where), to_pairs(creases)));
+}
+
+py::dict boundary_normal_arrays(const DoubleArray& vertices, const IntArray& inside, const IntArray& outside,
+                                const IntArray& where, const IntArray& creases, bool all_inside) {
+    const Points points = to_points(vertices);
+    const Triangles within = to_triangles(inside);
+    const Triangles beyond = to_triangles(outside);
+    const SideRule rule = all_inside ? SideRule::inside : SideRule::automatic;
+    const BoundaryNormals found =
+        boundary_normals({points, within, beyond}, to_indices(where), to_pairs(creases), rule);
+    py::dict dict = to_dict(found.normals);
+    dict["from_inside"] = from_flags(found.from_inside);
+    return dict;
 }
 
 py::array bad_outline_array(const DoubleArray& vertices, const IntArray& triangles, const IntArray& outline) {
@@ -107,6 +121,8 @@ void bind_outline(py::module_& module) {
     module.def("hard_edges", &hard_edge_array, py::arg("vertices"), py::arg("triangles"), py::arg("marked"));
     module.def("surrounding_normals", &surrounding_normal_arrays, py::arg("vertices"), py::arg("triangles"),
                py::arg("at"), py::arg("creases"));
+    module.def("boundary_normals", &boundary_normal_arrays, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
+               py::arg("at"), py::arg("creases"), py::arg("all_inside"));
     module.def("bad_outline", &bad_outline_array, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
     module.def("mend_outline", &mended_outline_arrays, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
     module.def("feather_weights", &feather_weight_array, py::arg("vertices"), py::arg("inside"), py::arg("outside"),

@@ -1,5 +1,6 @@
 #include "outline/sided_fits.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "mesh/collapsed.h"
@@ -31,7 +32,8 @@ Triangles triangles_near(const Triangles& triangles, const Indices& vertices, Ei
 
 }  // namespace
 
-SidedFits::SidedFits(const Points& points, const Triangles& triangles, const Indices& at, const VertexPairs& marked)
+SidedFits::SidedFits(const Points& points, const Triangles& triangles, const Indices& at, const VertexPairs& marked,
+                     const VertexPairs& elsewhere)
     : points_(points),
       near_(triangles_near(without_collapsed(triangles), at, points.cols())),
       side_of_(static_cast<std::size_t>(points.cols()), none),
@@ -39,13 +41,14 @@ SidedFits::SidedFits(const Points& points, const Triangles& triangles, const Ind
     const VertexPairs edges = hard_edges(points_, near_, marked);
     if (edges.empty()) return;
     BrokenSurface broken = broken_along(near_, static_cast<int>(points_.cols()), edges);
-    choose_sides(broken.triangles, broken.input_vertex, at);
+    choose_sides(broken.triangles, broken.input_vertex, at, elsewhere);
     broken_ = std::move(broken.triangles);
     copies_ = points_(Eigen::all, broken.input_vertex);
     one_side_ = std::make_unique<SurfaceFits>(copies_, broken_, Centre::free);
 }
 
-void SidedFits::choose_sides(const Triangles& broken, const Indices& input_vertex, const Indices& at) {
+void SidedFits::choose_sides(const Triangles& broken, const Indices& input_vertex, const Indices& at,
+                             const VertexPairs& elsewhere) {
     constexpr int several = none - 1;
     const auto add = [&](int copy, Indices& sides) {
         int& side = sides[input_vertex[copy]];
@@ -57,6 +60,7 @@ void SidedFits::choose_sides(const Triangles& broken, const Indices& input_verte
     const EdgeTable edges = make_edges(near_, static_cast<int>(points_.cols()));
     for (int e = 0; e < edges.size(); ++e) {
         if (edges.side_count(e) != 1 || !asked[edges.ends[e][0]] || !asked[edges.ends[e][1]]) continue;
+        if (std::binary_search(elsewhere.begin(), elsewhere.end(), edges.ends[e])) continue;
         const int side = edges.side(e, 0);
         add(side_tail(broken, side), at_border);
         add(side_head(broken, side), at_border);

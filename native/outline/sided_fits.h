@@ -12,8 +12,9 @@ namespace fairing {
 class SidedFits {
 public:
     // For the vertices `at` on the surface that `triangles` form. Coordinates: as for SurfaceFits. Edges in `marked`
-    // are hard. Keeps a reference to the points.
-    SidedFits(const Points& points, const Triangles& triangles, const Indices& at, const VertexPairs& marked);
+    // are hard. `elsewhere`, ascending: border edges that choose no side. Keeps a reference to the points.
+    SidedFits(const Points& points, const Triangles& triangles, const Indices& at, const VertexPairs& marked,
+              const VertexPairs& elsewhere = {});
 
     // At one of `at`. Where hard edges take the surface apart at the vertex, the side counts on which its border edges
     // between vertices of `at` lie; where these are on several, the fit sees all of them.
@@ -22,7 +23,8 @@ public:
     [[nodiscard]] Vector3 averaged(int vertex) const;
 
 private:
-    void choose_sides(const Triangles& broken, const Indices& input_vertex, const Indices& at);
+    void choose_sides(const Triangles& broken, const Indices& input_vertex, const Indices& at,
+                      const VertexPairs& elsewhere);
 
     const Points& points_;
     Triangles near_;

@@ -55,10 +55,7 @@ VectorX edge_lengths(const Points& points, const Triangles& triangles, const Ind
 
 }  // namespace
 
-SurroundingFit fit_surroundings(const Points& given, const Triangles& triangles, const Indices& vertices,
-                                const VertexPairs& creases) {
-    const auto [points, size] = to_unit_size(given, triangles);
-    SidedFits fits(points, triangles, vertices, creases);
+SurroundingFit blank_fit(const Points& points, const Triangles& triangles, const Indices& vertices, double size) {
     const Indices place = first_places(vertices, points.cols());
     SurroundingFit result{{},
                           points(Eigen::all, vertices),
@@ -67,9 +64,17 @@ SurroundingFit fit_surroundings(const Points& given, const Triangles& triangles,
                           {},
                           border_edges(triangles, place),
                           size};
+    for (const int v : vertices) result.first.push_back(place[v]);
+    return result;
+}
+
+SurroundingFit fit_surroundings(const Points& given, const Triangles& triangles, const Indices& vertices,
+                                const VertexPairs& creases) {
+    const auto [points, size] = to_unit_size(given, triangles);
+    SidedFits fits(points, triangles, vertices, creases);
+    SurroundingFit result = blank_fit(points, triangles, vertices, size);
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         checkpoint();
-        result.first.push_back(place[vertices[k]]);
         result.fits.push_back(fits.at_vertex(vertices[k]));
         result.averaged.col(static_cast<Eigen::Index>(k)) = fits.averaged(vertices[k]);
     }

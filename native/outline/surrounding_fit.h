@@ -22,9 +22,15 @@ struct SurroundingFit {
     double size = 1.0;                          // of the coordinates
 };
 
+// The same without fits and averaged normals yet.
+SurroundingFit blank_fit(const Points& points, const Triangles& triangles, const Indices& vertices, double size);
+
 // Fits with free centres, from one side of each hard edge (SidedFits); `creases` are hard edges, too.
 SurroundingFit fit_surroundings(const Points& points, const Triangles& triangles, const Indices& vertices,
                                 const VertexPairs& creases = {});
+
+// Radians: a fit with a larger standard error says little about the surface.
+inline constexpr double most_error = 0.15;
 
 struct SurroundingNormals {
     Points normals;            // 3 × k, unit; zero where there is no triangle
