@@ -42,14 +42,15 @@ bool agree(SidedFits& inside, const VertexPairs& edges, Eigen::Index count) {
 
 }  // namespace
 
-BoundaryNormals boundary_normals(const PatchInMesh& given, const Indices& vertices, const VertexPairs& creases,
+BoundaryNormals boundary_normals(const Surroundings& given, const Indices& vertices, const VertexPairs& creases,
                                  SideRule rule) {
-    const Triangles within = without_collapsed(given.inside);
-    const Triangles beyond = without_collapsed(given.outside);
-    Triangles both(3, within.cols() + beyond.cols());
-    both << within, beyond;
+    const Triangles whole = without_collapsed(given.patch);
+    const Triangles within = triangles_near(whole, vertices, given.points.cols());
+    const Triangles beyond = triangles_near(without_collapsed(given.outside), vertices, given.points.cols());
+    Triangles both(3, whole.cols() + given.outside.cols());
+    both << whole, given.outside;
     const auto [points, size] = to_unit_size(given.points, both);
-    const PatchInMesh mesh{points, within, beyond};
+    const PatchInMesh mesh{points, within, beyond, whole};
     const VertexPairs outline = outline_edges(mesh);
     std::vector<char> held(static_cast<std::size_t>(points.cols()), 0);
     for (int v : vertices) held[v] = 1;

@@ -60,7 +60,7 @@ std::vector<HardMeeting> hard_meetings(const PatchInMesh& mesh, const VertexPair
     const VertexPairs edges = hard_edges(mesh.points, both, creases);
     std::erase_if(all, [&](const Meeting& edge) { return !std::binary_search(edges.begin(), edges.end(), edge.ends); });
     if (all.empty()) return {};
-    const Points closed = closing_surface(mesh.points, mesh.inside, held);
+    const Points closed = closing_surface(mesh.points, mesh.whole, held);
     std::vector<HardMeeting> result;
     for (const Meeting& edge : all) {
         const bool alike = side_tail(mesh.inside, edge.inside) == side_tail(mesh.outside, edge.outside);

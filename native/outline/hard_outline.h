@@ -8,8 +8,9 @@ namespace fairing {
 // A patch and its surroundings: two lists of triangles of the same vertices, without any that name one twice.
 struct PatchInMesh {
     const Points& points;
-    const Triangles& inside;
+    const Triangles& inside;  // near the boundary
     const Triangles& outside;
+    const Triangles& whole;  // patch
 };
 
 // All edges with one triangle on either side, smaller index first, ascending.

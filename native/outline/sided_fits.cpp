@@ -8,8 +8,6 @@
 
 namespace fairing {
 
-namespace {
-
 // Those within so many rings of the vertices: fits reach Neighbourhood::most_rings, and what is usual around a hard
 // edge three more.
 Triangles triangles_near(const Triangles& triangles, const Indices& vertices, Eigen::Index count) {
@@ -29,8 +27,6 @@ Triangles triangles_near(const Triangles& triangles, const Indices& vertices, Ei
     }
     return triangles(Eigen::all, near);
 }
-
-}  // namespace
 
 SidedFits::SidedFits(const Points& points, const Triangles& triangles, const Indices& at, const VertexPairs& marked,
                      const VertexPairs& elsewhere)

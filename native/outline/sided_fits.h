@@ -9,6 +9,9 @@
 
 namespace fairing {
 
+// Those triangles on which fits at the vertices, and the hard edges around them, depend.
+Triangles triangles_near(const Triangles& triangles, const Indices& vertices, Eigen::Index count);
+
 class SidedFits {
 public:
     // For the vertices `at` on the surface that `triangles` form. Coordinates: as for SurfaceFits. Edges in `marked`
