@@ -14,13 +14,12 @@ from .around import nearby
 from .arrays import Floats, Ints, Mask
 from .bends import Bends, bends
 from .engine import Problem
-from .hard_chains import SHARP, chains
+from .hard_chains import MOST_MARKED, SHARP, chains
 from .region import nothing
 
 ROUNDED = 15.0  # by which one has become flatter that is rounded off
 BESIDE = 0.12  # of a hard edge's bend: what edges of the same triangles bend at most. Fins and folds of skin are round
 RUNS_ON = 2  # of them that stay, and that are rounded off, at least
-MOST_MARKED = 0.25  # of the edges inside: importers mark nearly all of them, which sets none apart
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,7 @@
 """Intrinsic fairing of triangle meshes: Δ_B H = 0 with G1 boundary data (Schneider & Kobbelt 2001)."""
 
 from fairing._borders import expected_vertices, outer_borders
+from fairing._boundary_normals import BoundaryNormals, boundary_normals
 from fairing._conformal_map import conformal_map
 from fairing._core import __version__
 from fairing._fair import fair
@@ -42,6 +43,7 @@ from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, 
 __all__ = [
     "CODES",
     "LIMITS",
+    "BoundaryNormals",
     "Cancelled",
     "Diagnostic",
     "FairResult",
@@ -63,6 +65,7 @@ __all__ = [
     "__version__",
     "bad_outline",
     "boundary_loops",
+    "boundary_normals",
     "components",
     "conformal_distortion",
     "conformal_map",
