@@ -144,10 +144,11 @@ class _Making:
             leaves, tuple(np.concatenate([a, b[-2::-1]]) for a, b in zip(arms, arms[1:] + arms[:1], strict=True))
         )
 
-    def drawn(self, found: _wires.Drawn) -> None:
-        """Curves that are there as wires."""
+    def drawn(self, found: _wires.Drawn, marked: set[int]) -> None:
+        """Curves that are there as wires; marked: where marked hard edges come to the loop."""
         for curve in found.curves:
-            self._keep(curve, False)
+            ends = {int(curve[0]), int(curve[-1])} & found.reached
+            self._keep(curve, ends <= marked)
 
     def _keep(self, curve: IntArray, is_marked: bool) -> None:
         self.curves.append(curve)
@@ -192,7 +193,7 @@ def _run_on(
             matching = matched(group)
             warnings += _warnings(group, matching)
             trees += [making.joined(loop, joint, group, lengths) for joint in matching.joints]
-        making.drawn(drawn)
+        making.drawn(drawn, {end.vertex for end in there.ends if end.marked})
         found.append(_Through(loop, rows, trees, there.along))
     points = making.points
     return Curves(
