@@ -4,6 +4,7 @@ from fairing._borders import expected_vertices, outer_borders
 from fairing._conformal_map import conformal_map
 from fairing._core import __version__
 from fairing._fair import fair
+from fairing._fair_edges import FairEdges, fair_edges
 from fairing._feather import feather_weights
 from fairing._fill import fill
 from fairing._growing import GrownOutline, grown_outline
@@ -44,6 +45,7 @@ __all__ = [
     "LIMITS",
     "Cancelled",
     "Diagnostic",
+    "FairEdges",
     "FairResult",
     "FillResult",
     "GrownOutline",
@@ -66,6 +68,7 @@ __all__ = [
     "edges_with_uses",
     "expected_vertices",
     "fair",
+    "fair_edges",
     "feather_weights",
     "fill",
     "flipped_triangles",
