@@ -144,11 +144,14 @@ def test_a_drawn_edge_is_used_as_it_is() -> None:
     vertices, wires = drawn_across(hole, places)
     result = fairing.fill(vertices, hole.triangles, [hole.loop], wires=wires)
     (curve,) = result.curves
+    assert result.marked == (False,)
     assert {tuple(sorted(pair)) for pair in wires.tolist()} == {
         tuple(sorted(pair)) for pair in np.column_stack([curve[:-1], curve[1:]]).tolist()
     }
     assert np.isin(curve, result.triangles).all()
     assert result.vertices[:, 2].max() > 0.02  # the top rises to it
+    both = fairing.hard_edges(hole.vertices, hole.triangles)
+    assert fairing.fill(vertices, hole.triangles, [hole.loop], wires=wires, marked=both).marked == (True,)
     below = result.vertices[result.vertices[:, 0] > -1e-9]
     assert len(below) > 5
     assert np.abs(below[:, 0]).max() < 1e-9

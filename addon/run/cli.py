@@ -44,6 +44,7 @@ def _parser() -> argparse.ArgumentParser:
         "--longest", type=int, default=0, help="with --fill: longer borders stay open, in edges; 0: none"
     )
     parser.add_argument("--longest-length", type=float, default=0.0, help="with --fill: likewise, as a length")
+    parser.add_argument("--hard-edges", default="RUN_ON", help="with --fill: IGNORED rounds them off")
     parser.add_argument("--output", required=True, help="the .blend file to write")
     parser.add_argument("--report", choices=("text", "json"), default="text")
     defaults = FairOptions()

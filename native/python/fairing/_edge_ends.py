@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -56,7 +57,7 @@ def ends_at(
     for at, vertex in enumerate(loop.tolist()):
         if len(joined[vertex]) != 1:
             continue
-        chain = _chain(vertex, joined, vertices)
+        chain = chain_from(vertex, joined[vertex][0], joined, vertices)
         angle = _angle(chain[0], chain[1], vertices, triangles)
         is_marked = _pair(chain[0], chain[1]) in marked
         last, run, chain = _along(loop, at, chain, vertices)
@@ -105,9 +106,9 @@ def _pair(a: int, b: int) -> tuple[int, int]:
     return (a, b) if a < b else (b, a)
 
 
-def _chain(first: int, joined: dict[int, list[int]], vertices: FloatArray) -> list[int]:
+def chain_from(first: int, second: int, joined: Mapping[int, list[int]], vertices: FloatArray) -> list[int]:
     """The vertices of a hard edge from its end on, as far as it goes on without a corner."""
-    chain = [first, joined[first][0]]
+    chain = [first, second]
     while len(chain) <= _MOST:
         onward = [v for v in joined[chain[-1]] if v != chain[-2]]
         if len(onward) != 1 or onward[0] in chain:

@@ -79,7 +79,8 @@ def _blocks(ends: Sequence[EdgeEnd]) -> Blocks:
     reach = max((float(np.linalg.norm(a.place - b.place)) for a, b in combinations(ends, 2)), default=0.0)
     for size in range(3, len(ends) + 1):
         for block in combinations(range(len(ends)), size):
-            centre = _meeting([ends[k] for k in block])
+            mine = [ends[k] for k in block]
+            centre = meeting_point([end.place for end in mine], [end.direction for end in mine])
             if centre is None or max(float(np.linalg.norm(centre - ends[k].place)) for k in block) > reach:
                 continue
             misses = [_miss(ends[k], centre) for k in block]
@@ -137,13 +138,13 @@ def _on_circle(end: EdgeEnd, distance: float) -> FloatArray:
     return chord
 
 
-def _meeting(ends: Sequence[EdgeEnd]) -> FloatArray | None:
-    """The point nearest to the straight lines in least squares; None where they are parallel."""
+def meeting_point(places: Sequence[FloatArray], directions: Sequence[FloatArray]) -> FloatArray | None:
+    """The point nearest to straight lines in least squares; None where they are parallel, or too few."""
     parallel = 1e-3  # the least eigenvalue of their mean projection across
-    across = [np.eye(3) - np.outer(end.direction, end.direction) for end in ends]
-    matrix = np.sum(across, axis=0)
-    if np.linalg.eigvalsh(matrix)[0] < parallel * len(ends):
+    across = [np.eye(3) - np.outer(direction, direction) for direction in directions]
+    matrix = np.sum([np.zeros((3, 3)), *across], axis=0)
+    if not np.linalg.eigvalsh(matrix)[0] > parallel * len(places):
         return None
-    right = np.sum([each @ end.place for each, end in zip(across, ends, strict=True)], axis=0)
+    right = np.sum([each @ place for each, place in zip(across, places, strict=True)], axis=0)
     point: FloatArray = np.linalg.solve(matrix, right)
     return point

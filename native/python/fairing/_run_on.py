@@ -144,10 +144,11 @@ class _Making:
             leaves, tuple(np.concatenate([a, b[-2::-1]]) for a, b in zip(arms, arms[1:] + arms[:1], strict=True))
         )
 
-    def drawn(self, found: _wires.Drawn) -> None:
-        """Curves that are there as wires."""
+    def drawn(self, found: _wires.Drawn, marked: set[int]) -> None:
+        """Curves that are there as wires; marked: where marked hard edges come to the loop."""
         for curve in found.curves:
-            self._keep(curve, False)
+            ends = {int(curve[0]), int(curve[-1])} & found.reached
+            self._keep(curve, ends <= marked)
 
     def _keep(self, curve: IntArray, is_marked: bool) -> None:
         self.curves.append(curve)
@@ -182,7 +183,12 @@ def _run_on(
     making = _Making(vertices, wanted)
     warnings: list[Diagnostic] = []
     found = []
+    names, passes = np.unique(outline.vertices, return_counts=True)
+    pinches = names[passes > 1]
     for loop, rows in zip(outline.loops, outline.split(normals), strict=True):
+        if np.isin(loop, pinches).any():  # which pass an edge ends at is not known
+            found.append(_Through(loop, rows, [], []))
+            continue
         drawn = _wires.drawn(loop, edges.wires)
         there = ends_at(loop, vertices, triangles, edges.hard, edges.marked)
         ends = [end for end in there.ends if end.vertex not in drawn.reached]
@@ -192,7 +198,7 @@ def _run_on(
             matching = matched(group)
             warnings += _warnings(group, matching)
             trees += [making.joined(loop, joint, group, lengths) for joint in matching.joints]
-        making.drawn(drawn)
+        making.drawn(drawn, {end.vertex for end in there.ends if end.marked})
         found.append(_Through(loop, rows, trees, there.along))
     points = making.points
     return Curves(
