@@ -9,7 +9,7 @@ import numpy as np
 import fairing
 
 from . import quality
-from .around import numbered, wide_outside, wound_alike
+from .around import nearby, numbered, wide_outside, wound_alike
 from .arrays import Floats, Ints
 from .eaten import Eaten, eaten_edges
 from .engine import Problem, Progress, go_on, islands
@@ -17,8 +17,7 @@ from .evidence import Evidence, Flank
 from .options import FairOptions
 from .piercing import Sheet, pierced, places
 from .quality import Join, Quality
-from .region import MeshArrays, Patch, to_local
-from .rounded import rounded_edges
+from .region import MeshArrays, Patch, nothing, to_local
 from .selection import left_out
 from .solve import Solved
 from .symmetry import mirror_map, symmetrised, with_band
@@ -66,7 +65,9 @@ def outcome(
     join = quality.join(problem, after)
     go_on(progress)
     swollen = quality.swollen((patch, before[:own]), (patch, after[:own]))
-    odd = _rounded(problem, after, moving, options), swollen, _eaten(mesh, problem, after)
+    smoothed = options.outline == "MENDED" and len(result.moved) > 0
+    rounded = _rounded(mesh, matrix, problem, after, moving) if smoothed else nothing()
+    odd = rounded, swollen, _eaten(mesh, problem, after)
     go_on(progress)
     through = _pierced(mesh, matrix, problem, after)
     held = np.intersect1d(patch.fixed, patch.outline)
@@ -110,13 +111,13 @@ def _pierced(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) 
 
 def flank_of(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -> Flank | None:
     """Find a boundary on the slope of a bump or a dent."""
+    patch = problem.patch
     with np.errstate(invalid="ignore", over="ignore"):  # what is not finite outside the patch
         world = mesh.transformed(matrix)
+    vertices, around = numbered(patch, wound_alike(world, wide_outside(world, patch)))
     world.positions[problem.vertices] = after
-    around = wound_alike(world, wide_outside(world, problem.patch))
-    vertices, around = numbered(problem.patch, around)
     points = world.positions[vertices]
-    found = fairing.flank(points, problem.patch.triangles, around, fixed=problem.patch.fixed)
+    found = fairing.flank(points, patch.triangles, around, fixed=patch.fixed)
     if found is None:
         return None
     edges, _ = fairing.edges_with_uses(around)
@@ -126,17 +127,20 @@ def flank_of(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) 
 
 def _eaten(mesh: MeshArrays, problem: Problem, after: Floats) -> Eaten:
     """Find hard edges that are no more, though they run on outside or were marked sharp."""
-    sharp = None if mesh.sharp is None else np.sort(mesh.edges[mesh.sharp], axis=1)
+    sharp = None if mesh.sharp is None else mesh.edges[mesh.sharp]
     return eaten_edges(problem, after, sharp)
 
 
-def _rounded(problem: Problem, after: Floats, moving: Ints, options: FairOptions) -> Ints:
+def _rounded(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats, moving: Ints) -> Ints:
     """Return the mesh vertices outside at hard edges that a smoothed boundary has rounded."""
-    moved = np.setdiff1d(moving, problem.patch.free)
-    if options.outline != "MENDED" or not len(moved):
-        return moved[:0]
-    rounded: Ints = problem.vertices[rounded_edges(problem.points, after, problem.outside, moved)]
-    return rounded
+    moved = problem.vertices[np.setdiff1d(moving, problem.patch.free)]
+    moves = np.zeros(len(mesh.positions), dtype=bool)
+    moves[moved] = True
+    around = nearby(mesh.triangles[~mesh.in_patch[mesh.triangle_faces]], moves)
+    before = places(mesh, matrix)
+    points = before.copy()
+    points[problem.vertices] = after
+    return fairing.rounded_edges(before, points, around, moved).astype(np.int64)
 
 
 def leading_part(result: fairing.FairResult, own: int) -> fairing.FairResult:

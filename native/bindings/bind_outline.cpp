@@ -31,13 +31,6 @@ py::dict to_dict(const SurroundingNormals& result) {
     return dict;
 }
 
-VertexPairs to_pairs(const IntArray& edges) {
-    const Indices flat = to_indices(edges);
-    VertexPairs pairs;
-    for (std::size_t k = 0; k + 1 < flat.size(); k += 2) pairs.push_back({flat[k], flat[k + 1]});
-    return pairs;
-}
-
 py::array hard_edge_array(const DoubleArray& vertices, const IntArray& triangles, const IntArray& marked) {
     const VertexPairs found = hard_edges(to_points(vertices), to_triangles(triangles), to_pairs(marked));
     py::array_t<int> result({static_cast<py::ssize_t>(found.size()), py::ssize_t{2}});

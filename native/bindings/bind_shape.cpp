@@ -5,6 +5,7 @@
 #include "shape/limits.h"
 #include "shape/needles.h"
 #include "shape/roughness.h"
+#include "shape/rounded_edges.h"
 #include "shape/visible_join.h"
 
 namespace fairing::bindings {
@@ -47,6 +48,12 @@ bool spoilt(const DoubleArray& vertices, const IntArray& inside, const IntArray&
     return is_spoilt(to_points(vertices), to_triangles(inside), to_triangles(outside));
 }
 
+py::array rounded_array(const DoubleArray& before, const DoubleArray& after, const IntArray& triangles,
+                        const IntArray& moved, const std::optional<IntArray>& marked) {
+    const Change change{to_points(before), to_points(after), to_triangles(triangles), to_indices(moved)};
+    return from_indices(marked ? rounded_marks(change, to_pairs(*marked)) : rounded_edges(change));
+}
+
 py::tuple visible_join_arrays(const DoubleArray& vertices, const IntArray& inside, const IntArray& outside,
                               const IntArray& outline, const std::optional<DoubleArray>& before) {
     const JoinedMesh mesh{to_points(vertices), to_triangles(inside), to_triangles(outside),
@@ -78,6 +85,8 @@ void bind_shape(py::module_& module) {
     module.def("seam_kinks", &seam_kink_array, py::arg("vertices"), py::arg("triangles"), py::arg("held"),
                py::arg("limit"));
     module.def("is_spoilt", &spoilt, py::arg("vertices"), py::arg("inside"), py::arg("outside"));
+    module.def("rounded_edges", &rounded_array, py::arg("before"), py::arg("after"), py::arg("triangles"),
+               py::arg("moved"), py::arg("marked"));
     module.def("visible_join", &visible_join_arrays, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
                py::arg("outline"), py::arg("before"));
 }

@@ -27,9 +27,17 @@ inline constexpr double most_over = 0.7;
 inline constexpr double most_back = 0.75;
 inline constexpr double flank_end = 0.9;  // of the largest lean
 
+// Degrees by which a hard edge becomes flatter that is rounded off; edges of its chain that do, and that stay, at
+// least; what other edges of the same triangles may bend, of its own bend: the rims of fins and folds of skin are
+// round; the share of all edges that may be marked.
+inline constexpr double flatter = 15.0;
+inline constexpr int runs_on = 2;
+inline constexpr double most_beside = 0.12;
+inline constexpr double most_marked = 0.25;
+
 // Of a triangle's longest side: a height below is none. Degrees between its neighbours on what counts as a plane.
 inline constexpr double needle_height = 1e-3;
-inline constexpr double flat = 1.0;
+inline constexpr double flat_bend = 1.0;
 
 // A vertex over its neighbours' mean, in edges: scans, CAD and characters have up to 1.3, a spike of three edges has
 // 2.7. In the median, of 180 random patches of 14 meshes none is crumpled, with noise of a tenth of an edge one in 25,

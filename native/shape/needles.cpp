@@ -42,7 +42,7 @@ std::vector<Vector3> normals_beside(const Points& points, const Triangles& trian
 bool bends(const std::vector<Vector3>& normals) {
     for (std::size_t k = 1; k < normals.size(); ++k) {
         for (std::size_t j = 0; j < k; ++j) {
-            if (degrees_between(normals[j], normals[k]) > flat) return true;
+            if (degrees_between(normals[j], normals[k]) > flat_bend) return true;
         }
     }
     return false;

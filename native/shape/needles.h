@@ -7,7 +7,8 @@ namespace fairing {
 
 struct Needles {
     Indices all;   // triangles whose height is below `needle_height` of their longest side; ascending
-    Indices seen;  // those between neighbours that bend by more than `flat`: on a plane no one sees them (shape/limits)
+    Indices seen;  // those between neighbours that bend by more than `flat_bend`: on a plane no one sees them
+                   // (shape/limits)
 };
 
 // Of any triangles; a corner that isn't finite makes one.

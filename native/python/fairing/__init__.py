@@ -37,7 +37,19 @@ from fairing._outline import (
 from fairing._paper import PaperOptions
 from fairing._quads import PairedQuads, paired_quads
 from fairing._remesh import remesh
-from fairing._shape import LIMITS, Flank, Girth, Needles, flank, girth, is_spoilt, knobs, needles, seam_kinks
+from fairing._shape import (
+    LIMITS,
+    Flank,
+    Girth,
+    Needles,
+    flank,
+    girth,
+    is_spoilt,
+    knobs,
+    needles,
+    rounded_edges,
+    seam_kinks,
+)
 from fairing._solver import Solver
 from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, SolverError
 
@@ -94,6 +106,7 @@ __all__ = [
     "outer_borders",
     "paired_quads",
     "remesh",
+    "rounded_edges",
     "seam_kinks",
     "self_intersections",
     "surrounding_normals",

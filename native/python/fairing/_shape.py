@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core
@@ -89,6 +90,33 @@ def needles(vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> Needles:
     """Triangles without a height, and those of them that are seen."""
     points = _arguments.floats("vertices", vertices)
     return Needles(*_core.needles(points, _arguments.triangles_within(triangles, points.shape[0])))
+
+
+def rounded_edges(
+    before: npt.ArrayLike,
+    after: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    moved: npt.ArrayLike,
+    *,
+    marked: npt.ArrayLike | None = None,
+) -> IntArray:
+    """Those of the vertices ``moved`` (k,), ascending, at hard edges that became flatter by 15° and more.
+
+    ``before``, ``after``: (n, 3). Hard edges are those of :func:`fairing.hard_edges` that run on straight: two of a
+    chain stay with their triangles. With ``marked``, (m, 2), these count instead, wherever they
+    end, as far as they bent by 35°; none where more than a quarter of all edges are marked. Triangles with a corner
+    that is NaN or infinite are left out.
+    """
+    old = _arguments.floats("before", before)
+    new = _arguments.floats("after", after, old.shape[0])
+    faces = _arguments.triangles_within(triangles, old.shape[0])
+    where = _arguments.indices_within("moved", _arguments.integers("moved", moved, None), old.shape[0])
+    pairs = None
+    if marked is not None:
+        named = _arguments.indices_within("marked", _arguments.integers("marked", marked, 2), old.shape[0])
+        pairs = np.sort(named, axis=1)
+    known = np.isfinite(old[faces]).all(axis=(1, 2)) & np.isfinite(new[faces]).all(axis=(1, 2))
+    return _core.rounded_edges(old, new, faces[known], where, pairs)
 
 
 def seam_kinks(
