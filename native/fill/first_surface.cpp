@@ -11,6 +11,7 @@
 #include "fill/edge_lengths.h"
 #include "fill/even_mesh.h"
 #include "fill/joined_loops.h"
+#include "fill/limits.h"
 #include "fill/tube_start.h"
 #include "method/solve.h"
 #include "problem/surface_state.h"
@@ -232,7 +233,6 @@ FirstSurface from_flat(const OpenOutline& outline, const SolverOptions& options,
 }
 
 FirstSurface sought(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
-    constexpr int most_rounds = 4;
     std::optional<FirstSurface> begun = from_tube(outline, options, progress.range(0.0, 0.1));
     FirstSurface result = begun ? std::move(*begun) : from_flat(outline, options, progress.range(0.1, 0.4));
     for (int round = 0; round < most_rounds; ++round) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/median.h"
@@ -23,14 +22,13 @@ struct Doubts {
 };
 
 Doubts doubts_of(const SurroundingFit& fit) {
-    constexpr double unknown = std::numeric_limits<double>::infinity();
     Doubts result;
     for (std::size_t k = 0; k < fit.fits.size(); ++k) {
         const double length = fit.lengths[static_cast<Eigen::Index>(k)];
         if (!(length > 0.0)) continue;
         result.places.push_back(static_cast<int>(k));
-        result.errors.push_back(fit.fits[k] ? fit.fits[k]->error : unknown);
-        result.heights.push_back(fit.fits[k] ? std::abs(fit.fits[k]->height) / length : unknown);
+        result.errors.push_back(fit.fits[k] ? fit.fits[k]->error : HUGE_VAL);
+        result.heights.push_back(fit.fits[k] ? std::abs(fit.fits[k]->height) / length : HUGE_VAL);
     }
     return result;
 }
