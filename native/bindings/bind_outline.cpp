@@ -2,6 +2,7 @@
 #include "base/parallel.h"
 #include "bindings/python_run.h"
 #include "bindings/topics.h"
+#include "geometry/hard_edges.h"
 #include "outline/bad_outline.h"
 #include "outline/creased.h"
 #include "outline/feather.h"
@@ -29,15 +30,31 @@ py::dict to_dict(const SurroundingNormals& result) {
     return dict;
 }
 
+VertexPairs to_pairs(const IntArray& edges) {
+    const Indices flat = to_indices(edges);
+    VertexPairs pairs;
+    for (std::size_t k = 0; k + 1 < flat.size(); k += 2) pairs.push_back({flat[k], flat[k + 1]});
+    return pairs;
+}
+
+py::array hard_edge_array(const DoubleArray& vertices, const IntArray& triangles, const IntArray& marked) {
+    const VertexPairs found = hard_edges(to_points(vertices), to_triangles(triangles), to_pairs(marked));
+    py::array_t<int> result({static_cast<py::ssize_t>(found.size()), py::ssize_t{2}});
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        for (std::size_t end = 0; end < 2; ++end)
+            result.mutable_at(static_cast<py::ssize_t>(k), static_cast<py::ssize_t>(end)) = found[k][end];
+    }
+    result.attr("flags").attr("writeable") = false;
+    return std::move(result);
+}
+
 // Of vertices with several copies the first one counts; those without triangles have none and stay what they are.
 py::dict surrounding_normal_arrays(const DoubleArray& vertices, const IntArray& triangles, const IntArray& where,
                                    const IntArray& creases) {
     const Points points = to_points(vertices);
     Indices places = to_indices(where);
-    const Indices flat = to_indices(creases);
-    if (flat.empty()) return to_dict(surrounding_normals(points, to_triangles(triangles), places));
-    std::vector<std::array<int, 2>> edges;
-    for (std::size_t k = 0; k + 1 < flat.size(); k += 2) edges.push_back({flat[k], flat[k + 1]});
+    const VertexPairs edges = to_pairs(creases);
+    if (edges.empty()) return to_dict(surrounding_normals(points, to_triangles(triangles), places));
     BrokenSurface broken = broken_along(to_triangles(triangles), static_cast<int>(points.cols()), edges);
     std::vector<int> copy(static_cast<std::size_t>(points.cols()), none);
     for (int v = 0; v < static_cast<int>(broken.input_vertex.size()); ++v) {
@@ -104,6 +121,7 @@ py::tuple visible_join_arrays(const DoubleArray& vertices, const IntArray& insid
 }  // namespace
 
 void bind_outline(py::module_& module) {
+    module.def("hard_edges", &hard_edge_array, py::arg("vertices"), py::arg("triangles"), py::arg("marked"));
     module.def("surrounding_normals", &surrounding_normal_arrays, py::arg("vertices"), py::arg("triangles"),
                py::arg("at"), py::arg("creases"));
     module.def("bad_outline", &bad_outline_array, py::arg("vertices"), py::arg("outside"), py::arg("outline"));

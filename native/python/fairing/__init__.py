@@ -7,6 +7,7 @@ from fairing._fair import fair
 from fairing._feather import feather_weights
 from fairing._fill import fill
 from fairing._growing import GrownOutline, grown_outline
+from fairing._hard_edges import hard_edges
 from fairing._hierarchy import hierarchy
 from fairing._interpolate import interpolate
 from fairing._measure import (
@@ -69,6 +70,7 @@ __all__ = [
     "fill",
     "flipped_triangles",
     "grown_outline",
+    "hard_edges",
     "hierarchy",
     "interpolate",
     "knobs",
