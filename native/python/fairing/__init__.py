@@ -6,6 +6,7 @@ from fairing._core import __version__
 from fairing._fair import fair
 from fairing._feather import feather_weights
 from fairing._fill import fill
+from fairing._fillet import fillet
 from fairing._growing import GrownOutline, grown_outline
 from fairing._hard_edges import hard_edges
 from fairing._hierarchy import hierarchy
@@ -22,7 +23,7 @@ from fairing._measure import (
     self_intersections,
     vertex_normals,
 )
-from fairing._new_mesh import FillResult, RemeshResult
+from fairing._new_mesh import FilletResult, FillResult, RemeshResult
 from fairing._outline import (
     LIMITS,
     MendedOutline,
@@ -46,6 +47,7 @@ __all__ = [
     "Diagnostic",
     "FairResult",
     "FillResult",
+    "FilletResult",
     "GrownOutline",
     "MendedOutline",
     "MeshError",
@@ -68,6 +70,7 @@ __all__ = [
     "fair",
     "feather_weights",
     "fill",
+    "fillet",
     "flipped_triangles",
     "grown_outline",
     "hard_edges",

@@ -68,3 +68,22 @@ class RemeshResult(NewMeshResult):
     """Where each new vertex lies on the old patch: (k,) triangles and (k, 3) barycentric weights at their corners."""
     old: IntArray
     """(k,) the old vertex whose place on the surface a new one has, at an edge that was ``kept``; −1 for the others."""
+
+
+@dataclass(frozen=True, eq=False)
+class FilletResult(NewMeshResult):
+    """What :func:`fairing.fillet` gives back: what takes the place of the triangles ``gone``, and what
+    :func:`fairing.fair` reports. First of ``triangles`` come the pieces of cut ones, then those of the fillet."""
+
+    gone: IntArray
+    """(g,) old triangles that are cut or within the fillet, ascending."""
+    outside: int
+    """How many of ``triangles`` are pieces outside the fillet, each in the plane of its ``parent``."""
+    parent: IntArray
+    """(m,) the old triangle that each of ``triangles`` is a piece of, or takes its material from."""
+    origin: Origin
+    """Where each new vertex lies, or the one it was made from: (k,) old triangles and (k, 3) barycentric weights."""
+    seam: IntArray
+    """(e, 2) the edges that were rounded."""
+    line: IntArray
+    """(l, 2) edges of the line where the fillet ends, the fillet on their left."""
