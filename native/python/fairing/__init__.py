@@ -8,6 +8,7 @@ from fairing._fair import fair
 from fairing._fair_edges import FairEdges, fair_edges
 from fairing._feather import feather_weights
 from fairing._fill import fill
+from fairing._fillet import fillet
 from fairing._growing import GrownOutline, grown_outline
 from fairing._hard_edges import hard_edges
 from fairing._hierarchy import hierarchy
@@ -24,7 +25,7 @@ from fairing._measure import (
     self_intersections,
     vertex_normals,
 )
-from fairing._new_mesh import FillResult, RemeshResult
+from fairing._new_mesh import FilletResult, FillResult, RemeshResult
 from fairing._outline import (
     MendedOutline,
     SurroundingNormals,
@@ -62,6 +63,7 @@ __all__ = [
     "FairEdges",
     "FairResult",
     "FillResult",
+    "FilletResult",
     "Flank",
     "Girth",
     "GrownOutline",
@@ -90,6 +92,7 @@ __all__ = [
     "fair_edges",
     "feather_weights",
     "fill",
+    "fillet",
     "flank",
     "flipped_triangles",
     "girth",

@@ -129,6 +129,15 @@ def chain_end(chain: _Floats) -> tuple[_Floats, _Floats]: ...
 def visible_join(
     vertices: _Floats, inside: _Ints, outside: _Ints, outline: _Ints, before: _Floats | None
 ) -> tuple[_Floats, float, _Ints]: ...
+def cut_fillet(
+    vertices: _Floats,
+    triangles: _Ints,
+    seams: list[list[int]],
+    walls: list[list[int]],
+    widths: tuple[_Floats, _Floats],
+    spacing: float,
+    progress: Callable[[float, str], bool | None] | None,
+) -> dict[str, Any]: ...
 def fill_loops(
     vertices: _Floats,
     loops: list[_Ints],
@@ -144,7 +153,7 @@ def remesh(
     fixed: _Ints | None,
     fixed_normals: _Floats | None,
     kept: _Ints,
-    wanted: tuple[float, int, bool],
+    wanted: tuple[float, int, bool, bool],
     threads: int,
     progress: Callable[[float, str], bool | None] | None,
 ) -> dict[str, Any]: ...
@@ -155,5 +164,5 @@ def expected_count(
     triangles: _Ints,
     fixed: _Ints | None,
     fixed_normals: _Floats | None,
-    wanted: tuple[float, int, bool],
+    wanted: tuple[float, int, bool, bool],
 ) -> float: ...

@@ -279,9 +279,11 @@ class Spacing:
 
     length: float
     even: bool
+    flat: bool = False
+    """Whether the old triangles are the surface as they are, broken along seams, and small angles may stay."""
 
-    def wanted(self, least: int) -> tuple[float, int, bool]:
-        return self.length, least, self.even
+    def wanted(self, least: int) -> tuple[float, int, bool, bool]:
+        return self.length, least, self.even, self.flat
 
 
 @dataclass(frozen=True)

@@ -80,6 +80,25 @@ class RemeshResult(NewMeshResult):
     """(k,) the old vertex whose place on the surface a new one has, at an edge that was ``kept``; −1 for the others."""
 
 
+@dataclass(frozen=True, eq=False)
+class FilletResult(NewMeshResult):
+    """What :func:`fairing.fillet` gives back: what takes the place of the triangles ``gone``, and what
+    :func:`fairing.fair` reports. First of ``triangles`` come the pieces of cut ones, then those of the fillet."""
+
+    gone: IntArray
+    """(g,) old triangles that are cut or within the fillet, ascending."""
+    outside: int
+    """How many of ``triangles`` are pieces outside the fillet, each in the plane of its ``parent``."""
+    parent: IntArray
+    """(m,) the old triangle that each of ``triangles`` is a piece of, or takes its material from."""
+    origin: Origin
+    """Where each new vertex lies, or the one it was made from: (k,) old triangles and (k, 3) barycentric weights."""
+    seam: IntArray
+    """(e, 2) the edges that were rounded."""
+    line: IntArray
+    """(l, 2) edges of the line where the fillet ends, the fillet on their left."""
+
+
 def report_fields(report: FairResult, old_count: int) -> dict[str, Any]:
     """The fields of a report on ``old_count`` old vertices and then new ones; `triangles` is missing."""
     own = {field.name for field in fields(NewMeshResult)}
