@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _holes, _loops, _options, _pinches, _short_edges, _sides, _single_face
+from fairing import _arguments, _core, _holes, _hub, _loops, _options, _pinches, _short_edges, _sides, _single_face
 from fairing._chosen import Chosen, Wanted, blamed, chosen_loops, fillable
 from fairing._fair import fair
+from fairing._joined import joined
 from fairing._measure import boundary_loops
 from fairing._new_mesh import FillResult, NewMeshResult, Origin
 from fairing._proportion import Limit
@@ -152,19 +153,55 @@ class _Task:
     progress: Progress | None
 
     def filled(self, chosen: Chosen) -> dict[str, Any]:
-        """The fields of a result but for the loops."""
-        single = [not self.bridge and self._is_single(loop) for loop in chosen.outline.loops]
-        plain = [k for k, alone in enumerate(single) if alone]
-        if not plain:
-            return self._solved(chosen)
-        faces = self._single_faces(chosen.part(plain))
-        if len(plain) < len(single):
-            return _single_face.joined(
-                self._solved(chosen.part([k for k, alone in enumerate(single) if not alone])), faces
-            )
-        equation, continuity = (self.options.get(*each) for each in (("equation", "harmonic"), ("continuity", "G1")))
+        """The fields of a result but for the loops: faces, fans and surfaces, as each loop asks for."""
         Limit.of(0.0, self.max_vertices)
-        return {**_single_face.report_of(str(equation), str(continuity)), **faces}
+        loops = chosen.outline.loops
+        single = [not self.bridge and self._is_single(loop) for loop in loops]
+        hubs = [] if self.bridge else self._hubs(chosen, [k for k, alone in enumerate(single) if not alone])
+        fans, hubs = self._fans(chosen, hubs) if hubs else (None, [])
+        plain = [k for k, alone in enumerate(single) if alone]
+        others = [k for k in range(len(loops)) if not single[k] and k not in set(hubs)]
+        made = [
+            self._solved(chosen.part(others)) if others else None,
+            fans,
+            self._single_faces(chosen.part(plain)) if plain else None,
+        ]
+        return joined(len(self.points), [fields for fields in made if fields is not None])
+
+    def _hubs(self, chosen: Chosen, numbers: list[int]) -> list[int]:
+        """The loops over which one vertex is enough."""
+        plain = self.options.get("equation", "harmonic") in ("harmonic", "automatic")
+        if self.length.length or not plain or self.options.get("continuity", "G1") != "G1":
+            return []
+        loops, rows = chosen.outline.loops, chosen.outline.split(chosen.normals)
+        fit = [k for k in numbers if len(loops[k]) < 9 and len(np.unique(loops[k])) == len(loops[k])]
+        points = [self.points[loop] for loop in loops]
+        return [k for k in fit if _hub.takes_hub(points[k], rows[k], points[k].mean(axis=0))]
+
+    def _fans(self, chosen: Chosen, numbers: list[int]) -> tuple[dict[str, Any] | None, list[int]]:
+        """The fans over these loops, and those over which they are good."""
+        part = chosen.part(numbers)
+        outline, rows = part.outline, part.outline.split(part.normals)
+        Limit.of(float(len(numbers)), self.max_vertices).check(float(len(numbers)), outline.vertices)
+        watch = Watch(self.progress)
+        split = _pinches.split(outline, self.points, part.normals, False)
+        hubs = np.stack([self.points[loop].mean(axis=0) for loop in outline.loops])
+        triangles = read_only(_hub.fans(split.outline.loops, split.count))
+        patch = Patch(np.concatenate([split.points, hubs]), triangles, split.outline.vertices, part.normals)
+        options = {**self.options, "otherwise": "stop"}
+        report = patch.faired("given", self.around, options, watch.part(0.0, 1.0))
+        found = report.vertices[split.count :]
+        good = [
+            _hub.takes_hub(self.points[loop], row, hub)
+            for loop, row, hub in zip(outline.loops, rows, found, strict=True)
+        ]
+        if not report.converged or not all(good):
+            kept = [k for k, fits in zip(numbers, good, strict=True) if fits] if report.converged else []
+            return self._fans(chosen, kept) if kept else (None, [])
+        values = report_fields(report, split.count)
+        watch.lap("fans")
+        values["seconds"] = {**values["seconds"], **watch.seconds}
+        return split.welded({**values, "triangles": patch.triangles}), numbers
 
     def _is_single(self, loop: IntArray) -> bool:
         return _single_face.is_single(self.points[loop], self.length.length)
@@ -180,7 +217,9 @@ class _Task:
             for loop, row, face in zip(loops, rows, faces, strict=True)
         ]
         values = _single_face.fields_of(faces, angles, loops, self.around, self.points)
-        return {name: read_only(array) for name, array in values.items()}
+        equation, continuity = (self.options.get(*each) for each in (("equation", "harmonic"), ("continuity", "G1")))
+        arrays = {name: read_only(array) for name, array in values.items()}
+        return {**_single_face.report_of(str(equation), str(continuity)), **arrays}
 
     def _solved(self, chosen: Chosen) -> dict[str, Any]:
         """The same where there are vertices inside."""
