@@ -22,7 +22,8 @@ struct WantedLengths {
 using KeptEdges = std::vector<char>;
 
 // A length at each vertex of a patch (`points`: 3 × local vertices). At edges that stay it is that of these; from there
-// it grows or shrinks to the wanted one by at most a half of the distance.
+// it grows or shrinks to the wanted one by a half of the distance; by all of it, or by twice as much, where the edges
+// that stay are so long that few vertices would be left.
 VectorX edge_lengths(const Patch& patch, const Points& points, const WantedLengths& wanted, const KeptEdges& kept = {});
 
 // How many vertices a mesh of equilateral triangles of these lengths has on the patch, about.

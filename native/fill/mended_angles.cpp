@@ -14,6 +14,7 @@ namespace fairing {
 namespace {
 
 constexpr double worth_it = 0.9;              // of the penalty before
+constexpr double coarsest = 2.0;              // of the wanted length: what is left of two edges
 constexpr double most_bad = 0.2;              // of all triangles; where there are more, the surface is folded
 constexpr std::size_t most_attempts = 60;     // triangles
 constexpr std::size_t most_copied = 600'000;  // vertices in all attempts; each copies the mesh some ten times
@@ -58,6 +59,7 @@ bool EvenMesh::may_close(Halfedge h) {
     const Vertex gone = mesh_.from_vertex_handle(h);
     const Vertex kept = mesh_.to_vertex_handle(h);
     if (fixed(gone) || free_count_ < 2 || !mesh_.is_collapse_ok(h)) return false;
+    if (makes_long_edges(h, coarsest)) return false;
     for (const Vertex other : mesh_.vv_range(gone)) {
         if (other != kept && !mesh_.find_halfedge(kept, other).is_valid() && !may_join(kept, other)) return false;
     }

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,38 +12,19 @@ from fairing._fair import fair
 from fairing._loops import Outline
 from fairing._new_mesh import read_only, report_fields
 from fairing._run_on import Curves
-from fairing._types import Diagnostic, FairResult, FloatArray, IntArray
+from fairing._types import FairResult, FloatArray, IntArray
 from fairing._watch import Progress, Watch
 
 _TAKEN = ("tolerance", "max_iterations", "threads", "normals", "otherwise")  # by the surface of least variation
 
-Task = tuple[Outline, FloatArray, IntArray, tuple[float, int, bool], dict[str, Any]]
+Task = tuple[Outline, FloatArray, IntArray, tuple[float, int, bool, bool], dict[str, Any]]
 """Loops, normals (Σ k, 3), the triangles around, the lengths wanted, and the options of :func:`fairing.fair`."""
 
-Others = Callable[[list[int], "Progress | None"], dict[str, Any]]
-"""Fills the other loops, which it is told by their numbers."""
 
-
-def filled_along(curves: Curves, task: Task, others: Others, progress: Progress | None) -> dict[str, Any]:
-    """The fields of a result but for the loops: those through which curves run with creases, the others as always."""
+def filled_along(curves: Curves, task: Task, progress: Progress | None) -> dict[str, Any]:
+    """The fields of a result but for the loops, all of which curves cut: each side finds its slope at them."""
     outline, normals, around, wanted, options = task
-    mine = [k for k, cut in enumerate(curves.cut) if cut is not None]
-    rest = [k for k, cut in enumerate(curves.cut) if cut is None]
-    watch = Watch(progress)
-    share = len(mine) / len(curves.cut)
-    along = _Along(curves, _some(outline, mine), _rows(outline, normals, mine), wanted, options)
-    values = along.filled(around, watch, share)
-    return _joined(values, others(rest, watch.part(share, 1.0)), curves.old_count) if rest else values
-
-
-def _some(outline: Outline, which: list[int]) -> Outline:
-    names = ("loops", "turned", "bare")
-    return Outline(*(tuple(getattr(outline, name)[k] for k in which) for name in names))
-
-
-def _rows(outline: Outline, rows: FloatArray, which: list[int]) -> FloatArray:
-    parts = outline.split(rows)
-    return np.concatenate([parts[k] for k in which])
+    return _Along(curves, outline, normals, wanted, options).filled(around, Watch(progress))
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,22 +32,19 @@ class _Along:
     curves: Curves
     outline: Outline
     normals: FloatArray
-    wanted: tuple[float, int, bool]
+    wanted: tuple[float, int, bool, bool]
     options: dict[str, Any]
 
-    def filled(self, around: IntArray, watch: Watch, share: float) -> dict[str, Any]:
-        film = self._film(watch.part(0.0, 0.2 * share))
+    def filled(self, around: IntArray, watch: Watch) -> dict[str, Any]:
+        film = self._film(watch.part(0.0, 0.2))
         watch.lap("first")
-        mesh = self._meshed(film, watch.part(0.2 * share, 0.4 * share))
+        mesh = self._meshed(film, watch.part(0.2, 0.4))
         watch.lap("mesh")
         _loops.check_doubles(mesh[1], around)
-        report = self._solved(around, mesh, watch.part(0.4 * share, share))
+        report = self._solved(around, mesh, watch.part(0.4, 1.0))
         values = report_fields(report, self.curves.old_count)
         values["triangles"] = read_only(mesh[1])
         values["seconds"] = {**values["seconds"], **watch.seconds}
-        values["warnings"] += self.curves.warnings
-        values["curves"] = tuple(read_only(curve) for curve in self.curves.curves)
-        values["marked"] = self.curves.marked
         return values
 
     def _film(self, progress: Progress | None) -> tuple[FloatArray, IntArray]:
@@ -105,32 +82,3 @@ class _Along:
             inner_fairness=self.options.get("inner_fairness", "conformal"),
             outside=around if len(around) else None, progress=progress, **chosen,
         )  # fmt: skip
-
-
-def _joined(one: dict[str, Any], other: dict[str, Any], old_count: int) -> dict[str, Any]:
-    """Both results, the new vertices of the second one behind those of the first."""
-    added = len(one["vertices"])
-
-    def behind(indices: IntArray) -> IntArray:
-        return np.where(indices >= old_count, indices + added, indices).astype(np.int32)
-
-    def moved(told: Diagnostic) -> Diagnostic:
-        by = behind(told.elements) if told.kind == "vertex" else told.elements + len(one["triangles"])
-        return replace(told, elements=by)
-
-    values = dict(one)
-    for name in ("vertices", "mean_curvature", "boundary_angle", "join"):
-        values[name] = read_only(np.concatenate([one[name], other[name]]))
-    for name in ("triangles", "fixed"):
-        values[name] = read_only(np.concatenate([one[name], behind(other[name])]))
-    for name in ("converged", "polished", "cut"):
-        values[name] = one[name] and other[name]
-    for name in ("iterations", "residual", "initial_residual"):
-        values[name] = max(one[name], other[name])
-    if one["converged"] and not other["converged"]:
-        values["termination"] = other["termination"]
-    values["warnings"] = one["warnings"] + tuple(map(moved, other["warnings"]))
-    values["way"] = one["way"] + other["way"]
-    seconds = one["seconds"].keys() | other["seconds"].keys()
-    values["seconds"] = {name: one["seconds"].get(name, 0.0) + other["seconds"].get(name, 0.0) for name in seconds}
-    return values

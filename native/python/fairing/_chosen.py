@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from fairing import _loops, _sides
+from fairing import _crossings, _loops, _sides
 from fairing._hole_loops import hole_loops, recut
 from fairing._loops import Outline
 from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
@@ -37,8 +37,10 @@ class Chosen:
         """Some of the loops alone."""
         curvatures = None
         if self.curvatures is not None:
-            curvatures = np.concatenate([_rows(self.outline, self.curvatures)[k] for k in numbers])
-        normals = np.concatenate([self.outline.split(self.normals)[k] for k in numbers])
+            of_loops = _rows(self.outline, self.curvatures)
+            curvatures = np.concatenate([of_loops[k] for k in numbers])
+        rows = self.outline.split(self.normals)
+        normals = np.concatenate([rows[k] for k in numbers])
         return Chosen(_some(self.outline, numbers), normals, curvatures)
 
     @property
@@ -191,6 +193,8 @@ def _sound(
     normals, curvatures = wanted.normals, wanted.curvatures
     if wanted.bridge or len(outline.loops) == 1:
         _loops.check(outline, points, wanted.bridge)
+        return outline, _loops.loop_normals(normals, outline, points, around, wanted.hard), curvatures, []
+    if not any(outline.bare) and _crossings.are_clear(outline.loops, points):
         return outline, _loops.loop_normals(normals, outline, points, around, wanted.hard), curvatures, []
     kept, left, first = [], [], None
     for k, loop in enumerate(outline.loops):

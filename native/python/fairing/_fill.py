@@ -9,10 +9,23 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _holes, _loops, _options, _pinches, _run_on, _short_edges, _sides, _single_face
+from fairing import (
+    _arguments,
+    _core,
+    _holes,
+    _hub,
+    _loops,
+    _options,
+    _pinches,
+    _run_on,
+    _short_edges,
+    _sides,
+    _single_face,
+)
 from fairing._along import filled_along
 from fairing._chosen import Chosen, Wanted, blamed, chosen_loops, fillable
 from fairing._fair import fair
+from fairing._joined import joined
 from fairing._measure import boundary_loops
 from fairing._new_mesh import FillResult, Origin, read_only, report_fields
 from fairing._proportion import Limit
@@ -168,34 +181,81 @@ class _Task:
     progress: Progress | None
 
     def filled(self, chosen: Chosen) -> dict[str, Any]:
-        """The fields of a result but for the loops."""
-        single = [not self.bridge and self._is_single(loop) for loop in chosen.outline.loops]
-        plain = [k for k, alone in enumerate(single) if alone]
-        if not plain:
-            return self._with_curves(chosen)
-        faces = self._single_faces(chosen.part(plain))
-        if len(plain) < len(single):
-            rest = chosen.part([k for k, alone in enumerate(single) if not alone])
-            return _single_face.joined(self._with_curves(rest), faces)
-        equation, continuity = (self.options.get(*each) for each in (("equation", "harmonic"), ("continuity", "G1")))
+        """The fields of a result but for the loops: curves, faces, fans and surfaces, as each loop asks for."""
         Limit.of(0.0, self.max_vertices)
-        return {**_single_face.report_of(str(equation), str(continuity)), **faces}
-
-    def _with_curves(self, chosen: Chosen) -> dict[str, Any]:
-        """The same with the curves that run through the loops, where there are vertices inside."""
-        normals = _short_edges.with_shared_normals(chosen.outline, self.points, chosen.normals)
-        length = (self.length.length, self.length.even)
-        curves = self.broken.run_on(chosen.outline, normals, (self.points, self.around), length)
-        if not curves.holds_any:
-            values = self._solved(chosen, self.progress)
+        loops = chosen.outline.loops
+        plain = [k for k, loop in enumerate(loops) if not self.bridge and self._is_single(loop)]
+        rest = [k for k in range(len(loops)) if k not in set(plain)]
+        curves, through = self._curves(chosen, rest)
+        rest = [k for k in rest if k not in set(through)]
+        fans, hubs = self._fans(chosen, [] if self.bridge else self._hubs(chosen, rest))
+        others = [k for k in rest if k not in set(hubs)]
+        watch = Watch(self.progress)
+        share = len(through) / max(1, len(through) + len(others))
+        made = [
+            self._along(chosen.part(through), curves, watch.part(0.0, share)) if curves and through else None,
+            self._solved(chosen.part(others), watch.part(share, 1.0)) if others else None,
+            fans,
+            self._single_faces(chosen.part(plain)) if plain else None,
+        ]
+        values = joined(len(self.points), [fields for fields in made if fields is not None])
+        if curves:
             values["warnings"] += curves.warnings
-            return values
+            values |= {"curves": tuple(map(read_only, curves.curves)), "marked": curves.marked}
+        return values
 
-        def others(numbers: list[int], progress: Progress | None) -> dict[str, Any]:
-            return self._solved(chosen.part(numbers), progress)
+    def _curves(self, chosen: Chosen, numbers: list[int]) -> tuple[_run_on.Curves | None, list[int]]:
+        """What runs through these loops, and through which."""
+        if not numbers:
+            return None, []
+        part = chosen.part(numbers)
+        length = (self.length.length, self.length.even)
+        curves = self.broken.run_on(part.outline, self._shared(part), (self.points, self.around), length)
+        return curves, [k for k, cut in zip(numbers, curves.cut, strict=True) if cut is not None]
 
-        task = (chosen.outline, normals, self.around, self.length.wanted(0), self.options)
-        return filled_along(curves, task, others, self.progress)
+    def _along(self, chosen: Chosen, curves: _run_on.Curves, progress: Progress | None) -> dict[str, Any]:
+        task = (chosen.outline, self._shared(chosen), self.around, self.length.wanted(0), self.options)
+        return filled_along(curves, task, progress)
+
+    def _shared(self, chosen: Chosen) -> FloatArray:
+        return _short_edges.with_shared_normals(chosen.outline, self.points, chosen.normals)
+
+    def _hubs(self, chosen: Chosen, numbers: list[int]) -> list[int]:
+        """The loops over which one vertex is enough."""
+        plain = self.options.get("equation", "harmonic") in ("harmonic", "automatic")
+        if self.length.length or not plain or self.options.get("continuity", "G1") != "G1":
+            return []
+        loops, rows = chosen.outline.loops, chosen.outline.split(chosen.normals)
+        fit = [k for k in numbers if len(loops[k]) < 9 and len(np.unique(loops[k])) == len(loops[k])]
+        points = [self.points[loop] for loop in loops]
+        return [k for k in fit if _hub.takes_hub(points[k], rows[k], points[k].mean(axis=0))]
+
+    def _fans(self, chosen: Chosen, numbers: list[int]) -> tuple[dict[str, Any] | None, list[int]]:
+        """The fans over these loops, and those over which they are good."""
+        if not numbers:
+            return None, []
+        part = chosen.part(numbers)
+        outline, rows = part.outline, part.outline.split(part.normals)
+        Limit.of(float(len(numbers)), self.max_vertices).check(float(len(numbers)), outline.vertices)
+        watch = Watch(self.progress)
+        split = _pinches.split(outline, self.points, part.normals, False)
+        hubs = np.stack([self.points[loop].mean(axis=0) for loop in outline.loops])
+        triangles = read_only(_hub.fans(split.outline.loops, split.count))
+        patch = Patch(np.concatenate([split.points, hubs]), triangles, split.outline.vertices, part.normals)
+        options = {**self.options, "otherwise": "stop"}
+        report = patch.faired("given", self.around, options, watch.part(0.0, 1.0))
+        found = report.vertices[split.count :]
+        good = [
+            _hub.takes_hub(self.points[loop], row, hub)
+            for loop, row, hub in zip(outline.loops, rows, found, strict=True)
+        ]
+        if not report.converged or not all(good):
+            kept = [k for k, fits in zip(numbers, good, strict=True) if fits] if report.converged else []
+            return self._fans(chosen, kept)
+        values = report_fields(report, split.count)
+        watch.lap("fans")
+        values["seconds"] = {**values["seconds"], **watch.seconds}
+        return split.welded({**values, "triangles": patch.triangles}), numbers
 
     def _is_single(self, loop: IntArray) -> bool:
         return _single_face.is_single(self.points[loop], self.length.length)
@@ -211,12 +271,14 @@ class _Task:
             for loop, row, face in zip(loops, rows, faces, strict=True)
         ]
         values = _single_face.fields_of(faces, angles, loops, self.around, self.points)
-        return {name: read_only(array) for name, array in values.items()}
+        equation, continuity = (self.options.get(*each) for each in (("equation", "harmonic"), ("continuity", "G1")))
+        arrays = {name: read_only(array) for name, array in values.items()}
+        return {**_single_face.report_of(str(equation), str(continuity)), **arrays}
 
     def _solved(self, chosen: Chosen, progress: Progress | None) -> dict[str, Any]:
         """The same without curves, where there are vertices inside."""
         options, bridge, length = dict(self.options), self.bridge, self.length
-        normals = _short_edges.with_shared_normals(chosen.outline, self.points, chosen.normals)
+        normals = self._shared(chosen)
         split = _pinches.split(chosen.outline, self.points, normals, bridge)
         outline, points, around = split.outline, split.parted, self.around
         rims = [points[loop] for loop in outline.loops]

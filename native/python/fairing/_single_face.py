@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from fairing._outline import visible_join
 from fairing._types import FloatArray, IntArray
@@ -86,14 +85,6 @@ def fields_of(
     }
 
 
-def joined(one: dict[str, Any], other: dict[str, Any]) -> dict[str, Any]:
-    """One result, and the faces of another one, which has no new vertices."""
-    result = dict(one)
-    for name in ("triangles", "fixed", "boundary_angle", "join"):
-        result[name] = _read_only(np.concatenate([one[name], other[name]]))
-    return result
-
-
 def report_of(equation: str, continuity: str) -> dict[str, Any]:
     """The other fields, where nothing had to be solved."""
     return {
@@ -102,8 +93,3 @@ def report_of(equation: str, continuity: str) -> dict[str, Any]:
         "iterations": 0, "residual": 0.0, "initial_residual": 0.0, "levels": (), "seconds": {}, "way": (),
         "warnings": (),
     }  # fmt: skip
-
-
-def _read_only(array: npt.NDArray[Any]) -> Any:
-    array.flags.writeable = False
-    return array
