@@ -11,9 +11,10 @@ import numpy as np
 
 import fairing
 
+from .across import HARD_EDGES, Across, Numbering, drawn_edges, marked_edges, within
 from .around import nearby
 from .arrays import Floats, Ints
-from .border import BorderRefusal
+from .border import BorderRefusal, Left, left_by
 from .checked import refuse_negative, refuse_other_kinds, refuse_unknown
 from .engine import Progress, sub_range
 from .faces import Faces, faces_of, paired_faces
@@ -29,7 +30,8 @@ from .words import in_mesh_words, sentences
 
 _TOO_MANY = "Bridge joins all {} selected boundary loops in one surface: select only those that belong together"
 _TWO = "Bridge needs two boundary loops that face each other: switch it off to close each of them by itself"
-SHAPES = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY", "LEAST_VARIATION")
+_TOLD = ("NO_SOLUTION", "NOT_TANGENT", "EDGES_LEFT_ALONE")
+SHAPES = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION")
 
 
 @dataclass(frozen=True)
@@ -42,9 +44,12 @@ class FillOptions:
     equation: str = "AUTOMATIC"
     continuity: str = "G1"  # G2: the curvature around is continued, too
     bridge: bool = False  # all loops of an object are joined
+    hard_edges: str = "RUN_ON"  # those that end at a hole go on through it, as edges drawn across it do; IGNORED
     spacing: float = 1.0  # of new edges, as a factor of the boundary's
     inner: str = "OUTLINE"  # in proportion to the boundary's nearby; EVEN: of one length
     quads: bool = False  # triangles are written in pairs, as far as they can be
+    longest: int = 0  # edges: longer borders stay open; 0: any number
+    longest_length: float = 0.0  # likewise by their lengths in world space
     max_vertices: int = 0  # more new ones for a surface are refused; 0: twenty times as many as over flat ones
     limit_total: int = 0  # vertex groups of bones of a new vertex; 0: as many as one vertex of the boundary has
     accept: str = "USABLE"  # ALL: written whatever it is worth
@@ -56,13 +61,17 @@ class FillOptions:
             raise ValueError(f"continuity: expected one of {', '.join(CONTINUITIES)}, got {self.continuity!r}")
         if self.inner not in INNER:
             raise ValueError(f"inner: expected one of {', '.join(INNER)}, got {self.inner!r}")
+        if self.hard_edges not in HARD_EDGES:
+            raise ValueError(f"hard_edges: expected one of {', '.join(HARD_EDGES)}, got {self.hard_edges!r}")
         if self.accept not in ACCEPT:
             raise ValueError(f"accept: expected one of {', '.join(ACCEPT)}, got {self.accept!r}")
         refuse_other_kinds(self)
         if not self.spacing >= LEAST_SPACING:
             raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
-        refuse_negative(self, "max_vertices")
-        refuse_negative(self, "limit_total")
+        for name in ("longest", "max_vertices", "limit_total"):
+            refuse_negative(self, name)
+        if not 0.0 <= self.longest_length < float("inf"):
+            raise ValueError(f"longest_length: expected 0 or a positive number, got {self.longest_length!r}")
 
     @classmethod
     def named(cls, properties: dict[str, Any]) -> FillOptions:
@@ -96,15 +105,17 @@ class Piece:
     quads: bool = False  # whether triangles are written in pairs
     limit_total: int = 0  # as FillOptions has it
     notes: tuple[str, ...] = field(default=())
+    across: Across = field(default_factory=Across)  # what runs across it; drawn vertices come first among the k
 
     def faces(self, kinds: Ints, lines: Ints) -> Faces:
         """Return what is written; kinds: (m,) of the triangles, only those of one kind are paired.
 
         lines: (l, 2) edges that no quad runs across.
         """
-        if not self.quads:
+        closes_at_once = not len(self.positions) and len(self.triangles) == 2
+        if not (self.quads or closes_at_once):
             return faces_of(self.triangles)
-        return paired_faces(self.points, self.triangles, lines, kinds)
+        return paired_faces(self.points, self.triangles, np.concatenate([lines, self.across.edges]), kinds)
 
     @property
     def outline(self) -> Ints:
@@ -126,7 +137,12 @@ class Piece:
         return harmonic(self.points, self.triangles, values)
 
     def keyed(self, places: list[Floats], carried: list[Floats]) -> list[Floats | None]:
-        """Return (k, 3) for each shape key: where it has the new vertices, see core.key_surface."""
+        """Return (k, 3) for each shape key: where it has the new vertices, see core.key_surface.
+
+        None where curves run across the surface: there they stay where they are carried.
+        """
+        if len(self.across.edges):
+            return [None] * len(places)
         mirrored = np.linalg.det(self.around.matrix[:3, :3]) < 0.0
         triangles = self.triangles[:, ::-1] if mirrored else self.triangles
         return key_surfaces(NewSurface(self.points, triangles, self.result.equation), self.around, places, carried)
@@ -146,28 +162,68 @@ class Piece:
         return near[rim:], of_face
 
 
+@dataclass(frozen=True)
+class Filled:
+    """The surfaces of one mesh, and the holes that can't be filled."""
+
+    pieces: list[Piece]
+    left: tuple[Left, ...] = ()
+
+    @property
+    def left_vertices(self) -> Ints:
+        """The vertices of the holes that stay open, ascending."""
+        vertices: Ints = np.unique(np.concatenate([nothing(), *(each.vertices for each in self.left)]))
+        return vertices
+
+    def with_left(self, left: tuple[Left, ...]) -> Filled:
+        """Return it with more holes that stay open, before its own."""
+        return replace(self, left=(*left, *self.left))
+
+    def unfilled(self) -> Filled:
+        """Return it without any surface."""
+        left = (Left(np.unique(piece.outline), piece.verdict.reason, piece.verdict.spots) for piece in self.pieces)
+        return Filled([], (*self.left, *left))
+
+    def settled(self, options: FillOptions) -> Filled:
+        """Return what is to be written: surfaces that are not usable are left out where others are."""
+        usable = [piece for piece in self.pieces if piece.verdict.grade != UNUSABLE]
+        if options.accept == "ALL" or not usable or len(usable) == len(self.pieces):
+            return self
+        bad = Filled([piece for piece in self.pieces if piece.verdict.grade == UNUSABLE])
+        return Filled(usable, (*self.left, *bad.unfilled().left))
+
+
 def fill(
     mesh: MeshArrays, matrix: Floats, loops: list[Ints], options: FillOptions, progress: Progress | None = None
-) -> list[Piece]:
+) -> Filled:
     """Fill each loop of border_loops, or join all of them, in the space that the 4×4 `matrix` leads to.
 
-    Raises MeshRefusal, ValueError, fairing.SolverError and fairing.Cancelled. `mesh` is never changed.
+    What is wrong with one loop stops no other. Raises the first MeshRefusal, BorderRefusal or fairing.SolverError where
+    there is no surface at all; ValueError and fairing.Cancelled. `mesh` is never changed.
     """
     with np.errstate(invalid="ignore", over="ignore"):  # elsewhere
         world = mesh.transformed(matrix)
     groups = [loops] if options.bridge else [[loop] for loop in loops]
-    count = len(groups)
-    return [
-        _piece(world, matrix, group, options, sub_range(progress, i / count, (i + 1) / count))
-        for i, group in enumerate(groups)
-    ]
+    pieces, errors, left = [], [], []
+    for i, group in enumerate(groups):
+        part = sub_range(progress, i / len(groups), (i + 1) / len(groups))
+        try:
+            pieces.append(_piece(world, matrix, group, options, part))
+        except (fairing.MeshError, BorderRefusal, fairing.SolverError) as error:
+            errors.append(error)
+            left.append(left_by(error, np.unique(np.concatenate(group))))
+    if errors and not pieces:
+        raise errors[0]
+    return Filled(pieces, tuple(left)).settled(options)
 
 
 def _piece(
     world: MeshArrays, matrix: Floats, loops: list[Ints], options: FillOptions, progress: Progress | None
 ) -> Piece:
     outline = np.concatenate(loops)
-    vertices, around = _surroundings(world, outline)
+    runs_on = options.hard_edges == "RUN_ON" and not options.bridge
+    drawn = drawn_edges(world, outline) if runs_on else np.empty((0, 2), np.int64)
+    vertices, around = _surroundings(world, outline, drawn)
     given = [np.searchsorted(vertices, loop) for loop in loops]
     origin = Origin(vertices, around, np.zeros(len(around), np.int64))
     with _joining(options, outline, len(loops)), in_mesh_words(origin):
@@ -175,22 +231,24 @@ def _piece(
             world.positions[vertices], around, given, bridge=options.bridge, spacing=_spacing(world, loops, options),
             inner=options.inner.lower(), equation=options.equation.lower(),
             continuity="G2" if options.joins_curvature else "G1", max_vertices=options.max_vertices,
-            progress=progress,
+            edges=options.hard_edges.lower(), wires=within(drawn, vertices),
+            marked=within(marked_edges(world), vertices), progress=progress,
         )  # fmt: skip
-    number = np.full(len(vertices) + len(result.vertices), -1, dtype=np.int64)
-    number[np.concatenate(given)] = np.arange(len(outline))
-    number[len(vertices) :] = len(outline) + np.arange(len(result.vertices))
-    triangles = number[result.triangles]
-    points = np.concatenate([world.positions[outline], result.vertices])
+    number = Numbering.made(outline, vertices, result)
+    triangles = number.triangles(result, given)
+    inside = number.places(world.positions, result.vertices)
+    points = np.concatenate([world.positions[outline], inside])
     whole = np.concatenate([world.positions[vertices], result.vertices])
-    join = join_at(vertices[result.fixed], fairing.visible_join(whole, result.triangles, around, result.fixed))
+    rim = np.unique(np.concatenate(given))
+    join = join_at(vertices[rim], fairing.visible_join(whole, result.triangles, around, rim))
+    across = number.across(result, within(drawn, vertices))
     slopes = tuple(warning for warning in result.warnings if warning.code == "G2_NOT_MET")
     tangent_only = np.unique(np.concatenate([nothing(), *(vertices[warning.elements] for warning in slopes)]))
-    verdict = judge(world, outline, Surface(points, triangles, result, join, tangent_only))
+    verdict = judge(world, outline, Surface(points, triangles, result, join, tangent_only, across.edges))
     return Piece(
         loops=tuple(loops),
         points=points,
-        positions=to_local(result.vertices, matrix),
+        positions=to_local(inside, matrix),
         triangles=triangles[:, ::-1] if world.mirrored else triangles,
         verdict=_advised(verdict, options, len(loops)),
         result=result,
@@ -199,16 +257,18 @@ def _piece(
         quads=options.quads,
         limit_total=options.limit_total,
         notes=_notes(result, slopes, origin),
+        across=across,
     )
 
 
-def _surroundings(world: MeshArrays, outline: Ints) -> tuple[Ints, Ints]:
-    """Return the (q,) mesh vertices of the boundary and of the triangles around it, and these, in their numbers."""
+def _surroundings(world: MeshArrays, outline: Ints, drawn: Ints) -> tuple[Ints, Ints]:
+    """Return the (q,) mesh vertices of the boundary, of the triangles around it and of drawn edges (w, 2), and these
+    triangles, in their numbers."""
     finite = np.isfinite(world.positions).all(axis=1)
     start = np.zeros(len(finite), dtype=bool)
     start[outline] = True
     around = nearby(world.triangles[finite[world.triangles].all(axis=1)], start)
-    vertices = np.union1d(outline, around)
+    vertices = np.unique(np.concatenate([outline, around.ravel(), drawn.ravel()]))
     return vertices, np.searchsorted(vertices, around)
 
 
@@ -231,7 +291,7 @@ def _spacing(world: MeshArrays, loops: list[Ints], options: FillOptions) -> floa
 
 def _notes(result: fairing.FillResult, slopes: tuple[fairing.Diagnostic, ...], origin: Origin) -> tuple[str, ...]:
     """Report what stands in for the surface asked for, and where its curvature is not continued."""
-    warnings = [warning for warning in result.warnings if warning.code in ("NO_SOLUTION", "NOT_TANGENT")]
+    warnings = [warning for warning in result.warnings if warning.code in _TOLD]
     known = [replace(each, elements=each.elements[each.elements < len(origin.vertices)]) for each in warnings]
     return sentences((*known, *slopes), origin)
 

@@ -4,7 +4,7 @@
 No postponed annotations here: Blender reads them as property definitions.
 """
 
-from bpy.props import BoolProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from ..core.filling import SHAPES
 from .properties import EQUATIONS, SurfaceProperties, continuity_property, equation_property
@@ -19,4 +19,29 @@ class FillProperties(SurfaceProperties):
         name="Bridge",
         description="One surface joins all boundary loops of an object: a tube between two, a blend between more",
         default=False,
+    )
+    longest: IntProperty(
+        name="Most Edges",
+        description="Borders with more edges than that stay open; 0: any number",
+        default=0,
+        min=0,
+        soft_max=100,
+    )
+    longest_length: FloatProperty(
+        name="Longest Border",
+        description="Borders that are longer than that stay open; 0: any length",
+        default=0.0,
+        min=0.0,
+        precision=3,
+        subtype="DISTANCE",
+    )
+    hard_edges: EnumProperty(
+        name="Hard Edges",
+        description="What becomes of hard edges, marked sharp or by their angle, that end at a hole, and of edges that "
+        "were drawn across it",
+        items=(
+            ("RUN_ON", "Run On", "They are joined by fair curves, or drawn edges are taken, and stay hard"),
+            ("IGNORED", "Round Off", "The surface is smooth"),
+        ),
+        default="RUN_ON",
     )

@@ -68,10 +68,16 @@ _INNER_FAIRNESS = (
 )
 _BOUNDARY_NORMALS = (
     (
+        "AUTOMATIC",
+        "Automatic",
+        "Surroundings, but Inside where the boundary is a hard edge: the top of a box stays flat",
+    ),
+    (
         "SURROUNDING",
         "Surroundings",
         "Continues the faces around the selection, whatever is inside",
     ),
+    ("INSIDE", "Inside", "Keeps the slope of the selected faces along the boundary"),
     ("AVERAGE", "Average", "Leans half way between the faces inside and outside: keeps some of the old shape's slope"),
     ("CUSTOM", "Custom Normals", "Follows the shading normals along the boundary, custom split normals included"),
 )
@@ -118,10 +124,15 @@ _INNER = (
     ("EVEN", "Equal", "All of one length, but for those beside a boundary that is finer or coarser"),
 )
 _PIN_EDGES = (
+    ("AUTOMATIC", "Automatic", "Edges marked sharp that run through the selection, from marked edges to marked edges"),
     ("NONE", "None", "No edge inside the selection is held"),
     ("SHARP", "Sharp", "The surface passes through edges marked sharp; closed loops of them divide it"),
     ("SEAM", "Seam", "The surface passes through UV seams; closed loops of them divide it"),
     ("CREASE", "Crease", "The surface passes through edges with a crease weight; closed loops of them divide it"),
+)
+_PIN_CURVES = (
+    ("FAIRED", "Faired", "Those that run through between marked edges outside become fair curves, with what is around"),
+    ("HELD", "As They Are", "They stay where they are"),
 )
 _PIN_SLOPES = (
     ("AUTOMATIC", "Automatic", "Crease for edges marked sharp, averaged for others"),
@@ -238,7 +249,7 @@ class FairProperties(SurfaceProperties, SkinProperties):
         name="Tangent To",
         description="The slope with which the surface leaves its boundary",
         items=_BOUNDARY_NORMALS,
-        default="SURROUNDING",
+        default="AUTOMATIC",
     )
     continuity: continuity_property()
     method: EnumProperty(name="Method", description="How the surface is computed", items=_METHODS, default="GLOBAL")
@@ -272,7 +283,13 @@ class FairProperties(SurfaceProperties, SkinProperties):
         name="Pin Edges",
         description="Marked edges that the surface passes through",
         items=_PIN_EDGES,
-        default="NONE",
+        default="AUTOMATIC",
+    )
+    pin_curve: EnumProperty(
+        name="Pinned Edges",
+        description="Whether edges marked sharp that run through the selection become fair themselves",
+        items=_PIN_CURVES,
+        default="FAIRED",
     )
     pin_slope: EnumProperty(
         name="At Pinned Edges",

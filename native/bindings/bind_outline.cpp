@@ -4,8 +4,10 @@
 #include "bindings/topics.h"
 #include "geometry/hard_edges.h"
 #include "outline/bad_outline.h"
-#include "outline/creased.h"
+#include "outline/chain_end.h"
+#include "outline/boundary_fit.h"
 #include "outline/feather.h"
+#include "outline/least_variation_curve.h"
 #include "outline/mended_outline.h"
 
 namespace fairing::bindings {
@@ -40,26 +42,23 @@ py::array hard_edge_array(const DoubleArray& vertices, const IntArray& triangles
     return std::move(result);
 }
 
-// Of vertices with several copies the first one counts; those without triangles have none and stay what they are.
 py::dict surrounding_normal_arrays(const DoubleArray& vertices, const IntArray& triangles, const IntArray& where,
                                    const IntArray& creases) {
+    return to_dict(
+        surrounding_normals(to_points(vertices), to_triangles(triangles), to_indices(where), to_pairs(creases)));
+}
+
+py::dict boundary_normal_arrays(const DoubleArray& vertices, const IntArray& inside, const IntArray& outside,
+                                const IntArray& where, const IntArray& creases, bool all_inside) {
     const Points points = to_points(vertices);
-    Indices places = to_indices(where);
-    const VertexPairs edges = to_pairs(creases);
-    if (edges.empty()) return to_dict(surrounding_normals(points, to_triangles(triangles), places));
-    BrokenSurface broken = broken_along(to_triangles(triangles), static_cast<int>(points.cols()), edges);
-    std::vector<int> copy(static_cast<std::size_t>(points.cols()), none);
-    for (int v = 0; v < static_cast<int>(broken.input_vertex.size()); ++v) {
-        if (int& first = copy[broken.input_vertex[v]]; first == none) first = v;
-    }
-    for (int& place : places) {
-        if (copy[place] == none) {
-            copy[place] = static_cast<int>(broken.input_vertex.size());
-            broken.input_vertex.push_back(place);
-        }
-        place = copy[place];
-    }
-    return to_dict(surrounding_normals(points(Eigen::all, broken.input_vertex), broken.triangles, places));
+    const Triangles within = to_triangles(inside);
+    const Triangles beyond = to_triangles(outside);
+    const SideRule rule = all_inside ? SideRule::inside : SideRule::automatic;
+    const BoundaryNormals found =
+        boundary_normals({points, within, beyond}, to_indices(where), to_pairs(creases), rule);
+    py::dict dict = to_dict(found.normals);
+    dict["from_inside"] = from_flags(found.from_inside);
+    return dict;
 }
 
 py::array bad_outline_array(const DoubleArray& vertices, const IntArray& triangles, const IntArray& outline) {
@@ -102,18 +101,37 @@ py::dict mended_outline_arrays(const DoubleArray& vertices, const IntArray& tria
     return dict;
 }
 
+// Rows: beginning and end.
+py::array fair_curve_array(const DoubleArray& places, const DoubleArray& directions,
+                           const std::vector<double>& shares) {
+    const Points ends = to_points(places);
+    const Points ways = to_points(directions);
+    const auto count = static_cast<Eigen::Index>(shares.size());
+    return from_points(least_variation_curve({ends.col(0), ways.col(0)}, {ends.col(1), ways.col(1)},
+                                             Eigen::Map<const VectorX>(shares.data(), count)));
+}
+
+py::tuple chain_end(const DoubleArray& chain) {
+    const ChainEnd end = end_of_chain(to_points(chain));
+    return py::make_tuple(from_points(end.direction), from_points(end.curvature));
+}
+
 }  // namespace
 
 void bind_outline(py::module_& module) {
     module.def("hard_edges", &hard_edge_array, py::arg("vertices"), py::arg("triangles"), py::arg("marked"));
     module.def("surrounding_normals", &surrounding_normal_arrays, py::arg("vertices"), py::arg("triangles"),
                py::arg("at"), py::arg("creases"));
+    module.def("boundary_normals", &boundary_normal_arrays, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
+               py::arg("at"), py::arg("creases"), py::arg("all_inside"));
     module.def("bad_outline", &bad_outline_array, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
     module.def("mend_outline", &mended_outline_arrays, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
     module.def("feather_weights", &feather_weight_array, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
                py::arg("width"));
     module.def("soft_base", &soft_base_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("base"), py::arg("faired"), py::arg("sizes"), py::arg("threads"), py::arg("progress"));
+    module.def("fair_curve", &fair_curve_array, py::arg("places"), py::arg("directions"), py::arg("shares"));
+    module.def("chain_end", &chain_end, py::arg("chain"));
 }
 
 }  // namespace fairing::bindings

@@ -15,6 +15,7 @@ struct WantedLengths {
     double spacing = 0.0;  // of an edge in the mean of the outline's; 0: as these are
     int least_count = 0;   // about so many vertices at least: lengths shrink evenly until they give that many
     Spread spread = Spread::outline;
+    bool flat = false;  // the old triangles are the surface as they are; small angles that smoothing leaves stay
 };
 
 // One entry for each edge of a patch: whether the new mesh has it, too. Border edges stay anyway; empty: no others.

@@ -159,7 +159,6 @@ bool EvenMesh::may_collapse(Halfedge h) {
     const Vertex gone = mesh_.from_vertex_handle(h);
     const Vertex kept = mesh_.to_vertex_handle(h);
     if (fixed(gone) || makes_long_edges(h)) return false;
-    if (static_cast<int>(mesh_.valence(gone) + mesh_.valence(kept)) - 4 > highest_valence) return false;
     if (!mesh_.is_collapse_ok(h)) return false;
     const Vector3 place = point(kept);
     const Vector3 normal = surface_->normal(where_[kept.idx()]);
@@ -207,9 +206,6 @@ bool EvenMesh::may_flip(Edge e) const {
     const Vertex above = apex(h);
     const Vertex below = apex(mesh_.halfedge_handle(e, 1));
     if (fixed(above) && fixed(below)) return false;
-    for (const Vertex v : {above, below}) {
-        if (static_cast<int>(mesh_.valence(v)) >= highest_valence) return false;
-    }
     return diagonal(e).flips_without_fold();
 }
 
@@ -290,12 +286,11 @@ void EvenMesh::smooth(int sweeps) {
 
 void EvenMesh::make_even() {
     constexpr int most_sweeps = 20;
-    constexpr int settling_rounds = 4;
     constexpr int large = 10'000;
     int settled = 0;
     const double most = most_per_expected * (expected_count(*patch_, *points_, *lengths_) + patch_->vertex_count());
     split_chords();
-    for (int round = 0; round < most_sweeps && settled < settling_rounds; ++round) {
+    for (int round = 0; round < most_sweeps && settled < most_rounds; ++round) {
         const int before = static_cast<int>(mesh_.n_vertices());
         if (before > most) break;
         int changes = split_long();

@@ -1,14 +1,18 @@
 """Intrinsic fairing of triangle meshes: Δ_B H = 0 with G1 boundary data (Schneider & Kobbelt 2001)."""
 
 from fairing._borders import expected_vertices, outer_borders
+from fairing._boundary_normals import BoundaryNormals, boundary_normals
 from fairing._conformal_map import conformal_map
 from fairing._core import __version__
 from fairing._fair import fair
+from fairing._fair_edges import FairEdges, fair_edges
 from fairing._feather import feather_weights
 from fairing._fill import fill
+from fairing._fillet import fillet
 from fairing._growing import GrownOutline, grown_outline
 from fairing._hard_edges import hard_edges
 from fairing._hierarchy import hierarchy
+from fairing._hole_loops import HoleLoops, hole_loops
 from fairing._interpolate import interpolate
 from fairing._measure import (
     boundary_loops,
@@ -21,7 +25,7 @@ from fairing._measure import (
     self_intersections,
     vertex_normals,
 )
-from fairing._new_mesh import FillResult, RemeshResult
+from fairing._new_mesh import FilletResult, FillResult, RemeshResult
 from fairing._outline import (
     MendedOutline,
     SurroundingNormals,
@@ -53,13 +57,17 @@ from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, 
 __all__ = [
     "CODES",
     "LIMITS",
+    "BoundaryNormals",
     "Cancelled",
     "Diagnostic",
+    "FairEdges",
     "FairResult",
     "FillResult",
+    "FilletResult",
     "Flank",
     "Girth",
     "GrownOutline",
+    "HoleLoops",
     "MendedOutline",
     "MeshError",
     "Needles",
@@ -73,6 +81,7 @@ __all__ = [
     "__version__",
     "bad_outline",
     "boundary_loops",
+    "boundary_normals",
     "components",
     "conformal_distortion",
     "conformal_map",
@@ -80,14 +89,17 @@ __all__ = [
     "edges_with_uses",
     "expected_vertices",
     "fair",
+    "fair_edges",
     "feather_weights",
     "fill",
+    "fillet",
     "flank",
     "flipped_triangles",
     "girth",
     "grown_outline",
     "hard_edges",
     "hierarchy",
+    "hole_loops",
     "interpolate",
     "is_spoilt",
     "knobs",

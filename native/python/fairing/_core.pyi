@@ -108,6 +108,9 @@ def self_intersections(vertices: _Floats, triangles: _Ints, near: _Ints | None) 
 def conformal_distortion(reference: _Floats, vertices: _Floats, triangles: _Ints) -> _Floats: ...
 def hard_edges(vertices: _Floats, triangles: _Ints, marked: _Ints) -> _Ints: ...
 def surrounding_normals(vertices: _Floats, triangles: _Ints, at: _Ints, creases: _Ints) -> dict[str, Any]: ...
+def boundary_normals(
+    vertices: _Floats, inside: _Ints, outside: _Ints, at: _Ints, creases: _Ints, all_inside: bool
+) -> dict[str, Any]: ...
 def bad_outline(vertices: _Floats, outside: _Ints, outline: _Ints) -> _Ints: ...
 def feather_weights(vertices: _Floats, inside: _Ints, outside: _Ints, width: float) -> _Floats: ...
 def soft_base(
@@ -121,9 +124,20 @@ def soft_base(
     progress: Callable[[float, str], bool | None] | None,
 ) -> tuple[_Floats, _Floats]: ...
 def mend_outline(vertices: _Floats, outside: _Ints, outline: _Ints) -> dict[str, Any]: ...
+def fair_curve(places: _Floats, directions: _Floats, shares: list[float]) -> _Floats: ...
+def chain_end(chain: _Floats) -> tuple[_Floats, _Floats]: ...
 def visible_join(
     vertices: _Floats, inside: _Ints, outside: _Ints, outline: _Ints, before: _Floats | None
 ) -> tuple[_Floats, float, _Ints]: ...
+def cut_fillet(
+    vertices: _Floats,
+    triangles: _Ints,
+    seams: list[list[int]],
+    walls: list[list[int]],
+    widths: tuple[_Floats, _Floats],
+    spacing: float,
+    progress: Callable[[float, str], bool | None] | None,
+) -> dict[str, Any]: ...
 def fill_loops(
     vertices: _Floats,
     loops: list[_Ints],
@@ -139,7 +153,7 @@ def remesh(
     fixed: _Ints | None,
     fixed_normals: _Floats | None,
     kept: _Ints,
-    wanted: tuple[float, int, bool],
+    wanted: tuple[float, int, bool, bool],
     threads: int,
     progress: Callable[[float, str], bool | None] | None,
 ) -> dict[str, Any]: ...
@@ -150,5 +164,5 @@ def expected_count(
     triangles: _Ints,
     fixed: _Ints | None,
     fixed_normals: _Floats | None,
-    wanted: tuple[float, int, bool],
+    wanted: tuple[float, int, bool, bool],
 ) -> float: ...

@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
-from time import perf_counter
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _holes, _loops, _options, _short_edges, _sides
+from fairing import _arguments, _core, _holes, _loops, _options, _pinches, _run_on, _short_edges, _sides, _single_face
+from fairing._along import filled_along
+from fairing._chosen import Chosen, Wanted, blamed, chosen_loops, fillable
 from fairing._fair import fair
 from fairing._measure import boundary_loops
-from fairing._new_mesh import FillResult, NewMeshResult, Origin
+from fairing._new_mesh import FillResult, Origin, read_only, report_fields
 from fairing._proportion import Limit
 from fairing._tangency import not_tangent
 from fairing._types import FairResult, FloatArray, IntArray, MeshError
+from fairing._watch import Watch
 
 LEAST_COUNT = 1000
 """Free vertices of the mesh that is solved, for each component. Coarser wishes are cut from its surface."""
@@ -35,16 +37,22 @@ def fill(
     bridge: bool = False,
     spacing: float = 0.0,
     longest: int = 0,
+    longest_length: float = 0.0,
     inner: str | None = None,
     max_vertices: int = 0,
     fixed_curvatures: Any = None,
+    edges: str = "run_on",
+    wires: npt.ArrayLike | None = None,
+    marked: npt.ArrayLike | None = None,
     progress: Progress | None = None,
     **options: Any,
 ) -> FillResult:
     """Fill holes, or join boundary loops, with the fairest surface that continues the surroundings.
 
     The surface does not depend on ``spacing``: it is solved on a mesh that is fine enough, and a coarser mesh is cut
-    from it. Vertices and edges given stay as they are. No argument is ever changed.
+    from it. A loop of three or four edges that are no longer than the new ones is closed by one face. Vertices and
+    edges given stay as they are. Each loop is filled by itself: one that can't be is left open, and
+    ``result.left_because`` says why. No argument is ever changed.
 
     Parameters
     ----------
@@ -52,10 +60,11 @@ def fill(
     triangles : (m, 3) int
         The mesh around, consistently wound; there may be none if ``loops`` and ``normals`` are given.
     loops : list of (k,) int
-        Closed loops of border vertices, in either direction: each is filled. Default: all holes, that is all border
-        loops but those around the outside of a sheet (:func:`fairing.outer_borders`), which ``left_open`` and the
-        warning NOT_A_HOLE name. A loop that no triangle touches has the new surface on its left, seen from the side of
-        the normals; it is turned where that leads away from the other loops of a bridge, or outside of a lone loop.
+        Closed loops of border vertices, in either direction: each is filled. Default: all holes, that is all of
+        :func:`fairing.hole_loops` but those around the outside of a sheet (:func:`fairing.outer_borders`), which
+        ``left_open`` and the warning NOT_A_HOLE name. Loops along triangles may touch themselves and each other. A loop
+        that no triangle touches has the new surface on its left, seen from the side of the normals; it is turned where
+        that leads away from the other loops of a bridge, or outside of a lone loop.
     normals : (n, 3), (Σ k, 3) float, or a list with a (k, 3) for each loop
         Normals at the boundary, of any length but zero; of the vertices, where n is Σ k and they are no list.
         Default: :func:`fairing.surrounding_normals`.
@@ -71,12 +80,23 @@ def fill(
         "even".
     longest : int
         Without ``loops``: border loops with more edges than that are left open; 0: none.
+    longest_length : float
+        Likewise by their lengths, in the unit of ``vertices``.
     max_vertices : int
         More new vertices than that are refused, as soon as a first small surface shows that there would be so many. 0:
         20 times as many as flat surfaces over the loops would have, or 50 000 where that is less, 4 000 000 at most.
     fixed_curvatures : (n,), (Σ k,) float, or a list with a (k,) for each loop
         Mean curvatures H at the boundary, NaN where not known, for ``continuity="G2"``: the surface continues the
         curvature around it, too. Default: fitted to the triangles around.
+    edges : "run_on" | "ignored"
+        "run_on": hard edges (:func:`fairing.hard_edges`) that end at a hole run on through it. Ends that belong
+        together are joined by a curve of least variation, three and more meet in a point. Each curve is a crease of a
+        surface of least variation (docs/curves.md); ``curves`` names it, and EDGES_LEFT_ALONE ends that are not joined.
+        Not with ``bridge``.
+    wires : (w, 2) int
+        Edges without a triangle that were drawn across holes: they are such curves as they are.
+    marked : (e, 2) int
+        Edges that are hard whatever they bend.
     progress : callable(fraction, stage) -> None | bool
         As for :func:`fairing.fair`.
     options
@@ -87,12 +107,13 @@ def fill(
     Raises
     ------
     MeshError
-        NOT_A_LOOP, NO_BOUNDARY, NONMANIFOLD_VERTEX (loops that touch or cross, or vertices of one boundary in one place
-        or on its edges), NONMANIFOLD_EDGE (also where the surface would double back onto a triangle that sticks out
-        into a loop), NOT_A_HOLE (there are none but outer borders; or one that was named
-        lies around a flat sheet, which no surface closes), OUT_OF_PROPORTION (``max_vertices``),
-        LOOPS_NOT_JOINED (one is turned; loops that no surface joins), ZERO_NORMAL, NORMALS_OPPOSE_WINDING, NONFINITE or
-        INDEX_RANGE; ``elements`` are the vertices.
+        The first reason where no loop can be filled, or one of those that are to be joined is bad: NOT_A_LOOP,
+        NO_BOUNDARY, NONMANIFOLD_VERTEX (loops that cross, or vertices of one boundary in one place or on its edges),
+        NONMANIFOLD_EDGE (also where the surface would double back onto a triangle that sticks out into a loop,
+        or where ``wires`` cross),
+        NOT_A_HOLE (there are none but outer borders; or one that was named lies around a flat sheet, which no surface
+        closes), OUT_OF_PROPORTION (``max_vertices``), LOOPS_NOT_JOINED (one is turned; loops that no surface joins),
+        ZERO_NORMAL, NORMALS_OPPOSE_WINDING, NONFINITE or INDEX_RANGE; ``elements`` are the vertices.
     ValueError, Cancelled, SolverError, MemoryError
         As for :func:`fairing.fair`.
     """
@@ -103,51 +124,133 @@ def fill(
     refuse_made_here(options, progress)
     if not isinstance(bridge, (bool, np.bool_)):
         raise ValueError(f"bridge: True or False is needed, not {bridge!r}")
-    outline = _loops.border_loops(around, limit) if loops is None else _loops.given_loops(loops, points, around)
-    _loops.check(outline, points, bool(bridge))
-    normals = _loops.loop_normals(normals, outline, points, around)
-    outer: tuple[IntArray, ...] = ()
-    if loops is None:
-        outline, normals, outer = _loops.without_outer(outline, points, normals)
-    outline, normals = _sides.settled(outline, points, normals, bool(bridge))
-    if not bridge:
-        _loops.refuse_endless(outline, points, normals)
-    rims = [points[loop] for loop in outline.loops]
-    most = Limit.of(_holes.flat_count(rims, length.length, bool(bridge)), max_vertices)
-    least = most.flat if bridge else _holes.least_count(rims, outline.split(normals), length.length)
-    most.check(least, outline.vertices)
-    normals = _short_edges.with_shared_normals(outline, points, normals)
-    if fixed_curvatures is not None:
-        options["fixed_curvatures"] = _loops.loop_curvatures(fixed_curvatures, outline, len(points))
-    watch = Watch(progress)
-    first = _first_surface(points, outline, normals, bool(bridge), options, watch.part(0, 0.2))
-    watch.lap("first")
-    patch = Patch(np.concatenate([points, first["vertices"]]), first["triangles"], outline.vertices, normals)
-    count = patch.expected_count(length)
-    most.check(count, outline.vertices, first["converged"])
-    fine, _ = patch.remeshed(len(points), length, LEAST_COUNT, options, watch.part(0.2, 0.4))
-    watch.lap("mesh")
-    _loops.check_doubles(fine.triangles, around)
-    coarser = count < 0.9 * LEAST_COUNT * (1 if bridge else len(outline.loops))
-    chosen = options if first["converged"] else {**options, "otherwise": "stop"}  # it was sought in vain once
-    report = fine.faired(_start(first["start"], options), around, chosen, watch.part(0.4, 0.9 if coarser else 1.0))
-    values = report_fields(report, len(points))
-    values["warnings"] += not_tangent(report, outline, points, around)
-    if coarser:
-        solved = Patch(report.vertices, fine.triangles, outline.vertices, normals)
-        coarse, origin = solved.remeshed(len(points), length, 0, options, watch.part(0.9, 1.0))
-        values.update(cut_fields(coarse, len(points)))
-        values["mean_curvature"] = carried(report.mean_curvature, fine.triangles, origin)
-    else:
-        values["triangles"] = fine.triangles
-    watch.lap("coarser")
-    values["seconds"] = {**values["seconds"], **watch.seconds}
-    values["warnings"] += (_loops.not_holes(outer),) if outer else ()
+    if _arguments.finite("longest_length", longest_length) < 0:
+        raise ValueError(f"longest_length: a length, or 0 for any, is needed, not {longest_length!r}")
+    finite = np.isfinite(points).all(axis=1)
+    known = around if finite.all() else around[finite[around].all(axis=1)]
+    broken = _run_on.Edges.of((points, known), (edges, wires, marked), bool(bridge))
+    wanted = Wanted(loops, normals, fixed_curvatures, bool(bridge), limit, float(longest_length), broken.hard)
+    chosen = chosen_loops(points, around, wanted)
+    task = _Task(points, known, bool(bridge), length, max_vertices, broken, options, progress)
+    if chosen.curvatures is not None and options.get("continuity", "G1") != "G2":
+        raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
+    while True:
+        try:
+            values = task.filled(chosen)
+            break
+        except MeshError as error:
+            if bridge or len(chosen.outline.loops) == 1:
+                raise
+            less = blamed(chosen, error) or fillable(chosen, task.filled)
+            if less is chosen:
+                raise
+            chosen = less
+    values["warnings"] += chosen.warnings
     return FillResult(
         **values,
-        loops=tuple(read_only(loop) for loop in outline.loops),
-        left_open=tuple(read_only(loop) for loop in outer),
+        loops=tuple(read_only(loop) for loop in chosen.outline.loops),
+        left_open=tuple(read_only(each.loop) for each in chosen.left),
+        left_because=tuple(each.reason for each in chosen.left),
     )
+
+
+@dataclass(frozen=True)
+class _Task:
+    """What one call asks for, but for the loops."""
+
+    points: FloatArray
+    around: IntArray
+    bridge: bool
+    length: Spacing
+    max_vertices: Any
+    broken: _run_on.Edges
+    options: dict[str, Any]
+    progress: Progress | None
+
+    def filled(self, chosen: Chosen) -> dict[str, Any]:
+        """The fields of a result but for the loops."""
+        single = [not self.bridge and self._is_single(loop) for loop in chosen.outline.loops]
+        plain = [k for k, alone in enumerate(single) if alone]
+        if not plain:
+            return self._with_curves(chosen)
+        faces = self._single_faces(chosen.part(plain))
+        if len(plain) < len(single):
+            rest = chosen.part([k for k, alone in enumerate(single) if not alone])
+            return _single_face.joined(self._with_curves(rest), faces)
+        equation, continuity = (self.options.get(*each) for each in (("equation", "harmonic"), ("continuity", "G1")))
+        Limit.of(0.0, self.max_vertices)
+        return {**_single_face.report_of(str(equation), str(continuity)), **faces}
+
+    def _with_curves(self, chosen: Chosen) -> dict[str, Any]:
+        """The same with the curves that run through the loops, where there are vertices inside."""
+        normals = _short_edges.with_shared_normals(chosen.outline, self.points, chosen.normals)
+        length = (self.length.length, self.length.even)
+        curves = self.broken.run_on(chosen.outline, normals, (self.points, self.around), length)
+        if not curves.holds_any:
+            values = self._solved(chosen, self.progress)
+            values["warnings"] += curves.warnings
+            return values
+
+        def others(numbers: list[int], progress: Progress | None) -> dict[str, Any]:
+            return self._solved(chosen.part(numbers), progress)
+
+        task = (chosen.outline, normals, self.around, self.length.wanted(0), self.options)
+        return filled_along(curves, task, others, self.progress)
+
+    def _is_single(self, loop: IntArray) -> bool:
+        return _single_face.is_single(self.points[loop], self.length.length)
+
+    def _single_faces(self, chosen: Chosen) -> dict[str, Any]:
+        loops = chosen.outline.loops
+        rows = chosen.outline.split(chosen.normals)
+        edges = _single_face.edges_among(self.around, chosen.outline.vertices)
+        faces = [_single_face.face_over(each, self.points, row, edges) for each, row in zip(loops, rows, strict=True)]
+        _loops.check_doubles(np.concatenate(faces), self.around)
+        angles = [
+            _single_face.angles_at(loop, self.points, row, face)
+            for loop, row, face in zip(loops, rows, faces, strict=True)
+        ]
+        values = _single_face.fields_of(faces, angles, loops, self.around, self.points)
+        return {name: read_only(array) for name, array in values.items()}
+
+    def _solved(self, chosen: Chosen, progress: Progress | None) -> dict[str, Any]:
+        """The same without curves, where there are vertices inside."""
+        options, bridge, length = dict(self.options), self.bridge, self.length
+        normals = _short_edges.with_shared_normals(chosen.outline, self.points, chosen.normals)
+        split = _pinches.split(chosen.outline, self.points, normals, bridge)
+        outline, points, around = split.outline, split.parted, self.around
+        rims = [points[loop] for loop in outline.loops]
+        most = Limit.of(_holes.flat_count(rims, length.length, bridge), self.max_vertices)
+        least = most.flat if bridge else _holes.least_count(rims, outline.split(chosen.normals), length.length)
+        most.check(least, chosen.outline.vertices)
+        if chosen.curvatures is not None:
+            options["fixed_curvatures"] = chosen.curvatures
+        watch = Watch(progress)
+        first = _first_surface(points, outline, normals, bridge, options, watch.part(0, 0.2))
+        watch.lap("first")
+        slopes = None if options.get("equation") == "minimal" else normals
+        patch = Patch(np.concatenate([points, first["vertices"]]), first["triangles"], outline.vertices, slopes)
+        count = patch.expected_count(length)
+        most.check(count, chosen.outline.vertices, first["converged"])
+        fine, _ = patch.remeshed(split.count, length, LEAST_COUNT, options, watch.part(0.2, 0.4))
+        fine = fine.with_old(split.points)
+        watch.lap("mesh")
+        _loops.check_doubles(fine.triangles, around)
+        coarser = count < 0.9 * LEAST_COUNT * (1 if bridge else len(outline.loops))
+        trying = options if first["converged"] else {**options, "otherwise": "stop"}  # it was sought in vain once
+        report = fine.faired(_start(first["start"], options), around, trying, watch.part(0.4, 0.9 if coarser else 1.0))
+        values = report_fields(report, split.count)
+        values["warnings"] += not_tangent(report, outline, split.points, around)
+        if coarser:
+            solved = Patch(report.vertices, fine.triangles, outline.vertices, slopes)
+            coarse, origin = solved.remeshed(split.count, length, 0, options, watch.part(0.9, 1.0))
+            values.update(cut_fields(coarse, split.count))
+            values["mean_curvature"] = carried(report.mean_curvature, fine.triangles, origin)
+        else:
+            values["triangles"] = fine.triangles
+        watch.lap("coarser")
+        values["seconds"] = {**values["seconds"], **watch.seconds}
+        return split.welded(values)
 
 
 def _first_surface(
@@ -176,9 +279,11 @@ class Spacing:
 
     length: float
     even: bool
+    flat: bool = False
+    """Whether the old triangles are the surface as they are, broken along seams, and small angles may stay."""
 
-    def wanted(self, least: int) -> tuple[float, int, bool]:
-        return self.length, least, self.even
+    def wanted(self, least: int) -> tuple[float, int, bool, bool]:
+        return self.length, least, self.even, self.flat
 
 
 @dataclass(frozen=True)
@@ -230,6 +335,12 @@ class Patch:
         new = Patch(placed, read_only(triangles), self.fixed, self.normals)
         return new, (mesh["triangle"], mesh["weights"]), mesh["old"]
 
+    def with_old(self, vertices: FloatArray) -> Patch:
+        """The same with its first vertices at these places."""
+        return Patch(
+            np.concatenate([vertices, self.vertices[len(vertices) :]]), self.triangles, self.fixed, self.normals
+        )
+
     def faired(self, start: str, outside: Any, options: dict[str, Any], progress: Progress | None) -> FairResult:
         chosen = {"inner_fairness": "conformal", **options}
         if outside is not None and len(outside):
@@ -240,27 +351,6 @@ class Patch:
         )  # fmt: skip
 
 
-class Watch:
-    """Seconds of the stages, and the callback's share of each."""
-
-    def __init__(self, progress: Progress | None) -> None:
-        self.seconds: dict[str, float] = {}
-        self._progress = progress
-        self._begin = self._last = perf_counter()
-
-    def lap(self, stage: str) -> None:
-        now = perf_counter()
-        self.seconds[stage] = now - self._last
-        self.seconds["total"] = now - self._begin
-        self._last = now
-
-    def part(self, begin: float, end: float) -> Progress | None:
-        progress = self._progress
-        if progress is None:
-            return None
-        return lambda fraction, stage: progress(begin + (end - begin) * fraction, stage)
-
-
 _MADE_HERE = ("fixed", "fixed_normals", "reference", "neighbours", "outline", "start", "outside")
 
 
@@ -268,8 +358,6 @@ def refuse_made_here(options: dict[str, Any], progress: Any) -> None:
     for name in _MADE_HERE:
         if name in options:
             raise ValueError(f"{name}: not accepted here; the mesh and its boundary are made by this call")
-    if options.get("equation") == "minimal":
-        raise ValueError("equation: 'minimal' has no normals to continue; accepted are the others")
     _options.continuity(
         options.get("continuity", "G1"), options.get("equation", "harmonic"), options.get("method", "global")
     )
@@ -298,17 +386,8 @@ def _first_equation(options: dict[str, Any]) -> str:
     """Of the first surface: harmonic but for the equation that joins what no harmonic surface does."""
     asked = str(options.get("equation", "harmonic"))
     joins_curvature = options.get("continuity", "G1") == "G2"
-    return asked if asked == "least_variation" or (asked == "automatic" and not joins_curvature) else "harmonic"
-
-
-def report_fields(report: FairResult, old_count: int) -> dict[str, Any]:
-    """The fields of a report on ``old_count`` old vertices and then new ones; `triangles` is missing."""
-    own = {field.name for field in fields(NewMeshResult)}
-    values = {field.name: getattr(report, field.name) for field in fields(report) if field.name in own}
-    values["cut"] = False
-    for name in ("vertices", "mean_curvature"):
-        values[name] = read_only(values[name][old_count:])
-    return values
+    own = asked in ("least_variation", "minimal") or (asked == "automatic" and not joins_curvature)
+    return asked if own else "harmonic"
 
 
 def cut_fields(patch: Patch, old_count: int) -> dict[str, Any]:
@@ -323,11 +402,3 @@ def carried(values: FloatArray, triangles: IntArray, origin: Origin) -> FloatArr
     """(k,) values at vertices (n,), interpolated at places on triangles."""
     carried: FloatArray = read_only((values[triangles[origin[0]]] * origin[1]).sum(axis=1))
     return carried
-
-
-def read_only(array: Any) -> Any:
-    result = np.ascontiguousarray(array)
-    if result is array or result.base is not None:
-        result = result.copy()
-    result.flags.writeable = False
-    return result
