@@ -20,11 +20,12 @@ from .run import cli, compare, redo_panel
 from .run.again import MESH_OT_fair_again, MESH_OT_fair_reselect, MESH_OT_fair_spots
 from .run.curvature import MESH_OT_fair_curvature
 from .run.fill import MESH_OT_fair_fill
+from .run.fillet import MESH_OT_fair_fillet
 from .run.masked import MESH_OT_fair_masked
 from .run.operators import MESH_OT_fair_region
 from .run.report_properties import FairCheck, FairProgress, FairReport
 from .run.selection_tools import TOOLS
-from .show import marks, overlay, ui
+from .show import fillet_preview, marks, overlay, ui
 from .show.overlay_settings import FairOverlay
 
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(
@@ -40,6 +41,7 @@ _register_classes, _unregister_classes = bpy.utils.register_classes_factory(
         copies.OBJECT_OT_fair_copy,
         copies.OBJECT_OT_fair_copies_update,
         MESH_OT_fair_fill,
+        MESH_OT_fair_fillet,
         MESH_OT_fair_live_region,
         MESH_OT_fair_live_select,
         MESH_OT_fair_live_far_side,
@@ -67,12 +69,14 @@ def register() -> None:
     bpy.types.WindowManager.fairing_live = bpy.props.PointerProperty(type=FairLive)
     redo_panel.register()
     bpy.types.VIEW3D_MT_edit_mesh_faces.append(ui.draw_face_menu)
+    bpy.types.VIEW3D_MT_edit_mesh_edges.append(ui.draw_edge_menu)
     bpy.types.VIEW3D_MT_edit_mesh_context_menu.append(ui.draw_context_menu)
     bpy.types.VIEW3D_MT_mask.append(ui.draw_mask_menu)
     bpy.types.VIEW3D_MT_face_sets.append(ui.draw_face_set_menu)
     handlers.register()
     watch.register()
     overlay.register()
+    fillet_preview.register()
     live.register()
     copies.register()
     marks.register()
@@ -93,12 +97,14 @@ def unregister() -> None:
     marks.unregister()
     copies.unregister()
     live.unregister()
+    fillet_preview.unregister()
     overlay.unregister()
     watch.unregister()
     handlers.unregister()
     bpy.types.VIEW3D_MT_face_sets.remove(ui.draw_face_set_menu)
     bpy.types.VIEW3D_MT_mask.remove(ui.draw_mask_menu)
     bpy.types.VIEW3D_MT_edit_mesh_context_menu.remove(ui.draw_context_menu)
+    bpy.types.VIEW3D_MT_edit_mesh_edges.remove(ui.draw_edge_menu)
     bpy.types.VIEW3D_MT_edit_mesh_faces.remove(ui.draw_face_menu)
     redo_panel.unregister()
     del bpy.types.WindowManager.fairing_live

@@ -57,6 +57,51 @@ def test_curvature_is_continued_where_that_is_asked_for() -> None:
     assert max(off) < 5e-3 * WIDTH
 
 
+def heights(profile: float) -> tuple[FloatArray, FloatArray]:
+    """Of a wedge of 120°: the arc length from the middle of the arc, and the height over the chord, in widths."""
+    vertices, triangles, seam = wedges.wedge(120, rows=2, length=3.0)
+    result = fairing.fillet(vertices, triangles, seam, width=WIDTH, spacing=WIDTH / 8, profile=profile)
+    places = middle(result, 0.3)[:, :2] / WIDTH
+    return places[:, 0], places[:, 1] + np.cos(np.radians(60))
+
+
+def test_the_profile_runs_from_the_chamfer_to_the_seam() -> None:
+    """Both ends exactly; in between it rises everywhere, and stays tangent to the sides."""
+    across, height = heights(1.0)
+    assert abs(height - (0.5 - np.abs(across) / np.tan(np.radians(60)))).max() < 1e-9
+    across, height = heights(-1.0)
+    assert abs(height).max() < 1e-3  # a film feels the ends of the seam five widths away
+    tops = [heights(profile)[1].max() for profile in (-0.9, -0.5, 0.0, 0.5, 0.9)]
+    assert (np.diff(tops) > 0.01).all()
+    centre, radius = wedges.arc(120, 1.0)
+    assert abs(tops[2] - (centre[1] + radius + 0.5)) < 1e-3
+
+
+@pytest.mark.parametrize("profile", [-0.5, 0.5])
+def test_the_profile_is_the_drawn_beam(profile: float) -> None:
+    """B⁗ + (B − d) / ℓ⁴ = 0 along the arc, B and B′ zero at both ends; d leads from it to the seam, or to the chord."""
+    across, height = heights(profile)
+    centre, radius = wedges.arc(120, 1.0)
+    half, count = np.radians(30), 801
+    turn = np.linspace(-half, half, count)
+    step = radius * (turn[1] - turn[0])
+    fair = np.column_stack([centre[0] + radius * np.sin(turn), centre[1] + radius * np.cos(turn)])
+    side = turn / half
+    seam = np.column_stack([side * np.sin(np.radians(60)), -np.abs(side) * np.cos(np.radians(60))])
+    chord = np.column_stack([side * np.sin(np.radians(60)), np.full(count, -np.cos(np.radians(60)))])
+    pull = (4 * abs(profile) / (1 - abs(profile))) ** 4
+    inner = count - 2
+    beam = sum(c * np.eye(inner, k=k) for k, c in zip((-2, -1, 0, 1, 2), (1, -4, 6, -4, 1), strict=True))
+    beam[0, 0] = beam[-1, -1] = 7  # clamped
+    system = beam / step**4 + pull * np.eye(inner)
+    exact = fair.copy()
+    exact[1:-1] += np.linalg.solve(system, pull * ((seam if profile > 0 else chord) - fair)[1:-1])
+    exact[:, 1] += np.cos(np.radians(60))
+    places = np.column_stack([across, height])
+    off = [np.linalg.norm(exact - place, axis=1).min() for place in places]
+    assert max(off) < 1e-2
+
+
 @pytest.mark.parametrize("rows", [1, 3, 8])
 def test_it_ends_on_straight_lines_beside_straight_edges(rows: int) -> None:
     vertices, triangles = solids.box(rows)

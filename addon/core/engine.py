@@ -21,7 +21,7 @@ from .words import in_mesh_words
 Progress = Callable[[float, str], "bool | None"]
 
 # What the engine answers: on the mesh that is there, on a new one, or over a hole.
-Result = fairing.FairResult | fairing.RemeshResult | fairing.FillResult
+Result = fairing.FairResult | fairing.RemeshResult | fairing.FillResult | fairing.FilletResult
 
 # What `solve` raises for input that it can't fair here; the mesh is untouched then.
 REFUSALS = (ValueError, fairing.SolverError, MemoryError)

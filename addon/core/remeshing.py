@@ -40,6 +40,7 @@ class Remeshed(Fairing):
     points: Floats  # (r + k, 3) of all vertices of the part, in world space
     quads: bool  # whether triangles are written in pairs
     limit_total: int  # as FairOptions has it
+    unselected: int = 0  # faces at the beginning that are not to be selected
 
     def faces(self, kinds: Ints) -> Faces:
         """Return what is written; kinds: (m,) of the triangles, only those of one kind are paired."""

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..core.arrays import Ints
 from ..core.remeshing import Remeshed
+from ..core.rounding import Rounded
 from .columns import elements_of
 from .free_normals import renew
 from .new_faces import FaceData, VertexData, kinds, make_faces, make_vertices, refuse_doubles
@@ -27,13 +28,13 @@ class Written:
     spots: Ints  # vertices of the verdict that are still there
 
 
-def write_edit_mesh(obj: bpy.types.Object, outcome: Remeshed) -> Written:
+def write_edit_mesh(obj: bpy.types.Object, outcome: Remeshed | Rounded) -> Written:
     """Replace the patch of an object in edit mode and select what is new."""
     with in_edit_mode(obj) as target:
         return _replace(target, outcome)
 
 
-def write_mesh(mesh: bpy.types.Mesh, outcome: Remeshed) -> None:
+def write_mesh(mesh: bpy.types.Mesh, outcome: Remeshed | Rounded) -> None:
     """Replace the patch of a mesh in object mode: that of its Basis, which the keys relative to it follow."""
     with in_object_mode(mesh) as target:
         bm, shapes = target.bm, target.shapes
@@ -57,7 +58,7 @@ class _Old:
     new: FaceData
 
 
-def _read(target: Target, outcome: Remeshed) -> _Old:
+def _read(target: Target, outcome: Remeshed | Rounded) -> _Old:
     """Look all of them up; raises MeshRefusal."""
     bm, part = target.bm, outcome.part
     for table in (bm.verts, bm.faces):
@@ -76,7 +77,7 @@ def _read(target: Target, outcome: Remeshed) -> _Old:
     )
 
 
-def _replace(target: Target, outcome: Remeshed) -> Written:
+def _replace(target: Target, outcome: Remeshed | Rounded) -> Written:
     bm, old = target.bm, _read(target, outcome)
     if target.open():
         old = _read(target, outcome)
@@ -86,7 +87,7 @@ def _replace(target: Target, outcome: Remeshed) -> Written:
         vertex.co = place
     faces = make_faces(target, vertices, old.new)
     _delete(bm, old)
-    select_new_faces(bm, faces)
+    select_new_faces(bm, faces[outcome.unselected :])
     bm.normal_update()
     renew(bm, [*vertices, *on_lines], faces)
     bm.verts.index_update()
@@ -102,7 +103,7 @@ def _delete(bm: Any, old: _Old) -> None:
     bmesh.ops.delete(bm, geom=bare, context="EDGES")
 
 
-def _vertex_data(bm: Any, outcome: Remeshed) -> VertexData:
+def _vertex_data(bm: Any, outcome: Remeshed | Rounded) -> VertexData:
     """Return what the new vertices are made of: the vertices of the triangles that they lie on."""
     part = outcome.part
     used, local = np.unique(part.vertices.sources, return_inverse=True)
@@ -113,7 +114,7 @@ def _vertex_data(bm: Any, outcome: Remeshed) -> VertexData:
     return VertexData(outcome.new_positions, sources, stencil.mean, examples, before, limit=outcome.limit_total)
 
 
-def _face_data(target: Target, outcome: Remeshed, stay: list[Any]) -> FaceData:
+def _face_data(target: Target, outcome: Remeshed | Rounded, stay: list[Any]) -> FaceData:
     """Return what the new faces are made of: the corners of the triangles that they lie on."""
     bm, part = target.bm, outcome.part
     used, local = np.unique(part.corners.sources, return_inverse=True)

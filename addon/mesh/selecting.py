@@ -8,7 +8,7 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Ints
+from ..core.arrays import Floats, Ints, Mask
 
 
 def select_vertices(mesh: bpy.types.Mesh, vertices: Ints) -> None:
@@ -48,6 +48,11 @@ def select_faces(mesh: bpy.types.Mesh, faces: Ints) -> None:
 def selected_faces(mesh: bpy.types.Mesh) -> Ints:
     """Return the selected faces, ascending."""
     return np.array([face.index for face in bmesh.from_edit_mesh(mesh).faces if face.select], dtype=np.int64)
+
+
+def selected_edges(mesh: bpy.types.Mesh) -> Mask:
+    """Return the (e,) mask of the selected edges of a mesh in edit mode."""
+    return np.array([edge.select for edge in bmesh.from_edit_mesh(mesh).edges], dtype=bool)
 
 
 def deselect(bm: Any) -> None:

@@ -7,6 +7,7 @@ import json
 import sys
 import time
 from collections.abc import Sequence
+from dataclasses import fields
 from typing import Any
 
 import bpy
@@ -19,9 +20,11 @@ from ..core.fill_report import make_fill_report
 from ..core.filling import FillOptions
 from ..core.options import FairOptions, option_names
 from ..core.report import Report, make_report, summary
+from ..core.rounding import FilletOptions
 from ..core.verdict import UNUSABLE
 from .fair_mesh import fair_faces
 from .fill_mesh import fill_borders
+from .fillet_mesh import fillet_edges
 
 WRITTEN, NOT_USABLE, REFUSED = 0, 1, 2
 
@@ -45,6 +48,13 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--longest-length", type=float, default=0.0, help="with --fill: likewise, as a length")
     parser.add_argument("--hard-edges", default="RUN_ON", help="with --fill: IGNORED rounds them off")
+    parser.add_argument(
+        "--fillet",
+        action="store_true",
+        help="round edges instead: those inside --vertex-group, or all hard ones",
+    )
+    for name, words in FILLET_FLAGS.items():
+        parser.add_argument("--" + name.replace("_", "-"), dest=name, help="with --fillet: " + words, **_kind_of(name))
     parser.add_argument("--output", required=True, help="the .blend file to write")
     parser.add_argument("--report", choices=("text", "json"), default="text")
     defaults = FairOptions()
@@ -56,6 +66,20 @@ def _parser() -> argparse.ArgumentParser:
         else:
             parser.add_argument(flag, dest=name, type=type(value), default=value)
     return parser
+
+
+FILLET_FLAGS = {
+    "width": "how far it reaches along the surface",
+    "width_2": "the same on the smaller side",
+    "profile": "-1 flat … 1 sharp",
+    "edge_length": "of the new edges",
+    "width_group": "a vertex group whose weights the widths are multiplied by",
+}
+
+
+def _kind_of(name: str) -> dict[str, Any]:
+    value = getattr(FilletOptions(), {"edge_length": "spacing"}.get(name, name))
+    return {"type": type(value), "default": value}
 
 
 def _mesh_object(name: str) -> bpy.types.Object:
@@ -128,6 +152,8 @@ def execute(arguments: list[str]) -> int:
     """Run the command and return its exit status."""
     chosen = _parser().parse_args(arguments)
     try:
+        if chosen.fillet:
+            return _rounded(chosen)
         report, left = _filled(chosen) if chosen.fill else (_faired(chosen), ())
     except REFUSALS as error:
         print(f"fair: {error}", file=sys.stderr)
@@ -157,6 +183,34 @@ def _filled(chosen: Any) -> tuple[Report, Sequence[Left]]:
     added = [] if done.added is None else [done.added]
     seconds = time.perf_counter() - begin
     return make_fill_report([(obj.name, done.filled)], options, seconds, added, done.notes), done.filled.left
+
+
+def _rounded(chosen: Any) -> int:
+    """Round edges, write the file, and print how it went; returns the exit status."""
+    names = {field.name for field in fields(FilletOptions)} - {"spacing"}
+    options = FilletOptions(spacing=chosen.edge_length, **{name: getattr(chosen, name) for name in names})
+    obj = _mesh_object(chosen.object)
+    edges = None
+    if chosen.vertex_group is not None:
+        member = _members(obj, chosen.vertex_group)
+        edges = [edge.index for edge in obj.data.edges if all(member[v] for v in edge.vertices)]
+    begin = time.perf_counter()
+    outcome = fillet_edges(obj.data, edges, _matrix(obj), options, _Progress())
+    usable = outcome.verdict.grade != UNUSABLE
+    if usable:
+        bpy.ops.wm.save_as_mainfile(filepath=chosen.output, copy=True)
+    figures = {
+        "verdict": outcome.verdict.grade,
+        "reason": outcome.verdict.reason,
+        "written": usable,
+        "new_vertices": len(outcome.result.vertices),
+        "seam_edges": len(outcome.result.seam),
+        "seconds": time.perf_counter() - begin,
+        "warnings": list(outcome.warnings),
+    }
+    lines = [f"{name}: {value}" for name, value in figures.items() if value not in ("", [])]
+    print(json.dumps(figures) if chosen.report == "json" else "\n".join(lines))
+    return WRITTEN if usable else NOT_USABLE
 
 
 def _matrix(obj: bpy.types.Object) -> Floats:

@@ -81,7 +81,7 @@ _BOUNDARY_NORMALS = (
     ("AVERAGE", "Average", "Leans half way between the faces inside and outside: keeps some of the old shape's slope"),
     ("CUSTOM", "Custom Normals", "Follows the shading normals along the boundary, custom split normals included"),
 )
-_CONTINUITIES = (
+CONTINUITY_ITEMS = (
     ("G1", "Tangent", "The surface leaves its boundary with the slope of the faces around it"),
     (
         "G2",
@@ -206,7 +206,7 @@ def continuity_property() -> Any:
     return EnumProperty(
         name="Join",
         description="How smoothly the surface continues its surroundings",
-        items=_CONTINUITIES,
+        items=CONTINUITY_ITEMS,
         default="G1",
     )
 

@@ -20,6 +20,7 @@ from ..run.again import WAY_NAMES, MESH_OT_fair_again, MESH_OT_fair_reselect, ME
 from ..run.compare import MESH_OT_fair_compare
 from ..run.curvature import MESH_OT_fair_curvature
 from ..run.fill import MESH_OT_fair_fill
+from ..run.fillet import MESH_OT_fair_fillet
 from ..run.masked import MESH_OT_fair_masked
 from ..run.operators import MESH_OT_fair_region
 from ..run.selection_tools import (
@@ -266,6 +267,13 @@ def draw_face_menu(menu: Any, _context: bpy.types.Context) -> None:
     menu.layout.separator()
     menu.layout.operator(MESH_OT_fair_region.bl_idname)
     menu.layout.operator(MESH_OT_fair_fill.bl_idname)
+
+
+def draw_edge_menu(menu: Any, _context: bpy.types.Context) -> None:
+    """Add Fair Fillet to the menu Edge, to be drawn by the mouse."""
+    menu.layout.separator()
+    menu.layout.operator_context = "INVOKE_DEFAULT"
+    menu.layout.operator(MESH_OT_fair_fillet.bl_idname)
 
 
 def draw_context_menu(menu: Any, context: bpy.types.Context) -> None:

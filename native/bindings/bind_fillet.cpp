@@ -1,6 +1,7 @@
 #include "api/fillet.h"
 #include "bindings/python_run.h"
 #include "bindings/topics.h"
+#include "fillet/profile.h"
 
 namespace fairing::bindings {
 
@@ -47,9 +48,21 @@ py::dict cut_arrays(const DoubleArray& vertices, const IntArray& triangles, cons
     return dict;
 }
 
+py::array drawn_arrays(const DoubleArray& points, const IntArray& triangles, const IntArray& fixed,
+                       const DoubleArray& target, const DoubleArray& pull) {
+    PythonRun run;
+    const Points from = to_points(points);
+    const Points to = to_points(target);
+    return from_points(run.without_gil([&](const ProgressCallback&) {
+        return drawn_to(from, to_triangles(triangles), to_indices(fixed), to, to_vector(pull));
+    }));
+}
+
 }  // namespace
 
 void bind_fillet(py::module_& module) {
+    module.def("drawn_to", &drawn_arrays, py::arg("points"), py::arg("triangles"), py::arg("fixed"), py::arg("target"),
+               py::arg("pull"));
     module.def("cut_fillet", &cut_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("seams"), py::arg("walls"),
                py::arg("widths"), py::arg("spacing"), py::arg("progress"));
 }

@@ -138,6 +138,7 @@ def cut_fillet(
     spacing: float,
     progress: Callable[[float, str], bool | None] | None,
 ) -> dict[str, Any]: ...
+def drawn_to(points: _Floats, triangles: _Ints, fixed: _Ints, target: _Floats, pull: _Floats) -> _Floats: ...
 def fill_loops(
     vertices: _Floats,
     loops: list[_Ints],

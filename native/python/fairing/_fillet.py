@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from fairing import _arguments, _core, _seams
 from fairing._fill import Patch, Spacing, refuse_made_here
+from fairing._interpolate import interpolate
 from fairing._measure import boundary_loops
 from fairing._new_mesh import FilletResult, read_only, report_fields
 from fairing._proportion import Limit
@@ -27,6 +28,7 @@ def fillet(
     width: npt.ArrayLike,
     width_2: npt.ArrayLike | None = None,
     walls: npt.ArrayLike | None = None,
+    profile: float = 0.0,
     spacing: float = 0.0,
     max_vertices: int = 0,
     progress: Progress | None = None,
@@ -56,6 +58,11 @@ def fillet(
     walls : (w, 2) int
         Edges that a fillet does not reach over: it ends there, tangent to its own side. Default: the other hard edges.
         Open borders always are walls.
+    profile : float
+        −1 … 1, flat to sharp. 0: the fair surface. Towards 1 it is drawn to the old one, towards −1 to the soap film
+        over the line, so that ∫ |Δ(x − fair)|² + |x − that|² / ℓ⁴ is least, with ℓ = width · (1 / |profile| − 1) / 4:
+        over that length the seam, or the chamfer's edges, stay rounded. It is tangent for all but ±1, which are these
+        two themselves.
     spacing : float
         Length of the new edges. 0: a quarter of the least width.
     max_vertices : int
@@ -87,12 +94,15 @@ def fillet(
     both = widths[0], widths[0] if width_2 is None else widths[1]
     length = _spacing(spacing, both, seams)
     _refuse_large(points, seams, both, length, max_vertices)
+    shape = _arguments.finite("profile", profile)
+    if abs(shape) > 1:
+        raise ValueError(f"profile: a number from -1 to 1 is needed, not {profile!r}")
     watch = Watch(progress)
     cut = _core.cut_fillet(points, faces, seams.tolist(), ends.tolist(), both, length, watch.part(0, 0.2))
     if len(cut["swallowed"]):
         raise _too_wide(cut["swallowed"], both, seams)
     watch.lap("cut")
-    return _filled(points, seams, cut, Wishes(length, options, watch))
+    return _filled(points, faces, seams, cut, Wishes(length, shape, both, ends, options, watch))
 
 
 @dataclass(frozen=True)
@@ -100,19 +110,22 @@ class Wishes:
     """What a fillet's surface is to be like."""
 
     spacing: float
+    profile: float
+    widths: tuple[FloatArray, FloatArray]
+    walls: IntArray
     options: dict[str, Any]
     watch: Watch
 
 
-def _filled(points: FloatArray, seams: IntArray, cut: dict[str, Any], wishes: Wishes) -> FilletResult:
+def _filled(points: FloatArray, faces: IntArray, seams: IntArray, cut: dict[str, Any], wishes: Wishes) -> FilletResult:
     """The new mesh within the line, faired."""
     watch, count = wishes.watch, len(points)
     inside = cut["inside"]
     placed = np.concatenate([points, cut["points"]])
-    pieces, faces, lines = _thinned(cut, placed, wishes.spacing)
-    patch = Patch(placed, faces, cut["boundary"], cut["normals"])
+    pieces, first, lines = _thinned(cut, placed, wishes.spacing)
+    patch = Patch(placed, first, cut["boundary"], cut["normals"])
     spacing = Spacing(wishes.spacing, even=True, flat=True)
-    new, origin, _ = patch.meshed_anew(len(placed), lines, (spacing, 0), wishes.options, watch.part(0.2, 0.4))
+    new, origin, on_seam = patch.meshed_anew(len(placed), lines, (spacing, 0), wishes.options, watch.part(0.2, 0.4))
     watch.lap("mesh")
     chosen = dict(wishes.options)
     if chosen.get("continuity", "G1") == "G2":
@@ -121,8 +134,15 @@ def _filled(points: FloatArray, seams: IntArray, cut: dict[str, Any], wishes: Wi
     watch.lap("fair")
     kept = np.flatnonzero(~inside & _touched(cut["parent"], inside))
     old, weights = _origins(cut, origin, pieces, len(placed) - count)
-    parents = np.concatenate([cut["parent"][kept], _under(new.triangles, old, count)])
+    parents = np.concatenate(
+        [cut["parent"][kept], _under(new.triangles, old, count, np.flatnonzero(on_seam >= 0) + len(placed))]
+    )
     values = report_fields(report, count)
+    if wishes.profile:
+        carried = np.einsum("kc,kcd->kd", weights, points[faces[old]])
+        before = np.concatenate([points, carried])
+        drawn = _drawn(Patch(report.vertices, new.triangles, patch.fixed, None), before, seams, wishes)
+        values.update(vertices=drawn[count:], mean_curvature=_curvatures(drawn, new, patch)[count:])
     triangles = np.concatenate([cut["triangles"][kept], new.triangles])
     used = np.unique(triangles[triangles >= count]) - count  # points on the seam are no vertices of the new mesh
     number = np.concatenate([np.arange(count), np.zeros(len(old), dtype=np.int64)])
@@ -132,7 +152,11 @@ def _filled(points: FloatArray, seams: IntArray, cut: dict[str, Any], wishes: Wi
     values["triangles"] = read_only(number[triangles].astype(np.int32))
     values["fixed"] = read_only(number[values["fixed"]].astype(np.int32))
     values["seconds"] = {**values["seconds"], **watch.seconds}
-    values["warnings"] = tuple(w for w in values["warnings"] if w.code != "SHARP_BOUNDARY" or not len(cut["corners"]))
+    values["warnings"] = tuple(
+        _renumbered(warning, number, len(kept))
+        for warning in values["warnings"]
+        if warning.code != "SHARP_BOUNDARY" or not len(cut["corners"])  # two sides of a seam meet there
+    )
     return FilletResult(
         **values,
         gone=read_only(np.unique(cut["parent"][_touched(cut["parent"], inside)]).astype(np.int32)),
@@ -140,8 +164,48 @@ def _filled(points: FloatArray, seams: IntArray, cut: dict[str, Any], wishes: Wi
         parent=read_only(parents.astype(np.int32)),
         origin=(read_only(old[used]), read_only(weights[used])),
         seam=read_only(seams),
+        walls=read_only(wishes.walls),
         line=read_only(number[cut["line"]].astype(np.int32)),
     )
+
+
+def _renumbered(warning: Diagnostic, number: npt.NDArray[np.int64], pieces: int) -> Diagnostic:
+    """In the numbers of the result's vertices and triangles."""
+    elements = warning.elements + pieces if warning.kind == "triangle" else number[warning.elements]
+    return replace(warning, elements=read_only(elements.astype(np.int32)))
+
+
+def _drawn(fair: Patch, before: FloatArray, seams: IntArray, wishes: Wishes) -> FloatArray:
+    """(n, 3) the surface with its profile; ``before``: where its vertices were on the old one."""
+    at, profile = fair.vertices, abs(wishes.profile)
+    assert fair.fixed is not None
+    target = before if wishes.profile > 0 else interpolate(at, fair.triangles, fair.fixed, at[fair.fixed])
+    used = np.unique(fair.triangles)
+    if profile == 1.0:
+        drawn = at.copy()
+        drawn[used] = target[used]
+        return drawn
+    ends = np.unique(seams)
+    near = _nearest(before[used], before[ends])
+    width = 0.5 * (wishes.widths[0][ends] + wishes.widths[1][ends])[near]
+    pull = np.zeros(len(at))
+    pull[used] = (4 * profile / ((1 - profile) * width)) ** 4
+    return _core.drawn_to(at, fair.triangles, fair.fixed, target, pull)
+
+
+def _nearest(places: FloatArray, ends: FloatArray) -> IntArray:
+    """(k,) the nearest of the ends (s, 3), in blocks of places."""
+    block = max(1, 2_000_000 // len(ends))
+    found = [
+        ((part[:, None] - ends[None]) ** 2).sum(axis=2).argmin(axis=1)
+        for part in np.array_split(places, range(block, len(places), block))
+    ]
+    result: IntArray = np.concatenate(found)
+    return result
+
+
+def _curvatures(drawn: FloatArray, new: Patch, patch: Patch) -> FloatArray:
+    return _core.mean_curvature(drawn, new.triangles, patch.fixed, patch.normals, "fitted")
 
 
 def _touched(parent: IntArray, inside: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
@@ -222,9 +286,12 @@ def _origins(cut: dict[str, Any], origin: Any, inside: IntArray, line_count: int
     return old, weights / weights.sum(axis=1, keepdims=True)
 
 
-def _under(triangles: IntArray, old: IntArray, count: int) -> IntArray:
-    """The old triangle under one of each new one's corners: the last, which most often is no old vertex."""
-    best = triangles.max(axis=1) - count
+def _under(triangles: IntArray, old: IntArray, count: int, on_seam: IntArray) -> IntArray:
+    """The old triangle under one of each new one's corners: one that is on no seam, so that it is on the right side."""
+    rank = np.arange(count + len(old))
+    rank[:count] = -1
+    rank[on_seam] = 0
+    best = triangles[np.arange(len(triangles)), rank[triangles].argmax(axis=1)] - count
     result: IntArray = old[np.maximum(best, 0)]
     return result
 

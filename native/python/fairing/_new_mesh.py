@@ -95,6 +95,8 @@ class FilletResult(NewMeshResult):
     """Where each new vertex lies, or the one it was made from: (k,) old triangles and (k, 3) barycentric weights."""
     seam: IntArray
     """(e, 2) the edges that were rounded."""
+    walls: IntArray
+    """(w, 2) those that it does not reach over."""
     line: IntArray
     """(l, 2) edges of the line where the fillet ends, the fillet on their left."""
 

@@ -1,0 +1,175 @@
+"""From selected seams to the fillets in their place. Plain numpy, no bpy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+import numpy as np
+
+import fairing
+
+from .arrays import Floats, Ints, Mask
+from .checked import refuse_negative, refuse_other_kinds, refuse_unknown
+from .engine import Progress
+from .faces import Faces
+from .findings import Origin, found
+from .new_part import NewPart
+from .options import CONTINUITIES
+from .outline import two_sided_edges
+from .region import MeshArrays, nothing, to_local
+from .rounded_part import rounded_part
+from .verdict import GOOD, LOOK, UNUSABLE, Verdict
+from .words import in_mesh_words, sentences
+
+LEAST_WEIGHT = 0.01  # of a vertex group: a fillet needs a width
+FOLDS = ("FOLDED", "FLIPPED_TRIANGLES", "SELF_INTERSECTION")
+NO_SEAM = "Select the edges to be rounded, or faces with hard edges between them"
+
+
+@dataclass(frozen=True)
+class FilletOptions:
+    """The properties of `mesh.fair_fillet`.
+
+    Raises ValueError for a value it does not know, TypeError for one of another kind.
+    """
+
+    width: float = 0.1  # along the surface, in world space, on the larger side
+    width_2: float = 0.0  # on the smaller one; 0: the same
+    profile: float = 0.0  # -1 flat … 1 sharp
+    continuity: str = "G1"
+    spacing: float = 0.0  # length of new edges; 0: a quarter of the least width
+    width_group: str = ""  # a vertex group whose weights the widths are multiplied by
+    max_vertices: int = 0
+    limit_total: int = 0
+
+    def __post_init__(self) -> None:
+        refuse_other_kinds(self)
+        if self.continuity not in CONTINUITIES:
+            raise ValueError(f"continuity: expected one of {', '.join(CONTINUITIES)}, got {self.continuity!r}")
+        if not self.width > 0.0:
+            raise ValueError(f"width: expected a length above 0, got {self.width!r}")
+        if not -1.0 <= self.profile <= 1.0:
+            raise ValueError(f"profile: expected -1 … 1, got {self.profile!r}")
+        for name in ("width_2", "spacing", "max_vertices", "limit_total"):
+            refuse_negative(self, name)
+
+    @classmethod
+    def named(cls, properties: dict[str, Any]) -> FilletOptions:
+        """Read options from a caller's keyword arguments; raises TypeError for one that does not exist."""
+        refuse_unknown((each.name for each in fields(cls)), properties)
+        return cls(**properties)
+
+    @classmethod
+    def of(cls, properties: Any) -> FilletOptions:
+        """Read every option from an object with attributes of the same names."""
+        return cls(**{each.name: getattr(properties, each.name) for each in fields(cls)})
+
+
+@dataclass(frozen=True)
+class Rounded:
+    """What takes the place of the faces at some seams."""
+
+    part: NewPart
+    new_positions: Floats  # (k, 3) of the new vertices, in the mesh's own coordinates
+    points: Floats  # (n + k, 3) of old and new vertices, in world space
+    result: fairing.FilletResult
+    verdict: Verdict
+    polygons: Faces
+    unselected: int  # faces at the beginning that are pieces of old ones, outside
+    limit_total: int
+    warnings: tuple[str, ...] = ()
+    vertices: Ints = field(default_factory=nothing)  # old ones that move: none
+    positions: Floats = field(default_factory=lambda: np.empty((0, 3)))
+
+    @property
+    def surface(self) -> tuple[Floats, Ints]:
+        """Positions (k, 3) in world space and triangles (m, 3) of the new faces, for a preview."""
+        triangles = self.result.triangles[self.result.outside :]
+        used, numbered = np.unique(triangles, return_inverse=True)
+        return self.points[used], numbered.reshape(-1, 3)
+
+    def faces(self, _kinds: Ints) -> Faces:
+        """Return what is written."""
+        return self.polygons
+
+
+def seams_of(mesh: MeshArrays, edges: Mask) -> Mask:
+    """Return the (e,) mask of the seams that a selection names.
+
+    Those of its edges that are on no selected face; and where faces are selected, hard edges between two of them.
+    edges: (e,) selected ones.
+    """
+    of_faces = np.zeros(len(mesh.edges), dtype=bool)
+    of_faces[mesh.corner_edges[mesh.in_patch[mesh.corner_faces]]] = True
+    seams = edges & ~of_faces
+    if not mesh.in_patch.any():
+        return seams
+    sides = two_sided_edges(mesh, np.ones(len(mesh.edges), dtype=bool))
+    between = np.zeros(len(mesh.edges), dtype=bool)
+    between[sides.edges] = mesh.in_patch[sides.faces].all(axis=1)
+    return seams | (between & hard(mesh))
+
+
+def hard(mesh: MeshArrays) -> Mask:
+    """Return the (e,) mask of hard edges: by the mesh's shape, or marked sharp."""
+    marked = None if mesh.sharp is None else mesh.edges[mesh.sharp]
+    found = fairing.hard_edges(mesh.positions, mesh.triangles, marked=marked)
+    count = len(mesh.positions)
+    ends = np.sort(mesh.edges, axis=1)
+    return np.isin(ends[:, 0] * count + ends[:, 1], found[:, 0].astype(np.int64) * count + found[:, 1])
+
+
+def round_arrays(
+    mesh: MeshArrays,
+    seams: Mask,
+    matrix: Floats,
+    options: FilletOptions,
+    progress: Progress | None = None,
+) -> Rounded:
+    """Round the seams in the (e,) mask, in the space that the 4×4 `matrix` leads to; `mesh` is never changed.
+
+    Raises MeshRefusal, ValueError, fairing.SolverError and fairing.Cancelled.
+    """
+    if not seams.any():
+        raise ValueError(NO_SEAM)
+    world = mesh.transformed(matrix)
+    count = len(world.positions)
+    factors = np.ones(count) if mesh.parts is None else np.maximum(mesh.parts, LEAST_WEIGHT)
+    second = options.width_2 or options.width
+    as_given = Origin(np.arange(count), world.triangles, world.triangle_faces)
+    with in_mesh_words(as_given):
+        result = fairing.fillet(
+            world.positions, world.triangles, world.edges[seams],
+            width=options.width * factors, width_2=None if second == options.width else second * factors,
+            walls=world.edges[hard(world) & ~seams], profile=options.profile, spacing=options.spacing,
+            continuity=options.continuity, max_vertices=options.max_vertices,
+            progress=progress,
+        )  # fmt: skip
+    near = world.triangles[result.origin[0]][np.arange(len(result.vertices)), result.origin[1].argmax(axis=1)]
+    origin = Origin(
+        np.concatenate([np.arange(count), near]), result.triangles.astype(np.int64), world.triangle_faces[result.parent]
+    )
+    made = rounded_part(world, result)
+    return Rounded(
+        part=made.part,
+        new_positions=to_local(result.vertices, matrix),
+        points=np.concatenate([world.positions, result.vertices]),
+        result=result,
+        verdict=_verdict(result, origin),
+        polygons=made.polygons,
+        unselected=made.outside,
+        limit_total=options.limit_total,
+        warnings=sentences(result.warnings, origin),
+    )
+
+
+def _verdict(result: fairing.FilletResult, origin: Origin) -> Verdict:
+    """Folds and what is no surface are not written; a stand-in is worth a look."""
+    bad = [warning for warning in result.warnings if warning.code in FOLDS]
+    if bad or not result.converged:
+        spots = np.unique(np.concatenate([np.empty(0, np.int64), *(found(each, origin).vertices for each in bad)]))
+        return Verdict(UNUSABLE, "The fillet folds or crosses itself: a smaller width may do", spots)
+    if result.provenance != "equation":
+        return Verdict(LOOK, sentences(result.warnings, origin)[0] if result.warnings else "")
+    return Verdict(GOOD)

@@ -1,0 +1,269 @@
+"""The operator that rounds edges: by the mouse, or at once for scripts and the redo panel."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..core.arrays import Floats, Ints, Mask
+from ..core.engine import REFUSALS, Progress, sub_range
+from ..core.options import FairOptions
+from ..core.region import MeshArrays
+from ..core.rounding import NO_SEAM, FilletOptions, Rounded, round_arrays, seams_of
+from ..core.typed import Typed
+from ..core.verdict import UNUSABLE
+from ..host.context import edited_objects
+from ..host.dragging import pixel_size, say
+from ..host.polling import require_edit_mode, require_idle
+from ..mesh import mesh_io, remeshed, selecting
+from ..translations import translated
+from . import compare, last_run
+from .background import TICK, Work, at_once, has_events
+from .fillet_properties import FilletProperties
+from .job import Refused, is_unchanged, objects_in_mode
+from .report_properties import clear, store_refusal
+
+PROFILE_STEP = 0.1  # of the wheel
+PRECISE = 0.1  # of the mouse's way while Shift is held
+
+previews: list[Callable[[list[Rounded]], None]] = []  # told what a run by the mouse would write; [] when it ends
+
+
+@dataclass(frozen=True)
+class Task:
+    """One object's seams, as they were read."""
+
+    object_name: str
+    mesh: MeshArrays
+    seams: Mask
+    matrix: Floats  # (4, 4) to world space
+    key: str  # the shape key that was read, as mesh_io.writable_key names it
+
+    @property
+    def middle(self) -> Floats:
+        """The middle of the seams, (3,) in world space."""
+        ends = self.mesh.positions[np.unique(self.mesh.edges[self.seams])].mean(axis=0)
+        place: Floats = self.matrix[:3, :3] @ ends + self.matrix[:3, 3]
+        return place
+
+
+def read(context: bpy.types.Context, group: str) -> list[Task]:
+    """Read every object in edit mode that has selected seams; raises Refused. group: see FilletOptions.width_group."""
+    tasks = []
+    for obj in edited_objects(context):
+        edges = selecting.selected_edges(obj.data)
+        if not edges.any():
+            continue
+        try:
+            mesh_io.check_new_faces(obj)
+            key = mesh_io.writable_key(obj)
+            mesh = mesh_io.read_edit_mesh(obj, FairOptions(factor_group=group))
+            matrix = np.array(obj.matrix_world, dtype=np.float64)
+            seams = seams_of(mesh.transformed(matrix), edges)
+        except ValueError as cause:
+            raise Refused(obj.name, cause) from cause
+        if seams.any():
+            tasks.append(Task(obj.name, mesh, seams, matrix, key))
+    return tasks
+
+
+def solve(tasks: list[Task], options: FilletOptions, progress: Progress) -> list[Rounded]:
+    """Round the seams of every task; raises Refused, and what its cause is not."""
+    outcomes = []
+    for k, task in enumerate(tasks):
+        part = sub_range(progress, k / len(tasks), (k + 1) / len(tasks))
+        try:
+            outcomes.append(round_arrays(task.mesh, task.seams, task.matrix, options, part))
+        except REFUSALS as cause:
+            raise Refused(task.object_name, cause) from cause
+    return outcomes
+
+
+class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):
+    """Round the selected edges, or the hard edges of the selected faces,
+    with the fairest surface within a width along the surface"""
+
+    bl_idname = "mesh.fair_fillet"
+    bl_label = "Fair Fillet"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
+
+    _tasks: list[Task]
+    _timer: Any = None
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Edit mode has seams; while a run is under way, the mesh is its own."""
+        return require_edit_mode(cls, context, NO_SEAM) and require_idle(cls, context)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Lay the options out."""
+        layout = self.layout
+        layout.use_property_split = True
+        for name in ("width", "width_2", "profile", "continuity", "spacing"):
+            layout.prop(self, name)
+        if context.object is not None:
+            layout.prop_search(self, "width_group", context.object, "vertex_groups")
+        for name in ("max_vertices", "limit_total"):
+            layout.prop(self, name)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Round in every object in edit mode, or in none of them where one is refused; return when done."""
+        context.view_layer.update()  # a script may just have changed an object's matrix
+        try:
+            if not self._read(context):
+                return {"CANCELLED"}
+            return self._apply(context, at_once(context, self._work()))
+        except Refused as refusal:
+            return self._refuse(context, refusal)
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Begin to follow the mouse; without a window, round at once."""
+        if not has_events(context) or context.region_data is None:
+            return self.execute(context)
+        try:
+            if not self._read(context):
+                return {"CANCELLED"}
+        except Refused as refusal:
+            return self._refuse(context, refusal)
+        self._follow(event, pixel_size(context, np.mean([task.middle for task in self._tasks], axis=0)))
+        manager = context.window_manager
+        self._timer = manager.event_timer_add(TICK, window=context.window)
+        manager.modal_handler_add(self)
+        self._say(context)
+        return {"RUNNING_MODAL"}
+
+    def _follow(self, event: Any, pixel: float) -> None:
+        """Take the mouse's place as that of width 0."""
+        self._pixel, self._origin, self._way = pixel, (event.mouse_x, event.mouse_y), 0.0
+        self._last, self._typed, self._reason = self._origin, Typed(), ""
+        self._shown: tuple[FilletOptions, list[Rounded]] | None = None
+        self._wanted: FilletOptions | None = None
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Mouse: width, wheel: profile, digits: width; click accepts, Esc leaves all as it was."""
+        if event.type in ("ESC", "RIGHTMOUSE") and event.value == "PRESS":
+            self.cancel(context)
+            return {"CANCELLED"}
+        if event.type in ("LEFTMOUSE", "RET", "NUMPAD_ENTER") and event.value == "PRESS":
+            return self._accept(context)
+        if event.type == "MOUSEMOVE":
+            self._drag(event)
+        elif event.type in ("WHEELUPMOUSE", "WHEELDOWNMOUSE"):
+            step = PROFILE_STEP if event.type == "WHEELUPMOUSE" else -PROFILE_STEP
+            self.profile = min(1.0, max(-1.0, round(self.profile + step, 6)))
+            self._wanted = self._options()
+        elif event.value == "PRESS" and self._typed.take(event.type, getattr(event, "ascii", "")):
+            if self._typed.value:
+                self.width = self._typed.value
+                self._wanted = self._options()
+        elif event.type == "TIMER":
+            self._show(context)
+        elif event.type in ("MIDDLEMOUSE", "NDOF_MOTION"):
+            return {"PASS_THROUGH"}
+        self._say(context)
+        return {"RUNNING_MODAL"}
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Stop; nothing was written. Blender calls this too, when it closes a window."""
+        for preview in previews:
+            preview([])
+        say(context, None)
+        if self._timer is not None:
+            context.window_manager.event_timer_remove(self._timer)
+            self._timer = None
+
+    def _drag(self, event: Any) -> None:
+        place = (event.mouse_x, event.mouse_y)
+        share = PRECISE if event.shift else 1.0
+        before, after = (np.hypot(*np.subtract(at, self._origin)) for at in (self._last, place))
+        self._way = max(0.0, self._way + share * float(after - before))
+        self._last = place
+        if not self._typed.text and self._way > 0.0:
+            self.width = self._pixel * self._way
+            self._wanted = self._options()
+
+    def _options(self) -> FilletOptions:
+        return FilletOptions.of(self)
+
+    def _work(self) -> Work:
+        return partial(solve, self._tasks, self._options())
+
+    def _show(self, context: bpy.types.Context) -> None:
+        """Solve what is wanted now, and let it be seen."""
+        if self._wanted is None:
+            return
+        wanted, self._wanted = self._wanted, None
+        try:
+            outcomes = solve(self._tasks, wanted, lambda _fraction, _stage: None)
+            self._shown, self._reason = (wanted, outcomes), ""
+        except Refused as refusal:
+            self._shown, outcomes, self._reason = None, [], refusal.reason
+        for preview in previews:
+            preview(outcomes)
+
+    def _say(self, context: bpy.types.Context) -> None:
+        width = self._typed.text or f"{self.width:.4g}"
+        new = sum(len(each.result.vertices) for each in self._shown[1]) if self._shown else 0
+        text = f"Width {width}   Profile {self.profile:+.2f}   {new} vertices   {self._reason}"
+        say(context, text + "   [Click] Accept   [Wheel] Profile   [0-9] Width   [Shift] Precise   [Esc] Cancel")
+
+    def _accept(self, context: bpy.types.Context) -> set[str]:
+        self.cancel(context)
+        objects = objects_in_mode(context)
+        if not all(
+            task.object_name in objects and is_unchanged(objects[task.object_name], task.mesh, task.key)
+            for task in self._tasks
+        ):
+            self.report({"ERROR"}, "The mesh changed meanwhile; the result was dropped")
+            return {"CANCELLED"}
+        try:
+            shown = self._shown
+            outcomes = shown[1] if shown and shown[0] == self._options() else at_once(context, self._work())
+        except Refused as refusal:
+            return self._refuse(context, refusal)
+        return self._apply(context, outcomes)
+
+    def _read(self, context: bpy.types.Context) -> bool:
+        self._begin = time.perf_counter()
+        self._tasks = read(context, self.width_group)
+        if not self._tasks:
+            store_refusal(context.window_manager.fairing_report, "", NO_SEAM)
+            last_run.forget()
+            self.report({"ERROR"}, translated(NO_SEAM))
+        return bool(self._tasks)
+
+    def _apply(self, context: bpy.types.Context, outcomes: list[Rounded]) -> set[str]:
+        for task, outcome in zip(self._tasks, outcomes, strict=True):
+            if outcome.verdict.grade == UNUSABLE:
+                return self._leave(context, task.object_name, outcome.verdict.spots, outcome.verdict.reason)
+        last_run.forget()  # there are no faces to fair again, and no two states to compare
+        compare.forget()
+        clear(context.window_manager.fairing_report)
+        objects = objects_in_mode(context)
+        for task, outcome in zip(self._tasks, outcomes, strict=True):
+            remeshed.write_edit_mesh(objects[task.object_name], outcome)
+            for warning in outcome.warnings:
+                self.report({"WARNING"}, warning)
+        count = sum(len(outcome.result.vertices) for outcome in outcomes)
+        self.report({"INFO"}, f"{count} new vertices in {time.perf_counter() - self._begin:.2f} s")
+        return {"FINISHED"}
+
+    def _refuse(self, context: bpy.types.Context, refusal: Refused) -> set[str]:
+        spots = np.asarray(getattr(refusal.cause, "elements", ()), dtype=np.int64)
+        return self._leave(context, refusal.object_name, spots, refusal.reason)
+
+    def _leave(self, context: bpy.types.Context, name: str, spots: Ints, reason: str) -> set[str]:
+        """Leave every mesh as it is, and show where it can't be done."""
+        if len(spots):
+            context.tool_settings.mesh_select_mode = (True, False, False)
+            selecting.select_vertices(objects_in_mode(context)[name].data, spots)
+        store_refusal(context.window_manager.fairing_report, name, reason)
+        last_run.forget()
+        self.report({"ERROR"}, f"{name}: {reason}")
+        return {"CANCELLED"}

@@ -1,0 +1,350 @@
+"""Fair Fillet in Blender: edges are rounded, faces are cut; what is cancelled or refused leaves the mesh as it was."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import bmesh
+import bpy
+import meshes
+import numpy as np
+import pytest
+from extension import module
+
+WIDTH = 0.3
+
+
+def cube() -> bpy.types.Object:
+    """[−1, 1]³ of six quads, with a UV map and two materials: one side has the second."""
+    bm = bmesh.new()
+    bmesh.ops.create_cube(bm, size=2.0, calc_uvs=True)
+    mesh = bpy.data.meshes.new("Cube")
+    bm.loops.layers.uv.verify()
+    bm.to_mesh(mesh)
+    bm.free()
+    obj = bpy.data.objects.new("Cube", mesh)
+    bpy.context.collection.objects.link(obj)
+    bpy.context.view_layer.objects.active = obj
+    for name in ("One", "Two"):
+        mesh.materials.append(bpy.data.materials.new(name))
+    for polygon in mesh.polygons:
+        polygon.material_index = int(polygon.center.x > 0.9)
+    return obj
+
+
+def edge_mask(obj: bpy.types.Object, chosen: Any) -> Any:
+    points = meshes.positions(obj)
+    return np.array([bool(chosen(points[list(edge.vertices)])) for edge in obj.data.edges])
+
+
+def upright(ends: Any) -> bool:
+    """Whether an edge is the one at x = y = 1."""
+    return bool(np.allclose(ends[:, :2], 1.0))
+
+
+def enter(obj: bpy.types.Object, chosen: Any) -> None:
+    """Edit the mesh with exactly these edges selected."""
+    meshes.select(obj, np.zeros(len(obj.data.polygons), dtype=bool))
+    meshes.edit(obj)
+    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
+    bm = bmesh.from_edit_mesh(obj.data)
+    for edge, on in zip(bm.edges, chosen, strict=True):
+        edge.select_set(bool(on))
+    bmesh.update_edit_mesh(obj.data)
+
+
+def run(obj: bpy.types.Object, chosen: Any, **properties: Any) -> set[str]:
+    """Run it from and to object mode."""
+    enter(obj, chosen)
+    try:
+        status: set[str] = bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, **{"width": WIDTH, **properties})
+        return status
+    finally:
+        meshes.leave()
+
+
+def border_edges(obj: bpy.types.Object) -> int:
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    count = sum(not edge.is_manifold for edge in bm.edges)
+    loose = sum(not vertex.link_faces for vertex in bm.verts)
+    bm.free()
+    return count + loose
+
+
+def off_the_arc(points: Any) -> Any:
+    """How far the places in the middle of the edge x = y = 1 are off its arc, in widths."""
+    near = points[(np.abs(points[:, 2]) < 0.25) & (points[:, :2] > 1 - WIDTH - 1e-6).all(axis=1)]
+    assert len(near) > 20
+    return np.abs(np.linalg.norm(near[:, :2] - (1 - WIDTH), axis=1) - WIDTH) / WIDTH
+
+
+def test_an_edge_of_a_cube_becomes_an_arc_and_its_faces_stay_polygons() -> None:
+    obj = cube()
+    assert run(obj, edge_mask(obj, upright)) == {"FINISHED"}
+    assert border_edges(obj) == 0
+    assert off_the_arc(meshes.positions(obj)).max() < 2e-3
+    rest = [polygon for polygon in obj.data.polygons if not polygon.select]
+    assert len(rest) == 6
+    assert {len(polygon.vertices) for polygon in rest} > {4}
+    assert sum(polygon.area for polygon in rest) == pytest.approx(24.0 - 2 * WIDTH * 2.0, abs=2e-5)
+    assert all(len(polygon.vertices) == 3 for polygon in obj.data.polygons if polygon.select)
+
+
+def test_all_hard_edges_of_selected_faces_are_rounded() -> None:
+    obj = cube()
+    meshes.select(obj, np.ones(6, dtype=bool))
+    meshes.edit(obj)
+    try:
+        assert bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=WIDTH) == {"FINISHED"}
+    finally:
+        meshes.leave()
+    assert border_edges(obj) == 0
+    assert off_the_arc(meshes.positions(obj)).max() < 2e-3
+    rest = [polygon for polygon in obj.data.polygons if not polygon.select]
+    assert len(rest) == 6
+    assert sum(polygon.area for polygon in rest) == pytest.approx(6 * (2 - 2 * WIDTH) ** 2, abs=1e-4)
+
+
+def test_materials_and_textures_follow_from_each_side() -> None:
+    """A texture that is the place itself runs on without a jump on either side of the edge."""
+    obj = cube()
+    layer = obj.data.uv_layers.active.data
+    points = meshes.positions(obj)
+    for polygon in obj.data.polygons:
+        first = polygon.material_index == 1
+        for k in polygon.loop_indices:
+            x, y, z = points[obj.data.loops[k].vertex_index]
+            layer[k].uv = (y, z) if first else (x + 10.0, z)
+    assert run(obj, edge_mask(obj, upright)) == {"FINISHED"}
+    layer = obj.data.uv_layers.active.data
+    kinds = set()
+    for polygon in obj.data.polygons:
+        us = np.array([layer[k].uv[0] for k in polygon.loop_indices])
+        assert (us < 5.0).all() if polygon.material_index == 1 else (us > 5.0).all()
+        if polygon.select:
+            kinds.add(polygon.material_index)
+    assert kinds == {0, 1}
+
+
+def test_undo_and_redo_are_exact() -> None:
+    obj = cube()
+    enter(obj, edge_mask(obj, upright))
+    try:
+        bpy.ops.ed.undo_push()
+        before = snapshot()
+        bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=WIDTH)
+        after = snapshot()
+        assert after != before
+        bpy.ops.ed.undo()
+        assert snapshot() == before
+        bpy.ops.ed.redo()
+        assert snapshot() == after
+    finally:
+        meshes.leave()
+
+
+def snapshot() -> Any:
+    """The mesh in edit mode to the bit, with its selection."""
+    bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
+    uv = bm.loops.layers.uv.active
+    return (
+        [(tuple(vertex.co), vertex.select) for vertex in bm.verts],
+        [(tuple(v.index for v in edge.verts), edge.select) for edge in bm.edges],
+        [
+            (
+                tuple(v.index for v in face.verts),
+                face.select,
+                face.material_index,
+                [tuple(c[uv].uv) for c in face.loops],
+            )
+            for face in bm.faces
+        ],
+    )
+
+
+@pytest.mark.parametrize(("width", "reason"), [(1.2, "leaves nothing")])
+def test_what_is_refused_stays_and_its_spots_are_selected(width: float, reason: str) -> None:
+    obj = cube()
+    meshes.select(obj, np.ones(6, dtype=bool))
+    meshes.edit(obj)
+    try:
+        before = [tuple(vertex.co) for vertex in bmesh.from_edit_mesh(obj.data).verts]
+        with pytest.raises(RuntimeError, match=reason):
+            bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=width)
+        bm = bmesh.from_edit_mesh(obj.data)
+        assert [tuple(vertex.co) for vertex in bm.verts] == before
+        assert len(bm.faces) == 6
+        assert all(vertex.select for vertex in bm.verts)
+    finally:
+        meshes.leave()
+
+
+def test_no_seam_and_open_borders_are_refused() -> None:
+    obj = meshes.grid()
+    with pytest.raises(RuntimeError, match="Select the edges"):
+        run(obj, edge_mask(obj, lambda ends: False))
+    with pytest.raises(RuntimeError, match="open border"):
+        run(obj, edge_mask(obj, lambda ends: np.allclose(ends[:, 0], 1.0)))
+
+
+class Stand:
+    """The operator's methods without Blender's own part."""
+
+    def __init__(self) -> None:
+        fillet = module("run.fillet")
+        self._operator = fillet.MESH_OT_fair_fillet
+        self.told: list[Any] = []
+        for field in ("width_2", "spacing", "profile"):
+            setattr(self, field, 0.0)
+        self.width, self.continuity, self.width_group = 0.1, "G1", ""
+        self.max_vertices = self.limit_total = 0
+        self._timer, self._begin = None, 0.0
+        self._tasks = fillet.read(bpy.context, "")
+
+    def __getattr__(self, name: str) -> Any:
+        method = getattr(object.__getattribute__(self, "_operator"), name)
+        return method.__get__(self)
+
+    def report(self, kinds: set[str], text: str) -> None:
+        self.told.append((kinds, text))
+
+
+def event(kind: str, value: str = "PRESS", at: tuple[int, int] = (0, 0), ascii: str = "") -> Any:
+    return SimpleNamespace(type=kind, value=value, mouse_x=at[0], mouse_y=at[1], shift=False, ascii=ascii)
+
+
+@pytest.fixture
+def shown() -> Any:
+    """What previews were told."""
+    told: list[Any] = []
+    fillet = module("run.fillet")
+    fillet.previews.append(told.append)
+    yield told
+    fillet.previews.remove(told.append)
+
+
+def dragged(stand: Stand, way: int) -> None:
+    stand._follow(event("MOUSEMOVE"), 0.01)
+    assert stand.modal(bpy.context, event("MOUSEMOVE", at=(0, way))) == {"RUNNING_MODAL"}
+    assert stand.modal(bpy.context, event("TIMER")) == {"RUNNING_MODAL"}
+
+
+def test_the_mouse_moves_the_width_and_a_click_accepts(shown: Any) -> None:
+    obj = cube()
+    enter(obj, edge_mask(obj, upright))
+    try:
+        stand = Stand()
+        before = snapshot()
+        dragged(stand, 30)
+        assert stand.width == pytest.approx(WIDTH)
+        assert len(shown[-1][0].surface[1]) > 50
+        assert snapshot() == before
+        assert stand.modal(bpy.context, event("LEFTMOUSE")) == {"FINISHED"}
+        assert shown[-1] == []
+    finally:
+        meshes.leave()
+    assert off_the_arc(meshes.positions(obj)).max() < 2e-3
+
+
+def test_the_wheel_changes_the_profile_and_digits_the_width(shown: Any) -> None:
+    obj = cube()
+    enter(obj, edge_mask(obj, upright))
+    try:
+        stand = Stand()
+        dragged(stand, 10)
+        round_top = max(shown[-1][0].surface[0][:, :2].sum(axis=1))
+        for kind, character in (("ZERO", "0"), ("PERIOD", "."), ("THREE", "3")):
+            stand.modal(bpy.context, event(kind, ascii=character))
+        assert stand.width == pytest.approx(0.3)
+        stand.modal(bpy.context, event("MOUSEMOVE", at=(0, 80)))  # what is typed stays
+        assert stand.width == pytest.approx(0.3)
+        stand.modal(bpy.context, event("TIMER"))
+        wide_top = max(shown[-1][0].surface[0][:, :2].sum(axis=1))
+        for _ in range(5):
+            stand.modal(bpy.context, event("WHEELUPMOUSE"))
+        assert stand.profile == pytest.approx(0.5)
+        stand.modal(bpy.context, event("TIMER"))
+        sharp_top = max(shown[-1][0].surface[0][np.abs(shown[-1][0].surface[0][:, 2]) < 0.3][:, :2].sum(axis=1))
+        assert sharp_top > wide_top - 1e-9 or sharp_top > 2 - 0.2
+        assert round_top <= 2.0 + 1e-6
+    finally:
+        meshes.leave()
+
+
+def test_escape_leaves_every_bit(shown: Any) -> None:
+    obj = cube()
+    enter(obj, edge_mask(obj, upright))
+    try:
+        stand = Stand()
+        before = snapshot()
+        dragged(stand, 30)
+        assert stand.modal(bpy.context, event("ESC")) == {"CANCELLED"}
+        assert snapshot() == before
+        assert shown[-1] == []
+    finally:
+        meshes.leave()
+
+
+def test_a_width_that_is_too_large_is_told_while_dragging(shown: Any) -> None:
+    obj = cube()
+    meshes.select(obj, np.ones(6, dtype=bool))
+    meshes.edit(obj)
+    try:
+        stand = Stand()
+        dragged(stand, 150)
+        assert shown[-1] == []
+        assert "leaves nothing" in stand._reason
+        assert stand.modal(bpy.context, event("ESC")) == {"CANCELLED"}
+    finally:
+        meshes.leave()
+
+
+def test_scripts_round_the_hard_edges_of_a_mesh() -> None:
+    obj = cube()
+    result = module("run.fillet_mesh").fillet_mesh(obj.data, width=WIDTH)
+    assert result.converged
+    assert border_edges(obj) == 0
+    assert off_the_arc(meshes.positions(obj)).max() < 2e-3
+
+
+def test_a_mirrored_object_is_rounded_the_same_way_round() -> None:
+    obj = cube()
+    obj.scale = (-1.0, 1.0, 1.0)
+    assert run(obj, edge_mask(obj, upright)) == {"FINISHED"}
+    assert border_edges(obj) == 0
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    assert 6.0 < bm.calc_volume(signed=True) < 8.0
+    bm.free()
+
+
+def test_shape_keys_and_weights_are_carried_over() -> None:
+    obj = cube()
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Tall")
+    for point in key.data:
+        point.co = (point.co[0], point.co[1], 2.0 * point.co[2])
+    group = obj.vertex_groups.new(name="Up")
+    points = meshes.positions(obj)
+    group.add([k for k, place in enumerate(points) if place[2] > 0], 1.0, "REPLACE")
+    assert run(obj, edge_mask(obj, upright)) == {"FINISHED"}
+    index = group.index
+    for vertex, tall in zip(obj.data.vertices, obj.data.shape_keys.key_blocks["Tall"].data, strict=True):
+        weight = sum(entry.weight for entry in vertex.groups if entry.group == index)
+        assert weight == pytest.approx(0.5 + 0.5 * vertex.co[2], abs=0.05)
+        assert tall.co[2] == pytest.approx(2.0 * vertex.co[2], abs=0.1)
+
+
+def test_a_vertex_group_scales_the_width() -> None:
+    obj = cube()
+    group = obj.vertex_groups.new(name="Wide")
+    for k, place in enumerate(meshes.positions(obj)):
+        group.add([k], 1.0 if place[2] > 0 else 0.5, "REPLACE")
+    assert run(obj, edge_mask(obj, upright), width=0.4, width_group="Wide") == {"FINISHED"}
+    points = meshes.positions(obj)
+    for side in (0, 1):
+        ends = points[np.isclose(points[:, 1 - side], 1.0) & (points[:, side] < 0.999) & (np.abs(points[:, 2]) < 0.999)]
+        ends = ends[ends[:, side] > 0]
+        assert np.abs(1 - ends[:, side] - (0.3 + 0.1 * ends[:, 2])).min() < 1e-5
