@@ -136,7 +136,7 @@ class Piece:
 
         None where curves run across the surface: there they stay where they are carried.
         """
-        if len(self.across.edges):
+        if self.across.holds_any:
             return [None] * len(places)
         mirrored = np.linalg.det(self.around.matrix[:3, :3]) < 0.0
         triangles = self.triangles[:, ::-1] if mirrored else self.triangles

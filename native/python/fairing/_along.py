@@ -68,6 +68,8 @@ class _Along:
         _loops.check_doubles(mesh[1], around)
         report = self._solved(around, mesh, watch.part(0.4 * share, share))
         values = report_fields(report, self.curves.old_count)
+        at_loops = np.isin(report.fixed, whole.vertices)
+        values["join"] = read_only(np.where(at_loops, report.join, 0.0))
         values["seconds"] = {**values["seconds"], **watch.seconds}
         values["warnings"] += self.curves.warnings
         return FillResult(
@@ -77,6 +79,7 @@ class _Along:
             left_open=(),
             curves=tuple(read_only(curve) for curve in self.curves.curves),
             marked=self.curves.marked,
+            bands=tuple((read_only(one), read_only(other)) for one, other in self.curves.bands),
         )
 
     def _film(self, progress: Progress | None) -> tuple[FloatArray, IntArray]:
