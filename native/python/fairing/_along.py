@@ -34,12 +34,27 @@ def filled_along(curves: Curves, task: Task, others: Others, progress: Progress 
     share = len(mine) / len(curves.cut)
     along = _Along(curves, _some(outline, mine), _rows(outline, normals, mine), wanted, options)
     result = along.filled(around, outline, watch, share)
+    if not result.converged:
+        return _without(
+            curves, outline, others(outline, normals, options.get("fixed_curvatures"), watch.part(share, 1.0))
+        )
     if rest:
         given = options.get("fixed_curvatures")
         rows = None if given is None else _rows(outline, given, rest)
         other = others(_some(outline, rest), _rows(outline, normals, rest), rows, watch.part(share, 1.0))
         result = _joined(result, other, curves)
     return result
+
+
+def _without(curves: Curves, outline: Outline, result: FillResult) -> FillResult:
+    """The result for all loops as they are always filled, with a warning for those of curves."""
+    loops = [loop for loop, cut in zip(outline.loops, curves.cut, strict=True) if cut is not None]
+    bands = [side for band in curves.bands for side in band]
+    held = np.intersect1d(np.concatenate(loops), np.concatenate([curves.vertices, *bands])).astype(np.int32)
+    text = f"no surface holds the edges that would run on from {_loops.listed(held)}: they are left alone"
+    figures = {"ends": float(len(held)), "no_surface": 1.0}
+    warning = Diagnostic("EDGES_LEFT_ALONE", text, held, "vertex", figures)
+    return replace(result, warnings=(*result.warnings, *curves.warnings, warning))
 
 
 def _some(outline: Outline, which: list[int]) -> Outline:

@@ -181,7 +181,9 @@ class _Finder:
                 warnings = self._bands(trees, warnings, making)
             if len(ends) < len(free):
                 warnings = _told(free, range(len(free)), "crossing", "the way on crosses the outline")
-            through = _Through(self.loop, self.normals, making, trees, there.along, warnings)
+            leaves = {leaf for tree in trees for leaf in tree.leaves}
+            along = there.along + [end.run for end in ends if end.at in leaves and len(end.run)]
+            through = _Through(self.loop, self.normals, making, trees, along, warnings)
             cut = None if crosses(trees) else through.cut(triangles)
             if (cut is None and not trees) or (cut is not None and not _is_tangled(cut, making.points)):
                 return through, cut
