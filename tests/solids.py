@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -51,7 +53,90 @@ def cylinder(sides: int, rows: int, height: float) -> Solid:
     return _revolved([_ring(sides, 1.0, height * k / rows) for k in range(rows + 1)], 0.0, height)
 
 
+def domed(sides: int, rows: int, height: float) -> Solid:
+    """A cylinder of radius 1, z from 0 to 1, under a cap of a sphere of that height, or a flat lid, in so many rows."""
+    radius = (1 + height**2) / (2 * height) if height else np.inf
+    walls = [_ring(sides, 1.0, k / 4) for k in range(5)]
+    out = 1 - np.arange(1, rows) / rows
+    above = np.sqrt(radius**2 - out**2) - (radius - height) if height else 0 * out
+    caps = [_ring(sides, r, 1 + z) for r, z in zip(out, above, strict=True)]
+    return _revolved(walls + caps, 0.0, 1 + height)
+
+
+def box_with_boss(sides: int) -> tuple[FloatArray, IntArray, IntArray]:
+    """An undivided box, a round boss on its top: vertices, the triangles of the top and the boss, and the others."""
+    corners = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]])
+    ring = _ring(sides, 0.4, 1.0)
+    vertices = np.concatenate([
+        np.column_stack([corners, np.ones(4)]), np.column_stack([corners, -np.ones(4)]),
+        ring, _ring(sides, 0.4, 1.5), [[0, 0, 1.5]],
+    ])  # fmt: skip
+    k = np.arange(sides)
+    low, after = 8 + k, 8 + (k + 1) % sides
+    high, above = low + sides, after + sides
+    quarter = sides // 4
+    between = [[c, (c + 1) % 4, 8 + quarter * (c + 1) % sides] for c in range(4)]
+    parts = [np.column_stack([k // quarter, after, low]), np.column_stack([low, after, above])]
+    parts += [np.column_stack([low, above, high]), np.column_stack([np.full(sides, 8 + 2 * sides), high, above])]
+    walls = [[c, 4 + c, 4 + (c + 1) % 4] for c in range(4)] + [[c, 4 + (c + 1) % 4, (c + 1) % 4] for c in range(4)]
+    return vertices, np.concatenate([between, *parts]), np.array([*walls, [4, 6, 5], [4, 7, 6]])
+
+
 def sphere(meridians: int, parallels: int) -> Solid:
     """Radius 1; `parallels` rows of faces."""
     polar = np.pi * (1 - np.arange(1, parallels) / parallels)
     return _revolved([_ring(meridians, np.sin(t), np.cos(t)) for t in polar], -1.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A bent panel with a crease of 45° beside a selection, and what is to go inside.
+
+    clean, vertices (n, 3): without the crease, and with it and a dome inside; triangles inside and outside.
+    """
+
+    clean: FloatArray
+    vertices: FloatArray
+    inside: IntArray
+    outside: IntArray
+
+    @property
+    def rim(self) -> IntArray:
+        return np.intersect1d(self.inside, self.outside)
+
+    @property
+    def free(self) -> IntArray:
+        return np.setdiff1d(self.inside, self.outside)
+
+    @property
+    def normals(self) -> FloatArray:
+        """(n, 3) of the clean panel."""
+        x, y, _ = self.clean.T
+        across = np.column_stack([0.4 * x, 0.2 * y, np.ones_like(x)])
+        return across / np.linalg.norm(across, axis=1)[:, None]
+
+    def error(self, vertices: FloatArray) -> float:
+        """Largest height of free vertices over the clean panel, over D."""
+        x, y, z = vertices[self.free].T
+        held = self.clean[self.rim]
+        size = 2.0 * np.linalg.norm(held - held.mean(axis=0), axis=1).max()
+        return float(np.abs(z + 0.2 * x**2 + 0.1 * y**2).max() / size)
+
+
+def panel(rings: float, step: float = 0.05) -> Panel:
+    """z = −.2 x² − .1 y², selected within |x| < .45 and |y| < .3; the crease runs so many rows beyond that.
+
+    A dome stands in the middle of the selection.
+    """
+    x, y = (a.ravel() for a in np.meshgrid(step * np.arange(-20, 21), step * np.arange(-16, 17), indexing="ij"))
+    clean = np.column_stack([x, y, -0.2 * x**2 - 0.1 * y**2])
+    number = np.arange(41 * 33).reshape(41, 33)
+    a, b, c, d = (q.ravel() for q in (number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]))
+    triangles = np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
+    centre = np.abs(clean[triangles].mean(axis=1))
+    inside = (centre[:, 0] < 0.45) & (centre[:, 1] < 0.3)
+    vertices = clean.copy()
+    vertices[:, 2] -= np.maximum(0.0, y - 0.3 - rings * step - 1e-12)
+    away = np.hypot(x, y / 0.6)
+    vertices[:, 2] += np.where(away < 0.3, 0.06 * np.exp(-((away / 0.12) ** 2)), 0.0)
+    return Panel(clean, vertices, triangles[inside], triangles[~inside])

@@ -319,7 +319,7 @@ def test_loops_without_a_mesh_need_normals_only() -> None:
 def test_the_smallest_holes(edges: int) -> None:
     vertices, triangles = holes.bowl(edges, 40)
     result = fairing.fill(vertices, triangles)
-    assert len(result.vertices) >= 1
+    assert (len(result.vertices), len(result.triangles)) == ((0, edges - 2) if edges < 5 else (1, 5))
     assert not fairing.boundary_loops(whole(vertices, triangles, result)[1])
 
 
@@ -336,7 +336,7 @@ def test_bad_loops_are_refused_with_their_vertices() -> None:
     refused("NOT_A_LOOP", {*(rim + 24)}, vertices, triangles, [rim + 24])  # an inner ring
     refused("NOT_A_LOOP", {rim[0], rim[9]}, vertices, triangles, [rim[:10]])  # not closed
     refused("NOT_A_LOOP", {*rim[:2]}, vertices, triangles, [rim[:2]])
-    refused("NONMANIFOLD_VERTEX", {*rim}, vertices, triangles, [rim, rim])
+    refused("NOT_A_LOOP", {*rim}, vertices, triangles, [rim, rim])
     refused("INDEX_RANGE", {999}, vertices, triangles, [[0, 1, 999]])
     turn = np.exp(2j * np.pi * np.arange(12) / 12)
     free = np.column_stack([turn.real, turn.imag, 0 * turn.real])
@@ -400,7 +400,6 @@ def test_a_closed_mesh_has_nothing_to_fill() -> None:
         ({"loops": "rim"}, "loops: a list"),
         ({"loops": []}, "loops: a list"),
         ({"fixed": [0]}, "fixed: not accepted here"),
-        ({"equation": "minimal"}, "equation: 'minimal'"),
         ({"equation": "maximal"}, "equation: 'maximal'"),
     ],
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -73,3 +74,37 @@ def test_each_hole_follows_its_own_outline() -> None:
         counts.append((np.count_nonzero(small), np.count_nonzero(~small)))
     for small, large in counts:
         assert small == pytest.approx(large, rel=0.05)
+
+
+SQUARE = np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]])
+
+
+@pytest.mark.parametrize("spacing", [0.4, 0.2, 0.1])
+@pytest.mark.parametrize("dome", [False, True])
+def test_the_wanted_length_holds_inside_an_outline_of_four_edges(spacing: float, dome: bool) -> None:
+    """Its edges stay, and new ones grow towards them; angles stay above 18°."""
+    slope = SQUARE / np.sqrt(6.0) + [0.0, 0.0, np.sqrt(2.0 / 3.0)]
+    normals = slope if dome else np.tile([0.0, 0.0, 1.0], (4, 1))
+    result = fairing.fill(SQUARE, EMPTY, [np.arange(4)], normals=normals, spacing=spacing)
+    assert result.converged
+    points = np.concatenate([SQUARE, result.vertices])
+    edges = holes.edges_of(result.triangles)
+    ends = points[edges]
+    inner = np.abs(ends.mean(axis=1)[:, :2]).max(axis=1) < 0.5
+    lengths = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
+    assert 0.7 < np.median(lengths[inner]) / spacing < 1.7
+    corner = lengths[(edges < 4).any(axis=1)]
+    assert corner.max() < 2.01
+    assert corner.min() > spacing
+    assert holes.angles(points, result.triangles).min() > 18.0
+
+
+def test_a_coarse_outline_has_more_new_faces_the_less_the_spacing() -> None:
+    up = np.tile([0.0, 0.0, 1.0], (4, 1))
+    counts = [
+        len(fairing.fill(SQUARE, EMPTY, [np.arange(4)], normals=up, spacing=spacing).triangles)
+        for spacing in (2.0, 0.6, 0.3, 0.15, 0.075)
+    ]
+    assert counts[0] == 2
+    assert all(b > 1.5 * a for a, b in pairwise(counts))
+    assert counts[-1] > 2.0 * counts[-2]

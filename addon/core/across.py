@@ -10,6 +10,7 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints
+from .passes import numbered_by_pass
 from .region import MeshArrays, nothing
 from .words import counted
 
@@ -92,6 +93,12 @@ class Numbering:
         of[np.searchsorted(vertices, drawn)] = len(outline) + np.arange(len(drawn))
         of[len(vertices) :] = len(outline) + len(drawn) + np.arange(len(result.vertices))
         return cls(outline, drawn, of)
+
+    def triangles(self, result: fairing.FillResult, loops: Sequence[Ints]) -> Ints:
+        """Return the surface's (m, 3); loops: as the engine was given them. One that touches itself has no curves."""
+        if len(np.unique(self.outline)) == len(self.outline):
+            return self.of[result.triangles]
+        return numbered_by_pass(result.triangles.astype(np.int64), loops, len(self.of) - len(result.vertices))
 
     def places(self, positions: Floats, new: Floats) -> Floats:
         """Return the points inside: drawn ones, whose `positions` are those of the mesh, and new ones."""

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import numpy as np
+
+import fairing
 
 from .arrays import Ints, Mask
 from .region import MeshArrays, face_sizes
+from .words import counted
 
 NO_BORDER = "No border is selected: select edges or vertices of the holes' boundaries, as many as you like of each"
 
@@ -18,49 +24,80 @@ class BorderRefusal(ValueError):
         self.elements = elements
 
 
-def border_loops(mesh: MeshArrays, seeds: Mask) -> list[Ints]:
+@dataclass(frozen=True)
+class Left:
+    """A hole that stays open, or several that were to be joined: their vertices, and why."""
+
+    vertices: Ints
+    reason: str
+    spots: Ints  # vertices that the reason is about
+
+
+def left_by(error: Exception, vertices: Ints) -> Left:
+    """Return the hole that an error kept from being filled."""
+    spots = np.asarray(getattr(error, "elements", ()), dtype=np.int64)
+    return Left(vertices, str(error), spots if len(spots) else vertices)
+
+
+def border_loops(mesh: MeshArrays, seeds: Mask) -> tuple[list[Ints], list[Left]]:
     """Return the whole border loops through the vertices of the (n,) mask, each with the hole on its left.
 
-    In the order of their lowest vertices; empty where no seed is on a border. Raises BorderRefusal where a loop touches
-    itself or another one, where faces are wound against each other along it, where it has no area, and where it follows
-    the plane of a Mirror modifier, beyond which it goes on.
+    In the order of their lowest vertices; none where no seed is on a border. Where borders touch, they are parted as
+    `fairing.hole_loops` does it; a vertex where two touch stands for both of them only where neither has other seeds.
+    Also returns what can't be filled: borders along which faces are wound against each other, without an area, or with
+    a coordinate that is not finite.
     """
-    tails, heads = _border_edges(mesh)
-    following = dict(zip(tails.tolist(), heads.tolist(), strict=True))
-    fork = np.bincount(tails, minlength=len(seeds)) != np.bincount(heads, minlength=len(seeds))
-    fork |= np.bincount(tails, minlength=len(seeds)) > 1
+    edges = _border_edges(mesh)
+    passes = np.bincount(edges[:, 0], minlength=len(seeds))
+    pinched = (passes > 1)[mesh.triangles].any(axis=1)
+    found = fairing.hole_loops(mesh.positions, mesh.triangles[pinched], edges)
     loops: list[Ints] = []
-    seen: set[int] = set()
-    border = np.union1d(tails, heads)
-    for seed in border[seeds[border]].tolist():
-        if seed not in seen:
-            loop = _loop(seed, following, fork)
-            seen.update(loop.tolist())
+    left = [_torn(chain.astype(np.int64)) for chain in found.torn if seeds[chain].any()]
+    for loop in _meant([loop.astype(np.int64) for loop in found.loops], seeds, passes > 1):
+        try:
             _check(mesh, loop)
             loops.append(loop)
-    return loops
+        except BorderRefusal as refusal:
+            left.append(left_by(refusal, np.unique(loop)))
+    return loops, left
 
 
-def _border_edges(mesh: MeshArrays) -> tuple[Ints, Ints]:
-    """Return where the edges with one face begin and end, seen from the hole."""
+def refuse_all(left: Sequence[Left]) -> None:
+    """Raise BorderRefusal with the first reason, where there is one."""
+    if left:
+        raise BorderRefusal(left[0].reason, left[0].spots)
+
+
+def notes_on(left: Sequence[Left]) -> tuple[str, ...]:
+    """Return a sentence for each reason for which holes stay open."""
+    reasons = dict.fromkeys(each.reason for each in left)
+    counts = [(reason, sum(each.reason == reason for each in left)) for reason in reasons]
+    return tuple(f"{counted(count, 'hole stays', 'holes stay')} open: {reason}" for reason, count in counts)
+
+
+def _border_edges(mesh: MeshArrays) -> Ints:
+    """Return the (e, 2) edges with one face, with the hole on their left."""
     sizes = face_sizes(mesh)
     following = np.arange(len(mesh.corner_vertices)) + 1
     following[np.cumsum(sizes) - 1] = np.cumsum(sizes) - sizes
     uses = np.bincount(mesh.corner_edges, minlength=len(mesh.edges))
     border = uses[mesh.corner_edges] == 1
-    return mesh.corner_vertices[following[border]], mesh.corner_vertices[border]
+    return np.column_stack([mesh.corner_vertices[following[border]], mesh.corner_vertices[border]])
 
 
-def _loop(seed: int, following: dict[int, int], fork: Mask) -> Ints:
-    loop = [seed]
-    while True:
-        if fork[loop[-1]]:
-            text = f"The border touches itself at vertex {loop[-1]}, or faces there are wound against each other"
-            raise BorderRefusal(f"{text}: split the vertex, or recalculate the normals", np.array(loop[-1:]))
-        after = following[loop[-1]]
-        if after == seed:
-            return np.array(loop, dtype=np.int64)
-        loop.append(after)
+def _meant(loops: list[Ints], seeds: Mask, shared: Mask) -> list[Ints]:
+    """Return the loops that the seeds stand for; shared: (n,) vertices that borders pass several times."""
+    own = [bool((seeds[loop] & ~shared[loop]).any()) for loop in loops]
+    taken = np.zeros(len(seeds), dtype=bool)
+    for loop, is_meant in zip(loops, own, strict=True):
+        taken[loop] |= is_meant
+    return [loop for loop, is_meant in zip(loops, own, strict=True) if is_meant or (seeds & ~taken)[loop].any()]
+
+
+def _torn(chain: Ints) -> Left:
+    ends = np.unique(chain[[0, -1]])
+    text = f"Faces at the border are wound against each other at vertex {ends[0]}: recalculate the normals"
+    return Left(np.unique(chain), text, ends)
 
 
 def _check(mesh: MeshArrays, loop: Ints) -> None:
@@ -71,8 +108,6 @@ def _check(mesh: MeshArrays, loop: Ints) -> None:
     same = loop[(points == np.roll(points, -1, axis=0)).all(axis=1)]
     if len(same):
         raise BorderRefusal(f"The border has an edge without length at vertex {same[0]}: merge by distance", same)
-    if len(loop) < 3:
-        raise BorderRefusal("A border of two edges bounds nothing: merge by distance", loop)
     for reflection in mesh.reflections:
         there = reflection.on_plane(points)
         if (there & np.roll(there, -1)).any():

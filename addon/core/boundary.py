@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 import fairing
 
 from .arrays import Floats, Ints, Mask
+from .hard_chains import MOST_MARKED
 from .outline import face_normals, turned_over
 from .region import MeshArrays, Patch
 from .vectors import sum_at, unit
@@ -32,75 +35,113 @@ def custom_normals(mesh: MeshArrays) -> Floats:
     return unit(sum_at(mesh.corner_vertices, mesh.corner_normals, len(mesh.positions)))
 
 
-def _fit_outside(mesh: MeshArrays, fixed: Ints, outside: Ints) -> tuple[fairing.SurroundingNormals | None, Mask]:
-    """Fit surfaces at those of the `fixed` vertices (mesh indices, k) that have triangles outside: the mask (k,)."""
+@dataclass(frozen=True)
+class Boundary:
+    """What a surface has to be tangent to, in the order of `patch.fixed` (k,)."""
+
+    normals: Floats  # (k, 3) unit
+    curvatures: Floats  # (k,) H of the faces that count, NaN where they say too little about it
+    from_inside: Mask  # (k,) where the slope is that of the selected faces
+    notes: tuple[str, ...] = ()
+
+    def inward(self, patch: Patch) -> Ints:
+        """Return the mesh vertices whose slope is that of the selected faces, ascending."""
+        chosen: Ints = patch.vertices[patch.fixed[self.from_inside]]
+        return chosen
+
+
+@dataclass(frozen=True)
+class _Fits:
+    """Fits at those of the fixed vertices that have triangles outside."""
+
+    found: Mask  # (k,)
+    fits: fairing.BoundaryNormals | None  # None where none has any
+
+
+def boundary(mesh: MeshArrays, patch: Patch, source: str, outside: Ints) -> Boundary:
+    """Return the boundary data of a patch.
+
+    source: one of options.BOUNDARY_NORMALS; outside: (o, 3) as around.outside_triangles gives them.
+    """
+    fixed = patch.vertices[patch.fixed]
+    fitted = _fit(mesh, patch, _SIDES.get(source, "outside"), outside)
+    from_inside, against = np.zeros(len(fixed), dtype=bool), np.zeros(len(fixed), dtype=bool)
+    curvatures = np.full(len(fixed), np.nan)
+    if fitted.fits is not None:
+        from_inside[fitted.found] = fitted.fits.from_inside
+        against = turned_over(mesh)[fixed] & ~from_inside
+        curvatures[fitted.found] = fitted.fits.trusted_curvatures
+        curvatures[against] *= -1.0
+    if source == "CUSTOM":
+        return Boundary(custom_normals(mesh)[fixed], curvatures, from_inside)
+    normals = average_normals(mesh, fixed)
+    if source == "AVERAGE":
+        return Boundary(normals, curvatures, from_inside)
+    if fitted.fits is not None:
+        there = np.where(against[fitted.found, None], -fitted.fits.normals, fitted.fits.normals)
+        # A zero normal is one that even the average of the outside faces leaves open.
+        decided = np.linalg.norm(there, axis=1) > 0.5
+        normals[np.flatnonzero(fitted.found)[decided]] = there[decided]
+    return Boundary(normals, curvatures, from_inside, _notes(mesh, fixed, fitted.found, from_inside))
+
+
+_SIDES = {"AUTOMATIC": "automatic", "INSIDE": "inside"}
+
+
+def _fit(mesh: MeshArrays, patch: Patch, side: str, outside: Ints) -> _Fits:
+    fixed = patch.vertices[patch.fixed]
     touched = np.zeros(len(mesh.positions), dtype=bool)
     touched[outside] = True
     found = touched[fixed]
     if not found.any():
-        return None, found
-    used, triangles = np.unique(outside, return_inverse=True)
-    at = np.searchsorted(used, fixed[found])
-    faces = triangles.reshape(-1, 3).astype(np.int64)
-    return fairing.surrounding_normals(mesh.positions[used], faces, at, creases=_creases(mesh, used)), found
+        return _Fits(found, None)
+    inside = patch.vertices[patch.triangles]
+    used = np.unique(np.concatenate([inside.ravel(), outside.ravel()]))
+    number = np.zeros(len(mesh.positions), dtype=np.int64)
+    number[used] = np.arange(len(used))
+    fits = fairing.boundary_normals(
+        mesh.positions[used], number[inside], number[fixed[found]], outside=number[outside], side=side,
+        creases=_hard(mesh, used, number),
+    )  # fmt: skip
+    return _Fits(found, fits)
 
 
-def _creases(mesh: MeshArrays, used: Ints) -> Ints:
-    """Return the (c, 2) creases between vertices `used` (ascending), in their numbers: no fit looks across."""
-    if mesh.creases is None:
-        return np.empty((0, 2), dtype=np.int64)
-    edges = mesh.edges[mesh.creases]
-    edges = edges[np.isin(edges, used).all(axis=1)]
-    numbered: Ints = np.searchsorted(used, edges).astype(np.int64)
+def _hard(mesh: MeshArrays, used: Ints, number: Ints) -> Ints:
+    """Return (c, 2) edges between the vertices `used` that no fit looks across, in the numbers (n,).
+
+    These are creases, and edges marked sharp unless that is said of most.
+    """
+    there = np.zeros(len(mesh.positions), dtype=bool)
+    there[used] = True
+    near = there[mesh.edges].all(axis=1)
+    hard = np.zeros(len(mesh.edges), dtype=bool) if mesh.creases is None else near & mesh.creases
+    if mesh.sharp is not None and np.count_nonzero(near & mesh.sharp) <= MOST_MARKED * np.count_nonzero(near):
+        hard |= near & mesh.sharp
+    numbered: Ints = number[mesh.edges[hard]]
     return numbered
 
 
-def surrounding_normals(mesh: MeshArrays, fixed: Ints, outside: Ints) -> tuple[Floats, Mask]:
-    """Fit normals at the `fixed` vertices (mesh indices, k) to the triangles `outside` (o, 3) the patch.
-
-    Returns ((k, 3) unit normals, (k,) mask of those that have triangles outside). The others take
-    the average of all their faces. Where the faces outside are wound against the patch, their
-    normals are turned round.
-    """
-    normals = average_normals(mesh, fixed)
-    fits, found = _fit_outside(mesh, fixed, outside)
-    if fits is None:
-        return normals, found
-    fitted = fits.normals
-    # A zero normal is one that even the average of the outside faces leaves open.
-    decided = np.linalg.norm(fitted, axis=1) > 0.5
-    fitted = np.where(turned_over(mesh)[fixed[found], None], -fitted, fitted)
-    normals[np.flatnonzero(found)[decided]] = fitted[decided]
-    return normals, found
-
-
-def prescribed_normals(mesh: MeshArrays, patch: Patch, source: str, outside: Ints) -> tuple[Floats, tuple[str, ...]]:
-    """Return ((k, 3) unit normals in the order of `patch.fixed`, warnings).
-
-    source: one of options.BOUNDARY_NORMALS; outside: as around.outside_triangles gives them.
-    """
-    fixed = patch.vertices[patch.fixed]
-    if source == "CUSTOM":
-        return custom_normals(mesh)[fixed], ()
-    if source == "AVERAGE":
-        return average_normals(mesh, fixed), ()
-    normals, found = surrounding_normals(mesh, fixed, outside)
+def _notes(mesh: MeshArrays, fixed: Ints, found: Mask, from_inside: Mask) -> tuple[str, ...]:
+    """Report where the slope is not that of the faces outside."""
     alone = int(np.count_nonzero(~found & ~mesh.pinned[fixed]))
-    if alone == 0:
-        return normals, ()
-    text = counted(
-        alone,
-        "border vertex has no faces outside: its normal comes from the patch",
-        "border vertices have no faces outside: their normals come from the patch",
-    )
-    return normals, (text,)
-
-
-def prescribed_curvatures(mesh: MeshArrays, patch: Patch, outside: Ints) -> Floats:
-    """Return (k,) H of the triangles outside in the order of `patch.fixed`, NaN where they say too little about it."""
-    fixed = patch.vertices[patch.fixed]
-    curvatures = np.full(len(fixed), np.nan)
-    fits, found = _fit_outside(mesh, fixed, outside)
-    if fits is not None:
-        curvatures[found] = np.where(turned_over(mesh)[fixed[found]], -1.0, 1.0) * fits.trusted_curvatures
-    return curvatures
+    inward = int(np.count_nonzero(from_inside))
+    notes = []
+    if inward and inward == np.count_nonzero(found):
+        notes.append("The surface takes the slope of the selected faces along the whole boundary")
+    elif inward:
+        notes.append(
+            counted(
+                inward,
+                "boundary vertex lies on a hard edge: the surface takes the slope of the selected faces there",
+                "boundary vertices lie on hard edges: the surface takes the slope of the selected faces there",
+            )
+        )
+    if alone:
+        notes.append(
+            counted(
+                alone,
+                "border vertex has no faces outside: its normal comes from the patch",
+                "border vertices have no faces outside: their normals come from the patch",
+            )
+        )
+    return tuple(notes)

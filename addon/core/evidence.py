@@ -11,13 +11,21 @@ from .arrays import Floats, Ints
 from .eaten import Eaten
 from .engine import Problem, Result
 from .findings import Finding, Origin, found
-from .flank import Flank
 from .quality import Join, Quality
 from .region import nothing
 from .selection import LeftOut
 
 Found = tuple[str, Ints]  # a sentence and the mesh vertices that it is about
 NOTHING: Found = ("", nothing())
+
+
+@dataclass(frozen=True)
+class Flank:
+    """Where a patch ends on the slope of a bump or a dent."""
+
+    outline: Ints  # its vertices, as patch indices
+    is_bump: bool  # or a dent
+    rings: int  # of faces to its end
 
 
 @dataclass(frozen=True)

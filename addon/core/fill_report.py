@@ -6,12 +6,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .across import told
-from .filling import FillOptions, Piece
-from .report import Check, Report, distortion_text, kink_checks, shape_checks
-from .verdict import GRADES, UNUSABLE, NotUsable, Verdict
+from .border import notes_on
+from .filling import Filled, FillOptions, Piece
+from .report import MISSED, Check, Report, distortion_text, kink_checks, shape_checks
+from .verdict import GOOD, GRADES, LOOK, UNUSABLE, NotUsable, Verdict
 from .words import counted
 
-Named = Sequence[tuple[str, list[Piece]]]
+Named = Sequence[tuple[str, Filled]]
 
 
 @dataclass(frozen=True)
@@ -41,14 +42,21 @@ class Added:
 
 
 def is_written(named: Named, options: FillOptions) -> bool:
-    """Return whether the run changes its meshes: all of them, or none."""
-    return options.accept == "ALL" or all(_worst(pieces).grade != UNUSABLE for _, pieces in named)
+    """Return whether the run changes its meshes: not where no surface is usable."""
+    return options.accept == "ALL" or any(_worst(of_one.pieces).grade != UNUSABLE for _, of_one in named)
 
 
-def refuse_unusable(name: str, pieces: list[Piece], options: FillOptions) -> None:
+def writable(named: Named, options: FillOptions) -> list[tuple[str, Filled]]:
+    """Return what is written: of an object whose surfaces are all unusable nothing, where another one has some."""
+    if options.accept == "ALL" or not is_written(named, options):
+        return list(named)
+    return [(name, of_one if _worst(of_one.pieces).grade != UNUSABLE else of_one.unfilled()) for name, of_one in named]
+
+
+def refuse_unusable(name: str, filled: Filled, options: FillOptions) -> None:
     """Raise NotUsable where the surfaces are not to be written."""
-    if not is_written([(name, pieces)], options):
-        bad = max(pieces, key=lambda piece: GRADES.index(piece.verdict.grade))
+    if not is_written([(name, filled)], options):
+        bad = max(filled.pieces, key=lambda piece: GRADES.index(piece.verdict.grade))
         raise NotUsable(bad.verdict, bad.result)
 
 
@@ -59,7 +67,8 @@ def make_fill_report(
 
     added: what was written, if anything was; notes: what else is reported.
     """
-    pieces = [piece for _, of_object in named for piece in of_object]
+    pieces = [piece for _, of_object in named for piece in of_object.pieces]
+    left = [each for _, of_object in named for each in of_object.left]
     results = [piece.result for piece in pieces]
     joins = [piece.join for piece in pieces]
     worst_join = max(joins, key=lambda join: join.worst)
@@ -72,9 +81,15 @@ def make_fill_report(
         boundary_angle=max((float(result.boundary_angle.max(initial=0.0)) for result in results), default=0.0),
         distortion=distortion,
         seconds=seconds,
-        checks=(*shape_checks(results, options.equation), *kink_checks(joins), *_checks(pieces, added, distortion)),
+        checks=(
+            *shape_checks(results, options.equation),
+            *(kink_checks(joins) if options.equation != "MINIMAL" else ()),
+            *_checks(pieces, added, distortion),
+            *((Check("Holes that stay open", str(len(left)), MISSED),) if left else ()),
+        ),
         warnings=tuple(dict.fromkeys(note for piece in pieces for note in piece.notes))
         + tuple(note for each in added for note in each.notes)
+        + notes_on(left)
         + notes,
         verdict=_named_worst(named),
         written=is_written(named, options),
@@ -84,15 +99,32 @@ def make_fill_report(
 
 
 def _worst(pieces: list[Piece]) -> Verdict:
-    return max((piece.verdict for piece in pieces), key=lambda verdict: GRADES.index(verdict.grade))
+    return max((piece.verdict for piece in pieces), key=lambda verdict: GRADES.index(verdict.grade), default=_NOTHING)
+
+
+_NOTHING = Verdict(GOOD)
 
 
 def _named_worst(named: Named) -> Verdict:
-    name, pieces = max(named, key=lambda pair: GRADES.index(_worst(pair[1]).grade))
-    verdict = _worst(pieces)
+    name, filled = max(named, key=lambda pair: GRADES.index(_whole(pair[1]).grade))
+    verdict = _whole(filled)
     if len(named) == 1 or not verdict.reason:
         return verdict
     return Verdict(verdict.grade, f"{name}: {verdict.reason}", verdict.spots)
+
+
+def _whole(filled: Filled) -> Verdict:
+    """Return the verdict on one object: holes that stay open come before all that shows in a surface."""
+    worst = _worst(filled.pieces)
+    if worst.grade == UNUSABLE or not filled.left:
+        return worst
+    return Verdict(LOOK, _on_left(filled), filled.left_vertices)
+
+
+def _on_left(filled: Filled) -> str:
+    count = len(filled.left)
+    text = f"{count} of {count + len(filled.pieces)} holes {'stays' if count == 1 else 'stay'} open"
+    return f"{text}, and {'is' if count == 1 else 'are'} selected. {filled.left[0].reason}"
 
 
 def _checks(pieces: list[Piece], added: Sequence[Added], distortion: float) -> tuple[Check, ...]:

@@ -47,7 +47,7 @@ def judge(world: MeshArrays, outline: Ints, surface: Surface) -> Verdict:
     if crossing:
         text = counted(crossing, "new face passes through others", "new faces pass through others")
         return Verdict(UNUSABLE, text, np.unique(outline))
-    if len(surface.join.seen):
+    if len(surface.join.seen) and result.equation != "minimal":  # which meets its boundary with a crease
         return Verdict(LOOK, kink_reason(surface.join), surface.join.seen)
     joined = np.unique(surface.across)
     ends = np.setdiff1d(hard_ends(world, outline), outline[joined[joined < len(outline)]])

@@ -14,7 +14,7 @@ import fairing
 from .across import HARD_EDGES, Across, Numbering, drawn_edges, marked_edges, within
 from .around import nearby
 from .arrays import Floats, Ints
-from .border import BorderRefusal
+from .border import BorderRefusal, Left, left_by
 from .checked import refuse_negative, refuse_other_kinds, refuse_unknown
 from .engine import Progress, sub_range
 from .faces import Faces, faces_of, paired_faces
@@ -31,7 +31,7 @@ from .words import in_mesh_words, sentences
 _TOO_MANY = "Bridge joins all {} selected boundary loops in one surface: select only those that belong together"
 _TWO = "Bridge needs two boundary loops that face each other: switch it off to close each of them by itself"
 _TOLD = ("NO_SOLUTION", "NOT_TANGENT", "EDGES_LEFT_ALONE")
-SHAPES = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY", "LEAST_VARIATION")
+SHAPES = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION")
 
 
 @dataclass(frozen=True)
@@ -48,6 +48,8 @@ class FillOptions:
     spacing: float = 1.0  # of new edges, as a factor of the boundary's
     inner: str = "OUTLINE"  # in proportion to the boundary's nearby; EVEN: of one length
     quads: bool = False  # triangles are written in pairs, as far as they can be
+    longest: int = 0  # edges: longer borders stay open; 0: any number
+    longest_length: float = 0.0  # likewise by their lengths in world space
     max_vertices: int = 0  # more new ones for a surface are refused; 0: twenty times as many as over flat ones
     limit_total: int = 0  # vertex groups of bones of a new vertex; 0: as many as one vertex of the boundary has
     accept: str = "USABLE"  # ALL: written whatever it is worth
@@ -66,8 +68,10 @@ class FillOptions:
         refuse_other_kinds(self)
         if not self.spacing >= LEAST_SPACING:
             raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
-        refuse_negative(self, "max_vertices")
-        refuse_negative(self, "limit_total")
+        for name in ("longest", "max_vertices", "limit_total"):
+            refuse_negative(self, name)
+        if not 0.0 <= self.longest_length < float("inf"):
+            raise ValueError(f"longest_length: expected 0 or a positive number, got {self.longest_length!r}")
 
     @classmethod
     def named(cls, properties: dict[str, Any]) -> FillOptions:
@@ -108,7 +112,8 @@ class Piece:
 
         lines: (l, 2) edges that no quad runs across.
         """
-        if not self.quads:
+        closes_at_once = not len(self.positions) and len(self.triangles) == 2
+        if not (self.quads or closes_at_once):
             return faces_of(self.triangles)
         return paired_faces(self.points, self.triangles, np.concatenate([lines, self.across.edges]), kinds)
 
@@ -157,21 +162,59 @@ class Piece:
         return near[rim:], of_face
 
 
+@dataclass(frozen=True)
+class Filled:
+    """The surfaces of one mesh, and the holes that can't be filled."""
+
+    pieces: list[Piece]
+    left: tuple[Left, ...] = ()
+
+    @property
+    def left_vertices(self) -> Ints:
+        """The vertices of the holes that stay open, ascending."""
+        vertices: Ints = np.unique(np.concatenate([nothing(), *(each.vertices for each in self.left)]))
+        return vertices
+
+    def with_left(self, left: tuple[Left, ...]) -> Filled:
+        """Return it with more holes that stay open, before its own."""
+        return replace(self, left=(*left, *self.left))
+
+    def unfilled(self) -> Filled:
+        """Return it without any surface."""
+        left = (Left(np.unique(piece.outline), piece.verdict.reason, piece.verdict.spots) for piece in self.pieces)
+        return Filled([], (*self.left, *left))
+
+    def settled(self, options: FillOptions) -> Filled:
+        """Return what is to be written: surfaces that are not usable are left out where others are."""
+        usable = [piece for piece in self.pieces if piece.verdict.grade != UNUSABLE]
+        if options.accept == "ALL" or not usable or len(usable) == len(self.pieces):
+            return self
+        bad = Filled([piece for piece in self.pieces if piece.verdict.grade == UNUSABLE])
+        return Filled(usable, (*self.left, *bad.unfilled().left))
+
+
 def fill(
     mesh: MeshArrays, matrix: Floats, loops: list[Ints], options: FillOptions, progress: Progress | None = None
-) -> list[Piece]:
+) -> Filled:
     """Fill each loop of border_loops, or join all of them, in the space that the 4×4 `matrix` leads to.
 
-    Raises MeshRefusal, ValueError, fairing.SolverError and fairing.Cancelled. `mesh` is never changed.
+    What is wrong with one loop stops no other. Raises the first MeshRefusal, BorderRefusal or fairing.SolverError where
+    there is no surface at all; ValueError and fairing.Cancelled. `mesh` is never changed.
     """
     with np.errstate(invalid="ignore", over="ignore"):  # elsewhere
         world = mesh.transformed(matrix)
     groups = [loops] if options.bridge else [[loop] for loop in loops]
-    count = len(groups)
-    return [
-        _piece(world, matrix, group, options, sub_range(progress, i / count, (i + 1) / count))
-        for i, group in enumerate(groups)
-    ]
+    pieces, errors, left = [], [], []
+    for i, group in enumerate(groups):
+        part = sub_range(progress, i / len(groups), (i + 1) / len(groups))
+        try:
+            pieces.append(_piece(world, matrix, group, options, part))
+        except (fairing.MeshError, BorderRefusal, fairing.SolverError) as error:
+            errors.append(error)
+            left.append(left_by(error, np.unique(np.concatenate(group))))
+    if errors and not pieces:
+        raise errors[0]
+    return Filled(pieces, tuple(left)).settled(options)
 
 
 def _piece(
@@ -192,12 +235,12 @@ def _piece(
             marked=within(marked_edges(world), vertices), progress=progress,
         )  # fmt: skip
     number = Numbering.made(outline, vertices, result)
-    triangles = number.of[result.triangles]
+    triangles = number.triangles(result, given)
     inside = number.places(world.positions, result.vertices)
     points = np.concatenate([world.positions[outline], inside])
     whole = np.concatenate([world.positions[vertices], result.vertices])
-    rim = np.concatenate(given)
-    join = join_at(outline, fairing.visible_join(whole, result.triangles, around, rim))
+    rim = np.unique(np.concatenate(given))
+    join = join_at(vertices[rim], fairing.visible_join(whole, result.triangles, around, rim))
     across = number.across(result, within(drawn, vertices))
     slopes = tuple(warning for warning in result.warnings if warning.code == "G2_NOT_MET")
     tangent_only = np.unique(np.concatenate([nothing(), *(vertices[warning.elements] for warning in slopes)]))

@@ -12,6 +12,7 @@ from .groups import groups
 
 SHARP = 35.0  # degrees by which a hard edge bends
 CHAIN = 4  # connected hard edges at least, and as many of their lengths from end to end
+MOST_MARKED = 0.25  # of the edges around: importers mark nearly all of them, which sets none apart
 MOST_SHARP = 0.12  # of the edges around may be sharp: among more, as noise has them, none stands out
 
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 import fairing
 
 from .arrays import Floats, Ints
-from .border import BorderRefusal
+from .border import BorderRefusal, Left, refuse_all
+from .filling import FillOptions
 from .region import MeshArrays
 from .words import counted
 
@@ -22,11 +23,16 @@ class Borders:
     """Border loops, each with the hole on its left."""
 
     loops: list[Ints]  # that are to be filled
-    left_open: tuple[Ints, ...] = ()
+    left_open: tuple[Ints, ...] = ()  # outer borders
+    left: tuple[Left, ...] = ()  # what can't be filled
+    longer: int = 0  # how many are longer than asked for
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """A sentence about those that are left open."""
+        """Sentences about those that stay open as they should."""
+        return (*self._on_outer(), *self._on_longer())
+
+    def _on_outer(self) -> tuple[str, ...]:
         if not self.left_open:
             return ()
         text = counted(len(self.left_open), "border runs", "borders run")
@@ -35,27 +41,73 @@ class Borders:
         first = min(int(loop.min()) for loop in self.left_open)
         return (f"{text} {_OUTSIDE} and {stay} ({edges}, one at vertex {first}): {_ALL_THE_SAME}",)
 
+    def _on_longer(self) -> tuple[str, ...]:
+        if not self.longer:
+            return ()
+        return (counted(self.longer, "longer border stays open", "longer borders stay open"),)
 
-def holes_among(mesh: MeshArrays, matrix: Floats, loops: list[Ints]) -> Borders:
+
+def chosen_borders(mesh: MeshArrays, matrix: Floats, borders: Borders, options: FillOptions, every: bool) -> Borders:
+    """Return the borders that are meant: not the longer ones, and where nobody chose any (`every`), the holes alone.
+
+    Raises BorderRefusal with the first reason where there is none.
+    """
+    if not borders.loops:
+        refuse_all(borders.left)
+    short = short_among(mesh, matrix, borders, options)
+    return holes_among(mesh, matrix, short) if every else short
+
+
+def holes_among(mesh: MeshArrays, matrix: Floats, borders: Borders) -> Borders:
     """Return the holes among all border loops of a mesh; `matrix`, 4×4, leads to where they are filled.
 
     Raises BorderRefusal where none of them is a hole.
     """
+    loops = borders.loops
     if not loops:
-        return Borders(loops)
+        return borders
     world = _placed(mesh, matrix)
     outer = fairing.outer_borders(world.positions, world.triangles, loops)
     if outer.all():
+        refuse_all(borders.left)
         each = "The border runs" if len(loops) == 1 else f"All {len(loops)} borders run"
         raise BorderRefusal(f"{each} {_OUTSIDE}, there is no hole: {_ALL_THE_SAME}", np.concatenate(loops))
     pairs = list(zip(loops, outer.tolist(), strict=True))
-    return Borders([loop for loop, out in pairs if not out], tuple(loop for loop, out in pairs if out))
+    left_open = tuple(loop for loop, out in pairs if out)
+    return replace(borders, loops=[loop for loop, out in pairs if not out], left_open=left_open)
+
+
+def short_among(mesh: MeshArrays, matrix: Floats, borders: Borders, options: FillOptions) -> Borders:
+    """Return the borders with no more edges than asked for, and no longer in the space that `matrix` leads to.
+
+    Raises BorderRefusal where there are borders, and none is so short.
+    """
+    edges, length = options.longest, options.longest_length
+    if not borders.loops or not (edges or length):
+        return borders
+    world = _placed(mesh, matrix)
+    sizes = [_length(world.positions[loop]) for loop in borders.loops]
+    kept = [
+        loop
+        for loop, size in zip(borders.loops, sizes, strict=True)
+        if (not edges or len(loop) <= edges) and (not length or size <= length)
+    ]
+    if not kept:
+        refuse_all(borders.left)
+        shortest = f"{min(map(len, borders.loops))} edges, the shortest is {min(sizes):.4g} long"
+        text = f"All borders are longer than that: the one with the fewest has {shortest}"
+        raise BorderRefusal(text, np.concatenate(borders.loops))
+    return replace(borders, loops=kept, longer=len(borders.loops) - len(kept))
 
 
 def expected_vertices(mesh: MeshArrays, matrix: Floats, loops: list[Ints], bridge: bool) -> float:
     """Return about how many vertices will be new, with edges as long as the boundaries'."""
     world = _placed(mesh, matrix)
     return fairing.expected_vertices(world.positions, world.triangles, loops, bridge=bridge)
+
+
+def _length(points: Floats) -> float:
+    return float(np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1).sum())
 
 
 def _placed(mesh: MeshArrays, matrix: Floats) -> MeshArrays:

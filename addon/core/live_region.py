@@ -10,7 +10,7 @@ import fairing
 
 from .around import RINGS, outside_triangles
 from .arrays import Floats, Ints, Mask
-from .boundary import prescribed_curvatures, prescribed_normals
+from .boundary import boundary
 from .carrier import Carrier
 from .engine import Problem, Progress, RepeatedSolve, solve
 from .options import FairOptions
@@ -147,9 +147,9 @@ class LiveRegion:
         with np.errstate(invalid="ignore", over="ignore"):
             world = replace(self._around.mesh, positions=positions).transformed(matrix)
             outside = outside_triangles(world, patch)
-            normals, _ = prescribed_normals(world, patch, self._options.boundary_normals, outside)
-            curvatures = prescribed_curvatures(world, patch, outside) if self._options.joins_curvature else None
-        return Problem.of(self._patch, world.positions[patch.vertices], normals, curvatures)
+            known = boundary(world, patch, self._options.boundary_normals, outside)
+        curvatures = known.curvatures if self._options.joins_curvature else None
+        return Problem.of(self._patch, world.positions[patch.vertices], known.normals, curvatures)
 
     def _kept(self, positions: Floats, matrix: Floats, result: fairing.FairResult) -> Floats | None:
         """Return the result where it is good, and remember it."""

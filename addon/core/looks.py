@@ -7,17 +7,13 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints
-from .bends import bends
 from .engine import Result
 from .evidence import NOTHING, Evidence, Found, corners_of
 from .options import FairOptions
 from .quality import Join
 from .selection import LeftOut
-from .vectors import area_vectors, unit
-from .waist import belly, waist
 from .words import counted
 
-FLAT = 1.0  # degrees between the neighbours of a needle, below which it is not seen
 MANY_LEFT_OUT = 3  # faces that a careless lasso leaves out; one or two may be meant
 MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
 _KNOT = "Seams and marks inside, which stay, are squeezed to a knot at {}"
@@ -169,8 +165,10 @@ def _uneven(evidence: Evidence, options: FairOptions) -> Found:
     if not reason or not judges_join(options) or _is_meant_to_swell(options):
         return NOTHING
     patch = evidence.problem.patch
-    find = waist if _is_thin(evidence.result) else belly
-    return reason, patch.vertices[find(_points(evidence), patch.triangles)]
+    girth = fairing.girth(_points(evidence), patch.triangles, fixed=patch.fixed)
+    if girth is None:  # curves that stay part it
+        return reason, patch.vertices[patch.outline]
+    return reason, patch.vertices[girth.thinnest if _is_thin(evidence.result) else girth.thickest]
 
 
 def girth_reason(result: Result) -> str:
@@ -186,13 +184,10 @@ def _is_thin(result: Result) -> bool:
 
 
 def _most_bent(evidence: Evidence) -> Ints:
-    """Return the mesh vertices of the free ones where edges bend most, the worst first."""
+    """Return the mesh vertices of the free ones where the surface bends most, the worst first."""
     patch = evidence.problem.patch
-    edges = bends(_points(evidence), patch.triangles)
-    sharpest = np.zeros(len(patch.vertices))
-    for end in edges.edges.T:
-        np.maximum.at(sharpest, end, np.abs(edges.degrees))
-    order = patch.free[np.argsort(-sharpest[patch.free], kind="stable")]
+    bent = np.abs(fairing.mean_curvature(_points(evidence), patch.triangles, fixed=patch.fixed))
+    order = patch.free[np.argsort(-bent[patch.free], kind="stable")]
     worst: Ints = patch.vertices[order[: int(np.ceil(MOST_BENT * len(order)))]]
     return worst
 
@@ -223,24 +218,10 @@ def _squeezed(evidence: Evidence, _options: FairOptions) -> Found:
 
 
 def _needles(evidence: Evidence, _options: FairOptions) -> Found:
-    needles = _that_show(evidence, np.setdiff1d(evidence.after.needles, evidence.before.needles))
+    needles = np.setdiff1d(evidence.after.shown, evidence.before.needles)
     if not len(needles):
         return NOTHING
     return counted(len(needles), "face is a needle", "faces are needles"), corners_of(evidence.problem, needles)
-
-
-def _that_show(evidence: Evidence, needles: Ints) -> Ints:
-    """Return those of the needles whose neighbours bend: on a plane no one sees them."""
-    patch, points = evidence.problem.patch, _points(evidence)
-    sides = bends(points, patch.triangles).sides
-    normals = unit(area_vectors(points, patch.triangles))
-    shown = []
-    for row in np.flatnonzero(np.isin(patch.faces, needles)):
-        beside = normals[np.setdiff1d(sides[(sides == row).any(axis=1)], row)]
-        if len(beside) and (beside @ beside.T).min() < np.cos(np.radians(FLAT)):
-            shown.append(patch.faces[row])
-    found: Ints = np.unique(np.array(shown, dtype=np.int64))
-    return found
 
 
 # The first that finds something gives the reason.

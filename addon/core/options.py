@@ -12,7 +12,7 @@ EQUATIONS = ("AUTOMATIC", "HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "
 OF_CURVATURE = ("AUTOMATIC", "HARMONIC")  # equations that can continue the curvature outside
 OTHERWISE = ("LEAST_VARIATION", "STOP")
 INNER_FAIRNESS = ("AUTOMATIC", "UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING")
-BOUNDARY_NORMALS = ("SURROUNDING", "AVERAGE", "CUSTOM")
+BOUNDARY_NORMALS = ("AUTOMATIC", "SURROUNDING", "INSIDE", "AVERAGE", "CUSTOM")
 CONTINUITIES = ("G1", "G2")
 METHODS = ("GLOBAL", "PAPER")
 PIN_EDGES = ("AUTOMATIC", "NONE", "SHARP", "SEAM", "CREASE")
@@ -64,7 +64,7 @@ class FairOptions:
     feather: float = 0.0  # width of the band outside in which the change fades out: a part of the patch's size
     factor_group: str = ""  # name of a vertex group whose weights scale the way of each vertex, outside too
     factor_mask: str = "IGNORED"  # USED: the sculpt mask scales it
-    boundary_normals: str = "SURROUNDING"
+    boundary_normals: str = "AUTOMATIC"  # INSIDE along hard edges of the boundary, SURROUNDING elsewhere
     continuity: str = "G1"  # G2: the curvature of the faces outside is continued, too
     method: str = "GLOBAL"
     levels: int = 0  # 0: chosen by the engine

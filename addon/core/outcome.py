@@ -9,17 +9,15 @@ import numpy as np
 import fairing
 
 from . import quality
+from .around import nearby, numbered, wide_outside, wound_alike
 from .arrays import Floats, Ints
 from .eaten import Eaten, eaten_edges
 from .engine import Problem, Progress, go_on, islands
-from .evidence import Evidence
-from .flank import Flank, flank
+from .evidence import Evidence, Flank
 from .options import FairOptions
 from .piercing import Sheet, pierced, places
 from .quality import Join, Quality
-from .region import MeshArrays, Patch, to_local
-from .rounded import rounded_edges
-from .seams import seam_kinks
+from .region import MeshArrays, Patch, nothing, to_local
 from .selection import left_out
 from .solve import Solved
 from .symmetry import mirror_map, symmetrised, with_band
@@ -67,14 +65,17 @@ def outcome(
     join = quality.join(problem, after)
     go_on(progress)
     swollen = quality.swollen((patch, before[:own]), (patch, after[:own]))
-    odd = _rounded(problem, after, moving, options), swollen, _eaten(mesh, problem, after)
+    smoothed = options.outline == "MENDED" and len(result.moved) > 0
+    rounded = _rounded(mesh, matrix, problem, after, moving) if smoothed else nothing()
+    odd = rounded, swollen, _eaten(mesh, problem, after)
     go_on(progress)
     through = _pierced(mesh, matrix, problem, after)
-    seams = seam_kinks(patch, after[:own], join.limit)
+    held = np.intersect1d(patch.fixed, patch.outline)
+    seams = patch.vertices[fairing.seam_kinks(after[:own], patch.triangles, held, join.limit)]
     go_on(progress)
     evidence = Evidence(
         problem, result, solved.failures, quality_before, quality_after, join, *odd, pierced=through, points=after,
-        flank=_flank(mesh, matrix, problem, after), left_out=left_out(mesh), seams=seams,
+        flank=flank_of(mesh, matrix, problem, after), left_out=left_out(mesh), seams=seams,
     )  # fmt: skip
     go_on(progress)
     verdict = judge(evidence, options.resolved(mesh.textured))
@@ -108,24 +109,38 @@ def _pierced(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) 
     return pierced(mesh, Sheet(before, own), Sheet(moved, own))
 
 
-def _flank(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -> Flank | None:
+def flank_of(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -> Flank | None:
+    """Find a boundary on the slope of a bump or a dent."""
+    patch = problem.patch
     with np.errstate(invalid="ignore", over="ignore"):  # what is not finite outside the patch
-        return flank(mesh.transformed(matrix), problem, after)
+        world = mesh.transformed(matrix)
+    vertices, around = numbered(patch, wound_alike(world, wide_outside(world, patch)))
+    world.positions[problem.vertices] = after
+    points = world.positions[vertices]
+    found = fairing.flank(points, patch.triangles, around, fixed=patch.fixed)
+    if found is None:
+        return None
+    edges, _ = fairing.edges_with_uses(around)
+    edge = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1).mean()
+    return Flank(found.boundary.astype(np.int64), found.is_bump, int(np.ceil(found.width / edge)))
 
 
 def _eaten(mesh: MeshArrays, problem: Problem, after: Floats) -> Eaten:
     """Find hard edges that are no more, though they run on outside or were marked sharp."""
-    sharp = None if mesh.sharp is None else np.sort(mesh.edges[mesh.sharp], axis=1)
+    sharp = None if mesh.sharp is None else mesh.edges[mesh.sharp]
     return eaten_edges(problem, after, sharp)
 
 
-def _rounded(problem: Problem, after: Floats, moving: Ints, options: FairOptions) -> Ints:
+def _rounded(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats, moving: Ints) -> Ints:
     """Return the mesh vertices outside at hard edges that a smoothed boundary has rounded."""
-    moved = np.setdiff1d(moving, problem.patch.free)
-    if options.outline != "MENDED" or not len(moved):
-        return moved[:0]
-    rounded: Ints = problem.vertices[rounded_edges(problem.points, after, problem.outside, moved)]
-    return rounded
+    moved = problem.vertices[np.setdiff1d(moving, problem.patch.free)]
+    moves = np.zeros(len(mesh.positions), dtype=bool)
+    moves[moved] = True
+    around = nearby(mesh.triangles[~mesh.in_patch[mesh.triangle_faces]], moves)
+    before = places(mesh, matrix)
+    points = before.copy()
+    points[problem.vertices] = after
+    return fairing.rounded_edges(before, points, around, moved).astype(np.int64)
 
 
 def leading_part(result: fairing.FairResult, own: int) -> fairing.FairResult:

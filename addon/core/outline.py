@@ -66,15 +66,16 @@ def outline_edges(mesh: MeshArrays) -> Mask:
     return between
 
 
-def outline_notes(mesh: MeshArrays) -> tuple[str, ...]:
+def outline_notes(mesh: MeshArrays, inward: Ints | None = None) -> tuple[str, ...]:
     """Return one sentence for each thing that may surprise about the boundary of the patch.
 
-    mesh: in world space, as angles there are what counts.
+    mesh: in world space, as angles there are what counts; inward: vertices with the slope of the selected faces, None
+    where there are none.
     """
     outline = outline_edges(mesh)
     sides = two_sided_edges(mesh, outline)
     found = (
-        _sharp_note(mesh, sides),
+        _sharp_note(mesh, sides, inward),
         _winding_note(sides),
         _folded_note(mesh, outline),
         _lone_face_note(mesh, outline),
@@ -84,8 +85,9 @@ def outline_notes(mesh: MeshArrays) -> tuple[str, ...]:
     return tuple(note for note in found if note)
 
 
-def _sharp_note(mesh: MeshArrays, sides: Sides) -> str:
-    widest = turns(mesh, sides).max(initial=0.0)
+def _sharp_note(mesh: MeshArrays, sides: Sides, inward: Ints | None) -> str:
+    outward = ~np.isin(mesh.edges[sides.edges], [] if inward is None else inward).any(axis=1)
+    widest = turns(mesh, sides)[outward].max(initial=0.0)
     if widest < SHARP:
         return ""
     return f"The boundary runs along an edge of up to {widest:.0f}°: the surface will be tangent to the faces outside"

@@ -11,13 +11,12 @@ import numpy as np
 
 import fairing
 
-from .arrays import Floats, Ints, Mask
+from .arrays import Floats, Ints
 from .engine import Problem
-from .region import Patch, nothing
+from .region import MeshArrays, Patch, nothing
 from .vectors import area_vectors
 
 LARGE = 50_000  # triangles
-FLATTEST = 1e-3  # height over longest side, below which a triangle is a needle
 
 
 @dataclass(frozen=True)
@@ -27,6 +26,7 @@ class Quality:
     folded: Ints
     needles: Ints
     crossing: Ints | None  # None: not looked for
+    shown: Ints = field(default_factory=nothing)  # needles that are seen
 
 
 @dataclass(frozen=True)
@@ -85,7 +85,9 @@ def mean_area(points: Floats, triangles: Ints) -> float:
 
 
 def _measured(patch: Patch, points: Floats, crossing: Ints | None) -> Quality:
-    return Quality(folded(patch, points), np.unique(patch.faces[degenerate(points, patch.triangles)]), crossing)
+    needles = fairing.needles(points, patch.triangles)
+    every, shown = (np.unique(patch.faces[triangles]) for triangles in (needles.all, needles.seen))
+    return Quality(folded(patch, points), every, crossing, shown)
 
 
 def folded(patch: Patch, points: Floats) -> Ints:
@@ -100,15 +102,6 @@ def crossing(patch: Patch, points: Floats) -> Ints:
     """Return the faces that pass through others of the patch."""
     faces: Ints = np.unique(patch.faces[fairing.self_intersections(points, patch.triangles)])
     return faces
-
-
-def degenerate(positions: Floats, triangles: Ints) -> Mask:
-    """Return the (m,) mask of triangles whose height is below FLATTEST times their longest side."""
-    a, b, c = (positions[column] for column in triangles.T)
-    longest_squared = np.max([((end - start) ** 2).sum(axis=1) for start, end in ((a, b), (b, c), (c, a))], axis=0)
-    doubled = np.linalg.norm(area_vectors(positions, triangles), axis=1)
-    flat: Mask = ~(doubled > FLATTEST * longest_squared)
-    return flat
 
 
 def join(problem: Problem, points: Floats) -> Join:
@@ -138,6 +131,13 @@ def swollen(before: tuple[Patch, Floats], after: tuple[Patch, Floats]) -> Ints:
 def _knobs(patch: Patch, points: Floats, before: float = 0.0) -> tuple[float, Ints]:
     extent, tops = fairing.knobs(points, patch.triangles, fixed=patch.fixed, before=before)
     return extent, tops.astype(np.int64)
+
+
+def is_spoilt(mesh: MeshArrays) -> bool:
+    """Return whether the patch's own shape is no texture to keep: it has a spike, or all of it is crumpled."""
+    inside = mesh.in_patch[mesh.triangle_faces]
+    with np.errstate(invalid="ignore"):
+        return fairing.is_spoilt(mesh.positions, mesh.triangles[inside], mesh.triangles[~inside])
 
 
 def texture_distortion(before: Floats, after: Floats, triangles: Ints) -> float:

@@ -11,7 +11,7 @@ import fairing
 from . import engine
 from .around import numbered, outside_triangles, sample_triangles, wide_outside, wound_alike
 from .arrays import Floats
-from .boundary import prescribed_curvatures, prescribed_normals
+from .boundary import boundary
 from .engine import Progress
 from .feather import band_weights, refuse_options
 from .findings import Origin
@@ -96,19 +96,24 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
         patch = make_patch(world, by_connectivity=not options.keeps_triangles)
         wide = options.takes_base
         outside = wide_outside(world, patch, options.feather) if wide else outside_triangles(world, patch)
-        normals, warnings = prescribed_normals(world, patch, options.boundary_normals, outside)
-        curvatures = prescribed_curvatures(world, patch, outside) if options.joins_curvature else None
+        known = boundary(world, patch, options.boundary_normals, outside)
         parts = wound_alike(world, outside), wound_alike(world, sample_triangles(world))
         vertices, around, sample = numbered(patch, *parts)
         weights = band_weights(world, patch, vertices, around, options.feather) if options.moves_band else None
         precision = precision_note(mesh)
-        notes = winding_note(turned) + outline_notes(world) + ((precision,) if precision else ()) + mesh.notes
+        notes = (
+            winding_note(turned)
+            + outline_notes(world, known.inward(patch))
+            + ((precision,) if precision else ())
+            + mesh.notes
+        )
         curve, places = faired_curves(world) if options.fairs_pinned_edges else (nothing(), np.empty((0, 3)))
+    curvatures = known.curvatures if options.joins_curvature else None
     problem = engine.Problem(
-        patch, world.positions[vertices], normals, vertices, around, curvatures, weights, sample,
+        patch, world.positions[vertices], known.normals, vertices, around, curvatures, weights, sample,
         np.searchsorted(patch.vertices, curve), places,
     )  # fmt: skip
-    return problem, warnings + notes
+    return problem, known.notes + notes
 
 
 def _solve_again(

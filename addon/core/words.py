@@ -145,6 +145,13 @@ WORDS: dict[str, tuple[Words, ...]] = {
             "Vertex Limit"
         ),
     ),
+    "NO_SEAM": (Words("There is no seam to round: select the edges, or faces with hard edges between them"),),
+    "SEAM_ON_BORDER": (
+        Words("The seam lies on an open border, where it has nothing to round on the other side: deselect these edges"),
+    ),
+    "WIDTH_TOO_LARGE": (
+        Words("A width of {width:.4g} leaves nothing of the part with {n} vertices, {first} among them: make it less"),
+    ),
     "NOT_TANGENT": (
         Words(
             "The surface turns back by {degrees:.0f}° at {n} vertex of the boundary: unfold the faces there",

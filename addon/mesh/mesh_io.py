@@ -14,9 +14,9 @@ import numpy as np
 from ..core.arrays import Floats, Ints, Mask
 from ..core.held_curves import beyond, running_through
 from ..core.options import FairOptions
+from ..core.quality import is_spoilt
 from ..core.region import MeshArrays, free_vertices
 from ..core.selection import enclosed_faces
-from ..core.spiked import is_spoilt
 from ..core.symmetry import with_image
 from .columns import column, elements_of, flags, indices, stored
 from .free_normals import put_at, renew_at, renew_mesh

@@ -6,12 +6,14 @@ import argparse
 import json
 import sys
 import time
+from collections.abc import Sequence
 from typing import Any
 
 import bpy
 import numpy as np
 
 from ..core.arrays import Floats
+from ..core.border import Left
 from ..core.engine import REFUSALS
 from ..core.fill_report import make_fill_report
 from ..core.filling import FillOptions
@@ -38,6 +40,10 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--fill", action="store_true", help="fill holes instead")
     parser.add_argument("--bridge", action="store_true", help="with --fill: join their boundary loops in one surface")
+    parser.add_argument(
+        "--longest", type=int, default=0, help="with --fill: longer borders stay open, in edges; 0: none"
+    )
+    parser.add_argument("--longest-length", type=float, default=0.0, help="with --fill: likewise, as a length")
     parser.add_argument("--hard-edges", default="RUN_ON", help="with --fill: IGNORED rounds them off")
     parser.add_argument("--output", required=True, help="the .blend file to write")
     parser.add_argument("--report", choices=("text", "json"), default="text")
@@ -75,7 +81,7 @@ def _faces(obj: bpy.types.Object, group: str | None) -> list[int]:
     return [polygon.index for polygon in polygons if all(member[v] for v in polygon.vertices)]
 
 
-def _figures(report: Report) -> dict[str, Any]:
+def _figures(report: Report, left: Sequence[Left]) -> dict[str, Any]:
     return {
         "verdict": report.verdict.grade,
         "reason": report.verdict.reason,
@@ -90,12 +96,13 @@ def _figures(report: Report) -> dict[str, Any]:
         "seconds": report.seconds,
         "checks": {check.name: {"value": check.value, "state": check.state} for check in report.checks},
         "warnings": list(report.warnings),
+        "left_open": [{"vertices": each.vertices.tolist(), "reason": each.reason} for each in left],
     }
 
 
-def _print(report: Report, form: str) -> None:
+def _print(report: Report, left: Sequence[Left], form: str) -> None:
     if form == "json":
-        print(json.dumps(_figures(report)))
+        print(json.dumps(_figures(report, left)))
         return
     print(summary(report))
     for check in report.checks:
@@ -121,13 +128,13 @@ def execute(arguments: list[str]) -> int:
     """Run the command and return its exit status."""
     chosen = _parser().parse_args(arguments)
     try:
-        report = _filled(chosen) if chosen.fill else _faired(chosen)
+        report, left = _filled(chosen) if chosen.fill else (_faired(chosen), ())
     except REFUSALS as error:
         print(f"fair: {error}", file=sys.stderr)
         return REFUSED
     if report.written:
         bpy.ops.wm.save_as_mainfile(filepath=chosen.output, copy=True)
-    _print(report, chosen.report)
+    _print(report, left, chosen.report)
     return NOT_USABLE if report.verdict.grade == UNUSABLE else WRITTEN
 
 
@@ -140,7 +147,7 @@ def _faired(chosen: Any) -> Report:
     return make_report([(obj.name, outcome)], options, time.perf_counter() - begin)
 
 
-def _filled(chosen: Any) -> Report:
+def _filled(chosen: Any) -> tuple[Report, Sequence[Left]]:
     options = FillOptions.of(chosen)
     obj = _mesh_object(chosen.object)
     group = chosen.vertex_group
@@ -148,7 +155,8 @@ def _filled(chosen: Any) -> Report:
     begin = time.perf_counter()
     done = fill_borders(obj.data, vertices, _matrix(obj), options, _Progress())
     added = [] if done.added is None else [done.added]
-    return make_fill_report([(obj.name, done.pieces)], options, time.perf_counter() - begin, added, done.notes)
+    seconds = time.perf_counter() - begin
+    return make_fill_report([(obj.name, done.filled)], options, seconds, added, done.notes), done.filled.left
 
 
 def _matrix(obj: bpy.types.Object) -> Floats:

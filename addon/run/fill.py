@@ -8,11 +8,11 @@ import bpy
 import numpy as np
 
 from ..core.arrays import Floats, Ints
-from ..core.border import NO_BORDER, border_loops
+from ..core.border import NO_BORDER, border_loops, left_by
 from ..core.engine import REFUSALS, Progress, sub_range
-from ..core.fill_report import Added, make_fill_report
-from ..core.filling import FillOptions, Piece, fill
-from ..core.holes import Borders, expected_vertices, holes_among
+from ..core.fill_report import Added, make_fill_report, writable
+from ..core.filling import Filled, FillOptions, fill
+from ..core.holes import Borders, chosen_borders, expected_vertices
 from ..core.options import OF_CURVATURE, FairOptions
 from ..core.region import MeshArrays
 from ..core.report import summary
@@ -48,7 +48,7 @@ class Task:
         return expected_vertices(self.mesh, self.matrix, self.loops, options.bridge) / options.spacing**2
 
 
-def read(context: bpy.types.Context) -> list[Task]:
+def read(context: bpy.types.Context, options: FillOptions) -> list[Task]:
     """Read every object in edit mode that has a selected border; raises Refused."""
     tasks = []
     for obj in edited_objects(context):
@@ -60,28 +60,30 @@ def read(context: bpy.types.Context) -> list[Task]:
             key = mesh_io.writable_key(obj)
             mesh = mesh_io.read_own_mesh(obj, FairOptions())
             matrix = np.array(obj.matrix_world, dtype=np.float64)
-            borders = _chosen(obj.data, mesh, matrix, border_loops(mesh, seeds))
+            loops, left = border_loops(mesh, seeds)
+            # Where all faces are selected, too, no border was chosen.
+            every = obj.data.count_selected_items()[2] == len(mesh.in_patch)
+            borders = chosen_borders(mesh, matrix, Borders(loops, left=tuple(left)), options, every)
         except ValueError as cause:
             raise Refused(obj.name, cause) from cause
         tasks.append(Task(obj.name, mesh, matrix, borders, key))
     return tasks
 
 
-def _chosen(data: bpy.types.Mesh, mesh: MeshArrays, matrix: Floats, loops: list[Ints]) -> Borders:
-    """Return the borders that are meant: the holes where all faces are selected, too, as no border was chosen then."""
-    every_face = data.count_selected_items()[2] == len(mesh.in_patch)
-    return holes_among(mesh, matrix, loops) if every_face else Borders(loops)
-
-
-def solve(tasks: list[Task], options: FillOptions, progress: Progress) -> list[list[Piece]]:
-    """Solve task after task, on arrays alone; raises Refused and fairing.Cancelled."""
+def solve(tasks: list[Task], options: FillOptions, progress: Progress) -> list[Filled]:
+    """Solve task after task, on arrays alone; raises fairing.Cancelled, and Refused where there is no surface."""
     outcomes = []
+    refused: Refused | None = None
     for i, task in enumerate(tasks):
         part = sub_range(progress, i / len(tasks), (i + 1) / len(tasks))
         try:
-            outcomes.append(fill(task.mesh, task.matrix, task.loops, options, part))
+            found = fill(task.mesh, task.matrix, task.loops, options, part)
         except REFUSALS as cause:
-            raise Refused(task.object_name, cause) from cause
+            refused = refused or Refused(task.object_name, cause)
+            found = Filled([], (left_by(cause, np.unique(np.concatenate(task.loops))),))
+        outcomes.append(found.with_left(task.borders.left))
+    if refused is not None and not any(found.pieces for found in outcomes):
+        raise refused from refused.cause
     return outcomes
 
 
@@ -114,6 +116,8 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
             "hard_edges",
             "spacing",
             "inner",
+            "longest",
+            "longest_length",
             "max_vertices",
             "quads",
             "limit_total",
@@ -134,7 +138,7 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
     def _read(self, context: bpy.types.Context) -> bool:
         self._begin = time.perf_counter()
         self._options = FillOptions.of(self)
-        self._tasks = read(context)
+        self._tasks = read(context, self._options)
         if not self._tasks:
             store_refusal(context.window_manager.fairing_report, "", NO_BORDER)
             last_run.forget()
@@ -156,26 +160,30 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
             for task in self._tasks
         )
 
-    def _apply(self, context: bpy.types.Context, outcomes: list[list[Piece]]) -> set[str]:
-        named = [(task.object_name, pieces) for task, pieces in zip(self._tasks, outcomes, strict=True)]
+    def _apply(self, context: bpy.types.Context, outcomes: list[Filled]) -> set[str]:
+        named = [(task.object_name, filled) for task, filled in zip(self._tasks, outcomes, strict=True)]
         report = make_fill_report(named, self._options, time.perf_counter() - self._begin)
         last_run.forget()  # there are no faces to fair again, and no two states to compare
         if not report.written:
             store(context.window_manager.fairing_report, report)
             return self._leave(context, report.verdict.spots, summary(report))
         compare.forget()
+        named = writable(named, self._options)
         added = self._write(context, named)
-        left = tuple(note for task in self._tasks for note in task.borders.notes)
-        report = make_fill_report(named, self._options, time.perf_counter() - self._begin, added, left)
+        notes = tuple(note for task in self._tasks for note in task.borders.notes)
+        report = make_fill_report(named, self._options, time.perf_counter() - self._begin, added, notes)
         store(context.window_manager.fairing_report, report)
         for warning in report.warnings:
             self.report({"WARNING"}, warning)
         self.report({"INFO"}, summary(report))
         return {"FINISHED"}
 
-    def _write(self, context: bpy.types.Context, named: list[tuple[str, list[Piece]]]) -> list[Added]:
+    def _write(self, context: bpy.types.Context, named: list[tuple[str, Filled]]) -> list[Added]:
         objects = objects_in_mode(context)
-        return [filled.add_to_edit_mesh(objects[name], pieces) for name, pieces in named]
+        added = [filled.add_to_edit_mesh(objects[name], of_one.pieces) for name, of_one in named if of_one.pieces]
+        for name, of_one in named:
+            self._show(context, name, of_one.left_vertices)
+        return added
 
     def _leave(self, context: bpy.types.Context, spots: Ints, reason: str) -> set[str]:
         """Leave every mesh as it is, and show the boundary where the surface is no good."""

@@ -11,43 +11,54 @@ import numpy as np
 
 import fairing
 
-from ..core.border import border_loops
+from ..core.border import Left, border_loops
 from ..core.engine import Progress
 from ..core.fill_report import Added, is_written, refuse_unusable
-from ..core.filling import FillOptions, Piece, fill
-from ..core.holes import Borders, holes_among
+from ..core.filling import Filled, FillOptions, fill
+from ..core.holes import Borders, chosen_borders
 from ..core.options import FairOptions
 from ..core.places import as_indices
-from ..mesh import filled, mesh_io
+from ..mesh import filled as filled_mesh
+from ..mesh import mesh_io
 
 
 @dataclass(frozen=True)
-class Filled:
+class Done:
     """What was done to one mesh."""
 
-    pieces: list[Piece]
+    filled: Filled
     added: Added | None  # None: nothing was written
     notes: tuple[str, ...] = ()  # about borders that were left open
 
 
+class Fills(list[fairing.FillResult]):
+    """The `fairing` result for each surface; `left`: the holes that stay open, each with `vertices` and `reason`."""
+
+    left: tuple[Left, ...] = ()
+
+
 def fill_mesh(
     mesh: bpy.types.Mesh, vertices: Sequence[int] | None = None, *, matrix: Any = None, **properties: Any
-) -> list[fairing.FillResult]:
+) -> Fills:
     """Fill the holes of `mesh`, or join their boundaries, with the fair surface that continues their surroundings.
 
     vertices: one or more of each border that is meant, or a mask of all vertices; default: all holes, that is all
     borders but those around the outside of a sheet (`fairing.outer_borders`).
     matrix: 4×4, to the space in which the surface is fair; default: the mesh's own.
     properties: those of `mesh.fair_fill`, with the same names and defaults.
-    Returns the `fairing` result for each surface, in the space of `matrix`; the new faces come last in the mesh.
-    Raises fairing.MeshError (elements: vertices of `mesh`), ValueError (also where there is no border), TypeError for a
-    property that does not exist, IndexError, fairing.SolverError and MemoryError; NotUsable where a surface folds,
-    passes through the mesh or is none, unless accept="ALL". The mesh is untouched then.
+    Returns the `fairing` result for each surface, in the space of `matrix`; the new faces come last in the mesh. What
+    can't be filled stays open; `left` of the result lists it.
+    Raises, where no surface can be written, fairing.MeshError (elements: vertices of `mesh`), ValueError (also where
+    there is no border), fairing.SolverError, and NotUsable where a surface folds, passes through the mesh or is none,
+    unless accept="ALL"; always TypeError for a property that does not exist, IndexError and MemoryError. The mesh is
+    untouched then.
     """
     options = FillOptions.named(properties)
     done = fill_borders(mesh, vertices, matrix, options)
-    refuse_unusable(mesh.name, done.pieces, options)
-    return [piece.result for piece in done.pieces]
+    refuse_unusable(mesh.name, done.filled, options)
+    fills = Fills(piece.result for piece in done.filled.pieces)
+    fills.left = done.filled.left
+    return fills
 
 
 def fill_borders(
@@ -56,20 +67,20 @@ def fill_borders(
     matrix: Any,
     options: FillOptions,
     progress: Progress | None = None,
-) -> Filled:
+) -> Done:
     """Do the work of `fill_mesh`, with all its errors but NotUsable; what is not usable is not written."""
     mesh_io.check_new_faces(mesh_io.user_of(mesh))
     arrays = mesh_io.read_mesh(mesh, np.empty(0, dtype=np.int64), FairOptions())
     seeds = np.full(len(arrays.positions), vertices is None)
     if vertices is not None:
         seeds[as_indices("vertices", vertices, len(seeds))] = True
-    loops = border_loops(arrays, seeds)
-    if not loops:
+    loops, left = border_loops(arrays, seeds)
+    if not loops and not left:
         raise ValueError("There is no border to fill" if vertices is None else "None of the vertices is on a border")
     world = np.eye(4) if matrix is None else np.array(matrix, dtype=np.float64)
     if world.shape != (4, 4):
         raise ValueError(f"matrix: expected 4×4 numbers, got shape {world.shape}")
-    borders = holes_among(arrays, world, loops) if vertices is None else Borders(loops)
-    pieces = fill(arrays, world, borders.loops, options, progress)
-    written = is_written([(mesh.name, pieces)], options)
-    return Filled(pieces, filled.add_to_mesh(mesh, pieces) if written else None, borders.notes)
+    borders = chosen_borders(arrays, world, Borders(loops, left=tuple(left)), options, vertices is None)
+    filled = fill(arrays, world, borders.loops, options, progress).with_left(borders.left)
+    written = is_written([(mesh.name, filled)], options)
+    return Done(filled, filled_mesh.add_to_mesh(mesh, filled.pieces) if written else None, borders.notes)

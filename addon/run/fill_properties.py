@@ -4,7 +4,7 @@
 No postponed annotations here: Blender reads them as property definitions.
 """
 
-from bpy.props import BoolProperty, EnumProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from ..core.filling import SHAPES
 from .properties import EQUATIONS, SurfaceProperties, continuity_property, equation_property
@@ -19,6 +19,21 @@ class FillProperties(SurfaceProperties):
         name="Bridge",
         description="One surface joins all boundary loops of an object: a tube between two, a blend between more",
         default=False,
+    )
+    longest: IntProperty(
+        name="Most Edges",
+        description="Borders with more edges than that stay open; 0: any number",
+        default=0,
+        min=0,
+        soft_max=100,
+    )
+    longest_length: FloatProperty(
+        name="Longest Border",
+        description="Borders that are longer than that stay open; 0: any length",
+        default=0.0,
+        min=0.0,
+        precision=3,
+        subtype="DISTANCE",
     )
     hard_edges: EnumProperty(
         name="Hard Edges",

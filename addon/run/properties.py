@@ -68,10 +68,16 @@ _INNER_FAIRNESS = (
 )
 _BOUNDARY_NORMALS = (
     (
+        "AUTOMATIC",
+        "Automatic",
+        "Surroundings, but Inside where the boundary is a hard edge: the top of a box stays flat",
+    ),
+    (
         "SURROUNDING",
         "Surroundings",
         "Continues the faces around the selection, whatever is inside",
     ),
+    ("INSIDE", "Inside", "Keeps the slope of the selected faces along the boundary"),
     ("AVERAGE", "Average", "Leans half way between the faces inside and outside: keeps some of the old shape's slope"),
     ("CUSTOM", "Custom Normals", "Follows the shading normals along the boundary, custom split normals included"),
 )
@@ -243,7 +249,7 @@ class FairProperties(SurfaceProperties, SkinProperties):
         name="Tangent To",
         description="The slope with which the surface leaves its boundary",
         items=_BOUNDARY_NORMALS,
-        default="SURROUNDING",
+        default="AUTOMATIC",
     )
     continuity: continuity_property()
     method: EnumProperty(name="Method", description="How the surface is computed", items=_METHODS, default="GLOBAL")

@@ -8,6 +8,7 @@
 #include "api/measure.h"
 #include "api/memory.h"
 #include "api/prepared_mesh.h"
+#include "api/shape.h"
 #include "base/errors.h"
 #include "base/kept_memory.h"
 #include "base/parallel.h"
@@ -69,7 +70,8 @@ public:
         }
         diagnose(patch, solution, prescribed, result_.warnings);
         const Stopwatch watch;
-        note_girth(girth_range(patch, solution.points, prescribed));
+        if (is_between_tubes(patch, solution.points, prescribed))
+            note_girth(patch, girth_range(patch, solution.points));
         result_.seconds["girth"] += watch.seconds();
     }
 
@@ -126,8 +128,8 @@ private:
         result_.equation = solved;
     }
 
-    void note_girth(const std::optional<GirthRange>& girth) {
-        if (girth) result_.girth = result_.girth ? worst_of(*result_.girth, *girth) : *girth;
+    void note_girth(const Patch& patch, const std::optional<GirthRange>& girth) {
+        if (girth) result_.girth = worst_of(result_.girth.value_or(GirthRange{}), by_input(patch, *girth));
     }
 
     void add_failure(Termination end, const Diagnostics& failures) {

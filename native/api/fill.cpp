@@ -169,13 +169,14 @@ NewMesh remesh(const MeshInput& input, const VertexPairs& kept, const WantedLeng
     std::vector<Vector3> normals;
     for (const Patch& patch : patches) {
         progress.report(static_cast<double>(&patch - patches.data()) / static_cast<double>(patches.size()), "mesh");
-        const OldSurface old(input, mesh, patch);
+        OldSurface old(input, mesh, patch);
+        if (wanted.flat) old.normals.setZero();
         const KeptEdges staying = edges_among(patch, pairs);
         const TargetSurface surface(patch, old.points, old.normals, staying);
         const VectorX lengths = old.lengths(wanted, staying);
         EvenMesh even(patch, old.points, surface, lengths, staying);
         even.make_even();
-        even.mend_angles();
+        if (!wanted.flat) even.mend_angles();
         const EvenMesh::Result made = even.result();
         assembly.add(made.triangles, old.unit.from_unit(made.points), fixed_vertices(patch));
         for (const SurfacePoint& where : made.where) {

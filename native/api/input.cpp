@@ -214,10 +214,9 @@ void warn_of_opposed_normals(const CheckedMesh& mesh, const FixedNormals& averag
 
 // Of far more area than a flat one, by numbers that are neither too large nor too small for their squares.
 bool is_surely_broad(const Vector3& a, const Vector3& b, const Vector3& c) {
-    constexpr double least = 1e-60;
-    constexpr double most = 1e60;
     const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-    return longest > least && longest < most && (b - a).cross(c - a).squaredNorm() > 1e-22 * longest * longest;
+    const double square = longest * longest;
+    return std::isnormal(square) && (b - a).cross(c - a).squaredNorm() > 1e-22 * square;
 }
 
 void warn_of_flat_triangles(const MeshInput& input, const CutMesh& mesh, Diagnostics& warnings) {

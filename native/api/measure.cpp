@@ -182,16 +182,6 @@ Indices flipped_triangles(const MeshInput& input) {
     return flipped;
 }
 
-Knobs knobs(const MeshInput& input, double before) {
-    Knobs all;
-    for_each_piece(check_mesh(input), input.vertices, [&](const Patch& patch, const Points& local) {
-        const Knobs found = knobs_of(patch, local, before);
-        all.extent = std::max(all.extent, found.extent);
-        for (const int v : found.tops) all.tops.push_back(patch.to_input[v]);
-    });
-    return all;
-}
-
 VectorX conformal_distortion(const Points& reference, const Points& points, const Triangles& triangles) {
     VectorX ratio(triangles.cols());
     for (Eigen::Index t = 0; t < triangles.cols(); ++t) {

@@ -3,7 +3,6 @@
 
 #include "api/input.h"
 #include "geometry/vertex_normal.h"
-#include "shape/knobs.h"
 
 namespace fairing {
 
@@ -39,9 +38,6 @@ MatrixEntries cotan_laplacian(const Points& points, const Triangles& triangles);
 // Triangles, ascending, that are turned over against those around them (geometry/flips.h); pieces are looked at one by
 // one, as fair() does. Positions must be finite.
 Indices flipped_triangles(const MeshInput& input);
-
-// The knobs of all pieces, by input vertices, and the largest extent (shape/knobs). Positions must be finite.
-Knobs knobs(const MeshInput& input, double before);
 
 // Ratio ≥ 1 of the singular values of the affine map of each triangle from the reference to the points; infinite where
 // one of them is degenerate.

@@ -37,12 +37,12 @@ py::dict fill_arrays(const DoubleArray& vertices, const std::vector<IntArray>& l
     return dict;
 }
 
-// Spacing, least count, and whether one length holds everywhere.
-using Wanted = std::tuple<double, int, bool>;
+// Spacing, least count, whether one length holds everywhere, and whether the old triangles are flat.
+using Wanted = std::tuple<double, int, bool, bool>;
 
 WantedLengths to_lengths(const Wanted& wanted) {
-    const auto& [spacing, least_count, even] = wanted;
-    return {spacing, least_count, even ? Spread::even : Spread::outline};
+    const auto& [spacing, least_count, even, flat] = wanted;
+    return {spacing, least_count, even ? Spread::even : Spread::outline, flat};
 }
 
 MeshInput to_input(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,

@@ -4,7 +4,6 @@
 #include "bindings/words.h"
 #include "geometry/self_intersection.h"
 #include "mesh/loops.h"
-#include "shape/limits.h"
 
 namespace fairing::bindings {
 
@@ -47,13 +46,6 @@ py::array flipped_array(const DoubleArray& vertices, const IntArray& triangles, 
         flipped_triangles({view_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices), {}}));
 }
 
-py::tuple knob_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
-                      double before) {
-    const Knobs found =
-        knobs({view_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices), {}}, before);
-    return py::make_tuple(found.extent, from_indices(found.tops));
-}
-
 py::array crossing_array(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& near) {
     const Triangles list = to_triangles(triangles);
     const Points points = to_points(vertices);
@@ -65,22 +57,9 @@ py::array conformal_distortion_array(const DoubleArray& reference, const DoubleA
     return from_vector(conformal_distortion(to_points(reference), to_points(vertices), to_triangles(triangles)));
 }
 
-// Those of shape/limits that Python asks by.
-py::dict limits() {
-    py::dict named;
-    named["waist"] = waist;
-    named["balloon"] = balloon;
-    named["visible_kink"] = visible_kink;
-    named["steep_kink"] = steep_kink;
-    named["turned_back"] = turned_back;
-    named["off_slope"] = off_slope;
-    return named;
-}
-
 }  // namespace
 
 void bind_measure(py::module_& module) {
-    module.attr("LIMITS") = limits();
     module.def("mean_curvature", &mean_curvature_array, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("fixed_normals"), py::arg("normals"));
     module.def("vertex_normals", &vertex_normals_array, py::arg("vertices"), py::arg("triangles"), py::arg("normals"));
@@ -88,7 +67,6 @@ void bind_measure(py::module_& module) {
     module.def("components", &component_array, py::arg("triangles"), py::arg("fixed"), py::arg("vertex_count"));
     module.def("boundary_loops", &boundary_loop_arrays, py::arg("triangles"));
     module.def("flipped_triangles", &flipped_array, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"));
-    module.def("knobs", &knob_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"), py::arg("before"));
     module.def("self_intersections", &crossing_array, py::arg("vertices"), py::arg("triangles"), py::arg("near"));
     module.def("conformal_distortion", &conformal_distortion_array, py::arg("reference"), py::arg("vertices"),
                py::arg("triangles"));

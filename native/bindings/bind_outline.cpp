@@ -5,11 +5,10 @@
 #include "geometry/hard_edges.h"
 #include "outline/bad_outline.h"
 #include "outline/chain_end.h"
-#include "outline/creased.h"
+#include "outline/boundary_fit.h"
 #include "outline/feather.h"
 #include "outline/least_variation_curve.h"
 #include "outline/mended_outline.h"
-#include "shape/visible_join.h"
 
 namespace fairing::bindings {
 
@@ -32,13 +31,6 @@ py::dict to_dict(const SurroundingNormals& result) {
     return dict;
 }
 
-VertexPairs to_pairs(const IntArray& edges) {
-    const Indices flat = to_indices(edges);
-    VertexPairs pairs;
-    for (std::size_t k = 0; k + 1 < flat.size(); k += 2) pairs.push_back({flat[k], flat[k + 1]});
-    return pairs;
-}
-
 py::array hard_edge_array(const DoubleArray& vertices, const IntArray& triangles, const IntArray& marked) {
     const VertexPairs found = hard_edges(to_points(vertices), to_triangles(triangles), to_pairs(marked));
     py::array_t<int> result({static_cast<py::ssize_t>(found.size()), py::ssize_t{2}});
@@ -50,26 +42,23 @@ py::array hard_edge_array(const DoubleArray& vertices, const IntArray& triangles
     return std::move(result);
 }
 
-// Of vertices with several copies the first one counts; those without triangles have none and stay what they are.
 py::dict surrounding_normal_arrays(const DoubleArray& vertices, const IntArray& triangles, const IntArray& where,
                                    const IntArray& creases) {
+    return to_dict(
+        surrounding_normals(to_points(vertices), to_triangles(triangles), to_indices(where), to_pairs(creases)));
+}
+
+py::dict boundary_normal_arrays(const DoubleArray& vertices, const IntArray& inside, const IntArray& outside,
+                                const IntArray& where, const IntArray& creases, bool all_inside) {
     const Points points = to_points(vertices);
-    Indices places = to_indices(where);
-    const VertexPairs edges = to_pairs(creases);
-    if (edges.empty()) return to_dict(surrounding_normals(points, to_triangles(triangles), places));
-    BrokenSurface broken = broken_along(to_triangles(triangles), static_cast<int>(points.cols()), edges);
-    std::vector<int> copy(static_cast<std::size_t>(points.cols()), none);
-    for (int v = 0; v < static_cast<int>(broken.input_vertex.size()); ++v) {
-        if (int& first = copy[broken.input_vertex[v]]; first == none) first = v;
-    }
-    for (int& place : places) {
-        if (copy[place] == none) {
-            copy[place] = static_cast<int>(broken.input_vertex.size());
-            broken.input_vertex.push_back(place);
-        }
-        place = copy[place];
-    }
-    return to_dict(surrounding_normals(points(Eigen::all, broken.input_vertex), broken.triangles, places));
+    const Triangles within = to_triangles(inside);
+    const Triangles beyond = to_triangles(outside);
+    const SideRule rule = all_inside ? SideRule::inside : SideRule::automatic;
+    const BoundaryNormals found =
+        boundary_normals({points, within, beyond}, to_indices(where), to_pairs(creases), rule);
+    py::dict dict = to_dict(found.normals);
+    dict["from_inside"] = from_flags(found.from_inside);
+    return dict;
 }
 
 py::array bad_outline_array(const DoubleArray& vertices, const IntArray& triangles, const IntArray& outline) {
@@ -112,14 +101,6 @@ py::dict mended_outline_arrays(const DoubleArray& vertices, const IntArray& tria
     return dict;
 }
 
-py::tuple visible_join_arrays(const DoubleArray& vertices, const IntArray& inside, const IntArray& outside,
-                              const IntArray& outline, const std::optional<DoubleArray>& before) {
-    const JoinedMesh mesh{to_points(vertices), to_triangles(inside), to_triangles(outside),
-                          to_optional(before, to_points)};
-    const VisibleJoin join = visible_join(mesh, to_indices(outline));
-    return py::make_tuple(from_vector(join.degrees), join.limit, from_indices(join.seen));
-}
-
 // Rows: beginning and end.
 py::array fair_curve_array(const DoubleArray& places, const DoubleArray& directions,
                            const std::vector<double>& shares) {
@@ -141,6 +122,8 @@ void bind_outline(py::module_& module) {
     module.def("hard_edges", &hard_edge_array, py::arg("vertices"), py::arg("triangles"), py::arg("marked"));
     module.def("surrounding_normals", &surrounding_normal_arrays, py::arg("vertices"), py::arg("triangles"),
                py::arg("at"), py::arg("creases"));
+    module.def("boundary_normals", &boundary_normal_arrays, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
+               py::arg("at"), py::arg("creases"), py::arg("all_inside"));
     module.def("bad_outline", &bad_outline_array, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
     module.def("mend_outline", &mended_outline_arrays, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
     module.def("feather_weights", &feather_weight_array, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
@@ -149,8 +132,6 @@ void bind_outline(py::module_& module) {
                py::arg("base"), py::arg("faired"), py::arg("sizes"), py::arg("threads"), py::arg("progress"));
     module.def("fair_curve", &fair_curve_array, py::arg("places"), py::arg("directions"), py::arg("shares"));
     module.def("chain_end", &chain_end, py::arg("chain"));
-    module.def("visible_join", &visible_join_arrays, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
-               py::arg("outline"), py::arg("before"));
 }
 
 }  // namespace fairing::bindings

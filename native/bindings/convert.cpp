@@ -45,6 +45,13 @@ py::array from_indices(const Indices& indices) {
     return read_only(py::array_t<int>(static_cast<py::ssize_t>(indices.size()), indices.data()));
 }
 
+std::vector<std::array<int, 2>> to_pairs(const IntArray& array) {
+    const Indices flat = to_indices(array);
+    std::vector<std::array<int, 2>> pairs;
+    for (std::size_t k = 0; k + 1 < flat.size(); k += 2) pairs.push_back({flat[k], flat[k + 1]});
+    return pairs;
+}
+
 py::object from_diagnostic(const Diagnostic& diagnostic) {
     return package_type("Diagnostic")(
         std::string(code_name(diagnostic.code)), diagnostic.message, from_indices(diagnostic.elements),

@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <array>
 #include <optional>
 
 #include "base/errors.h"
@@ -22,6 +23,7 @@ View<Points> view_points(const DoubleArray& array);
 Triangles to_triangles(const IntArray& array);
 Indices to_indices(const IntArray& array);
 VectorX to_vector(const DoubleArray& array);  // (k,)
+std::vector<std::array<int, 2>> to_pairs(const IntArray& array);
 
 template <typename Array, typename Convert>
 auto to_optional(const std::optional<Array>& array, Convert convert) -> std::optional<decltype(convert(*array))> {

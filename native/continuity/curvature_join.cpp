@@ -4,6 +4,7 @@
 
 #include "continuity/join_operator.h"
 #include "linear/anderson.h"
+#include "linear/limits.h"
 #include "linear/shrinking_steps.h"
 #include "problem/surface_state.h"
 #include "tangential/tangential_step.h"
@@ -11,12 +12,6 @@
 namespace fairing {
 
 namespace {
-
-constexpr int history_depth = 6;
-constexpr double largest_step = 0.1;  // units of D
-// Exact data need 3 to 9 iterations.
-constexpr int most_iterations = 30;
-constexpr int patience = 6;  // iterations without a shorter step
 
 class CurvatureJoin {
 public:
@@ -35,7 +30,7 @@ public:
     }
 
     Solution run() {
-        const int most = std::min(most_iterations, problem_.options.max_iterations);
+        const int most = std::min(nearby.steps, problem_.options.max_iterations);
         solution_.termination = Termination::iteration_limit;
         for (int k = 0; k < most; ++k) {
             progress_.report(static_cast<double>(k) / most, "curvature");
@@ -49,8 +44,8 @@ public:
                 solution_.termination = Termination::converged;
                 break;
             }
-            if (!std::isfinite(largest) || steps_.in_vain(largest) > patience) return failed();
-            anderson_.move(state_.points, d, largest_step);
+            if (!std::isfinite(largest) || steps_.in_vain(largest) > nearby.in_vain) return failed();
+            anderson_.move(state_.points, d, longest_step);
         }
         solution_.points = state_.points;
         solution_.mean_curvature = state_.curvature.mean;

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "operators/outline_system.h"
+
 namespace fairing {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
-constexpr int evening_sweeps = 10;
 
 // Lengths of the edges from each vertex to the next one; on an open curve the last one repeats.
 VectorX edge_lengths(const OutlineCurve& curve, const Points& points) {
@@ -26,7 +25,7 @@ VectorX edge_lengths(const OutlineCurve& curve, const Points& points) {
 // Means with the neighbours along the curve.
 VectorX evened(VectorX values, bool closed) {
     const Eigen::Index count = values.size();
-    for (int sweep = 0; sweep < evening_sweeps; ++sweep) {
+    for (int sweep = 0; sweep < smoothing_sweeps; ++sweep) {
         const VectorX old = values;
         for (Eigen::Index k = 0; k < count; ++k) {
             const Eigen::Index before = k > 0 ? k - 1 : (closed ? count - 1 : k);
@@ -88,7 +87,7 @@ void OutlineModes::add_curve(const OutlineCurve& curve, const Points& fixed_poin
     const Eigen::Index pairs = vertices / vertices_per_wave;
     const Eigen::Index waves = curve.closed ? 1 + 2 * pairs : std::max<Eigen::Index>(1, 2 * pairs);
     Curve made{curve, Eigen::MatrixXd(vertices, waves), VectorX(waves), spacing.cwiseAbs2().cwiseInverse()};
-    const double slowest = 2.0 * pi / period;
+    const double slowest = 2.0 * std::numbers::pi / period;
     for (Eigen::Index m = 0; m < waves; ++m) {
         const Eigen::Index halves = curve.closed ? m + m % 2 : m + 1;  // half waves on the curve
         const double frequency = 0.5 * slowest * static_cast<double>(halves);

@@ -17,8 +17,7 @@ constexpr double disc_of_depth = 0.5;     // radius of a disc, of the greatest d
 constexpr double least_edges = 2.5;       // in the radius of a disc
 constexpr double edge_effects = 0.25;     // wavelengths from the edge of a sample where it is not measured
 constexpr double most_gain = 3.0;         // of a band: what a mesh can't carry is not forced on it
-constexpr int most_passes = 6;            // the bands overlap
-constexpr double matched = 0.01;          // of a band's height: nothing more is done
+constexpr int passes = 6;                 // the bands overlap
 constexpr double meeting_length = 0.125;  // wavelengths within which the detail turns into that of the outline
 
 double root_mean_square(const Eigen::Ref<const VectorX>& values) {
@@ -68,16 +67,13 @@ bool BorrowedSkin::measure(const Progress& progress) {
 }
 
 void BorrowedSkin::match(const Bands& bands, int free_count, VectorX& heights) const {
-    double worst = matched;
-    for (int pass = 0; pass < most_passes && !(worst < matched); ++pass) {
+    for (int pass = 0; pass < passes; ++pass) {
         const Eigen::MatrixXd parts = bands.split(heights);
         heights.setZero();
-        worst = 0.0;
         for (Eigen::Index k = 0; k < parts.cols(); ++k) {
             const double there = root_mean_square(parts.col(k).head(free_count));
             const double gain = there > 0.0 ? std::min(heights_in_bands_[k] / there, most_gain) : 1.0;
             heights += gain * parts.col(k);
-            worst = std::max(worst, std::abs(gain - 1.0));
         }
     }
 }

@@ -101,7 +101,7 @@ private:
         place.known.resize(count);
         for (Eigen::Index k = 0; k < count; ++k) {
             const int v = place.vertices[static_cast<std::size_t>(k)];
-            const double laid = covered_[v] > 0.0 ? heights_[v] : missing;
+            const double laid = covered_[v] > 0.0 ? heights_[v] : NAN;
             place.known[k] = std::isnan(surface_.known[v]) ? laid : surface_.known[v];
         }
         return place;
@@ -170,8 +170,6 @@ private:
         }
         return laid > 0.0 && added > 0.0 ? std::clamp(product / std::sqrt(laid * added), 0.0, 1.0) : 0.0;
     }
-
-    static constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
     const BareSurface& surface_;
     const SkinSample& sample_;

@@ -2,16 +2,15 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
 #include "base/direction.h"
 #include "fill/harmonic_values.h"
+#include "geometry/angle.h"
 
 namespace fairing {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr double widest_flat = 115.0 * degree;  // half-angle up to which a flat start grows into the surface quickly
 constexpr double least_turn = 1e-3;             // of the normals along the outline, below which there is no ball
 

@@ -15,6 +15,8 @@ namespace {
 
 constexpr double even_growth = 0.5;   // of lengths by distance
 constexpr double steep_growth = 1.0;  // where the outline is so coarse that an even one gives too few vertices
+// Beside an edge of any length the wanted one is reached at half of the edge: where the next vertex is as near.
+constexpr double steepest_growth = 2.0;
 
 // Mean length of the edges that stay at each vertex that has any, zero elsewhere.
 VectorX border_lengths(const Patch& patch, const Points& points, const KeptEdges& kept) {
@@ -102,6 +104,16 @@ VectorX graded(const Patch& patch, const Points& points, double growth, const Ve
     return lengths;
 }
 
+// The least growth with which the outline's long edges leave most of the inside the lengths wanted there.
+double enough_growth(const Patch& patch, const Points& points, const VectorX& border, const VectorX& inside) {
+    constexpr double most = 0.5;  // of the vertices
+    const double count = expected_count(patch, points, inside);
+    for (const double growth : {even_growth, steep_growth}) {
+        if (expected_count(patch, points, graded(patch, points, growth, border, inside)) >= most * count) return growth;
+    }
+    return steepest_growth;
+}
+
 // Those wanted away from all that stays.
 VectorX lengths_inside(const Patch& patch, const Points& points, const WantedLengths& wanted, const VectorX& border) {
     const double mean = mean_border_edge(patch, points);
@@ -132,19 +144,20 @@ VectorX edge_lengths(const Patch& patch, const Points& points, const WantedLengt
     constexpr double smallest_scale = 1e-2;
     const VectorX border = border_lengths(patch, points, kept);
     const VectorX inside = lengths_inside(patch, points, wanted, border);
-    VectorX lengths = graded(patch, points, even_growth, border, inside);
+    const double growth = enough_growth(patch, points, border, inside);
+    VectorX lengths = graded(patch, points, growth, border, inside);
     const auto suffices = [&](const VectorX& tried) {
         return expected_count(patch, points, tried) >= wanted.least_count;
     };
     if (suffices(lengths)) return lengths;
-    for (const double growth : {even_growth, steep_growth}) {
+    for (const double steeper : {growth, std::max(growth, steep_growth)}) {
         double enough = smallest_scale;
         double few = 1.0;
-        lengths = graded(patch, points, growth, border, enough * inside);
+        lengths = graded(patch, points, steeper, border, enough * inside);
         if (!suffices(lengths)) continue;
         for (int k = 0; k < halvings; ++k) {
             const double scale = std::sqrt(enough * few);
-            VectorX tried = graded(patch, points, growth, border, scale * inside);
+            VectorX tried = graded(patch, points, steeper, border, scale * inside);
             if (suffices(tried)) {
                 enough = scale;
                 lengths = std::move(tried);

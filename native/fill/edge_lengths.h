@@ -15,13 +15,15 @@ struct WantedLengths {
     double spacing = 0.0;  // of an edge in the mean of the outline's; 0: as these are
     int least_count = 0;   // about so many vertices at least: lengths shrink evenly until they give that many
     Spread spread = Spread::outline;
+    bool flat = false;  // the old triangles are the surface as they are; small angles that smoothing leaves stay
 };
 
 // One entry for each edge of a patch: whether the new mesh has it, too. Border edges stay anyway; empty: no others.
 using KeptEdges = std::vector<char>;
 
 // A length at each vertex of a patch (`points`: 3 × local vertices). At edges that stay it is that of these; from there
-// it grows or shrinks to the wanted one by at most a half of the distance.
+// it grows or shrinks to the wanted one by a half of the distance; by all of it, or by twice as much, where the edges
+// that stay are so long that few vertices would be left.
 VectorX edge_lengths(const Patch& patch, const Points& points, const WantedLengths& wanted, const KeptEdges& kept = {});
 
 // How many vertices a mesh of equilateral triangles of these lengths has on the patch, about.

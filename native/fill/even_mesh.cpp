@@ -19,6 +19,7 @@ namespace {
 constexpr double split_above = 4.0 / 3.0;  // of the wanted length
 constexpr double collapse_below = 0.75;
 constexpr double longest_after = 1.4;      // edges that a collapse makes
+constexpr double far_apart = 1.01;         // lengths whose two means differ at all
 constexpr double most_per_expected = 2.0;  // vertices; on a surface with folds splits would never end
 
 Vector3 cross_product(const Vector3& a, const Vector3& b, const Vector3& c) { return (b - a).cross(c - a); }
@@ -54,10 +55,16 @@ EvenMesh::EvenMesh(const Patch& patch, const Points& points, const TargetSurface
     }
 }
 
+// Of the edge wanted between two vertices. Where lengths grow steadily from one to the other, their logarithmic mean
+// counts: by the mean of a long and a short one, the edge of a coarse outline's corner would never be split.
+double EvenMesh::wanted_between(Vertex one, Vertex other) const {
+    const auto [low, high] = std::minmax(wanted_[one.idx()], wanted_[other.idx()]);
+    return high > far_apart * low ? (high - low) / std::log(high / low) : 0.5 * (low + high);
+}
+
 double EvenMesh::relative_length(Edge e) const {
     const Halfedge h = mesh_.halfedge_handle(e, 0);
-    const double wanted = wanted_[mesh_.from_vertex_handle(h).idx()] + wanted_[mesh_.to_vertex_handle(h).idx()];
-    return 2.0 * mesh_.calc_edge_length(e) / wanted;
+    return mesh_.calc_edge_length(e) / wanted_between(mesh_.from_vertex_handle(h), mesh_.to_vertex_handle(h));
 }
 
 bool EvenMesh::is_chord(Edge e) const {
@@ -143,12 +150,12 @@ int EvenMesh::split_long() {
     return static_cast<int>(long_edges.size());
 }
 
-// Whether the edges that a collapse of h makes are longer than any should be.
-bool EvenMesh::makes_long_edges(Halfedge h) const {
+// Whether a collapse of h makes edges of more than `most` times the wanted length.
+bool EvenMesh::makes_long_edges(Halfedge h, double most) const {
     const Vertex kept = mesh_.to_vertex_handle(h);
     const Vector3 place = point(kept);
     for (const Vertex other : mesh_.vv_range(mesh_.from_vertex_handle(h))) {
-        const double longest = longest_after * 0.5 * (wanted_[other.idx()] + wanted_[kept.idx()]);
+        const double longest = most * wanted_between(other, kept);
         if (other != kept && (place - point(other)).squaredNorm() > longest * longest) return true;
     }
     return false;
@@ -158,8 +165,7 @@ bool EvenMesh::makes_long_edges(Halfedge h) const {
 bool EvenMesh::may_collapse(Halfedge h) {
     const Vertex gone = mesh_.from_vertex_handle(h);
     const Vertex kept = mesh_.to_vertex_handle(h);
-    if (fixed(gone) || makes_long_edges(h)) return false;
-    if (static_cast<int>(mesh_.valence(gone) + mesh_.valence(kept)) - 4 > highest_valence) return false;
+    if (fixed(gone) || makes_long_edges(h, longest_after)) return false;
     if (!mesh_.is_collapse_ok(h)) return false;
     const Vector3 place = point(kept);
     const Vector3 normal = surface_->normal(where_[kept.idx()]);
@@ -207,9 +213,6 @@ bool EvenMesh::may_flip(Edge e) const {
     const Vertex above = apex(h);
     const Vertex below = apex(mesh_.halfedge_handle(e, 1));
     if (fixed(above) && fixed(below)) return false;
-    for (const Vertex v : {above, below}) {
-        if (static_cast<int>(mesh_.valence(v)) >= highest_valence) return false;
-    }
     return diagonal(e).flips_without_fold();
 }
 
@@ -290,12 +293,11 @@ void EvenMesh::smooth(int sweeps) {
 
 void EvenMesh::make_even() {
     constexpr int most_sweeps = 20;
-    constexpr int settling_rounds = 4;
     constexpr int large = 10'000;
     int settled = 0;
     const double most = most_per_expected * (expected_count(*patch_, *points_, *lengths_) + patch_->vertex_count());
     split_chords();
-    for (int round = 0; round < most_sweeps && settled < settling_rounds; ++round) {
+    for (int round = 0; round < most_sweeps && settled < most_rounds; ++round) {
         const int before = static_cast<int>(mesh_.n_vertices());
         if (before > most) break;
         int changes = split_long();

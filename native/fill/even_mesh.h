@@ -47,6 +47,7 @@ private:
     [[nodiscard]] bool stays(Edge e) const { return mesh_.is_boundary(e) || kept_[e.idx()] != 0; }
     [[nodiscard]] Vector3 point(Vertex v) const { return mesh_.point(v); }
     [[nodiscard]] Vertex apex(Halfedge h) const { return mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)); }
+    [[nodiscard]] double wanted_between(Vertex one, Vertex other) const;
     [[nodiscard]] double relative_length(Edge e) const;
     [[nodiscard]] bool is_chord(Edge e) const;
     [[nodiscard]] bool cuts_sharp_corner(Edge e, const Points& normals = {}) const;
@@ -56,7 +57,7 @@ private:
     int split_long();
     void sort();
     int collapse_short();
-    [[nodiscard]] bool makes_long_edges(Halfedge h) const;
+    [[nodiscard]] bool makes_long_edges(Halfedge h, double most) const;
     [[nodiscard]] bool may_collapse(Halfedge h);
     [[nodiscard]] bool may_flip(Edge e) const;
     [[nodiscard]] Diagonal diagonal(Edge e) const;

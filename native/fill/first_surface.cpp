@@ -11,6 +11,7 @@
 #include "fill/edge_lengths.h"
 #include "fill/even_mesh.h"
 #include "fill/joined_loops.h"
+#include "fill/limits.h"
 #include "fill/tube_start.h"
 #include "method/solve.h"
 #include "problem/surface_state.h"
@@ -65,20 +66,21 @@ bool is_surface(const Triangles& triangles) {
     return true;
 }
 
-// Of least area. Where that closes a limb instead of going around it: the one that follows the normals.
-Triangles triangulated(const OpenOutline& outline) {
+// Of least area. Where that closes a limb instead of going around it: the one that follows the normals, which a minimal
+// surface has none of.
+Triangles triangulated(const OpenOutline& outline, Equation equation) {
     constexpr double crosswise = 0.8;  // mean cosine
     constexpr double better = 0.25;
     const Triangles least = joined_loops(outline.points, outline.loops);
     const double before = agreement(outline, least);
-    if (before > crosswise) return least;
+    if (before > crosswise || equation == Equation::minimal) return least;
     const Triangles along = joined_loops(outline.points, outline.loops, &outline.normals);
     return agreement(outline, along) > before + better && is_surface(along) ? along : least;
 }
 
 // The triangulation. A lone triangle has no chord to split: it gets a vertex in its middle.
-ProxyMesh outline_mesh(const OpenOutline& outline) {
-    const Triangles triangles = triangulated(outline);
+ProxyMesh outline_mesh(const OpenOutline& outline, Equation equation) {
+    const Triangles triangles = triangulated(outline, equation);
     if (triangles.cols() > 1) return {made_patch(0, triangles, outline.points.cols()), outline.points};
     const Eigen::Vector3i corners = triangles.col(0) + Eigen::Vector3i::Ones();
     Triangles fan(3, 3);
@@ -103,8 +105,8 @@ Meshed meshed(const EvenMesh& mesh, const Points& outline) {
 }
 
 // Coarse and flat, no two vertices of the outline joined across it.
-Meshed first_mesh(const OpenOutline& outline) {
-    ProxyMesh mesh = outline_mesh(outline);
+Meshed first_mesh(const OpenOutline& outline, Equation equation) {
+    ProxyMesh mesh = outline_mesh(outline, equation);
     mesh.adapt(sizing);
     const auto snapshot = mesh.snapshot();
     const Points flat = Points::Zero(3, snapshot.points.cols());
@@ -181,6 +183,7 @@ FirstSurface on_even_mesh(const OpenOutline& outline, const FirstSurface& last, 
 // Where the surface bulges out so far that it is found from a ball only.
 std::optional<FirstSurface> from_ball(const OpenOutline& outline, const Meshed& flat, const SolverOptions& options,
                                       const Progress& progress) {
+    if (options.equation == Equation::minimal) return std::nullopt;
     const std::optional<Points> ball = ball_start(flat.patch, flat.points, outline.normals);
     if (!ball) return std::nullopt;
     Meshed even = even_mesh(outline, flat.patch, *ball, options);
@@ -197,7 +200,8 @@ Meshed tube_mesh(const OpenOutline& outline, const SweptTube& swept, const Solve
 }
 
 bool may_be_replaced(const SolverOptions& options) {
-    return options.equation != Equation::least_variation && options.otherwise != Otherwise::stop;
+    const bool has_stand_in = options.equation != Equation::least_variation && options.equation != Equation::minimal;
+    return has_stand_in && options.otherwise != Otherwise::stop;
 }
 
 // Where a tube bends so much that the flat mesh grows into something else. The harmonic surface, or that of least
@@ -212,7 +216,8 @@ std::optional<FirstSurface> from_tube(const OpenOutline& outline, const SolverOp
     std::optional<Solution> solution;
     if (options.equation != Equation::least_variation)
         solution = solve_near(problem, {even.points, true}, progress.range(0.0, 0.3));
-    if (!solution) solution = solve_stand_in_roughly(problem, even.points, progress.range(0.3, 1.0));
+    if (!solution && options.equation != Equation::minimal)
+        solution = solve_stand_in_roughly(problem, even.points, progress.range(0.3, 1.0));
     if (!solution && swept->turn() > wide_bend && may_be_replaced(options)) solution = lofted(problem, progress.here());
     if (!solution) return std::nullopt;
     return FirstSurface{std::move(even.patch), std::move(*solution)};
@@ -220,7 +225,7 @@ std::optional<FirstSurface> from_tube(const OpenOutline& outline, const SolverOp
 
 // From a coarse and flat mesh.
 FirstSurface from_flat(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
-    Meshed flat = first_mesh(outline);
+    Meshed flat = first_mesh(outline, options.equation);
     std::optional<FirstSurface> found = from_ball(outline, flat, options, progress.range(0.0, 0.2));
     if (found) return std::move(*found);
     Solution solution = solve(problem_on(outline, flat.patch, options), 0.0, progress.range(0.2, 1.0));
@@ -228,7 +233,6 @@ FirstSurface from_flat(const OpenOutline& outline, const SolverOptions& options,
 }
 
 FirstSurface sought(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
-    constexpr int most_rounds = 4;
     std::optional<FirstSurface> begun = from_tube(outline, options, progress.range(0.0, 0.1));
     FirstSurface result = begun ? std::move(*begun) : from_flat(outline, options, progress.range(0.1, 0.4));
     for (int round = 0; round < most_rounds; ++round) {

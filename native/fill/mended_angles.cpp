@@ -14,6 +14,7 @@ namespace fairing {
 namespace {
 
 constexpr double worth_it = 0.9;              // of the penalty before
+constexpr double coarsest = 2.0;              // of the wanted length: what is left of two edges
 constexpr double most_bad = 0.2;              // of all triangles; where there are more, the surface is folded
 constexpr std::size_t most_attempts = 60;     // triangles
 constexpr std::size_t most_copied = 600'000;  // vertices in all attempts; each copies the mesh some ten times
@@ -58,7 +59,7 @@ bool EvenMesh::may_close(Halfedge h) {
     const Vertex gone = mesh_.from_vertex_handle(h);
     const Vertex kept = mesh_.to_vertex_handle(h);
     if (fixed(gone) || free_count_ < 2 || !mesh_.is_collapse_ok(h)) return false;
-    if (static_cast<int>(mesh_.valence(gone) + mesh_.valence(kept)) > highest_valence + 4) return false;
+    if (makes_long_edges(h, coarsest)) return false;
     for (const Vertex other : mesh_.vv_range(gone)) {
         if (other != kept && !mesh_.find_halfedge(kept, other).is_valid() && !may_join(kept, other)) return false;
     }
@@ -93,10 +94,8 @@ std::vector<std::function<int(EvenMesh&)>> EvenMesh::remedies(Face f) {
         if (!stays(e)) {
             const Vertex above = apex(side);
             const Vertex below = apex(mesh_.opposite_halfedge_handle(side));
-            const bool has_room =
-                static_cast<int>(std::max(mesh_.valence(above), mesh_.valence(below))) <= highest_valence;
-            if (has_room) result.emplace_back([e](EvenMesh& mesh) { return mesh.split(e).idx(); });
-            if (has_room && mesh_.is_flip_ok(e) && may_join(above, below))
+            result.emplace_back([e](EvenMesh& mesh) { return mesh.split(e).idx(); });
+            if (mesh_.is_flip_ok(e) && may_join(above, below))
                 result.emplace_back([e](EvenMesh& mesh) { return mesh.turn_edge(e); });
         }
         if (fixed(corner)) continue;

@@ -13,7 +13,6 @@ namespace fairing {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr double widest = 165.0 * degree;  // of a quad's angles: short of 180°, from where on it is not convex
 constexpr double most_bent = 40.0 * degree;
 constexpr double step = 1e-6;         // costs nearer than that are equal, so that roundoff doesn't choose

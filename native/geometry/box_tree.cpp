@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 
 #include "base/parallel.h"
@@ -13,7 +13,6 @@ namespace fairing {
 namespace {
 
 constexpr std::size_t least_pieces = 16;  // nodes of a level to work on side by side
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct Key {
     std::uint64_t place = 0;
@@ -31,7 +30,7 @@ std::uint64_t spread(std::uint64_t bits) {
 
 // A cube around the points that are finite.
 struct Cube {
-    Vector3 corner = Vector3::Constant(infinite);
+    Vector3 corner = Vector3::Constant(HUGE_VAL);
     double edge = 0.0;
 
     Cube(const Points& points, std::span<const Key> keys) {
@@ -88,7 +87,7 @@ void sort_along_curve(std::span<Key> keys, const Points& centres) {
     constexpr std::size_t many = 1024;
     constexpr std::ptrdiff_t crowd = 16;
     const Cube cube(centres, keys);
-    if (!(cube.edge > 0.0 && cube.edge < infinite)) return;
+    if (!(cube.edge > 0.0 && cube.edge < HUGE_VAL)) return;
     for_ranges(static_cast<int>(keys.size()), coarse_grain, [&](int begin, int end) {
         for (int k = begin; k < end; ++k) keys[k].place = cube.place(centres.col(keys[k].triangle));
     });
@@ -161,7 +160,7 @@ void BoxTree::add_triangles(const Triangles& triangles, const Points& points) {
     std::vector<Boxes>& leaves = levels_.emplace_back((count + 3) / 4);
     for_ranges(static_cast<int>(leaves.size()), coarse_grain / 4, [&](int begin, int end) {
         for (int k = 4 * begin; k < 4 * end; ++k) {
-            Vector3 least = Vector3::Constant(infinite);
+            Vector3 least = Vector3::Constant(HUGE_VAL);
             Vector3 most = -least;
             if (k < count) {
                 const auto corners = triangles.col(order_[k]);
@@ -187,8 +186,8 @@ void BoxTree::add_level() {
     for (std::size_t k = 0; k < 4 * level.size(); ++k) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto slot = static_cast<Eigen::Index>(k % 4);
-            level[k / 4].least[axis][slot] = k < count ? levels_.back()[k].least[axis].minCoeff() : infinite;
-            level[k / 4].most[axis][slot] = k < count ? levels_.back()[k].most[axis].maxCoeff() : -infinite;
+            level[k / 4].least[axis][slot] = k < count ? levels_.back()[k].least[axis].minCoeff() : HUGE_VAL;
+            level[k / 4].most[axis][slot] = k < count ? levels_.back()[k].most[axis].maxCoeff() : -HUGE_VAL;
         }
     }
     levels_.push_back(std::move(level));
@@ -201,7 +200,7 @@ void BoxTree::compare(int level, const Pair& pair, const Take& take) const {
     const Boxes& first = levels_[level][pair.first];
     const Boxes& second = levels_[level][pair.second];
     for (int k = 0; k < 4; ++k) {
-        Four gaps = Four::Constant(-infinite);
+        Four gaps = Four::Constant(-HUGE_VAL);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             gaps = gaps.max(first.least[axis][k] - second.most[axis]).max(second.least[axis] - first.most[axis][k]);
         }

@@ -14,7 +14,8 @@ namespace fairing {
 
 namespace {
 
-constexpr double usual_share = 0.75;  // of the weight has less, and the same share has more than the lower bound
+constexpr double across_share = 0.85;  // a row of seven, with diagonals, has .09: one that bends alone is not usual
+constexpr double usual_share = 0.75;   // of the weight has less, and the same share has more than the lower bound
 
 struct WeightedAngle {
     double angle;
@@ -31,6 +32,17 @@ double quantile(const std::vector<WeightedAngle>& sorted, double share) {
         if (sum >= share * total) return entry.angle;
     }
     return sorted.back().angle;
+}
+
+// Between these shares of the weight, and zero.
+AngleRange middle(double share, std::vector<WeightedAngle>& near) {
+    AngleRange range;
+    if (near.empty()) return range;
+    std::sort(near.begin(), near.end(),
+              [](const WeightedAngle& first, const WeightedAngle& second) { return first.angle < second.angle; });
+    range.include(quantile(near, 1.0 - share));
+    range.include(quantile(near, share));
+    return range;
 }
 
 }  // namespace
@@ -158,38 +170,78 @@ Indices DihedralBands::triangles_near(int a, int b, Walk& walk) const {
     return found;
 }
 
-template <typename Weight>
-AngleRange DihedralBands::middle_half(int a, int b, Walk& walk, const Weight& weight) const {
-    std::vector<WeightedAngle> near;
-    for (int t : triangles_near(a, b, walk)) {
+Indices DihedralBands::inner_edges(const Indices& triangles, Walk& walk) const {
+    Indices found;
+    for (const int t : triangles) {
         for (int k = 0; k < 3; ++k) {
             const int e = edges_.edge_of_side[3 * t + k];
             if (edges_.side_count(e) != 2 || walk.edges[e] == walk.stamp) continue;
             walk.edges[e] = walk.stamp;
-            near.push_back({angles_[e], weight(e)});
+            found.push_back(e);
         }
     }
-    if (near.empty()) return {};
-    std::sort(near.begin(), near.end(),
-              [](const WeightedAngle& first, const WeightedAngle& second) { return first.angle < second.angle; });
-    AngleRange range;
-    range.include(quantile(near, 1.0 - usual_share));
-    range.include(quantile(near, usual_share));
-    return range;
+    return found;
 }
 
 AngleRange DihedralBands::usual(int a, int b, Walk& walk) const {
-    return middle_half(a, b, walk, [this](int e) { return lengths_[e]; });
+    std::vector<WeightedAngle> near;
+    for (const int e : inner_edges(triangles_near(a, b, walk), walk)) near.push_back({angles_[e], lengths_[e]});
+    return middle(usual_share, near);
+}
+
+double DihedralBands::mean_height(int edge) const {
+    double sum = 0.0;
+    for (int k = 0; k < edges_.side_count(edge); ++k) sum += 2.0 * area(edges_.side(edge, k) / 3);
+    return lengths_[edge] > 0.0 ? sum / (lengths_[edge] * edges_.side_count(edge)) : 0.0;
+}
+
+double DihedralBands::area(int triangle) const {
+    const auto corners = triangles_.col(triangle);
+    const Vector3 a = points_.col(corners[0]);
+    return 0.5 * (points_.col(corners[1]) - a).cross(Vector3(points_.col(corners[2]) - a)).norm();
+}
+
+double DihedralBands::weight_across(int edge, const Vector3& along) const {
+    const auto [a, b] = edges_.ends[edge];
+    const double cosine = along.dot(direction(points_.col(b) - points_.col(a)));
+    return lengths_[edge] * cosine * cosine;
 }
 
 AngleRange DihedralBands::usual_across(int edge, Walk& walk) const {
     const auto [a, b] = edges_.ends[edge];
     const Vector3 along = direction(points_.col(b) - points_.col(a));
-    return middle_half(a, b, walk, [&](int e) {
+    std::vector<WeightedAngle> near;
+    for (const int e : inner_edges(triangles_near(a, b, walk), walk))
+        near.push_back({angles_[e], weight_across(e, along)});
+    const AngleRange half = middle(usual_share, near);
+    const AngleRange most = middle(across_share, near);
+    return angles_[edge] > 0.0 ? AngleRange{half.low, most.high} : AngleRange{most.low, half.high};
+}
+
+std::optional<double> DihedralBands::curvature_beyond(int edge, Walk& walk) const {
+    const auto [a, b] = edges_.ends[edge];
+    const Vector3 start = points_.col(a);
+    const Vector3 along = direction(points_.col(b) - start);
+    const double height = mean_height(edge);
+    const auto is_beyond = [&](const Vector3& place) {
+        const Vector3 offset = place - start;
+        const double across = (offset - along.dot(offset) * along).norm();
+        return across > std::max(1.5 * height, std::abs(along.dot(offset)));
+    };
+    double covered = 0.0;
+    const Indices near = triangles_near(a, b, walk);
+    for (const int t : near) {
+        const auto corners = triangles_.col(t);
+        if (is_beyond((points_.col(corners[0]) + points_.col(corners[1]) + points_.col(corners[2])) / 3.0))
+            covered += area(t);
+    }
+    if (!(covered >= lengths_[edge] * height)) return std::nullopt;
+    double bend = 0.0;
+    for (const int e : inner_edges(near, walk)) {
         const auto [tail, head] = edges_.ends[e];
-        const double cosine = along.dot(direction(points_.col(head) - points_.col(tail)));
-        return lengths_[e] * cosine * cosine;
-    });
+        if (is_beyond(0.5 * (points_.col(tail) + points_.col(head)))) bend += angles_[e] * weight_across(e, along);
+    }
+    return bend / covered;
 }
 
 }  // namespace fairing

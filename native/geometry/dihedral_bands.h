@@ -1,6 +1,8 @@
 // Dihedral angles of a triangle list and what is usual among them near a place.
 #pragma once
 
+#include <optional>
+
 #include "mesh/edges.h"
 
 namespace fairing {
@@ -43,16 +45,22 @@ public:
     static constexpr int rings = 3;  // of triangles around an edge
     // The middle half, by the edges' lengths, of the angles within these rings around an edge (a, b), and zero.
     [[nodiscard]] AngleRange usual(int a, int b, Walk& walk) const;
-    // The same of the bends across this edge's direction: others count by the squared cosine between them and it, too.
-    // Round a tube of any proportions the edges along it say how it bends, those around it nothing.
+    // What is usual of the bends across an edge's direction: others count by the squared cosine between them and it,
+    // too. Round a tube of any proportions the edges along it say how it bends, those around it nothing. The middle
+    // half on the other side of zero, and .85 on the edge's own.
     [[nodiscard]] AngleRange usual_across(int edge, Walk& walk) const;
+    // By how much it bends in that direction beyond the rows beside the edge, in degrees per length; nothing where less
+    // is near than one row's share.
+    [[nodiscard]] std::optional<double> curvature_beyond(int edge, Walk& walk) const;
+    [[nodiscard]] double mean_height(int edge) const;  // of its triangles over it
 
 private:
     void measure_edges();
     void measure(int edge);
+    [[nodiscard]] double area(int triangle) const;
+    [[nodiscard]] double weight_across(int edge, const Vector3& along) const;
     [[nodiscard]] Vector3 normal_beyond(int side) const;
-    template <typename Weight>
-    [[nodiscard]] AngleRange middle_half(int a, int b, Walk& walk, const Weight& weight) const;
+    [[nodiscard]] Indices inner_edges(const Indices& triangles, Walk& walk) const;  // with two triangles, each once
     [[nodiscard]] Indices triangles_near(int a, int b, Walk& walk) const;
 
     const Points& points_;

@@ -19,8 +19,10 @@ namespace {
 constexpr double roundest_bend = 40.0;
 // Bends to the other side come from noise. The middle half ends at .67 of its standard deviation: this is twice that.
 constexpr double noise_margin = 3.0;
-constexpr double runs_on = 0.25;    // cosine of the turn at which a chain goes on: as far as a pentagon's
-constexpr double own_share = 0.35;  // of the bend over three rows: of three alike none is an edge
+constexpr double runs_on = 0.25;  // cosine of the turn at which a chain goes on: as far as a pentagon's
+// Three rows may bend as much as a hard edge does where those beyond do not: a crease that runs between two rows.
+constexpr double rows = 3.0;
+constexpr double own_share = 0.35;  // of their bend: of three alike none is an edge
 constexpr int chain_length = 4;     // edges: noise has shorter ones
 constexpr int corner_edges = 2;     // other hard edges at a corner where a chain ends
 
@@ -63,16 +65,21 @@ private:
     }
 
     [[nodiscard]] Hardness hardness(int edge, DihedralBands::Walk& walk) const {
-        const double angle = bands_.angle(edge);
+        const double bend = std::abs(bands_.angle(edge));
         const double over_rows = std::abs(bands_.angle_over_rows(edge));
-        const bool is_chamfer = over_rows >= hard_bend && std::abs(angle) >= own_share * over_rows;
-        if (std::abs(angle) < fading_bend && !is_chamfer) return soft;
-        const AngleRange range = bands_.usual_across(edge, walk);
-        const double same_way = angle > 0.0 ? range.high : -range.low;
-        const double other_way = angle > 0.0 ? -range.low : range.high;
-        const double usual = std::max(std::min(same_way, roundest_bend), noise_margin * other_way);
-        if (std::abs(angle) - usual >= hard_bend || (is_chamfer && over_rows - 3.0 * usual >= hard_bend)) return hard;
-        return std::abs(angle) - usual >= fading_bend ? fading : soft;
+        const bool may_be_chamfer = over_rows >= hard_bend && bend >= own_share * over_rows;
+        if (bend < fading_bend && !may_be_chamfer) return soft;
+        const AngleRange usual = bands_.usual_across(edge, walk);
+        const bool is_convex = bands_.angle(edge) > 0.0;
+        const double same_way = std::min(is_convex ? usual.high : -usual.low, roundest_bend);
+        const double noise = noise_margin * (is_convex ? -usual.low : usual.high);
+        const double excess = bend - std::max(same_way, noise);
+        if (excess >= hard_bend) return hard;
+        if (may_be_chamfer && over_rows - rows * noise >= hard_bend) {
+            const std::optional<double> beyond = bands_.curvature_beyond(edge, walk);
+            if (beyond && over_rows - rows * bands_.mean_height(edge) * std::abs(*beyond) >= hard_bend) return hard;
+        }
+        return excess >= fading_bend ? fading : soft;
     }
 
     [[nodiscard]] std::vector<char> places_of(const VertexPairs& pairs) const {

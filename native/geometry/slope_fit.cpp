@@ -23,11 +23,13 @@ constexpr double settled_in_noise = 1e-3;  // standard errors
 // Columns of the system: quadratic and cubic terms, the constant where the centre is free, then x and y; the heights
 // stand in the last one.
 constexpr int sphere_terms = 1;
+constexpr int strip_terms = 2;
 constexpr int quadratic_terms = 3;
 constexpr int cubic_terms = 4;
 
 int terms_of(Degree degree) {
     if (degree == Degree::sphere) return sphere_terms;
+    if (degree == Degree::strip) return strip_terms;
     return degree == Degree::cubic ? quadratic_terms + cubic_terms : quadratic_terms;
 }
 
@@ -85,15 +87,30 @@ public:
         return solve();
     }
 
+    // The direction in which the points lie farthest apart.
+    [[nodiscard]] Vector3 longest_extent() const {
+        Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+        for (Index i = 0; i < 3; ++i) {
+            for (Index j = 0; j < 3; ++j) {
+                for (Index k = 0; k < system_.fours(); ++k)
+                    moments(i, j) += (weights_.col(k) * offsets_.col(3 * k + i) * offsets_.col(3 * k + j)).sum();
+            }
+        }
+        return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvectors().col(2);
+    }
+
+    // How far the points reach to either side of the centre.
+    [[nodiscard]] double width(const Vector3& axis) const {
+        double widest = 0.0;
+        for (Index k = 0; k < system_.fours(); ++k) widest = std::max(widest, along(axis, k).abs().maxCoeff());
+        return widest;
+    }
+
     // Of the sum of the terms of x² and y², in the last round.
     [[nodiscard]] double error_of_curvature() const {
         TallSystem::Row covariance = TallSystem::Row::Zero(unknowns());
-        if (terms_ == sphere_terms) {
-            covariance[0] = 2.0;
-        } else {
-            covariance[0] = 1.0;
-            covariance[2] = 1.0;
-        }
+        covariance[0] = terms_ == sphere_terms ? 2.0 : 1.0;
+        if (terms_ >= quadratic_terms) covariance[2] = 1.0;
         return system_.solve_transposed(covariance).norm() * residual();
     }
 
@@ -115,6 +132,8 @@ private:
         const auto add = [&](const Four& values) { system_.set(k, column++, weight * values); };
         if (terms_ == sphere_terms) {
             add(squared + above * above);
+        } else if (terms_ == strip_terms) {
+            add(x * x + above * above), add(x * y);
         } else if (axes.known) {
             add(x * x + above * above), add(x * y), add(y * y);
         } else {
@@ -171,6 +190,12 @@ Vector3 most_curved(const Eigen::Vector<double, 7>& terms, const Axes& axes) {
     return direction.x() * axes.x + direction.y() * axes.y;
 }
 
+// What a strip leaves open: its slope across, and half of its curvature, if it bends that way as it does along.
+void doubt(SlopeFit& fit, double width) {
+    fit.error += std::abs(fit.terms[0]) * width;
+    fit.curvature_error += std::abs(fit.mean_curvature);
+}
+
 Axes turned_into(const Vector3& direction, const Vector3& normal) {
     const Vector3 x = (direction - normal.dot(direction) * normal).normalized();
     return {x, normal.cross(x), true};
@@ -199,19 +224,22 @@ std::optional<SlopeFit> fit_slopes(const Vector3& centre, std::span<const Vector
     SlopeFit result{.normal = start, .scale = fit.scale()};
     const Frame first(start);
     Axes axes{first.u, first.v, false};
+    const bool is_strip = degree == Degree::strip;
+    if (is_strip) axes = turned_into(fit.longest_extent(), start);
     double constant = 0.0;
     for (int k = 0; k < most_rounds; ++k) {
         const auto round = fit.round(result.normal, axes, constant);
         if (!round) return std::nullopt;
         const double change = round->slopes.norm() + std::abs(round->constant - constant);
         constant = round->constant;
-        const Vector3 direction = most_curved(round->terms, axes);
+        const Vector3 direction = is_strip ? axes.x : most_curved(round->terms, axes);
         take(result, *round, axes);
         axes = turned_into(direction, result.normal);
         if (k + 1 >= least_rounds && change < std::max(settled, settled_in_noise * round->error)) break;
     }
     if (!(result.normal.dot(start) > cos_of_widest_turn)) return std::nullopt;
     result.curvature_error = fit.error_of_curvature() / fit.scale();
+    if (is_strip) doubt(result, fit.width(result.y));
     return result;
 }
 

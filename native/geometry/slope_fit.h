@@ -8,7 +8,7 @@
 
 namespace fairing {
 
-enum class Degree { sphere, quadratic, cubic };
+enum class Degree { sphere, strip, quadratic, cubic };
 // Whether the surface passes through the centre, or the centre is a noisy point like the others.
 enum class Centre { met, free };
 
@@ -45,7 +45,9 @@ private:
 // p − centre; x and y run along and across the direction that is curved most. Along x this is a circle: spheres and
 // cylinders are met exactly, by any points, however far around they reach. c₀ = 0 where the centre is met. Where it is
 // free, c₀ is fitted and the centre is a point of weight 1. n, the direction and c₀ are iterated from `start`.
-// Degree::sphere: h = a (x² + y² + h²), with the same slopes and constant. Returns nothing where the points are too few
+// Degree::sphere: h = a (x² + y² + h²), with the same slopes and constant.
+// Degree::strip, for points in one or two rows: h = a (x² + h²) + b xy, x along the rows. Nothing shows how it bends
+// across: as much as along is possible, which the errors include. Returns nothing where the points are too few
 // to estimate an error (6 and 10), don't determine the terms, or lead more than 60° away from `start`.
 std::optional<SlopeFit> fit_slopes(const Vector3& centre, std::span<const Vector3> points, const Vector3& start,
                                    Degree degree, Centre at_centre = Centre::met);

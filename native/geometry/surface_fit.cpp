@@ -62,9 +62,19 @@ std::optional<SlopeFit> SurfaceFits::at_vertex(int vertex, Neighbourhood& around
         if (fit && (!best || fit->error < best->error)) best = fit;
         if (fit && (!most_certain || fit->curvature_error < most_certain->curvature_error)) most_certain = fit;
     }
+    if (!best && at_centres_ == Centre::free) return strip_at(vertex, around);
     if (best) {
         best->mean_curvature = most_certain->mean_curvature;
         best->curvature_error = most_certain->curvature_error;
+    }
+    return best;
+}
+
+std::optional<SlopeFit> SurfaceFits::strip_at(int vertex, const Neighbourhood& around) const {
+    std::optional<SlopeFit> best;
+    for (const auto points : {around.rings(quadratic_rings), around.nearest(points_of_fit)}) {
+        const auto fit = fit_slopes(points_.col(vertex), points, averaged(vertex), Degree::strip, at_centres_);
+        if (fit && (!best || fit->error < best->error)) best = fit;
     }
     return best;
 }

@@ -9,7 +9,8 @@
 namespace fairing {
 
 // The best fits at vertices of a surface formed by triangles. Where the centres are met, four fits of up to three rings
-// compete; where they are free, fits of up to four rings and the 40 nearest vertices do, too, against noise.
+// compete; where they are free, fits of up to four rings and the 40 nearest vertices do, too, against noise, and a
+// strip's fit stands in where these do not determine a quadric.
 class SurfaceFits {
 public:
     // Coordinates beyond ±1e100 or within ±1e-100 lose their digits: scale them. Keeps references.
@@ -25,6 +26,7 @@ public:
     [[nodiscard]] Vector3 averaged(int vertex) const { return direction(summed_.col(vertex)); }
 
 private:
+    [[nodiscard]] std::optional<SlopeFit> strip_at(int vertex, const Neighbourhood& around) const;
     static Reach reach_of(Centre at_centres);
 
     const Points& points_;

@@ -138,7 +138,8 @@ Vector3 TargetSurface::face_normal(int triangle) const {
 Vector3 TargetSurface::normal(const SurfacePoint& where) const {
     Vector3 sum = Vector3::Zero();
     for (int k = 0; k < 3; ++k) sum += where.weights[k] * normals_.col(patch_.triangles(k, where.triangle));
-    return sum.normalized();
+    const double size = sum.norm();
+    return size > 0.0 ? Vector3(sum / size) : face_normal(where.triangle);
 }
 
 double TargetSurface::interpolate(const VectorX& values, const SurfacePoint& where) const {

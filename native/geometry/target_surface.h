@@ -11,7 +11,8 @@ struct SurfacePoint {
     Vector3 weights = Vector3(1.0, 0.0, 0.0);  // barycentric, ≥ 0
 };
 
-// Curved PN triangles (Vlachos et al. 2001) over a patch with unit normals at its vertices.
+// Curved PN triangles (Vlachos et al. 2001) over a patch with unit normals at its vertices; flat ones between vertices
+// whose normals are zero.
 class TargetSurface {
 public:
     // The arguments must outlive the surface. Columns: local vertices of the patch. `walls`: edges that no walk

@@ -15,13 +15,11 @@ namespace fairing {
 namespace {
 
 constexpr double last_digits = 1e-5;  // units of D; shorter steps shrink unevenly where a surface is found, too
-constexpr double slow = 0.5;          // contraction over `refresh_after` iterations that asks for a new factor
-constexpr int refresh_after = 6;
+constexpr int refresh_after = 6;      // iterations, where they contract slowly
 // The iteration ends before a step of this share of the tolerance, which is not taken: up to three times as much may be
 // left. It ends with a step after which the next one would be as short, by the ratio of the last two, and within the
-// tolerance by that of the residuals. Steps shrink by a third to a seventh each; a ratio that is less is luck.
+// tolerance by that of the residuals.
 constexpr double least_share = 0.5;
-constexpr double fastest = 0.1;
 constexpr double share_of_factor = 0.2;  // of the time, in large problems
 
 // Of the moves along the normals, in units of D: beyond, slopes and curvatures say little about where the vertices will
@@ -145,8 +143,8 @@ private:
 
     // The largest move of the next iteration, from this one's and the last one's; infinite where they hardly shrink.
     [[nodiscard]] double next_step(double largest) const {
-        const double ratio = std::max(largest / last_step_, fastest);
-        return ratio <= slow ? ratio * largest : std::numeric_limits<double>::infinity();
+        const double ratio = std::max(largest / last_step_, fastest_contraction);
+        return ratio <= slow_contraction ? ratio * largest : std::numeric_limits<double>::infinity();
     }
 
     // False where the surface is no longer finite.
@@ -176,7 +174,7 @@ private:
     bool refresh_operator(int k) {
         if (work_.keeps_factor) return true;
         if (k > 0 && k - refreshed_at_ < refresh_after) return true;
-        const bool wanted = k == 0 || last_step_ > slow * step_at_refresh_;
+        const bool wanted = k == 0 || last_step_ > slow_contraction * step_at_refresh_;
         refreshed_at_ = k;
         step_at_refresh_ = k == 0 ? std::numeric_limits<double>::infinity() : last_step_;
         return !wanted || work_.normal->update(state_.stiffness, progress_.range(0.0, k == 0 ? share_of_factor : 0.0));

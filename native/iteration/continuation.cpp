@@ -6,8 +6,7 @@ namespace fairing {
 
 namespace {
 
-constexpr double smallest_increment = 1.0 / 32.0;  // of the whole load
-constexpr double intermediate_tolerance = 1e-4;    // units of D
+constexpr double intermediate_tolerance = 1e-4;  // units of D
 
 Solution iterate_with_load(const Problem& problem, Workspace& work, const Points& start, double share,
                            const Progress& progress) {

@@ -8,6 +8,9 @@
 
 namespace fairing {
 
+// Of the whole load: the least one that is tried where a larger one is too much.
+inline constexpr double smallest_increment = 1.0 / 32.0;
+
 // The accurate iteration; for a constant load after the harmonic solution, and in steps of the load where a single
 // one is too much. What comes back belongs to the whole load or says that it did not converge.
 Solution solve_equation(const Problem& problem, Workspace& work, const Points& start, const Progress& progress);

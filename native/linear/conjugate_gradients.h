@@ -7,6 +7,9 @@
 
 namespace fairing {
 
+// Where a caller knows no smaller number: it has never been reached.
+inline constexpr int most_cycles = 500;
+
 template <typename Field>
 double inner_product(const Field& a, const Field& b) {
     return sum_over_ranges(static_cast<int>(a.cols()), coarse_grain, [&](int begin, int end) {

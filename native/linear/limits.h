@@ -3,10 +3,14 @@
 
 namespace fairing {
 
-// Differences that an accelerated iteration keeps, and the length of its longest step in units of D. Spread pins and
-// slides within a surface have limits of their own.
+// Differences that an accelerated iteration keeps, and the length of its longest step in units of D. Slides within a
+// surface have a depth of their own.
 inline constexpr int history_depth = 6;
 inline constexpr double longest_step = 0.1;
+
+// Line searches: how often a step is halved, and the share of the fall that its slope promises (Armijo).
+inline constexpr int most_halvings = 8;
+inline constexpr double armijo = 1e-4;
 
 // Rows and columns of a dense matrix that are worked on at once: what the cache holds.
 inline constexpr int tile = 192;

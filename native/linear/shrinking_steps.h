@@ -7,6 +7,11 @@
 
 namespace fairing {
 
+// A contraction that is slow: steps that halve or more do near a surface, and with a factor that still suits them.
+inline constexpr double slow_contraction = 0.5;
+// The fastest that counts: steps shrink by a third to a seventh each, and a ratio that is less is luck.
+inline constexpr double fastest_contraction = 0.1;
+
 class ShrinkingSteps {
 public:
     // A step counts as shorter where it is less than `share` of the shortest before it.
@@ -35,15 +40,13 @@ public:
     // `length`: the largest move of the next iteration.
     bool is_slow(double length) {
         double& third_before = lengths_[count_ % lengths_.size()];
-        const bool slow = count_ >= lengths_.size() && length > most * third_before;
+        const bool slow = count_ >= lengths_.size() && length > slow_contraction * third_before;
         third_before = length;
         ++count_;
         return slow;
     }
 
 private:
-    static constexpr double most = 0.5;
-
     std::array<double, 3> lengths_{};
     std::size_t count_ = 0;
 };

@@ -1,5 +1,8 @@
 #include "multigrid/coarsening.h"
 
+#include <deque>
+#include <iterator>
+
 #include "base/background_task.h"
 
 namespace fairing {
@@ -10,8 +13,6 @@ namespace {
 constexpr double factor = 3.5;
 constexpr double least_factor = 1.6;  // a level that shrinks less is not worth its cost
 constexpr double least_progress = 0.03;
-constexpr int most_passes = 12;
-constexpr std::size_t most_levels = 30;  // more than numbers of vertices have
 
 // What the vectors have in reserve a large mesh has no room for.
 void give_back_room(Removals& removals) {
@@ -25,7 +26,7 @@ void give_back_room(Removals& removals) {
 Removals collapse_level(CollapseMesh& mesh, int target) {
     Removals removals;
     mesh.begin_level();
-    for (int k = 0; k < most_passes && mesh.free_count() > target; ++k) {
+    while (mesh.free_count() > target) {
         const int before = mesh.free_count();
         removals.append(mesh.pass());
         if (before - mesh.free_count() < least_progress * before) break;
@@ -38,14 +39,13 @@ Removals collapse_level(CollapseMesh& mesh, int target) {
 
 std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights, const FixedPlaces& outline,
                                  int coarsest) {
-    std::vector<CoarseLevel> levels;
-    levels.reserve(most_levels);
+    std::deque<CoarseLevel> levels;        // stay where they are
     std::vector<BackgroundTask> patching;  // the rings of levels, while collapses go on; end before `levels`
     CollapseMesh mesh(patch, weights, outline);
     Indices fine_local(patch.vertex_count());  // vertex of the patch → of the level above
     for (std::size_t v = 0; v < fine_local.size(); ++v) fine_local[v] = static_cast<int>(v);
     int fine_count = patch.vertex_count();
-    while (mesh.free_count() > 2 * coarsest && levels.size() < most_levels) {
+    while (mesh.free_count() > 2 * coarsest) {
         const int free_before = mesh.free_count();
         Transfer transfer;
         const int target = static_cast<int>(free_before / factor);
@@ -77,7 +77,7 @@ std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights
         patching.emplace_back(std::move(make));
     }
     for (BackgroundTask& work : patching) work.finish();
-    return levels;
+    return {std::make_move_iterator(levels.begin()), std::make_move_iterator(levels.end())};
 }
 
 }  // namespace fairing

@@ -1,6 +1,6 @@
 // Which half-edge collapses of a CollapseMesh are legal, and what they cost.
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "multigrid/collapse_mesh.h"
 
@@ -22,16 +22,15 @@ double CollapseMesh::valence_penalty(int v, int valence) const {
 
 // What the collapse of the star's centre onto neighbour k does to the valences, and how weakly the two are tied.
 double CollapseMesh::cost(const Star& star, std::size_t k, double largest) const {
-    constexpr double never = std::numeric_limits<double>::infinity();
     const int kept = star.vertices[k];
     const int valence = valence_[kept] + static_cast<int>(star.size()) - (star.closed ? 4 : 3);
-    if (valence > largest_valence && valence >= valence_[kept]) return never;
+    if (valence > largest_valence && valence >= valence_[kept]) return HUGE_VAL;
     double change = valence_penalty(kept, valence) - valence_penalty(kept, valence_[kept]) -
                     valence_penalty(star.centre, static_cast<int>(star.size()));
     const auto lose_one = [&](std::size_t j) {
         const int u = star.vertices[j];
         const int left = valence_[u] - 1;
-        if (left < (border_[u] ? 3 : least_valence)) change = never;
+        if (left < (border_[u] ? 3 : least_valence)) change = HUGE_VAL;
         change += valence_penalty(u, left) - valence_penalty(u, left + 1);
     };
     if (star.has_triangle(k)) lose_one(star.after(k));

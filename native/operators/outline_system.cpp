@@ -6,12 +6,6 @@
 
 namespace fairing {
 
-namespace {
-
-constexpr int evening_sweeps = 10;
-
-}  // namespace
-
 OutlineSystem::OutlineSystem(const Patch& patch, const Points& fixed_points)
     : length_(VectorX::Zero(fixed_points.cols())) {
     for (const auto& [i, j] : patch.edge_ends) {
@@ -28,7 +22,7 @@ OutlineSystem::OutlineSystem(const Patch& patch, const Points& fixed_points)
 
 // Means with the neighbours on the outline.
 VectorX OutlineSystem::even(VectorX values) const {
-    for (int sweep = 0; sweep < evening_sweeps; ++sweep) {
+    for (int sweep = 0; sweep < smoothing_sweeps; ++sweep) {
         VectorX sum = 2.0 * values;
         VectorX count = VectorX::Constant(values.size(), 2.0);
         for (const Edge& edge : edges_) {

@@ -6,6 +6,9 @@
 
 namespace fairing {
 
+// Means with both neighbours that make lengths and masses along a boundary smooth.
+inline constexpr int smoothing_sweeps = 10;
+
 // G = 4M_B + Cᵀ S_II⁻¹ 4M_I S_II⁻¹ C takes a curvature on the boundary to the turn of the tangent plane there, an
 // operator of order −1. On a straight boundary it is ℓ (c + 2/k). ℓ is the length that falls to a vertex, c = 4M_B / ℓ
 // about twice the size of a triangle, k the frequency. Let A be the Laplacian of the boundary by arc length

@@ -2,12 +2,6 @@
 
 namespace fairing {
 
-namespace {
-
-constexpr int most_cycles = 50;
-
-}  // namespace
-
 SplitBiharmonicOperator::SplitBiharmonicOperator(const Patch& patch, const Points& fixed_points, Points layout)
     : laplace_(patch, std::move(layout), Kept::singles), outline_(patch, fixed_points), coupling_(patch) {
     free_mass_.resize(patch.free_count);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/median.h"
@@ -11,7 +10,6 @@ namespace fairing {
 
 namespace {
 
-constexpr double least_error = 0.15;  // radians
 constexpr double least_height = 0.3;  // edges
 constexpr double times_median = 4.0;
 constexpr double largest_share = 0.15;  // of the outline
@@ -24,14 +22,13 @@ struct Doubts {
 };
 
 Doubts doubts_of(const SurroundingFit& fit) {
-    constexpr double unknown = std::numeric_limits<double>::infinity();
     Doubts result;
     for (std::size_t k = 0; k < fit.fits.size(); ++k) {
         const double length = fit.lengths[static_cast<Eigen::Index>(k)];
         if (!(length > 0.0)) continue;
         result.places.push_back(static_cast<int>(k));
-        result.errors.push_back(fit.fits[k] ? fit.fits[k]->error : unknown);
-        result.heights.push_back(fit.fits[k] ? std::abs(fit.fits[k]->height) / length : unknown);
+        result.errors.push_back(fit.fits[k] ? fit.fits[k]->error : HUGE_VAL);
+        result.heights.push_back(fit.fits[k] ? std::abs(fit.fits[k]->height) / length : HUGE_VAL);
     }
     return result;
 }
@@ -40,7 +37,7 @@ Doubts doubts_of(const SurroundingFit& fit) {
 
 Indices bad_vertices(const SurroundingFit& fit) {
     const Doubts doubts = doubts_of(fit);
-    const double error_bound = std::max(least_error, times_median * median(doubts.errors));
+    const double error_bound = std::max(most_error, times_median * median(doubts.errors));
     const double height_bound = std::max(least_height, times_median * median(doubts.heights));
     std::vector<std::pair<double, int>> bad;  // by how much, negative, so that the worst come first
     for (std::size_t k = 0; k < doubts.places.size(); ++k) {

@@ -90,14 +90,12 @@ public:
     // The moving points with the least generalised cross-validation.
     [[nodiscard]] Points best() const {
         constexpr double finest = 4.0;  // edges: the wavelength that is halved
-        constexpr int octaves = 7;
-        constexpr int steps = 3;  // in each
+        constexpr int steps = 3;        // in each octave
         Points result = given_.middleCols(run_.first_moving(), run_.moving());
         double least = std::numeric_limits<double>::infinity();
-        for (int k = 0; k < octaves * steps; ++k) {
+        const double longest = 2.0 * run_.size();
+        for (double wave = finest; wave <= longest; wave *= std::exp2(1.0 / steps)) {
             checkpoint();
-            const double wave = finest * std::exp2(static_cast<double>(k) / steps);
-            if (wave > 2.0 * run_.size()) break;
             const Trial trial = smoothed(std::pow(frequency(wave), -6));
             if (trial.score < least) {
                 least = trial.score;

@@ -13,7 +13,6 @@ namespace {
 
 constexpr double strength = 16.0;  // μ
 constexpr double accuracy = 1e-12;
-constexpr int most_cycles = 500;
 
 struct Pair {
     int i;

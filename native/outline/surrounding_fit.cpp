@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "base/progress.h"
-#include "geometry/surface_fit.h"
 #include "outline/normal_filter.h"
+#include "outline/sided_fits.h"
 
 namespace fairing {
 
@@ -55,9 +55,7 @@ VectorX edge_lengths(const Points& points, const Triangles& triangles, const Ind
 
 }  // namespace
 
-SurroundingFit fit_surroundings(const Points& given, const Triangles& triangles, const Indices& vertices) {
-    const auto [points, size] = to_unit_size(given, triangles);
-    SurfaceFits fits(points, triangles, Centre::free);
+SurroundingFit blank_fit(const Points& points, const Triangles& triangles, const Indices& vertices, double size) {
     const Indices place = first_places(vertices, points.cols());
     SurroundingFit result{{},
                           points(Eigen::all, vertices),
@@ -66,9 +64,17 @@ SurroundingFit fit_surroundings(const Points& given, const Triangles& triangles,
                           {},
                           border_edges(triangles, place),
                           size};
+    for (const int v : vertices) result.first.push_back(place[v]);
+    return result;
+}
+
+SurroundingFit fit_surroundings(const Points& given, const Triangles& triangles, const Indices& vertices,
+                                const VertexPairs& creases) {
+    const auto [points, size] = to_unit_size(given, triangles);
+    SidedFits fits(points, triangles, vertices, creases);
+    SurroundingFit result = blank_fit(points, triangles, vertices, size);
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         checkpoint();
-        result.first.push_back(place[vertices[k]]);
         result.fits.push_back(fits.at_vertex(vertices[k]));
         result.averaged.col(static_cast<Eigen::Index>(k)) = fits.averaged(vertices[k]);
     }
@@ -92,8 +98,9 @@ SurroundingNormals normals_of(const SurroundingFit& fit) {
     return result;
 }
 
-SurroundingNormals surrounding_normals(const Points& points, const Triangles& triangles, const Indices& vertices) {
-    return normals_of(fit_surroundings(points, triangles, vertices));
+SurroundingNormals surrounding_normals(const Points& points, const Triangles& triangles, const Indices& vertices,
+                                       const VertexPairs& creases) {
+    return normals_of(fit_surroundings(points, triangles, vertices, creases));
 }
 
 }  // namespace fairing

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "geometry/hard_edges.h"
 #include "geometry/slope_fit.h"
 
 namespace fairing {
@@ -21,8 +22,15 @@ struct SurroundingFit {
     double size = 1.0;                          // of the coordinates
 };
 
-// Fits with free centres.
-SurroundingFit fit_surroundings(const Points& points, const Triangles& triangles, const Indices& vertices);
+// The same without fits and averaged normals yet.
+SurroundingFit blank_fit(const Points& points, const Triangles& triangles, const Indices& vertices, double size);
+
+// Fits with free centres, from one side of each hard edge (SidedFits); `creases` are hard edges, too.
+SurroundingFit fit_surroundings(const Points& points, const Triangles& triangles, const Indices& vertices,
+                                const VertexPairs& creases = {});
+
+// Radians: a fit with a larger standard error says little about the surface.
+inline constexpr double most_error = 0.15;
 
 struct SurroundingNormals {
     Points normals;            // 3 × k, unit; zero where there is no triangle
@@ -34,7 +42,8 @@ struct SurroundingNormals {
 
 // Normals at `vertices` of the surface formed by `triangles` alone (the surroundings of a patch), filtered along the
 // boundary.
-SurroundingNormals surrounding_normals(const Points& points, const Triangles& triangles, const Indices& vertices);
+SurroundingNormals surrounding_normals(const Points& points, const Triangles& triangles, const Indices& vertices,
+                                       const VertexPairs& creases = {});
 SurroundingNormals normals_of(const SurroundingFit& fit);
 
 }  // namespace fairing

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "linear/anderson.h"
+#include "linear/limits.h"
 #include "paper/convergence.h"
 #include "paper/level_update.h"
 
@@ -13,8 +14,6 @@ namespace fairing {
 
 namespace {
 
-constexpr int history_depth = 16;
-constexpr double largest_step = 0.1;  // of the acceleration, units of D
 constexpr double smallest_damping = 0.05;
 
 // Mean edge length over that around each free vertex: the weight of its moves, so that crowded regions settle too.
@@ -126,7 +125,7 @@ private:
             x = Eigen::Map<const Points>(step.data(), 3, n).array().rowwise() / weights_.array();
             const double longest = x.colwise().norm().maxCoeff();
             Points after = before;
-            after.leftCols(n) += longest > largest_step ? Points(x * (largest_step / longest)) : x;
+            after.leftCols(n) += longest > longest_step ? Points(x * (longest_step / longest)) : x;
             update_.move_to(after);
         }
         return largest(update_.points(), before);

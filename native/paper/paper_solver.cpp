@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/stopwatch.h"
+#include "iteration/continuation.h"
 #include "paper/factorised_iteration.h"
 #include "paper/level_update.h"
 #include "paper/prolongation.h"
@@ -14,6 +15,8 @@
 namespace fairing {
 
 namespace {
+
+constexpr double coarse_tolerance = 1e-3;  // units of D
 
 class PaperSolver {
 public:
@@ -82,7 +85,6 @@ private:
     // Coarse levels need not be more accurate than they differ from the next finer one. Their outline is much finer
     // than they are inside, where without acceleration s above about ½ makes vertices alternate.
     [[nodiscard]] IterationLimits limits_of(int level) const {
-        constexpr double coarse_tolerance = 1e-3;  // units of D
         constexpr double coarse_damping = 0.55;
         const SolverOptions& options = options_;
         const PaperOptions& paper = pp_.paper;
@@ -119,9 +121,8 @@ private:
     // The load of Δ_B H = load on the coarsest level: at once, or in steps, each from the last one's surface. What is
     // not reached here is out of reach on the finer levels too: the branch of solutions has ended.
     Points raise_load(const LevelProblem& level, Points points, const Progress& progress) {
-        constexpr double smallest_increment = 1.0 / 32.0;
         if (options_.equation != Equation::constant || problem_.options.load == 0.0) return points;
-        const IterationLimits limits{0.0, 1e-3, 100, limits_of(0).damping};
+        const IterationLimits limits{0.0, coarse_tolerance, 100, limits_of(0).damping};
         const double whole = problem_.options.load;
         double reached = 0.0;
         for (double increment = 1.0; reached < 1.0 && increment >= smallest_increment;) {

@@ -8,7 +8,7 @@
 #include "pins/spread_pins.h"
 #include "placement/place.h"
 #include "problem/surface_state.h"
-#include "proxy/proxy_mesh.h"
+#include "proxy/proxy_solver.h"
 
 namespace fairing {
 
@@ -16,10 +16,7 @@ namespace {
 
 constexpr double longest_step = 0.05;  // of a pin, in units of D
 constexpr double shortest_step = 0.005;
-constexpr double growth = 0.15;          // of edge lengths per distance from the outline
-constexpr double longest_edge = 0.03;    // units of D
 constexpr double edge_of_radius = 0.35;  // so that bells have three edges to fall off
-constexpr int least_free_limit = 3000;
 
 class LedPins {
 public:
@@ -30,9 +27,9 @@ public:
           guess_(start.guess),
           progress_(progress),
           pins_(isolated_pins(problem.patch)),
-          mesh_(problem.patch, start.points) {
-        sizing_ = {growth, std::min(longest_edge, edge_of_radius * radius),
-                   std::max(least_free_limit, 3 * problem.patch.free_count)};
+          mesh_(problem.patch, start.points),
+          sizing_(fine_sizing(problem.patch.free_count)) {
+        sizing_.longest = std::min(sizing_.longest, edge_of_radius * radius);
     }
 
     std::optional<Solution> run() {
@@ -112,7 +109,7 @@ private:
     const Progress& progress_;
     Indices pins_;
     ProxyMesh mesh_;
-    Sizing sizing_{};
+    Sizing sizing_;
     std::optional<Solved> last_;
 };
 

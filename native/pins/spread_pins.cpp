@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include "linear/anderson.h"
+#include "linear/limits.h"
 #include "linear/shrinking_steps.h"
 #include "operators/normal_operator.h"
 #include "pins/bells.h"
@@ -19,12 +20,7 @@ namespace fairing {
 
 namespace {
 
-constexpr int history_depth = 6;
-constexpr double largest_step = 0.05;  // units of D
-constexpr int most_iterations = 60;
-constexpr int patience = 12;  // iterations without a shorter step
 constexpr int first_surfaces = 4;
-constexpr double slow = 0.5;          // contraction that asks for a new factor
 constexpr double least_pivot = 1e-8;  // of the largest: pins that act alike
 
 class SpreadPins {
@@ -47,7 +43,7 @@ public:
     }
 
     Solution run() {
-        const int most = std::min(most_iterations, given_.options.max_iterations);
+        const int most = std::min(brisk.steps, given_.options.max_iterations);
         solution_.termination = Termination::iteration_limit;
         for (int k = 0; k < most; ++k) {
             progress_.report(static_cast<double>(k) / most, "pins");
@@ -63,8 +59,8 @@ public:
                 solution_.termination = Termination::converged;
                 break;
             }
-            if (!std::isfinite(largest) || steps_.in_vain(largest) > patience) return failed();
-            anderson_.move(state_.points, *d, largest_step);
+            if (!std::isfinite(largest) || steps_.in_vain(largest) > brisk.in_vain) return failed();
+            anderson_.move(state_.points, *d, longest_step);
         }
         return finished();
     }
@@ -90,7 +86,7 @@ private:
         state_.measure_faces(problem_.patch);
         state_.measure_curvature(problem_);
         if (!state_.curvature.mean.allFinite()) return false;
-        const bool refresh = k == 0 || contraction_ > slow;
+        const bool refresh = k == 0 || contraction_ > slow_contraction;
         return !refresh || normal_->update(state_.stiffness, progress_.here());
     }
 

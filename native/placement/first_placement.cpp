@@ -1,8 +1,10 @@
 #include "placement/first_placement.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
+#include <utility>
 
+#include "geometry/limits.h"
 #include "geometry/vertex_normal.h"
 
 namespace fairing {
@@ -44,16 +46,16 @@ private:
 
     [[nodiscard]] SurfacePoint best_walk(int vertex) const {
         SurfacePoint best;
-        double least = std::numeric_limits<double>::infinity();
+        std::pair least{true, HUGE_VAL};
         Indices tried;
         for (const int neighbour : patch_.ring(vertex).vertices) {
             const int start = where_[neighbour].triangle;
             if (start == none || std::find(tried.begin(), tried.end(), start) != tried.end()) continue;
             tried.push_back(start);
             const SurfacePoint where = target_.project(surface_.col(vertex), start);
-            const double away = cost(vertex, where);
-            if (away < least) {
-                least = away;
+            const std::pair here = cost(vertex, where);
+            if (here < least) {
+                least = here;
                 best = where;
             }
         }
@@ -61,11 +63,9 @@ private:
     }
 
     // The distance; places on another sheet, whose normal disagrees, come last.
-    [[nodiscard]] double cost(int vertex, const SurfacePoint& where) const {
-        constexpr double agreement = 0.3;  // cosine
-        constexpr double elsewhere = 1e3;
-        const double away = (target_.position(where) - surface_.col(vertex)).norm();
-        return normals_.col(vertex).dot(target_.normal(where)) > agreement ? away : away + elsewhere;
+    [[nodiscard]] std::pair<bool, double> cost(int vertex, const SurfacePoint& where) const {
+        const bool agrees = normals_.col(vertex).dot(target_.normal(where)) > cos_of_widest_turn;
+        return {!agrees, (target_.position(where) - surface_.col(vertex)).norm()};
     }
 
     const Patch& patch_;

@@ -44,8 +44,7 @@ private:
         Indices folded = folds_of_placement(problem_, target_, placement);
         // On a sharply curved part of the surface untangling may fold more than it turns back.
         if (!folded.empty() && folded.size() <= few_folds && keep(placement)) return true;
-        constexpr int most_rounds = 3;
-        for (int round = 0; round < most_rounds && !folded.empty(); ++round) {
+        while (!folded.empty()) {
             const std::size_t before = folded.size();
             untangle(problem_, target_, placement);
             folded = folds_of_placement(problem_, target_, placement);

@@ -12,7 +12,6 @@ namespace {
 
 constexpr int most_steps = 60;
 constexpr double done = 1e-7;
-constexpr int most_halvings = 8;
 
 class Relaxation {
 public:

@@ -21,14 +21,12 @@ public:
         : problem_(problem), patch_(problem.patch), target_(target), placement_(placement) {}
 
     bool run() {
-        constexpr int most_rounds = 3;
-        for (int round = 0; round < most_rounds; ++round) {
+        for (bool gained = false;; gained = true) {  // ends: less is folded each time
             const Indices folded = folded_triangles(problem_, target_, placement_);
-            if (folded.empty() || folded.size() > few_folds) return round > 0;
+            if (folded.empty() || folded.size() > few_folds) return gained;
             const Indices corners = corners_of(folded);
-            if (!try_all(corners) && !try_all(beside(corners))) return round > 0;
+            if (!try_all(corners) && !try_all(beside(corners))) return gained;
         }
-        return true;
     }
 
 private:

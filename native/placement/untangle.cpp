@@ -10,6 +10,7 @@
 
 #include "base/progress.h"
 #include "geometry/frame.h"
+#include "linear/limits.h"
 #include "placement/folds.h"
 
 namespace fairing {
@@ -110,7 +111,6 @@ Vector2 lower(const LocalEnergy& f) {
     const double longest = 2.0 * f.edge();
     if (!step.allFinite()) return Vector2::Zero();
     if (step.norm() > longest) step *= longest / step.norm();
-    constexpr int most_halvings = 6;
     for (int k = 0; k < most_halvings; ++k, step *= 0.5) {
         if (f(step) < f0) return step;
     }
@@ -130,12 +130,11 @@ public:
           awake_(patch_.vertex_count(), 1) {}
 
     void run() {
-        constexpr int fewest_rings = 3;
-        for (const int rings : {fewest_rings, 6, 12}) {
+        for (const int rings : {3, 6, 12}) {
             const Indices folded = folded_triangles(problem_, target_, placement_);
             if (folded.empty()) return;
             // A sheet that lies turned over as a whole keeps its folds from the first sweeps on.
-            if (!spread(region(folded, rings)) && rings == fewest_rings) return;
+            if (!spread(region(folded, rings))) return;
         }
     }
 

@@ -103,9 +103,8 @@ bool try_elsewhere(const Patch& patch, Points& points, Tears& tears) {
 
 Points untorn(const Patch& patch, Points points) {
     constexpr std::size_t few = 100;  // to try one by one
-    constexpr int most_rounds = 20;
     Tears tears(patch, points);
-    for (int round = 0; round < most_rounds && tears.count() > 0; ++round) {
+    while (tears.count() > 0) {
         if (fill_anew(patch, points, tears)) continue;
         if (tears.count() > few || !try_elsewhere(patch, points, tears)) break;
     }

@@ -17,14 +17,9 @@ namespace fairing {
 
 namespace {
 
-constexpr double coarse_tolerance = 1e-6;  // units of D
-constexpr double finest_growth = 0.15;     // of edge lengths per distance from the outline
-constexpr double longest_coarse = 0.15;    // units of D
+constexpr double finest_growth = 0.15;   // of edge lengths per distance from the outline
+constexpr double longest_coarse = 0.15;  // units of D
 constexpr double longest_fine = 0.03;
-// More vertices than these of the proxy would resolve what the user's mesh can't show.
-constexpr int least_free_limit = 3000;
-constexpr int largest_free_limit = 20000;
-constexpr int free_limit_per_vertex = 3;
 constexpr double turn = 0.7;  // radians along an edge of the coarse proxy: nine edges around a pipe
 
 // Iterations of fine proxies. Of 191 over regions of scans that converged none stayed far from a surface so long, of 96
@@ -70,7 +65,7 @@ Problem proxy_problem(const Problem& problem, int shown, const Patch& patch) {
 Problem coarse_problem(const Problem& problem, int shown, const Patch& patch) {
     Problem result = proxy_problem(problem, shown, patch);
     result.options.equation = Equation::harmonic;
-    result.options.tolerance = coarse_tolerance;
+    result.options.tolerance = SolverOptions{}.tolerance;
     return result;
 }
 
@@ -94,13 +89,10 @@ constexpr Fineness third_fineness{0.12, 0.35};
 class ProxySolve {
 public:
     ProxySolve(const Problem& problem, int shown, const Progress& progress)
-        : problem_(problem),
-          shown_(shown),
-          progress_(progress),
-          free_limit_(std::clamp(free_limit_per_vertex * shown, least_free_limit, largest_free_limit)) {}
+        : problem_(problem), shown_(shown), progress_(progress), free_limit_(free_limit(shown)) {}
 
     SolvedProxy from_surface(const Points& surface) {
-        return solve_fine(ProxyMesh(problem_.patch, surface), {finest_growth, longest_fine, free_limit_}, true);
+        return solve_fine(ProxyMesh(problem_.patch, surface), fine_sizing(shown_), true);
     }
 
     // Lengths that grow slowly need more vertices but resolve more. Where the outline is coarse, the needles between
@@ -182,17 +174,15 @@ private:
     }
 
     void descend(ProxyMesh& mesh) {
-        constexpr int most_steps = 40;
-        constexpr double done = 5e-3;
-        for (int k = 0; k < most_steps; ++k) {
-            progress_.report(0.4 * k / most_steps, "descent");
+        for (int k = 0; k < most_descent_steps; ++k) {
+            progress_.report(0.4 * k / most_descent_steps, "descent");
             const auto snapshot = mesh.snapshot();
             const Problem problem = coarse_problem(problem_, shown_, snapshot.patch);
             Workspace work = make_workspace(problem, progress_);
             const DescentStep step = descent_step(problem, work, snapshot.points, progress_.here());
             mesh.read_back(snapshot.patch, step.points);
             mesh.remesh(3, 3);
-            if (step.length < done) return;
+            if (step.length < descended) return;
         }
     }
 
@@ -253,6 +243,15 @@ private:
 };
 
 }  // namespace
+
+int free_limit(int shown) {
+    constexpr int least = 3000;
+    constexpr int largest = 20'000;
+    constexpr int per_vertex = 3;
+    return std::clamp(per_vertex * shown, least, largest);
+}
+
+Sizing fine_sizing(int shown) { return {finest_growth, longest_fine, free_limit(shown)}; }
 
 double mean_outline_edge(const Problem& problem) {
     const auto place = [&](int v) { return problem.fixed_points.col(v - problem.patch.free_count); };

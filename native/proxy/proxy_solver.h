@@ -45,6 +45,13 @@ struct CoarseProxy {
 CoarseProxy solve_coarse_proxy(const Problem& problem, const Points& membrane, int shown, const Progress& progress);
 SolvedProxy solve_fine_proxy(const Problem& problem, CoarseProxy coarse, int shown, const Progress& progress);
 
+// Free vertices of a mesh of the engine's own beside `shown` ones of the user's; many more would resolve what these
+// can't show.
+int free_limit(int shown);
+
+// Edge lengths of fine proxies from a surface that is near.
+Sizing fine_sizing(int shown);
+
 // Mean length of the boundary loops' edges; 0 without any.
 double mean_outline_edge(const Problem& problem);
 

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 
+#include "mesh/corners.h"
 #include "mesh/union_find.h"
 #include "start/swept_tube.h"
 
@@ -138,14 +139,6 @@ double area_within(const std::vector<Step>& steps) {
     return sum;
 }
 
-// Whether the surface leaves each loop along a tube.
-bool are_tube_ends(const std::vector<Indices>& loops, const Points& points, const Points& fixed_normals) {
-    Points normals(3, points.cols());
-    normals.rightCols(fixed_normals.cols()) = fixed_normals;
-    return std::all_of(loops.begin(), loops.end(),
-                       [&](const Indices& loop) { return tube_end(loop, points, normals).has_value(); });
-}
-
 }  // namespace
 
 std::optional<CrossSections> CrossSections::of(const Patch& patch) {
@@ -190,12 +183,22 @@ Indices CrossSections::triangles(int loop, int section) const {
 }
 
 GirthRange worst_of(const GirthRange& a, const GirthRange& b) {
-    return {std::min(a.least, b.least), std::max(a.largest, b.largest)};
+    const GirthRange& thin = b.least < a.least ? b : a;
+    const GirthRange& thick = b.largest > a.largest ? b : a;
+    return {thin.least, thick.largest, thin.thinnest, thick.thickest};
 }
 
-std::optional<GirthRange> girth_range(const Patch& patch, const Points& points, const Points& fixed_normals) {
+bool is_between_tubes(const Patch& patch, const Points& points, const Points& fixed_normals) {
     const std::vector<Indices> loops = patch.loops();
-    if (loops.size() < 2 || !are_tube_ends(loops, points, fixed_normals)) return std::nullopt;
+    Points normals(3, points.cols());
+    normals.rightCols(fixed_normals.cols()) = fixed_normals;
+    return loops.size() > 1 && std::all_of(loops.begin(), loops.end(), [&](const Indices& loop) {
+               return tube_end(loop, points, normals).has_value();
+           });
+}
+
+std::optional<GirthRange> girth_range(const Patch& patch, const Points& points) {
+    const std::vector<Indices> loops = patch.loops();
     const auto sections = CrossSections::of(patch);
     if (!sections) return std::nullopt;
     std::vector<double> areas;
@@ -207,7 +210,12 @@ std::optional<GirthRange> girth_range(const Patch& patch, const Points& points, 
         const VectorX radii = sections->radii(k, points);
         const double thinner = radius_of_area(std::min(areas[k], whole - areas[k]));
         const double thicker = radius_of_area(std::max(areas[k], whole - areas[k]));
-        range = worst_of(range, {radii.minCoeff() / thinner, radii.maxCoeff() / thicker});
+        int thin = 0;
+        int thick = 0;
+        const double least = radii.minCoeff(&thin) / thinner;
+        const double largest = radii.maxCoeff(&thick) / thicker;
+        range = worst_of(range, {least, largest, corners_of(patch, sections->triangles(k, thin)),
+                                 corners_of(patch, sections->triangles(k, thick))});
     }
     return range;
 }

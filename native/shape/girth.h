@@ -39,11 +39,15 @@ private:
 struct GirthRange {
     double least = 1.0;
     double largest = 1.0;
+    Indices thinnest;  // vertices beside these two cross-sections, ascending; none where the figure is 1
+    Indices thickest;
 };
 
-// Of a surface (3 × local vertices) with these normals at its fixed vertices. Nothing with fewer than two loops, nor
-// where one is no tube's end (start/swept_tube).
-std::optional<GirthRange> girth_range(const Patch& patch, const Points& points, const Points& fixed_normals);
+// By local vertices, of a surface (3 × local vertices). Nothing with fewer than two loops.
+std::optional<GirthRange> girth_range(const Patch& patch, const Points& points);
+// Whether a surface with these normals at its fixed vertices leaves each loop along a tube (start/swept_tube): a girth
+// is no flaw of others.
+bool is_between_tubes(const Patch& patch, const Points& points, const Points& fixed_normals);
 
 // The worse of both sides.
 GirthRange worst_of(const GirthRange& a, const GirthRange& b);

@@ -14,11 +14,6 @@ namespace {
 
 constexpr double full_turn = 2.0 * std::numbers::pi;
 
-bool is_plain_disc(const Patch& patch) {
-    const bool has_pins = std::find(patch.pin.begin(), patch.pin.end(), 1) != patch.pin.end();
-    return !has_pins && patch.vertex_count() - patch.edge_count() + patch.triangle_count() == 1;
-}
-
 double angle_around(const Patch& patch, const Points& points, int vertex) {
     const RingView ring = patch.ring(vertex);
     const Vector3 here = points.col(vertex);
@@ -51,6 +46,11 @@ Indices most_bent(const VectorX& defects, double sum) {
 }
 
 }  // namespace
+
+bool is_plain_disc(const Patch& patch) {
+    const bool has_pins = std::find(patch.pin.begin(), patch.pin.end(), 1) != patch.pin.end();
+    return !has_pins && patch.vertex_count() - patch.edge_count() + patch.triangle_count() == 1;
+}
 
 Knobs knobs_of(const Patch& patch, const Points& points, double before) {
     if (!is_plain_disc(patch)) return {};

@@ -5,6 +5,9 @@
 
 namespace fairing {
 
+// Whether it has one boundary loop, no handle and no pins.
+bool is_plain_disc(const Patch& patch);
+
 // By Gauss and Bonnet a boundary with its slopes settles the integral of the Gaussian curvature over a disc. A surface
 // that does no more than it must has one sign of it nearly everywhere; a knob on a neck adds as much of both.
 struct Knobs {

@@ -13,7 +13,7 @@
 #include "geometry/dihedral_bands.h"
 #include "mesh/collapsed.h"
 #include "mesh/strip.h"
-#include "mesh/union_find.h"
+#include "shape/kinks.h"
 #include "shape/limits.h"
 
 namespace fairing {
@@ -54,25 +54,6 @@ double angle_at(const Points& points, const JoinedMesh& mesh, const OutlineEdge&
                           points.col(edge.ends[0]), points.col(opposite));
 }
 
-// Length-weighted means at the ends of edges.
-class Means {
-public:
-    explicit Means(Eigen::Index count) : sum_(VectorX::Zero(count)), weight_(VectorX::Zero(count)) {}
-
-    void add(const std::array<int, 2>& ends, double value, double length) {
-        for (int v : ends) {
-            sum_[v] += value * length;
-            weight_[v] += length;
-        }
-    }
-
-    [[nodiscard]] double operator[](Eigen::Index v) const { return weight_[v] > 0.0 ? sum_[v] / weight_[v] : 0.0; }
-
-private:
-    VectorX sum_;
-    VectorX weight_;
-};
-
 // Between two of the sorted values, where it falls there.
 double percentile(const std::vector<double>& sorted, double share) {
     const double place = share * static_cast<double>(sorted.size() - 1);
@@ -93,28 +74,6 @@ double limit_among(const DihedralBands& bands, Eigen::Index triangle_count) {
     std::sort(angles.begin(), angles.end());
     const double range = percentile(angles, 0.95) - percentile(angles, 0.05);
     return std::clamp(std::max(std::min(range, visible_kink), 0.5 * range), finest_kink, steep_kink);
-}
-
-// Places in the outline above the limit, along so many neighbours that these add up.
-Indices seen_along(const std::vector<OutlineEdge>& edges, const Indices& outline, const VisibleJoin& join) {
-    std::map<int, int> place;
-    for (std::size_t k = 0; k < outline.size(); ++k) {
-        if (join.degrees[static_cast<Eigen::Index>(k)] > join.limit) place[outline[k]] = static_cast<int>(k);
-    }
-    UnionFind runs(static_cast<int>(outline.size()));
-    for (const OutlineEdge& edge : edges) {
-        const auto a = place.find(edge.ends[0]);
-        const auto b = place.find(edge.ends[1]);
-        if (a != place.end() && b != place.end()) runs.join(a->second, b->second);
-    }
-    std::map<int, double> sums;
-    for (const auto& [vertex, k] : place) sums[runs.root(k)] += join.degrees[k];
-    Indices seen;
-    for (const auto& [vertex, k] : place) {
-        if (sums[runs.root(k)] >= kink_length * join.limit) seen.push_back(k);
-    }
-    std::sort(seen.begin(), seen.end());
-    return seen;
 }
 
 bool is_border(const Patch& patch, const std::array<int, 2>& ends) {
@@ -158,7 +117,7 @@ VisibleJoin visible_join(const JoinedMesh& given, const Indices& outline) {
     const DihedralBands outside(mesh.vertices, mesh.outside);
     DihedralBands::Walk walk_inside = inside.walk();
     DihedralBands::Walk walk_outside = outside.walk();
-    Means means(mesh.vertices.cols());
+    EdgeMeans means(mesh.vertices.cols());
     const std::vector<OutlineEdge> edges = shared_edges(inside.edges(), outside.edges());
     for (const OutlineEdge& edge : edges) {
         const auto [a, b] = edge.ends;
@@ -172,7 +131,10 @@ VisibleJoin visible_join(const JoinedMesh& given, const Indices& outline) {
     join.degrees.resize(static_cast<Eigen::Index>(outline.size()));
     for (Eigen::Index k = 0; k < join.degrees.size(); ++k) join.degrees[k] = means[outline[static_cast<int>(k)]];
     join.limit = limit_among(outside, mesh.outside.cols());
-    join.seen = seen_along(edges, outline, join);
+    std::vector<std::array<int, 2>> ends;
+    ends.reserve(edges.size());
+    for (const OutlineEdge& edge : edges) ends.push_back(edge.ends);
+    join.seen = seen_along(ends, outline, join.degrees, join.limit);
     return join;
 }
 
@@ -195,7 +157,7 @@ VectorX one_sided_join(const Patch& patch, const Points& points, const Points& p
             excess[k] = bands.usual(a, b, walk).excess(angle);
         }
     });
-    Means means(places.cols());
+    EdgeMeans means(places.cols());
     for (Eigen::Index k = 0; k < excess.size(); ++k) {
         const std::array<int, 2> ends = bands.edges().ends[bands.edges().edge_of_side[sides[std::size_t(k)]]];
         means.add(ends, excess[k], (places.col(ends[0]) - places.col(ends[1])).norm());

@@ -6,6 +6,7 @@
 #include "accept/accept.h"
 #include "geometry/face_geometry.h"
 #include "geometry/surface_fit.h"
+#include "placement/folds.h"
 #include "placement/refill.h"
 #include "problem/surface_state.h"
 #include "start/loft.h"
@@ -75,9 +76,8 @@ bool is_accepted(const Solution& solution) { return end_of(solution) == Terminat
 
 // Where few triangles fold or cross, what lies around them is filled anew.
 std::optional<Solution> mended(const Problem& problem, const Candidate& candidate, const Solution& flawed) {
-    constexpr std::size_t few = 20;
     constexpr std::array rings{2, 3, 4};
-    if (flawed.bad_triangles.empty() || flawed.bad_triangles.size() > few) return std::nullopt;
+    if (flawed.bad_triangles.empty() || flawed.bad_triangles.size() > few_folds) return std::nullopt;
     Candidate trial = candidate;
     for (const int reach : rings) {
         trial.points = refilled(problem.patch, candidate.points, flawed.bad_triangles, reach);

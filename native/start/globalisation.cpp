@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/limits.h"
+#include "problem/solution.h"
 #include "problem/surface_state.h"
 #include "problem/willmore.h"
 #include "tangential/slide.h"
@@ -12,14 +14,7 @@ namespace fairing {
 namespace {
 
 constexpr double largest_step = 0.25;  // units of D
-constexpr double globalised = 2e-3;    // largest step at which the accurate iteration takes over
-// A fixed-point step may raise the energy for a while: tangential moves leave the surface to second order.
-constexpr double tolerated_factor = 2.0;
-constexpr double tolerated_rise = 2.0;  // a hemisphere has 8 π
 constexpr int most_fixed_point_steps = 12;
-constexpr int most_descent_steps = 40;
-constexpr double descended = 5e-3;
-constexpr double armijo = 1e-4;
 // Beyond so many free vertices a descent ends that gains less than this share of the energy in so many steps: over
 // outlines of noisy scans it went on to the last step for the last hundredth.
 constexpr int largest_patient = 600;
@@ -74,7 +69,7 @@ private:
 
     void report(int step, int most) const { progress_.report(static_cast<double>(step) / most, "globalisation"); }
 
-    // False where the energy rises or is no longer finite.
+    // False where the energy is no longer finite, or the steps stay long.
     bool fixed_point_steps() {
         for (int k = 0; k < most_fixed_point_steps; ++k) {
             report(k, most_fixed_point_steps);
@@ -85,9 +80,9 @@ private:
             const double largest = largest_length(d);
             state_.points.leftCols(patch_.free_count) += std::min(1.0, largest_step / largest) * d;
             measure();
-            if (!(energy_ < tolerated_factor * best_energy_ + tolerated_rise)) return false;
+            if (!std::isfinite(energy_)) return false;
             if (energy_ < best_energy_) keep();
-            if (largest < globalised) return true;
+            if (largest < near_step) return true;
         }
         return false;
     }
@@ -124,7 +119,7 @@ private:
     bool line_search(const Points& direction, double slope, double step) {
         const Points origin = state_.points;
         const double start = energy_;
-        for (int halving = 0; halving < 12; ++halving, step *= 0.5) {
+        for (int halving = 0; halving < most_halvings; ++halving, step *= 0.5) {
             state_.points = origin;
             state_.points.leftCols(patch_.free_count) += step * direction;
             measure();

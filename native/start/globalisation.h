@@ -7,6 +7,10 @@
 
 namespace fairing {
 
+// Steps of a descent, and the length below which it ends, units of D: what comes next does the rest.
+inline constexpr int most_descent_steps = 40;
+inline constexpr double descended = 5e-3;
+
 // Positions of all vertices: Willmore descent, then fixed-point steps of mixed finite elements (H_mixed ← harmonic, and
 // within the surface). The energy never exceeds the initial one. `start`: the initial surface, 3 × local vertices.
 Points globalise(const Problem& problem, Workspace& work, const Points& start, const Progress& progress);

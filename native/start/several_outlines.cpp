@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/face_geometry.h"
-
 namespace fairing {
 
 namespace {
@@ -73,14 +71,9 @@ double straight_length_between(const Patch& patch, const Points& points) {
     return straight_area(loops) / squares_of(loops);
 }
 
-double length_between(const Patch& patch, const Points& points) {
-    const std::vector<Loop> loops = loops_of(patch, points);
-    return std::max(total_area(points, patch.triangles), straight_area(loops)) / squares_of(loops);
-}
-
 bool may_fit_several(const Patch& patch, const Points& points) {
     const int loops = patch.loop_count();
-    return loops > 2 || (loops == 2 && length_between(patch, points) > longest_single);
+    return loops > 2 || (loops == 2 && straight_length_between(patch, points) > longest_single);
 }
 
 bool joins_outlines(const Problem& problem) {

@@ -9,11 +9,9 @@ namespace fairing {
 // held elsewhere.
 bool joins_outlines(const Problem& problem);
 
-// Relative length of a patch between boundary loops: its area, or that of the straight tube between two of them where
-// this is more, over the sum of their squared lengths. L / 4π for a pipe of L radii. `points`: 3 × local vertices.
-double length_between(const Patch& patch, const Points& points);
-
-// The same of the straight tube between two boundary loops alone, whatever is at the free vertices.
+// Relative length of a patch between two boundary loops: the area of the straight tube between them over the sum of
+// their squared lengths, L / 4π for a pipe of L radii; 0 between more or fewer. `points`: 3 × local vertices, of which
+// the fixed ones count.
 double straight_length_between(const Patch& patch, const Points& points);
 
 // Up to this length one surface fits between two boundary loops (a pipe of two and a half radii); two fit a pipe from

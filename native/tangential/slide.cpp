@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "linear/anderson.h"
 #include "linear/limits.h"
+#include "linear/shrinking_steps.h"
 #include "problem/surface_state.h"
 
 namespace fairing {
@@ -14,11 +15,9 @@ namespace fairing {
 namespace {
 
 constexpr int depth = 3;
-constexpr double stuck = 0.8;         // from one step to the next: vertices that the outline holds back
-constexpr double near_enough = 5e-4;  // units of D; the iteration does the rest
-// Of the step that would come next, by how the last two shrank; faster than `fastest` is luck.
-constexpr double next_near_enough = 1e-4;
-constexpr double fastest = 0.05;
+constexpr double stuck = 0.8;              // from one step to the next: vertices that the outline holds back
+constexpr double near_enough = 5e-4;       // units of D; the iteration does the rest
+constexpr double next_near_enough = 1e-4;  // of the step that would come next, by how the last two shrank
 
 struct Sliding {
     const TargetSurface& target;
@@ -49,7 +48,7 @@ void slide(Sliding& vertices, const TangentialStep& tangential, int most_steps) 
         Points d = tangential.displacement(points, {vertices.normals, vertices.shapes});
         const double largest = largest_length(d);
         if (largest > stuck * last) return;
-        const double next = largest * std::max(largest / last, fastest);
+        const double next = largest * std::max(largest / last, fastest_contraction);
         last = largest;
         anderson.move(points, std::move(d), longest_step);
         walk(vertices);

@@ -1,7 +1,10 @@
 #include "variation/inflate.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "base/direction.h"
 #include "operators/laplace_operator.h"
 #include "start/clamped_fill.h"
 
@@ -12,7 +15,6 @@ namespace {
 constexpr double share = 0.8;  // of the outline's spacing
 constexpr int most_rounds = 60;
 constexpr double settled = 1e-3;  // units of D
-constexpr double shortest = 1e-12;
 
 // Logarithms of the mean lengths of the two border edges at each fixed vertex, zero elsewhere.
 VectorX outline_lengths(const Problem& problem) {
@@ -23,7 +25,7 @@ VectorX outline_lengths(const Problem& problem) {
         const auto place = [&](std::size_t k) { return problem.fixed_points.col(loop[k % size] - patch.free_count); };
         for (std::size_t k = 0; k < size; ++k) {
             const double sum = (place(k + 1) - place(k)).norm() + (place(k) - place(k + size - 1)).norm();
-            logarithms[loop[k]] = std::log(0.5 * sum + shortest);
+            logarithms[loop[k]] = std::log(std::max(0.5 * sum, std::numeric_limits<double>::min()));
         }
     }
     return logarithms;
@@ -51,7 +53,7 @@ public:
             const auto [i, j] = patch_.edge_ends[e];
             const Vector3 edge = points.col(j) - points.col(i);
             const double wanted = share * std::sqrt(spacing_[i] * spacing_[j]);
-            const Vector3 longer = (std::max(1.0, wanted / (edge.norm() + shortest)) - 1.0) * edge;
+            const Vector3 longer = std::max(0.0, wanted - edge.norm()) * direction(edge);
             if (patch_.is_free(i)) pull.col(i) -= stiffness_.weights[e] * longer;
             if (patch_.is_free(j)) pull.col(j) += stiffness_.weights[e] * longer;
         }

@@ -28,16 +28,12 @@ namespace {
 // Edges of the fine mesh and of the coarse one (Beginning) are as long as a share of the outline's mean edge where the
 // surface turns by more than `turn` radians along them (24 and 18 edges around a tube), up to `range_of_edges` times
 // as long elsewhere, within bounds (units of D); `growth`: proxy/proxy_mesh.h.
-constexpr double fine_share = 1.0;
-constexpr double fine_turn = 0.26;
-constexpr double fine_growth = 0.3;
-constexpr double coarse_turn = 0.35;
-constexpr double coarse_growth = 0.3;
+constexpr double growth = 0.3;
+constexpr double turn = 0.26;
 constexpr double range_of_edges = 4.0;  // the proxy's own: edges that turn stop at a quarter of the longest ones
 constexpr double shortest = 0.05;       // of the longest edges
 constexpr double longest = 0.5;
-constexpr int most_coarse = 1200;  // free vertices
-constexpr int most_fine = 20000;
+constexpr int most_coarse = 1200;     // free vertices
 constexpr int most_fine_steps = 100;  // most of those that converge take 30 at most, a thin U of 180° takes 85
 
 // From a rough start descent may end in a minimum with a fold; another mesh or more damping then leads elsewhere.
@@ -46,7 +42,8 @@ struct Beginning {
     double damping;         // at first
     double settled = 0.02;  // relative change of the merit from one mesh to the next
 };
-constexpr std::array beginnings{Beginning{1.4, 1e-3}, Beginning{1.0, 1e-3}, Beginning{1.8, 1e-2}, Beginning{1.0, 0.1}};
+constexpr std::array beginnings{Beginning{1.4, raised_damping}, Beginning{1.0, raised_damping}, Beginning{1.8, 1e-2},
+                                Beginning{1.0, 0.1}};
 
 // From a surface that is near: elbows take half the steps that they take with the first beginning, or undamped.
 // The fine mesh mends what a rough end leaves: finer and sharper ones cost a third more.
@@ -67,16 +64,10 @@ Points start_of(const Problem& problem, const Progress& progress) {
     return problem.patch.loop_count() > 1 ? inflated(uniform, fill, progress) : fill;
 }
 
-struct Fineness {
-    double share;  // of the outline's mean edge
-    double turn;
-    double growth;
-};
-
 // The interior needs the outline's resolution only where it bends.
-Sizing sizing_of(const Problem& problem, const Fineness& fineness, int most) {
-    const double edge = fineness.share * mean_outline_edge(problem);
-    return {fineness.growth, std::clamp(range_of_edges * edge, shortest, longest), most, fineness.turn, true};
+Sizing sizing_of(const Problem& problem, double share, int most) {
+    const double edge = share * mean_outline_edge(problem);
+    return {growth, std::clamp(range_of_edges * edge, shortest, longest), most, turn, true};
 }
 
 // On a coarse mesh from a rough start; the mesh is made anew in between, for vertices move along normals only. Given up
@@ -88,7 +79,7 @@ SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginnin
     constexpr double enough = 1e-3;  // from one step to the next
     constexpr double enough_for_fine = 0.01;
     constexpr double hopeless = 1000.0;  // times what is too much: two meshes have shown it
-    const Sizing sizing = sizing_of(problem, {beginning.share, coarse_turn, coarse_growth}, most_coarse);
+    const Sizing sizing = sizing_of(problem, beginning.share, most_coarse);
     std::optional<SolvedSheet> last;
     double merit = 0.0;  // of the last mesh
     for (int k = 0; k < most_rounds; ++k) {
@@ -115,8 +106,7 @@ struct FineStart {
 
 SolvedSheet solve_fine(ProxyMesh& mesh, const Problem& problem, const SolvedSheet& coarse, const FineStart& begin,
                        const Progress& progress) {
-    const int limit = std::clamp(3 * problem.patch.free_count, 3000, most_fine);
-    mesh.adapt(sizing_of(problem, {fine_share, fine_turn, fine_growth}, limit));
+    mesh.adapt(sizing_of(problem, 1.0, free_limit(problem.patch.free_count)));
     NewtonLimits limits{problem.options.tolerance, std::min(problem.options.max_iterations, begin.most_steps)};
     limits.damping = begin.damping;
     limits.most_merit = begin.most_merit;
@@ -220,9 +210,9 @@ SolvedSheet well_suited(const ProxyMesh& mesh, const Problem& problem, const Pro
 // On one fine mesh: there elbows end in 11 to 46 steps, from a coarse mesh many of them nowhere.
 std::optional<Attempt> attempted_on_tube(const Problem& problem, const Points& tube, double most,
                                          const Progress& progress) {
-    constexpr double damping = 1e-3;
     ProxyMesh mesh(problem.patch, tube);
-    SolvedSheet fine = solve_fine(mesh, problem, well_suited(mesh, problem, progress), {damping, most, true}, progress);
+    SolvedSheet fine =
+        solve_fine(mesh, problem, well_suited(mesh, problem, progress), {raised_damping, most, true}, progress);
     if (std::isfinite(most) && !(fine.result.merit <= most)) return std::nullopt;
     const double gradient = fine.result.gradient;
     const int count = fine.mesh.patch.vertex_count();

@@ -6,14 +6,14 @@
 #include <Eigen/Geometry>
 
 #include "geometry/vertex_normal.h"
+#include "linear/limits.h"
 #include "linear/sparse_cholesky.h"
 
 namespace fairing {
 
 namespace {
 
-constexpr double raised_damping = 1e-3;  // where no step is found without
-constexpr double least_damping = 1e-9;   // below, none
+constexpr double least_damping = 1e-9;  // below, none
 constexpr double largest_damping = 1e3;
 constexpr double largest_turn = 0.7;  // tangent of the angle of a normal in one step
 constexpr double largest_rise = 0.5;  // of the mean edge at a vertex
@@ -189,8 +189,6 @@ private:
 
     // The longest share of the step that lowers the merit and folds nothing.
     bool search(const VectorX& motions) {
-        constexpr int most_halvings = 6;
-        constexpr double armijo = 1e-4;
         constexpr double noise = 1e-13;  // of the merit, and where that is zero
         constexpr double nothing = 1e-20;
         measure(motions);

@@ -8,6 +8,9 @@
 
 namespace fairing {
 
+// Damping that takes the place of none where no step is found without, and of a rough initial surface.
+inline constexpr double raised_damping = 1e-3;
+
 struct NewtonLimits {
     double tolerance;  // of the largest height of a full step, units of D
     int most_steps;

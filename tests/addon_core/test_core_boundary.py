@@ -8,14 +8,15 @@ import numpy as np
 import pytest
 
 from core.around import RINGS, numbered, outside_triangles
-from core.arrays import Floats
-from core.boundary import average_normals, prescribed_curvatures, prescribed_normals
+from core.arrays import Floats, Mask
+from core.boundary import average_normals, boundary
 from core.region import MeshArrays, Patch, make_patch
 from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh
 
 
 def normals_of(mesh: MeshArrays, patch: Patch, source: str) -> tuple[Floats, tuple[str, ...]]:
-    return prescribed_normals(mesh, patch, source, outside_triangles(mesh, patch))
+    found = boundary(mesh, patch, source, outside_triangles(mesh, patch))
+    return found.normals, found.notes
 
 
 def test_normals_of_the_surroundings_are_the_spheres_however_the_patch_lies() -> None:
@@ -96,8 +97,57 @@ def test_curvatures_of_the_faces_outside() -> None:
         quads = [loop if k else loop[::wound] for loop, k in zip(grid_quads(16), selected, strict=True)]
         mesh = polygon_mesh(on_sphere(grid_points(16)), quads, selected)
         patch = make_patch(mesh)
-        found = prescribed_curvatures(mesh, patch, outside_triangles(mesh, patch))
-        np.testing.assert_allclose(found, -1.0, atol=1e-9)
+        found = boundary(mesh, patch, "AUTOMATIC", outside_triangles(mesh, patch))
+        np.testing.assert_allclose(found.curvatures, -1.0, atol=1e-9)
     alone = grid(4, 2.0)
     patch = make_patch(alone)
-    assert np.isnan(prescribed_curvatures(alone, patch, outside_triangles(alone, patch))).all()
+    assert np.isnan(boundary(alone, patch, "AUTOMATIC", outside_triangles(alone, patch)).curvatures).all()
+
+
+def table(size: int, drop: float) -> MeshArrays:
+    """A grid whose outer rows hang down on the left and right, 45° and more; its flat middle is selected."""
+    points = grid_points(size)
+    over = np.abs(points[:, 0]) - 0.5
+    points[:, 2] -= drop * np.maximum(over, 0.0)
+    quads = grid_quads(size)
+    selected = [(np.abs(points[loop, :2]).max(axis=0) <= 0.5 + 1e-9).all() for loop in quads]
+    return polygon_mesh(points, quads, selected)
+
+
+def test_along_hard_edges_the_slope_is_that_of_the_selected_faces() -> None:
+    mesh = table(16, 2.0)
+    patch = make_patch(mesh)
+    fixed = mesh.positions[patch.vertices[patch.fixed]]
+    known = boundary(mesh, patch, "AUTOMATIC", outside_triangles(mesh, patch))
+    np.testing.assert_allclose(known.normals, np.tile([0.0, 0.0, 1.0], (len(fixed), 1)), atol=1e-9)
+    sides = np.isclose(np.abs(fixed[:, 0]), 0.5) & (np.abs(fixed[:, 1]) < 0.49)
+    assert np.array_equal(known.from_inside, sides)
+    assert known.notes == (
+        "14 boundary vertices lie on hard edges: the surface takes the slope of the selected faces there",
+    )
+    assert np.array_equal(known.inward(patch), patch.vertices[patch.fixed[sides]])
+    outer, told = normals_of(mesh, patch, "SURROUNDING")
+    assert told == ()
+    assert np.abs(outer[sides, 0]).min() > 0.8
+    flat = boundary(table(16, 0.0), patch, "INSIDE", outside_triangles(mesh, patch))
+    assert flat.from_inside.all()
+    assert flat.notes == ("The surface takes the slope of the selected faces along the whole boundary",)
+
+
+def test_marked_edges_stop_the_fit_unless_most_are() -> None:
+    """The sides hang down by 17°, one row beside the selection."""
+    mesh = table(24, 0.3)
+    near = np.abs(mesh.positions[:, :2]).max(axis=1) < 0.5 - 0.05
+    selected = [near[loop].all() for loop in grid_quads(24)]
+    mesh = replace(mesh, in_patch=np.array(selected))
+    patch = make_patch(mesh)
+    ridge = np.isclose(np.abs(mesh.positions[:, 0]), 0.5)
+    along = ridge[mesh.edges].all(axis=1)
+
+    def tilt(sharp: Mask | None) -> float:
+        normals, _ = normals_of(replace(mesh, sharp=sharp), patch, "AUTOMATIC")
+        return float(np.abs(normals[:, 0]).max())
+
+    assert tilt(along) < 1e-9
+    assert tilt(None) > 0.01
+    assert tilt(np.ones(len(mesh.edges), dtype=bool)) == tilt(None)

@@ -87,7 +87,7 @@ def test_a_ridge_that_ends_at_one_along_the_outline_runs_on_nowhere() -> None:
     """The ridge along y = 0 meets another at x = 0.4, along the outline; both sink into a plain before they turn."""
     mesh = ridge(0.0)
     x, y, _ = mesh.positions.T
-    fade = np.clip((0.55 - np.abs(y)) / 0.1, 0.0, 1.0) * np.clip((x + 0.45) / 0.1, 0.0, 1.0)
+    fade = np.clip((0.5 - np.abs(y)) / 0.1, 0.0, 1.0) * np.clip((x + 0.45) / 0.1, 0.0, 1.0)
     met = mesh.positions.copy()
     met[:, 2] = fade * (0.2 - np.minimum(np.where(x < 0.4, np.abs(y), 1.0), np.abs(x - 0.4))).clip(min=0.0)
     assert len(eaten(replace(mesh, positions=met))[0].running_on) == 0

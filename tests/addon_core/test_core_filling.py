@@ -10,8 +10,10 @@ import pytest
 
 from core.arrays import Floats, Ints, Mask
 from core.border import BorderRefusal, border_loops
+from core.fill_report import make_fill_report
 from core.fill_verdict import Surface, judge
 from core.filling import FillOptions, Piece, fill
+from core.holes import Borders, chosen_borders
 from core.quality import Join
 from core.region import MeshArrays, nothing
 from core.verdict import GOOD, LOOK, UNUSABLE, Verdict
@@ -43,39 +45,116 @@ def vertex(row: int, column: int) -> int:
 
 def test_one_vertex_stands_for_its_whole_loop() -> None:
     mesh = holed((2, 2), (6, 6))
-    (loop,) = border_loops(mesh, only(mesh, vertex(1, 1)))
+    ((loop,), left) = border_loops(mesh, only(mesh, vertex(1, 1)))
+    assert not left
     # Seen from above the hole is on the left: counter-clockwise.
     around = [(1, 1), (1, 2), (1, 3), (2, 3), (3, 3), (3, 2), (3, 1), (2, 1)]
     assert loop.tolist() == [vertex(*place) for place in around]
 
 
-def test_loops_that_touch_are_refused() -> None:
+def test_loops_that_touch_are_told_apart() -> None:
+    """Two holes share a corner, which alone stands for both, beside another vertex for that one's."""
     mesh = holed((2, 2), (4, 4))
-    with pytest.raises(BorderRefusal, match="touches itself") as error:
-        border_loops(mesh, only(mesh, vertex(1, 1)))
-    assert error.value.elements.tolist() == [vertex(3, 3)]
+    corner = vertex(3, 3)
+    for seeds, count in (
+        ([vertex(1, 1)], 1),
+        ([vertex(1, 1), corner], 1),
+        ([corner], 2),
+        ([vertex(1, 1), vertex(5, 5)], 2),
+    ):
+        loops, left = border_loops(mesh, only(mesh, *seeds))
+        assert ([len(loop) for loop in loops], left) == ([8] * count, [])
+        assert all(corner in loop for loop in loops)
 
 
-def test_faces_wound_against_each_other_are_refused() -> None:
+def test_faces_wound_against_each_other_are_left() -> None:
     quads = [quad for number, quad in enumerate(grid_quads(3)) if number != 4]
     quads[1] = quads[1][::-1]
     mesh = polygon_mesh(grid_points(3), quads, np.zeros(8, dtype=bool))
-    with pytest.raises(BorderRefusal, match="wound against"):
-        border_loops(mesh, only(mesh, 5))
+    loops, left = border_loops(mesh, only(mesh, 5))
+    assert not loops
+    assert all("wound against" in each.reason and len(each.spots) for each in left)
+    assert 5 in np.concatenate([each.vertices for each in left])
 
 
 @pytest.mark.parametrize(("value", "text"), [(np.nan, "NaN"), (None, "without length")])
-def test_borders_without_a_shape_are_refused(value: float | None, text: str) -> None:
+def test_borders_without_a_shape_are_left(value: float | None, text: str) -> None:
     mesh = holed((4, 4))
     points = mesh.positions.copy()
     points[vertex(3, 3)] = points[vertex(3, 4)] if value is None else value
-    with pytest.raises(BorderRefusal, match=text):
-        border_loops(replace(mesh, positions=points), only(mesh, vertex(3, 4)))
+    loops, (left,) = border_loops(replace(mesh, positions=points), only(mesh, vertex(3, 4)))
+    assert not loops
+    assert text in left.reason
+    assert len(left.vertices) == 8
+
+
+def test_a_face_that_hangs_by_a_corner_makes_its_hole_no_other() -> None:
+    """The hole's boundary passes that corner twice; new triangles at its two passes are told apart."""
+    whole = holed((4, 4), half=2)
+    hanging = [vertex(2, 4), vertex(3, 5), vertex(3, 4)]
+    quads = [*whole.corner_vertices.reshape(-1, 4).tolist(), hanging]
+    mesh = polygon_mesh(on_sphere(grid_points(SIZE)), quads, np.zeros(len(quads), dtype=bool))
+    loops, left = border_loops(mesh, only(mesh, vertex(6, 6)))
+    (loop,) = loops
+    assert (left, int((loop == vertex(2, 4)).sum())) == ([], 2)
+    (piece,) = fill(mesh, np.eye(4), loops, FillOptions()).pieces
+    rim = np.arange(len(piece.outline))
+    edges = directed(piece.triangles)
+    assert {(int(a), int(b)) for a, b in zip(rim, piece.following, strict=True)} <= edges
+    assert set(piece.triangles.ravel().tolist()) == {*range(len(piece.points))}
+    assert np.abs(np.linalg.norm(piece.positions, axis=1) - 1.0).max() < 1e-2
+    assert piece.verdict.grade != UNUSABLE
+
+
+def test_what_is_wrong_with_one_hole_stops_no_other() -> None:
+    """A blade through one surface, and another hole that is no loop of border edges."""
+    mesh = holed((2, 2), (6, 6))
+    apex = len(mesh.positions)
+    normal = mesh.positions[vertex(2, 2)]
+    blade = np.array([0.8 * normal, 1.3 * normal + 0.01, 1.3 * normal - [0.01, 0.0, 0.0]])
+    quads = [*mesh.corner_vertices.reshape(-1, 4).tolist(), [apex, apex + 1, apex + 2]]
+    pierced = polygon_mesh(np.concatenate([mesh.positions, blade]), quads, np.zeros(len(quads), dtype=bool))
+    loops, _ = border_loops(pierced, only(pierced, vertex(1, 1), vertex(5, 5)))
+    inner = np.array([vertex(3, 3), vertex(3, 4), vertex(4, 4), vertex(4, 3)])
+    done = fill(pierced, np.eye(4), [*loops, inner], FillOptions())
+    (piece,), reasons = done.pieces, [each.reason for each in done.left]
+    assert set(piece.outline.tolist()) == set(loops[1].tolist())
+    assert "no loop of border edges" in reasons[0]
+    assert "pass" in reasons[1]
+    assert set(done.left_vertices.tolist()) == {*loops[0].tolist(), *inner.tolist()}
+    report = make_fill_report([("Ball", done)], FillOptions(), 1.0)
+    assert (report.verdict.grade, report.written) == (LOOK, True)
+    assert "2 of 3 holes stay open" in report.verdict.reason
+    np.testing.assert_array_equal(report.verdict.spots, done.left_vertices)
+    every = fill(pierced, np.eye(4), loops, FillOptions(accept="ALL"))
+    assert (len(every.pieces), every.left) == (2, ())
+
+
+def test_longer_borders_stay_open() -> None:
+    mesh = holed((2, 2), (5, 5), half=1)
+    loops, _ = border_loops(mesh, np.ones(len(mesh.positions), dtype=bool))
+    sizes = sorted(map(len, loops))
+    all_of_them = Borders(loops)
+    short = chosen_borders(mesh, np.eye(4), all_of_them, FillOptions(longest=sizes[0]), False)
+    assert (sorted(map(len, short.loops)), short.longer) == (
+        [sizes[0]] * sizes.count(sizes[0]),
+        len(sizes) - sizes.count(sizes[0]),
+    )
+    assert "stay" in short.notes[0]
+    large = np.diag([2.0, 2.0, 2.0, 1.0])
+    lengths = [np.linalg.norm(mesh.positions[loop] - mesh.positions[np.roll(loop, 1)], axis=1).sum() for loop in loops]
+    by_length = FillOptions(longest_length=2.001 * min(lengths))
+    assert len(chosen_borders(mesh, large, all_of_them, by_length, False).loops) == sum(
+        x <= 1.001 * min(lengths) for x in lengths
+    )
+    with pytest.raises(BorderRefusal, match="All borders are longer"):
+        chosen_borders(mesh, np.eye(4), all_of_them, FillOptions(longest=3), False)
 
 
 def filled(mesh: MeshArrays, *seeds: int, matrix: Floats | None = None, **options: object) -> list[Piece]:
     matrix = np.eye(4) if matrix is None else matrix
-    return fill(mesh, matrix, border_loops(mesh, only(mesh, *seeds)), FillOptions(**options))  # type: ignore[arg-type]
+    loops, _ = border_loops(mesh, only(mesh, *seeds))
+    return fill(mesh, matrix, loops, FillOptions(**options)).pieces  # type: ignore[arg-type]
 
 
 def directed(triangles: Ints) -> set[tuple[int, int]]:
@@ -217,7 +296,9 @@ def test_the_curvature_around_is_continued_where_it_can_be() -> None:
 
 def test_unknown_options_are_refused() -> None:
     for options in (
-        {"equation": "MINIMAL"},
+        {"equation": "BULGE"},
+        {"longest": -1},
+        {"longest_length": -1.0},
         {"continuity": "G3"},
         {"inner": "GRADED"},
         {"spacing": 0.0},

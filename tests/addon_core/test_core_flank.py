@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from core.arrays import Floats
-from core.flank import Flank, flank
+from core.evidence import Flank
 from core.options import FairOptions
+from core.outcome import flank_of
 from core.region import MeshArrays
 from core.solve import pose, solve
 from polygon_mesh import grid, on_sphere
@@ -53,7 +54,7 @@ def found(mesh: MeshArrays) -> Flank | None:
     after = problem.points.copy()
     solved = solve(mesh, np.eye(4), FairOptions())
     after[solved.problem.patch.free] = solved.result.vertices[solved.problem.patch.free]
-    return flank(mesh, problem, after)
+    return flank_of(mesh, np.eye(4), problem, after)
 
 
 @pytest.mark.parametrize("ground", [plane, on_sphere, pipe])

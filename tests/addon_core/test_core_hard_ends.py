@@ -32,7 +32,7 @@ def roof(degrees: float, hole_at: float) -> MeshArrays:
 
 def rim(mesh: MeshArrays, hole_at: float) -> Ints:
     chosen = np.abs(grid_points(SIZE)[:, :2] - [0.0, hole_at]).max(axis=1) < 0.3
-    (loop,) = border_loops(mesh, chosen)
+    ((loop,), _) = border_loops(mesh, chosen)
     return loop
 
 
@@ -42,7 +42,7 @@ def test_a_ridge_ends_on_both_sides_of_a_hole(degrees: float) -> None:
     loop = rim(mesh, 0.0)
     ends = mesh.positions[hard_ends(mesh, loop)]
     np.testing.assert_allclose(ends, [[-0.25, 0.0, 0.0], [0.25, 0.0, 0.0]], atol=1e-12)
-    (piece,) = fill(mesh, np.eye(4), [loop], FillOptions(accept="ALL", hard_edges="IGNORED"))
+    (piece,) = fill(mesh, np.eye(4), [loop], FillOptions(accept="ALL", hard_edges="IGNORED")).pieces
     assert piece.verdict.grade != GOOD
 
 
@@ -100,7 +100,7 @@ def test_a_drawn_line_is_kept_with_its_vertices() -> None:
 def test_the_surface_over_it_is_worth_a_look_though_no_kink_is_seen() -> None:
     """A ridge of 36° leaves kinks that the mesh's own bends hide."""
     mesh = roof(36.0, 0.0)
-    (piece,) = fill(mesh, np.eye(4), [rim(mesh, 0.0)], FillOptions(hard_edges="IGNORED"))
+    (piece,) = fill(mesh, np.eye(4), [rim(mesh, 0.0)], FillOptions(hard_edges="IGNORED")).pieces
     assert (piece.verdict.grade, len(piece.join.seen)) == (LOOK, 0)
     assert "Hard edges end at the hole, at 2 vertices" in piece.verdict.reason
 

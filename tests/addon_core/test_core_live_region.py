@@ -10,7 +10,7 @@ import pytest
 import fairing
 from core.around import outside_triangles
 from core.arrays import Floats, Ints, Mask
-from core.boundary import prescribed_normals
+from core.boundary import boundary
 from core.live_region import LiveRegion, Surroundings, surroundings
 from core.options import FairOptions
 from core.region import MeshArrays, make_patch
@@ -24,13 +24,13 @@ def sphere() -> MeshArrays:
     return grid(SIZE, 0.35, on_sphere)  # 8 × 8 of 24 × 24 quads, eight rings of faces around them
 
 
-@pytest.mark.parametrize("source", ["SURROUNDING", "AVERAGE"])
+@pytest.mark.parametrize("source", ["AUTOMATIC", "SURROUNDING", "INSIDE", "AVERAGE"])
 def test_normals_from_the_part_are_those_from_the_whole(source: str) -> None:
     mesh = grid(SIZE, 0.35, lambda points: on_sphere(points) * (1.0 + 0.1 * points[:, :1] ** 2))
     patch = make_patch(mesh)
     around = surroundings(mesh, patch)
-    part, _ = prescribed_normals(around.mesh, around.patch, source, outside_triangles(around.mesh, around.patch))
-    whole, _ = prescribed_normals(mesh, patch, source, outside_triangles(mesh, patch))
+    part = boundary(around.mesh, around.patch, source, outside_triangles(around.mesh, around.patch)).normals
+    whole = boundary(mesh, patch, source, outside_triangles(mesh, patch)).normals
     np.testing.assert_allclose(part, whole, atol=1e-13)
 
 
@@ -46,8 +46,8 @@ def test_creases_are_followed_with_the_edges_of_the_part() -> None:
     np.testing.assert_array_equal(
         around.vertices[around.mesh.edges[around.mesh.creases]], _inside(mesh, around, marked)
     )
-    part, _ = prescribed_normals(around.mesh, around.patch, "SURROUNDING", outside_triangles(around.mesh, around.patch))
-    whole, _ = prescribed_normals(mesh, patch, "SURROUNDING", outside_triangles(mesh, patch))
+    part = boundary(around.mesh, around.patch, "SURROUNDING", outside_triangles(around.mesh, around.patch)).normals
+    whole = boundary(mesh, patch, "SURROUNDING", outside_triangles(mesh, patch)).normals
     np.testing.assert_allclose(part, whole, atol=1e-13)
 
 

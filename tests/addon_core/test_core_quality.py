@@ -19,15 +19,6 @@ QUAD = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0
 TWO = np.array([[0, 1, 2], [0, 2, 3]])
 
 
-def test_degenerate_triangles() -> None:
-    assert quality.degenerate(QUAD, TWO).sum() == 0
-    flat = QUAD.copy()
-    flat[1] = (0.5, 0.5 - 1e-4, 0.0)  # next to the diagonal
-    np.testing.assert_array_equal(quality.degenerate(flat, TWO), [True, False])
-    flat[1] = np.nan
-    assert quality.degenerate(flat, TWO)[0]
-
-
 @pytest.mark.parametrize(("stretch", "distortion"), [(1.0, 0.0), (2.0, 1.0), (0.5, 1.0), (1.5, 0.5)])
 def test_texture_distortion_of_a_stretched_square(stretch: float, distortion: float) -> None:
     stretched = QUAD * (stretch, 1.0, 1.0)  # singular values 1 and stretch: ratio max/min − 1

@@ -392,11 +392,12 @@ def test_escape_leaves_the_hole_open() -> None:
     select_vertices(obj, lambda _: True)
     count = len(bmesh.from_edit_mesh(obj.data).faces)
     fill_module, options = module("run.fill"), module("core.filling").FillOptions()
-    tasks = fill_module.read(bpy.context)
+    tasks = fill_module.read(bpy.context, options)
 
     class Stand:
         modal, cancel, _collect, _apply = original.modal, original.cancel, original._collect, original._apply
         _stop_watching, _is_current, _write = original._stop_watching, original._is_current, original._write
+        _show = original._show
         _signs, _begin, _options, _tasks = None, 0.0, options, tasks
 
         def report(self, _kinds: set[str], _text: str) -> None:
@@ -492,7 +493,8 @@ def test_operator_has_the_documented_properties() -> None:
     found = [p for p in bpy.ops.mesh.fair_fill.get_rna_type().properties if p.identifier != "rna_type"]
     assert {p.identifier: p.default for p in found} == {
         "equation": "AUTOMATIC", "continuity": "G1", "bridge": False, "spacing": 1.0, "inner": "OUTLINE",
-        "quads": False, "max_vertices": 0, "limit_total": 0, "accept": "USABLE", "hard_edges": "RUN_ON",
+        "quads": False, "longest": 0, "longest_length": 0.0, "max_vertices": 0, "limit_total": 0, "accept": "USABLE",
+        "hard_edges": "RUN_ON",
     }  # fmt: skip
     assert all(p.description for p in found)
 

@@ -1,15 +1,18 @@
 """Intrinsic fairing of triangle meshes: Δ_B H = 0 with G1 boundary data (Schneider & Kobbelt 2001)."""
 
 from fairing._borders import expected_vertices, outer_borders
+from fairing._boundary_normals import BoundaryNormals, boundary_normals
 from fairing._conformal_map import conformal_map
 from fairing._core import __version__
 from fairing._fair import fair
 from fairing._fair_edges import FairEdges, fair_edges
 from fairing._feather import feather_weights
 from fairing._fill import fill
+from fairing._fillet import fillet
 from fairing._growing import GrownOutline, grown_outline
 from fairing._hard_edges import hard_edges
 from fairing._hierarchy import hierarchy
+from fairing._hole_loops import HoleLoops, hole_loops
 from fairing._interpolate import interpolate
 from fairing._measure import (
     boundary_loops,
@@ -18,14 +21,12 @@ from fairing._measure import (
     cotan_laplacian,
     edges_with_uses,
     flipped_triangles,
-    knobs,
     mean_curvature,
     self_intersections,
     vertex_normals,
 )
-from fairing._new_mesh import FillResult, RemeshResult
+from fairing._new_mesh import FilletResult, FillResult, RemeshResult
 from fairing._outline import (
-    LIMITS,
     MendedOutline,
     SurroundingNormals,
     VisibleJoin,
@@ -37,20 +38,39 @@ from fairing._outline import (
 from fairing._paper import PaperOptions
 from fairing._quads import PairedQuads, paired_quads
 from fairing._remesh import remesh
+from fairing._shape import (
+    LIMITS,
+    Flank,
+    Girth,
+    Needles,
+    flank,
+    girth,
+    is_spoilt,
+    knobs,
+    needles,
+    rounded_edges,
+    seam_kinks,
+)
 from fairing._solver import Solver
 from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, SolverError
 
 __all__ = [
     "CODES",
     "LIMITS",
+    "BoundaryNormals",
     "Cancelled",
     "Diagnostic",
     "FairEdges",
     "FairResult",
     "FillResult",
+    "FilletResult",
+    "Flank",
+    "Girth",
     "GrownOutline",
+    "HoleLoops",
     "MendedOutline",
     "MeshError",
+    "Needles",
     "PairedQuads",
     "PaperOptions",
     "RemeshResult",
@@ -61,6 +81,7 @@ __all__ = [
     "__version__",
     "bad_outline",
     "boundary_loops",
+    "boundary_normals",
     "components",
     "conformal_distortion",
     "conformal_map",
@@ -71,17 +92,25 @@ __all__ = [
     "fair_edges",
     "feather_weights",
     "fill",
+    "fillet",
+    "flank",
     "flipped_triangles",
+    "girth",
     "grown_outline",
     "hard_edges",
     "hierarchy",
+    "hole_loops",
     "interpolate",
+    "is_spoilt",
     "knobs",
     "mean_curvature",
     "mend_outline",
+    "needles",
     "outer_borders",
     "paired_quads",
     "remesh",
+    "rounded_edges",
+    "seam_kinks",
     "self_intersections",
     "surrounding_normals",
     "vertex_normals",

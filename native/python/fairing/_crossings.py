@@ -26,6 +26,32 @@ def crossing_edges(loops: Sequence[IntArray], vertices: FloatArray) -> IntArray:
     return found
 
 
+def are_clear(loops: Sequence[IntArray], vertices: FloatArray) -> bool:
+    """Whether no loop by itself comes near itself: a quick look at many, which may say no where nothing is wrong."""
+    edges = np.concatenate([np.column_stack([loop, np.roll(loop, -1)]) for loop in loops])
+    of = np.repeat(np.arange(len(loops)), [len(loop) for loop in loops])
+    segments = vertices[edges]
+    if not np.isfinite(segments).all():
+        return False
+    lengths = np.linalg.norm(segments[:, 1] - segments[:, 0], axis=1)
+    slack = max(_ON_EDGE * float(lengths.max()), _TOUCHING * float(np.ptp(segments.reshape(-1, 3), axis=0).max()))
+    if not lengths.min() > slack:
+        return False
+    one, other = _near_pairs(segments, slack)
+    same = of[one] == of[other]
+    one, other = one[same], other[same]
+    joined = (edges[one][:, :, None] == edges[other][:, None]).any(axis=(1, 2))
+    if (_distances(segments[one[~joined]], segments[other[~joined]]) <= slack).any():
+        return False
+    beside = [(a, b, end) for a, b in ((one[joined], other[joined]), (other[joined], one[joined])) for end in (0, 1)]
+    for at, of_ends, end in beside:  # the far end of the next edge
+        ends = edges[of_ends, end]
+        apart = (edges[at] != ends[:, None]).all(axis=1)
+        if (_from_segment(vertices[ends[apart]], segments[at[apart]]) <= slack).any():
+            return False
+    return True
+
+
 @dataclass(frozen=True)
 class Touches:
     """Where vertices of a boundary lie on others of its edges or vertices."""

@@ -3,15 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _holes, _loops, _options, _run_on, _short_edges, _sides
+from fairing import (
+    _arguments,
+    _core,
+    _holes,
+    _hub,
+    _loops,
+    _options,
+    _pinches,
+    _run_on,
+    _short_edges,
+    _sides,
+    _single_face,
+)
 from fairing._along import filled_along
+from fairing._chosen import Chosen, Wanted, blamed, chosen_loops, fillable
 from fairing._fair import fair
+from fairing._joined import joined
 from fairing._measure import boundary_loops
 from fairing._new_mesh import FillResult, Origin, read_only, report_fields
 from fairing._proportion import Limit
@@ -36,6 +50,7 @@ def fill(
     bridge: bool = False,
     spacing: float = 0.0,
     longest: int = 0,
+    longest_length: float = 0.0,
     inner: str | None = None,
     max_vertices: int = 0,
     fixed_curvatures: Any = None,
@@ -48,7 +63,9 @@ def fill(
     """Fill holes, or join boundary loops, with the fairest surface that continues the surroundings.
 
     The surface does not depend on ``spacing``: it is solved on a mesh that is fine enough, and a coarser mesh is cut
-    from it. Vertices and edges given stay as they are. No argument is ever changed.
+    from it. A loop of three or four edges that are no longer than the new ones is closed by one face. Vertices and
+    edges given stay as they are. Each loop is filled by itself: one that can't be is left open, and
+    ``result.left_because`` says why. No argument is ever changed.
 
     Parameters
     ----------
@@ -56,10 +73,11 @@ def fill(
     triangles : (m, 3) int
         The mesh around, consistently wound; there may be none if ``loops`` and ``normals`` are given.
     loops : list of (k,) int
-        Closed loops of border vertices, in either direction: each is filled. Default: all holes, that is all border
-        loops but those around the outside of a sheet (:func:`fairing.outer_borders`), which ``left_open`` and the
-        warning NOT_A_HOLE name. A loop that no triangle touches has the new surface on its left, seen from the side of
-        the normals; it is turned where that leads away from the other loops of a bridge, or outside of a lone loop.
+        Closed loops of border vertices, in either direction: each is filled. Default: all holes, that is all of
+        :func:`fairing.hole_loops` but those around the outside of a sheet (:func:`fairing.outer_borders`), which
+        ``left_open`` and the warning NOT_A_HOLE name. Loops along triangles may touch themselves and each other. A loop
+        that no triangle touches has the new surface on its left, seen from the side of the normals; it is turned where
+        that leads away from the other loops of a bridge, or outside of a lone loop.
     normals : (n, 3), (Σ k, 3) float, or a list with a (k, 3) for each loop
         Normals at the boundary, of any length but zero; of the vertices, where n is Σ k and they are no list.
         Default: :func:`fairing.surrounding_normals`.
@@ -75,6 +93,8 @@ def fill(
         "even".
     longest : int
         Without ``loops``: border loops with more edges than that are left open; 0: none.
+    longest_length : float
+        Likewise by their lengths, in the unit of ``vertices``.
     max_vertices : int
         More new vertices than that are refused, as soon as a first small surface shows that there would be so many. 0:
         20 times as many as flat surfaces over the loops would have, or 50 000 where that is less, 4 000 000 at most.
@@ -100,12 +120,13 @@ def fill(
     Raises
     ------
     MeshError
-        NOT_A_LOOP, NO_BOUNDARY, NONMANIFOLD_VERTEX (loops that touch or cross, or vertices of one boundary in one place
-        or on its edges), NONMANIFOLD_EDGE (also where the surface would double back onto a triangle that sticks out
-        into a loop, or where ``wires`` cross), NOT_A_HOLE (there are none but outer borders; or one that was named
-        lies around a flat sheet, which no surface closes), OUT_OF_PROPORTION (``max_vertices``),
-        LOOPS_NOT_JOINED (one is turned; loops that no surface joins), ZERO_NORMAL, NORMALS_OPPOSE_WINDING, NONFINITE or
-        INDEX_RANGE; ``elements`` are the vertices.
+        The first reason where no loop can be filled, or one of those that are to be joined is bad: NOT_A_LOOP,
+        NO_BOUNDARY, NONMANIFOLD_VERTEX (loops that cross, or vertices of one boundary in one place or on its edges),
+        NONMANIFOLD_EDGE (also where the surface would double back onto a triangle that sticks out into a loop,
+        or where ``wires`` cross),
+        NOT_A_HOLE (there are none but outer borders; or one that was named lies around a flat sheet, which no surface
+        closes), OUT_OF_PROPORTION (``max_vertices``), LOOPS_NOT_JOINED (one is turned; loops that no surface joins),
+        ZERO_NORMAL, NORMALS_OPPOSE_WINDING, NONFINITE or INDEX_RANGE; ``elements`` are the vertices.
     ValueError, Cancelled, SolverError, MemoryError
         As for :func:`fairing.fair`.
     """
@@ -116,65 +137,187 @@ def fill(
     refuse_made_here(options, progress)
     if not isinstance(bridge, (bool, np.bool_)):
         raise ValueError(f"bridge: True or False is needed, not {bridge!r}")
-    outline = _loops.border_loops(around, limit) if loops is None else _loops.given_loops(loops, points, around)
-    _loops.check(outline, points, bool(bridge))
-    broken = _run_on.Edges.of((points, around), (edges, wires, marked), bool(bridge))
-    normals = _loops.loop_normals(normals, outline, points, around, broken.hard)
-    outer: tuple[IntArray, ...] = ()
-    if loops is None:
-        outline, normals, outer = _loops.without_outer(outline, points, normals)
-    outline, normals = _sides.settled(outline, points, normals, bool(bridge))
-    if not bridge:
-        _loops.refuse_endless(outline, points, normals)
-    rims = [points[loop] for loop in outline.loops]
-    most = Limit.of(_holes.flat_count(rims, length.length, bool(bridge)), max_vertices)
-    least = most.flat if bridge else _holes.least_count(rims, outline.split(normals), length.length)
-    most.check(least, outline.vertices)
-    normals = _short_edges.with_shared_normals(outline, points, normals)
-    if fixed_curvatures is not None:
-        options["fixed_curvatures"] = _loops.loop_curvatures(fixed_curvatures, outline, len(points))
-    curves = broken.run_on(outline, normals, (points, around), (length.length, length.even))
-    if curves.holds_any:
-
-        def others(these: _loops.Outline, rows: FloatArray, rest: Any, part: Progress | None) -> FillResult:
-            return fill(
-                points, around, list(these.loops), normals=these.split(rows), spacing=spacing, inner=inner,
-                max_vertices=max_vertices, edges="ignored", progress=part, **{**options, "fixed_curvatures": rest},
-            )  # fmt: skip
-
-        task = (outline, normals, around, length.wanted(0), options)
-        result = filled_along(curves, task, others, progress)
-        told = result.warnings + ((_loops.not_holes(outer),) if outer else ())
-        return replace(result, left_open=tuple(map(read_only, outer)), warnings=told)
-    watch = Watch(progress)
-    first = _first_surface(points, outline, normals, bool(bridge), options, watch.part(0, 0.2))
-    watch.lap("first")
-    patch = Patch(np.concatenate([points, first["vertices"]]), first["triangles"], outline.vertices, normals)
-    count = patch.expected_count(length)
-    most.check(count, outline.vertices, first["converged"])
-    fine, _ = patch.remeshed(len(points), length, LEAST_COUNT, options, watch.part(0.2, 0.4))
-    watch.lap("mesh")
-    _loops.check_doubles(fine.triangles, around)
-    coarser = count < 0.9 * LEAST_COUNT * (1 if bridge else len(outline.loops))
-    chosen = options if first["converged"] else {**options, "otherwise": "stop"}  # it was sought in vain once
-    report = fine.faired(_start(first["start"], options), around, chosen, watch.part(0.4, 0.9 if coarser else 1.0))
-    values = report_fields(report, len(points))
-    values["warnings"] += not_tangent(report, outline, points, around)
-    if coarser:
-        solved = Patch(report.vertices, fine.triangles, outline.vertices, normals)
-        coarse, origin = solved.remeshed(len(points), length, 0, options, watch.part(0.9, 1.0))
-        values.update(cut_fields(coarse, len(points)))
-        values["mean_curvature"] = carried(report.mean_curvature, fine.triangles, origin)
-    else:
-        values["triangles"] = fine.triangles
-    watch.lap("coarser")
-    values["seconds"] = {**values["seconds"], **watch.seconds}
-    values["warnings"] += curves.warnings + ((_loops.not_holes(outer),) if outer else ())
+    if _arguments.finite("longest_length", longest_length) < 0:
+        raise ValueError(f"longest_length: a length, or 0 for any, is needed, not {longest_length!r}")
+    finite = np.isfinite(points).all(axis=1)
+    known = around if finite.all() else around[finite[around].all(axis=1)]
+    broken = _run_on.Edges.of((points, known), (edges, wires, marked), bool(bridge))
+    wanted = Wanted(loops, normals, fixed_curvatures, bool(bridge), limit, float(longest_length), broken.hard)
+    chosen = chosen_loops(points, around, wanted)
+    task = _Task(points, known, bool(bridge), length, max_vertices, broken, options, progress)
+    if chosen.curvatures is not None and options.get("continuity", "G1") != "G2":
+        raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
+    while True:
+        try:
+            values = task.filled(chosen)
+            break
+        except MeshError as error:
+            if bridge or len(chosen.outline.loops) == 1:
+                raise
+            less = blamed(chosen, error) or fillable(chosen, task.filled)
+            if less is chosen:
+                raise
+            chosen = less
+    values["warnings"] += chosen.warnings
     return FillResult(
         **values,
-        loops=tuple(read_only(loop) for loop in outline.loops),
-        left_open=tuple(read_only(loop) for loop in outer),
+        loops=tuple(read_only(loop) for loop in chosen.outline.loops),
+        left_open=tuple(read_only(each.loop) for each in chosen.left),
+        left_because=tuple(each.reason for each in chosen.left),
     )
+
+
+@dataclass(frozen=True)
+class _Task:
+    """What one call asks for, but for the loops."""
+
+    points: FloatArray
+    around: IntArray
+    bridge: bool
+    length: Spacing
+    max_vertices: Any
+    broken: _run_on.Edges
+    options: dict[str, Any]
+    progress: Progress | None
+
+    def filled(self, chosen: Chosen) -> dict[str, Any]:
+        """The fields of a result but for the loops: curves, faces, fans and surfaces, as each loop asks for."""
+        Limit.of(0.0, self.max_vertices)
+        loops = chosen.outline.loops
+        plain = [k for k, loop in enumerate(loops) if not self.bridge and self._is_single(loop)]
+        rest = [k for k in range(len(loops)) if k not in set(plain)]
+        curves, through = self._curves(chosen, rest)
+        rest = [k for k in rest if k not in set(through)]
+        fans, hubs = self._fans(chosen, [] if self.bridge else self._hubs(chosen, rest))
+        others = [k for k in rest if k not in set(hubs)]
+        watch = Watch(self.progress)
+        share = len(through) / max(1, len(through) + len(others))
+        along = self._along(chosen.part(through), curves, watch.part(0.0, share)) if curves and through else None
+        if curves and along is not None and not along["converged"]:
+            curves, along = curves.left_alone([loops[k] for k in through]), None
+            others = sorted([*others, *through])
+        made = [
+            along,
+            self._solved(chosen.part(others), watch.part(share, 1.0)) if others else None,
+            fans,
+            self._single_faces(chosen.part(plain)) if plain else None,
+        ]
+        values = joined(len(self.points), [fields for fields in made if fields is not None])
+        if curves:
+            values["warnings"] += curves.warnings
+            bands = tuple((read_only(one), read_only(other)) for one, other in curves.bands)
+            values |= {"curves": tuple(map(read_only, curves.curves)), "marked": curves.marked, "bands": bands}
+        return values
+
+    def _curves(self, chosen: Chosen, numbers: list[int]) -> tuple[_run_on.Curves | None, list[int]]:
+        """What runs through these loops, and through which."""
+        if not numbers:
+            return None, []
+        part = chosen.part(numbers)
+        length = (self.length.length, self.length.even)
+        curves = self.broken.run_on(part.outline, self._shared(part), (self.points, self.around), length)
+        return curves, [k for k, cut in zip(numbers, curves.cut, strict=True) if cut is not None]
+
+    def _along(self, chosen: Chosen, curves: _run_on.Curves, progress: Progress | None) -> dict[str, Any]:
+        task = (chosen.outline, self._shared(chosen), self.around, self.length.wanted(0), self.options)
+        return filled_along(curves, task, progress)
+
+    def _shared(self, chosen: Chosen) -> FloatArray:
+        return _short_edges.with_shared_normals(chosen.outline, self.points, chosen.normals)
+
+    def _hubs(self, chosen: Chosen, numbers: list[int]) -> list[int]:
+        """The loops over which one vertex is enough."""
+        plain = self.options.get("equation", "harmonic") in ("harmonic", "automatic")
+        if self.length.length or not plain or self.options.get("continuity", "G1") != "G1":
+            return []
+        loops, rows = chosen.outline.loops, chosen.outline.split(chosen.normals)
+        fit = [k for k in numbers if len(loops[k]) < 9 and len(np.unique(loops[k])) == len(loops[k])]
+        points = [self.points[loop] for loop in loops]
+        return [k for k in fit if _hub.takes_hub(points[k], rows[k], points[k].mean(axis=0))]
+
+    def _fans(self, chosen: Chosen, numbers: list[int]) -> tuple[dict[str, Any] | None, list[int]]:
+        """The fans over these loops, and those over which they are good."""
+        if not numbers:
+            return None, []
+        part = chosen.part(numbers)
+        outline, rows = part.outline, part.outline.split(part.normals)
+        Limit.of(float(len(numbers)), self.max_vertices).check(float(len(numbers)), outline.vertices)
+        watch = Watch(self.progress)
+        split = _pinches.split(outline, self.points, part.normals, False)
+        hubs = np.stack([self.points[loop].mean(axis=0) for loop in outline.loops])
+        triangles = read_only(_hub.fans(split.outline.loops, split.count))
+        patch = Patch(np.concatenate([split.points, hubs]), triangles, split.outline.vertices, part.normals)
+        options = {**self.options, "otherwise": "stop"}
+        report = patch.faired("given", self.around, options, watch.part(0.0, 1.0))
+        found = report.vertices[split.count :]
+        good = [
+            _hub.takes_hub(self.points[loop], row, hub)
+            for loop, row, hub in zip(outline.loops, rows, found, strict=True)
+        ]
+        if not report.converged or not all(good):
+            kept = [k for k, fits in zip(numbers, good, strict=True) if fits] if report.converged else []
+            return self._fans(chosen, kept)
+        values = report_fields(report, split.count)
+        watch.lap("fans")
+        values["seconds"] = {**values["seconds"], **watch.seconds}
+        return split.welded({**values, "triangles": patch.triangles}), numbers
+
+    def _is_single(self, loop: IntArray) -> bool:
+        return _single_face.is_single(self.points[loop], self.length.length)
+
+    def _single_faces(self, chosen: Chosen) -> dict[str, Any]:
+        loops = chosen.outline.loops
+        rows = chosen.outline.split(chosen.normals)
+        edges = _single_face.edges_among(self.around, chosen.outline.vertices)
+        faces = [_single_face.face_over(each, self.points, row, edges) for each, row in zip(loops, rows, strict=True)]
+        _loops.check_doubles(np.concatenate(faces), self.around)
+        angles = [
+            _single_face.angles_at(loop, self.points, row, face)
+            for loop, row, face in zip(loops, rows, faces, strict=True)
+        ]
+        values = _single_face.fields_of(faces, angles, loops, self.around, self.points)
+        equation, continuity = (self.options.get(*each) for each in (("equation", "harmonic"), ("continuity", "G1")))
+        arrays = {name: read_only(array) for name, array in values.items()}
+        return {**_single_face.report_of(str(equation), str(continuity)), **arrays}
+
+    def _solved(self, chosen: Chosen, progress: Progress | None) -> dict[str, Any]:
+        """The same without curves, where there are vertices inside."""
+        options, bridge, length = dict(self.options), self.bridge, self.length
+        normals = self._shared(chosen)
+        split = _pinches.split(chosen.outline, self.points, normals, bridge)
+        outline, points, around = split.outline, split.parted, self.around
+        rims = [points[loop] for loop in outline.loops]
+        most = Limit.of(_holes.flat_count(rims, length.length, bridge), self.max_vertices)
+        least = most.flat if bridge else _holes.least_count(rims, outline.split(chosen.normals), length.length)
+        most.check(least, chosen.outline.vertices)
+        if chosen.curvatures is not None:
+            options["fixed_curvatures"] = chosen.curvatures
+        watch = Watch(progress)
+        first = _first_surface(points, outline, normals, bridge, options, watch.part(0, 0.2))
+        watch.lap("first")
+        slopes = None if options.get("equation") == "minimal" else normals
+        patch = Patch(np.concatenate([points, first["vertices"]]), first["triangles"], outline.vertices, slopes)
+        count = patch.expected_count(length)
+        most.check(count, chosen.outline.vertices, first["converged"])
+        fine, _ = patch.remeshed(split.count, length, LEAST_COUNT, options, watch.part(0.2, 0.4))
+        fine = fine.with_old(split.points)
+        watch.lap("mesh")
+        _loops.check_doubles(fine.triangles, around)
+        coarser = count < 0.9 * LEAST_COUNT * (1 if bridge else len(outline.loops))
+        trying = options if first["converged"] else {**options, "otherwise": "stop"}  # it was sought in vain once
+        report = fine.faired(_start(first["start"], options), around, trying, watch.part(0.4, 0.9 if coarser else 1.0))
+        values = report_fields(report, split.count)
+        values["warnings"] += not_tangent(report, outline, split.points, around)
+        if coarser:
+            solved = Patch(report.vertices, fine.triangles, outline.vertices, slopes)
+            coarse, origin = solved.remeshed(split.count, length, 0, options, watch.part(0.9, 1.0))
+            values.update(cut_fields(coarse, split.count))
+            values["mean_curvature"] = carried(report.mean_curvature, fine.triangles, origin)
+        else:
+            values["triangles"] = fine.triangles
+        watch.lap("coarser")
+        values["seconds"] = {**values["seconds"], **watch.seconds}
+        return split.welded(values)
 
 
 def _first_surface(
@@ -203,9 +346,11 @@ class Spacing:
 
     length: float
     even: bool
+    flat: bool = False
+    """Whether the old triangles are the surface as they are, broken along seams, and small angles may stay."""
 
-    def wanted(self, least: int) -> tuple[float, int, bool]:
-        return self.length, least, self.even
+    def wanted(self, least: int) -> tuple[float, int, bool, bool]:
+        return self.length, least, self.even, self.flat
 
 
 @dataclass(frozen=True)
@@ -257,6 +402,12 @@ class Patch:
         new = Patch(placed, read_only(triangles), self.fixed, self.normals)
         return new, (mesh["triangle"], mesh["weights"]), mesh["old"]
 
+    def with_old(self, vertices: FloatArray) -> Patch:
+        """The same with its first vertices at these places."""
+        return Patch(
+            np.concatenate([vertices, self.vertices[len(vertices) :]]), self.triangles, self.fixed, self.normals
+        )
+
     def faired(self, start: str, outside: Any, options: dict[str, Any], progress: Progress | None) -> FairResult:
         chosen = {"inner_fairness": "conformal", **options}
         if outside is not None and len(outside):
@@ -274,8 +425,6 @@ def refuse_made_here(options: dict[str, Any], progress: Any) -> None:
     for name in _MADE_HERE:
         if name in options:
             raise ValueError(f"{name}: not accepted here; the mesh and its boundary are made by this call")
-    if options.get("equation") == "minimal":
-        raise ValueError("equation: 'minimal' has no normals to continue; accepted are the others")
     _options.continuity(
         options.get("continuity", "G1"), options.get("equation", "harmonic"), options.get("method", "global")
     )
@@ -304,7 +453,8 @@ def _first_equation(options: dict[str, Any]) -> str:
     """Of the first surface: harmonic but for the equation that joins what no harmonic surface does."""
     asked = str(options.get("equation", "harmonic"))
     joins_curvature = options.get("continuity", "G1") == "G2"
-    return asked if asked == "least_variation" or (asked == "automatic" and not joins_curvature) else "harmonic"
+    own = asked in ("least_variation", "minimal") or (asked == "automatic" and not joins_curvature)
+    return asked if own else "harmonic"
 
 
 def cut_fields(patch: Patch, old_count: int) -> dict[str, Any]:

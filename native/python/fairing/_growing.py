@@ -12,7 +12,8 @@ import numpy.typing as npt
 from fairing import _arguments
 from fairing._fair import fair
 from fairing._measure import boundary_loops
-from fairing._outline import LIMITS, bad_outline, surrounding_normals
+from fairing._outline import bad_outline, surrounding_normals
+from fairing._shape import LIMITS
 from fairing._types import FOLDS, FairResult, FloatArray, IntArray
 
 Mask = npt.NDArray[np.bool_]

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from fairing import _arguments
+from fairing._boundary_normals import boundary_normals
 from fairing._mending import Boundary, Surroundings
 from fairing._outline import surrounding_normals
 
@@ -22,8 +23,15 @@ def with_curvatures(boundary: Boundary, around: Surroundings, given: Any) -> Bou
             "`outside` or among the triangles with all their vertices in `fixed`"
         )
     fixed = around.rim if boundary.fixed is None else boundary.fixed
-    fits = surrounding_normals(boundary.vertices, around.outside, fixed)
+    fits = boundary_normals(boundary.vertices, around.inside, fixed, outside=around.outside)
     curvatures = fits.trusted_curvatures
-    if boundary.normals is not None:  # H on the side of the normals
-        curvatures = np.where((fits.normals * boundary.normals).sum(axis=1) < 0, -curvatures, curvatures)
+    if boundary.normals is not None:
+        given = boundary.normals  # of any length
+        beyond = surrounding_normals(boundary.vertices, around.outside, fixed)
+        nearer = np.abs((beyond.normals * given).sum(axis=1)) > np.abs((fits.normals * given).sum(axis=1))
+        chosen = nearer & fits.from_inside  # somebody prefers the slope outside
+        curvatures = np.where(chosen, beyond.trusted_curvatures, curvatures)
+        normals = np.where(chosen[:, None], beyond.normals, fits.normals)
+        against = (normals * given).sum(axis=1) < 0
+        curvatures = np.where(against, -curvatures, curvatures)  # H on the side of the normals
     return replace(boundary, fixed=fixed, curvatures=curvatures)

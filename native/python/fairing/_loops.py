@@ -12,7 +12,6 @@ import numpy.typing as npt
 from fairing import _arguments
 from fairing._crossings import crossing_edges, touches
 from fairing._holes import is_endless, is_outer
-from fairing._measure import boundary_loops
 from fairing._outline import surrounding_normals
 from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
 
@@ -46,18 +45,6 @@ class Outline:
             raise ValueError(f"{text}, are needed, not {len(rows)}")
         parts = zip(self.split(rows), self.turned, strict=True)
         return np.concatenate([part[::-1] if turned else part for part, turned in parts])
-
-
-def border_loops(triangles: IntArray, longest: int) -> Outline:
-    """All border loops of up to ``longest`` edges (0: of any length)."""
-    found = [loop[::-1].copy() for loop in boundary_loops(triangles)]
-    chosen = [loop for loop in found if not longest or len(loop) <= longest]
-    if not chosen:
-        text = "the mesh has no border: there is nothing to fill"
-        if found:
-            text = f"no border loop has {longest} edges or fewer; the shortest has {min(map(len, found))}"
-        raise MeshError(Diagnostic("NO_BOUNDARY", text, np.empty(0, np.int32), "vertex", {"loops": len(found)}))
-    return Outline(tuple(chosen), (False,) * len(chosen), (False,) * len(chosen))
 
 
 def without_outer(
@@ -106,26 +93,30 @@ def given_loops(loops: Any, vertices: FloatArray, triangles: IntArray) -> Outlin
         loops = [loops]
     named = [_arguments.integers("loops", loop, None) for loop in loops]
     inside = [_arguments.indices_within("loops", loop, len(vertices)) for loop in named]
-    sides = _directed_edges(triangles, len(vertices))
+    at = np.zeros(len(vertices), dtype=bool)
+    for loop in inside:
+        at[loop] = True
+    sides = _directed_edges(triangles[at[triangles].sum(axis=1) > 1], len(vertices))
     sense = [_sense(loop, sides, len(vertices)) for loop in inside]
     oriented = (loop[::-1].copy() if sign > 0 else loop for loop, sign in zip(inside, sense, strict=True))
     return Outline(tuple(oriented), tuple(sign > 0 for sign in sense), tuple(sign == 0 for sign in sense))
 
 
 def check(outline: Outline, vertices: FloatArray, joined: bool) -> None:
-    """MeshError where a loop is too short, passes a vertex or a place twice, touches another loop or is not finite.
+    """MeshError where a loop is too short, passes a place with two vertices, or is not finite.
 
+    Also where one without triangles passes a vertex twice: nothing says then on which side of it the surface is.
     joined: whether one surface is to join all loops. Then no two of them may pass the same place either.
     """
     seen = outline.vertices
-    for loop in outline.loops:
-        if len(np.unique(loop)) < 3:
+    for loop, bare in zip(outline.loops, outline.bare, strict=True):
+        names, uses = np.unique(loop, return_counts=True)
+        if len(names) < 3:
             _refuse("NOT_A_LOOP", f"a loop of {len(loop)} vertices bounds nothing: three are needed", loop)
-        if len(np.unique(loop)) < len(loop):
-            _refuse_pinch("a loop touches itself", _repeated(loop))
-    twice = _repeated(seen)
-    if len(twice):
-        _refuse_pinch("two loops touch each other", twice)
+        if bare and (uses > 1).any():
+            twice = names[uses > 1]
+            text = f"a loop without triangles touches itself at {listed(twice)}: split these vertices"
+            _refuse("NONMANIFOLD_VERTEX", text, twice, pinches=float(len(twice)))
     broken = seen[~np.isfinite(vertices[seen]).all(axis=1)]
     if len(broken):
         _refuse("NONFINITE", f"coordinates are not finite at {listed(broken)}", broken)
@@ -142,9 +133,13 @@ def check(outline: Outline, vertices: FloatArray, joined: bool) -> None:
             _refuse("NONMANIFOLD_VERTEX", text, crossing, crossing=float(len(crossing)))
 
 
-def _refuse_pinch(what: str, twice: IntArray) -> None:
-    text = f"{what} at {listed(twice)}: split these vertices"
-    _refuse("NONMANIFOLD_VERTEX", text, twice, pinches=float(len(twice)))
+def refuse_shared_edges(outline: Outline) -> None:
+    """MeshError where an edge is passed twice, by one loop or by two."""
+    sides = np.concatenate([np.column_stack([loop, np.roll(loop, -1)]) for loop in outline.loops])
+    edges, uses = np.unique(np.sort(sides, axis=1), axis=0, return_counts=True)
+    twice = np.unique(edges[uses > 1])
+    if len(twice):
+        _refuse("NOT_A_LOOP", f"loops: an edge is passed twice at {listed(twice)}: name it once", twice)
 
 
 def _refuse_touches(loops: Sequence[IntArray], vertices: FloatArray) -> None:
@@ -255,12 +250,6 @@ def _sense(loop: IntArray, sides: npt.NDArray[np.int64], count: int) -> int:
 def _ends(loop: IntArray, edges: npt.NDArray[np.bool_]) -> IntArray:
     ends: IntArray = np.unique(np.concatenate([loop[edges], np.roll(loop, -1)[edges]]))
     return ends
-
-
-def _repeated(indices: IntArray) -> IntArray:
-    values, counts = np.unique(indices, return_counts=True)
-    repeated: IntArray = values[counts > 1]
-    return repeated
 
 
 def listed(indices: IntArray) -> str:

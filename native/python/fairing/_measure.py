@@ -98,22 +98,6 @@ def flipped_triangles(
     return _core.flipped_triangles(points, faces, held)
 
 
-def knobs(
-    vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, fixed: npt.ArrayLike | None = None, before: float = 0.0
-) -> tuple[float, IntArray]:
-    """(extent, tops): by how much, of 2π, discs bend both like a ball and like a saddle at most, and where they swell.
-
-    By Gauss and Bonnet a disc's boundary with its slopes settles the integral of its Gaussian curvature; a knob on a
-    neck adds as much of both signs. The tops are the most bent vertices, half of the turn, where that is more than a
-    quarter and more than four fifths of ``before``, the extent of another surface. Components (see
-    :func:`fairing.components`) with several loops or with pins don't count. Errors as for :func:`fairing.fair`.
-    """
-    points = _arguments.floats("vertices", vertices)
-    faces = _arguments.triangles_within(triangles, points.shape[0])
-    held, _ = _arguments.boundary(fixed, None)
-    return _core.knobs(points, faces, held, before)
-
-
 def self_intersections(
     vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, near: npt.ArrayLike | None = None
 ) -> IntArray:

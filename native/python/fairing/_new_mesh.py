@@ -59,7 +59,10 @@ class FillResult(NewMeshResult):
     loops: tuple[IntArray, ...]
     """The loops that were filled, each in the direction that has the new surface on its left."""
     left_open: tuple[IntArray, ...]
-    """Border loops around the outside of a sheet, left open where no ``loops`` were named (see NOT_A_HOLE)."""
+    """Loops that stay open: without named ``loops`` those around the outside of a sheet (NOT_A_HOLE), and always those
+    that can't be filled while others can."""
+    left_because: tuple[Diagnostic, ...]
+    """Why, one for each of ``left_open``; ``elements`` are vertices."""
     curves: tuple[IntArray, ...] = ()
     """Hard edges that run on through the holes, and wires: the vertices of each from end to end. New ones among them
     come first in ``vertices`` and are ``fixed``."""
@@ -77,6 +80,25 @@ class RemeshResult(NewMeshResult):
     """Where each new vertex lies on the old patch: (k,) triangles and (k, 3) barycentric weights at their corners."""
     old: IntArray
     """(k,) the old vertex whose place on the surface a new one has, at an edge that was ``kept``; −1 for the others."""
+
+
+@dataclass(frozen=True, eq=False)
+class FilletResult(NewMeshResult):
+    """What :func:`fairing.fillet` gives back: what takes the place of the triangles ``gone``, and what
+    :func:`fairing.fair` reports. First of ``triangles`` come the pieces of cut ones, then those of the fillet."""
+
+    gone: IntArray
+    """(g,) old triangles that are cut or within the fillet, ascending."""
+    outside: int
+    """How many of ``triangles`` are pieces outside the fillet, each in the plane of its ``parent``."""
+    parent: IntArray
+    """(m,) the old triangle that each of ``triangles`` is a piece of, or takes its material from."""
+    origin: Origin
+    """Where each new vertex lies, or the one it was made from: (k,) old triangles and (k, 3) barycentric weights."""
+    seam: IntArray
+    """(e, 2) the edges that were rounded."""
+    line: IntArray
+    """(l, 2) edges of the line where the fillet ends, the fillet on their left."""
 
 
 def report_fields(report: FairResult, old_count: int) -> dict[str, Any]:

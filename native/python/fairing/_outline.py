@@ -12,8 +12,6 @@ import numpy.typing as npt
 from fairing import _arguments, _core
 from fairing._types import FloatArray, IntArray
 
-LIMITS: dict[str, float] = _core.LIMITS  # from where on a surface looks wrong
-
 
 class VisibleJoin(NamedTuple):
     """How much a join shows, and where the eye finds a kink."""
@@ -98,8 +96,11 @@ def surrounding_normals(
     ``fixed_normals``, where a normal of length zero is refused. Triangles with a corner that is NaN or infinite are
     left out.
 
-    ``creases``: (c, 2) edges along which the surface is broken. A fit uses its own side alone. Where several sides
-    meet in a vertex of ``at``, one of them is taken: such vertices belong to ``creases`` of :func:`fairing.fair`.
+    A fit uses its own side of hard edges alone (:func:`fairing.hard_edges`); ``creases``: (c, 2) edges that are hard
+    whatever they bend. One row of triangles beside a hard edge is enough where it is flat; where it bends, ``errors``
+    include that nothing shows how the surface bends across the row. A vertex in which hard edges part the
+    surface takes the side on which the boundary's edges lie. Where they lie on several it takes all of them: such
+    vertices belong to ``creases`` of :func:`fairing.fair`.
     """
     points, faces, where = _bounded(vertices, ("triangles", triangles), ("at", at))
     named = _arguments.integers("creases", [] if creases is None else creases, 2)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
@@ -49,6 +49,16 @@ class Curves:
     def holds_any(self) -> bool:
         """Whether a loop is to be filled along curves."""
         return any(cut is not None for cut in self.cut)
+
+    def left_alone(self, loops: Sequence[IntArray]) -> Curves:
+        """Nothing, and a warning; loops: those that they cut, over which no surface holds them."""
+        sides = [side for band in self.bands for side in band]
+        held = np.intersect1d(np.concatenate(loops), np.concatenate([self.vertices, *sides])).astype(np.int32)
+        text = f"no surface holds the edges that would run on from {listed(held)}: they are left alone"
+        figures = {"ends": float(len(held)), "no_surface": 1.0}
+        warning = Diagnostic("EDGES_LEFT_ALONE", text, held, "vertex", figures)
+        nothing = tuple(None for _ in self.cut)
+        return replace(self, cut=nothing, curves=(), marked=(), bands=(), warnings=(*self.warnings, warning))
 
     @property
     def vertices(self) -> IntArray:
@@ -101,11 +111,17 @@ def _run_on(
     edges: Edges,
     wanted: Wanted,
 ) -> Curves:
-    points, triangles = mesh
+    points = mesh[0]
     old_count = len(points)
-    found, cuts = [], []
+    found: list[_Through] = []
+    cuts: list[_cut_loops.CutOutline | None] = []
+    names, passes = np.unique(outline.vertices, return_counts=True)
+    pinches = names[passes > 1]
     for loop, rows in zip(outline.loops, outline.split(normals), strict=True):
-        finder = _Finder(loop, rows, (mesh[0], triangles), edges, wanted)
+        if np.isin(loop, pinches).any():  # which pass an edge ends at is not known
+            cuts.append(None)
+            continue
+        finder = _Finder(loop, rows, mesh, edges, wanted)
         through, cut = finder.through(points)
         points = through.making.points
         found.append(through)

@@ -4,5 +4,5 @@ op = bpy.context.active_operator
 
 op.bulge = 0.5
 op.equation = "CONSTANT"
-op.boundary_normals = "SURROUNDING"
+op.boundary_normals = "AUTOMATIC"
 op.factor = 1.0

@@ -5,4 +5,4 @@ op = bpy.context.active_operator
 op.inner_fairness = "CONFORMAL"
 op.equation = "AUTOMATIC"
 op.factor = 1.0
-op.boundary_normals = "SURROUNDING"
+op.boundary_normals = "AUTOMATIC"

@@ -1,0 +1,183 @@
+#include "api/fillet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include <Eigen/Geometry>
+
+#include "base/progress.h"
+#include "fillet/seam_sides.h"
+#include "fillet/side_normals.h"
+#include "geometry/angle.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr double resolution = 0.5;     // of the spacing: how finely the line is sought
+constexpr double snap = 0.02;          // of the spacing: edges that are shorter yet bring thin triangles for no gain
+constexpr double corner_angle = 0.35;  // radians: 20° between normals at one place are of two sides
+
+std::vector<VertexPair> joined(const std::vector<VertexPair>& a, const std::vector<VertexPair>& b) {
+    std::vector<VertexPair> both = a;
+    both.insert(both.end(), b.begin(), b.end());
+    return both;
+}
+
+Indices triangles_at(const LevelLine& line) {
+    std::set<int> found;
+    for (const LineSegment& segment : line.segments) found.insert(segment.triangle);
+    return {found.begin(), found.end()};
+}
+
+Indices triangles_at_walls(const SeamMesh& mesh, const SeamDistance& distance) {
+    std::set<int> found;
+    for (int h = 0; h < mesh.half_edge_count(); ++h) {
+        if (mesh.twin[h] == none && distance.reaches(h / 3)) found.insert(h / 3);
+    }
+    return {found.begin(), found.end()};
+}
+
+LevelLine points_of_fillet(const SeamMesh& mesh, const SeamDistance& distance, const FilletInput& input,
+                           SideNormals& sides) {
+    const LevelLine found = level_line(mesh, distance, resolution * input.spacing, snap * input.spacing);
+    const Indices passed = triangles_at(found);
+    sides.find_at(passed);
+    LevelLine line = resampled(mesh, distance, found, input.spacing, sides);
+    part_seams(mesh, input.spacing, line);
+    sides.find_at(triangles_at_walls(mesh, distance));
+    part_walls(mesh, distance, sides, input.spacing, line);
+    return line;
+}
+
+// A side of a piece of the fillet beyond which there is none.
+struct EndSide {
+    int piece;
+    int from, to;
+};
+
+std::vector<EndSide> ends_of(const SplitMesh& cut) {
+    std::map<std::array<int, 2>, int> inner;
+    for (Eigen::Index t = 0; t < cut.triangles.cols(); ++t) {
+        if (cut.inside[t] == 0) continue;
+        for (int k = 0; k < 3; ++k) inner[{cut.triangles(k, t), cut.triangles((k + 1) % 3, t)}] = static_cast<int>(t);
+    }
+    std::vector<EndSide> ends;
+    for (const auto& [side, piece] : inner) {
+        if (!inner.contains({side[1], side[0]})) ends.push_back({piece, side[0], side[1]});
+    }
+    return ends;
+}
+
+// Barycentric weights of a place in the plane of a triangle.
+Vector3 weights_in(const SeamMesh& mesh, int triangle, const Vector3& place) {
+    const int h = 3 * triangle;
+    const Vector3 start = mesh.points.col(mesh.tail(h));
+    const Vector3 x = (mesh.points.col(mesh.head(h)) - start) / mesh.length[h];
+    const Vector3 to_apex = mesh.points.col(mesh.tail(SeamMesh::previous(h))) - start;
+    const Vector3 y = (to_apex - to_apex.dot(x) * x).normalized();
+    const double apex = (place - start).dot(y) / mesh.apex[h][1];
+    const double head = ((place - start).dot(x) - apex * mesh.apex[h][0]) / mesh.length[h];
+    return {1.0 - apex - head, head, apex};
+}
+
+void add_boundary(const SeamMesh& mesh, const FilletInput& input, SideNormals& sides, FilletCut& result) {
+    const std::vector<EndSide> ends = ends_of(result.mesh);
+    std::set<int> parents;
+    for (const EndSide& end : ends) parents.insert(result.mesh.parent[end.piece]);
+    sides.find_at({parents.begin(), parents.end()});
+    std::map<int, std::vector<std::pair<Vector3, double>>> seen;
+    const Eigen::Index old = input.vertices.cols();
+    for (const EndSide& end : ends) {
+        const int parent = result.mesh.parent[end.piece];
+        for (const int v : {end.from, end.to}) {
+            const Vector3 place = v < old ? Vector3(input.vertices.col(v)) : Vector3(result.mesh.points.col(v - old));
+            const Vector3 weights = weights_in(mesh, parent, place);
+            seen[v].emplace_back(sides.normal(parent, weights), sides.curvature(parent, weights));
+        }
+    }
+    result.normals.resize(3, static_cast<Eigen::Index>(seen.size()));
+    result.curvatures.resize(static_cast<Eigen::Index>(seen.size()));
+    for (const auto& [v, found] : seen) {
+        const auto k = static_cast<Eigen::Index>(result.boundary.size());
+        Vector3 normal = Vector3::Zero();
+        double curvature = 0.0;
+        bool parted = false;
+        for (const auto& [n, h] : found) {
+            parted = parted || radians_between(n, found.front().first) > corner_angle;
+            normal += n;
+            curvature += h / static_cast<double>(found.size());
+        }
+        result.boundary.push_back(v);
+        result.normals.col(k) = normal.normalized();
+        result.curvatures[k] = curvature;
+        if (parted) result.corners.push_back(v);
+    }
+}
+
+Points weights_in_parents(const SeamMesh& mesh, const SplitMesh& cut) {
+    Points weights(3, cut.triangles.size());
+    const Eigen::Index old = mesh.points.cols();
+    for (Eigen::Index c = 0; c < cut.triangles.size(); ++c) {
+        const int v = cut.triangles(c % 3, c / 3);
+        const Vector3 place = v < old ? Vector3(mesh.points.col(v)) : Vector3(cut.points.col(v - old));
+        weights.col(c) = weights_in(mesh, cut.parent[static_cast<std::size_t>(c / 3)], place);
+    }
+    return weights;
+}
+
+int root(Indices& parent, int k) {
+    while (parent[k] != k) k = parent[k] = parent[parent[k]];
+    return k;
+}
+
+// Parts between seams without a wall, a border or a piece outside.
+Indices swallowed_vertices(const SeamMesh& mesh, const SplitMesh& cut) {
+    Indices part(mesh.triangles.cols());
+    std::iota(part.begin(), part.end(), 0);
+    for (int h = 0; h < mesh.half_edge_count(); ++h) {
+        if (mesh.twin[h] != none && mesh.seam[h] == none) part[root(part, h / 3)] = root(part, mesh.twin[h] / 3);
+    }
+    std::vector<char> open(mesh.triangles.cols(), 0);
+    for (int h = 0; h < mesh.half_edge_count(); ++h) {
+        if (mesh.twin[h] == none) open[root(part, h / 3)] = 1;
+    }
+    for (std::size_t t = 0; t < cut.parent.size(); ++t) {
+        if (cut.inside[t] == 0) open[root(part, cut.parent[t])] = 1;
+    }
+    std::set<int> found;
+    for (int t = 0; t < mesh.triangles.cols(); ++t) {
+        if (open[root(part, t)] != 0) continue;
+        for (const int v : mesh.triangles.col(t)) found.insert(v);
+    }
+    return {found.begin(), found.end()};
+}
+
+}  // namespace
+
+FilletCut cut_fillet(const FilletInput& input, const ProgressCallback& callback) {
+    const Progress progress(callback);
+    const Checkpoints checkpoints(progress);
+    const SeamMesh undirected(input.vertices, input.triangles, input.seams, input.walls);
+    const SeamMesh mesh(input.vertices, input.triangles, directed(undirected, input.seams), input.walls);
+    double widest = 0.0;
+    for (const auto& [a, b] : input.seams) {
+        for (const int v : {a, b}) widest = std::max({widest, input.widths.left[v], input.widths.right[v]});
+    }
+    const SeamDistance distance(mesh, input.widths, widest + input.spacing);
+    progress.report(0.3, "distance");
+    FilletCut result;
+    SideNormals sides(mesh, joined(input.seams, input.walls));
+    result.mesh = cut_along(mesh, distance, points_of_fillet(mesh, distance, input, sides));
+    result.weights = weights_in_parents(mesh, result.mesh);
+    result.swallowed = swallowed_vertices(mesh, result.mesh);
+    progress.report(0.7, "cut");
+    if (result.swallowed.empty()) add_boundary(mesh, input, sides, result);
+    progress.report(1.0, "done");
+    return result;
+}
+
+}  // namespace fairing

@@ -1,0 +1,185 @@
+#include "fillet/cut_triangle.h"
+
+#include <algorithm>
+
+#include "base/errors.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr double roundoff = 1e-14;  // of the whole triangle's area
+
+std::array<int, 2> sorted_pair(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+}  // namespace
+
+CutTriangle::CutTriangle(const Vector2& a, const Vector2& b, const Vector2& c)
+    : places_{a, b, c}, flat_(roundoff * cross2(b - a, c - a)) {
+    put(0, {0, 1, 2});
+}
+
+double CutTriangle::area(int a, int b, int c) const { return cross2(places_[b] - places_[a], places_[c] - places_[a]); }
+
+int CutTriangle::at(int from, int to) const {
+    const auto found = sides_.find({from, to});
+    return found == sides_.end() ? none : found->second;
+}
+
+bool CutTriangle::is_held(int a, int b) const { return held_.contains(sorted_pair(a, b)); }
+
+int CutTriangle::opposite(int triangle, int a, int b) const {
+    for (const int corner : triangles_[triangle]) {
+        if (corner != a && corner != b) return corner;
+    }
+    return none;
+}
+
+void CutTriangle::remove_sides(int triangle) {
+    const Corners& corners = triangles_[triangle];
+    for (std::size_t k = 0; k < 3; ++k) sides_.erase({corners[k], corners[(k + 1) % 3]});
+}
+
+// A triangle, in place of the one with that number if there is one.
+void CutTriangle::put(int triangle, const Corners& corners) {
+    if (triangle == static_cast<int>(triangles_.size()))
+        triangles_.push_back(corners);
+    else
+        triangles_[triangle] = corners;
+    for (std::size_t k = 0; k < 3; ++k) sides_[{corners[k], corners[(k + 1) % 3]}] = triangle;
+}
+
+int CutTriangle::add_on_side(int k, const Vector2& place) {
+    const int point = static_cast<int>(places_.size());
+    places_.push_back(place);
+    const int before = last_on_side_[k];
+    const int after = (k + 1) % 3;
+    const int whole = at(before, after);
+    const int apex = opposite(whole, before, after);
+    remove_sides(whole);
+    put(whole, {before, point, apex});
+    put(static_cast<int>(triangles_.size()), {point, after, apex});
+    last_on_side_[k] = point;
+    return point;
+}
+
+int CutTriangle::add_inside(const Vector2& place) {
+    const int point = static_cast<int>(places_.size());
+    places_.push_back(place);
+    int best = 0;
+    double widest = -std::numeric_limits<double>::infinity();
+    for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
+        const auto [a, b, c] = triangles_[t];
+        const double least = std::min({area(a, b, point), area(b, c, point), area(c, a, point)});
+        if (least > widest) {
+            widest = least;
+            best = t;
+        }
+    }
+    const Corners whole = triangles_[best];
+    remove_sides(best);
+    bool first = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const int a = whole[k];
+        const int b = whole[(k + 1) % 3];
+        const int beyond = at(b, a);
+        if (area(a, b, point) <= flat_ && beyond != none) {  // on that side: the triangle there is parted, too
+            const int apex = opposite(beyond, a, b);
+            remove_sides(beyond);
+            put(beyond, {b, point, apex});
+            sides_.erase({b, a});
+            put(static_cast<int>(triangles_.size()), {point, a, apex});
+            continue;
+        }
+        put(first ? best : static_cast<int>(triangles_.size()), {a, b, point});
+        first = false;
+    }
+    return point;
+}
+
+bool CutTriangle::is_in_circle(int a, int b, int c, int d) const {
+    const auto row = [&](int k) { return Vector2(places_[k] - places_[d]); };
+    const Vector2 u = row(a);
+    const Vector2 v = row(b);
+    const Vector2 w = row(c);
+    const double determinant =
+        u.squaredNorm() * cross2(v, w) - v.squaredNorm() * cross2(u, w) + w.squaredNorm() * cross2(u, v);
+    const double size = std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()});
+    return determinant > 1e-12 * size * size;
+}
+
+// The diagonal of the two triangles beside an edge becomes the other one, where both stay triangles.
+bool CutTriangle::flip(int a, int b) {
+    const int one = at(a, b);
+    const int other = at(b, a);
+    if (one == none || other == none || is_held(a, b)) return false;
+    const int c = opposite(one, a, b);
+    const int d = opposite(other, a, b);
+    if (area(c, d, b) <= flat_ || area(d, c, a) <= flat_) return false;
+    remove_sides(one);
+    remove_sides(other);
+    put(one, {c, d, b});
+    put(other, {d, c, a});
+    return true;
+}
+
+void CutTriangle::make_delaunay() {
+    for (bool changed = true; changed;) {
+        changed = false;
+        std::vector<std::array<int, 2>> edges;
+        for (const auto& [side, triangle] : sides_) {
+            if (side[0] < side[1]) edges.push_back(side);
+        }
+        for (const auto& [a, b] : edges) {
+            const int one = at(a, b);
+            const int other = at(b, a);
+            if (one == none || other == none) continue;
+            if (is_in_circle(a, b, opposite(one, a, b), opposite(other, a, b)) && flip(a, b)) changed = true;
+        }
+    }
+}
+
+// A point on the straight way between two others, the nearest to the first; `none` without.
+int CutTriangle::point_between(int a, int b) const {
+    const Vector2 way = places_[b] - places_[a];
+    const double size = way.squaredNorm();
+    int found = none;
+    double nearest = 1.0;
+    for (int p = 0; p < static_cast<int>(places_.size()); ++p) {
+        if (p == a || p == b) continue;
+        const Vector2 to = places_[p] - places_[a];
+        const double share = to.dot(way) / size;
+        if (share <= 0.0 || share >= nearest || std::abs(cross2(way, to)) > 1e-12 * size) continue;
+        nearest = share;
+        found = p;
+    }
+    return found;
+}
+
+std::vector<std::array<int, 2>> CutTriangle::crossed(int a, int b) const {
+    std::vector<std::array<int, 2>> result;
+    for (const auto& [side, triangle] : sides_) {
+        const auto [c, d] = side;
+        if (c > d || c == a || c == b || d == a || d == b) continue;
+        if ((area(a, b, c) > 0.0) != (area(a, b, d) > 0.0) && (area(c, d, a) > 0.0) != (area(c, d, b) > 0.0))
+            result.push_back(side);
+    }
+    return result;
+}
+
+void CutTriangle::add_edge(int a, int b) {
+    const int between = point_between(a, b);
+    if (between != none) {
+        add_edge(a, between);
+        add_edge(between, b);
+        return;
+    }
+    while (at(a, b) == none && at(b, a) == none) {
+        bool flipped = false;
+        for (const auto& [c, d] : crossed(a, b)) flipped = flip(c, d) || flipped;
+        if (!flipped) throw SolverError("a triangle could not be cut along the end of a fillet");
+    }
+    held_[sorted_pair(a, b)] = 1;
+}
+
+}  // namespace fairing

@@ -1,0 +1,168 @@
+#include "fillet/halved_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/progress.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr double steepest = 1.5;  // values change by at most that times the way, at widths that change by one along it
+
+}  // namespace
+
+HalvedMesh::Key HalvedMesh::key(int a, int b) {
+    return (static_cast<Key>(std::min(a, b)) << 32U) | static_cast<Key>(std::max(a, b));
+}
+
+HalvedMesh::HalvedMesh(const SeamMesh& mesh, const SeamDistance& distance, double resolution)
+    : mesh_(mesh), distance_(distance) {
+    Indices node_of(mesh.sheet_count, none);
+    for (int t = 0; t < mesh.triangles.cols(); ++t) {
+        if (!distance.reaches(t)) continue;
+        Piece piece{t, {}, {Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()}, {}};
+        for (int k = 0; k < 3; ++k) {
+            int& node = node_of[mesh.sheet[3 * t + k]];
+            const double value = distance.value(t, piece.weights[k]);
+            if (node == none) {
+                node = static_cast<int>(nodes_.size());
+                const int vertex = mesh.triangles(k, t);
+                nodes_.push_back({mesh.points.col(vertex), value, vertex, none});
+            }
+            nodes_[node].value = std::min(nodes_[node].value, value);
+            piece.nodes[k] = node;
+            piece.edges[k] = mesh.edge[3 * t + k];
+        }
+        pieces_.push_back(piece);
+        insert(piece, static_cast<int>(pieces_.size()) - 1);
+    }
+    for (std::size_t p = 0; p < pieces_.size(); ++p) {
+        checkpoint();
+        const auto long_and_cut = [&] {
+            const Piece& piece = pieces_[p];
+            const int side = longest_side(piece);
+            const Vector3 way = nodes_[piece.nodes[side]].place - nodes_[piece.nodes[(side + 1) % 3]].place;
+            return way.norm() > resolution && is_cut(piece);
+        };
+        while (long_and_cut()) halve(static_cast<int>(p));
+    }
+}
+
+// By length and then by the nodes' numbers, so that both sides of an edge agree.
+int HalvedMesh::longest_side(const Piece& piece) const {
+    int best = 0;
+    std::pair<double, Key> largest{-1.0, 0};
+    for (int k = 0; k < 3; ++k) {
+        const int a = piece.nodes[k];
+        const int b = piece.nodes[(k + 1) % 3];
+        const std::pair<double, Key> size{(nodes_[a].place - nodes_[b].place).squaredNorm(), key(a, b)};
+        if (size > largest) {
+            largest = size;
+            best = k;
+        }
+    }
+    return best;
+}
+
+// Whether the line may pass through it.
+bool HalvedMesh::is_cut(const Piece& piece) const {
+    Vector3 weights = Vector3::Zero();
+    Vector3 place = Vector3::Zero();
+    for (int k = 0; k < 3; ++k) {
+        weights += piece.weights[k] / 3.0;
+        place += nodes_[piece.nodes[k]].place / 3.0;
+    }
+    double radius = 0.0;
+    for (const int node : piece.nodes) radius = std::max(radius, (nodes_[node].place - place).norm());
+    if (distance_.least_value(piece.triangle, weights, radius) > 0.0) return false;
+    return distance_.value(piece.triangle, weights) > -steepest * radius;
+}
+
+void HalvedMesh::insert(const Piece& piece, int number) {
+    for (int k = 0; k < 3; ++k) {
+        const auto [place, is_new] =
+            beside_.try_emplace(key(piece.nodes[k], piece.nodes[(k + 1) % 3]), std::array<int, 2>{none, none});
+        std::array<int, 2>& sides = place->second;
+        if (sides[0] == none || sides[0] == number)
+            sides[0] = number;
+        else
+            sides[1] = number;
+    }
+}
+
+int HalvedMesh::across(int piece, int side) const {
+    const Piece& from = pieces_[piece];
+    const auto& sides = beside_.at(key(from.nodes[side], from.nodes[(side + 1) % 3]));
+    return sides[0] == piece ? sides[1] : sides[0];
+}
+
+// At its longest side, after those across it whose longest side is another one (Rivara 1984).
+void HalvedMesh::halve(int piece) {
+    Indices path{piece};
+    while (!path.empty()) {
+        const int last = path.back();
+        const int side = longest_side(pieces_[last]);
+        const int a = pieces_[last].nodes[side];
+        const int b = pieces_[last].nodes[(side + 1) % 3];
+        const int other = across(last, side);
+        if (other != none) {
+            const Piece& beyond = pieces_[other];
+            const int longest = longest_side(beyond);
+            if (key(beyond.nodes[longest], beyond.nodes[(longest + 1) % 3]) != key(a, b)) {
+                path.push_back(other);
+                continue;
+            }
+        }
+        split(a, b);
+        path.pop_back();
+        if (last == piece) return;
+    }
+}
+
+void HalvedMesh::split(int a, int b) {
+    const auto found = beside_.find(key(a, b));
+    const std::array<int, 2> sides = found->second;
+    beside_.erase(found);
+    const int node = static_cast<int>(nodes_.size());
+    nodes_.push_back({0.5 * (nodes_[a].place + nodes_[b].place), 1.0, none, none});
+    bool first = true;
+    for (const int p : sides) {
+        if (p == none) continue;
+        const Piece whole = pieces_[p];
+        int k = 0;
+        while (key(whole.nodes[k], whole.nodes[(k + 1) % 3]) != key(a, b)) ++k;
+        const int next = (k + 1) % 3;
+        const int last = (k + 2) % 3;
+        const Vector3 weights = 0.5 * (whole.weights[k] + whole.weights[next]);
+        const double value = distance_.value(whole.triangle, weights);
+        nodes_[node].value = first ? value : std::min(value, nodes_[node].value);
+        nodes_[node].edge = whole.edges[k];
+        first = false;
+        Piece& kept = pieces_[p];
+        kept.nodes[next] = node;
+        kept.weights[next] = weights;
+        kept.edges[next] = none;
+        Piece added = whole;
+        added.nodes[k] = node;
+        added.weights[k] = weights;
+        added.edges[last] = none;
+        const int number = static_cast<int>(pieces_.size());
+        for (int& side : beside_.at(key(whole.nodes[next], whole.nodes[last]))) {
+            if (side == p) side = number;
+        }
+        const Piece half = kept;
+        pieces_.push_back(added);
+        insert(half, p);
+        insert(added, number);
+    }
+}
+
+void HalvedMesh::snap(double vertices, double others) {
+    for (Node& node : nodes_) {
+        if (std::abs(node.value) <= (node.vertex == none ? others : vertices)) node.value = 0.0;
+    }
+}
+
+}  // namespace fairing

@@ -1,0 +1,109 @@
+#include "fillet/seam_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include <Eigen/Geometry>
+
+#include "mesh/edges.h"
+
+namespace fairing {
+
+namespace {
+
+VertexPair sorted_pair(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+int root(Indices& parent, int k) {
+    while (parent[k] != k) k = parent[k] = parent[parent[k]];
+    return k;
+}
+
+}  // namespace
+
+SeamMesh::SeamMesh(const Points& given_points, const Triangles& given_triangles, const std::vector<VertexPair>& seams,
+                   const std::vector<VertexPair>& walls)
+    : points(given_points), triangles(given_triangles) {
+    pair_up(walls);
+    mark(seams);
+    measure();
+    number_sheets();
+}
+
+void SeamMesh::pair_up(const std::vector<VertexPair>& walls) {
+    const EdgeTable table = make_edges(triangles, static_cast<int>(points.cols()));
+    edge = table.edge_of_side;
+    twin.assign(edge.size(), none);
+    sides_of_edge_.resize(table.size());
+    std::vector<VertexPair> closed = walls;
+    for (VertexPair& pair : closed) pair = sorted_pair(pair[0], pair[1]);
+    std::sort(closed.begin(), closed.end());
+    for (int e = 0; e < table.size(); ++e) {
+        for (int k = 0; k < table.side_count(e); ++k) sides_of_edge_[e].push_back(table.side(e, k));
+        if (table.side_count(e) != 2 || std::binary_search(closed.begin(), closed.end(), table.ends[e])) continue;
+        const int a = table.side(e, 0);
+        const int b = table.side(e, 1);
+        if (tail(a) == tail(b)) continue;  // wound against each other: no surface goes on there
+        twin[a] = b;
+        twin[b] = a;
+    }
+}
+
+void SeamMesh::mark(const std::vector<VertexPair>& seams) {
+    seam.assign(edge.size(), none);
+    left.assign(edge.size(), 0);
+    std::map<VertexPair, int> number;
+    for (int h = 0; h < half_edge_count(); ++h) number[sorted_pair(tail(h), head(h))] = edge[h];
+    for (int s = 0; s < static_cast<int>(seams.size()); ++s) {
+        const auto [a, b] = seams[s];
+        const auto found = number.find(sorted_pair(a, b));
+        if (found == number.end()) continue;
+        const Indices& sides = sides_of_edge_[found->second];
+        if (sides.size() != 2 || twin[sides[0]] == none) continue;
+        for (const int h : sides) {
+            seam[h] = s;
+            left[h] = tail(h) == a ? 1 : 0;
+        }
+    }
+}
+
+void SeamMesh::measure() {
+    for (int h = 0; h < half_edge_count(); ++h) {
+        const Vector3 along = points.col(head(h)) - points.col(tail(h));
+        const Vector3 to_apex = points.col(tail(previous(h))) - points.col(tail(h));
+        const double size = along.norm();
+        const Vector3 x = size > 0.0 ? Vector3(along / size) : Vector3::Zero();
+        const Vector3 above = to_apex - to_apex.dot(x) * x;
+        length.push_back(size);
+        apex.emplace_back(to_apex.dot(x), above.norm());
+        opening.push_back(std::atan2(along.cross(to_apex).norm(), along.dot(to_apex)));
+    }
+}
+
+// Corners that hang together across half-edges with a twin share a vertex.
+void SeamMesh::number_sheets() {
+    Indices parent(edge.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    for (int h = 0; h < half_edge_count(); ++h) {
+        if (twin[h] != none) parent[root(parent, h)] = root(parent, next(twin[h]));
+    }
+    sheet.assign(edge.size(), none);
+    for (int h = 0; h < half_edge_count(); ++h) {
+        const int top = root(parent, h);
+        if (sheet[top] == none) sheet[top] = sheet_count++;
+        sheet[h] = sheet[top];
+    }
+}
+
+Vector2 SeamMesh::in_frame(int h, const Vector3& weights) const {
+    const int k = h % 3;
+    return {weights[(k + 1) % 3] * length[h] + weights[(k + 2) % 3] * apex[h][0], weights[(k + 2) % 3] * apex[h][1]};
+}
+
+Vector3 SeamMesh::place(int triangle, const Vector3& weights) const {
+    return points.col(triangles(0, triangle)) * weights[0] + points.col(triangles(1, triangle)) * weights[1] +
+           points.col(triangles(2, triangle)) * weights[2];
+}
+
+}  // namespace fairing

@@ -1,0 +1,82 @@
+#include "fillet/seam_sides.h"
+
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace fairing {
+
+namespace {
+
+constexpr double equal_areas = 1e-9;  // relative: parts that a rotation turns into each other, but for roundoff
+
+int root(Indices& parent, int k) {
+    while (parent[k] != k) k = parent[k] = parent[parent[k]];
+    return k;
+}
+
+// Of the part that each triangle is in.
+std::vector<double> part_areas(const SeamMesh& mesh) {
+    Indices part(mesh.triangles.cols());
+    std::iota(part.begin(), part.end(), 0);
+    for (int h = 0; h < mesh.half_edge_count(); ++h) {
+        if (mesh.twin[h] != none && mesh.seam[h] == none) part[root(part, h / 3)] = root(part, mesh.twin[h] / 3);
+    }
+    std::vector<double> sum(part.size(), 0.0);
+    for (int t = 0; t < static_cast<int>(part.size()); ++t)
+        sum[root(part, t)] += 0.5 * mesh.length[3 * t] * mesh.apex[3 * t][1];
+    std::vector<double> area;
+    for (int t = 0; t < static_cast<int>(part.size()); ++t) area.push_back(sum[root(part, t)]);
+    return area;
+}
+
+// Turns seams that no part decides on so that chains of them run on.
+void run_on(std::vector<VertexPair>& seams, std::vector<char>& settled) {
+    std::multimap<int, int> at;
+    for (int s = 0; s < static_cast<int>(seams.size()); ++s) {
+        if (settled[s] != 0) continue;
+        for (const int v : seams[s]) at.emplace(v, s);
+    }
+    for (int first = 0; first < static_cast<int>(seams.size()); ++first) {
+        if (settled[first] != 0) continue;
+        settled[first] = 1;
+        Indices open{first};
+        while (!open.empty()) {
+            const int s = open.back();
+            open.pop_back();
+            for (const std::size_t end : {0U, 1U}) {
+                const int v = seams[s][end];
+                if (at.count(v) != 2) continue;
+                const auto [begin, last] = at.equal_range(v);
+                for (auto it = begin; it != last; ++it) {
+                    VertexPair& other = seams[it->second];
+                    if (settled[it->second] != 0) continue;
+                    settled[it->second] = 1;
+                    if (other[1 - end] != v) std::swap(other[0], other[1]);
+                    open.push_back(it->second);
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<VertexPair> directed(const SeamMesh& mesh, const std::vector<VertexPair>& seams) {
+    const std::vector<double> area = part_areas(mesh);
+    std::vector<VertexPair> result = seams;
+    std::vector<char> settled(seams.size(), 0);
+    for (int h = 0; h < mesh.half_edge_count(); ++h) {
+        if (mesh.seam[h] == none || mesh.left[h] == 0 || mesh.twin[h] == none) continue;
+        const double here = area[h / 3];
+        const double there = area[mesh.twin[h] / 3];
+        if (std::abs(here - there) <= equal_areas * (here + there)) continue;
+        VertexPair& pair = result[mesh.seam[h]];
+        settled[mesh.seam[h]] = 1;
+        if (here < there) std::swap(pair[0], pair[1]);
+    }
+    run_on(result, settled);
+    return result;
+}
+
+}  // namespace fairing

@@ -1,0 +1,29 @@
+// Normals along the boundary of a patch, from the triangles outside or, along hard edges, from its own.
+#pragma once
+
+#include "outline/hard_outline.h"
+#include "outline/surrounding_fit.h"
+
+namespace fairing {
+
+enum class SideRule { automatic, inside };
+
+// Any triangles of the same vertices.
+struct Surroundings {
+    const Points& points;
+    const Triangles& patch;
+    const Triangles& outside;
+};
+
+struct BoundaryNormals {
+    SurroundingNormals normals;
+    std::vector<char> from_inside;  // of each vertex
+};
+
+// At `vertices`, which don't move. `automatic`: inward_edges take the slope of the patch's own triangles, as far as
+// these agree on a surface: where the median standard error along such edges is .15 rad at most. `inside`: all outline
+// edges do. A vertex between edges of both kinds takes the slope outside. One that is on no outline edge, too.
+BoundaryNormals boundary_normals(const Surroundings& mesh, const Indices& vertices, const VertexPairs& creases,
+                                 SideRule rule);
+
+}  // namespace fairing

@@ -1,0 +1,63 @@
+"""Normals along the boundary of a patch: from the faces outside or, along hard edges, from its own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from fairing import _arguments, _core
+from fairing._mending import Surroundings
+from fairing._outline import SurroundingNormals, surrounding_normals
+
+SIDES = ("automatic", "outside", "inside")
+
+
+@dataclass(frozen=True, eq=False)
+class BoundaryNormals(SurroundingNormals):
+    """What :func:`boundary_normals` gives back; unpacks as ``normals, fitted``. All arrays are read-only."""
+
+    from_inside: npt.NDArray[np.bool_]
+    """(k,) whether the slope is that of the patch's own triangles."""
+
+
+def boundary_normals(
+    vertices: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    fixed: npt.ArrayLike,
+    *,
+    outside: npt.ArrayLike | None = None,
+    side: str = "automatic",
+    creases: npt.ArrayLike | None = None,
+) -> BoundaryNormals:
+    """Normals at the vertices ``fixed`` (k,) of a patch, for ``fixed_normals``, in their order.
+
+    ``vertices``, ``triangles``, ``fixed``, ``outside``: as for :func:`fairing.fair`.
+
+    ``side``: "outside" takes the slope of the triangles outside, as :func:`fairing.surrounding_normals` does. "inside"
+    takes that of the patch's own triangles beside the boundary, for the top of a box that is to stay flat. "automatic"
+    decides edge by edge. At hard edges (:func:`fairing.hard_edges`) the side counts to which a surface over the
+    boundary is nearer, and the outside everywhere else. The inside counts only where its triangles agree on a surface:
+    where the median standard error there is .15 rad at most. A vertex between edges of both kinds takes the outside.
+
+    ``creases``: (c, 2) edges that are hard whatever they bend. Fits use one side of hard edges alone.
+    """
+    points = _arguments.floats("vertices", vertices)
+    faces = _arguments.triangles_within(triangles, len(points))
+    where = _arguments.indices_within("fixed", _arguments.integers("fixed", fixed, None), len(points))
+    rule = _arguments.choice("side", side, SIDES)
+    around = Surroundings.of(points, faces, where, outside)
+    if rule == "outside":
+        found = surrounding_normals(points, around.outside, where, creases=creases)
+        return BoundaryNormals(**vars(found), from_inside=_none(len(where)))
+    named = _arguments.integers("creases", [] if creases is None else creases, 2)
+    edges = _arguments.indices_within("creases", named, len(points))
+    inside = around.inside[np.isfinite(points[around.inside]).all(axis=(1, 2))]
+    return BoundaryNormals(**_core.boundary_normals(points, inside, around.outside, where, edges, rule == "inside"))
+
+
+def _none(count: int) -> npt.NDArray[np.bool_]:
+    marks = np.zeros(count, dtype=bool)
+    marks.flags.writeable = False
+    return marks

@@ -1,0 +1,152 @@
+"""What a surface looks like: figures of it, and where. From when on it looks wrong is in LIMITS."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from fairing import _arguments, _core
+from fairing._types import FloatArray, IntArray
+
+LIMITS: dict[str, float] = _core.LIMITS
+
+
+class Girth(NamedTuple):
+    """How thick a surface between boundary loops is, and where; radii by the areas within cross-sections."""
+
+    least: float
+    """The thinnest cross-section over the thinner end; 1 for tubes and cones, less than that for waists."""
+    largest: float
+    """The thickest one over the thicker end; more than 1 for balloons."""
+    thinnest: IntArray
+    """Vertices beside the thinnest cross-section, ascending; none where ``least`` is 1."""
+    thickest: IntArray
+    """Vertices beside the thickest one, ascending; none where ``largest`` is 1."""
+
+
+class Flank(NamedTuple):
+    """A boundary on the slope of a bump or a dent."""
+
+    boundary: IntArray
+    """Its vertices, one after the other."""
+    is_bump: bool
+    """Or a dent."""
+    width: float
+    """From the boundary to the end of the slope."""
+
+
+class Needles(NamedTuple):
+    """Triangles without a height."""
+
+    all: IntArray
+    """Those whose height is below a thousandth of their longest side, ascending."""
+    seen: IntArray
+    """Those of them whose neighbours bend by more than 1°: on a plane no one sees them."""
+
+
+def girth(vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, fixed: npt.ArrayLike | None = None) -> Girth | None:
+    """How thick a surface between boundary loops is, and where; None where no component has several.
+
+    The worst of all components. ``girth`` of the result of :func:`fairing.fair` has its two figures, between the ends
+    of tubes. Errors as for :func:`fairing.fair`.
+    """
+    points, faces, held = _bounded(vertices, triangles, fixed)
+    found = _core.girth(points, faces, held)
+    return None if found is None else Girth(*found)
+
+
+def knobs(
+    vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, fixed: npt.ArrayLike | None = None, before: float = 0.0
+) -> tuple[float, IntArray]:
+    """(extent, tops): by how much, of 2π, discs bend both like a ball and like a saddle at most, and where they swell.
+
+    By Gauss and Bonnet a disc's boundary with its slopes settles the integral of its Gaussian curvature; a knob on a
+    neck adds as much of both signs. The tops are the most bent vertices, half of the turn, where that is more than a
+    quarter and more than four fifths of ``before``, the extent of another surface. Components (see
+    :func:`fairing.components`) with several loops or with pins don't count. Errors as for :func:`fairing.fair`.
+    """
+    points, faces, held = _bounded(vertices, triangles, fixed)
+    return _core.knobs(points, faces, held, before)
+
+
+def flank(
+    vertices: npt.ArrayLike, triangles: npt.ArrayLike, around: npt.ArrayLike, *, fixed: npt.ArrayLike | None = None
+) -> Flank | None:
+    """Where a disc's boundary lies on the flank of a bump or a dent, which the surface continues; None where none does.
+
+    All around, the disc bends over to one side and the triangles ``around`` it, (m, 3) wound likewise, as far as it is
+    wide, bend back. Components with several loops, with pins or with an open border don't count. Errors as for
+    :func:`fairing.fair`.
+    """
+    points, faces, held = _bounded(vertices, triangles, fixed)
+    beyond = _arguments.indices_within("around", _arguments.integers("around", around, 3), points.shape[0])
+    found = _core.flank(points, faces, beyond, held)
+    return None if found is None else Flank(*found)
+
+
+def needles(vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> Needles:
+    """Triangles without a height, and those of them that are seen."""
+    points = _arguments.floats("vertices", vertices)
+    return Needles(*_core.needles(points, _arguments.triangles_within(triangles, points.shape[0])))
+
+
+def rounded_edges(
+    before: npt.ArrayLike,
+    after: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    moved: npt.ArrayLike,
+    *,
+    marked: npt.ArrayLike | None = None,
+) -> IntArray:
+    """Those of the vertices ``moved`` (k,), ascending, at hard edges that became flatter by 15° and more.
+
+    ``before``, ``after``: (n, 3). Hard edges are those of :func:`fairing.hard_edges` that run on straight: two of a
+    chain stay with their triangles. With ``marked``, (m, 2), these count instead, wherever they
+    end, as far as they bent by 35°; none where more than a quarter of all edges are marked. Triangles with a corner
+    that is NaN or infinite are left out.
+    """
+    old = _arguments.floats("before", before)
+    new = _arguments.floats("after", after, old.shape[0])
+    faces = _arguments.triangles_within(triangles, old.shape[0])
+    where = _arguments.indices_within("moved", _arguments.integers("moved", moved, None), old.shape[0])
+    pairs = None
+    if marked is not None:
+        named = _arguments.indices_within("marked", _arguments.integers("marked", marked, 2), old.shape[0])
+        pairs = np.sort(named, axis=1)
+    known = np.isfinite(old[faces]).all(axis=(1, 2)) & np.isfinite(new[faces]).all(axis=(1, 2))
+    return _core.rounded_edges(old, new, faces[known], where, pairs)
+
+
+def seam_kinks(
+    vertices: npt.ArrayLike, triangles: npt.ArrayLike, held: npt.ArrayLike, limit: float = LIMITS["visible_kink"]
+) -> IntArray:
+    """Vertices at seams inside a surface that stay, ascending, where it shows a kink.
+
+    A seam is where vertices of ``held`` lie in the same place, as doubled ones do: the surface is open there, and what
+    held it up shows as a crest. ``limit``: ``limit`` of :func:`fairing.visible_join`.
+    """
+    points = _arguments.floats("vertices", vertices)
+    faces = _arguments.triangles_within(triangles, points.shape[0])
+    places = _arguments.indices_within("held", _arguments.integers("held", held, None), points.shape[0])
+    return _core.seam_kinks(points, faces, places, limit)
+
+
+def is_spoilt(vertices: npt.ArrayLike, inside: npt.ArrayLike, outside: npt.ArrayLike) -> bool:
+    """Whether the shape of the triangles ``inside`` is no texture to keep: a vertex is pulled out, or all is crumpled.
+
+    Pulled out: by more than 1.6 edges from the mean of its neighbours. Crumpled: by a quarter of an edge in the median,
+    and by twice as much as around, among the triangles ``outside``. Border vertices of both don't count.
+    """
+    points = _arguments.floats("vertices", vertices)
+    within = _arguments.triangles_within(inside, points.shape[0])
+    return _core.is_spoilt(points, within, _arguments.triangles_within(outside, points.shape[0]))
+
+
+def _bounded(
+    vertices: npt.ArrayLike, triangles: npt.ArrayLike, fixed: npt.ArrayLike | None
+) -> tuple[FloatArray, IntArray, IntArray | None]:
+    points = _arguments.floats("vertices", vertices)
+    faces = _arguments.triangles_within(triangles, points.shape[0])
+    return points, faces, _arguments.boundary(fixed, None)[0]

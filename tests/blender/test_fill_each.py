@@ -1,0 +1,234 @@
+"""Fair Fill over many holes: what is wrong with one stops no other, and what stays open is selected and named."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from typing import Any
+
+import bmesh
+import bpy
+import meshes
+import numpy as np
+import pytest
+from extension import module
+
+AXES = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)]) / np.sqrt(3.0)
+
+
+def ball(change: Callable[[Any], None] = lambda bm: None) -> bpy.types.Object:
+    """A unit sphere of quads with a hole around each of the AXES, and what `change` makes of its bmesh."""
+    obj = meshes.sphere(48)
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    gone = [face for face in bm.faces if (AXES @ face.calc_center_median().normalized()).max() > 0.98]
+    bmesh.ops.delete(bm, geom=gone, context="FACES")
+    change(bm)
+    bm.to_mesh(obj.data)
+    bm.free()
+    return obj
+
+
+def pinch(bm: Any) -> None:
+    """Take two faces away that touch in a vertex only, far from all holes."""
+    bm.verts.ensure_lookup_table()
+    top = max(bm.verts, key=lambda vertex: vertex.co.z)
+    first = top.link_faces[0]
+    other = next(f for f in top.link_faces if len({*f.verts} & {*first.verts}) == 1)
+    bmesh.ops.delete(bm, geom=[first, other], context="FACES_ONLY")
+
+
+def blade(bm: Any) -> None:
+    """A lone triangle that pierces the surface over the first hole."""
+    axis = AXES[0]
+    bm.faces.new([bm.verts.new(tuple(place)) for place in (0.7 * axis, 1.4 * axis + 0.02, 1.4 * axis - [0.02, 0, 0])])
+
+
+def spoil(bm: Any) -> None:
+    """Give the second hole an edge without length."""
+    rim = [v for v in bm.verts if v.is_boundary and v.co.normalized().dot(AXES[1].tolist()) > 0.9]
+    edge = next(e for e in rim[0].link_edges if e.is_boundary)
+    edge.verts[0].co = edge.verts[1].co
+
+
+def fill(obj: bpy.types.Object, **properties: Any) -> set[str]:
+    """Fair Fill with all faces selected; leaves the object in edit mode."""
+    meshes.edit(obj)
+    bpy.ops.mesh.select_all(action="SELECT")
+    status: set[str] = bpy.ops.mesh.fair_fill("EXEC_DEFAULT", True, **properties)
+    return status
+
+
+def open_borders(obj: bpy.types.Object) -> list[list[int]]:
+    """The border loops as sorted vertices; the mesh must be a manifold with border, wound consistently."""
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    assert all(edge.is_manifold or edge.is_boundary for edge in bm.edges)
+    assert all(edge.is_contiguous for edge in bm.edges if not edge.is_boundary)
+    assert all(vertex.is_manifold for vertex in bm.verts)
+    edges = {v.index: [e.other_vert(v).index for e in v.link_edges if e.is_boundary] for v in bm.verts if v.is_boundary}
+    bm.free()
+    loops = []
+    while edges:
+        loop, ahead = [], [next(iter(edges))]
+        while ahead:
+            vertex = ahead.pop()
+            if vertex in edges:
+                loop.append(vertex)
+                ahead += edges.pop(vertex)
+        loops.append(sorted(loop))
+    return loops
+
+
+def selected(obj: bpy.types.Object) -> set[int]:
+    return {vertex.index for vertex in obj.data.vertices if vertex.select}
+
+
+def test_all_holes_are_filled_and_those_that_touch_welded() -> None:
+    obj = ball(pinch)
+    before = meshes.contents(obj)
+    count = len(obj.data.vertices)
+    assert fill(obj) == {"FINISHED"}
+    meshes.leave()
+    assert open_borders(obj) == []
+    assert len(obj.data.vertices) - len(obj.data.edges) + len(obj.data.polygons) == 2
+    points = meshes.positions(obj)
+    assert len(np.unique(points.round(6), axis=0)) == len(points)
+    assert np.abs(np.linalg.norm(points, axis=1) - 1.0).max() < 2e-3
+    assert len(points) > count
+    after = meshes.contents(obj)
+    for name in before:
+        if "select" not in name and name != "weights":
+            assert after[name].startswith(before[name]), name
+    assert bpy.context.window_manager.fairing_report.verdict == "GOOD"
+
+
+def test_what_stays_open_is_selected_with_its_reason() -> None:
+    def change(bm: Any) -> None:
+        blade(bm)
+        spoil(bm)
+
+    obj = ball(change)
+    assert fill(obj) == {"FINISHED"}
+    report = bpy.context.window_manager.fairing_report
+    meshes.leave()
+    loops = open_borders(obj)
+    assert len(loops) == 3  # the blade is an outer border
+    points = meshes.positions(obj)
+    left = [loop for loop in loops if len(loop) > 3]
+    assert {vertex for loop in left for vertex in loop} == selected(obj)
+    for loop, axis in zip(
+        sorted(left, key=lambda one: (points[one] @ AXES[0]).mean()), (AXES[1], AXES[0]), strict=True
+    ):
+        assert (points[loop] @ axis).min() > 0.9
+    assert report.verdict == "LOOK"
+    assert "2 of 8 holes stay open, and are selected" in report.reason
+    assert "without length" in report.reason + report.warnings
+    assert "through others" in report.warnings
+    assert "1 border runs around the outside" in report.warnings
+
+
+def test_a_run_without_any_surface_changes_nothing() -> None:
+    """Each hole gets an edge without length."""
+
+    def change(bm: Any) -> None:
+        for axis in AXES:
+            rim = [v for v in bm.verts if v.is_boundary and v.co.normalized().dot(axis.tolist()) > 0.9]
+            edge = next(e for e in rim[0].link_edges if e.is_boundary)
+            edge.verts[0].co = edge.verts[1].co
+
+    obj = ball(change)
+    before = {key: data for key, data in meshes.contents(obj).items() if "select" not in key}
+    with pytest.raises(RuntimeError, match="without length"):
+        fill(obj)
+    meshes.leave()
+    assert {key: data for key, data in meshes.contents(obj).items() if "select" not in key} == before
+    assert selected(obj)
+
+
+def test_scripts_and_the_command_line_list_what_is_left(tmp_path: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    obj = ball(spoil)
+    fills = module().fill_mesh(obj.data)
+    assert (len(fills), len(fills.left)) == (7, 1)
+    (loop,) = open_borders(obj)
+    assert fills.left[0].vertices.tolist() == loop
+    assert "without length" in fills.left[0].reason
+    other = ball(spoil)
+    given = ["--object", other.name, "--fill", "--report", "json", "--output", str(tmp_path / "filled.blend")]
+    assert module("run.cli").execute(given) == 0
+    (line,) = [text for text in capsys.readouterr().out.splitlines() if text.startswith("{")]
+    told = json.loads(line)
+    (left,) = told["left_open"]
+    assert left["vertices"] == open_borders(other)[0]
+    assert "without length" in left["reason"]
+
+
+def test_longer_borders_stay_open(tmp_path: Any) -> None:
+    """As edges and as a length, for the operator, scripts and the command line."""
+    wide: Callable[[Any], None] = lambda bm: bmesh.ops.delete(  # noqa: E731
+        bm, geom=[f for f in bm.faces if f.calc_center_median().z > 0.95], context="FACES"
+    )
+    edges = max(map(len, open_borders(ball(wide))))
+    for limit in ({"longest": edges - 1}, {"longest_length": 1.5}):
+        obj = ball(wide)
+        assert fill(obj, **limit) == {"FINISHED"}
+        meshes.leave()
+        assert [len(loop) for loop in open_borders(obj)] == [edges]
+        obj = ball(wide)
+        assert len(module().fill_mesh(obj.data, **limit)) == 8
+        obj = ball(wide)
+        flags = [text for name, value in limit.items() for text in (f"--{name.replace('_', '-')}", str(value))]
+        given = ["--object", obj.name, "--fill", *flags, "--output", str(tmp_path / "filled.blend")]
+        assert module("run.cli").execute(given) == 0
+        assert [len(loop) for loop in open_borders(obj)] == [edges]
+
+
+def test_a_missing_quad_and_a_missing_triangle_are_one_face_each() -> None:
+    """Flat ones in a plane: nothing rises."""
+    obj = meshes.grid(8)
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    bm.faces.ensure_lookup_table()
+    pair = bmesh.ops.triangulate(bm, faces=[bm.faces[36]])["faces"]
+    bmesh.ops.delete(bm, geom=[pair[0]], context="FACES_ONLY")
+    bm.faces.ensure_lookup_table()
+    bmesh.ops.delete(bm, geom=[bm.faces[9]], context="FACES_ONLY")
+    bm.to_mesh(obj.data)
+    bm.free()
+    count, points = len(obj.data.polygons), meshes.positions(obj)
+    assert fill(obj) == {"FINISHED"}
+    meshes.leave()
+    new = list(obj.data.polygons)[count:]
+    assert sorted(len(polygon.vertices) for polygon in new) == [3, 4]
+    np.testing.assert_array_equal(meshes.positions(obj), points)
+    assert all(polygon.normal.z == pytest.approx(1.0) for polygon in new)
+    assert bpy.context.window_manager.fairing_report.verdict == "GOOD"
+
+
+def test_a_soap_film_is_a_flat_lid() -> None:
+    steps = np.linspace(0.0, 2.0 * np.pi, 25)[:-1]
+    points = [(np.cos(s), np.sin(s), z) for z in (-0.6, -0.3, 0.0) for s in steps]
+    faces = [
+        [24 * r + i, 24 * r + (i + 1) % 24, 24 * r + 24 + (i + 1) % 24, 24 * r + 24 + i]
+        for r in (0, 1)
+        for i in range(24)
+    ]
+    obj = meshes.add(points, faces, "Tube")
+    module().fill_mesh(obj.data, [60], equation="MINIMAL")
+    assert len(open_borders(obj)) == 1
+    new = meshes.positions(obj)[72:]
+    assert len(new) > 20
+    assert np.abs(new[:, 2]).max() < 1e-9
+
+
+def test_holes_of_several_objects_stop_each_other_no_more() -> None:
+    good, bad = ball(), ball(spoil)
+    bpy.context.view_layer.update()
+    meshes.edit(good, bad)
+    bpy.ops.mesh.select_all(action="SELECT")
+    assert bpy.ops.mesh.fair_fill("EXEC_DEFAULT", True) == {"FINISHED"}
+    report = bpy.context.window_manager.fairing_report
+    meshes.leave()
+    assert (open_borders(good), len(open_borders(bad))) == ([], 1)
+    assert selected(bad) == {*open_borders(bad)[0]}
+    assert report.reason.startswith(f"{bad.name}: 1 of 8 holes stays open")

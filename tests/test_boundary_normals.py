@@ -1,0 +1,144 @@
+"""`fairing.boundary_normals`: along hard edges the slope of the patch's own triangles, elsewhere that outside."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import fairing
+import solids
+from solids import FloatArray, IntArray
+
+
+def faired(
+    vertices: FloatArray, inside: IntArray, outside: IntArray, side: str = "automatic", continuity: str = "G1"
+) -> tuple[fairing.FairResult, fairing.BoundaryNormals, IntArray]:
+    """The result, the normals, and the free vertices."""
+    rim = np.intersect1d(inside, outside)
+    found = fairing.boundary_normals(vertices, inside, rim, outside=outside, side=side)
+    result = fairing.fair(
+        vertices, inside, fixed=rim, fixed_normals=found.normals, outside=outside, continuity=continuity
+    )
+    return result, found, np.setdiff1d(inside, rim)
+
+
+def dented_box(n: int, noise: float = 0.0) -> tuple[FloatArray, IntArray, IntArray]:
+    """A box with a dent in its top, and noise on that in edges: vertices, the top's triangles, the others."""
+    vertices, triangles = solids.box(n)
+    top = np.abs(vertices[triangles].mean(axis=1)[:, 2] - 1) < 1e-9
+    own = np.setdiff1d(triangles[top], triangles[~top])
+    vertices[own, 2] += noise * 2 / n * np.random.default_rng(3).normal(size=len(own))
+    middle = own[np.abs(vertices[own, :2]).max(axis=1) < 0.55]
+    vertices[middle, 2] -= 0.2
+    return vertices, triangles[top], triangles[~top]
+
+
+@pytest.mark.parametrize("n", [8, 16])
+def test_the_top_of_a_box_comes_back_flat(n: int) -> None:
+    """Tangent to the sides it rises by .98."""
+    vertices, inside, outside = dented_box(n)
+    result, found, free = faired(vertices, inside, outside)
+    assert found.from_inside.all()
+    assert np.abs(result.vertices[free, 2] - 1).max() < 1e-6
+    outer, away, _ = faired(vertices, inside, outside, side="outside")
+    assert not away.from_inside.any()
+    assert np.abs(outer.vertices[free, 2] - 1).max() > 0.5
+
+
+def test_an_undivided_box_with_a_boss_comes_back_flat() -> None:
+    """Four vertices around, and triangles that lead from there to the boss."""
+    result, found, free = faired(*solids.box_with_boss(16))
+    assert len(found.normals) == 4
+    assert found.from_inside.all()
+    assert np.abs(result.vertices[free, 2] - 1).max() < 1e-6
+
+
+@pytest.mark.parametrize("noise", [0.05, 0.1, 0.2])
+def test_noise_on_the_top_does_not_turn_it_into_a_tent(noise: float) -> None:
+    """It rises by .02 at most; tangent to the sides by .98."""
+    result, found, free = faired(*dented_box(16, noise))
+    assert found.from_inside.all()
+    assert np.abs(result.vertices[free, 2] - 1).max() < 0.5 * noise
+
+
+@pytest.mark.parametrize(("sides", "rows"), [(24, 6), (48, 12)])
+@pytest.mark.parametrize("height", [0.0, 0.2, 0.3])
+def test_lids_and_domes_over_a_hard_rim_come_back(sides: int, rows: int, height: float) -> None:
+    """The dome is a part of a sphere: a dent in its middle goes."""
+    vertices, triangles = solids.domed(sides, rows, height)
+    inside = (vertices[triangles][:, :, 2] > 1 - 1e-9).all(axis=1)
+    dented = vertices.copy()
+    dented[(np.linalg.norm(vertices[:, :2], axis=1) < 0.4) & (vertices[:, 2] >= 1), 2] -= 0.1
+    result, found, free = faired(dented, triangles[inside], triangles[~inside])
+    assert found.from_inside.all()
+    if height:
+        radius = (1 + height**2) / (2 * height)
+        off = np.linalg.norm(result.vertices[free] - [0, 0, 1 + height - radius], axis=1) - radius
+    else:
+        off = result.vertices[free, 2] - 1
+    assert np.abs(off).max() < 5e-6
+
+
+@pytest.mark.parametrize("continuity", ["G1", "G2"])
+@pytest.mark.parametrize("rings", [0, 0.5, 1, 2])
+def test_an_outline_that_is_partly_hard_mixes_both(rings: float, continuity: str) -> None:
+    """One side of the selection lies on a crease: the panel goes on flat there. Tangent to the faces beyond: .05."""
+    panel = solids.panel(rings)
+    result, found, _ = faired(panel.vertices, panel.inside, panel.outside, continuity=continuity)
+    on_crease = (np.abs(panel.clean[panel.rim, 1] - 0.3) < 1e-9) & (np.abs(panel.clean[panel.rim, 0]) < 0.44)
+    assert found.from_inside.tolist() == (on_crease & (rings < 1)).tolist()
+    assert panel.error(result.vertices) < 1e-3
+
+
+@pytest.mark.parametrize("height", [0.5, -0.5])
+def test_a_boss_or_a_pocket_goes(height: float) -> None:
+    """Its walls are plane, and their edge with the plate is hard, but the surface over that lies in the plate."""
+    number = np.arange(17 * 17).reshape(17, 17)
+    x, y = (a.ravel() for a in np.meshgrid(np.linspace(-1, 1, 17), np.linspace(-1, 1, 17), indexing="ij"))
+    a, b, c, d = (q.ravel() for q in (number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]))
+    triangles = np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
+    plate = np.column_stack([x, y, 0 * x])
+    top = (np.abs(plate[triangles].mean(axis=1)[:, :2]) < 0.4).all(axis=1)
+    used = np.unique(triangles[top])
+    moved = np.full(len(plate), -1)
+    moved[used] = len(plate) + np.arange(len(used))
+    (loop,) = fairing.boundary_loops(triangles[top])
+    after = np.roll(loop, -1)
+    walls = [np.column_stack([loop, after, moved[after]]), np.column_stack([loop, moved[after], moved[loop]])]
+    vertices = np.concatenate([plate, plate[used] + [0, 0, height]])
+    inside = np.concatenate([moved[triangles[top]], *walls])
+    result, found, free = faired(vertices, inside, triangles[~top])
+    assert not found.from_inside.any()
+    assert np.abs(result.vertices[free, 2]).max() < 1e-6
+
+
+def test_smooth_outlines_take_the_outside_to_the_bit() -> None:
+    panel = solids.panel(3)
+    found = fairing.boundary_normals(panel.vertices, panel.inside, panel.rim, outside=panel.outside)
+    outside = fairing.surrounding_normals(panel.vertices, panel.outside, panel.rim)
+    assert np.array_equal(found.normals, outside.normals)
+    assert np.array_equal(found.errors, outside.errors)
+    assert not found.from_inside.any()
+
+
+def test_motion_scale_and_winding_change_nothing() -> None:
+    vertices, inside, outside = dented_box(8)
+    rim = np.intersect1d(inside, outside)
+    turn, _ = np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))
+    turn *= np.linalg.det(turn)
+    moved = fairing.boundary_normals(1e3 * vertices @ turn.T - 7.0, inside, rim, outside=outside)
+    assert np.abs(moved.normals - turn[:, 2]).max() < 1e-6
+    wound = fairing.boundary_normals(vertices, inside[:, ::-1], rim, outside=outside[:, ::-1])
+    assert np.abs(wound.normals - [0, 0, -1]).max() < 1e-9
+    against = fairing.boundary_normals(vertices, inside, rim, outside=outside[:, ::-1])
+    assert np.abs(against.normals - [0, 0, 1]).max() < 1e-9
+
+
+def test_sides_can_be_chosen() -> None:
+    vertices, inside, outside = dented_box(8)
+    rim = np.intersect1d(inside, outside)
+    own = fairing.boundary_normals(vertices, inside, rim, outside=outside, side="inside")
+    assert own.from_inside.all()
+    assert np.abs(own.normals - [0, 0, 1]).max() < 1e-9
+    with pytest.raises(ValueError, match="side: 'average' is not accepted; accepted are 'automatic', 'outside'"):
+        fairing.boundary_normals(vertices, inside, rim, outside=outside, side="average")

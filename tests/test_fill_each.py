@@ -1,0 +1,270 @@
+"""Each hole by itself: borders that touch, loops that no surface closes beside others, single faces, flat lids."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import fairing
+import holes
+from holes import FloatArray, IntArray, Mesh
+
+EMPTY = np.empty((0, 3), dtype=int)
+
+
+def ball(level: int = 4) -> Mesh:
+    """A unit icosphere."""
+    golden = (1 + 5**0.5) / 2
+    points = np.array([(s, t * golden, 0.0) for s in (-1, 1) for t in (-1, 1)])
+    vertices = np.concatenate([np.roll(points, k, axis=1) for k in range(3)])
+    near = np.linalg.norm(vertices[:, None] - vertices[None], axis=2) < 2.1
+    faces = [
+        (i, j, k) for i in range(12) for j in range(i) for k in range(j) if near[i, j] and near[j, k] and near[i, k]
+    ]
+    triangles = np.array(faces)
+    for _ in range(level):
+        sides = np.sort(np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
+        edges, number = np.unique(sides, axis=0, return_inverse=True)
+        middle = len(vertices) + number.reshape(-1, 3)
+        vertices = np.concatenate([vertices, vertices[edges].mean(axis=1)])
+        a, b, c = triangles.T
+        x, y, z = middle.T
+        triangles = np.concatenate([np.column_stack(t) for t in ((a, x, z), (b, y, x), (c, z, y), (x, y, z))])
+    vertices = vertices / np.linalg.norm(vertices, axis=1)[:, None]
+    corners = vertices[triangles]
+    inward = (np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) * corners[:, 0]).sum(axis=1) < 0
+    triangles[inward] = triangles[inward][:, ::-1]
+    return vertices, triangles
+
+
+def whole(vertices: FloatArray, triangles: Any, result: fairing.FillResult) -> Mesh:
+    return np.concatenate([vertices, result.vertices]), np.concatenate([triangles, result.triangles])
+
+
+def assert_closed(vertices: FloatArray, triangles: IntArray, euler: int = 2) -> None:
+    """A closed oriented manifold with this Euler number and no two vertices in one place."""
+    sides = np.column_stack([triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()])
+    assert len(np.unique(sides, axis=0)) == len(sides)
+    edges, uses = fairing.edges_with_uses(triangles)
+    assert (uses == 2).all()
+    used = np.unique(triangles)
+    assert len(used) - len(edges) + len(triangles) == euler
+    assert len(np.unique(vertices[used].round(12), axis=0)) == len(used)
+    for vertex in used:  # one umbrella each
+        mine = triangles[(triangles == vertex).any(axis=1)]
+        turned = [np.roll(row, -int(np.flatnonzero(row == vertex)[0])).tolist() for row in mine]
+        after = {b: c for _, b, c in turned}
+        at, steps = turned[0][1], 0
+        while steps == 0 or at != turned[0][1]:
+            at, steps = after[at], steps + 1
+        assert steps == len(mine)
+
+
+def caps(vertices: FloatArray, triangles: IntArray, axes: FloatArray, cosine: float) -> IntArray:
+    """The triangles without those whose middle is near one of the axes."""
+    middle = vertices[triangles].mean(axis=1)
+    return triangles[((middle / np.linalg.norm(middle, axis=1)[:, None]) @ axes.T < cosine).all(axis=1)]
+
+
+def thirteen() -> tuple[FloatArray, IntArray]:
+    """A ball with thirteen holes; in one of them a face hangs by a corner."""
+    vertices, triangles = ball()
+    golden = (1 + 5**0.5) / 2
+    axes = np.concatenate(
+        [np.roll([(0.0, s, t * golden)], k, axis=1) for s in (-1, 1) for t in (-1, 1) for k in range(3)]
+    )
+    axes = np.concatenate([axes, [[1.0, 1.0, 1.0]]])
+    axes /= np.linalg.norm(axes, axis=1)[:, None]
+    left = caps(vertices, triangles, axes, 0.975)
+    border = np.unique(np.concatenate(fairing.boundary_loops(left)))
+    keys = {tuple(row) for row in left.tolist()}
+    gone = np.array([row for row in triangles.tolist() if tuple(row) not in keys])
+    near = vertices[gone].mean(axis=1) @ axes[-1] > 0.97
+    hanging = gone[near & (np.isin(gone, border).sum(axis=1) == 1)][:1]
+    return vertices, np.concatenate([left, hanging])
+
+
+def test_thirteen_holes_of_a_ball_come_back_as_the_ball() -> None:
+    vertices, triangles = thirteen()
+    result = fairing.fill(vertices, triangles)
+    assert (len(result.loops), result.left_open, result.left_because) == (13, (), ())
+    assert sum(len(np.unique(loop)) < len(loop) for loop in result.loops) == 1
+    assert abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 1e-3
+    assert_closed(*whole(vertices, triangles, result))
+    assert len(np.unique(result.fixed)) == len(result.fixed) == len(result.join)
+
+
+def test_holes_that_meet_in_a_corner_are_two() -> None:
+    """Also three around one vertex; `boundary_loops` follows the fans, across the corner."""
+    vertices, triangles = ball(2)
+    star = np.flatnonzero((triangles == 20).any(axis=1))
+    for chosen, count in ((star[[0]], 1), (star, 1)):
+        assert len(fairing.hole_loops(vertices, np.delete(triangles, chosen, axis=0)).loops) == count
+    ring = np.unique(triangles[star])
+    apart: list[int] = []
+    for t in star.tolist():  # no two of them share an edge
+        if all(len(np.intersect1d(triangles[t], triangles[other])) == 1 for other in apart):
+            apart.append(t)
+    assert len(apart) >= 2
+    open_mesh = np.delete(triangles, apart, axis=0)
+    loops = fairing.hole_loops(vertices, open_mesh).loops
+    assert sorted(map(tuple, np.sort(loops, axis=1))) == sorted(map(tuple, np.sort(triangles[apart], axis=1)))
+    assert max(map(len, fairing.boundary_loops(open_mesh))) == 3 * len(apart)
+    assert {20} < {*ring.tolist()}
+    result = fairing.fill(vertices, open_mesh)
+    assert len(result.vertices) == 0
+    assert_closed(*whole(vertices, open_mesh, result))
+
+
+def test_a_loop_that_follows_the_fans_is_parted_where_it_is_named() -> None:
+    vertices, triangles = thirteen()
+    named = fairing.fill(vertices, triangles, fairing.boundary_loops(triangles))
+    assert_closed(*whole(vertices, triangles, named))
+
+
+def test_the_order_of_holes_makes_no_difference() -> None:
+    vertices, triangles = thirteen()
+    loops = list(fairing.fill(vertices, triangles).loops)
+    orders = [loops, loops[::-1], [loop[::-1] for loop in loops[5:] + loops[:5]]]
+    found = [fairing.fill(vertices, triangles, order) for order in orders]
+    for other in found[1:]:
+        assert len(other.vertices) == len(found[0].vertices)
+        apart = np.linalg.norm(other.vertices[:, None] - found[0].vertices[None], axis=2).min(axis=1)
+        assert apart.max() < 1e-3
+
+
+def test_what_is_wrong_with_one_loop_stops_no_other() -> None:
+    """A vertex that is not finite, one on another's edge, faces wound against each other, a lone triangle."""
+    vertices, triangles = thirteen()
+    good = fairing.fill(vertices, triangles)
+    plain = [loop for loop in good.loops if len(np.unique(loop)) == len(loop)]
+    bad, torn = plain[0], plain[1]
+    vertices = vertices.copy()
+    vertices[bad[3]] = np.nan
+    beside = np.flatnonzero((triangles == torn[0]).any(axis=1) & (triangles == torn[1]).any(axis=1))
+    triangles = triangles.copy()
+    triangles[beside] = triangles[beside][:, ::-1]
+    corner = len(vertices)
+    vertices = np.concatenate([vertices, np.eye(3) + 3.0])
+    triangles = np.concatenate([triangles, [[corner, corner + 1, corner + 2]]])
+    before = vertices.copy(), triangles.copy()
+    result = fairing.fill(vertices, triangles)
+    assert len(result.loops) == 11
+    codes = {each.code: set(loop.tolist()) for loop, each in zip(result.left_open, result.left_because, strict=True)}
+    assert codes["NONFINITE"] == {*bad.tolist()}
+    assert codes["NOT_A_HOLE"] == {corner, corner + 1, corner + 2}
+    assert {torn[0], torn[1]} <= codes["NOT_A_LOOP"] | {*torn.tolist()}
+    assert {each.code for each in result.warnings} >= {"NONFINITE", "NOT_A_HOLE"}
+    assert abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 1e-3
+    np.testing.assert_array_equal(vertices, before[0])
+    np.testing.assert_array_equal(triangles, before[1])
+
+
+def test_named_loops_are_filled_where_others_are_bad() -> None:
+    """Rows of normals go with their loops."""
+    vertices, triangles = thirteen()
+    first, second, third = (loop for loop in fairing.fill(vertices, triangles).loops[:3])
+    broken = vertices.copy()
+    broken[second[0]] = np.inf
+    rows = [vertices[loop] for loop in (first, second, third)]
+    for normals in (rows, np.concatenate(rows), None):
+        result = fairing.fill(broken, triangles, [first, second, third], normals=normals)
+        assert [set(loop.tolist()) for loop in result.loops] == [set(first.tolist()), set(third.tolist())]
+        assert set(result.left_open[0].tolist()) == set(second.tolist())
+        assert abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 1e-3
+    with pytest.raises(fairing.MeshError) as caught:
+        fairing.fill(broken, triangles, [second])
+    assert caught.value.code == "NONFINITE"
+
+
+def test_longest_as_edges_and_as_a_length() -> None:
+    vertices, triangles = thirteen()
+    loops = fairing.fill(vertices, triangles).loops
+    sizes = sorted(map(len, loops))
+    lengths = [np.linalg.norm(vertices[loop] - vertices[np.roll(loop, 1)], axis=1).sum() for loop in loops]
+    some = fairing.fill(vertices, triangles, longest=sizes[5])
+    assert sorted(map(len, some.loops)) == [size for size in sizes if size <= sizes[5]]
+    middle = float(np.median(lengths))
+    some = fairing.fill(vertices, triangles, longest_length=middle)
+    assert len(some.loops) == sum(length <= middle for length in lengths)
+    with pytest.raises(fairing.MeshError, match="long or shorter"):
+        fairing.fill(vertices, triangles, longest_length=0.01)
+    with pytest.raises(ValueError, match="longest_length: a length"):
+        fairing.fill(vertices, triangles, longest_length=-1.0)
+
+
+@pytest.mark.parametrize("place", ["flat", "cylinder", "sphere"])
+def test_a_missing_triangle_is_closed_by_one(place: str) -> None:
+    """No vertex is new, so that nothing rises: a bump of a third of an edge otherwise."""
+    if place == "sphere":
+        vertices, triangles = ball(3)
+    else:
+        bend = 0.0 if place == "flat" else 3.0
+        vertices, triangles = holes.sheet(
+            lambda u, v: (np.sin(bend * u) / bend, v, np.cos(bend * u) / bend) if bend else (u, v, 0 * u),
+            (12, 12),
+            lambda u, v: np.zeros(u.shape, dtype=bool),
+        )
+    middle = int(np.linalg.norm(vertices[triangles].mean(axis=1) - [0.4, 0.5, 0.2], axis=1).argmin())
+    loop = triangles[middle]
+    around = np.delete(triangles, middle, axis=0)
+    result = fairing.fill(vertices, around, [loop])
+    assert (len(result.vertices), {*result.triangles[0].tolist()}) == (0, {*loop.tolist()})
+    assert result.converged
+    assert not len(fairing.visible_join(vertices, result.triangles, around, result.fixed).seen)
+
+
+def test_a_missing_quad_is_cut_along_the_better_diagonal() -> None:
+    """An arrow with a re-entrant corner, and one whose other diagonal is an edge of the mesh."""
+    arrow = np.array([[0, 0, 0], [2, 0, 0], [0.4, 0.4, 0], [0, 2, 0]], float)
+    up = np.tile([0.0, 0.0, 1.0], (4, 1))
+    for turn in range(4):
+        loop = np.roll(np.arange(4), turn)
+        result = fairing.fill(arrow, np.empty((0, 3), int), [loop], normals=up)
+        corners = arrow[result.triangles]
+        areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2]
+        assert len(areas) == 2
+        assert (areas > 0).all()
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
+    pyramid = np.concatenate([square, [[0.5, 0.5, -1.0]]])
+    below = np.array([[4, 1, 0], [4, 2, 1], [4, 3, 2], [4, 0, 3]])
+    result = fairing.fill(pyramid, below[:, ::-1])
+    assert_closed(*whole(pyramid, below[:, ::-1], result))
+
+
+def cylinder(rim: int, rows: int = 6) -> Mesh:
+    """Radius 1, open at z = 0 and at the lower end."""
+    return holes.sheet(
+        lambda u, v: (np.cos(2 * np.pi * u), np.sin(2 * np.pi * u), -v),
+        (rim, rows),
+        lambda u, v: np.zeros(u.shape, dtype=bool),
+        closed=True,
+    )
+
+
+@pytest.mark.parametrize("rim", [5, 12, 48])
+def test_a_soap_film_over_a_cylinder_is_a_flat_lid(rim: int) -> None:
+    vertices, triangles = cylinder(rim)
+    top = [loop for loop in fairing.boundary_loops(triangles) if (vertices[loop, 2] > -1e-9).all()]
+    result = fairing.fill(vertices, triangles, top, equation="minimal")
+    assert (result.converged, result.equation) == (True, "minimal")
+    assert abs(result.vertices[:, 2]).max() < 1e-9
+    corners = np.concatenate([vertices, result.vertices])[result.triangles]
+    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2]
+    assert (areas < 0).all()  # wound as the tube, whose outside is within
+    assert -0.5 * areas.sum() == pytest.approx(0.5 * rim * np.sin(2 * np.pi / rim))
+
+
+def test_a_soap_film_between_rings_is_the_catenoid() -> None:
+    """cosh(z) around z, between z = −.4 and .4: its waist is 1."""
+    turn = 2 * np.pi * np.arange(64) / 64
+    ring = np.column_stack([np.cos(turn), np.sin(turn), 0 * turn])
+    up = [0.0, 0.0, 0.4]
+    rings = np.concatenate([np.cosh(0.4) * ring - up, np.cosh(0.4) * ring + up])
+    loops = [np.arange(64), np.arange(64, 128)]
+    result = fairing.fill(rings, EMPTY, loops, normals=np.tile(ring, (2, 1)), equation="minimal", bridge=True)
+    assert (result.converged, result.equation) == (True, "minimal")
+    off = np.linalg.norm(result.vertices[:, :2], axis=1) - np.cosh(result.vertices[:, 2])
+    assert abs(off).max() < 2e-3

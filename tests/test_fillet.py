@@ -1,0 +1,248 @@
+"""fairing.fillet: seams are rounded by the fairest surface within a width along the surface."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import fairing
+import solids
+import wedges
+from wedges import FloatArray, IntArray
+
+WIDTH = 0.3
+
+
+def whole(vertices: FloatArray, triangles: IntArray, result: fairing.FilletResult) -> tuple[FloatArray, IntArray]:
+    """The mesh with its fillet."""
+    kept = np.delete(np.asarray(triangles), result.gone, axis=0)
+    return np.concatenate([vertices, result.vertices]), np.concatenate([kept, result.triangles])
+
+
+def middle(result: fairing.FilletResult, reach: float = 0.7) -> FloatArray:
+    """The new vertices beside the middle of a wedge's edge, where its ends are not felt."""
+    return result.vertices[np.abs(result.vertices[:, 2]) < reach]
+
+
+def areas(vertices: FloatArray, triangles: IntArray) -> FloatArray:
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+
+
+def euler(triangles: IntArray) -> int:
+    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    return len(np.unique(triangles)) - len(np.unique(sides, axis=0)) + len(triangles)
+
+
+@pytest.mark.parametrize("rows", [1, 7])
+@pytest.mark.parametrize("degrees", [60, 90, 120, 150])
+def test_between_planes_it_is_the_arc_that_touches_both(degrees: float, rows: int) -> None:
+    vertices, triangles, seam = wedges.wedge(degrees, rows=rows)
+    result = fairing.fillet(vertices, triangles, seam, width=WIDTH)
+    centre, radius = wedges.arc(degrees, WIDTH)
+    assert (result.converged, result.warnings) == (True, ())
+    off = np.linalg.norm(middle(result)[:, :2] - centre, axis=1) - radius
+    assert len(off) > 100
+    assert abs(off).max() < 1e-3 * WIDTH
+
+
+def test_curvature_is_continued_where_that_is_asked_for() -> None:
+    """The profile's curvature then is quadratic in the arc length, 0 at both ends; the arc is 8 % of the width off."""
+    vertices, triangles, seam = wedges.wedge(120, rows=2, length=3.0)
+    result = fairing.fillet(vertices, triangles, seam, width=WIDTH, spacing=WIDTH / 6, continuity="G2")
+    assert result.continuity == "G2"
+    exact = wedges.curvature_continuous(120, WIDTH)
+    off = [np.linalg.norm(exact - place, axis=1).min() for place in middle(result, 0.3)[:, :2]]
+    assert max(off) < 5e-3 * WIDTH
+
+
+@pytest.mark.parametrize("rows", [1, 3, 8])
+def test_it_ends_on_straight_lines_beside_straight_edges(rows: int) -> None:
+    vertices, triangles = solids.box(rows)
+    result = fairing.fillet(vertices, triangles, width=0.2, spacing=0.1)
+    points, faces = whole(vertices, triangles, result)
+    ends = points[np.unique(result.line)]
+    across = np.sort(np.abs(ends), axis=1)
+    assert abs(across[:, 2] - 1).max() < 1e-12
+    assert abs(across[:, 1] - 0.8).max() < 1e-12
+    pieces = result.triangles[: result.outside]
+    kept = np.delete(triangles, result.gone, axis=0)
+    assert abs(areas(points, pieces).sum() + areas(points, kept).sum() - 6 * 1.6**2) < 1e-10
+    assert areas(points, pieces).min() > 0
+    assert euler(faces) == 2
+    assert fairing.boundary_loops(faces) == []
+
+
+def test_it_ends_at_the_same_distance_along_a_cylinder() -> None:
+    vertices, triangles = solids.cylinder(48, 5, 2.0)
+    result = fairing.fillet(vertices, triangles, width=0.25)
+    points, _ = whole(vertices, triangles, result)
+    ends = points[np.unique(result.line)]
+    on_side = np.abs(ends[:, 2] - 1) < 0.99
+    assert abs(np.abs(ends[on_side, 2] - 1) - 0.75).max() < 1e-12
+    lid = np.linalg.norm(ends[~on_side, :2], axis=1)
+    assert abs(lid - 0.75).max() < 5e-3  # of a 48-gon and its offset, whose corners the line passes in chords
+    assert abs(result.vertices[:, 2] - 1).max() <= 1 + 1e-12
+
+
+def plate(count: int) -> tuple[FloatArray, IntArray, IntArray]:
+    """[−2, 2]² in the plane z = 0, and its edges from (−.5, 0) to (.5, 0)."""
+    x = np.linspace(-2, 2, count + 1)
+    vertices = np.array([[a, b, 0.0] for b in x for a in x])
+    k = np.array([i + j * (count + 1) for j in range(count) for i in range(count)])
+    triangles = np.concatenate(
+        [np.column_stack([k, k + 1, k + count + 2]), np.column_stack([k, k + count + 2, k + count + 1])]
+    )
+    on = np.flatnonzero((np.abs(vertices[:, 1]) < 1e-9) & (np.abs(vertices[:, 0]) < 0.5 + 1e-9))
+    return vertices, triangles, np.column_stack([on[:-1], on[1:]])
+
+
+@pytest.mark.parametrize("count", [8, 24])
+def test_the_line_closes_around_the_ends_of_a_seam(count: int) -> None:
+    vertices, triangles, seam = plate(count)
+    result = fairing.fillet(vertices, triangles, seam, width=0.37)
+    points = np.concatenate([vertices, result.vertices])
+    ends = points[np.unique(result.line)]
+    nearest = np.column_stack([np.clip(ends[:, 0], -0.5, 0.5), np.zeros((len(ends), 2))])
+    assert abs(np.linalg.norm(ends - nearest, axis=1) - 0.37).max() < 1e-6
+    assert (ends[:, 0] > 0.8).any()
+    assert abs(result.vertices[:, 2]).max() < 1e-9  # nothing to round: nothing changes
+    assert len(fairing.boundary_loops(result.triangles[result.outside :])) == 1
+
+
+def test_pieces_outside_stay_in_their_planes_and_all_else_stays() -> None:
+    vertices, triangles = solids.sphere(24, 12)
+    seam = fairing.hard_edges(*solids.box(1))
+    ring = np.array([[a, b] for a, b in _edges(triangles) if abs(vertices[[a, b], 2]).max() < 1e-9])
+    assert len(seam) == 12
+    result = fairing.fillet(vertices, triangles, ring, width=0.4)
+    points, faces = whole(vertices, triangles, result)
+    for t, parent in zip(result.triangles[: result.outside], result.parent[: result.outside], strict=True):
+        a, b, c = vertices[triangles[parent]]
+        normal = np.cross(b - a, c - a)
+        assert np.abs((points[t] - a) @ normal / np.linalg.norm(normal)).max() < 1e-14
+    assert euler(faces) == 2
+    assert fairing.boundary_loops(faces) == []
+
+
+def _edges(triangles: IntArray) -> IntArray:
+    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    return np.unique(sides, axis=0)
+
+
+def test_widths_differ_on_both_sides() -> None:
+    vertices, triangles, seam = wedges.wedge(90, rows=3)
+    vertices = vertices * [1.0, 1.0, 1.0]
+    vertices[vertices[:, 0] < 0] *= [1.4, 1.4, 1.0]  # the left side becomes the larger one
+    result = fairing.fillet(vertices, triangles, seam, width=0.4, width_2=0.2)
+    points = np.concatenate([vertices, result.vertices])
+    ends = points[np.unique(result.line)]
+    ends = ends[np.abs(ends[:, 2]) < 1.5]
+    reach = np.linalg.norm(ends[:, :2], axis=1)
+    assert abs(reach[ends[:, 0] < 0] - 0.4).max() < 1e-12
+    assert abs(reach[ends[:, 0] > 0] - 0.2).max() < 1e-12
+
+
+def test_widths_vary_along_the_seam() -> None:
+    """Linear in between, on each side: the line beside a seam of two planes is straight, and leans."""
+    vertices, triangles, seam = wedges.wedge(90, rows=4)
+    width = 0.3 + 0.05 * vertices[:, 2]
+    result = fairing.fillet(vertices, triangles, seam, width=width)
+    points = np.concatenate([vertices, result.vertices])
+    ends = points[np.unique(result.line)]
+    ends = ends[np.abs(ends[:, 2]) < 1.9]
+    assert abs(np.linalg.norm(ends[:, :2], axis=1) - 0.3 - 0.05 * ends[:, 2]).max() < 1e-9
+
+
+def test_motion_and_scale_change_nothing_else() -> None:
+    vertices, triangles, seam = wedges.wedge(100, rows=2)
+    plain = fairing.fillet(vertices, triangles, seam, width=WIDTH)
+    turn, _ = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))
+    turn *= np.sign(np.linalg.det(turn))
+    moved = 1e3 * vertices @ turn.T + [5.0, -7.0, 11.0]
+    other = fairing.fillet(moved, triangles, seam, width=1e3 * WIDTH)
+    centre, radius = wedges.arc(100, WIDTH)
+    back = (other.vertices - [5.0, -7.0, 11.0]) @ turn / 1e3
+    for places in (plain.vertices, back):
+        near = places[np.abs(places[:, 2]) < 0.7]
+        assert abs(np.linalg.norm(near[:, :2] - centre, axis=1) - radius).max() < 1e-3 * WIDTH
+
+
+def test_diagonals_do_not_matter() -> None:
+    """Near the seam's ends, too, where no closed form holds."""
+    found = []
+    for turned in (False, True):
+        vertices, triangles, seam = wedges.wedge(90, length=1.2, rows=3, turned=turned)
+        result = fairing.fillet(vertices, triangles, seam, width=WIDTH, spacing=0.05)
+        points = result.vertices
+        found.append(points[np.abs(points[:, 0]) < 0.05])
+    profile = [np.polyfit(places[:, 2], places[:, 1], 8) for places in found]
+    along = np.linspace(-0.5, 0.5, 21)
+    assert abs(np.polyval(profile[0], along) - np.polyval(profile[1], along)).max() < 1e-2 * WIDTH
+
+
+def test_the_mesh_is_as_fine_as_asked() -> None:
+    vertices, triangles, seam = wedges.wedge(90, rows=3)
+    counts = [len(fairing.fillet(vertices, triangles, seam, width=WIDTH, spacing=s).vertices) for s in (0.06, 0.03)]
+    assert 3 < counts[1] / counts[0] < 5
+
+
+def test_new_vertices_know_where_they_come_from() -> None:
+    vertices, triangles, seam = wedges.wedge(150, rows=3)
+    result = fairing.fillet(vertices, triangles, seam, width=WIDTH)
+    triangle, weights = result.origin
+    assert weights.min() >= 0
+    assert abs(weights.sum(axis=1) - 1).max() < 1e-12
+    carried = np.einsum("kc,kcd->kd", weights, vertices[triangles[triangle]])
+    assert np.linalg.norm(carried - result.vertices, axis=1).max() < 0.2 * WIDTH
+    on_line = np.unique(result.line) - len(vertices)
+    on_line = on_line[on_line >= 0]
+    assert np.linalg.norm(carried - result.vertices, axis=1)[on_line].max() < 1e-12
+
+
+def refused(code: str, *args: object, **options: object) -> NDArray[np.int32]:
+    with pytest.raises(fairing.MeshError) as caught:
+        fairing.fillet(*args, **options)  # type: ignore[arg-type]
+    assert caught.value.code == code
+    return caught.value.elements
+
+
+def test_a_width_that_leaves_nothing_of_a_part_is_refused_with_the_part() -> None:
+    vertices, triangles = solids.box(4)
+    assert len(refused("WIDTH_TOO_LARGE", vertices, triangles, width=1.1)) == len(vertices)
+    vertices, triangles = solids.cylinder(32, 6, 6.0)
+    assert set(vertices[refused("WIDTH_TOO_LARGE", vertices, triangles, width=1.2), 2]) == {0.0, 6.0}  # both lids
+
+
+def test_other_bad_seams_are_refused_with_their_places() -> None:
+    vertices, triangles = solids.sphere(12, 6)
+    refused("NO_SEAM", vertices, triangles, width=0.1)
+    flat, sheet, _ = plate(4)
+    assert refused("SEAM_ON_BORDER", flat, sheet, [[0, 1]], width=0.1).tolist() == [0, 1]
+    three = np.concatenate([sheet, [[0, 6, 20]]])
+    assert refused("NONMANIFOLD_EDGE", flat, three, [[0, 6]], width=0.1).tolist() == [0, 6]
+    wrong = sheet.copy()
+    first = int(np.flatnonzero((sheet == 0).any(axis=1) & (sheet == 6).any(axis=1))[0])
+    wrong[first] = wrong[first][::-1]
+    assert refused("INCONSISTENT_WINDING", flat, wrong, [[0, 6]], width=0.1).tolist() == [0, 6]
+    with pytest.raises(ValueError, match="width"):
+        fairing.fillet(flat, sheet, [[6, 7]], width=0.0)
+    with pytest.raises(ValueError, match="not joined by an edge"):
+        fairing.fillet(flat, sheet, [[0, 9]], width=0.1)
+
+
+def test_a_fillet_stops_at_walls_and_is_tangent_to_its_own_side_there() -> None:
+    """A hard edge .2 widths from the seam: it stays where it is, and the strip between keeps its slope."""
+    vertices, triangles = solids.box(1)
+    tall = vertices * [1.0, 1.0, 0.03]
+    top = np.array(
+        [[a, b] for a, b in _edges(triangles) if (tall[[a, b], 2] > 0).all() and (tall[[a, b], 0] > 0).all()]
+    )
+    seam = top[np.abs(tall[top][:, :, 0] - 1).max(axis=1) < 1e-9]
+    result = fairing.fillet(tall, triangles, seam, width=0.3)
+    assert result.converged
+    assert result.vertices[:, 2].min() >= -0.03 - 1e-9
+    _, faces = whole(tall, triangles, result)
+    assert euler(faces) == 2
+    assert fairing.boundary_loops(faces) == []

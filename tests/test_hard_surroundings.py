@@ -1,0 +1,85 @@
+"""Slopes and curvatures at a boundary come from its own side of hard edges."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import fairing
+import solids
+from solids import FloatArray, IntArray
+
+
+def top_of_box(n: int, rows: int) -> tuple[FloatArray, IntArray, IntArray]:
+    """A box whose top is selected but for some rows along its edges: vertices, triangles inside and outside."""
+    vertices, triangles = solids.box(n)
+    centre = vertices[triangles].mean(axis=1)
+    inside = (np.abs(centre[:, 2] - 1) < 1e-9) & (np.abs(centre[:, :2]).max(axis=1) < 1 - 2 * rows / n)
+    return vertices, triangles[inside], triangles[~inside]
+
+
+@pytest.mark.parametrize("n", [8, 16])
+@pytest.mark.parametrize("rows", [1, 2])
+def test_one_flat_row_beside_a_box_edge_is_enough(n: int, rows: int) -> None:
+    """Fits across the edge tilt by 45°, with errors of 6°, and sides rise by one to six edges."""
+    vertices, inside, outside = top_of_box(n, rows)
+    rim = np.intersect1d(inside, outside)
+    found = fairing.surrounding_normals(vertices, outside, rim)
+    assert found.fitted.all()
+    assert np.abs(found.normals - [0.0, 0.0, 1.0]).max() < 1e-9
+    assert found.errors.max() < 1e-9
+    dented = vertices.copy()
+    dented[np.setdiff1d(inside, rim), 2] -= 0.1
+    result = fairing.fair(dented, inside, fixed=rim, fixed_normals=found.normals, outside=outside)
+    assert np.abs(result.vertices[np.unique(inside), 2] - 1).max() < 1e-6
+    filled = fairing.fill(vertices, outside)
+    assert np.abs(filled.vertices[:, 2] - 1).max() < 1e-6
+
+
+@pytest.mark.parametrize("continuity", ["G1", "G2"])
+@pytest.mark.parametrize("rings", [1, 1.5, 2, 3])
+def test_a_crease_beside_the_boundary_does_not_bend_the_join(rings: float, continuity: str) -> None:
+    """Fits across it give .01 to .12."""
+    panel = solids.panel(rings)
+    found = fairing.surrounding_normals(panel.vertices, panel.outside, panel.rim)
+    result = fairing.fair(
+        panel.vertices, panel.inside, fixed=panel.rim, fixed_normals=found.normals, outside=panel.outside,
+        continuity=continuity,
+    )  # fmt: skip
+    assert panel.error(result.vertices) < 1e-3
+
+
+def test_what_one_row_does_not_show_is_in_the_error() -> None:
+    """A row of a panel that bends says nothing of its bend across: its normals are as far off as their errors say."""
+    panel = solids.panel(1)
+    found = fairing.surrounding_normals(panel.vertices, panel.outside, panel.rim)
+    off = np.linalg.norm(found.normals - panel.normals[panel.rim], axis=1)
+    assert 1e-3 < off.max() < 0.01
+    at_row = np.abs(panel.clean[panel.rim, 1] - 0.3) < 1e-9
+    assert 0.1 * found.errors[at_row].mean() < off[at_row].mean() < found.errors[at_row].mean()
+    assert np.median(found.errors[at_row]) > 20 * np.median(found.errors[~at_row])
+    assert np.isnan(found.trusted_curvatures[at_row]).sum() > 5
+
+
+def test_motion_and_scale_change_nothing() -> None:
+    panel = solids.panel(1)
+    found = fairing.surrounding_normals(panel.vertices, panel.outside, panel.rim)
+    turn, _ = np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))
+    turn *= np.linalg.det(turn)
+    moved = fairing.surrounding_normals(1e-3 * panel.vertices @ turn.T + 2.0, panel.outside, panel.rim)
+    assert np.abs(moved.normals - found.normals @ turn.T).max() < 1e-6
+
+
+def test_a_marked_edge_stops_the_fit() -> None:
+    """The crease bends by 17°: no hard edge unless it is marked."""
+    panel = solids.panel(1)
+    y = panel.clean[:, 1]
+    vertices = panel.clean.copy()
+    vertices[:, 2] -= 0.3 * np.maximum(0.0, y - 0.35)
+    row = np.flatnonzero(np.abs(y - 0.35) < 1e-9)
+    edges = np.column_stack([row[:-1], row[1:]])
+    exact = panel.normals[panel.rim]
+    unmarked = fairing.surrounding_normals(vertices, panel.outside, panel.rim)
+    marked = fairing.surrounding_normals(vertices, panel.outside, panel.rim, creases=edges)
+    assert np.abs(unmarked.normals - exact).max() > 0.03
+    assert np.abs(marked.normals - exact).max() < 0.01
