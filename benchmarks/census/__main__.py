@@ -3,16 +3,19 @@
     python benchmarks/census --module FOLDER --out FILE [--count N] [--seed S]
     python benchmarks/census --switches build/census [--count N] [--seed S] [NAME…]
     python benchmarks/census --table build/census
+    python benchmarks/census --limits build/census --kind KIND [--count N] [--seed S]
 
 The first form runs all problems with one built module (FOLDER/fairing) and writes a line of JSON each. The second does
 so for the tree as it is and for each change of switches.toml (or those named), made in a copy of the tree and built
-there; it needs an environment of scripts/setup on the PATH. The third writes the table.
+there; it needs an environment of scripts/setup on the PATH. The third writes the table. The fourth builds one module
+whose named limits can be set, and prints limits.toml's rows for calls of a kind (calls.py; "patches": plain ones).
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import shutil
 import subprocess
 import sys
 import time
@@ -72,6 +75,22 @@ def run(folder: Path, names: list[str], count: int, seed: int) -> None:
         print(name, flush=True)
 
 
+def set_limits(folder: Path, kind: str, count: int, seed: int) -> None:
+    """The rows of limits.toml of a kind, with the module built before where there is one."""
+    package = folder.resolve() / "modules" / "limits"
+    if not package.exists():
+        from variants import Tree
+
+        package = Tree(folder / "settable").built_with_limits()
+        shutil.copytree(package, folder / "modules" / "limits")
+    sys.path.insert(0, str(folder.resolve() / "modules" / "limits"))
+    import switched
+
+    from fairing import _core
+
+    switched.report(_core, kind, count, seed)
+
+
 def main() -> int:
     """By the options."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
@@ -79,6 +98,8 @@ def main() -> int:
     parser.add_argument("--out", type=Path)
     parser.add_argument("--switches", type=Path)
     parser.add_argument("--table", type=Path)
+    parser.add_argument("--limits", type=Path)
+    parser.add_argument("--kind", default="patches")
     parser.add_argument("--count", type=int, default=300)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("names", nargs="*")
@@ -87,6 +108,8 @@ def main() -> int:
         solved(options.module, options.count, options.seed, options.out)
     elif options.switches:
         run(options.switches, options.names, options.count, options.seed)
+    elif options.limits:
+        set_limits(options.limits, options.kind, options.count, options.seed)
     elif options.table:
         from table import table
 

@@ -83,10 +83,12 @@ def _asked(patch: real_meshes.RealPatch, number: int, rng: np.random.Generator) 
         normals = normals + rng.normal(scale=0.1, size=normals.shape)
         normals /= np.linalg.norm(normals, axis=1)[:, None]
     elif number % 12 == 8:
-        kind = f"{kind}, pin"
-        free = np.setdiff1d(np.arange(len(vertices)), fixed)
-        fixed = np.append(fixed, rng.choice(free))
-        normals = np.vstack([normals, np.full((1, 3), np.nan)])
+        beside = patch.triangles[np.isin(patch.triangles, fixed).any(axis=1)]  # no pins: their normals count
+        inside = np.setdiff1d(np.arange(len(vertices)), np.union1d(fixed, beside))
+        if len(inside):
+            kind = f"{kind}, pin"
+            fixed = np.append(fixed, rng.choice(inside))
+            normals = np.vstack([normals, [[0.0, 0.0, 1.0]]])
     return Problem(patch.name, kind, vertices, patch.triangles, fixed, normals, options)
 
 

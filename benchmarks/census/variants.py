@@ -8,8 +8,17 @@ import sys
 import tomllib
 from pathlib import Path
 
+from limits import make_settable
+
 ROOT = Path(__file__).resolve().parents[2]
-PARTS = ("CMakeLists.txt", "CMakePresets.json", "native", "tests/native", "addon/blender_manifest.toml")
+PARTS = (
+    "CMakeLists.txt",
+    "CMakePresets.json",
+    "pyproject.toml",
+    "native",
+    "tests/native",
+    "addon/blender_manifest.toml",
+)
 
 
 class Tree:
@@ -45,17 +54,33 @@ class Tree:
         finally:
             if changed:
                 changed.write_text(original)
+        return self._packed(package)
+
+    def built_with_limits(self) -> Path:
+        """The folder that holds the package `fairing` with limits that can be set; the copy is no other's then."""
+        make_settable(self.tree / "native")
+        self._build("-DFAIRING_WARNINGS_AS_ERRORS=OFF", "-DFAIRING_BUILD_TESTS=OFF")
+        return self._packed(self.folder / "modules" / "limits")
+
+    def _packed(self, package: Path) -> Path:
         shutil.rmtree(package, ignore_errors=True)
         shutil.copytree(self.tree / "native/python/fairing", package / "fairing")
         for module in (self.tree / "build/native/native").glob("_core.*.so"):
             shutil.copy(module, package / "fairing")
         return package
 
-    def _build(self) -> None:
+    def _build(self, *options: str) -> None:
         pybind11 = subprocess.run(
             [sys.executable, "-m", "pybind11", "--cmakedir"], check=True, capture_output=True, text=True
         ).stdout.strip()
-        configure = ["cmake", "--preset", "dev", f"-Dpybind11_DIR={pybind11}", f"-DPython_EXECUTABLE={sys.executable}"]
+        configure = [
+            "cmake",
+            "--preset",
+            "dev",
+            f"-Dpybind11_DIR={pybind11}",
+            f"-DPython_EXECUTABLE={sys.executable}",
+            *options,
+        ]
         for command in (configure, ["cmake", "--build", "--preset", "dev", "--target", "_core"]):
             done = subprocess.run(command, cwd=self.tree, capture_output=True, text=True, check=False)
             if done.returncode:

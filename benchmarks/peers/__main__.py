@@ -19,7 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "peers"
 sys.path += [str(ROOT / "tests"), str(BUILD / "driver")]
-PARTS = "times,live,graded,real,repeated,memory,quality"
+PARTS = "times,live,graded,real,irregular,repeated,memory,quality"
 NEEDED = ("fairing", "igl", "meshlib", "pymeshlab", "peers_driver", "numpy", "scipy", "matplotlib")
 
 
@@ -30,9 +30,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--million", action="store_true", help="a million as well: some 15 minutes and 12 GB")
     parser.add_argument("--limit", type=float, default=300.0, help="leave out calls expected to take longer, s")
     parser.add_argument("--calls", type=int, default=7, help="of each tool at most")
-    parser.add_argument(
-        "--parts", default="times,live,graded,real,repeated,memory,quality", help="measure only these anew"
-    )
+    parser.add_argument("--parts", default=PARTS, help="measure only these anew")
     parser.add_argument("--page", action="store_true", help="measure nothing, write the pages from the last run")
     parser.add_argument("--measured", type=Path, default=BUILD / "measured.json", help="file of the measurements")
     parser.add_argument("--out", type=Path, default=ROOT / "docs", help="folder of performance.md, dev/ and pictures/")

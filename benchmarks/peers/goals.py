@@ -41,8 +41,8 @@ class Goal:
 def goals(done: Measured) -> list[Goal]:
     """In the order of the plan."""
     return [
-        *_ratios(done), *_live(done), *_repeated(done), *_growth(done), *_memory(done), *_graded(done), *_real(done),
-        *_steps(done),
+        *_ratios(done), *_live(done), *_repeated(done), *_growth(done), *_memory(done), *_graded(done),
+        *_irregular(done), *_real(done), *_steps(done),
     ]  # fmt: skip
 
 
@@ -159,6 +159,22 @@ def _graded(done: Measured) -> Iterator[Goal]:
     walls = {row["kind"]: row["wall"] / row["free"] for row in done.graded if "wall" in row}
     ratio = walls["graded irregular"] / walls["regular"] if len(walls) == 2 else None
     yield Goal(text, 2, ratio, "per vertex")
+
+
+def _irregular(done: Measured) -> Iterator[Goal]:
+    ours = [row for row in done.irregular if row["tool"] == OURS and "cpu" in row]
+    for size in sorted({row["size"] for row in ours}):
+        each = {(row["shape"], row["regular"]): row for row in ours if row["size"] == size}
+        shapes = [shape for shape, regular in each if regular and (shape, False) in each]
+        ratios = {shape: _each(each[shape, False]) / _each(each[shape, True]) for shape in shapes}
+        note = ", ".join(f"{shape} {ratio:.2g}" for shape, ratio in ratios.items())
+        lost = tuple(shape for shape in shapes if not each[shape, False]["state"].startswith("converged"))
+        yield Goal(f"irregular ÷ regular, {_thousands(size)}", 3, max(ratios.values()), note, unsolved=lost)
+
+
+def _each(row: Row) -> float:
+    """Seconds of the processor for each free vertex."""
+    return float(row["cpu"] / row["free"])
 
 
 def _real(done: Measured) -> Iterator[Goal]:

@@ -18,12 +18,13 @@ import memory
 import quality
 import real_rows
 import repeated
-from problems import BLEND, OTHER, PATCHES, REGULAR, problem
+from problems import BLEND, IRREGULAR, OTHER, PATCHES, REGULAR, problem
 from tools import BY_NAME, OURS, TOOLS, Tool
 
 SHAPES = [name for name in PATCHES if name != "graded hemisphere"] + [BLEND]
 SECOND = 0.8  # share of the vertices of the other mesh of a patch
 GRADED = 100_000
+UNEVEN = (1_000, 10_000)
 REAL = (10_000, 30_000, 100_000)
 LARGEST_FOR_ALL = 256_000  # beyond, ours and the peers alone: others take hours
 Row = dict[str, Any]
@@ -41,6 +42,7 @@ class Measured:
     repeated: list[Row] = field(default_factory=list)
     graded: list[Row] = field(default_factory=list)
     real: list[Row] = field(default_factory=list)
+    irregular: list[Row] = field(default_factory=list)
 
     def save(self, path: Path) -> None:
         """As JSON."""
@@ -153,6 +155,18 @@ def _graded(plan: Plan, _done: Measured) -> Iterator[Row]:
         yield {"kind": kind, "free": len(mesh.free), **_clocked(mesh, clocked)}
 
 
+def _irregular(plan: Plan, _done: Measured) -> Iterator[Row]:
+    """Ours on irregular and regular meshes of a surface, the fast peers on the same irregular one."""
+    peers = [tool for tool in TOOLS if tool.kind == "peer" and not tool.alike]
+    for size in UNEVEN:
+        for shape in ("hemisphere", "cylinder", "catenoid"):
+            for style, tools in ((IRREGULAR, [BY_NAME[OURS], *peers]), (REGULAR, [BY_NAME[OURS]])):
+                made = problem(plan.folder, shape, size, style)
+                for name, clocked in clock.interleaved(made, tools, plan.calls).items():
+                    kind = {"shape": shape, "size": size, "free": len(made.free), "regular": style == REGULAR}
+                    yield {**kind, "tool": name, **_clocked(made, clocked)}
+
+
 def _real(plan: Plan, _done: Measured) -> Iterator[Row]:
     """Up to the largest size of the run."""
     for size in (size for size in REAL if size <= max(plan.sizes)):
@@ -193,6 +207,7 @@ PARTS: dict[str, Callable[[Plan, Measured], Iterator[Row]]] = {
     "live": _live,
     "graded": _graded,
     "real": _real,
+    "irregular": _irregular,
     "repeated": _repeated,
     "memory": _memory,
     "quality": _quality,

@@ -37,6 +37,9 @@ PATCHES: dict[str, Callable[[int, Style], Patch]] = {
 BLEND = "three-cylinder blend"
 CAPS = ("cap of 20°", "cap of 60°", "hemisphere")
 REGULAR, JITTERED, OTHER = Style(jitter=0.0), Style(), Style(seed=1)
+# Random points, Delaunay in a stretched plane: valences 2 to 12, half of the least angles below 27°, edges 10 : 1.
+IRREGULAR = Style(layout="random", stretch=2.5, jitter=0.0)
+KINDS = {REGULAR: "regular", IRREGULAR: "irregular"}
 
 
 @dataclass(frozen=True)
@@ -102,7 +105,7 @@ def _surface(name: str) -> Patch:
 
 def problem(folder: Path, name: str, size: int, style: Style = JITTERED) -> Problem:
     """Of about `size` free vertices, from the folder or made now."""
-    kind = "regular" if style == REGULAR else f"seed {style.seed}"
+    kind = KINDS.get(style, f"seed {style.seed}")
     path = folder / f"{name}, {size}, {kind}.npz".replace(" ", "_").replace("/", "")
     if not path.exists():
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -125,6 +125,23 @@ def graded(done: Measured) -> str:
     return _table(["mesh of the hemisphere", "free", "ours, s", "outer steps", "ended", "error / D"], rows)
 
 
+def irregular(done: Measured) -> str:
+    """Ours on irregular meshes beside the regular ones, and the nearest of the linear tools on the same mesh."""
+    rows = []
+    for key in dict.fromkeys((row["shape"], row["size"]) for row in done.irregular):
+        here = [row for row in done.irregular if (row["shape"], row["size"]) == key and "cpu" in row]
+        ours = {row["regular"]: row for row in here if row["tool"] == OURS}
+        peer = min((row for row in here if row["tool"] != OURS), key=lambda row: float(row["error"]))
+        rows.append([
+            f"{key[0]}, {key[1]:,}", *(f"{ours[regular]['cpu']:.3g}" for regular in (False, True)),
+            f"{ours[False]['state']}", f"{ours[False]['error']:.1e}", f"{ours[True]['error']:.1e}",
+            f"{peer['tool']}: {peer['cpu']:.3g}, {peer['error']:.1e}",
+        ])  # fmt: skip
+    head = ["mesh", "ours, irregular, s", "regular, s", "ended", "error / D, irregular", "regular",
+            "nearest linear tool: s, error / D"]  # fmt: skip
+    return _table(head, rows)
+
+
 def real(done: Measured) -> str:
     """Ours on meshes as users have them."""
     rows = [
@@ -146,6 +163,6 @@ def quality_size(done: Measured) -> str:
 
 BY_NAME: dict[str, Callable[[Measured], str]] = {
     "machine": machine, "times": times,
-    "graded": graded, "real": real, "memory": memory, "repeated": repeated,
+    "graded": graded, "real": real, "irregular": irregular, "memory": memory, "repeated": repeated,
     "quality": quality, "errors": errors, "quality_size": quality_size, "steps": steps,
 }  # fmt: skip

@@ -83,9 +83,7 @@ void inherit(Solution& found, Solution tangent, const KnownCurvature& known) {
 }  // namespace
 
 Solution joined(const Problem& problem, Solution tangent, const Progress& progress) {
-    // Root mean square.
-    constexpr double negligible = 0.01;
-    constexpr double negligible_beside_roughness = 0.02;
+    constexpr double negligible = 0.01;  // root mean square
     if (tangent.flaw != Flaw::absent || tangent.uniform_weights || stands_in(tangent.provenance))
         return with_join(std::move(tangent), Join::no_tangent_join);
     if (!tangent.polished) return with_join(std::move(tangent), Join::other_mesh);
@@ -97,7 +95,7 @@ Solution joined(const Problem& problem, Solution tangent, const Progress& progre
     const VectorX smooth = smooth_part(problem, known, missing);
     tangent.smooth_share = smooth.squaredNorm() / missing.squaredNorm();
     if (tangent.smooth_share < least_smooth_share) {
-        const bool is_met = relative_size(known, smooth) <= negligible_beside_roughness;
+        const bool is_met = relative_size(known, smooth) <= negligible;
         return with_join(std::move(tangent), is_met ? kind_of(known) : Join::too_rough);
     }
     const Stopwatch watch;

@@ -166,6 +166,7 @@ bool EvenMesh::may_collapse(Halfedge h) {
     const Vertex gone = mesh_.from_vertex_handle(h);
     const Vertex kept = mesh_.to_vertex_handle(h);
     if (fixed(gone) || makes_long_edges(h, longest_after)) return false;
+    if (static_cast<int>(mesh_.valence(gone) + mesh_.valence(kept)) - 4 > highest_valence) return false;
     if (!mesh_.is_collapse_ok(h)) return false;
     const Vector3 place = point(kept);
     const Vector3 normal = surface_->normal(where_[kept.idx()]);
@@ -213,6 +214,9 @@ bool EvenMesh::may_flip(Edge e) const {
     const Vertex above = apex(h);
     const Vertex below = apex(mesh_.halfedge_handle(e, 1));
     if (fixed(above) && fixed(below)) return false;
+    for (const Vertex v : {above, below}) {
+        if (static_cast<int>(mesh_.valence(v)) >= highest_valence) return false;
+    }
     return diagonal(e).flips_without_fold();
 }
 

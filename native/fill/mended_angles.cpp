@@ -60,6 +60,7 @@ bool EvenMesh::may_close(Halfedge h) {
     const Vertex kept = mesh_.to_vertex_handle(h);
     if (fixed(gone) || free_count_ < 2 || !mesh_.is_collapse_ok(h)) return false;
     if (makes_long_edges(h, coarsest)) return false;
+    if (static_cast<int>(mesh_.valence(gone) + mesh_.valence(kept)) > highest_valence + 4) return false;
     for (const Vertex other : mesh_.vv_range(gone)) {
         if (other != kept && !mesh_.find_halfedge(kept, other).is_valid() && !may_join(kept, other)) return false;
     }
@@ -94,8 +95,10 @@ std::vector<std::function<int(EvenMesh&)>> EvenMesh::remedies(Face f) {
         if (!stays(e)) {
             const Vertex above = apex(side);
             const Vertex below = apex(mesh_.opposite_halfedge_handle(side));
-            result.emplace_back([e](EvenMesh& mesh) { return mesh.split(e).idx(); });
-            if (mesh_.is_flip_ok(e) && may_join(above, below))
+            const bool has_room =
+                static_cast<int>(std::max(mesh_.valence(above), mesh_.valence(below))) <= highest_valence;
+            if (has_room) result.emplace_back([e](EvenMesh& mesh) { return mesh.split(e).idx(); });
+            if (has_room && mesh_.is_flip_ok(e) && may_join(above, below))
                 result.emplace_back([e](EvenMesh& mesh) { return mesh.turn_edge(e); });
         }
         if (fixed(corner)) continue;

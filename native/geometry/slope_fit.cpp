@@ -15,7 +15,6 @@ namespace {
 
 constexpr double width_of_weights = 0.6;  // over the distance of the farthest point: it counts for 6 % in each row
 constexpr double least_pivot = 1e-4;      // of the largest, where the columns are about of one size
-constexpr int least_rounds = 3;           // the direction is known from the second one on
 constexpr int most_rounds = 10;
 constexpr double settled = 1e-12;
 constexpr double settled_in_noise = 1e-3;  // standard errors
@@ -235,7 +234,7 @@ std::optional<SlopeFit> fit_slopes(const Vector3& centre, std::span<const Vector
         const Vector3 direction = is_strip ? axes.x : most_curved(round->terms, axes);
         take(result, *round, axes);
         axes = turned_into(direction, result.normal);
-        if (k + 1 >= least_rounds && change < std::max(settled, settled_in_noise * round->error)) break;
+        if (change < std::max(settled, settled_in_noise * round->error)) break;
     }
     if (!(result.normal.dot(start) > cos_of_widest_turn)) return std::nullopt;
     result.curvature_error = fit.error_of_curvature() / fit.scale();

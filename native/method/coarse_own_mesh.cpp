@@ -2,12 +2,11 @@
 
 #include <algorithm>
 
-#include "base/stopwatch.h"
 #include "method/levels.h"
+#include "placement/disc_placement.h"
 #include "placement/first_placement.h"
 #include "placement/folds.h"
 #include "placement/untangle.h"
-#include "problem/surface_state.h"
 #include "tangential/slide.h"
 
 namespace fairing {
@@ -18,76 +17,50 @@ namespace {
 constexpr int most_slides = 8;
 constexpr int most_coarsest_slides = 60;
 
-enum class Polish { wanted, unwanted };
-
 // From this many free vertices on the low-passed loop tells.
 bool begins_low_passed(const Problem& problem, const Traits& traits) {
     return traits.is_large && traits.is_jagged && problem.patch.free_count >= smallest_telling &&
            problem.patch.loop_count() == 1;
 }
 
-class CoarseOwnMesh {
+class CoarseOwnMesh final : public OnOwnMesh {
 public:
     CoarseOwnMesh(const Problem& problem, const CoarseStart& start, const Progress& progress)
-        : problem_(problem), progress_(progress), start_(start), levels_(problem, Outlines::kept, coarsest_size) {}
+        : OnOwnMesh(problem, progress), start_(start), levels_(problem, Outlines::kept, coarsest_size) {}
 
-    std::optional<Solution> run(const std::optional<OwnSurface>& guess, Polish polish) {
-        const std::size_t coarsest = levels_.coarsest();
-        if (coarsest == 0) return std::nullopt;
-        const Problem& coarse = levels_.problem(coarsest);
-        std::map<std::string, double> seconds;
-        const Points membrane = start_.proxy() ? start_.membrane() : proxy_membrane(coarse, progress_);
-        const SurfaceState start = measured_surface(coarse, membrane);
-        std::optional<Points> own;
-        if (guess) own = on_coarsest(guess->points);
-        seconds["fill"] = watch_.lap();
-        const SolvedProxy proxy = solved_proxy(guess && guess->is_start(problem_) ? own : std::nullopt, membrane);
-        seconds["proxy"] = watch_.lap();
-        if (polish == Polish::unwanted && !proxy.converged()) return std::nullopt;
-        const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
-        const Placed best = placed(proxy, target, own);
-        Solution solution = placed_solution(problem_, proxy, target, best);
-        seconds["placement"] = watch_.lap();
-        if (polish == Polish::wanted && solution.termination == Termination::converged &&
-            best.folded_by_springs <= problem_.tolerated_folds)
-            solution = polished_here(std::move(solution), surface_of(proxy, target, best.placement));
-        seconds["polish"] = watch_.lap();
-        solution.initial_residual = largest_residual(coarse, start, outer_residual(coarse, start));
-        solution.levels = levels_.sizes();
-        solution.seconds = std::move(seconds);
-        return solution;
-    }
+    [[nodiscard]] bool has_levels() const { return levels_.coarsest() > 0; }
+    [[nodiscard]] Indices sizes() const { return levels_.sizes(); }
 
 private:
+    [[nodiscard]] const Problem& source() const override { return levels_.problem(levels_.coarsest()); }
+
+    [[nodiscard]] Points membrane() const override {
+        return start_.proxy() ? start_.membrane() : proxy_membrane(source(), progress_);
+    }
+
     // Columns of a surface of the problem's patch.
-    [[nodiscard]] Points on_coarsest(const Points& points) const {
-        const Patch& patch = levels_.problem(levels_.coarsest()).patch;
-        Points result(3, patch.vertex_count());
-        for (int v = 0; v < patch.vertex_count(); ++v) result.col(v) = points.col(patch.to_input[v]);
-        return result;
+    [[nodiscard]] Points on_source(const Points& points) const override {
+        return points(Eigen::all, source().patch.to_input);
     }
 
     // What large patches do not find from their start, they would not find without it either.
-    SolvedProxy solved_proxy(const std::optional<Points>& guess, const Points& membrane) {
-        const Problem& problem = levels_.problem(levels_.coarsest());
+    SolvedProxy solved_proxy(const std::optional<Points>& guess, const Points& membrane) override {
         const int shown = problem_.patch.free_count;
         const Progress part = progress_.range(0.0, 0.5);
         if (start_.proxy() && !guess) {
-            SolvedProxy proxy = solve_fine_proxy(problem, *start_.proxy(), shown, part);
+            SolvedProxy proxy = solve_fine_proxy(source(), *start_.proxy(), shown, part);
             if (proxy.converged() || shown >= smallest_telling) return proxy;
         }
-        return solve_proxy(problem, guess, membrane, shown, part);
+        return solve_proxy(source(), guess, membrane, shown, part);
     }
 
     // By springs where nothing folds then, otherwise from where the coarsest vertices lie without them, and at last
     // from what both meshes share in the unit disc. The coarse levels are no help there: limbs are points on them.
-    Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own) {
-        const std::size_t coarsest = levels_.coarsest();
-        const Problem& coarse = levels_.problem(coarsest);
-        for (std::size_t k = coarsest + 1; k-- > 0;) levels_.set_up_tangential(k, progress_);
+    Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own) override {
+        for (std::size_t k = levels_.coarsest() + 1; k-- > 0;) levels_.set_up_tangential(k, progress_);
         std::vector<Start> starts;
-        if (own) starts.push_back(start_from(by_surface(coarse, *own, proxy.mesh.patch, target), target));
-        starts.push_back(start_from(by_history(coarse, proxy.history, proxy.mesh, target), target));
+        if (own) starts.push_back(start_from(by_surface(source(), *own, proxy.mesh.patch, target), target));
+        starts.push_back(start_from(by_history(source(), proxy.history, proxy.mesh, target), target));
         Start& start = least_folded(starts, target);
         Placement settled = spread(std::move(start.settled), target);
         if (!proxy.converged()) return {std::move(settled), {}, 0};  // no solution: its folds don't matter
@@ -95,8 +68,8 @@ private:
         if (best.folded.empty()) return best;
         keep_better(unfolded(std::move(start.raw), target), best);
         if (best.folded.empty()) return best;
-        auto other = place_by_disc(problem_, *levels_.work(0).tangential, proxy.mesh.patch, target, progress_.here());
-        if (other) keep_better(std::move(*other), best);
+        if (const auto disc = by_disc(problem_, proxy.mesh.patch, target))
+            keep_better(place_from(problem_, *levels_.work(0).tangential, target, *disc, progress_.here()), best);
         return best;
     }
 
@@ -121,8 +94,9 @@ private:
 
     // A start on the wrong sheet leaves many folds.
     Start& least_folded(std::vector<Start>& starts, const TargetSurface& target) {
-        const Problem& coarse = levels_.problem(levels_.coarsest());
-        const auto folds = [&](const Start& start) { return folds_of_placement(coarse, target, start.settled).size(); };
+        const auto folds = [&](const Start& start) {
+            return folds_of_placement(source(), target, start.settled).size();
+        };
         if (starts.size() == 1) return starts.front();
         return folds(starts[0]) <= folds(starts[1]) ? starts[0] : starts[1];
     }
@@ -184,7 +158,11 @@ private:
         return {std::move(where), std::move(points)};
     }
 
-    Solution polished_here(Solution placed, const SolvedSurface& surface) {
+    [[nodiscard]] bool may_polish(const Placed& placed) const override {
+        return placed.folded_by_springs <= problem_.tolerated_folds;
+    }
+
+    Solution on_users_mesh(Solution placed, const SolvedSurface& surface) override {
         Workspace& work = levels_.work(0);
         work.normal = make_normal_operator(problem_, placed.points.leftCols(problem_.patch.free_count));
         if (std::holds_alternative<RowWeights>(*problem_.weights)) {
@@ -194,10 +172,7 @@ private:
         return polished(problem_, work, std::move(placed), surface, progress_.range(0.6, 1.0));
     }
 
-    const Problem& problem_;
-    const Progress& progress_;
     const CoarseStart& start_;
-    Stopwatch watch_;
     Levels levels_;
 };
 
@@ -212,13 +187,12 @@ CoarseStart::CoarseStart(const Problem& problem, const Traits& traits, const Pro
 }
 
 std::optional<Solution> solve_on_coarse_own_mesh(const Problem& problem, const std::optional<OwnSurface>& guess,
-                                                 const CoarseStart& start, const Progress& progress) {
-    return CoarseOwnMesh(problem, start, progress).run(guess, Polish::wanted);
-}
-
-std::optional<Solution> place_on_coarse_own_mesh(const Problem& problem, const CoarseStart& start,
-                                                 const Progress& progress) {
-    return CoarseOwnMesh(problem, start, progress).run(std::nullopt, Polish::unwanted);
+                                                 Polish polish, const CoarseStart& start, const Progress& progress) {
+    CoarseOwnMesh mesh(problem, start, progress);
+    if (!mesh.has_levels()) return std::nullopt;
+    auto solution = mesh.run(guess, polish);
+    if (solution) solution->levels = mesh.sizes();
+    return solution;
 }
 
 }  // namespace fairing

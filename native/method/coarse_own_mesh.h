@@ -1,8 +1,8 @@
-// The same for large patches: the engine's mesh is made from a coarse level, the user's vertices are placed level by
-// level.
+// On a mesh of the engine's own for large patches: it is made from a coarse level, the user's vertices are placed level
+// by level.
 #pragma once
 
-#include "method/placed.h"
+#include "method/on_own_mesh.h"
 #include "method/traits.h"
 
 namespace fairing {
@@ -25,15 +25,10 @@ private:
     Points membrane_;
 };
 
-// As solve_on_own_mesh. Nothing of the user's size is solved before its surface is known. Folds count on the finest
-// level alone: coarse levels may have no placement without any. Where springs alone fold triangles, the equation's
-// solution by them would be folded, too, and it is not solved on the user's mesh. Nothing where the patch has no
-// levels.
+// Nothing of the user's size is solved before its surface is known. Folds count on the finest level alone: coarse
+// levels may have no placement without any. Where springs alone fold triangles, the equation's solution by them would
+// be folded, too, and it is not solved on the user's mesh. Nothing where the patch has no levels.
 std::optional<Solution> solve_on_coarse_own_mesh(const Problem& problem, const std::optional<OwnSurface>& guess,
-                                                 const CoarseStart& start, const Progress& progress);
-
-// Placed alone, from nothing. Nothing where the engine's mesh has no solution.
-std::optional<Solution> place_on_coarse_own_mesh(const Problem& problem, const CoarseStart& start,
-                                                 const Progress& progress);
+                                                 Polish polish, const CoarseStart& start, const Progress& progress);
 
 }  // namespace fairing

@@ -1,8 +1,6 @@
 #include "method/own_mesh.h"
 
-#include "base/stopwatch.h"
 #include "method/coarse_own_mesh.h"
-#include "problem/surface_state.h"
 
 namespace fairing {
 
@@ -20,67 +18,34 @@ std::optional<OwnSurface> left_by(const Attempts& attempts) {
 }
 
 // On a mesh made from the problem's own connectivity.
-class FineOwnMesh {
+class FineOwnMesh final : public OnOwnMesh {
 public:
-    FineOwnMesh(const Problem& problem, const Progress& progress)
-        : problem_(problem),
-          progress_(progress),
-          membrane_(proxy_membrane(problem, progress)),
-          start_(measured_surface(problem, membrane_)) {}
-
-    Solution solved(const std::optional<OwnSurface>& guess) {
-        std::optional<Points> own;
-        if (guess) own = guess->points;
-        const SolvedProxy proxy = solved_proxy(guess && guess->is_start(problem_) ? own : std::nullopt);
-        const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
-        Workspace work{make_normal_operator(problem_), tangential_step()};
-        const auto put = proxy.converged() ? place : place_roughly;
-        const Placed placed =
-            put(problem_, *work.tangential, {proxy.history, proxy.mesh, target}, own, progress_.range(0.6, 0.8));
-        Solution solution = placed_solution(problem_, proxy, target, placed);
-        seconds_["placement"] = watch_.lap();
-        if (solution.termination == Termination::converged)
-            solution = polished(problem_, work, std::move(solution), surface_of(proxy, target, placed.placement),
-                                progress_.range(0.8, 1.0));
-        seconds_["polish"] = watch_.lap();
-        return finished(std::move(solution));
-    }
-
-    std::optional<Solution> placed_alone() {
-        const SolvedProxy proxy = solved_proxy(std::nullopt);
-        if (!proxy.converged()) return std::nullopt;
-        const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
-        const auto tangential = tangential_step();
-        const Placed placed =
-            place(problem_, *tangential, {proxy.history, proxy.mesh, target}, std::nullopt, progress_.range(0.6, 0.8));
-        return finished(placed_solution(problem_, proxy, target, placed));
-    }
+    FineOwnMesh(const Problem& problem, const Progress& progress) : OnOwnMesh(problem, progress) {}
 
 private:
-    SolvedProxy solved_proxy(const std::optional<Points>& guess) {
-        seconds_["fill"] = watch_.lap();
-        SolvedProxy proxy =
-            solve_proxy(problem_, guess, membrane_, problem_.patch.free_count, progress_.range(0.0, 0.6));
-        seconds_["proxy"] = watch_.lap();
-        return proxy;
+    [[nodiscard]] const Problem& source() const override { return problem_; }
+    [[nodiscard]] Points membrane() const override { return proxy_membrane(problem_, progress_); }
+    [[nodiscard]] Points on_source(const Points& points) const override { return points; }
+
+    SolvedProxy solved_proxy(const std::optional<Points>& guess, const Points& membrane) override {
+        return solve_proxy(problem_, guess, membrane, problem_.patch.free_count, progress_.range(0.0, 0.6));
     }
 
-    [[nodiscard]] std::unique_ptr<TangentialStep> tangential_step() const {
-        return make_tangential_step(problem_.patch, problem_.weights, problem_.fixed_points, progress_.here());
+    Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own) override {
+        work_.tangential =
+            make_tangential_step(problem_.patch, problem_.weights, problem_.fixed_points, progress_.here());
+        const auto put = proxy.converged() ? place : place_roughly;
+        return put(problem_, *work_.tangential, {proxy.history, proxy.mesh, target}, own, progress_.range(0.6, 0.8));
     }
 
-    Solution finished(Solution solution) {
-        solution.initial_residual = largest_residual(problem_, start_, outer_residual(problem_, start_));
-        solution.seconds = std::move(seconds_);
-        return solution;
+    [[nodiscard]] bool may_polish(const Placed&) const override { return true; }
+
+    Solution on_users_mesh(Solution placed, const SolvedSurface& surface) override {
+        work_.normal = make_normal_operator(problem_);
+        return polished(problem_, work_, std::move(placed), surface, progress_.range(0.8, 1.0));
     }
 
-    const Problem& problem_;
-    const Progress& progress_;
-    Stopwatch watch_;
-    std::map<std::string, double> seconds_;
-    Points membrane_;
-    SurfaceState start_;
+    Workspace work_;
 };
 
 // Found once for all steps.
@@ -98,16 +63,17 @@ std::optional<Solution> solve_on_own_mesh(const Problem& problem, const Traits& 
     if (begins_coarse(traits, guess)) {
         const CoarseStart& start = start_of(problem, traits, attempts, progress);
         if (start.is_in_vain() && !attempts.found.empty()) return std::nullopt;
-        if (auto solution = solve_on_coarse_own_mesh(problem, guess, start, progress)) return solution;
+        if (auto solution = solve_on_coarse_own_mesh(problem, guess, Polish::wanted, start, progress)) return solution;
     }
-    return FineOwnMesh(problem, progress).solved(guess);
+    return FineOwnMesh(problem, progress).run(guess, Polish::wanted);
 }
 
 std::optional<Solution> place_on_own_mesh(const Problem& problem, const Traits& traits, Attempts& attempts,
                                           const Progress& progress) {
-    if (!traits.is_large) return FineOwnMesh(problem, progress).placed_alone();
+    if (!traits.is_large) return FineOwnMesh(problem, progress).run(std::nullopt, Polish::unwanted);
     const CoarseStart& start = start_of(problem, traits, attempts, progress);
-    return start.is_in_vain() ? std::nullopt : place_on_coarse_own_mesh(problem, start, progress);
+    if (start.is_in_vain()) return std::nullopt;
+    return solve_on_coarse_own_mesh(problem, std::nullopt, Polish::unwanted, start, progress);
 }
 
 }  // namespace fairing

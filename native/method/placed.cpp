@@ -56,7 +56,8 @@ Solution placed_by_weights(const Problem& problem, const Solution& uniform, cons
     const TargetSurface target(problem.patch, state.points, state.normals);
     Workspace work{make_normal_operator(problem, state.points.leftCols(problem.patch.free_count)),
                    make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())};
-    Placed placed = place_own(problem, *work.tangential, target, state.points, progress.here());
+    const Placed placed =
+        place_from(problem, *work.tangential, target, at_vertices(problem, target, state.points), progress.here());
     Solution solution = uniform;
     solution.mean_curvature = carried_over(placed.placement, target, uniform.mean_curvature, problem);
     solution.points = placed.placement.points;

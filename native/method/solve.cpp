@@ -28,12 +28,13 @@ using Found = std::optional<Solution>;
 bool is_answer(const Solution& solution) { return end_of(solution) == Termination::converged; }
 
 // Largest product of variation and area from which a descent is tried: 95 for an elbow of 150°, and none was seen to
-// end from 1e3 between several loops. Small discs ended well from up to 2.5e4; those of 600 random patches that did
-// not, after four beginnings, had 4e5 and more.
+// end from there on between several loops. Small discs ended well from up to 2.5e4; those of 600 random patches that
+// did not, after four beginnings, had 4e5 and more.
+constexpr double most_product = 1e3;
 VariationLimits limits_for(const Problem& problem, const Traits& traits) {
     constexpr int largest_patient = 600;  // free vertices
     const bool is_patient = problem.patch.loop_count() == 1 && problem.patch.free_count <= largest_patient;
-    VariationLimits limits{is_patient ? 1e5 : 1e3};
+    VariationLimits limits{is_patient ? 1e5 : most_product};
     if (traits.is_large) limits.most_beginnings = 1;
     return limits;
 }
@@ -49,17 +50,21 @@ Found least_variation(const Problem& problem, const VariationLimits& limits, con
     return found;
 }
 
-Found with_placed_weights(const Problem& problem, const Traits& traits, const Progress& progress) {
+Problem with_uniform_weights(const Problem& problem) {
     Problem uniform = problem;
     uniform.weights = uniform_weights(problem.patch);
+    return uniform;
+}
+
+Found solve_placed_weights(const Problem& problem, const Traits& traits, const Progress& progress) {
+    const Problem uniform = with_uniform_weights(problem);
     Found solution = solve_nested(uniform, traits, progress.range(0.0, 0.5));
     if (!solution || flaw_of(uniform, *solution) != Flaw::absent) return std::nullopt;
     return placed_by_weights(problem, *solution, progress.range(0.5, 1.0));
 }
 
-Found with_uniform_weights(const Problem& problem, const Progress& progress) {
-    Problem uniform = problem;
-    uniform.weights = uniform_weights(problem.patch);
+Found solve_uniform_weights(const Problem& problem, const Progress& progress) {
+    Problem uniform = with_uniform_weights(problem);
     uniform.tolerated_folds = 0;
     Solution solution = solve_equation_alone(uniform, progress);
     if (solution.flaw != Flaw::absent) return std::nullopt;
@@ -147,8 +152,8 @@ private:
                 return is_all ? solve_directly(problem_, progress) : try_directly(problem_, progress);
             }
             case Step::own_mesh: return solve_on_own_mesh(problem_, traits_, attempts_, progress);
-            case Step::placed_weights: return with_placed_weights(problem_, traits_, progress);
-            case Step::uniform_weights: return with_uniform_weights(problem_, progress);
+            case Step::placed_weights: return solve_placed_weights(problem_, traits_, progress);
+            case Step::uniform_weights: return solve_uniform_weights(problem_, progress);
             case Step::low_passed: return solve_low_passed(problem_, traits_, attempts_, progress);
             case Step::lifted_pins: return lift_pins(problem_, pin_radius_, std::nullopt, progress);
             case Step::least_variation:
@@ -238,7 +243,7 @@ std::optional<Solution> solve_stand_in_roughly(const Problem& problem, const Poi
                         (options.otherwise == Otherwise::least_variation && options.equation != Equation::minimal);
     if (!wanted || Traits(problem).is_jagged) return std::nullopt;
     const Stopwatch watch;
-    VariationLimits limits{1e3};
+    VariationLimits limits{most_product};
     limits.near = NearVariation{near, true};
     return answer(problem, least_variation(problem, limits, progress), name_of(Step::least_variation), watch);
 }

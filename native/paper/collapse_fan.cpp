@@ -6,19 +6,18 @@
 
 #include <Eigen/Geometry>
 
+#include "geometry/limits.h"
+#include "proxy/proxy_mesh.h"
+
 namespace fairing {
 
 namespace {
 
-// Inner radius over longest edge, relative to that of an equilateral triangle, which is 1/(2 √3).
-constexpr double worst_shape = 0.25;
-// Cosine between the normals of a triangle before and after.
-constexpr double widest_turn = 0.3;
-
-// Of a triangle with twice this area and these sides: 1 equilateral, 0 degenerate.
+// Inner radius over longest edge, relative to that of an equilateral triangle, which is 1/(2 √3), of a triangle with
+// twice this area and these sides: 1 equilateral, 0 degenerate.
 double roundness(double twice_area, double a, double b, double c) {
-    constexpr double smallest = std::numeric_limits<double>::min();
-    return 2.0 * std::numbers::sqrt3 * twice_area / std::max((a + b + c) * std::max({a, b, c}), smallest);
+    return 2.0 * std::numbers::sqrt3 * twice_area /
+           std::max((a + b + c) * std::max({a, b, c}), std::numeric_limits<double>::min());
 }
 
 }  // namespace
@@ -64,7 +63,7 @@ double CollapseFan::worst_after(const Vector3& target, double length) {
         if (from_target_[k] == 0.0 || from_target_[next] == 0.0) continue;
         const Vector3 cross = (points_[k] - target).cross(points_[next] - target);
         const double twice_area = cross.norm();
-        if (normals_[k].dot(cross) < widest_turn * twice_area) return -1.0;
+        if (normals_[k].dot(cross) < cos_of_widest_turn * twice_area) return -1.0;
         worst = std::min(worst, roundness(twice_area, from_target_[k], from_target_[next], rim_[k]));
         // Where triangles are bad already, the collapse need only not make them worse.
         if (worst < std::min(worst_shape, worst_) || length * (1.5 - worst) >= best_) return -1.0;

@@ -10,17 +10,13 @@ namespace {
 constexpr std::size_t fewest_steps = 4;
 constexpr std::size_t most_steps = 10;
 constexpr double fastest = 0.8;  // contraction
-constexpr double slowest = 0.9999;
 
-constexpr std::size_t window = 10;  // cycles over which growth shows
+constexpr std::size_t window = 10;  // cycles over which growth or rest shows
 constexpr double growth_of_alternation = 2.0;
-constexpr double hopeless_growth = 1e3;  // of the accelerated iteration
-constexpr std::size_t spell = 15;        // cycles
-constexpr double hardly_falling = 0.97;  // lowest merit of a spell over that of the spell before
+constexpr double hardly_falling = 0.97;  // lowest merit of a window over that of the window before
 constexpr double undone = 0.1;           // part of the moves that is left when two updates undo each other
 constexpr int undone_cycles = 5;
-constexpr int plain_patience = 150;  // cycles without a hundredth less
-constexpr int accelerated_patience = 50;
+constexpr int patience = 50;  // cycles without a hundredth less
 
 }  // namespace
 
@@ -36,8 +32,8 @@ double RemainingChange::estimate() const {
     const double last = *std::max_element(steps_.end() - 3, steps_.end());
     const double ratio = last / std::max(steps_.front(), 1e-300);
     const auto between = static_cast<double>(steps_.size() - 3);
-    const double contraction = std::clamp(std::pow(ratio, 1.0 / between), fastest, slowest);
-    return last * contraction / (1.0 - contraction);
+    const double contraction = std::max(std::pow(ratio, 1.0 / between), fastest);
+    return contraction < 1.0 ? last * contraction / (1.0 - contraction) : std::numeric_limits<double>::infinity();
 }
 
 double RemainingChange::share_done(double tolerance) const {
@@ -50,7 +46,7 @@ Verdict ProgressWatch::judge(const Change& change) {
     const double merit = change.merit;
     if (!std::isfinite(merit)) return Verdict::lost;
     recent_.push_back(merit);
-    if (recent_.size() > 2 * spell) recent_.pop_front();
+    if (recent_.size() > 2 * window) recent_.pop_front();
     ++since_mark_;
     if (merit < 0.99 * mark_) {
         mark_ = merit;
@@ -58,7 +54,7 @@ Verdict ProgressWatch::judge(const Change& change) {
     }
     const bool better = merit < best_;
     best_ = std::min(best_, merit);
-    const bool exhausted = since_mark_ > (accelerated_ ? accelerated_patience : plain_patience);
+    const bool exhausted = since_mark_ > patience;
     if (exhausted || undoing(change) || growing() || resting()) return Verdict::alternating;
     return better ? Verdict::better : Verdict::fair;
 }
@@ -77,13 +73,13 @@ bool ProgressWatch::undoing(const Change& change) {
 }
 
 bool ProgressWatch::growing() const {
-    if (accelerated_) return recent_.back() > hopeless_growth * best_;
-    return recent_.size() > window && recent_.back() > growth_of_alternation * recent_[recent_.size() - 1 - window];
+    return !accelerated_ && recent_.size() > window &&
+           recent_.back() > growth_of_alternation * recent_[recent_.size() - 1 - window];
 }
 
 bool ProgressWatch::resting() const {
-    if (accelerated_ || restarted_ || recent_.size() < 2 * spell) return false;
-    const auto middle = recent_.end() - static_cast<std::ptrdiff_t>(spell);
+    if (accelerated_ || restarted_ || recent_.size() < 2 * window) return false;
+    const auto middle = recent_.end() - static_cast<std::ptrdiff_t>(window);
     const double before = *std::min_element(recent_.begin(), middle);
     return *std::min_element(middle, recent_.end()) > hardly_falling * before;
 }

@@ -7,8 +7,6 @@ namespace fairing {
 
 namespace {
 
-constexpr double widest_surface = 4.0;  // units of D
-
 // H of a fixed neighbour answers to the vertex too, and H̃ follows it, which eq. 13 leaves out: the step is as much too
 // long. Found by trial: 2 to 8 do. As published (no acceleration) all vertices have the same s.
 constexpr double answer_of_fixed_neighbours = 4.0;
@@ -33,19 +31,15 @@ LevelUpdate::LevelUpdate(const LevelProblem& level, Points start) : level_(level
     share_ = damping_shares(level);
 }
 
-bool LevelUpdate::within_bounds() const {
-    return state_.points.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() < widest_surface;
-}
-
 double LevelUpdate::measure() {
-    if (!within_bounds()) return std::numeric_limits<double>::infinity();
+    if (!state_.points.allFinite()) return std::numeric_limits<double>::infinity();
     state_.measure(level_);
     equation_.assemble(state_.stiffness);
     return state_.residual(level_, equation_);
 }
 
 bool LevelUpdate::measure_again() {
-    if (!within_bounds()) return false;
+    if (!state_.points.allFinite()) return false;
     state_.measure_again(level_);
     equation_.assemble(state_.stiffness);
     return true;

@@ -28,7 +28,6 @@ public:
     void move_to(const Points& points) { state_.points = points; }
 
 private:
-    [[nodiscard]] bool within_bounds() const;
     void move_vertices(const VectorX& wanted, double damping);
 
     const LevelProblem& level_;

@@ -89,15 +89,6 @@ Placed place(const Problem& problem, const TangentialStep& tangential, const Own
     return std::move(placing).best();
 }
 
-std::optional<Placed> place_by_disc(const Problem& problem, const TangentialStep& tangential, const Patch& proxy,
-                                    const TargetSurface& target, const Progress& progress) {
-    const auto start = by_disc(problem, proxy, target);
-    if (!start) return std::nullopt;
-    Placing placing(problem, tangential, target, progress);
-    placing.from(*start);
-    return std::move(placing).best();
-}
-
 Placed place_roughly(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
                      const std::optional<Points>& guess, const Progress& progress) {
     Placement placement = guess ? by_surface(problem, *guess, surface.mesh.patch, surface.target)
@@ -106,10 +97,10 @@ Placed place_roughly(const Problem& problem, const TangentialStep& tangential, c
     return {std::move(placement), {}, 0};
 }
 
-Placed place_own(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
-                 const Points& points, const Progress& progress) {
+Placed place_from(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
+                  const Placement& start, const Progress& progress) {
     Placing placing(problem, tangential, target, progress);
-    placing.from(at_vertices(problem, target, points));
+    placing.from(start);
     return std::move(placing).best();
 }
 

@@ -31,17 +31,13 @@ struct OwnMeshSurface {
 Placed place(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
              const std::optional<Points>& guess, const Progress& progress);
 
-// The last of these beginnings alone. Nothing where there is none.
-std::optional<Placed> place_by_disc(const Problem& problem, const TangentialStep& tangential, const Patch& proxy,
-                                    const TargetSurface& target, const Progress& progress);
-
 // The same without care for folds, for a surface that is no solution: the springs alone, from `guess` or by history.
 Placed place_roughly(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
                      const std::optional<Points>& guess, const Progress& progress);
 
-// The same from where the vertices of a surface of the problem's own patch are (3 × local vertices; the target's).
-Placed place_own(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
-                 const Points& points, const Progress& progress);
+// From one beginning.
+Placed place_from(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
+                  const Placement& start, const Progress& progress);
 
 // The same from vertices that springs have spread already.
 Placed place_settled(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,

@@ -1,0 +1,114 @@
+"""Calls by the dozen for rows of limits.toml: each kind reaches rooms of the engine that plain patches do not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+
+import fairing
+import problems
+import real_meshes
+from real_meshes import RealPatch
+
+Call = tuple[str, Callable[[], Any], Any]  # name, the call, the exact surface where one is known
+LARGEST = {"fill": 700, "least variation": 300, "paper": 900}  # vertices of a patch; of other kinds:
+USUAL = 1000
+
+
+def patches(kind: str, count: int, seed: int) -> Iterator[tuple[RealPatch, np.random.Generator]]:
+    """Random patches of the real meshes, and the generator that made them."""
+    rng = np.random.default_rng(seed)
+    names = rng.permutation(real_meshes.RANDOM_MESHES)
+    found = tried = 0
+    while found < count:
+        name = str(names[tried % len(names)])
+        vertices = real_meshes.mesh(name).vertices
+        start = int(rng.integers(len(vertices)))
+        radius = float(np.ptp(vertices, axis=0).max() * rng.uniform(0.03, 0.18))
+        tried += 1
+        made = real_meshes.make_patch(f"{name}:{start}:{radius:.6g}", name, start, radius)
+        if made is not None and made.free >= 8 and len(made.fixed) and len(made.vertices) <= LARGEST.get(kind, USUAL):
+            found += 1
+            yield made, rng
+
+
+def calls(kind: str, count: int, seed: int) -> Iterator[Call]:
+    """Of a kind: KINDS, or "patches" with the closed forms and options of problems.py."""
+    if kind != "patches":
+        for patch, rng in patches(kind, count, seed):
+            call = KINDS[kind](patch, rng)
+            if call is not None:
+                yield patch.name, call, None
+        return
+    for problem in [*problems.exact(seed, (300,)), *problems.patches(count, seed)]:
+        if len(problem.vertices) <= USUAL:
+            yield problem.name + problem.kind, _faired(problem), problem
+
+
+def _faired(problem: problems.Problem) -> Callable[[], Any]:
+    return lambda: fairing.fair(
+        problem.vertices, problem.triangles, fixed=problem.fixed, fixed_normals=problem.normals, threads=1,
+        **problem.options,
+    )  # fmt: skip
+
+
+def _fair(patch: RealPatch, **options: Any) -> Callable[[], Any]:
+    return lambda: fairing.fair(
+        patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=patch.normals, threads=1, **options
+    )
+
+
+def _within(patch: RealPatch, noise: float, rng: np.random.Generator, **options: Any) -> Callable[[], Any]:
+    """With the mesh around, shaken by a share of the edges."""
+    edge = np.linalg.norm(patch.vertices[patch.triangles[:, 0]] - patch.vertices[patch.triangles[:, 1]], axis=1).mean()
+    vertices = patch.whole + rng.normal(scale=noise * edge, size=patch.whole.shape)
+    numbers = patch.vertices_in_mesh
+    return lambda: fairing.fair(
+        vertices, numbers[patch.triangles], fixed=numbers[patch.fixed], outside=patch.outside, threads=1, **options
+    )
+
+
+def _filled(patch: RealPatch, _: np.random.Generator) -> Callable[[], Any]:
+    loops = [patch.vertices_in_mesh[loop] for loop in fairing.boundary_loops(patch.triangles)]
+    return lambda: fairing.fill(patch.whole, patch.outside, loops, bridge=len(loops) > 1, threads=1)
+
+
+def _pinned(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any] | None:
+    beside = patch.triangles[np.isin(patch.triangles, patch.fixed).any(axis=1)]
+    inside = np.setdiff1d(np.arange(len(patch.vertices)), np.union1d(patch.fixed, beside))
+    if len(inside) < 4:
+        return None
+    pins = rng.choice(inside, int(rng.integers(1, 4)), replace=False)
+    vertices = patch.vertices.copy()
+    vertices[pins] += rng.normal(scale=0.02 * np.ptp(vertices, axis=0).max(), size=(len(pins), 3))
+    fixed = np.append(patch.fixed, pins)
+    normals = np.vstack([patch.normals, np.tile([0.0, 0.0, 1.0], (len(pins), 1))])
+    radius = float(rng.choice([0.05, 0.1, 0.2]))
+    return lambda: fairing.fair(
+        vertices, patch.triangles, fixed=fixed, fixed_normals=normals, pin_radius=radius, threads=1
+    )
+
+
+def _sampled(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any] | None:
+    """Its own detail, or that of another place of the mesh."""
+    if rng.random() < 0.5:
+        return _within(patch, 0.1, rng, detail=1.0)
+    name = patch.name.split(":")[0]
+    start = int(rng.integers(len(real_meshes.mesh(name).vertices)))
+    sample = real_meshes.make_patch("sample", name, start, patch.radius)
+    if sample is None or sample.free < 60:
+        return None
+    return _within(patch, 0.1, rng, detail=1.0, detail_from=sample.vertices_in_mesh[sample.triangles])
+
+
+KINDS: dict[str, Callable[[RealPatch, np.random.Generator], Callable[[], Any] | None]] = {
+    "fill": _filled,
+    "pins": _pinned,
+    "detail": _sampled,
+    "G2": lambda patch, rng: _within(patch, 0.0, rng, continuity="G2"),
+    "mended": lambda patch, rng: _within(patch, 0.1, rng, outline="mended"),
+    "least variation": lambda patch, _: _fair(patch, equation="least_variation"),
+    "paper": lambda patch, _: _fair(patch, method="paper"),
+}

@@ -1,0 +1,40 @@
+// What solving on a mesh of the engine's own comes to, whatever that mesh is made from.
+#pragma once
+
+#include "base/stopwatch.h"
+#include "method/placed.h"
+#include "problem/surface_state.h"
+
+namespace fairing {
+
+// Whether the equation is solved on the user's mesh, too, where that carries it. Unwanted: nothing comes back where no
+// mesh of the engine's own carries it.
+enum class Polish { wanted, unwanted };
+
+class OnOwnMesh {
+public:
+    OnOwnMesh(const Problem& problem, const Progress& progress) : problem_(problem), progress_(progress) {}
+    virtual ~OnOwnMesh() = default;
+    OnOwnMesh(const OnOwnMesh&) = delete;
+    OnOwnMesh& operator=(const OnOwnMesh&) = delete;
+
+    // `guess`: of the problem's patch.
+    std::optional<Solution> run(const std::optional<OwnSurface>& guess, Polish polish);
+
+protected:
+    // What the mesh is made from: the problem, or a coarse level of it, whose membrane and columns these are.
+    [[nodiscard]] virtual const Problem& source() const = 0;
+    [[nodiscard]] virtual Points membrane() const = 0;
+    [[nodiscard]] virtual Points on_source(const Points& points) const = 0;
+    virtual SolvedProxy solved_proxy(const std::optional<Points>& guess, const Points& membrane) = 0;
+    // The user's vertices; `own`: the guess, of the source.
+    virtual Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own) = 0;
+    // Whether the user's mesh may carry the equation, and its solution there.
+    [[nodiscard]] virtual bool may_polish(const Placed& placed) const = 0;
+    virtual Solution on_users_mesh(Solution placed, const SolvedSurface& surface) = 0;
+
+    const Problem& problem_;
+    const Progress& progress_;
+};
+
+}  // namespace fairing
