@@ -104,8 +104,8 @@ def fill(
     edges : "run_on" | "ignored"
         "run_on": hard edges (:func:`fairing.hard_edges`) that end at a hole run on through it. Ends that belong
         together are joined by a curve of least variation, three and more meet in a point. Each curve is a crease of a
-        surface of least variation (docs/hard_surfaces.md); ``curves`` names it, and EDGES_LEFT_ALONE ends that are not joined.
-        So do narrow bands of high curvature, bevels and rolled edges (``bands``). Not with ``bridge``.
+        surface of least variation (docs/hard_surfaces.md); ``curves`` names it, EDGES_LEFT_ALONE ends that are not
+        joined. So do narrow bands of high curvature, bevels and rolled edges (``bands``). Not with ``bridge``.
     wires : (w, 2) int
         Edges without a triangle that were drawn across holes: they are such curves as they are.
     marked : (e, 2) int
