@@ -22,6 +22,10 @@ def off(hole: Hole, radius: float, **options: object) -> float:
     assert result.converged
     assert len(result.bands) == ("edges" not in options)
     assert len(result.curves) == 0
+    points = np.concatenate([hole.vertices, result.vertices])
+    for row in (row for band in result.bands for row in band):
+        assert np.isin(row[[0, -1]], hole.loop).all()
+        assert hole.sides[0](points[row]).max() < TENTH * radius
     assert result.join.max() < 15
     return float(hole.sides[0](result.vertices).max() / radius)
 

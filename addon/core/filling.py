@@ -141,7 +141,7 @@ class Piece:
 
         None where curves run across the surface: there they stay where they are carried.
         """
-        if self.across.holds_any:
+        if len(self.across.edges):
             return [None] * len(places)
         mirrored = np.linalg.det(self.around.matrix[:3, :3]) < 0.0
         triangles = self.triangles[:, ::-1] if mirrored else self.triangles

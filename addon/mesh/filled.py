@@ -172,7 +172,7 @@ class _Rim:
 
     def _keyed(self, shapes: Shapes, starts: Floats, offsets: Floats) -> Floats:
         """Return (k, 3 keys): offsets of the keys' own surfaces from the starts (k, 3) of the new vertices."""
-        if not shapes.width or self._piece.across.holds_any:
+        if not shapes.width or len(self._piece.across.edges):
             return offsets
         here = np.array([vertex.co[:] for vertex in self._around])
         keys = [slice(3 * k, 3 * k + 3) for k in range(shapes.width // 3)]

@@ -205,7 +205,7 @@ class _Task:
         values = joined(len(self.points), [fields for fields in made if fields is not None])
         if curves:
             values["warnings"] += curves.warnings
-            bands = tuple((read_only(one), read_only(other)) for one, other in curves.bands)
+            bands = tuple(tuple(map(read_only, band)) for band in curves.bands)
             values |= {"curves": tuple(map(read_only, curves.curves)), "marked": curves.marked, "bands": bands}
         return values
 

@@ -35,7 +35,7 @@ class Making:
         self._added: list[FloatArray] = []
         self.curves: list[IntArray] = []
         self.rows: list[IntArray] = []
-        self.bands: list[tuple[IntArray, IntArray]] = []
+        self.bands: list[tuple[IntArray, ...]] = []
         self.marked: list[bool] = []
 
     @property
@@ -91,7 +91,7 @@ class Making:
             ends = int(one.places[a]), int(other.places[b])
             paths = (path, path[::-1].copy())
             trees.append(Tree(ends, paths) if ends[0] < ends[1] else Tree(ends[::-1], paths[::-1]))
-        self.bands.append((trees[0].paths[0], trees[-1].paths[0]))
+        self.bands.append(tuple(tree.paths[0] for tree in trees))
         return trees
 
     def drawn(self, found: _wires.Drawn, marked: set[int]) -> None:

@@ -41,8 +41,8 @@ class Curves:
     """Whether all hard edges that each curve continues were marked."""
     rows: IntArray
     """New vertices on curves along bands."""
-    bands: tuple[tuple[IntArray, IntArray], ...]
-    """The vertices along both sides of each."""
+    bands: tuple[tuple[IntArray, ...], ...]
+    """The vertices along the rows of each, from side to side."""
     warnings: tuple[Diagnostic, ...]
 
     @property
@@ -52,8 +52,8 @@ class Curves:
 
     def left_alone(self, loops: Sequence[IntArray]) -> Curves:
         """Nothing, and a warning; loops: those that they cut, over which no surface holds them."""
-        sides = [side for band in self.bands for side in band]
-        held = np.intersect1d(np.concatenate(loops), np.concatenate([self.vertices, *sides])).astype(np.int32)
+        rows = [row for band in self.bands for row in band]
+        held = np.intersect1d(np.concatenate(loops), np.concatenate([self.vertices, *rows])).astype(np.int32)
         text = f"no surface holds the edges that would run on from {listed(held)}: they are left alone"
         figures = {"ends": float(len(held)), "no_surface": 1.0}
         warning = Diagnostic("EDGES_LEFT_ALONE", text, held, "vertex", figures)
