@@ -66,8 +66,8 @@ def test_a_ridge_runs_on_through_a_hole(degrees: float) -> None:
     assert not len(piece.across.sharp)
 
 
-def test_of_a_coarse_bevel_the_hard_edge_runs_on() -> None:
-    """Bends of 25°, 40° and 25°: that in the middle is hard, and the surface stays within a quarter of an edge."""
+def test_a_coarse_bevel_runs_on() -> None:
+    """Bends of 25°, 40° and 25°, none far above the others: all come back to a tenth of an edge, and the report tells."""
     mesh = roof(90.0, 0.0)
     y = mesh.positions[:, 1]
     row = 2.0 / SIZE
@@ -76,10 +76,10 @@ def test_of_a_coarse_bevel_the_hard_edge_runs_on() -> None:
     points[:, 2] = -np.tan(np.radians(20.0)) * flat - np.maximum(np.abs(y) - flat, 0.0)
     (piece,) = fill(replace(mesh, positions=points), np.eye(4), [rim(mesh, 0.0)], FillOptions()).pieces
     assert piece.verdict.grade == GOOD
-    assert told([piece.across]) == "1 runs on"
+    assert told([piece.across]) == "1 bevel runs on"
     wanted = -np.tan(np.radians(20.0)) * np.minimum(np.abs(piece.points[:, 1]), row)
     wanted -= np.maximum(np.abs(piece.points[:, 1]) - row, 0.0)
-    np.testing.assert_allclose(piece.points[:, 2], wanted, atol=0.02)
+    np.testing.assert_allclose(piece.points[:, 2], wanted, atol=0.1 * row)
 
 
 def test_a_marked_ridge_goes_on_marked() -> None:
