@@ -67,7 +67,7 @@ def test_a_ridge_runs_on_through_a_hole(degrees: float) -> None:
 
 
 def test_a_coarse_bevel_runs_on() -> None:
-    """Bends of 25°, 40° and 25°, none far above the others: all come back to a tenth of an edge, and the report tells."""
+    """Bends of 25°, 40° and 25°, none far above the others: all come back to a tenth of an edge."""
     mesh = roof(90.0, 0.0)
     y = mesh.positions[:, 1]
     row = 2.0 / SIZE
