@@ -115,3 +115,59 @@ def in_profile(profile: list[tuple[float, float]], n: int, seed: int = 0, radius
 def _plane(p: FloatArray, q: FloatArray) -> Callable[[FloatArray], FloatArray]:
     across = np.array([p[1] - q[1], q[0] - p[0]]) / np.linalg.norm(q - p)
     return lambda points: np.abs((points[:, [0, 2]] - p) @ across)
+
+
+def in_bevel(
+    n: int, seed: int = 0, *, radius: float = 0.12, rows: int = 0, taper: float = 0.0, bend: float = 0.0
+) -> Hole:
+    """A plane and a wall that meet in a quarter circle of the radius, with a hole over it; jittered, n edges a unit.
+
+    rows: across it; 0: as long as the other edges. taper: the radius grows by as much to one end and shrinks to the
+    other. bend: curvature of the wall, which is a cylinder then, and the edge rolled around it.
+    """
+    rng = np.random.default_rng([seed, 3])
+    rows = rows or max(2, round(radius * np.pi / 2 * n))
+    at = np.concatenate([np.arange(-n, 0) / n, np.arange(rows) / rows, 1 + np.arange(n + 1) / n])
+    u, y = (a.ravel() for a in np.meshgrid(at, np.arange(n + 1) / n, indexing="ij"))
+    inner = (u > -1) & (u < 2) & (y > 0) & (y < 1)
+    step = np.where((u > 0) & (u < 1), 1 / rows, 1 / n) * (np.abs(u * (u - 1)) > 1e-9)
+    u = u + 0.25 * step * rng.uniform(-1, 1, len(u)) * inner
+    y = y + 0.25 / n * rng.uniform(-1, 1, len(y)) * inner
+
+    def radius_at(y: FloatArray) -> FloatArray:
+        return radius * (1 + taper * (2 * y - 1))
+
+    r, angle = radius_at(y), np.clip(u, 0, 1) * np.pi / 2
+    x = r * (np.sin(angle) - 1) + np.minimum(u, 0)
+    z = r * (np.cos(angle) - 1) - np.maximum(u - 1, 0)
+    number = np.arange(len(u)).reshape(len(at), n + 1)
+    a, b, c, d = (v.ravel() for v in (number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]))
+    one = rng.random(len(a)) < 0.5
+    triangles = np.concatenate([
+        np.column_stack([a, b, np.where(one, c, d)]), np.column_stack([np.where(one, a, b), c, d]),
+    ])  # fmt: skip
+    flat = np.column_stack([x, y - 0.5, z])
+    vertices = _bent(flat, bend) if bend else flat
+
+    def distance(points: FloatArray) -> FloatArray:
+        out, along, high = (_unbent(points, bend) if bend else points).T
+        r = radius_at(along + 0.5)
+        rolled = np.abs(np.hypot(out + r, high + r) - r)
+        return np.where((out > -r) & (high > -r), rolled, np.minimum(np.abs(out), np.abs(high)))
+
+    inside = np.linalg.norm(vertices - [-0.3 * radius, 0.0, -0.3 * radius], axis=1) < 0.4
+    return cut_out(vertices, triangles, inside, (distance,))
+
+
+def _bent(points: FloatArray, bend: float) -> FloatArray:
+    """The plane x = 0 becomes a cylinder around the z axis through (−1 / bend, 0), y the length along it."""
+    out, along, high = points.T
+    reach, turn = 1 / bend + out, along * bend
+    return np.column_stack([reach * np.cos(turn) - 1 / bend, reach * np.sin(turn), high])
+
+
+def _unbent(points: FloatArray, bend: float) -> FloatArray:
+    x, y, high = points.T
+    sign = np.sign(bend)
+    out = sign * np.hypot(x + 1 / bend, y) - 1 / bend
+    return np.column_stack([out, np.arctan2(sign * y, sign * (x + 1 / bend)) / bend, high])

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import fairing
 import hard_holes
+from fairing import _along
 from fairing._edge_ends import EdgeEnd
 from fairing._matching import matched
 from hard_holes import FloatArray, Hole, IntArray
@@ -193,6 +195,20 @@ def test_a_hole_beside_a_hard_edge_takes_no_slope_from_the_other_side() -> None:
     assert np.abs(beside[:, 0]).max() < 1e-9
     assert np.abs(rounded[:, 0]).max() > 0.01
     assert len(fairing.fill(box.vertices, kept, [loop]).curves) == 0
+
+
+def test_where_no_surface_holds_the_edge_it_is_left_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The solve along the curve is made to fail: the smooth surface comes back, and the ends are named."""
+    hole = hard_holes.in_bent_sheet(14, 1)
+    fair = _along.fair
+    monkeypatch.setattr(_along, "fair", lambda *given, **options: replace(fair(*given, **options), converged=False))
+    result, smooth = (filled(hole, edges=how) for how in ("run_on", "ignored"))
+    (warning,) = [told for told in result.warnings if told.code == "EDGES_LEFT_ALONE"]
+    assert warning.figures["no_surface"] == 1.0
+    assert np.abs(hole.vertices[warning.elements, 0]).max() < 1e-9
+    assert result.curves == ()
+    assert result.equation == smooth.equation
+    assert len(result.vertices) == pytest.approx(len(smooth.vertices), rel=0.1)
 
 
 def test_holes_with_and_without_edges_are_filled_in_one_call() -> None:

@@ -59,12 +59,14 @@ class Across:
     sharp: Ints = field(default_factory=_no_edges)  # (s, 2) those among them that continue marked ones
     hard: int = 0  # curves that continue hard edges
     as_drawn: int = 0  # curves that were drawn
+    bands: int = 0  # bevels and rolled edges that run on, whose rows are among the edges
 
 
 def told(all_of_them: Sequence[Across]) -> str:
     """Say what surfaces follow; nothing where they follow nothing."""
-    hard, drawn = sum(each.hard for each in all_of_them), sum(each.as_drawn for each in all_of_them)
+    hard, drawn, bands = (sum(getattr(each, name) for each in all_of_them) for name in ("hard", "as_drawn", "bands"))
     parts = [counted(hard, "runs on", "run on")] * bool(hard) + [f"{drawn} drawn"] * bool(drawn)
+    parts += [counted(bands, "bevel runs on", "bevels run on")] * bool(bands)
     return ", ".join(parts)
 
 
@@ -100,8 +102,11 @@ class Numbering:
     def across(self, result: fairing.FillResult, wires: Ints) -> Across:
         """wires: (w, 2) in the engine's numbers."""
         drawn = {tuple(pair) for pair in np.sort(wires, axis=1).tolist()}
-        parts = [np.column_stack([curve[:-1], curve[1:]]) for curve in result.curves]
+        parts, rows = (
+            [np.column_stack([curve[:-1], curve[1:]]) for curve in curves]
+            for curves in (result.curves, [row for band in result.bands for row in band])
+        )
         as_drawn = sum(tuple(sorted(part[0].tolist())) in drawn for part in parts)
         marked = [part for part, is_marked in zip(parts, result.marked, strict=True) if is_marked]
-        whole, sharp = (self.of[np.concatenate([_no_edges(), *chosen])] for chosen in (parts, marked))
-        return Across(self.drawn, whole, sharp, len(parts) - as_drawn, as_drawn)
+        whole, sharp = (self.of[np.concatenate([_no_edges(), *chosen])] for chosen in (parts + rows, marked))
+        return Across(self.drawn, whole, sharp, len(parts) - as_drawn, as_drawn, len(result.bands))

@@ -50,7 +50,7 @@ def test_a_ridge_ends_on_both_sides_of_a_hole(degrees: float) -> None:
 def test_a_ridge_runs_on_through_a_hole(degrees: float) -> None:
     """The two slopes come back, the report says why, and no quad lies over the ridge."""
     mesh = roof(degrees, 0.0)
-    (piece,) = fill(mesh, np.eye(4), [rim(mesh, 0.0)], FillOptions(quads=True))
+    (piece,) = fill(mesh, np.eye(4), [rim(mesh, 0.0)], FillOptions(quads=True)).pieces
     assert piece.verdict.grade == GOOD
     assert told([piece.across, piece.across]) == "2 run on"
     slope = np.tan(np.radians(degrees) / 2.0)
@@ -66,12 +66,28 @@ def test_a_ridge_runs_on_through_a_hole(degrees: float) -> None:
     assert not len(piece.across.sharp)
 
 
+def test_a_coarse_bevel_runs_on() -> None:
+    """Bends of 25°, 40° and 25°, none far above the others: all come back to a tenth of an edge."""
+    mesh = roof(90.0, 0.0)
+    y = mesh.positions[:, 1]
+    row = 2.0 / SIZE
+    flat = np.minimum(np.abs(y), row)
+    points = mesh.positions.copy()
+    points[:, 2] = -np.tan(np.radians(20.0)) * flat - np.maximum(np.abs(y) - flat, 0.0)
+    (piece,) = fill(replace(mesh, positions=points), np.eye(4), [rim(mesh, 0.0)], FillOptions()).pieces
+    assert piece.verdict.grade == GOOD
+    assert told([piece.across]) == "1 bevel runs on"
+    wanted = -np.tan(np.radians(20.0)) * np.minimum(np.abs(piece.points[:, 1]), row)
+    wanted -= np.maximum(np.abs(piece.points[:, 1]) - row, 0.0)
+    np.testing.assert_allclose(piece.points[:, 2], wanted, atol=0.1 * row)
+
+
 def test_a_marked_ridge_goes_on_marked() -> None:
     mesh = roof(20.0, 0.0)
     ridge = (np.abs(mesh.positions[mesh.edges][:, :, 1]) < 1e-9).all(axis=1)
-    (soft,) = fill(mesh, np.eye(4), [rim(mesh, 0.0)], FillOptions())
+    (soft,) = fill(mesh, np.eye(4), [rim(mesh, 0.0)], FillOptions()).pieces
     assert not len(soft.across.edges)
-    (piece,) = fill(replace(mesh, sharp=ridge), np.eye(4), [rim(mesh, 0.0)], FillOptions())
+    (piece,) = fill(replace(mesh, sharp=ridge), np.eye(4), [rim(mesh, 0.0)], FillOptions()).pieces
     assert len(piece.across.sharp) == len(piece.across.edges) > 3
 
 
@@ -87,13 +103,13 @@ def test_a_drawn_line_is_kept_with_its_vertices() -> None:
         edges=np.vstack([mesh.edges, [[first, middle], [middle, last]]]),
         pinned=np.append(mesh.pinned, False),
     )
-    (piece,) = fill(with_line, np.eye(4), [loop], FillOptions())
+    (piece,) = fill(with_line, np.eye(4), [loop], FillOptions()).pieces
     assert piece.across.drawn.tolist() == [middle]
     assert piece.points[len(loop)].tolist() == [0.0, 0.06, 0.01]
     assert len(piece.positions) == len(piece.points) - len(loop)
     assert told([piece.across]) == "1 drawn"
     assert len(loop) in piece.triangles
-    (other,) = fill(with_line, np.eye(4), [loop], FillOptions(hard_edges="IGNORED"))
+    (other,) = fill(with_line, np.eye(4), [loop], FillOptions(hard_edges="IGNORED")).pieces
     assert not len(other.across.drawn)
 
 

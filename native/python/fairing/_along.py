@@ -43,6 +43,8 @@ class _Along:
         _loops.check_doubles(mesh[1], around)
         report = self._solved(around, mesh, watch.part(0.4, 1.0))
         values = report_fields(report, self.curves.old_count)
+        at_loops = np.isin(report.fixed, self.outline.vertices)
+        values["join"] = read_only(np.where(at_loops, report.join, 0.0))
         values["triangles"] = read_only(mesh[1])
         values["seconds"] = {**values["seconds"], **watch.seconds}
         return values

@@ -31,6 +31,8 @@ class EdgeEnd:
     angle: float
     """Degrees between the faces beside it, convex above 0."""
     marked: bool
+    run: range = range(0)
+    """Places in the loop from where the edge comes to it to where it leaves it, along it; not wrapped around."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,8 +42,7 @@ class EndsAt:
     ends: list[EdgeEnd]
     """In the order of the loop, one for each hard edge that leads into the hole."""
     along: list[range]
-    """Places in the loop from where hard edges come to it to where they leave it, those in between along it; not
-    wrapped around."""
+    """Such runs of hard edges that meet another one without having left the loop."""
 
 
 def ends_at(
@@ -61,13 +62,14 @@ def ends_at(
         angle = _angle(chain[0], chain[1], vertices, triangles)
         is_marked = _pair(chain[0], chain[1]) in marked
         last, run, chain = _along(loop, at, chain, vertices)
-        if last != at:
+        if last == at:
+            run = range(0)
+        elif joined[int(loop[last])]:
             runs.append(run)
-        if last != at and joined[int(loop[last])]:
-            continue  # it meets another one without having left the loop
+            continue
         direction, curvature = _core.chain_end(np.ascontiguousarray(vertices[chain]))
         where = int(loop[last])
-        ends.append(EdgeEnd(last, where, vertices[where], direction.ravel(), curvature.ravel(), angle, is_marked))
+        ends.append(EdgeEnd(last, where, vertices[where], direction.ravel(), curvature.ravel(), angle, is_marked, run))
     return EndsAt(sorted(ends, key=lambda end: end.at), runs)
 
 

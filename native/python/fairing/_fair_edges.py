@@ -35,8 +35,8 @@ def fair_edges(vertices: npt.ArrayLike, edges: npt.ArrayLike, onward: npt.ArrayL
     """Make chains of edges fair between the edges that they continue.
 
     Each chain of ``edges`` (e, 2) between two ends at which edges of ``onward`` (o, 2) go on becomes the curve of least
-    variation with their tangents (docs/curves.md): a straight line between straight edges, an arc between those of a
-    circle. Three chains and more that meet do so in the point nearest to the straight lines of their other ends.
+    variation with their tangents (docs/hard_surfaces.md): a straight line between straight edges, an arc between those
+    of a circle. Three chains and more that meet do so in the point nearest to the straight lines of their other ends.
     Vertices keep their shares of a chain's length. Vertices of ``onward`` stay. So do chains that end anywhere else,
     and closed ones. No argument is changed.
     """

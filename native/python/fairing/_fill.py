@@ -104,8 +104,8 @@ def fill(
     edges : "run_on" | "ignored"
         "run_on": hard edges (:func:`fairing.hard_edges`) that end at a hole run on through it. Ends that belong
         together are joined by a curve of least variation, three and more meet in a point. Each curve is a crease of a
-        surface of least variation (docs/curves.md); ``curves`` names it, and EDGES_LEFT_ALONE ends that are not joined.
-        Not with ``bridge``.
+        surface of least variation (docs/hard_surfaces.md); ``curves`` names it, EDGES_LEFT_ALONE ends that are not
+        joined. So do narrow bands of high curvature, bevels and rolled edges (``bands``). Not with ``bridge``.
     wires : (w, 2) int
         Edges without a triangle that were drawn across holes: they are such curves as they are.
     marked : (e, 2) int
@@ -192,8 +192,12 @@ class _Task:
         others = [k for k in rest if k not in set(hubs)]
         watch = Watch(self.progress)
         share = len(through) / max(1, len(through) + len(others))
+        along = self._along(chosen.part(through), curves, watch.part(0.0, share)) if curves and through else None
+        if curves and along is not None and not along["converged"]:
+            curves, along = curves.left_alone([loops[k] for k in through]), None
+            others = sorted([*others, *through])
         made = [
-            self._along(chosen.part(through), curves, watch.part(0.0, share)) if curves and through else None,
+            along,
             self._solved(chosen.part(others), watch.part(share, 1.0)) if others else None,
             fans,
             self._single_faces(chosen.part(plain)) if plain else None,
@@ -201,7 +205,8 @@ class _Task:
         values = joined(len(self.points), [fields for fields in made if fields is not None])
         if curves:
             values["warnings"] += curves.warnings
-            values |= {"curves": tuple(map(read_only, curves.curves)), "marked": curves.marked}
+            bands = tuple(tuple(map(read_only, band)) for band in curves.bands)
+            values |= {"curves": tuple(map(read_only, curves.curves)), "marked": curves.marked, "bands": bands}
         return values
 
     def _curves(self, chosen: Chosen, numbers: list[int]) -> tuple[_run_on.Curves | None, list[int]]:

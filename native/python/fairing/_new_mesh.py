@@ -68,6 +68,8 @@ class FillResult(NewMeshResult):
     come first in ``vertices`` and are ``fixed``."""
     marked: tuple[bool, ...] = ()
     """Of each curve: whether the hard edges that it continues were ``marked``."""
+    bands: tuple[tuple[IntArray, ...], ...] = ()
+    """Bevels and rolled edges that run on through the holes: the vertices along the rows of each, from side to side."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,30 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from fairing import _arguments, _core, _cut_loops, _wires
-from fairing._cut_loops import Tree, gap
+from fairing import _arguments, _cut_loops, _wires
+from fairing._bands import bands_at
+from fairing._crossings import crossing_edges, touches
+from fairing._cut_loops import Tree, crosses, gap
 from fairing._edge_ends import EdgeEnd, ends_at
 from fairing._hard_edges import hard_edges
 from fairing._loops import Outline, listed
-from fairing._matching import Joint, Matching, matched
+from fairing._making import Making, Wanted, lengths_at
+from fairing._matching import Matching, matched
 from fairing._types import Diagnostic, FloatArray, IntArray
 
 EDGES = ("run_on", "ignored")
-
-
-@dataclass(frozen=True, eq=False)
-class _Wanted:
-    """How long the edges of curves are to be."""
-
-    length: float
-    """0: ``factor`` times as long as the loop's edges at the curve's ends."""
-    factor: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +39,10 @@ class Curves:
     """Vertices of the loops where these run along hard edges."""
     marked: tuple[bool, ...]
     """Whether all hard edges that each curve continues were marked."""
+    rows: IntArray
+    """New vertices on curves along bands."""
+    bands: tuple[tuple[IntArray, ...], ...]
+    """The vertices along the rows of each, from side to side."""
     warnings: tuple[Diagnostic, ...]
 
     @property
@@ -52,10 +50,20 @@ class Curves:
         """Whether a loop is to be filled along curves."""
         return any(cut is not None for cut in self.cut)
 
+    def left_alone(self, loops: Sequence[IntArray]) -> Curves:
+        """Nothing, and a warning; loops: those that they cut, over which no surface holds them."""
+        rows = [row for band in self.bands for row in band]
+        held = np.intersect1d(np.concatenate(loops), np.concatenate([self.vertices, *rows])).astype(np.int32)
+        text = f"no surface holds the edges that would run on from {listed(held)}: they are left alone"
+        figures = {"ends": float(len(held)), "no_surface": 1.0}
+        warning = Diagnostic("EDGES_LEFT_ALONE", text, held, "vertex", figures)
+        nothing = tuple(None for _ in self.cut)
+        return replace(self, cut=nothing, curves=(), marked=(), bands=(), warnings=(*self.warnings, warning))
+
     @property
     def vertices(self) -> IntArray:
-        """All that lie on curves and on hard edges of the loops, ascending."""
-        found: IntArray = np.unique(np.concatenate([self.rims, *self.curves])).astype(np.int32)
+        """All whose slope each side finds: on curves, along bands and on hard edges of the loops, ascending."""
+        found: IntArray = np.unique(np.concatenate([self.rims, self.rows, *self.curves])).astype(np.int32)
         return found
 
 
@@ -66,6 +74,8 @@ class Edges:
     hard: IntArray
     marked: set[tuple[int, int]]
     wires: IntArray
+    run_through: bool = True
+    """Whether anything may: bands, too."""
 
     @classmethod
     def of(cls, mesh: tuple[FloatArray, IntArray], given: tuple[Any, Any, Any], bridge: bool) -> Edges:
@@ -77,7 +87,7 @@ class Edges:
             for name, value in (("wires", wires), ("marked", marked))
         )
         if _arguments.choice("edges", edges, EDGES) == "ignored" or bridge:
-            return cls(_arguments.NO_EDGES, set(), _arguments.NO_EDGES)
+            return cls(_arguments.NO_EDGES, set(), _arguments.NO_EDGES, False)
         pairs = {(min(pair), max(pair)) for pair in marks.tolist()}
         return cls(hard_edges(points, around, marked=marks), pairs, drawn)
 
@@ -90,86 +100,8 @@ class Edges:
         rims = np.concatenate([np.roll(points[loop], -1, axis=0) - points[loop] for loop in outline.loops])
         mean = float(np.linalg.norm(rims, axis=1).mean())
         length, even = spacing
-        wanted = _Wanted((length or mean) if even else 0.0, (length or mean) / mean)
+        wanted = Wanted((length or mean) if even else 0.0, (length or mean) / mean)
         return _run_on(outline, normals, mesh, self, wanted)
-
-
-class _Making:
-    """Collects curves, and new vertices on them."""
-
-    def __init__(self, vertices: FloatArray, wanted: _Wanted) -> None:
-        self._vertices = vertices
-        self._wanted = wanted
-        self._added: list[FloatArray] = []
-        self.curves: list[IntArray] = []
-        self.marked: list[bool] = []
-
-    @property
-    def points(self) -> FloatArray:
-        return np.concatenate([self._vertices, *self._added])
-
-    def _new(self, places: FloatArray) -> IntArray:
-        first = len(self._vertices) + sum(map(len, self._added))
-        self._added.append(places)
-        return np.arange(first, first + len(places), dtype=np.int32)
-
-    def _curve(self, begin: EdgeEnd, end: tuple[FloatArray, FloatArray], lengths: tuple[float, float]) -> FloatArray:
-        """Places of new vertices on the way from the end of an edge to a place with its direction, without both."""
-        places, ways = np.array([begin.place, end[0]]), np.array([begin.direction, end[1]])
-        dense = np.linspace(0.0, 1.0, 65)
-        whole = _core.fair_curve(places, ways, dense.tolist())
-        length = float(np.linalg.norm(np.diff(whole, axis=0), axis=1).sum())
-        inner: FloatArray = _core.fair_curve(places, ways, _shares(length, lengths, self._wanted).tolist())
-        return inner
-
-    def joined(self, loop: IntArray, joint: Joint, ends: Sequence[EdgeEnd], lengths: FloatArray) -> Tree:
-        """The curves of one joint; lengths: (k,) of the loop's edges at each vertex."""
-        mine = [ends[k] for k in joint.ends]
-        leaves = tuple(end.at for end in mine)
-        is_marked = all(end.marked for end in mine)
-        if joint.centre is None:
-            a, b = mine
-            inner = self._new(self._curve(a, (b.place, -b.direction), (lengths[a.at], lengths[b.at])))
-            path = np.concatenate([loop[[a.at]], inner, loop[[b.at]]]).astype(np.int32)
-            self._keep(path, is_marked)
-            return Tree(leaves, (path, path[::-1].copy()))
-        centre = self._new(joint.centre[None])
-        mean = float(np.mean([lengths[end.at] for end in mine]))
-        arms = []
-        for end in mine:
-            inner = self._new(self._curve(end, (joint.centre, np.zeros(3)), (lengths[end.at], mean)))
-            arms.append(np.concatenate([loop[[end.at]], inner, centre]).astype(np.int32))
-            self._keep(arms[-1], end.marked)
-        return Tree(
-            leaves, tuple(np.concatenate([a, b[-2::-1]]) for a, b in zip(arms, arms[1:] + arms[:1], strict=True))
-        )
-
-    def drawn(self, found: _wires.Drawn, marked: set[int]) -> None:
-        """Curves that are there as wires; marked: where marked hard edges come to the loop."""
-        for curve in found.curves:
-            ends = {int(curve[0]), int(curve[-1])} & found.reached
-            self._keep(curve, ends <= marked)
-
-    def _keep(self, curve: IntArray, is_marked: bool) -> None:
-        self.curves.append(curve)
-        self.marked.append(is_marked)
-
-
-def _shares(length: float, ends: tuple[float, float], wanted: _Wanted) -> FloatArray:
-    """Shares of a curve's length at which its inner vertices lie: edges as long as at the ends, and as wanted between.
-
-    As for all new edges lengths grow or shrink by half of the distance on the way there.
-    """
-    along = np.linspace(0.0, length, 1025)
-    here = ends[0] + (ends[1] - ends[0]) * along / length
-    goal = np.full_like(along, wanted.length) if wanted.length else wanted.factor * here
-    away = 0.5 * np.minimum(along, length - along)
-    edges = np.clip(goal, here - away, here + away)
-    edges = np.maximum(edges, 1e-3 * min(ends))
-    count = np.concatenate([[0.0], np.cumsum(0.5 * (1.0 / edges[1:] + 1.0 / edges[:-1]) * np.diff(along))])
-    whole = max(1, round(float(count[-1])))
-    result: FloatArray = np.interp(np.arange(1, whole) / whole * count[-1], count, along) / length
-    return result
 
 
 def _run_on(
@@ -177,38 +109,33 @@ def _run_on(
     normals: FloatArray,
     mesh: tuple[FloatArray, IntArray],
     edges: Edges,
-    wanted: _Wanted,
+    wanted: Wanted,
 ) -> Curves:
-    vertices, triangles = mesh
-    making = _Making(vertices, wanted)
-    warnings: list[Diagnostic] = []
-    found = []
+    points = mesh[0]
+    old_count = len(points)
+    found: list[_Through] = []
+    cuts: list[_cut_loops.CutOutline | None] = []
     names, passes = np.unique(outline.vertices, return_counts=True)
     pinches = names[passes > 1]
     for loop, rows in zip(outline.loops, outline.split(normals), strict=True):
         if np.isin(loop, pinches).any():  # which pass an edge ends at is not known
-            found.append(_Through(loop, rows, [], []))
+            cuts.append(None)
             continue
-        drawn = _wires.drawn(loop, edges.wires)
-        there = ends_at(loop, vertices, triangles, edges.hard, edges.marked)
-        ends = [end for end in there.ends if end.vertex not in drawn.reached]
-        lengths = _lengths_at(vertices[loop])
-        trees = list(drawn.trees)
-        for group in _apart(ends, drawn.trees):
-            matching = matched(group)
-            warnings += _warnings(group, matching)
-            trees += [making.joined(loop, joint, group, lengths) for joint in matching.joints]
-        making.drawn(drawn, {end.vertex for end in there.ends if end.marked})
-        found.append(_Through(loop, rows, trees, there.along))
-    points = making.points
+        finder = _Finder(loop, rows, mesh, edges, wanted)
+        through, cut = finder.through(points)
+        points = through.making.points
+        found.append(through)
+        cuts.append(cut)
     return Curves(
         points,
-        len(vertices),
-        tuple(each.cut(points, triangles) for each in found),
-        tuple(making.curves),
+        old_count,
+        tuple(cuts),
+        tuple(curve for each in found for curve in each.making.curves),
         np.concatenate([np.empty(0, np.int32), *(each.rim for each in found)]),
-        tuple(making.marked),
-        tuple(warnings),
+        tuple(is_marked for each in found for is_marked in each.making.marked),
+        np.concatenate([np.empty(0, np.int32), *(row for each in found for row in each.making.rows)]),
+        tuple(band for each in found for band in each.making.bands),
+        tuple(warning for each in found for warning in each.warnings),
     )
 
 
@@ -218,18 +145,21 @@ class _Through:
 
     loop: IntArray
     normals: FloatArray
+    making: Making
     trees: list[Tree]
     along: list[range]
+    warnings: list[Diagnostic]
 
     @property
     def rim(self) -> IntArray:
         """The loop's vertices on hard edges along it."""
         return self.loop[sorted({place % len(self.loop) for run in self.along for place in run})]
 
-    def cut(self, points: FloatArray, triangles: IntArray) -> _cut_loops.CutOutline | None:
+    def cut(self, triangles: IntArray) -> _cut_loops.CutOutline | None:
         """The loop in parts; None where nothing runs through it or along it."""
         if not self.trees and not self.along:
             return None
+        points = self.making.points
         sides = _cut_loops.outside_normals(self.loop, points, triangles)
         missing = ~sides.any(axis=1)
         sides[missing] = self.normals[missing]
@@ -239,6 +169,77 @@ class _Through:
         return _cut_loops.cut(self.loop, normals, sides, self.trees, points)
 
 
+@dataclass(frozen=True, eq=False)
+class _Finder:
+    """Looks at one loop."""
+
+    loop: IntArray
+    normals: FloatArray
+    mesh: tuple[FloatArray, IntArray]
+    edges: Edges
+    wanted: Wanted
+
+    def through(self, points: FloatArray) -> tuple[_Through, _cut_loops.CutOutline | None]:
+        """What runs through, and the loop cut along it. points: all vertices so far.
+
+        Where curves meet the outline or each other, bands are left out, and then all but drawn edges.
+        """
+        vertices, triangles = self.mesh
+        drawn = _wires.drawn(self.loop, self.edges.wires)
+        there = ends_at(self.loop, vertices, triangles, self.edges.hard, self.edges.marked)
+        free = [end for end in there.ends if end.vertex not in drawn.reached]
+        marked = {end.vertex for end in there.ends if end.marked}
+        for ends, with_bands in ((free, self.edges.run_through), (free, False), ([], False)):
+            making = Making(points, self.wanted)
+            making.drawn(drawn, marked)
+            trees, warnings = self._edges(ends, drawn.trees, making)
+            if with_bands:
+                warnings = self._bands(trees, warnings, making)
+            if len(ends) < len(free):
+                warnings = _told(free, range(len(free)), "crossing", "the way on crosses the outline")
+            leaves = {leaf for tree in trees for leaf in tree.leaves}
+            along = there.along + [end.run for end in ends if end.at in leaves and len(end.run)]
+            through = _Through(self.loop, self.normals, making, trees, along, warnings)
+            cut = None if crosses(trees) else through.cut(triangles)
+            if (cut is None and not trees) or (cut is not None and not _is_tangled(cut, making.points)):
+                return through, cut
+        raise _wires.refusal("meet its outline or each other", drawn.vertices, "move them apart")
+
+    def _edges(self, ends: list[EdgeEnd], drawn: Sequence[Tree], making: Making) -> tuple[list[Tree], list[Diagnostic]]:
+        lengths = lengths_at(self.mesh[0][self.loop])
+        trees, warnings = list(drawn), []
+        for group in _apart(ends, drawn):
+            matching = matched(group)
+            warnings += _warnings(group, matching)
+            trees += [making.joined(self.loop, joint, group, lengths) for joint in matching.joints]
+        return trees, warnings
+
+    def _bands(self, trees: list[Tree], warnings: list[Diagnostic], making: Making) -> list[Diagnostic]:
+        """Add curves along bands that no hard edge runs in, and return the warnings about ends in none of them."""
+        points = self.mesh[0][self.loop]
+        leaves = {leaf for tree in trees for leaf in tree.leaves}
+        bands = [each for each in bands_at(self.loop, self.mesh[0], self.normals) if not leaves & each.covered]
+        mean = float(lengths_at(points).mean())
+        inside: set[int] = set()
+        for joint in matched([band.end for band in bands]).joints:
+            if joint.centre is None:
+                one, other = (bands[k] for k in joint.ends)
+                trees += making.band(self.loop, one, other, mean)
+                inside |= set(self.loop[sorted(one.covered | other.covered)].tolist())
+        return [each for each in warnings if not inside >= set(each.elements.tolist())]
+
+
+def _is_tangled(cut: _cut_loops.CutOutline, points: FloatArray) -> bool:
+    """Whether a part crosses or touches itself, or bounds nothing."""
+    for loop in cut.loops:
+        if len(loop) < 3 or len(crossing_edges([loop], points)):
+            return True
+        found = touches([loop], points)
+        if len(found.on_edges) or len(found.pairs):
+            return True
+    return False
+
+
 def _take_other_side(run: range, sides: FloatArray, normals: FloatArray) -> None:
     """The faces at a hard edge along the loop lie beyond it: normals there are those next to where the edge comes."""
     count = len(sides)
@@ -246,13 +247,6 @@ def _take_other_side(run: range, sides: FloatArray, normals: FloatArray) -> None
     for place, after in pairwise(run):
         sides[min(place, after) % count] = sides[before % count]
     normals[np.array(run) % count] = sides[before % count]
-
-
-def _lengths_at(points: FloatArray) -> FloatArray:
-    """(k,) the mean length of the two edges at each vertex of a loop."""
-    edges = np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1)
-    mean: FloatArray = 0.5 * (edges + np.roll(edges, 1))
-    return mean
 
 
 def _apart(ends: Sequence[EdgeEnd], trees: Sequence[Tree]) -> list[list[EdgeEnd]]:
@@ -265,17 +259,17 @@ def _apart(ends: Sequence[EdgeEnd], trees: Sequence[Tree]) -> list[list[EdgeEnd]
 
 def _warnings(ends: Sequence[EdgeEnd], matching: Matching) -> list[Diagnostic]:
     """Name the ends that are left alone."""
-    cases = (
-        (matching.lonely, "lonely", "no other one goes on from there"),
-        (matching.ambiguous, "ambiguous", "they may be joined in several ways"),
-        (matching.too_many, "too_many", "they are too many to be joined"),
-    )
-    found = []
-    for which, figure, why in cases:
-        if which:
-            where = np.sort(np.array([ends[k].vertex for k in which], dtype=np.int32))
-            what = "1 hard edge ends" if len(where) == 1 else f"{len(where)} hard edges end"
-            text = f"{what} at a hole, at {listed(where)}: {why}"
-            figures = {"ends": float(len(where)), figure: 1.0}
-            found.append(Diagnostic("EDGES_LEFT_ALONE", text, where, "vertex", figures))
-    return found
+    return [
+        *_told(ends, matching.lonely, "lonely", "no other one goes on from there"),
+        *_told(ends, matching.ambiguous, "ambiguous", "they may be joined in several ways"),
+        *_told(ends, matching.too_many, "too_many", "they are too many to be joined"),
+    ]
+
+
+def _told(ends: Sequence[EdgeEnd], which: Sequence[int], figure: str, why: str) -> list[Diagnostic]:
+    if not which:
+        return []
+    where = np.sort(np.array([ends[k].vertex for k in which], dtype=np.int32))
+    what = "1 hard edge ends" if len(where) == 1 else f"{len(where)} hard edges end"
+    text = f"{what} at a hole, at {listed(where)}: {why}"
+    return [Diagnostic("EDGES_LEFT_ALONE", text, where, "vertex", {"ends": float(len(where)), figure: 1.0})]

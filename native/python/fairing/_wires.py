@@ -21,6 +21,12 @@ class Drawn:
     reached: frozenset[int] = frozenset()
     """Vertices of the loop where wires end."""
 
+    @property
+    def vertices(self) -> IntArray:
+        """All of theirs, ascending."""
+        found: IntArray = np.unique(np.concatenate([np.empty(0, np.int32), *self.curves])).astype(np.int32)
+        return found
+
 
 def drawn(loop: IntArray, wires: IntArray) -> Drawn:
     """Wires (w, 2) that join vertices of the loop, or that meet between them.
@@ -46,7 +52,7 @@ def drawn(loop: IntArray, wires: IntArray) -> Drawn:
     wrong = crosses(trees)
     if wrong:
         where = np.unique(np.concatenate([path for k in wrong for path in trees[k].paths]))
-        _refuse(f"edges drawn across a hole cross each other, at {listed(where)}: give them a common vertex", where)
+        raise refusal("cross each other", where, "give them a common vertex")
     reached = frozenset(int(loop[leaf]) for tree in trees for leaf in tree.leaves)
     return Drawn(tuple(trees), tuple(curves), reached)
 
@@ -91,7 +97,7 @@ def _without_loose_ends(links: Links, places: dict[int, int]) -> Links:
 def _refuse_rings(links: Links) -> None:
     if sum(map(len, links.values())) // 2 >= len(links):
         where = np.array(sorted(links), dtype=np.int32)
-        _refuse(f"edges drawn across a hole enclose a place of their own, at {listed(where)}: remove one", where)
+        raise refusal("enclose a place of their own", where, "remove one")
 
 
 def _path(begin: int, end: int, links: Links) -> list[int]:
@@ -124,6 +130,8 @@ def _branches(links: Links, places: dict[int, int]) -> list[IntArray]:
     return found
 
 
-def _refuse(text: str, where: IntArray) -> None:
+def refusal(what: str, where: IntArray, advice: str) -> MeshError:
+    """Why drawn edges can't be used, with their vertices."""
+    text = f"edges drawn across a hole {what}, at {listed(where)}: {advice}"
     figures = {"wires": float(len(where))}
-    raise MeshError(Diagnostic("NONMANIFOLD_EDGE", text, where.astype(np.int32), "vertex", figures))
+    return MeshError(Diagnostic("NONMANIFOLD_EDGE", text, where.astype(np.int32), "vertex", figures))
