@@ -11,7 +11,6 @@ import numpy as np
 
 import fairing
 
-from .around import nearby
 from .arrays import Floats, Ints
 from .border import BorderRefusal, Left, left_by
 from .checked import refuse_negative, refuse_other_kinds, refuse_unknown
@@ -21,7 +20,9 @@ from .fill_verdict import Surface, judge
 from .findings import Origin
 from .harmonic import harmonic, nearest
 from .key_surface import NewSurface, Surroundings, key_surfaces
+from .neighbourhood import Neighbourhood
 from .options import ACCEPT, CONTINUITIES, INNER, LEAST_SPACING, OF_CURVATURE
+from .parted import parted, stars_of
 from .passes import numbered_by_pass
 from .quality import Join, join_at
 from .region import MeshArrays, nothing, to_local
@@ -30,6 +31,7 @@ from .words import in_mesh_words, sentences
 
 _TOO_MANY = "Bridge joins all {} selected boundary loops in one surface: select only those that belong together"
 _TWO = "Bridge needs two boundary loops that face each other: switch it off to close each of them by itself"
+SMALL = 8  # edges of loops that are filled in one call, as most of them take a fan; see fairing's _hub.py
 SHAPES = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION")
 
 
@@ -194,11 +196,13 @@ def fill(
     with np.errstate(invalid="ignore", over="ignore"):  # elsewhere
         world = mesh.transformed(matrix)
     groups = [loops] if options.bridge else [[loop] for loop in loops]
+    job = _Job(world, matrix, options, Neighbourhood(world.positions, world.triangles))
+    made: dict[int, Piece] = job.small(loops)
     pieces, errors, left = [], [], []
     for i, group in enumerate(groups):
         part = sub_range(progress, i / len(groups), (i + 1) / len(groups))
         try:
-            pieces.append(_piece(world, matrix, group, options, part))
+            pieces.append(made[i] if i in made else job.piece(group, part))
         except (fairing.MeshError, BorderRefusal, fairing.SolverError) as error:
             errors.append(error)
             left.append(left_by(error, np.unique(np.concatenate(group))))
@@ -207,50 +211,98 @@ def fill(
     return Filled(pieces, tuple(left)).settled(options)
 
 
-def _piece(
-    world: MeshArrays, matrix: Floats, loops: list[Ints], options: FillOptions, progress: Progress | None
-) -> Piece:
-    outline = np.concatenate(loops)
-    vertices, around = _surroundings(world, outline)
-    given = [np.searchsorted(vertices, loop) for loop in loops]
-    origin = Origin(vertices, around, np.zeros(len(around), np.int64))
-    with _joining(options, outline, len(loops)), in_mesh_words(origin):
-        result = fairing.fill(
-            world.positions[vertices], around, given, bridge=options.bridge, spacing=_spacing(world, loops, options),
-            inner=options.inner.lower(), equation=options.equation.lower(),
-            continuity="G2" if options.joins_curvature else "G1", max_vertices=options.max_vertices,
-            progress=progress,
+@dataclass(frozen=True)
+class _Job:
+    """The surfaces of one run, in world space."""
+
+    world: MeshArrays
+    matrix: Floats
+    options: FillOptions
+    near: Neighbourhood
+
+    def piece(self, loops: list[Ints], progress: Progress | None) -> Piece:
+        """Make one surface, over a loop or between several."""
+        outline = np.concatenate(loops)
+        local = self._local(outline)
+        with _joining(self.options, outline, len(loops)), in_mesh_words(local.origin):
+            result = self._filled(local, loops, progress)
+        return self._made(local, loops, result)
+
+    def small(self, loops: list[Ints]) -> dict[int, Piece]:
+        """Make those over small loops in one call, by the loops' numbers; of what is wrong with one nothing is made."""
+        few = [k for k, loop in enumerate(loops) if len(loop) <= SMALL and len(np.unique(loop)) == len(loop)]
+        if self.options.bridge or self.options.spacing != 1.0 or len(few) < 2:
+            return {}
+        chosen = [loops[k] for k in few]
+        whole = self._local(np.unique(np.concatenate(chosen)))
+        try:
+            result = self._filled(whole, chosen, None)
+        except (fairing.MeshError, fairing.SolverError):
+            return {}  # each by itself tells why
+        made, stars = {}, stars_of(result)
+        for k, loop in zip(few, chosen, strict=True):
+            local = self._local(loop)
+            own = parted(result, stars, whole.numbers(loop), (whole.vertices, local.vertices))
+            if own is not None:
+                made[k] = self._made(local, [loop], own)
+        return made
+
+    def _local(self, outline: Ints) -> _Local:
+        around = self.near.around(np.unique(outline))
+        vertices = np.union1d(outline, around)
+        return _Local(vertices, np.searchsorted(vertices, around))
+
+    def _filled(self, local: _Local, loops: list[Ints], progress: Progress | None) -> fairing.FillResult:
+        options = self.options
+        return fairing.fill(
+            self.world.positions[local.vertices], local.around, [local.numbers(loop) for loop in loops],
+            bridge=options.bridge, spacing=_spacing(self.world, loops, options), inner=options.inner.lower(),
+            equation=options.equation.lower(), continuity="G2" if options.joins_curvature else "G1",
+            max_vertices=options.max_vertices, progress=progress,
         )  # fmt: skip
-    triangles = numbered_by_pass(result.triangles.astype(np.int64), given, len(vertices))
-    points = np.concatenate([world.positions[outline], result.vertices])
-    whole = np.concatenate([world.positions[vertices], result.vertices])
-    join = join_at(vertices[result.fixed], fairing.visible_join(whole, result.triangles, around, result.fixed))
-    slopes = tuple(warning for warning in result.warnings if warning.code == "G2_NOT_MET")
-    tangent_only = np.unique(np.concatenate([nothing(), *(vertices[warning.elements] for warning in slopes)]))
-    verdict = judge(world, outline, Surface(points, triangles, result, join, tangent_only))
-    return Piece(
-        loops=tuple(loops),
-        points=points,
-        positions=to_local(result.vertices, matrix),
-        triangles=triangles[:, ::-1] if world.mirrored else triangles,
-        verdict=_advised(verdict, options, len(loops)),
-        result=result,
-        join=join,
-        around=_keyed_from(vertices, around, outline, matrix),
-        quads=options.quads,
-        limit_total=options.limit_total,
-        notes=_notes(result, slopes, origin),
-    )
+
+    def _made(self, local: _Local, loops: list[Ints], result: fairing.FillResult) -> Piece:
+        world, vertices, around, outline = self.world, local.vertices, local.around, np.concatenate(loops)
+        given = [local.numbers(loop) for loop in loops]
+        triangles = numbered_by_pass(result.triangles.astype(np.int64), given, len(vertices))
+        points = np.concatenate([world.positions[outline], result.vertices])
+        whole = np.concatenate([world.positions[vertices], result.vertices])
+        join = join_at(vertices[result.fixed], fairing.visible_join(whole, result.triangles, around, result.fixed))
+        slopes = tuple(warning for warning in result.warnings if warning.code == "G2_NOT_MET")
+        tangent_only = np.unique(np.concatenate([nothing(), *(vertices[warning.elements] for warning in slopes)]))
+        surface = Surface(points, triangles, result, join, tangent_only)
+        verdict = judge(world, outline, surface, vertices[around])
+        return Piece(
+            loops=tuple(loops),
+            points=points,
+            positions=to_local(result.vertices, self.matrix),
+            triangles=triangles[:, ::-1] if world.mirrored else triangles,
+            verdict=_advised(verdict, self.options, len(loops)),
+            result=result,
+            join=join,
+            around=_keyed_from(vertices, around, outline, self.matrix),
+            quads=self.options.quads,
+            limit_total=self.options.limit_total,
+            notes=_notes(result, slopes, local.origin),
+        )
 
 
-def _surroundings(world: MeshArrays, outline: Ints) -> tuple[Ints, Ints]:
-    """Return the (q,) mesh vertices of the boundary and of the triangles around it, and these, in their numbers."""
-    finite = np.isfinite(world.positions).all(axis=1)
-    start = np.zeros(len(finite), dtype=bool)
-    start[outline] = True
-    around = nearby(world.triangles[finite[world.triangles].all(axis=1)], start)
-    vertices = np.union1d(outline, around)
-    return vertices, np.searchsorted(vertices, around)
+@dataclass(frozen=True)
+class _Local:
+    """The (q,) mesh vertices of some boundaries and of the triangles around them, and these (o, 3) in their numbers."""
+
+    vertices: Ints
+    around: Ints
+
+    def numbers(self, vertices: Ints) -> Ints:
+        """Return mesh vertices in local numbers."""
+        found: Ints = np.searchsorted(self.vertices, vertices)
+        return found
+
+    @property
+    def origin(self) -> Origin:
+        """Where they are in the mesh."""
+        return Origin(self.vertices, self.around, np.zeros(len(self.around), np.int64))
 
 
 def _keyed_from(vertices: Ints, around: Ints, outline: Ints, matrix: Floats) -> Surroundings:

@@ -88,37 +88,38 @@ def chosen_loops(points: FloatArray, around: IntArray, wanted: Wanted) -> Chosen
     chosen = Chosen(outline, normals, curvatures, tuple(left))
     if wanted.bridge:
         return chosen
-    return fillable(chosen, lambda part: _loops.refuse_endless(part.outline, points, part.normals))
+    return _without(chosen, dict(_loops.endless(chosen.outline, points, chosen.normals)))
 
 
 def fillable(chosen: Chosen, attempt: Callable[[Chosen], Any]) -> Chosen:
     """The loops on which an attempt raises no MeshError by themselves; the first error where there are none."""
-    kept, left, first = [], [], None
-    for k, loop in enumerate(chosen.outline.loops):
+    bad = {}
+    for k in range(len(chosen.outline.loops)):
         try:
             attempt(chosen.part([k]))
-            kept.append(k)
         except MeshError as error:
-            first = first or error
-            left.append(Left(loop, error.diagnostic))
-    if first is None:
-        return chosen
-    if not kept:
-        raise first
-    part = chosen.part(kept)
-    return Chosen(part.outline, part.normals, part.curvatures, chosen.left + tuple(left))
+            bad[k] = error.diagnostic
+    return _without(chosen, bad)
 
 
 def blamed(chosen: Chosen, error: MeshError) -> Chosen | None:
     """Without the loops that an error names; None where it names none, or all."""
-    if error.kind != "vertex":
+    hit = [k for k, loop in enumerate(chosen.outline.loops) if np.isin(loop, error.elements).any()]
+    if error.kind != "vertex" or not hit or len(hit) == len(chosen.outline.loops):
         return None
-    hit = [bool(np.isin(loop, error.elements).any()) for loop in chosen.outline.loops]
-    if all(hit) or not any(hit):
-        return None
-    left = [Left(loop, error.diagnostic) for loop, bad in zip(chosen.outline.loops, hit, strict=True) if bad]
-    part = chosen.part([k for k, bad in enumerate(hit) if not bad])
-    return Chosen(part.outline, part.normals, part.curvatures, chosen.left + tuple(left))
+    return _without(chosen, dict.fromkeys(hit, error.diagnostic))
+
+
+def _without(chosen: Chosen, bad: dict[int, Diagnostic]) -> Chosen:
+    """Leave these loops open; MeshError with the first reason where no other is there."""
+    if not bad:
+        return chosen
+    kept = [k for k in range(len(chosen.outline.loops)) if k not in bad]
+    if not kept:
+        raise MeshError(bad[0])
+    part = chosen.part(kept)
+    left = tuple(Left(chosen.outline.loops[k], reason) for k, reason in bad.items())
+    return Chosen(part.outline, part.normals, part.curvatures, chosen.left + left)
 
 
 def _found(points: FloatArray, around: IntArray, wanted: Wanted) -> tuple[Outline, list[Left]]:

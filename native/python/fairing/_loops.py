@@ -73,14 +73,16 @@ def not_holes(loops: Sequence[IntArray]) -> Diagnostic:
     return Diagnostic("NOT_A_HOLE", text, edges, "vertex", {"loops": float(len(loops)), "vertices": float(len(edges))})
 
 
-def refuse_endless(outline: Outline, vertices: FloatArray, normals: FloatArray) -> None:
-    """MeshError (NOT_A_HOLE) for a loop over which lies no surface but the other side of a sheet without height."""
-    for loop, part in zip(outline.loops, outline.split(normals), strict=True):
+def endless(outline: Outline, vertices: FloatArray, normals: FloatArray) -> list[tuple[int, Diagnostic]]:
+    """The loops over which lies no surface but the other side of a sheet without height: their numbers, and why."""
+    found = []
+    for k, (loop, part) in enumerate(zip(outline.loops, outline.split(normals), strict=True)):
         if not is_endless(vertices[loop], part):
             continue
         text = f"the border loop at {listed(loop)} goes around the outside of a flat sheet: no surface closes it"
         figures = {"loops": 1.0, "vertices": float(len(loop)), "endless": 1.0}
-        raise MeshError(Diagnostic("NOT_A_HOLE", text, np.sort(loop).astype(np.int32), "vertex", figures))
+        found.append((k, Diagnostic("NOT_A_HOLE", text, np.sort(loop).astype(np.int32), "vertex", figures)))
+    return found
 
 
 def given_loops(loops: Any, vertices: FloatArray, triangles: IntArray) -> Outline:
@@ -218,8 +220,10 @@ def _stacked(values: Any, dimensions: int) -> tuple[Any, bool]:
 
 
 def _directed_edges(triangles: IntArray, count: int) -> npt.NDArray[np.int64]:
+    """Ascending, and one beyond all."""
     tails = triangles.astype(np.int64)
-    return (tails * count + np.roll(tails, -1, axis=1)).ravel()
+    sides = np.sort((tails * count + np.roll(tails, -1, axis=1)).ravel())
+    return np.append(sides, np.iinfo(np.int64).max)
 
 
 def _sense(loop: IntArray, sides: npt.NDArray[np.int64], count: int) -> int:
@@ -230,8 +234,9 @@ def _sense(loop: IntArray, sides: npt.NDArray[np.int64], count: int) -> int:
     if len(loop) < 3:
         return 0  # `check` refuses it
     tails, heads = loop.astype(np.int64), np.roll(loop, -1).astype(np.int64)
-    along = np.isin(tails * count + heads, sides)
-    against = np.isin(heads * count + tails, sides)
+    along, against = (
+        sides[np.searchsorted(sides, edges)] == edges for edges in (tails * count + heads, heads * count + tails)
+    )
     if (along & against).any():
         inner = _ends(loop, along & against)
         _refuse("NOT_A_LOOP", f"edges of a loop are no border, faces lie on both sides: {listed(inner)}", inner)
