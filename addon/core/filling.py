@@ -11,6 +11,7 @@ import numpy as np
 
 import fairing
 
+from .across import HARD_EDGES, Across, Loose, Numbering, drawn_edges, marked_edges, within
 from .arrays import Floats, Ints
 from .border import BorderRefusal, Left, left_by
 from .checked import refuse_negative, refuse_other_kinds, refuse_unknown
@@ -19,6 +20,7 @@ from .faces import Faces, faces_of, paired_faces
 from .fill_verdict import Surface, judge
 from .findings import Origin
 from .harmonic import harmonic, nearest
+from .islands import with_islands
 from .key_surface import NewSurface, Surroundings, key_surfaces
 from .neighbourhood import Neighbourhood
 from .options import ACCEPT, CONTINUITIES, INNER, LEAST_SPACING, OF_CURVATURE
@@ -33,6 +35,7 @@ _TOO_MANY = "Bridge joins all {} selected boundary loops in one surface: select 
 _TWO = "Bridge needs two boundary loops that face each other: switch it off to close each of them by itself"
 SMALL = 8  # edges of loops that are filled in one call, as most of them take a fan; see fairing's _hub.py
 SHAPES = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION")
+_TOLD = ("NO_SOLUTION", "NOT_TANGENT", "EDGES_LEFT_ALONE")
 
 
 @dataclass(frozen=True)
@@ -45,6 +48,8 @@ class FillOptions:
     equation: str = "AUTOMATIC"
     continuity: str = "G1"  # G2: the curvature around is continued, too
     bridge: bool = False  # all loops of an object are joined
+    islands: bool = False  # loose pieces of faces inside a hole are joined with it
+    hard_edges: str = "RUN_ON"  # those that end at a hole go on through it, as edges drawn across it do; IGNORED
     spacing: float = 1.0  # of new edges, as a factor of the boundary's
     inner: str = "OUTLINE"  # in proportion to the boundary's nearby; EVEN: of one length
     quads: bool = False  # triangles are written in pairs, as far as they can be
@@ -61,6 +66,8 @@ class FillOptions:
             raise ValueError(f"continuity: expected one of {', '.join(CONTINUITIES)}, got {self.continuity!r}")
         if self.inner not in INNER:
             raise ValueError(f"inner: expected one of {', '.join(INNER)}, got {self.inner!r}")
+        if self.hard_edges not in HARD_EDGES:
+            raise ValueError(f"hard_edges: expected one of {', '.join(HARD_EDGES)}, got {self.hard_edges!r}")
         if self.accept not in ACCEPT:
             raise ValueError(f"accept: expected one of {', '.join(ACCEPT)}, got {self.accept!r}")
         refuse_other_kinds(self)
@@ -103,6 +110,7 @@ class Piece:
     quads: bool = False  # whether triangles are written in pairs
     limit_total: int = 0  # as FillOptions has it
     notes: tuple[str, ...] = field(default=())
+    across: Across = field(default_factory=Across)  # what runs across it; drawn vertices come first among the k
 
     def faces(self, kinds: Ints, lines: Ints) -> Faces:
         """Return what is written; kinds: (m,) of the triangles, only those of one kind are paired.
@@ -112,7 +120,7 @@ class Piece:
         closes_at_once = not len(self.positions) and len(self.triangles) == 2
         if not (self.quads or closes_at_once):
             return faces_of(self.triangles)
-        return paired_faces(self.points, self.triangles, lines, kinds)
+        return paired_faces(self.points, self.triangles, np.concatenate([lines, self.across.edges]), kinds)
 
     @property
     def outline(self) -> Ints:
@@ -134,7 +142,12 @@ class Piece:
         return harmonic(self.points, self.triangles, values)
 
     def keyed(self, places: list[Floats], carried: list[Floats]) -> list[Floats | None]:
-        """Return (k, 3) for each shape key: where it has the new vertices, see core.key_surface."""
+        """Return (k, 3) for each shape key: where it has the new vertices, see core.key_surface.
+
+        None where curves run across the surface: there they stay where they are carried.
+        """
+        if len(self.across.edges):
+            return [None] * len(places)
         mirrored = np.linalg.det(self.around.matrix[:3, :3]) < 0.0
         triangles = self.triangles[:, ::-1] if mirrored else self.triangles
         return key_surfaces(NewSurface(self.points, triangles, self.result.equation), self.around, places, carried)
@@ -195,9 +208,9 @@ def fill(
     """
     with np.errstate(invalid="ignore", over="ignore"):  # elsewhere
         world = mesh.transformed(matrix)
-    groups = [loops] if options.bridge else [[loop] for loop in loops]
-    job = _Job(world, matrix, options, Neighbourhood(world.positions, world.triangles))
-    made: dict[int, Piece] = job.small(loops)
+    groups = _groups(world, loops, options)
+    job = _Job(world, matrix, options, Neighbourhood(world.positions, world.triangles), Loose.of(world))
+    made = job.small(groups)
     pieces, errors, left = [], [], []
     for i, group in enumerate(groups):
         part = sub_range(progress, i / len(groups), (i + 1) / len(groups))
@@ -211,6 +224,13 @@ def fill(
     return Filled(pieces, tuple(left)).settled(options)
 
 
+def _groups(world: MeshArrays, loops: list[Ints], options: FillOptions) -> list[list[Ints]]:
+    """Return the loops that one surface joins each."""
+    if options.bridge or not options.islands:
+        return [loops] if options.bridge else [[loop] for loop in loops]
+    return [[loops[k] for k in numbers] for numbers in with_islands(world, loops)]
+
+
 @dataclass(frozen=True)
 class _Job:
     """The surfaces of one run, in world space."""
@@ -219,63 +239,78 @@ class _Job:
     matrix: Floats
     options: FillOptions
     near: Neighbourhood
+    loose: Loose
 
     def piece(self, loops: list[Ints], progress: Progress | None) -> Piece:
         """Make one surface, over a loop or between several."""
         outline = np.concatenate(loops)
-        local = self._local(outline)
+        local = self._local(outline, self._drawn(outline))
         with _joining(self.options, outline, len(loops)), in_mesh_words(local.origin):
-            result = self._filled(local, loops, progress)
+            result = self._filled(local, loops, progress, self.options.bridge or len(loops) > 1)
         return self._made(local, loops, result)
 
-    def small(self, loops: list[Ints]) -> dict[int, Piece]:
-        """Make those over small loops in one call, by the loops' numbers; of what is wrong with one nothing is made."""
-        few = [k for k, loop in enumerate(loops) if len(loop) <= SMALL and len(np.unique(loop)) == len(loop)]
+    def small(self, groups: list[list[Ints]]) -> dict[int, Piece]:
+        """Make those over small loops in one call, by the groups' numbers; none where anything is wrong with one."""
+        loops = {k: group[0] for k, group in enumerate(groups) if len(group) == 1}
+        few = [k for k, loop in loops.items() if len(loop) <= SMALL and len(np.unique(loop)) == len(loop)]
+        few = [k for k in few if not len(self._drawn(loops[k]))]
         if self.options.bridge or self.options.spacing != 1.0 or len(few) < 2:
             return {}
         chosen = [loops[k] for k in few]
-        whole = self._local(np.unique(np.concatenate(chosen)))
+        whole = self._local(np.unique(np.concatenate(chosen)), _no_edges())
         try:
             result = self._filled(whole, chosen, None)
         except (fairing.MeshError, fairing.SolverError):
             return {}  # each by itself tells why
         made, stars = {}, stars_of(result)
         for k, loop in zip(few, chosen, strict=True):
-            local = self._local(loop)
+            local = self._local(loop, _no_edges())
             own = parted(result, stars, whole.numbers(loop), (whole.vertices, local.vertices))
             if own is not None:
                 made[k] = self._made(local, [loop], own)
         return made
 
-    def _local(self, outline: Ints) -> _Local:
-        around = self.near.around(np.unique(outline))
-        vertices = np.union1d(outline, around)
-        return _Local(vertices, np.searchsorted(vertices, around))
+    def _drawn(self, outline: Ints) -> Ints:
+        """Return the (w, 2) edges that are drawn across a hole."""
+        runs_on = self.options.hard_edges == "RUN_ON" and not self.options.bridge
+        return drawn_edges(self.loose, outline) if runs_on and len(self.loose.edges) else _no_edges()
 
-    def _filled(self, local: _Local, loops: list[Ints], progress: Progress | None) -> fairing.FillResult:
+    def _local(self, outline: Ints, drawn: Ints) -> _Local:
+        around = self.near.around(np.unique(outline))
+        vertices = np.unique(np.concatenate([outline, around.ravel(), drawn.ravel()]))
+        return _Local(vertices, np.searchsorted(vertices, around), within(drawn, vertices))
+
+    def _filled(
+        self, local: _Local, loops: list[Ints], progress: Progress | None, bridge: bool = False
+    ) -> fairing.FillResult:
         options = self.options
         return fairing.fill(
             self.world.positions[local.vertices], local.around, [local.numbers(loop) for loop in loops],
-            bridge=options.bridge, spacing=_spacing(self.world, loops, options), inner=options.inner.lower(),
+            bridge=bridge, spacing=_spacing(self.world, loops, options), inner=options.inner.lower(),
             equation=options.equation.lower(), continuity="G2" if options.joins_curvature else "G1",
-            max_vertices=options.max_vertices, progress=progress,
+            max_vertices=options.max_vertices, edges=options.hard_edges.lower(), wires=local.drawn,
+            marked=within(marked_edges(self.world), local.vertices), progress=progress,
         )  # fmt: skip
 
     def _made(self, local: _Local, loops: list[Ints], result: fairing.FillResult) -> Piece:
         world, vertices, around, outline = self.world, local.vertices, local.around, np.concatenate(loops)
+        number = Numbering.made(outline, vertices, result)
         given = [local.numbers(loop) for loop in loops]
-        triangles = numbered_by_pass(result.triangles.astype(np.int64), given, len(vertices))
-        points = np.concatenate([world.positions[outline], result.vertices])
+        triangles = numbered_by_pass(number.of[result.triangles], result.triangles.astype(np.int64), given)
+        inside = number.places(world.positions, result.vertices)
+        points = np.concatenate([world.positions[outline], inside])
         whole = np.concatenate([world.positions[vertices], result.vertices])
-        join = join_at(vertices[result.fixed], fairing.visible_join(whole, result.triangles, around, result.fixed))
+        rim = np.unique(np.concatenate(given))
+        join = join_at(vertices[rim], fairing.visible_join(whole, result.triangles, around, rim))
+        across = number.across(result, local.drawn)
         slopes = tuple(warning for warning in result.warnings if warning.code == "G2_NOT_MET")
         tangent_only = np.unique(np.concatenate([nothing(), *(vertices[warning.elements] for warning in slopes)]))
-        surface = Surface(points, triangles, result, join, tangent_only)
+        surface = Surface(points, triangles, result, join, tangent_only, across.edges)
         verdict = judge(world, outline, surface, vertices[around])
         return Piece(
             loops=tuple(loops),
             points=points,
-            positions=to_local(result.vertices, self.matrix),
+            positions=to_local(inside, self.matrix),
             triangles=triangles[:, ::-1] if world.mirrored else triangles,
             verdict=_advised(verdict, self.options, len(loops)),
             result=result,
@@ -284,15 +319,17 @@ class _Job:
             quads=self.options.quads,
             limit_total=self.options.limit_total,
             notes=_notes(result, slopes, local.origin),
+            across=across,
         )
 
 
 @dataclass(frozen=True)
 class _Local:
-    """The (q,) mesh vertices of some boundaries and of the triangles around them, and these (o, 3) in their numbers."""
+    """The (q,) mesh vertices of some boundaries and of what is around them, ascending."""
 
     vertices: Ints
-    around: Ints
+    around: Ints  # (o, 3) triangles, in numbers of these
+    drawn: Ints  # (w, 2) edges that are drawn across, likewise
 
     def numbers(self, vertices: Ints) -> Ints:
         """Return mesh vertices in local numbers."""
@@ -303,6 +340,10 @@ class _Local:
     def origin(self) -> Origin:
         """Where they are in the mesh."""
         return Origin(self.vertices, self.around, np.zeros(len(self.around), np.int64))
+
+
+def _no_edges() -> Ints:
+    return np.empty((0, 2), dtype=np.int64)
 
 
 def _keyed_from(vertices: Ints, around: Ints, outline: Ints, matrix: Floats) -> Surroundings:
@@ -324,7 +365,7 @@ def _spacing(world: MeshArrays, loops: list[Ints], options: FillOptions) -> floa
 
 def _notes(result: fairing.FillResult, slopes: tuple[fairing.Diagnostic, ...], origin: Origin) -> tuple[str, ...]:
     """Report what stands in for the surface asked for, and where its curvature is not continued."""
-    warnings = [warning for warning in result.warnings if warning.code in ("NO_SOLUTION", "NOT_TANGENT")]
+    warnings = [warning for warning in result.warnings if warning.code in _TOLD]
     known = [replace(each, elements=each.elements[each.elements < len(origin.vertices)]) for each in warnings]
     return sentences((*known, *slopes), origin)
 

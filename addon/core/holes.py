@@ -11,6 +11,7 @@ import fairing
 from .arrays import Floats, Ints
 from .border import BorderRefusal, Left, refuse_all
 from .filling import FillOptions
+from .islands import islands_inside
 from .region import MeshArrays
 from .words import counted
 
@@ -55,11 +56,13 @@ def chosen_borders(mesh: MeshArrays, matrix: Floats, borders: Borders, options: 
     if not borders.loops:
         refuse_all(borders.left)
     short = short_among(mesh, matrix, borders, options)
-    return holes_among(mesh, matrix, short) if every else short
+    return holes_among(mesh, matrix, short, options.islands) if every else short
 
 
-def holes_among(mesh: MeshArrays, matrix: Floats, borders: Borders) -> Borders:
-    """Return the holes among all border loops of a mesh; `matrix`, 4×4, leads to where they are filled.
+def holes_among(mesh: MeshArrays, matrix: Floats, borders: Borders, islands: bool = False) -> Borders:
+    """Return the holes among all border loops of a mesh, and with `islands` the loose pieces inside them.
+
+    matrix: 4×4, to where they are filled.
 
     Raises BorderRefusal where none of them is a hole.
     """
@@ -68,6 +71,8 @@ def holes_among(mesh: MeshArrays, matrix: Floats, borders: Borders) -> Borders:
         return borders
     world = _placed(mesh, matrix)
     outer = fairing.outer_borders(world.positions, world.triangles, loops)
+    if islands:
+        outer[list(islands_inside(world, loops, outer))] = False
     if outer.all():
         refuse_all(borders.left)
         each = "The border runs" if len(loops) == 1 else f"All {len(loops)} borders run"

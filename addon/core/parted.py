@@ -19,12 +19,13 @@ def parted(
     """Return what a result over many loops is over one of them, in the numbers of other surroundings.
 
     stars: of the result. loop: (k,) in the numbers of the result's old vertices. spaces: the mesh vertices that old
-    vertices were, and those that they are to be, both ascending. None where that loop was left open.
+    vertices were, and those that they are to be, both ascending. None where that loop was left open, or curves
+    run through it.
     """
     old, new = spaces
     count = len(old)
     rows = _triangles_over(result, stars, loop, count)
-    if not len(rows):
+    if not len(rows) or any(np.isin(curve, loop).any() for curve in result.curves):
         return None
     triangles = result.triangles[rows].astype(np.int64)
     added = np.unique(triangles[triangles >= count])
@@ -44,6 +45,8 @@ def parted(
         loops=(number[loop].astype(np.int32),),
         left_open=(),
         left_because=(),
+        curves=(),
+        marked=(),
     )
 
 

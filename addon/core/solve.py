@@ -15,10 +15,11 @@ from .boundary import prescribed_curvatures, prescribed_normals
 from .engine import Progress
 from .feather import band_weights, refuse_options
 from .findings import Origin
+from .held_curves import faired_curves
 from .memory import Memory, digest
 from .options import FairOptions
 from .outline import outline_notes, precision_note
-from .region import MeshArrays, make_patch
+from .region import MeshArrays, make_patch, nothing
 from .winding import winding_note, with_one_winding
 from .words import sentences
 
@@ -102,7 +103,11 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
         weights = band_weights(world, patch, vertices, around, options.feather) if options.moves_band else None
         precision = precision_note(mesh)
         notes = winding_note(turned) + outline_notes(world) + ((precision,) if precision else ()) + mesh.notes
-    problem = engine.Problem(patch, world.positions[vertices], normals, vertices, around, curvatures, weights, sample)
+        curve, places = faired_curves(world) if options.fairs_pinned_edges else (nothing(), np.empty((0, 3)))
+    problem = engine.Problem(
+        patch, world.positions[vertices], normals, vertices, around, curvatures, weights, sample,
+        np.searchsorted(patch.vertices, curve), places,
+    )  # fmt: skip
     return problem, warnings + notes
 
 

@@ -113,6 +113,8 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
             "equation",
             "continuity",
             "bridge",
+            "islands",
+            "hard_edges",
             "spacing",
             "inner",
             "longest",

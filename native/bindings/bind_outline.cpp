@@ -2,9 +2,12 @@
 #include "base/parallel.h"
 #include "bindings/python_run.h"
 #include "bindings/topics.h"
+#include "geometry/hard_edges.h"
 #include "outline/bad_outline.h"
+#include "outline/chain_end.h"
 #include "outline/creased.h"
 #include "outline/feather.h"
+#include "outline/least_variation_curve.h"
 #include "outline/mended_outline.h"
 #include "shape/visible_join.h"
 
@@ -29,15 +32,31 @@ py::dict to_dict(const SurroundingNormals& result) {
     return dict;
 }
 
+VertexPairs to_pairs(const IntArray& edges) {
+    const Indices flat = to_indices(edges);
+    VertexPairs pairs;
+    for (std::size_t k = 0; k + 1 < flat.size(); k += 2) pairs.push_back({flat[k], flat[k + 1]});
+    return pairs;
+}
+
+py::array hard_edge_array(const DoubleArray& vertices, const IntArray& triangles, const IntArray& marked) {
+    const VertexPairs found = hard_edges(to_points(vertices), to_triangles(triangles), to_pairs(marked));
+    py::array_t<int> result({static_cast<py::ssize_t>(found.size()), py::ssize_t{2}});
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        for (std::size_t end = 0; end < 2; ++end)
+            result.mutable_at(static_cast<py::ssize_t>(k), static_cast<py::ssize_t>(end)) = found[k][end];
+    }
+    result.attr("flags").attr("writeable") = false;
+    return std::move(result);
+}
+
 // Of vertices with several copies the first one counts; those without triangles have none and stay what they are.
 py::dict surrounding_normal_arrays(const DoubleArray& vertices, const IntArray& triangles, const IntArray& where,
                                    const IntArray& creases) {
     const Points points = to_points(vertices);
     Indices places = to_indices(where);
-    const Indices flat = to_indices(creases);
-    if (flat.empty()) return to_dict(surrounding_normals(points, to_triangles(triangles), places));
-    std::vector<std::array<int, 2>> edges;
-    for (std::size_t k = 0; k + 1 < flat.size(); k += 2) edges.push_back({flat[k], flat[k + 1]});
+    const VertexPairs edges = to_pairs(creases);
+    if (edges.empty()) return to_dict(surrounding_normals(points, to_triangles(triangles), places));
     BrokenSurface broken = broken_along(to_triangles(triangles), static_cast<int>(points.cols()), edges);
     std::vector<int> copy(static_cast<std::size_t>(points.cols()), none);
     for (int v = 0; v < static_cast<int>(broken.input_vertex.size()); ++v) {
@@ -101,9 +120,25 @@ py::tuple visible_join_arrays(const DoubleArray& vertices, const IntArray& insid
     return py::make_tuple(from_vector(join.degrees), join.limit, from_indices(join.seen));
 }
 
+// Rows: beginning and end.
+py::array fair_curve_array(const DoubleArray& places, const DoubleArray& directions,
+                           const std::vector<double>& shares) {
+    const Points ends = to_points(places);
+    const Points ways = to_points(directions);
+    const auto count = static_cast<Eigen::Index>(shares.size());
+    return from_points(least_variation_curve({ends.col(0), ways.col(0)}, {ends.col(1), ways.col(1)},
+                                             Eigen::Map<const VectorX>(shares.data(), count)));
+}
+
+py::tuple chain_end(const DoubleArray& chain) {
+    const ChainEnd end = end_of_chain(to_points(chain));
+    return py::make_tuple(from_points(end.direction), from_points(end.curvature));
+}
+
 }  // namespace
 
 void bind_outline(py::module_& module) {
+    module.def("hard_edges", &hard_edge_array, py::arg("vertices"), py::arg("triangles"), py::arg("marked"));
     module.def("surrounding_normals", &surrounding_normal_arrays, py::arg("vertices"), py::arg("triangles"),
                py::arg("at"), py::arg("creases"));
     module.def("bad_outline", &bad_outline_array, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
@@ -112,6 +147,8 @@ void bind_outline(py::module_& module) {
                py::arg("width"));
     module.def("soft_base", &soft_base_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("base"), py::arg("faired"), py::arg("sizes"), py::arg("threads"), py::arg("progress"));
+    module.def("fair_curve", &fair_curve_array, py::arg("places"), py::arg("directions"), py::arg("shares"));
+    module.def("chain_end", &chain_end, py::arg("chain"));
     module.def("visible_join", &visible_join_arrays, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
                py::arg("outline"), py::arg("before"));
 }

@@ -10,23 +10,15 @@
 
 #include "base/direction.h"
 #include "base/parallel.h"
+#include "geometry/dihedral_bands.h"
+#include "mesh/collapsed.h"
 #include "mesh/strip.h"
 #include "mesh/union_find.h"
-#include "shape/dihedral_bands.h"
 #include "shape/limits.h"
 
 namespace fairing {
 
 namespace {
-
-Triangles without_collapsed(const Triangles& triangles) {
-    std::vector<Eigen::Index> kept;
-    for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
-        const auto corners = triangles.col(t);
-        if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0]) kept.push_back(t);
-    }
-    return triangles(Eigen::all, kept);
-}
 
 // An edge with one triangle on each side of the outline: sides (3 t + k) of the two lists.
 struct OutlineEdge {

@@ -232,3 +232,35 @@ def test_holes_of_several_objects_stop_each_other_no_more() -> None:
     assert (open_borders(good), len(open_borders(bad))) == ([], 1)
     assert selected(bad) == {*open_borders(bad)[0]}
     assert report.reason.startswith(f"{bad.name}: 1 of 8 holes stays open")
+
+
+def test_a_new_mesh_needs_no_free_vertices() -> None:
+    """The top of an undivided box: its old edge across goes, and all else stays."""
+    points = [(x, y, z) for z in (-1.0, 1.0) for x, y in ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))]
+    sides = [(k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k) for k in range(4)]
+    obj = meshes.add(points, [(3, 2, 1, 0), *sides, (4, 5, 6), (4, 6, 7)], "Box")
+    chosen = meshes.faces_where(obj, lambda c: c.z > 0.9)
+    before = meshes.positions(obj)
+    counts = []
+    for spacing in (1.0, 0.1, 0.05):
+        obj = meshes.add(points, [(3, 2, 1, 0), *sides, (4, 5, 6), (4, 6, 7)], "Box")
+        status = meshes.fair(obj, chosen, mesh="NEW", spacing=spacing, accept="ALL")
+        assert status == {"FINISHED"}
+        assert open_borders(obj) == []
+        np.testing.assert_array_equal(meshes.positions(obj)[:8], before)
+        counts.append(len(obj.data.polygons))
+    assert counts[0] < counts[1] < counts[2]
+
+
+def test_an_island_in_a_hole_is_joined_with_it() -> None:
+    def change(bm: Any) -> None:
+        around = [face for face in bm.faces if face.calc_center_median().z > 0.93]
+        middle = [face for face in around if face.calc_center_median().z > 0.99]
+        bmesh.ops.delete(bm, geom=[face for face in around if face not in middle], context="FACES")
+
+    obj = ball(change)
+    assert len(open_borders(obj)) == 10
+    assert fill(obj, islands=True) == {"FINISHED"}
+    meshes.leave()
+    assert open_borders(obj) == []
+    assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 2e-3

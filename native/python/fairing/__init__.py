@@ -4,9 +4,11 @@ from fairing._borders import expected_vertices, outer_borders
 from fairing._conformal_map import conformal_map
 from fairing._core import __version__
 from fairing._fair import fair
+from fairing._fair_edges import FairEdges, fair_edges
 from fairing._feather import feather_weights
 from fairing._fill import fill
 from fairing._growing import GrownOutline, grown_outline
+from fairing._hard_edges import hard_edges
 from fairing._hierarchy import hierarchy
 from fairing._hole_loops import HoleLoops, hole_loops
 from fairing._interpolate import interpolate
@@ -44,6 +46,7 @@ __all__ = [
     "LIMITS",
     "Cancelled",
     "Diagnostic",
+    "FairEdges",
     "FairResult",
     "FillResult",
     "GrownOutline",
@@ -67,10 +70,12 @@ __all__ = [
     "edges_with_uses",
     "expected_vertices",
     "fair",
+    "fair_edges",
     "feather_weights",
     "fill",
     "flipped_triangles",
     "grown_outline",
+    "hard_edges",
     "hierarchy",
     "hole_loops",
     "interpolate",

@@ -10,6 +10,7 @@ import numpy as np
 
 from fairing import _crossings, _loops, _sides
 from fairing._hole_loops import hole_loops, recut
+from fairing._holes import is_outer
 from fairing._loops import Outline
 from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
 
@@ -68,6 +69,8 @@ class Wanted:
     """Edges; 0: any number."""
     longest_length: float
     """Around a loop; 0: any length."""
+    hard: IntArray
+    """(h, 2) edges across which no fit of normals looks."""
 
 
 def chosen_loops(points: FloatArray, around: IntArray, wanted: Wanted) -> Chosen:
@@ -80,7 +83,8 @@ def chosen_loops(points: FloatArray, around: IntArray, wanted: Wanted) -> Chosen
     outline, normals, curvatures, bad = _sound(outline, points, around, wanted)
     left += bad
     if wanted.loops is None:
-        outline, normals, outer = _without_outer(outline, points, normals, left)
+        plain = _loops.loop_normals(None, outline, points, around) if len(wanted.hard) else normals
+        outline, normals, outer = _without_outer(outline, points, (normals, plain), left)
         left += outer
     outline, normals = _sides.settled(outline, points, normals, wanted.bridge)
     if curvatures is not None:
@@ -192,9 +196,9 @@ def _sound(
     normals, curvatures = wanted.normals, wanted.curvatures
     if wanted.bridge or len(outline.loops) == 1:
         _loops.check(outline, points, wanted.bridge)
-        return outline, _loops.loop_normals(normals, outline, points, around), curvatures, []
+        return outline, _loops.loop_normals(normals, outline, points, around, wanted.hard), curvatures, []
     if not any(outline.bare) and _crossings.are_clear(outline.loops, points):
-        return outline, _loops.loop_normals(normals, outline, points, around), curvatures, []
+        return outline, _loops.loop_normals(normals, outline, points, around, wanted.hard), curvatures, []
     kept, left, first = [], [], None
     for k, loop in enumerate(outline.loops):
         try:
@@ -209,7 +213,7 @@ def _sound(
     sizes = [len(loop) for loop in outline.loops]
     rows = [_of_loops(each, sizes, kept, len(points)) for each in (normals, curvatures)]
     sound = _some(outline, kept)
-    return sound, _loops.loop_normals(rows[0], sound, points, around), rows[1], left
+    return sound, _loops.loop_normals(rows[0], sound, points, around, wanted.hard), rows[1], left
 
 
 def _of_loops(rows: Any, sizes: list[int], kept: list[int], count: int) -> Any:
@@ -225,14 +229,20 @@ def _of_loops(rows: Any, sizes: list[int], kept: list[int], count: int) -> Any:
 
 
 def _without_outer(
-    outline: Outline, points: FloatArray, normals: FloatArray, others: list[Left]
+    outline: Outline, points: FloatArray, normals: tuple[FloatArray, FloatArray], others: list[Left]
 ) -> tuple[Outline, FloatArray, list[Left]]:
-    """The holes, their normals, and the outer borders; MeshError where there is no hole."""
-    try:
-        holes, kept, outer = _loops.without_outer(outline, points, normals)
-    except MeshError as error:
-        raise (MeshError(others[0].reason) if others else error) from None
-    return holes, kept, [Left(loop, _loops.not_holes([loop])) for loop in outer]
+    """The holes, their normals, and the outer borders; MeshError where there is no hole.
+
+    normals: those that surfaces take, and those that hard edges don't stop: how a border turns is a matter of all that
+    is around it.
+    """
+    rows, plain = outline.split(normals[0]), outline.split(normals[1])
+    outer = [is_outer(points[loop], part) for loop, part in zip(outline.loops, plain, strict=True)]
+    kept = [k for k, out in enumerate(outer) if not out]
+    left = [Left(loop, _loops.not_holes([loop])) for loop, out in zip(outline.loops, outer, strict=True) if out]
+    if not kept:
+        raise MeshError(others[0].reason if others else _loops.not_holes([each.loop for each in left]))
+    return _some(outline, kept), np.concatenate([rows[k] for k in kept]), left
 
 
 def _is_outer(reason: Diagnostic) -> bool:

@@ -3,22 +3,37 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
-from time import perf_counter
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _holes, _hub, _loops, _options, _pinches, _short_edges, _sides, _single_face
+from fairing import (
+    _arguments,
+    _core,
+    _holes,
+    _hub,
+    _loops,
+    _options,
+    _pinches,
+    _run_on,
+    _short_edges,
+    _sides,
+    _single_face,
+)  # fmt: skip
+from fairing._along import filled_along
 from fairing._chosen import Chosen, Wanted, blamed, chosen_loops, fillable
 from fairing._fair import fair
 from fairing._joined import joined
 from fairing._measure import boundary_loops
-from fairing._new_mesh import FillResult, NewMeshResult, Origin
+from fairing._new_mesh import FillResult, Origin, read_only, report_fields
 from fairing._proportion import Limit
 from fairing._tangency import not_tangent
-from fairing._types import FairResult, FloatArray, IntArray, MeshError
+from fairing._types import Diagnostic, FairResult, FloatArray, IntArray, MeshError
+from fairing._watch import Watch
+
+_OF_LOOPS = ("loops", "left_open", "left_because")  # fields
 
 LEAST_COUNT = 1000
 """Free vertices of the mesh that is solved, for each component. Coarser wishes are cut from its surface."""
@@ -41,6 +56,9 @@ def fill(
     inner: str | None = None,
     max_vertices: int = 0,
     fixed_curvatures: Any = None,
+    edges: str = "run_on",
+    wires: npt.ArrayLike | None = None,
+    marked: npt.ArrayLike | None = None,
     progress: Progress | None = None,
     **options: Any,
 ) -> FillResult:
@@ -85,6 +103,15 @@ def fill(
     fixed_curvatures : (n,), (Σ k,) float, or a list with a (k,) for each loop
         Mean curvatures H at the boundary, NaN where not known, for ``continuity="G2"``: the surface continues the
         curvature around it, too. Default: fitted to the triangles around.
+    edges : "run_on" | "ignored"
+        "run_on": hard edges (:func:`fairing.hard_edges`) that end at a hole run on through it. Ends that belong
+        together are joined by a curve of least variation, three and more meet in a point. Each curve is a crease of a
+        surface of least variation (docs/curves.md); ``curves`` names it, and EDGES_LEFT_ALONE ends that are not joined.
+        Not with ``bridge``.
+    wires : (w, 2) int
+        Edges without a triangle that were drawn across holes: they are such curves as they are.
+    marked : (e, 2) int
+        Edges that are hard whatever they bend.
     progress : callable(fraction, stage) -> None | bool
         As for :func:`fairing.fair`.
     options
@@ -97,10 +124,10 @@ def fill(
     MeshError
         The first reason where no loop can be filled, or one of those that are to be joined is bad: NOT_A_LOOP,
         NO_BOUNDARY, NONMANIFOLD_VERTEX (loops that cross, or vertices of one boundary in one place or on its edges),
-        NONMANIFOLD_EDGE (also where the surface would double back onto a triangle that sticks out into a loop),
-        NOT_A_HOLE (there are none but outer borders; or one that was named lies around a flat sheet, which no surface
-        closes), OUT_OF_PROPORTION (``max_vertices``), LOOPS_NOT_JOINED (one is turned; loops that no surface joins),
-        ZERO_NORMAL, NORMALS_OPPOSE_WINDING, NONFINITE or INDEX_RANGE; ``elements`` are the vertices.
+        NONMANIFOLD_EDGE (also where the surface would double back onto a triangle that sticks out into a loop, or where
+        ``wires`` cross), NOT_A_HOLE (there are none but outer borders; or one that was named lies around a flat sheet,
+        which no surface closes), OUT_OF_PROPORTION (``max_vertices``), LOOPS_NOT_JOINED (one is turned; loops that no
+        surface joins), ZERO_NORMAL, NORMALS_OPPOSE_WINDING, NONFINITE or INDEX_RANGE; ``elements`` are the vertices.
     ValueError, Cancelled, SolverError, MemoryError
         As for :func:`fairing.fair`.
     """
@@ -113,13 +140,14 @@ def fill(
         raise ValueError(f"bridge: True or False is needed, not {bridge!r}")
     if _arguments.finite("longest_length", longest_length) < 0:
         raise ValueError(f"longest_length: a length, or 0 for any, is needed, not {longest_length!r}")
-    wanted = Wanted(loops, normals, fixed_curvatures, bool(bridge), limit, float(longest_length))
-    chosen = chosen_loops(points, around, wanted)
+    if fixed_curvatures is not None and options.get("continuity", "G1") != "G2":
+        raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
     finite = np.isfinite(points).all(axis=1)
     known = around if finite.all() else around[finite[around].all(axis=1)]
-    task = _Task(points, known, bool(bridge), length, max_vertices, options, progress)
-    if chosen.curvatures is not None and options.get("continuity", "G1") != "G2":
-        raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
+    broken = _run_on.Edges.of((points, known), (edges, wires, marked), bool(bridge))
+    wanted = Wanted(loops, normals, fixed_curvatures, bool(bridge), limit, float(longest_length), broken.hard)
+    chosen = chosen_loops(points, around, wanted)
+    task = _Task(points, known, bool(bridge), length, max_vertices, broken, options, _rising(progress))
     while True:
         try:
             values = task.filled(chosen)
@@ -140,6 +168,20 @@ def fill(
     )
 
 
+def _rising(progress: Progress | None) -> Progress | None:
+    """The callback, which never hears less than before: some loops are filled after others, or once more."""
+    if progress is None:
+        return None
+    most = 0.0
+
+    def told(fraction: float, stage: str) -> bool | None:
+        nonlocal most
+        most = max(most, fraction)
+        return progress(most, stage)
+
+    return told
+
+
 @dataclass(frozen=True)
 class _Task:
     """What one call asks for, but for the loops."""
@@ -149,24 +191,61 @@ class _Task:
     bridge: bool
     length: Spacing
     max_vertices: Any
+    broken: _run_on.Edges
     options: dict[str, Any]
     progress: Progress | None
 
     def filled(self, chosen: Chosen) -> dict[str, Any]:
-        """The fields of a result but for the loops: faces, fans and surfaces, as each loop asks for."""
+        """The fields of a result but for the loops: faces, surfaces along curves, fans, and all others."""
         Limit.of(0.0, self.max_vertices)
         loops = chosen.outline.loops
-        single = [not self.bridge and self._is_single(loop) for loop in loops]
-        hubs = [] if self.bridge else self._hubs(chosen, [k for k, alone in enumerate(single) if not alone])
-        fans, hubs = self._fans(chosen, hubs) if hubs else (None, [])
-        plain = [k for k, alone in enumerate(single) if alone]
-        others = [k for k in range(len(loops)) if not single[k] and k not in set(hubs)]
+        single = [k for k, loop in enumerate(loops) if not self.bridge and self._is_single(loop)]
+        others = [k for k in range(len(loops)) if k not in set(single)]
+        along, told = self._along(chosen, others) if others else (None, ())
         made = [
-            self._solved(chosen.part(others)) if others else None,
-            fans,
-            self._single_faces(chosen.part(plain)) if plain else None,
+            along or (self._smooth(chosen.part(others)) if others else None),
+            self._single_faces(chosen.part(single)) if single else None,
         ]
-        return joined(len(self.points), [fields for fields in made if fields is not None])
+        values = joined(len(self.points), [each for each in made if each is not None])
+        return {**values, "warnings": values["warnings"] + told}
+
+    def _along(self, chosen: Chosen, numbers: list[int]) -> tuple[dict[str, Any] | None, tuple[Diagnostic, ...]]:
+        """The same for these loops where curves run through some of them, and what is said about others."""
+        there = np.unique(np.concatenate([self.broken.hard.ravel(), self.broken.wires.ravel()]))
+        names, passes = np.unique(chosen.outline.vertices, return_counts=True)
+        pinched = names[passes > 1]
+        loops = chosen.outline.loops
+        mine = [k for k in numbers if np.isin(loops[k], there).any() and not np.isin(loops[k], pinched).any()]
+        if self.bridge or not mine:
+            return None, ()
+        part = chosen.part(mine)
+        normals = _short_edges.with_shared_normals(part.outline, self.points, part.normals)
+        mesh = self.points, self.around
+        curves = self.broken.run_on(part.outline, normals, mesh, (self.length.length, self.length.even))
+        if not curves.holds_any:
+            return None, curves.warnings
+        options = dict(self.options)
+        if part.curvatures is not None:
+            options["fixed_curvatures"] = part.curvatures
+
+        def smooth(outline: _loops.Outline, rows: FloatArray, rest: Any, part: Progress | None) -> FillResult:
+            values = replace(self, progress=part)._smooth(Chosen(outline, rows, rest))
+            return FillResult(**values, loops=outline.loops, left_open=())
+
+        task = (part.outline, normals, self.around, self.length.wanted(0), options)
+        found = filled_along(curves, task, smooth, self.progress)
+        values = {each.name: getattr(found, each.name) for each in fields(found) if each.name not in _OF_LOOPS}
+        rest = [k for k in numbers if k not in set(mine)]
+        return joined(len(self.points), [values, self._smooth(chosen.part(rest))] if rest else [values]), ()
+
+    def _smooth(self, chosen: Chosen) -> dict[str, Any]:
+        """The same without curves: fans, and surfaces with several vertices inside."""
+        numbers = list(range(len(chosen.outline.loops)))
+        hubs = [] if self.bridge else self._hubs(chosen, numbers)
+        fans, hubs = self._fans(chosen, hubs) if hubs else (None, [])
+        others = [k for k in numbers if k not in set(hubs)]
+        made = [self._solved(chosen.part(others)) if others else None, fans]
+        return joined(len(self.points), [each for each in made if each is not None])
 
     def _hubs(self, chosen: Chosen, numbers: list[int]) -> list[int]:
         """The loops over which one vertex is enough."""
@@ -357,27 +436,6 @@ class Patch:
         )  # fmt: skip
 
 
-class Watch:
-    """Seconds of the stages, and the callback's share of each."""
-
-    def __init__(self, progress: Progress | None) -> None:
-        self.seconds: dict[str, float] = {}
-        self._progress = progress
-        self._begin = self._last = perf_counter()
-
-    def lap(self, stage: str) -> None:
-        now = perf_counter()
-        self.seconds[stage] = now - self._last
-        self.seconds["total"] = now - self._begin
-        self._last = now
-
-    def part(self, begin: float, end: float) -> Progress | None:
-        progress = self._progress
-        if progress is None:
-            return None
-        return lambda fraction, stage: progress(begin + (end - begin) * fraction, stage)
-
-
 _MADE_HERE = ("fixed", "fixed_normals", "reference", "neighbours", "outline", "start", "outside")
 
 
@@ -417,16 +475,6 @@ def _first_equation(options: dict[str, Any]) -> str:
     return asked if own else "harmonic"
 
 
-def report_fields(report: FairResult, old_count: int) -> dict[str, Any]:
-    """The fields of a report on ``old_count`` old vertices and then new ones; `triangles` is missing."""
-    own = {field.name for field in fields(NewMeshResult)}
-    values = {field.name: getattr(report, field.name) for field in fields(report) if field.name in own}
-    values["cut"] = False
-    for name in ("vertices", "mean_curvature"):
-        values[name] = read_only(values[name][old_count:])
-    return values
-
-
 def cut_fields(patch: Patch, old_count: int) -> dict[str, Any]:
     """The fields of a mesh that was cut from another one's surface."""
     return {
@@ -439,11 +487,3 @@ def carried(values: FloatArray, triangles: IntArray, origin: Origin) -> FloatArr
     """(k,) values at vertices (n,), interpolated at places on triangles."""
     carried: FloatArray = read_only((values[triangles[origin[0]]] * origin[1]).sum(axis=1))
     return carried
-
-
-def read_only(array: Any) -> Any:
-    result = np.ascontiguousarray(array)
-    if result is array or result.base is not None:
-        result = result.copy()
-    result.flags.writeable = False
-    return result

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from fairing import _arguments
 from fairing._crossings import crossing_edges, touches
-from fairing._holes import is_endless, is_outer
+from fairing._holes import is_endless
 from fairing._outline import surrounding_normals
 from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
 
@@ -45,23 +45,6 @@ class Outline:
             raise ValueError(f"{text}, are needed, not {len(rows)}")
         parts = zip(self.split(rows), self.turned, strict=True)
         return np.concatenate([part[::-1] if turned else part for part, turned in parts])
-
-
-def without_outer(
-    outline: Outline, vertices: FloatArray, normals: FloatArray
-) -> tuple[Outline, FloatArray, tuple[IntArray, ...]]:
-    """The holes among all border loops, their normals (Σ k, 3), and the outer borders that are left out.
-
-    MeshError (NOT_A_HOLE) where no hole is left.
-    """
-    parts = outline.split(normals)
-    outer = [is_outer(vertices[loop], part) for loop, part in zip(outline.loops, parts, strict=True)]
-    left = tuple(loop for loop, out in zip(outline.loops, outer, strict=True) if out)
-    if all(outer):
-        raise MeshError(not_holes(left))
-    holes = tuple(loop for loop, out in zip(outline.loops, outer, strict=True) if not out)
-    kept = np.concatenate([part for part, out in zip(parts, outer, strict=True) if not out])
-    return Outline(holes, (False,) * len(holes), (False,) * len(holes)), kept, left
 
 
 def not_holes(loops: Sequence[IntArray]) -> Diagnostic:
@@ -165,10 +148,12 @@ def _refuse_touches(loops: Sequence[IntArray], vertices: FloatArray) -> None:
         _refuse("NONMANIFOLD_VERTEX", text, meeting, meeting=float(len(meeting)))
 
 
-def loop_normals(normals: Any, outline: Outline, vertices: FloatArray, triangles: IntArray) -> FloatArray:
-    """(Σ k, 3) unit normals in the order of the loops."""
+def loop_normals(
+    normals: Any, outline: Outline, vertices: FloatArray, triangles: IntArray, hard: IntArray | None = None
+) -> FloatArray:
+    """(Σ k, 3) unit normals in the order of the loops; hard: (h, 2) edges across which no fit looks."""
     where = outline.vertices
-    around = surrounding_normals(vertices, triangles, where).normals
+    around = surrounding_normals(vertices, triangles, where, creases=hard).normals
     if normals is None:
         missing = where[~(np.linalg.norm(around, axis=1) > 0)]
         if len(missing):

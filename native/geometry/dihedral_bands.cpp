@@ -1,7 +1,8 @@
-#include "shape/dihedral_bands.h"
+#include "geometry/dihedral_bands.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/Geometry>
 
@@ -13,20 +14,20 @@ namespace fairing {
 
 namespace {
 
-constexpr double usual_share = 0.75;  // of the length has less, and the same share has more than the lower bound
+constexpr double usual_share = 0.75;  // of the weight has less, and the same share has more than the lower bound
 
 struct WeightedAngle {
     double angle;
-    double length;
+    double weight;
 };
 
-// The angle that this share of the length doesn't exceed. `sorted` isn't empty.
+// The angle that this share of the weight doesn't exceed. `sorted` isn't empty.
 double quantile(const std::vector<WeightedAngle>& sorted, double share) {
     double total = 0.0;
-    for (const WeightedAngle& entry : sorted) total += entry.length;
+    for (const WeightedAngle& entry : sorted) total += entry.weight;
     double sum = 0.0;
     for (const WeightedAngle& entry : sorted) {
-        sum += entry.length;
+        sum += entry.weight;
         if (sum >= share * total) return entry.angle;
     }
     return sorted.back().angle;
@@ -82,10 +83,49 @@ void DihedralBands::measure(int edge) {
     const auto [a, b] = edges_.ends[edge];
     lengths_[edge] = (points_.col(a) - points_.col(b)).norm();
     if (edges_.side_count(edge) != 2) return;
+    const int first = edges_.side(edge, 0);
     const int side = edges_.side(edge, 1);
     const int opposite = triangles_((side % 3 + 2) % 3, side / 3);
-    angles_[edge] = dihedral_angle(normals_.col(edges_.side(edge, 0) / 3), normals_.col(side / 3), points_.col(a),
+    // Triangles that run along the edge the same way are wound against each other.
+    const double winding = side_tail(triangles_, first) == side_tail(triangles_, side) ? -1.0 : 1.0;
+    angles_[edge] = dihedral_angle(normals_.col(first / 3), winding * normals_.col(side / 3), points_.col(a),
                                    points_.col(opposite));
+}
+
+// Of the triangles at the vertex opposite to a side that lead on, by area and direction.
+Vector3 DihedralBands::normal_beyond(int side) const {
+    const Vector3 tail = points_.col(side_tail(triangles_, side));
+    const Vector3 along = direction(points_.col(side_head(triangles_, side)) - tail);
+    const int opposite = triangles_((side % 3 + 2) % 3, side / 3);
+    const Vector3 apex = points_.col(opposite);
+    const Vector3 onwards = direction(apex - tail - along.dot(apex - tail) * along);
+    Vector3 sum = Vector3::Zero();
+    for (int k = begin_[opposite]; k < begin_[opposite + 1]; ++k) {
+        const auto corners = triangles_.col(at_vertex_[k]);
+        const Vector3 a = points_.col(corners[0]) - apex;
+        const Vector3 b = points_.col(corners[1]) - apex;
+        const Vector3 c = points_.col(corners[2]) - apex;
+        const double cosine = onwards.dot(direction(a + b + c));
+        if (cosine > 0.0) sum += cosine * (b - a).cross(c - a);
+    }
+    return sum.isZero(0.0) ? Vector3(normals_.col(side / 3)) : sum;
+}
+
+double DihedralBands::angle_over_rows(int edge) const {
+    if (edges_.side_count(edge) != 2) return 0.0;
+    const auto [a, b] = edges_.ends[edge];
+    const Vector3 along = direction(points_.col(b) - points_.col(a));
+    const auto turn = [&](const Vector3& first, const Vector3& second) {
+        const Vector3 p = direction(first - along.dot(first) * along);
+        const Vector3 q = direction(second - along.dot(second) * along);
+        return std::atan2(along.dot(p.cross(q)), p.dot(q)) * 180.0 / std::numbers::pi;
+    };
+    const int first = edges_.side(edge, 0);
+    const int second = edges_.side(edge, 1);
+    if (side_tail(triangles_, first) == side_tail(triangles_, second)) return 0.0;  // wound against each other
+    const double own = turn(normals_.col(first / 3), normals_.col(second / 3));
+    const double whole = turn(normal_beyond(first), normal_beyond(second));
+    return own * whole > 0.0 ? std::copysign(whole, angles_[edge]) : 0.0;
 }
 
 DihedralBands::Walk DihedralBands::walk() const {
@@ -118,14 +158,15 @@ Indices DihedralBands::triangles_near(int a, int b, Walk& walk) const {
     return found;
 }
 
-AngleRange DihedralBands::usual(int a, int b, Walk& walk) const {
+template <typename Weight>
+AngleRange DihedralBands::middle_half(int a, int b, Walk& walk, const Weight& weight) const {
     std::vector<WeightedAngle> near;
     for (int t : triangles_near(a, b, walk)) {
         for (int k = 0; k < 3; ++k) {
             const int e = edges_.edge_of_side[3 * t + k];
             if (edges_.side_count(e) != 2 || walk.edges[e] == walk.stamp) continue;
             walk.edges[e] = walk.stamp;
-            near.push_back({angles_[e], lengths_[e]});
+            near.push_back({angles_[e], weight(e)});
         }
     }
     if (near.empty()) return {};
@@ -135,6 +176,20 @@ AngleRange DihedralBands::usual(int a, int b, Walk& walk) const {
     range.include(quantile(near, 1.0 - usual_share));
     range.include(quantile(near, usual_share));
     return range;
+}
+
+AngleRange DihedralBands::usual(int a, int b, Walk& walk) const {
+    return middle_half(a, b, walk, [this](int e) { return lengths_[e]; });
+}
+
+AngleRange DihedralBands::usual_across(int edge, Walk& walk) const {
+    const auto [a, b] = edges_.ends[edge];
+    const Vector3 along = direction(points_.col(b) - points_.col(a));
+    return middle_half(a, b, walk, [&](int e) {
+        const auto [tail, head] = edges_.ends[e];
+        const double cosine = along.dot(direction(points_.col(head) - points_.col(tail)));
+        return lengths_[e] * cosine * cosine;
+    });
 }
 
 }  // namespace fairing

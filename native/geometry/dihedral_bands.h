@@ -27,8 +27,11 @@ public:
 
     [[nodiscard]] const EdgeTable& edges() const { return edges_; }
     [[nodiscard]] const Points& normals() const { return normals_; }  // of the triangles; zero without area
-    // Of edge e; zero where it has not two triangles.
+    // Of edge e, in the winding of its first triangle; zero where it has not two.
     [[nodiscard]] double angle(int edge) const { return angles_[edge]; }
+    // The same over three rows, about the edge's direction: between the triangles beyond the vertices opposite to it,
+    // on both sides. Zero where it bends to the other side.
+    [[nodiscard]] double angle_over_rows(int edge) const;
     // Marks of what was met around the last edge, for one thread.
     struct Walk {
         Indices vertices;
@@ -40,10 +43,16 @@ public:
     static constexpr int rings = 3;  // of triangles around an edge
     // The middle half, by the edges' lengths, of the angles within these rings around an edge (a, b), and zero.
     [[nodiscard]] AngleRange usual(int a, int b, Walk& walk) const;
+    // The same of the bends across this edge's direction: others count by the squared cosine between them and it, too.
+    // Round a tube of any proportions the edges along it say how it bends, those around it nothing.
+    [[nodiscard]] AngleRange usual_across(int edge, Walk& walk) const;
 
 private:
     void measure_edges();
     void measure(int edge);
+    [[nodiscard]] Vector3 normal_beyond(int side) const;
+    template <typename Weight>
+    [[nodiscard]] AngleRange middle_half(int a, int b, Walk& walk, const Weight& weight) const;
     [[nodiscard]] Indices triangles_near(int a, int b, Walk& walk) const;
 
     const Points& points_;

@@ -1,0 +1,27 @@
+"""The edges at which a surface is broken."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from fairing import _arguments, _core
+from fairing._types import IntArray
+
+
+def hard_edges(vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, marked: npt.ArrayLike | None = None) -> IntArray:
+    """(h, 2) edges at which the surface is broken, the smaller index first, ascending.
+
+    An edge is hard where its dihedral angle is 35° and more above how the mesh bends across its direction, within
+    three rings. A box's edges and a cylinder's rim are hard. A coarse sphere, a tube of five sides and more, and noise
+    that bends to both sides have no hard edges. Hard edges run on where they fade, by half of that angle, and fewer
+    than four in a row count where they end at the border or at corners alone.
+
+    ``marked``: (m, 2) edges that are hard whatever they bend; pairs that are no edges of the triangles are left out, as
+    are triangles with a corner that is NaN or infinite.
+    """
+    points = _arguments.floats("vertices", vertices)
+    faces = _arguments.triangles_within(triangles, len(points))
+    named = _arguments.integers("marked", [] if marked is None else marked, 2)
+    pairs = _arguments.indices_within("marked", named, len(points))
+    return _core.hard_edges(points, faces[np.isfinite(points[faces]).all(axis=(1, 2))], pairs)
