@@ -36,9 +36,12 @@ def with_inner_vertices(
 ) -> Refined | None:
     """Edges inside that are not ``kept`` are halved, and triangles without such an edge get a vertex in their middle.
 
-    None where a vertex is free already: then the patch has a surface of its own.
+    None where a vertex is free already, as the patch has a surface of its own then, or one inside is held.
     """
     if not len(triangles) or (_core.components(triangles, fixed, len(vertices)) >= 0).any():
+        return None
+    border = np.concatenate([np.empty(0, np.int32), *_core.boundary_loops(triangles)])
+    if not np.isin(triangles, border).all():
         return None
     count = len(triangles)
     whole = Refined(vertices, triangles, np.arange(count, dtype=np.int32), np.tile(np.eye(3), (count, 1, 1)))
