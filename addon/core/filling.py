@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
@@ -19,7 +19,9 @@ from .engine import Progress, sub_range
 from .faces import Faces, faces_of, paired_faces
 from .fill_verdict import Surface, judge
 from .findings import Origin
-from .harmonic import harmonic, nearest
+from .half_surface import half_surface
+from .halves import Half
+from .harmonic import carried_over_half, harmonic, nearest
 from .islands import with_islands
 from .key_surface import NewSurface, Surroundings, key_surfaces
 from .neighbourhood import Neighbourhood
@@ -110,6 +112,7 @@ class Piece:
     quads: bool = False  # whether triangles are written in pairs
     limit_total: int = 0  # as FillOptions has it
     notes: tuple[str, ...] = field(default=())
+    on_plane: Ints = field(default_factory=nothing)  # points that close a boundary which is a chain: see core.halves
     across: Across = field(default_factory=Across)  # what runs across it; drawn vertices come first among the k
 
     def faces(self, kinds: Ints, lines: Ints) -> Faces:
@@ -121,6 +124,11 @@ class Piece:
         if not (self.quads or closes_at_once):
             return faces_of(self.triangles)
         return paired_faces(self.points, self.triangles, np.concatenate([lines, self.across.edges]), kinds)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it is half of a surface, whose boundary is a chain."""
+        return len(self.on_plane) > 0
 
     @property
     def outline(self) -> Ints:
@@ -139,14 +147,16 @@ class Piece:
 
     def carried(self, values: Floats) -> Floats:
         """Return (k, c): values (r, c) of the boundary at the new vertices."""
+        if self.is_open:
+            return carried_over_half(self.points, self.triangles, values, self.on_plane)
         return harmonic(self.points, self.triangles, values)
 
     def keyed(self, places: list[Floats], carried: list[Floats]) -> list[Floats | None]:
         """Return (k, 3) for each shape key: where it has the new vertices, see core.key_surface.
 
-        None where curves run across the surface: there they stay where they are carried.
+        None where curves run across the surface, and over halves: there they stay where they are carried.
         """
-        if len(self.across.edges):
+        if len(self.across.edges) or self.is_open:
             return [None] * len(places)
         mirrored = np.linalg.det(self.around.matrix[:3, :3]) < 0.0
         triangles = self.triangles[:, ::-1] if mirrored else self.triangles
@@ -161,6 +171,7 @@ class Piece:
         near = nearest(self.triangles, len(self.points), rim)
         of_face = near[self.triangles[:, 0]]
         following = np.append(self.following, np.full(len(self.points) - rim, -1))
+        following[rim - 1] = -1 if self.is_open else following[rim - 1]
         for tail, head in ((0, 1), (1, 2), (2, 0)):
             at_edge = following[self.triangles[:, tail]] == self.triangles[:, head]
             of_face[at_edge] = self.triangles[at_edge, tail]
@@ -199,26 +210,31 @@ class Filled:
 
 
 def fill(
-    mesh: MeshArrays, matrix: Floats, loops: list[Ints], options: FillOptions, progress: Progress | None = None
-) -> Filled:
-    """Fill each loop of border_loops, or join all of them, in the space that the 4×4 `matrix` leads to.
+    mesh: MeshArrays, matrix: Floats, loops: list[Ints], options: FillOptions, progress: Progress | None = None,
+    halves: Sequence[Half] = (),
+) -> Filled:  # fmt: skip
+    """Fill each loop of border_loops, or join all of them, in the space that the 4×4 `matrix` leads to; and halves.
 
     What is wrong with one loop stops no other. Raises the first MeshRefusal, BorderRefusal or fairing.SolverError where
     there is no surface at all; ValueError and fairing.Cancelled. `mesh` is never changed.
     """
     with np.errstate(invalid="ignore", over="ignore"):  # elsewhere
-        world = mesh.transformed(matrix)
-    groups = _groups(world, loops, options)
-    job = _Job(world, matrix, options, Neighbourhood(world.positions, world.triangles), Loose.of(world))
+        job = Job.of(mesh, matrix, options)
+    groups = _groups(job.world, loops, options)
     made = job.small(groups)
     pieces, errors, left = [], [], []
-    for i, group in enumerate(groups):
-        part = sub_range(progress, i / len(groups), (i + 1) / len(groups))
+    count = len(groups) + len(halves)
+    for i in range(count):
+        part = sub_range(progress, i / count, (i + 1) / count)
+        vertices = np.concatenate(groups[i]) if i < len(groups) else halves[i - len(groups)].chain
         try:
-            pieces.append(made[i] if i in made else job.piece(group, part))
-        except (fairing.MeshError, BorderRefusal, fairing.SolverError) as error:
+            if i < len(groups):
+                pieces.append(made[i] if i in made else job.piece(groups[i], part))
+            else:
+                pieces.append(job.half(mesh, halves[i - len(groups)], part))
+        except (ValueError, fairing.SolverError) as error:
             errors.append(error)
-            left.append(left_by(error, np.unique(np.concatenate(group))))
+            left.append(left_by(error, np.unique(vertices)))
     if errors and not pieces:
         raise errors[0]
     return Filled(pieces, tuple(left)).settled(options)
@@ -232,7 +248,7 @@ def _groups(world: MeshArrays, loops: list[Ints], options: FillOptions) -> list[
 
 
 @dataclass(frozen=True)
-class _Job:
+class Job:
     """The surfaces of one run, in world space."""
 
     world: MeshArrays
@@ -241,12 +257,40 @@ class _Job:
     near: Neighbourhood
     loose: Loose
 
+    @classmethod
+    def of(cls, mesh: MeshArrays, matrix: Floats, options: FillOptions) -> Job:
+        """Begin with a mesh in its own coordinates."""
+        world = mesh.transformed(matrix)
+        return cls(world, matrix, options, Neighbourhood(world.positions, world.triangles), Loose.of(world))
+
+    def over(self, mesh: MeshArrays, spacing: float) -> Job:
+        """Return the same over another mesh, with other edges."""
+        return Job.of(mesh, self.matrix, replace(self.options, spacing=spacing))
+
+    def half(self, mesh: MeshArrays, half: Half, progress: Progress | None) -> Piece:
+        """Make the surface over half of a hole; mesh: in its own coordinates."""
+        found, local = half_surface(self, mesh, half, progress), self.local(half.chain)
+        triangles = found.surface.triangles
+        return Piece(
+            loops=(half.chain,),
+            points=found.surface.points,
+            positions=found.positions,
+            triangles=triangles[:, ::-1] if self.world.mirrored else triangles,
+            verdict=found.verdict,
+            result=found.surface.result,
+            join=found.surface.join,
+            around=_keyed_from(local.vertices, local.around, half.chain, self.matrix),
+            quads=self.options.quads,
+            limit_total=self.options.limit_total,
+            on_plane=found.on_plane,
+        )
+
     def piece(self, loops: list[Ints], progress: Progress | None) -> Piece:
         """Make one surface, over a loop or between several."""
         outline = np.concatenate(loops)
-        local = self._local(outline, self._drawn(outline))
+        local = self.local(outline, self._drawn(outline))
         with _joining(self.options, outline, len(loops)), in_mesh_words(local.origin):
-            result = self._filled(local, loops, progress, self.options.bridge or len(loops) > 1)
+            result = self.filled(local, loops, progress, self.options.bridge or len(loops) > 1)
         return self._made(local, loops, result)
 
     def small(self, groups: list[list[Ints]]) -> dict[int, Piece]:
@@ -257,14 +301,14 @@ class _Job:
         if self.options.bridge or self.options.spacing != 1.0 or len(few) < 2:
             return {}
         chosen = [loops[k] for k in few]
-        whole = self._local(np.unique(np.concatenate(chosen)), _no_edges())
+        whole = self.local(np.unique(np.concatenate(chosen)), _no_edges())
         try:
-            result = self._filled(whole, chosen, None)
+            result = self.filled(whole, chosen, None)
         except (fairing.MeshError, fairing.SolverError):
             return {}  # each by itself tells why
         made, stars = {}, stars_of(result)
         for k, loop in zip(few, chosen, strict=True):
-            local = self._local(loop, _no_edges())
+            local = self.local(loop, _no_edges())
             own = parted(result, stars, whole.numbers(loop), (whole.vertices, local.vertices))
             if own is not None:
                 made[k] = self._made(local, [loop], own)
@@ -275,13 +319,14 @@ class _Job:
         runs_on = self.options.hard_edges == "RUN_ON" and not self.options.bridge
         return drawn_edges(self.loose, outline) if runs_on and len(self.loose.edges) else _no_edges()
 
-    def _local(self, outline: Ints, drawn: Ints) -> _Local:
+    def local(self, outline: Ints, drawn: Ints | None = None) -> Local:
+        drawn = _no_edges() if drawn is None else drawn
         around = self.near.around(np.unique(outline))
         vertices = np.unique(np.concatenate([outline, around.ravel(), drawn.ravel()]))
-        return _Local(vertices, np.searchsorted(vertices, around), within(drawn, vertices))
+        return Local(vertices, np.searchsorted(vertices, around), within(drawn, vertices))
 
-    def _filled(
-        self, local: _Local, loops: list[Ints], progress: Progress | None, bridge: bool = False
+    def filled(
+        self, local: Local, loops: list[Ints], progress: Progress | None, bridge: bool = False
     ) -> fairing.FillResult:
         options = self.options
         return fairing.fill(
@@ -292,7 +337,7 @@ class _Job:
             marked=within(marked_edges(self.world), local.vertices), progress=progress,
         )  # fmt: skip
 
-    def _made(self, local: _Local, loops: list[Ints], result: fairing.FillResult) -> Piece:
+    def _made(self, local: Local, loops: list[Ints], result: fairing.FillResult) -> Piece:
         world, vertices, around, outline = self.world, local.vertices, local.around, np.concatenate(loops)
         number = Numbering.made(outline, vertices, result)
         given = [local.numbers(loop) for loop in loops]
@@ -324,7 +369,7 @@ class _Job:
 
 
 @dataclass(frozen=True)
-class _Local:
+class Local:
     """The (q,) mesh vertices of some boundaries and of what is around them, ascending."""
 
     vertices: Ints

@@ -264,3 +264,63 @@ def test_an_island_in_a_hole_is_joined_with_it() -> None:
     meshes.leave()
     assert open_borders(obj) == []
     assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 2e-3
+
+
+def half_ball(hole: Callable[[Any], bool]) -> bpy.types.Object:
+    """The half x ≥ 0 of a unit sphere with a Mirror modifier, without the faces whose centre `hole` accepts."""
+    obj = meshes.sphere(48)
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    gone = [f for f in bm.faces if f.calc_center_median().x < 0.0 or hole(f.calc_center_median().normalized())]
+    bmesh.ops.delete(bm, geom=gone, context="FACES")
+    bm.to_mesh(obj.data)
+    bm.free()
+    obj.modifiers.new("Mirror", "MIRROR")
+    return obj
+
+
+def evaluated(obj: bpy.types.Object) -> bpy.types.Object:
+    """What the modifier makes of it, as an object of its own."""
+    mesh = bpy.data.meshes.new_from_object(obj.evaluated_get(bpy.context.evaluated_depsgraph_get()))
+    other = bpy.data.objects.new("Whole", mesh)
+    bpy.context.collection.objects.link(other)
+    return other
+
+
+@pytest.mark.parametrize("scale", [(1.0, 1.0, 1.0), (-2.0, 2.0, 2.0)])
+def test_a_hole_at_a_mirror_plane_is_filled_as_the_whole_would_be(scale: tuple[float, float, float]) -> None:
+    """Two holes at the plane and one beside it; the border along the plane stays as it is."""
+    obj = half_ball(lambda c: c.z > 0.8 or c.y > 0.93 or c.x > 0.93)
+    obj.scale = scale
+    before = meshes.positions(obj)
+    edges = len(open_borders(obj)[0])
+    assert fill(obj) == {"FINISHED"}
+    meshes.leave()
+    points = meshes.positions(obj)
+    np.testing.assert_array_equal(points[: len(before)], before)
+    assert np.abs(np.linalg.norm(points, axis=1) - 1.0).max() < 2e-3
+    (rim,) = open_borders(obj)
+    assert np.abs(points[rim, 0]).max() < 1e-6  # all of it lies on the plane
+    assert len(rim) != edges
+    bpy.context.view_layer.update()
+    whole = evaluated(obj)
+    assert open_borders(whole) == []
+    assert len(whole.data.vertices) - len(whole.data.edges) + len(whole.data.polygons) == 2
+    assert bpy.context.window_manager.fairing_report.verdict == "GOOD"
+
+
+def test_scripts_fill_halves_too() -> None:
+    obj = half_ball(lambda c: c.z > 0.8)
+    uv = obj.data.uv_layers.new(name="Map")
+    assert len(uv.uv) == len(obj.data.loops)
+    (result,) = module().fill_mesh(obj.data)
+    assert result.converged
+    (rim,) = open_borders(obj)
+    assert np.abs(meshes.positions(obj)[rim, 0]).max() < 1e-6
+
+
+def test_a_plane_without_holes_is_no_border_to_fill() -> None:
+    obj = half_ball(lambda c: False)
+    with pytest.raises(RuntimeError, match="No border is selected"):
+        fill(obj)
+    meshes.leave()
