@@ -15,12 +15,13 @@ from .across import HARD_EDGES, Across, Loose, Numbering, drawn_edges, marked_ed
 from .arrays import Floats, Ints
 from .border import BorderRefusal, Left, left_by
 from .checked import refuse_negative, refuse_other_kinds, refuse_unknown
+from .doubled import doubled_places, doubled_triangles
 from .engine import Progress, sub_range
 from .faces import Faces, faces_of, paired_faces
 from .fill_verdict import Surface, judge
 from .findings import Origin
 from .half_surface import half_surface
-from .halves import Half
+from .halves import Half, symmetric_half
 from .harmonic import carried_over_half, harmonic, nearest
 from .islands import with_islands
 from .key_surface import NewSurface, Surroundings, key_surfaces
@@ -229,7 +230,7 @@ def fill(
         vertices = np.concatenate(groups[i]) if i < len(groups) else halves[i - len(groups)].chain
         try:
             if i < len(groups):
-                pieces.append(made[i] if i in made else job.piece(groups[i], part))
+                pieces.append(made[i] if i in made else job.whole(mesh, groups[i], part))
             else:
                 pieces.append(job.half(mesh, halves[i - len(groups)], part))
         except (ValueError, fairing.SolverError) as error:
@@ -283,6 +284,45 @@ class Job:
             quads=self.options.quads,
             limit_total=self.options.limit_total,
             on_plane=found.on_plane,
+        )
+
+    def whole(self, mesh: MeshArrays, loops: list[Ints], progress: Progress | None) -> Piece:
+        """Make one surface, symmetric where the mesh asks for it and the boundary is; mesh: in its own coordinates."""
+        half = symmetric_half(mesh, loops[0]) if mesh.mirror_x and len(loops) == 1 else None
+        if half is not None:
+            try:
+                return self.symmetric(mesh, half, progress)
+            except (ValueError, fairing.SolverError):
+                pass  # the hole may have a surface all the same, which tells why where it has none
+        return self.piece(loops, progress)
+
+    def symmetric(self, mesh: MeshArrays, half: Half, progress: Progress | None) -> Piece:
+        """Make a surface that is symmetric to the last bit; mesh: in its own coordinates."""
+        found = half_surface(self, mesh, half, progress)
+        on = len(found.on_plane) - 2
+        _, loop = half.whole(mesh)
+        positions = doubled_places(found.positions, on)
+        inside = positions @ self.matrix[:3, :3].T + self.matrix[:3, 3]
+        triangles = doubled_triangles(found.surface.triangles, len(half.chain), on)
+        local, world = self.local(loop), self.world
+        points = np.concatenate([world.positions[loop], inside])
+        rim = local.numbers(loop)
+        joined = np.concatenate([world.positions[local.vertices], inside])
+        numbers = np.concatenate([rim, len(local.vertices) + np.arange(len(inside))])
+        at = np.sort(rim)
+        join = join_at(local.vertices[at], fairing.visible_join(joined, numbers[triangles], local.around, at))
+        surface = Surface(points, triangles, found.surface.result, join, nothing())
+        return Piece(
+            loops=(loop,),
+            points=points,
+            positions=positions,
+            triangles=triangles[:, ::-1] if world.mirrored else triangles,
+            verdict=judge(world, loop, surface, local.vertices[local.around]),
+            result=surface.result,
+            join=join,
+            around=_keyed_from(local.vertices, local.around, loop, self.matrix),
+            quads=self.options.quads,
+            limit_total=self.options.limit_total,
         )
 
     def piece(self, loops: list[Ints], progress: Progress | None) -> Piece:

@@ -15,6 +15,7 @@ from .arrays import Floats, Ints
 from .border import Left
 from .reflected import with_image_across
 from .region import MeshArrays, Reflection
+from .symmetry import FLIP, NEAR
 
 _NO_HALF = "The border follows a Mirror modifier's plane, which closes it there: apply the modifier first"
 
@@ -25,9 +26,12 @@ class Half:
 
     chain: Ints  # (r,) mesh vertices; the first and the last lie on the plane
     reflection: Reflection
+    image: Ints | None = None  # (r,) of the chain, where the mesh has both sides
 
     def whole(self, mesh: MeshArrays) -> tuple[MeshArrays, Ints]:
         """Return the mesh with its image after it, and the boundary of the whole hole there."""
+        if self.image is not None:
+            return mesh, np.concatenate([self.chain, self.image[-2:0:-1]])
         whole, image = with_image_across(mesh, self.reflection)
         return whole, np.concatenate([self.chain, image[self.chain[-2:0:-1]]])
 
@@ -54,6 +58,24 @@ def halves_of(mesh: MeshArrays, loop: Ints) -> tuple[list[Half], list[Left]] | N
         else:
             left.append(Left(np.unique(chain), _NO_HALF, np.unique(chain[[0, -1]])))
     return halves, left
+
+
+def symmetric_half(mesh: MeshArrays, loop: Ints) -> Half | None:
+    """Return the half x ≥ 0 of a border that is symmetric across x = 0 and crosses that plane in two vertices."""
+    points = mesh.positions[loop]
+    on = np.flatnonzero(np.abs(points[:, 0]) <= NEAR)
+    if len(on) != 2 or on[1] - on[0] in (1, len(loop) - 1):
+        return None
+    first, last = (int(k) for k in (on if points[on[0] + 1, 0] > 0.0 else on[::-1]))
+    count = (last - first) % len(loop) + 1
+    chain = loop[(first + np.arange(count)) % len(loop)]
+    image = loop[(first - np.arange(count)) % len(loop)]
+    if 2 * count - 2 != len(loop):
+        return None
+    apart = np.linalg.norm(mesh.positions[chain] * FLIP - mesh.positions[image], axis=1)
+    if not (apart <= NEAR).all():
+        return None
+    return Half(chain, Reflection(np.diag([*FLIP, 1.0]), 2.0 * NEAR), image)
 
 
 @dataclass(frozen=True)

@@ -324,3 +324,31 @@ def test_a_plane_without_holes_is_no_border_to_fill() -> None:
     with pytest.raises(RuntimeError, match="No border is selected"):
         fill(obj)
     meshes.leave()
+
+
+def test_with_x_mirror_a_hole_across_the_plane_is_symmetric_to_the_bit() -> None:
+    obj = meshes.sphere(48)
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    gone = [f for f in bm.faces if f.calc_center_median().z > 0.75]
+    bmesh.ops.delete(bm, geom=gone, context="FACES")
+    bm.to_mesh(obj.data)
+    bm.free()
+    points = meshes.positions(obj)
+    points[np.abs(points[:, 0]) < 1e-6, 0] = 0.0
+    meshes.move(obj, points)
+    obj.data.use_mirror_x = True
+    count = len(points)
+    assert fill(obj) == {"FINISHED"}
+    meshes.leave()
+    assert open_borders(obj) == []
+    new = meshes.positions(obj)[count:]
+    assert np.abs(np.linalg.norm(new, axis=1) - 1.0).max() < 2e-3
+    assert np.count_nonzero(new[:, 0] == 0.0) > 3
+    there = {tuple(row) for row in new.tolist()}
+    assert {(-x + 0.0, y, z) for x, y, z in there} == {(x + 0.0, y, z) for x, y, z in there}
+    faces = {frozenset(tuple(obj.data.vertices[v].co) for v in p.vertices) for p in obj.data.polygons if p.select}
+    assert {frozenset((-x + 0.0, y, z) for x, y, z in face) for face in faces} == {
+        frozenset((x + 0.0, y, z) for x, y, z in face) for face in faces
+    }
+    assert bpy.context.window_manager.fairing_report.verdict == "GOOD"
