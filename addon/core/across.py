@@ -9,8 +9,7 @@ import numpy as np
 
 import fairing
 
-from .arrays import Floats, Ints
-from .passes import numbered_by_pass
+from .arrays import Floats, Ints, Mask
 from .region import MeshArrays, nothing
 from .words import counted
 
@@ -21,18 +20,31 @@ def _no_edges() -> Ints:
     return np.empty((0, 2), dtype=np.int64)
 
 
-def drawn_edges(mesh: MeshArrays, outline: Ints) -> Ints:
+@dataclass(frozen=True)
+class Loose:
+    """What a mesh has of edges without a face."""
+
+    edges: Ints  # (w, 2)
+    at_faces: Mask  # (n,) the vertices of faces
+
+    @classmethod
+    def of(cls, mesh: MeshArrays) -> Loose:
+        """Look for them once, however many holes there are."""
+        used = np.zeros(len(mesh.edges), dtype=bool)
+        used[mesh.corner_edges] = True
+        at_faces = np.zeros(len(mesh.positions), dtype=bool)
+        at_faces[mesh.corner_vertices] = True
+        return cls(mesh.edges[~used], at_faces)
+
+
+def drawn_edges(loose: Loose, outline: Ints) -> Ints:
     """Return the (w, 2) edges without a face that hang on the vertices of an outline, directly or by others."""
-    used = np.zeros(len(mesh.edges), dtype=bool)
-    used[mesh.corner_edges] = True
-    loose = mesh.edges[~used]
-    ends = np.zeros(len(mesh.positions), dtype=bool)  # where they end: at faces, but for the outline's own
-    ends[mesh.corner_vertices] = True
+    ends = loose.at_faces.copy()  # where they end: at faces, but for the outline's own
     ends[outline] = False
     reached = np.zeros(len(ends), dtype=bool)
     reached[outline] = True
     while True:
-        onward: Ints = loose[(reached & ~ends)[loose].any(axis=1)]
+        onward: Ints = loose.edges[(reached & ~ends)[loose.edges].any(axis=1)]
         if reached[onward].all():
             return onward
         reached[onward] = True
@@ -88,12 +100,6 @@ class Numbering:
         of[np.searchsorted(vertices, drawn)] = len(outline) + np.arange(len(drawn))
         of[len(vertices) :] = len(outline) + len(drawn) + np.arange(len(result.vertices))
         return cls(outline, drawn, of)
-
-    def triangles(self, result: fairing.FillResult, loops: Sequence[Ints]) -> Ints:
-        """Return the surface's (m, 3); loops: as the engine was given them. One that touches itself has no curves."""
-        if len(np.unique(self.outline)) == len(self.outline):
-            return self.of[result.triangles]
-        return numbered_by_pass(result.triangles.astype(np.int64), loops, len(self.of) - len(result.vertices))
 
     def places(self, positions: Floats, new: Floats) -> Floats:
         """Return the points inside: drawn ones, whose `positions` are those of the mesh, and new ones."""

@@ -108,8 +108,3 @@ def _check(mesh: MeshArrays, loop: Ints) -> None:
     same = loop[(points == np.roll(points, -1, axis=0)).all(axis=1)]
     if len(same):
         raise BorderRefusal(f"The border has an edge without length at vertex {same[0]}: merge by distance", same)
-    for reflection in mesh.reflections:
-        there = reflection.on_plane(points)
-        if (there & np.roll(there, -1)).any():
-            text = "The border follows a Mirror modifier's plane, which closes it there: apply the modifier first"
-            raise BorderRefusal(text, loop[there])

@@ -8,7 +8,6 @@ import numpy as np
 
 import fairing
 
-from .around import nearby
 from .arrays import Floats, Ints
 from .bends import bends
 from .hard_chains import chains
@@ -32,8 +31,8 @@ class Surface:
     across: Ints = field(default_factory=nothing)  # (c, 2) edges of curves across it, in numbers of the points
 
 
-def judge(world: MeshArrays, outline: Ints, surface: Surface) -> Verdict:
-    """Return the verdict on a surface; world: the mesh around, outline: (r,) its vertices."""
+def judge(world: MeshArrays, outline: Ints, surface: Surface, around: Ints) -> Verdict:
+    """Return the verdict on a surface; world: the mesh, outline: (r,) vertices, around: (o, 3) triangles near them."""
     points, triangles, result = surface.points, surface.triangles, surface.result
     over = _outlines(len(result.loops), counted(len(outline), "edge", "edges"))
     if not result.converged and result.termination != "folded":
@@ -50,7 +49,7 @@ def judge(world: MeshArrays, outline: Ints, surface: Surface) -> Verdict:
     if len(surface.join.seen) and result.equation != "minimal":  # which meets its boundary with a crease
         return Verdict(LOOK, kink_reason(surface.join), surface.join.seen)
     joined = np.unique(surface.across)
-    ends = np.setdiff1d(hard_ends(world, outline), outline[joined[joined < len(outline)]])
+    ends = np.setdiff1d(hard_ends(world, outline, around), outline[joined[joined < len(outline)]])
     if len(ends):
         text = counted(len(ends), "vertex", "vertices")
         return Verdict(LOOK, f"Hard edges end at the hole, at {text}: the surface over it has none", ends)
@@ -69,19 +68,21 @@ def _outlines(count: int, edges: str) -> str:
     return f"a boundary of {edges}" if count == 1 else f"{count} boundary loops of {edges} in all"
 
 
-def hard_ends(world: MeshArrays, outline: Ints) -> Ints:
-    """Return the vertices of the boundary at which hard edges of the mesh end, ascending."""
-    rim = np.zeros(len(world.positions), dtype=bool)
-    rim[outline] = True
-    triangles = nearby(world.triangles, rim)
+def hard_ends(world: MeshArrays, outline: Ints, around: Ints) -> Ints:
+    """Return the vertices of the boundary at which hard edges of the mesh end, ascending.
+
+    around: (o, 3) the triangles near the boundary.
+    """
+    vertices, numbers = np.unique(around, return_inverse=True)
+    rim = np.isin(vertices, outline)
     with np.errstate(invalid="ignore", over="ignore"):
-        around = bends(world.positions, triangles)
+        near = bends(world.positions[vertices], numbers.reshape(-1, 3))
     found = [nothing()]
-    for chain in chains(world.positions, around):
-        ends = around.edges[chain]
-        found.append(ends[(rim[ends].sum(axis=1) == 1)[:, None] & rim[ends]])
-    vertices: Ints = np.unique(np.concatenate(found))
-    return vertices
+    for chain in chains(world.positions[vertices], near):
+        ends = near.edges[chain]
+        found.append(vertices[ends[(rim[ends].sum(axis=1) == 1)[:, None] & rim[ends]]])
+    ending: Ints = np.unique(np.concatenate(found))
+    return ending
 
 
 def _crossing(world: MeshArrays, outline: Ints, points: Floats, triangles: Ints) -> int:

@@ -85,7 +85,8 @@ def new_part(mesh: MeshArrays, patch: Patch, result: fairing.RemeshResult, lines
 
 def _replaced(patch: Patch, result: fairing.RemeshResult) -> tuple[Ints, Ints]:
     """Return the triangles that are new (m, 3), and the faces that go."""
-    kept = np.flatnonzero(fairing.components(patch.triangles, fixed=patch.fixed) < 0)
+    stays = fairing.components(patch.triangles, fixed=patch.fixed) < 0
+    kept = np.flatnonzero(stays & (not stays.all()))  # without any free vertex all of them go
     gone = np.setdiff1d(patch.faces, patch.faces[kept])
     partly = np.intersect1d(patch.faces[kept], np.delete(patch.faces, kept))
     added = len(result.triangles) - len(kept)

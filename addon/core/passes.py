@@ -9,17 +9,15 @@ import numpy as np
 from .arrays import Ints
 
 
-def numbered_by_pass(triangles: Ints, loops: Sequence[Ints], count: int) -> Ints:
-    """Return triangles (m, 3) with the passes of the loops as their first numbers, then their new vertices.
+def numbered_by_pass(numbered: Ints, triangles: Ints, loops: Sequence[Ints]) -> Ints:
+    """Return the numbered triangles (m, 3) with the right pass of the loops at each of their corners.
 
-    triangles: of `count` old vertices and then new ones; loops: of old ones, the triangles on their left.
+    numbered: with any of the passes of a vertex; triangles: the same in the numbers of the loops, which have them on
+    their left.
     """
     outline = np.concatenate(loops)
     following = np.concatenate([np.roll(loop, -1) for loop in loops])
-    number = np.full(count, -1, dtype=np.int64)
-    number[outline] = np.arange(len(outline))
-    is_old = triangles < count
-    result = np.where(is_old, number[np.where(is_old, triangles, 0)], triangles - count + len(outline))
+    result = numbered.copy()
     names, passes = np.unique(outline, return_counts=True)
     for vertex in names[passes > 1].tolist():
         corners = np.argwhere(triangles == vertex).tolist()

@@ -88,6 +88,11 @@ def whole_of(mesh: MeshArrays) -> Whole | None:
     return Whole(mesh, whole, tuple(copies)) if len(copies) > 1 else None
 
 
+def with_image_across(mesh: MeshArrays, reflection: Reflection) -> tuple[MeshArrays, Ints]:
+    """Return the mesh with its image across a plane after it, and (n,) the image of each vertex."""
+    return _with_image(mesh, reflection, reflection.on_plane(mesh.positions))
+
+
 def _is_cut_there(mesh: MeshArrays, seam: Mask) -> bool:
     """Return whether the patch has edges on the seam, all of them borders: with a second face they would have four."""
     chosen = mesh.in_patch[mesh.corner_faces]

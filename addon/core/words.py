@@ -409,7 +409,7 @@ def _sentence(findings: Sequence[Finding]) -> str:
     template = words.many if words.many and (islands if names_islands else whole.count) != 1 else words.one
     ends = whole.named[:2].tolist()
     fields = {"n": whole.count, "islands": islands, "first": ends[0] if ends else "", "ends": "–".join(map(str, ends))}
-    text = template.format(**whole.figures, **fields)
+    text = template.format(**{**whole.figures, **fields})  # figures may have such names
     return text if islands == 1 or names_islands else f"{text} ({islands} islands)"
 
 

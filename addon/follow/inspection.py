@@ -61,7 +61,8 @@ def _inspect_task(task: job.Task, options: FairOptions) -> Inspection:
         return Inspection(task.object_name, faces, refusal=NO_FREE)
     try:
         problem, notes = pose(task.faired_mesh, task.matrix, options)
-        engine.check(problem, options.resolved(task.mesh.textured))
+        if options.mesh == "KEEP" or len(problem.patch.free):
+            engine.check(problem, options.resolved(task.mesh.textured))
         islands = engine.islands(problem.patch)
     except engine.REFUSALS as cause:
         return Inspection(task.object_name, faces, task.free_count, refusal=labels.reason_of(cause))

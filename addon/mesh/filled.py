@@ -107,24 +107,27 @@ class _Rim:
         self._vertices = [bm.verts[vertex] for vertex in piece.outline.tolist()]
         self._drawn = [bm.verts[vertex] for vertex in piece.across.drawn.tolist()]
         self._around = [bm.verts[vertex] for vertex in piece.around.vertices.tolist()]
-        following = piece.following.tolist()
-        self._faces = [_border_face(self._vertices[i], self._vertices[j]) for i, j in enumerate(following)]
-        before = np.argsort(piece.following).tolist()
+        following, before = piece.following.tolist(), np.argsort(piece.following).tolist()
+        if piece.is_open:  # the last edge is none: the one before it, or after it, stands for it
+            following[-1], before[0] = -1, 0
+        edges = [(i, j) if j >= 0 else (i - 1, i) for i, j in enumerate(following)]
+        self._faces = [_border_face(self._vertices[i], self._vertices[j]) for i, j in edges]
         self._after = [_corner(self._faces[i], vertex) for i, vertex in enumerate(self._vertices)]
         self._before = [_corner(self._faces[before[i]], vertex) for i, vertex in enumerate(self._vertices)]
         layers = MeanLayers(bm.loops.layers, OF_CORNERS)
         after, other = (np.nan_to_num(layers.read(side)) for side in (self._after, self._before))
-        self._own = 2 * len(layers.uv_names)  # columns from which on values are carried
+        names = [] if piece.is_open else layers.uv_names  # over a half UVs are carried like all else
+        self._own = 2 * len(names)  # columns from which on values are carried
         self.mixed = int(np.count_nonzero((np.abs(after - other)[:, self._own :] > SAME).any(axis=1)))
         self._rims = [
             RimUVs(after[:, 2 * k : 2 * k + 2], other[:, 2 * k : 2 * k + 2], self._mirrored(bm.loops.layers.uv[name]))
-            for k, name in enumerate(layers.uv_names)
+            for k, name in enumerate(names)
         ]
         surface = Surface(piece.points, piece.triangles, piece.rims)
         self._maps = [unwrapped(surface, rim) for rim in self._rims]
         self.seams = max((len(flat.seams) for flat in self._maps), default=0)
         active = bm.loops.layers.uv.active
-        self._active = None if active is None else self._maps[layers.uv_names.index(active.name)]
+        self._active = None if active is None or piece.is_open else self._maps[layers.uv_names.index(active.name)]
         self.distortion = 0.0 if self._active is None else self._active.distortion
 
     @property

@@ -43,11 +43,12 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--fill", action="store_true", help="fill holes instead")
     parser.add_argument("--bridge", action="store_true", help="with --fill: join their boundary loops in one surface")
+    parser.add_argument("--islands", action="store_true", help="with --fill: join loose pieces inside holes with these")
+    parser.add_argument("--hard-edges", default="RUN_ON", help="with --fill: IGNORED rounds them off")
     parser.add_argument(
         "--longest", type=int, default=0, help="with --fill: longer borders stay open, in edges; 0: none"
     )
     parser.add_argument("--longest-length", type=float, default=0.0, help="with --fill: likewise, as a length")
-    parser.add_argument("--hard-edges", default="RUN_ON", help="with --fill: IGNORED rounds them off")
     parser.add_argument(
         "--fillet",
         action="store_true",

@@ -8,11 +8,11 @@ import bpy
 import numpy as np
 
 from ..core.arrays import Floats, Ints
-from ..core.border import NO_BORDER, border_loops, left_by
+from ..core.border import NO_BORDER, left_by
 from ..core.engine import REFUSALS, Progress, sub_range
 from ..core.fill_report import Added, make_fill_report, writable
 from ..core.filling import Filled, FillOptions, fill
-from ..core.holes import Borders, chosen_borders, expected_vertices
+from ..core.holes import Borders, borders_at, chosen_borders, expected_vertices
 from ..core.options import OF_CURVATURE, FairOptions
 from ..core.region import MeshArrays
 from ..core.report import summary
@@ -60,12 +60,14 @@ def read(context: bpy.types.Context, options: FillOptions) -> list[Task]:
             key = mesh_io.writable_key(obj)
             mesh = mesh_io.read_own_mesh(obj, FairOptions())
             matrix = np.array(obj.matrix_world, dtype=np.float64)
-            loops, left = border_loops(mesh, seeds)
+            found = borders_at(mesh, seeds)
             # Where all faces are selected, too, no border was chosen.
             every = obj.data.count_selected_items()[2] == len(mesh.in_patch)
-            borders = chosen_borders(mesh, matrix, Borders(loops, left=tuple(left)), options, every)
+            borders = chosen_borders(mesh, matrix, found, options, every)
         except ValueError as cause:
             raise Refused(obj.name, cause) from cause
+        if not len(borders.vertices):  # a Mirror modifier closes them
+            continue
         tasks.append(Task(obj.name, mesh, matrix, borders, key))
     return tasks
 
@@ -77,10 +79,10 @@ def solve(tasks: list[Task], options: FillOptions, progress: Progress) -> list[F
     for i, task in enumerate(tasks):
         part = sub_range(progress, i / len(tasks), (i + 1) / len(tasks))
         try:
-            found = fill(task.mesh, task.matrix, task.loops, options, part)
+            found = fill(task.mesh, task.matrix, task.loops, options, part, task.borders.halves)
         except REFUSALS as cause:
             refused = refused or Refused(task.object_name, cause)
-            found = Filled([], (left_by(cause, np.unique(np.concatenate(task.loops))),))
+            found = Filled([], (left_by(cause, task.borders.vertices),))
         outcomes.append(found.with_left(task.borders.left))
     if refused is not None and not any(found.pieces for found in outcomes):
         raise refused from refused.cause
@@ -113,6 +115,7 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
             "equation",
             "continuity",
             "bridge",
+            "islands",
             "hard_edges",
             "spacing",
             "inner",

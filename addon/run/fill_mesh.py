@@ -11,11 +11,11 @@ import numpy as np
 
 import fairing
 
-from ..core.border import Left, border_loops
+from ..core.border import Left
 from ..core.engine import Progress
 from ..core.fill_report import Added, is_written, refuse_unusable
 from ..core.filling import Filled, FillOptions, fill
-from ..core.holes import Borders, chosen_borders
+from ..core.holes import borders_at, chosen_borders
 from ..core.options import FairOptions
 from ..core.places import as_indices
 from ..mesh import filled as filled_mesh
@@ -74,13 +74,13 @@ def fill_borders(
     seeds = np.full(len(arrays.positions), vertices is None)
     if vertices is not None:
         seeds[as_indices("vertices", vertices, len(seeds))] = True
-    loops, left = border_loops(arrays, seeds)
-    if not loops and not left:
+    found = borders_at(arrays, seeds)
+    if not (found.loops or found.halves or found.left):
         raise ValueError("There is no border to fill" if vertices is None else "None of the vertices is on a border")
     world = np.eye(4) if matrix is None else np.array(matrix, dtype=np.float64)
     if world.shape != (4, 4):
         raise ValueError(f"matrix: expected 4×4 numbers, got shape {world.shape}")
-    borders = chosen_borders(arrays, world, Borders(loops, left=tuple(left)), options, vertices is None)
-    filled = fill(arrays, world, borders.loops, options, progress).with_left(borders.left)
+    borders = chosen_borders(arrays, world, found, options, vertices is None)
+    filled = fill(arrays, world, borders.loops, options, progress, borders.halves).with_left(borders.left)
     written = is_written([(mesh.name, filled)], options)
     return Done(filled, filled_mesh.add_to_mesh(mesh, filled.pieces) if written else None, borders.notes)

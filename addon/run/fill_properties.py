@@ -20,6 +20,22 @@ class FillProperties(SurfaceProperties):
         description="One surface joins all boundary loops of an object: a tube between two, a blend between more",
         default=False,
     )
+    islands: BoolProperty(
+        name="Join Islands",
+        description="Loose pieces of faces inside a hole are joined with it by one surface; "
+        "otherwise the hole is closed over them",
+        default=False,
+    )
+    hard_edges: EnumProperty(
+        name="Hard Edges",
+        description="What becomes of hard edges, marked sharp or by their angle, that end at a hole, and of edges that "
+        "were drawn across it",
+        items=(
+            ("RUN_ON", "Run On", "They are joined by fair curves, or drawn edges are taken, and stay hard"),
+            ("IGNORED", "Round Off", "The surface is smooth"),
+        ),
+        default="RUN_ON",
+    )
     longest: IntProperty(
         name="Most Edges",
         description="Borders with more edges than that stay open; 0: any number",
@@ -34,14 +50,4 @@ class FillProperties(SurfaceProperties):
         min=0.0,
         precision=3,
         subtype="DISTANCE",
-    )
-    hard_edges: EnumProperty(
-        name="Hard Edges",
-        description="What becomes of hard edges, marked sharp or by their angle, that end at a hole, and of edges that "
-        "were drawn across it",
-        items=(
-            ("RUN_ON", "Run On", "They are joined by fair curves, or drawn edges are taken, and stay hard"),
-            ("IGNORED", "Round Off", "The surface is smooth"),
-        ),
-        default="RUN_ON",
     )

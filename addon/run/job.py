@@ -77,6 +77,8 @@ def read_object(obj: bpy.types.Object, options: FairOptions) -> Task:
     matrix = np.array(obj.matrix_world, dtype=np.float64)
     whole = whole_of(mesh)
     free = whole.free_count if whole is not None else int(np.count_nonzero(free_vertices(mesh)))
+    if options.mesh == "NEW":  # which makes its own
+        free = max(free, int(np.count_nonzero(mesh.in_patch)))
     return Task(obj.name, mesh, matrix, free, key, whole)
 
 

@@ -8,12 +8,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from core.around import nearby
 from core.arrays import Floats, Ints, Mask
 from core.border import BorderRefusal, border_loops
 from core.fill_report import make_fill_report
 from core.fill_verdict import Surface, judge
 from core.filling import FillOptions, Piece, fill
 from core.holes import Borders, chosen_borders
+from core.neighbourhood import Neighbourhood
 from core.quality import Join
 from core.region import MeshArrays, nothing
 from core.verdict import GOOD, LOOK, UNUSABLE, Verdict
@@ -229,7 +231,7 @@ def judged(points: Floats, join: Join, *tangent_only: int, **of_result: object) 
     usual["girth"] = None
     result = SimpleNamespace(**{**usual, **of_result})
     only_tangent = np.array(tangent_only, dtype=np.int64)
-    return judge(empty, np.arange(rim), Surface(points, triangles, result, join, only_tangent))  # type: ignore[arg-type]
+    return judge(empty, np.arange(rim), Surface(points, triangles, result, join, only_tangent), empty.triangles)  # type: ignore[arg-type]
 
 
 def test_what_has_not_converged_is_unusable() -> None:
@@ -332,3 +334,35 @@ def disc(rings: int = 6) -> tuple[Floats, Ints, int]:
     ]
     points = np.array([(i + 0.5 * j, np.sqrt(0.75) * j, 0.0) for i, j in places])
     return points, np.array(triangles), 6 * rings
+
+
+def test_small_holes_in_one_call_are_as_each_by_itself() -> None:
+    """Of four, six and eight edges; two of them share a corner; one is no loop of border edges."""
+    mesh = holed((2, 2), (4, 4), (6, 6), (2, 6))
+    loops, _ = border_loops(mesh, np.ones(len(mesh.positions), dtype=bool))
+    small = [loop for loop in loops if len(loop) == 8]
+    assert len(small) == 4
+    inner = np.array([vertex(0, 2), vertex(1, 3), vertex(2, 4)])
+    together = fill(mesh, np.eye(4), [*small, inner], FillOptions())
+    assert len(together.left) == 1
+    together = fill(mesh, np.eye(4), small, FillOptions())
+    for loop, piece in zip(small, together.pieces, strict=True):
+        (alone,) = fill(mesh, np.eye(4), [loop], FillOptions()).pieces
+        np.testing.assert_array_equal(piece.triangles, alone.triangles)
+        np.testing.assert_allclose(piece.points, alone.points, atol=1e-4)
+        np.testing.assert_array_equal(piece.around.vertices, alone.around.vertices)
+        assert piece.verdict.grade == alone.verdict.grade
+        one, other = (dict(zip(each.join.vertices.tolist(), each.join.degrees, strict=True)) for each in (piece, alone))
+        assert one == pytest.approx(other, abs=0.05)
+        assert set(piece.join.vertices.tolist()) == {*loop.tolist()}
+
+
+def test_neighbours_are_those_of_the_whole_mesh() -> None:
+    mesh = holed((4, 4))
+    points = mesh.positions.copy()
+    points[vertex(7, 7)] = np.nan
+    start = np.array([vertex(1, 1), vertex(6, 2)])
+    seeds = only(mesh, *start.tolist())
+    finite = np.isfinite(points).all(axis=1)
+    expected = nearby(mesh.triangles[finite[mesh.triangles].all(axis=1)], seeds)
+    np.testing.assert_array_equal(Neighbourhood(points, mesh.triangles).around(start), expected)

@@ -40,7 +40,7 @@ def rim(mesh: MeshArrays, hole_at: float) -> Ints:
 def test_a_ridge_ends_on_both_sides_of_a_hole(degrees: float) -> None:
     mesh = roof(degrees, 0.0)
     loop = rim(mesh, 0.0)
-    ends = mesh.positions[hard_ends(mesh, loop)]
+    ends = mesh.positions[hard_ends(mesh, loop, mesh.triangles)]
     np.testing.assert_allclose(ends, [[-0.25, 0.0, 0.0], [0.25, 0.0, 0.0]], atol=1e-12)
     (piece,) = fill(mesh, np.eye(4), [loop], FillOptions(accept="ALL", hard_edges="IGNORED")).pieces
     assert piece.verdict.grade != GOOD
@@ -95,7 +95,7 @@ def test_a_drawn_line_is_kept_with_its_vertices() -> None:
     """Two edges over a vertex beside the ridge; they are the first points inside, at their places."""
     mesh = roof(90.0, 0.0)
     loop = rim(mesh, 0.0)
-    first, last = hard_ends(mesh, loop).tolist()
+    first, last = hard_ends(mesh, loop, mesh.triangles).tolist()
     middle = len(mesh.positions)
     with_line = replace(
         mesh,
@@ -124,14 +124,14 @@ def test_the_surface_over_it_is_worth_a_look_though_no_kink_is_seen() -> None:
 @pytest.mark.parametrize(("degrees", "hole_at"), [(20.0, 0.0), (90.0, 0.5)])
 def test_soft_ridges_and_those_beside_the_hole_don_t_count(degrees: float, hole_at: float) -> None:
     mesh = roof(degrees, hole_at)
-    assert len(hard_ends(mesh, rim(mesh, hole_at))) == 0
+    assert len(hard_ends(mesh, rim(mesh, hole_at), mesh.triangles)) == 0
 
 
 @pytest.mark.parametrize("noise", [0.02, 0.04])
 def test_noise_around_a_hole_has_no_hard_edges(noise: float) -> None:
     mesh = roof(0.0, 0.0)
     rough = mesh.positions + np.random.default_rng(3).normal(scale=noise, size=mesh.positions.shape)
-    assert len(hard_ends(replace(mesh, positions=rough), rim(mesh, 0.0))) == 0
+    assert len(hard_ends(replace(mesh, positions=rough), rim(mesh, 0.0), mesh.triangles)) == 0
 
 
 def test_a_knob_at_a_hole_is_no_hard_edge() -> None:
@@ -139,4 +139,4 @@ def test_a_knob_at_a_hole_is_no_hard_edge() -> None:
     mesh = roof(0.0, 0.0)
     lifted = mesh.positions.copy()
     lifted[np.argmin(np.linalg.norm(lifted - [0.25 + 2.0 / SIZE, 0.0, 0.0], axis=1)), 2] = 0.3
-    assert len(hard_ends(replace(mesh, positions=lifted), rim(mesh, 0.0))) == 0
+    assert len(hard_ends(replace(mesh, positions=lifted), rim(mesh, 0.0), mesh.triangles)) == 0

@@ -111,3 +111,12 @@ def test_counted() -> None:
 def test_no_sentence_speaks_of_the_engine() -> None:
     texts = " ".join(text for cases in WORDS.values() for words in cases for text in (words.one, words.many))
     assert not re.search(r"triang|compon|fixed_normals|fixed,|load\b", texts)
+
+
+def test_a_figure_may_have_the_name_of_a_field() -> None:
+    """Ends of hard edges are counted as `ends`, which in sentences are those of an edge."""
+    figures = {"ends": 2.0, "ambiguous": 1.0}
+    warning = fairing.Diagnostic("EDGES_LEFT_ALONE", "", np.array([3, 5], np.int32), "vertex", figures)
+    none = np.empty((0, 3), dtype=np.int64)
+    (text,) = sentences((warning,), Origin(np.arange(10, 20), none, none[:, 0]))
+    assert text.startswith("2 hard edges end at the hole, at vertex 13 and others")

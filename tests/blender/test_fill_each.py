@@ -232,3 +232,123 @@ def test_holes_of_several_objects_stop_each_other_no_more() -> None:
     assert (open_borders(good), len(open_borders(bad))) == ([], 1)
     assert selected(bad) == {*open_borders(bad)[0]}
     assert report.reason.startswith(f"{bad.name}: 1 of 8 holes stays open")
+
+
+def test_a_new_mesh_needs_no_free_vertices() -> None:
+    """The top of an undivided box: its old edge across goes, and all else stays."""
+    points = [(x, y, z) for z in (-1.0, 1.0) for x, y in ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))]
+    sides = [(k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k) for k in range(4)]
+    obj = meshes.add(points, [(3, 2, 1, 0), *sides, (4, 5, 6), (4, 6, 7)], "Box")
+    chosen = meshes.faces_where(obj, lambda c: c.z > 0.9)
+    before = meshes.positions(obj)
+    counts = []
+    for spacing in (1.0, 0.1, 0.05):
+        obj = meshes.add(points, [(3, 2, 1, 0), *sides, (4, 5, 6), (4, 6, 7)], "Box")
+        status = meshes.fair(obj, chosen, mesh="NEW", spacing=spacing, accept="ALL")
+        assert status == {"FINISHED"}
+        assert open_borders(obj) == []
+        np.testing.assert_array_equal(meshes.positions(obj)[:8], before)
+        counts.append(len(obj.data.polygons))
+    assert counts[0] < counts[1] < counts[2]
+
+
+def test_an_island_in_a_hole_is_joined_with_it() -> None:
+    def change(bm: Any) -> None:
+        around = [face for face in bm.faces if face.calc_center_median().z > 0.93]
+        middle = [face for face in around if face.calc_center_median().z > 0.99]
+        bmesh.ops.delete(bm, geom=[face for face in around if face not in middle], context="FACES")
+
+    obj = ball(change)
+    assert len(open_borders(obj)) == 10
+    assert fill(obj, islands=True) == {"FINISHED"}
+    meshes.leave()
+    assert open_borders(obj) == []
+    assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 2e-3
+
+
+def half_ball(hole: Callable[[Any], bool]) -> bpy.types.Object:
+    """The half x ≥ 0 of a unit sphere with a Mirror modifier, without the faces whose centre `hole` accepts."""
+    obj = meshes.sphere(48)
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    gone = [f for f in bm.faces if f.calc_center_median().x < 0.0 or hole(f.calc_center_median().normalized())]
+    bmesh.ops.delete(bm, geom=gone, context="FACES")
+    bm.to_mesh(obj.data)
+    bm.free()
+    obj.modifiers.new("Mirror", "MIRROR")
+    return obj
+
+
+def evaluated(obj: bpy.types.Object) -> bpy.types.Object:
+    """What the modifier makes of it, as an object of its own."""
+    mesh = bpy.data.meshes.new_from_object(obj.evaluated_get(bpy.context.evaluated_depsgraph_get()))
+    other = bpy.data.objects.new("Whole", mesh)
+    bpy.context.collection.objects.link(other)
+    return other
+
+
+@pytest.mark.parametrize("scale", [(1.0, 1.0, 1.0), (-2.0, 2.0, 2.0)])
+def test_a_hole_at_a_mirror_plane_is_filled_as_the_whole_would_be(scale: tuple[float, float, float]) -> None:
+    """Two holes at the plane and one beside it; the border along the plane stays as it is."""
+    obj = half_ball(lambda c: c.z > 0.8 or c.y > 0.93 or c.x > 0.93)
+    obj.scale = scale
+    before = meshes.positions(obj)
+    edges = len(open_borders(obj)[0])
+    assert fill(obj) == {"FINISHED"}
+    meshes.leave()
+    points = meshes.positions(obj)
+    np.testing.assert_array_equal(points[: len(before)], before)
+    assert np.abs(np.linalg.norm(points, axis=1) - 1.0).max() < 2e-3
+    (rim,) = open_borders(obj)
+    assert np.abs(points[rim, 0]).max() < 1e-6  # all of it lies on the plane
+    assert len(rim) != edges
+    bpy.context.view_layer.update()
+    whole = evaluated(obj)
+    assert open_borders(whole) == []
+    assert len(whole.data.vertices) - len(whole.data.edges) + len(whole.data.polygons) == 2
+    assert bpy.context.window_manager.fairing_report.verdict == "GOOD"
+
+
+def test_scripts_fill_halves_too() -> None:
+    obj = half_ball(lambda c: c.z > 0.8)
+    uv = obj.data.uv_layers.new(name="Map")
+    assert len(uv.uv) == len(obj.data.loops)
+    (result,) = module().fill_mesh(obj.data)
+    assert result.converged
+    (rim,) = open_borders(obj)
+    assert np.abs(meshes.positions(obj)[rim, 0]).max() < 1e-6
+
+
+def test_a_plane_without_holes_is_no_border_to_fill() -> None:
+    obj = half_ball(lambda c: False)
+    with pytest.raises(RuntimeError, match="No border is selected"):
+        fill(obj)
+    meshes.leave()
+
+
+def test_with_x_mirror_a_hole_across_the_plane_is_symmetric_to_the_bit() -> None:
+    obj = meshes.sphere(48)
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    gone = [f for f in bm.faces if f.calc_center_median().z > 0.75]
+    bmesh.ops.delete(bm, geom=gone, context="FACES")
+    bm.to_mesh(obj.data)
+    bm.free()
+    points = meshes.positions(obj)
+    points[np.abs(points[:, 0]) < 1e-6, 0] = 0.0
+    meshes.move(obj, points)
+    obj.data.use_mirror_x = True
+    count = len(points)
+    assert fill(obj) == {"FINISHED"}
+    meshes.leave()
+    assert open_borders(obj) == []
+    new = meshes.positions(obj)[count:]
+    assert np.abs(np.linalg.norm(new, axis=1) - 1.0).max() < 2e-3
+    assert np.count_nonzero(new[:, 0] == 0.0) > 3
+    there = {tuple(row) for row in new.tolist()}
+    assert {(-x + 0.0, y, z) for x, y, z in there} == {(x + 0.0, y, z) for x, y, z in there}
+    faces = {frozenset(tuple(obj.data.vertices[v].co) for v in p.vertices) for p in obj.data.polygons if p.select}
+    assert {frozenset((-x + 0.0, y, z) for x, y, z in face) for face in faces} == {
+        frozenset((x + 0.0, y, z) for x, y, z in face) for face in faces
+    }
+    assert bpy.context.window_manager.fairing_report.verdict == "GOOD"

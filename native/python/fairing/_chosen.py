@@ -10,6 +10,7 @@ import numpy as np
 
 from fairing import _crossings, _loops, _sides
 from fairing._hole_loops import hole_loops, recut
+from fairing._holes import is_outer
 from fairing._loops import Outline
 from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
 
@@ -69,7 +70,7 @@ class Wanted:
     longest_length: float
     """Around a loop; 0: any length."""
     hard: IntArray
-    """(h, 2) edges of the triangles around that normals are not fitted across."""
+    """(h, 2) edges across which no fit of normals looks."""
 
 
 def chosen_loops(points: FloatArray, around: IntArray, wanted: Wanted) -> Chosen:
@@ -82,7 +83,8 @@ def chosen_loops(points: FloatArray, around: IntArray, wanted: Wanted) -> Chosen
     outline, normals, curvatures, bad = _sound(outline, points, around, wanted)
     left += bad
     if wanted.loops is None:
-        outline, normals, outer = _without_outer(outline, points, normals, left)
+        plain = _loops.loop_normals(None, outline, points, around) if len(wanted.hard) else normals
+        outline, normals, outer = _without_outer(outline, points, (normals, plain), left)
         left += outer
     outline, normals = _sides.settled(outline, points, normals, wanted.bridge)
     if curvatures is not None:
@@ -90,37 +92,38 @@ def chosen_loops(points: FloatArray, around: IntArray, wanted: Wanted) -> Chosen
     chosen = Chosen(outline, normals, curvatures, tuple(left))
     if wanted.bridge:
         return chosen
-    return fillable(chosen, lambda part: _loops.refuse_endless(part.outline, points, part.normals))
+    return _without(chosen, dict(_loops.endless(chosen.outline, points, chosen.normals)))
 
 
 def fillable(chosen: Chosen, attempt: Callable[[Chosen], Any]) -> Chosen:
     """The loops on which an attempt raises no MeshError by themselves; the first error where there are none."""
-    kept, left, first = [], [], None
-    for k, loop in enumerate(chosen.outline.loops):
+    bad = {}
+    for k in range(len(chosen.outline.loops)):
         try:
             attempt(chosen.part([k]))
-            kept.append(k)
         except MeshError as error:
-            first = first or error
-            left.append(Left(loop, error.diagnostic))
-    if first is None:
-        return chosen
-    if not kept:
-        raise first
-    part = chosen.part(kept)
-    return Chosen(part.outline, part.normals, part.curvatures, chosen.left + tuple(left))
+            bad[k] = error.diagnostic
+    return _without(chosen, bad)
 
 
 def blamed(chosen: Chosen, error: MeshError) -> Chosen | None:
     """Without the loops that an error names; None where it names none, or all."""
-    if error.kind != "vertex":
+    hit = [k for k, loop in enumerate(chosen.outline.loops) if np.isin(loop, error.elements).any()]
+    if error.kind != "vertex" or not hit or len(hit) == len(chosen.outline.loops):
         return None
-    hit = [bool(np.isin(loop, error.elements).any()) for loop in chosen.outline.loops]
-    if all(hit) or not any(hit):
-        return None
-    left = [Left(loop, error.diagnostic) for loop, bad in zip(chosen.outline.loops, hit, strict=True) if bad]
-    part = chosen.part([k for k, bad in enumerate(hit) if not bad])
-    return Chosen(part.outline, part.normals, part.curvatures, chosen.left + tuple(left))
+    return _without(chosen, dict.fromkeys(hit, error.diagnostic))
+
+
+def _without(chosen: Chosen, bad: dict[int, Diagnostic]) -> Chosen:
+    """Leave these loops open; MeshError with the first reason where no other is there."""
+    if not bad:
+        return chosen
+    kept = [k for k in range(len(chosen.outline.loops)) if k not in bad]
+    if not kept:
+        raise MeshError(bad[0])
+    part = chosen.part(kept)
+    left = tuple(Left(chosen.outline.loops[k], reason) for k, reason in bad.items())
+    return Chosen(part.outline, part.normals, part.curvatures, chosen.left + left)
 
 
 def _found(points: FloatArray, around: IntArray, wanted: Wanted) -> tuple[Outline, list[Left]]:
@@ -226,14 +229,20 @@ def _of_loops(rows: Any, sizes: list[int], kept: list[int], count: int) -> Any:
 
 
 def _without_outer(
-    outline: Outline, points: FloatArray, normals: FloatArray, others: list[Left]
+    outline: Outline, points: FloatArray, normals: tuple[FloatArray, FloatArray], others: list[Left]
 ) -> tuple[Outline, FloatArray, list[Left]]:
-    """The holes, their normals, and the outer borders; MeshError where there is no hole."""
-    try:
-        holes, kept, outer = _loops.without_outer(outline, points, normals)
-    except MeshError as error:
-        raise (MeshError(others[0].reason) if others else error) from None
-    return holes, kept, [Left(loop, _loops.not_holes([loop])) for loop in outer]
+    """The holes, their normals, and the outer borders; MeshError where there is no hole.
+
+    normals: those that surfaces take, and those that hard edges don't stop: how a border turns is a matter of all that
+    is around it.
+    """
+    rows, plain = outline.split(normals[0]), outline.split(normals[1])
+    outer = [is_outer(points[loop], part) for loop, part in zip(outline.loops, plain, strict=True)]
+    kept = [k for k, out in enumerate(outer) if not out]
+    left = [Left(loop, _loops.not_holes([loop])) for loop, out in zip(outline.loops, outer, strict=True) if out]
+    if not kept:
+        raise MeshError(others[0].reason if others else _loops.not_holes([each.loop for each in left]))
+    return _some(outline, kept), np.concatenate([rows[k] for k in kept]), left
 
 
 def _is_outer(reason: Diagnostic) -> bool:

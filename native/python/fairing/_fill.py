@@ -21,7 +21,7 @@ from fairing import (
     _short_edges,
     _sides,
     _single_face,
-)
+)  # fmt: skip
 from fairing._along import filled_along
 from fairing._chosen import Chosen, Wanted, blamed, chosen_loops, fillable
 from fairing._fair import fair
@@ -32,6 +32,8 @@ from fairing._proportion import Limit
 from fairing._tangency import not_tangent
 from fairing._types import FairResult, FloatArray, IntArray, MeshError
 from fairing._watch import Watch
+
+_OF_LOOPS = ("loops", "left_open", "left_because")  # fields
 
 LEAST_COUNT = 1000
 """Free vertices of the mesh that is solved, for each component. Coarser wishes are cut from its surface."""
@@ -122,11 +124,10 @@ def fill(
     MeshError
         The first reason where no loop can be filled, or one of those that are to be joined is bad: NOT_A_LOOP,
         NO_BOUNDARY, NONMANIFOLD_VERTEX (loops that cross, or vertices of one boundary in one place or on its edges),
-        NONMANIFOLD_EDGE (also where the surface would double back onto a triangle that sticks out into a loop,
-        or where ``wires`` cross),
-        NOT_A_HOLE (there are none but outer borders; or one that was named lies around a flat sheet, which no surface
-        closes), OUT_OF_PROPORTION (``max_vertices``), LOOPS_NOT_JOINED (one is turned; loops that no surface joins),
-        ZERO_NORMAL, NORMALS_OPPOSE_WINDING, NONFINITE or INDEX_RANGE; ``elements`` are the vertices.
+        NONMANIFOLD_EDGE (also where the surface would double back onto a triangle that sticks out into a loop, or where
+        ``wires`` cross), NOT_A_HOLE (there are none but outer borders; or one that was named lies around a flat sheet,
+        which no surface closes), OUT_OF_PROPORTION (``max_vertices``), LOOPS_NOT_JOINED (one is turned; loops that no
+        surface joins), ZERO_NORMAL, NORMALS_OPPOSE_WINDING, NONFINITE or INDEX_RANGE; ``elements`` are the vertices.
     ValueError, Cancelled, SolverError, MemoryError
         As for :func:`fairing.fair`.
     """
@@ -139,14 +140,14 @@ def fill(
         raise ValueError(f"bridge: True or False is needed, not {bridge!r}")
     if _arguments.finite("longest_length", longest_length) < 0:
         raise ValueError(f"longest_length: a length, or 0 for any, is needed, not {longest_length!r}")
+    if fixed_curvatures is not None and options.get("continuity", "G1") != "G2":
+        raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
     finite = np.isfinite(points).all(axis=1)
     known = around if finite.all() else around[finite[around].all(axis=1)]
     broken = _run_on.Edges.of((points, known), (edges, wires, marked), bool(bridge))
     wanted = Wanted(loops, normals, fixed_curvatures, bool(bridge), limit, float(longest_length), broken.hard)
     chosen = chosen_loops(points, around, wanted)
-    task = _Task(points, known, bool(bridge), length, max_vertices, broken, options, progress)
-    if chosen.curvatures is not None and options.get("continuity", "G1") != "G2":
-        raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
+    task = _Task(points, known, bool(bridge), length, max_vertices, broken, options, _rising(progress))
     while True:
         try:
             values = task.filled(chosen)
@@ -165,6 +166,20 @@ def fill(
         left_open=tuple(read_only(each.loop) for each in chosen.left),
         left_because=tuple(each.reason for each in chosen.left),
     )
+
+
+def _rising(progress: Progress | None) -> Progress | None:
+    """The callback, which never hears less than before: some loops are filled after others, or once more."""
+    if progress is None:
+        return None
+    most = 0.0
+
+    def told(fraction: float, stage: str) -> bool | None:
+        nonlocal most
+        most = max(most, fraction)
+        return progress(most, stage)
+
+    return told
 
 
 @dataclass(frozen=True)

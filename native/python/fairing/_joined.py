@@ -22,9 +22,12 @@ def joined(count: int, parts: Sequence[dict[str, Any]]) -> dict[str, Any]:
     result = dict(max(parts, key=lambda part: _rank(_ORDER, part["provenance"])))
     for name in ("vertices", "mean_curvature", "boundary_angle", "join"):
         result[name] = np.concatenate([part[name] for part in parts])
+    assert not any(part.get("curves") for part in parts[1:])  # their vertices come first
     for name in ("fixed", "triangles"):
         moved = [_moved(part[name], count, first) for part, first in zip(parts, firsts, strict=True)]
         result[name] = np.concatenate(moved)
+    for name in ("curves", "marked"):
+        result[name] = tuple(each for part in parts for each in part.get(name, ()))
     for name in ("converged", "polished"):
         result[name] = all(part[name] for part in parts)
     result["cut"] = any(part["cut"] for part in parts)

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from fairing import _arguments
 from fairing._crossings import crossing_edges, touches
-from fairing._holes import is_endless, is_outer
+from fairing._holes import is_endless
 from fairing._outline import surrounding_normals
 from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
 
@@ -47,23 +47,6 @@ class Outline:
         return np.concatenate([part[::-1] if turned else part for part, turned in parts])
 
 
-def without_outer(
-    outline: Outline, vertices: FloatArray, normals: FloatArray
-) -> tuple[Outline, FloatArray, tuple[IntArray, ...]]:
-    """The holes among all border loops, their normals (Σ k, 3), and the outer borders that are left out.
-
-    MeshError (NOT_A_HOLE) where no hole is left.
-    """
-    parts = outline.split(normals)
-    outer = [is_outer(vertices[loop], part) for loop, part in zip(outline.loops, parts, strict=True)]
-    left = tuple(loop for loop, out in zip(outline.loops, outer, strict=True) if out)
-    if all(outer):
-        raise MeshError(not_holes(left))
-    holes = tuple(loop for loop, out in zip(outline.loops, outer, strict=True) if not out)
-    kept = np.concatenate([part for part, out in zip(parts, outer, strict=True) if not out])
-    return Outline(holes, (False,) * len(holes), (False,) * len(holes)), kept, left
-
-
 def not_holes(loops: Sequence[IntArray]) -> Diagnostic:
     """Tells of outer borders that were left open; name them in `loops` to have them filled all the same."""
     edges = np.sort(np.concatenate(loops)).astype(np.int32)
@@ -73,14 +56,16 @@ def not_holes(loops: Sequence[IntArray]) -> Diagnostic:
     return Diagnostic("NOT_A_HOLE", text, edges, "vertex", {"loops": float(len(loops)), "vertices": float(len(edges))})
 
 
-def refuse_endless(outline: Outline, vertices: FloatArray, normals: FloatArray) -> None:
-    """MeshError (NOT_A_HOLE) for a loop over which lies no surface but the other side of a sheet without height."""
-    for loop, part in zip(outline.loops, outline.split(normals), strict=True):
+def endless(outline: Outline, vertices: FloatArray, normals: FloatArray) -> list[tuple[int, Diagnostic]]:
+    """The loops over which lies no surface but the other side of a sheet without height: their numbers, and why."""
+    found = []
+    for k, (loop, part) in enumerate(zip(outline.loops, outline.split(normals), strict=True)):
         if not is_endless(vertices[loop], part):
             continue
         text = f"the border loop at {listed(loop)} goes around the outside of a flat sheet: no surface closes it"
         figures = {"loops": 1.0, "vertices": float(len(loop)), "endless": 1.0}
-        raise MeshError(Diagnostic("NOT_A_HOLE", text, np.sort(loop).astype(np.int32), "vertex", figures))
+        found.append((k, Diagnostic("NOT_A_HOLE", text, np.sort(loop).astype(np.int32), "vertex", figures)))
+    return found
 
 
 def given_loops(loops: Any, vertices: FloatArray, triangles: IntArray) -> Outline:
@@ -220,8 +205,10 @@ def _stacked(values: Any, dimensions: int) -> tuple[Any, bool]:
 
 
 def _directed_edges(triangles: IntArray, count: int) -> npt.NDArray[np.int64]:
+    """Ascending, and one beyond all."""
     tails = triangles.astype(np.int64)
-    return (tails * count + np.roll(tails, -1, axis=1)).ravel()
+    sides = np.sort((tails * count + np.roll(tails, -1, axis=1)).ravel())
+    return np.append(sides, np.iinfo(np.int64).max)
 
 
 def _sense(loop: IntArray, sides: npt.NDArray[np.int64], count: int) -> int:
@@ -232,8 +219,9 @@ def _sense(loop: IntArray, sides: npt.NDArray[np.int64], count: int) -> int:
     if len(loop) < 3:
         return 0  # `check` refuses it
     tails, heads = loop.astype(np.int64), np.roll(loop, -1).astype(np.int64)
-    along = np.isin(tails * count + heads, sides)
-    against = np.isin(heads * count + tails, sides)
+    along, against = (
+        sides[np.searchsorted(sides, edges)] == edges for edges in (tails * count + heads, heads * count + tails)
+    )
     if (along & against).any():
         inner = _ends(loop, along & against)
         _refuse("NOT_A_LOOP", f"edges of a loop are no border, faces lie on both sides: {listed(inner)}", inner)

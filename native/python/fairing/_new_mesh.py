@@ -61,7 +61,7 @@ class FillResult(NewMeshResult):
     left_open: tuple[IntArray, ...]
     """Loops that stay open: without named ``loops`` those around the outside of a sheet (NOT_A_HOLE), and always those
     that can't be filled while others can."""
-    left_because: tuple[Diagnostic, ...]
+    left_because: tuple[Diagnostic, ...] = ()
     """Why, one for each of ``left_open``; ``elements`` are vertices."""
     curves: tuple[IntArray, ...] = ()
     """Hard edges that run on through the holes, and wires: the vertices of each from end to end. New ones among them

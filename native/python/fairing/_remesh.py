@@ -18,6 +18,7 @@ from fairing._fill import (
     refuse_made_here,
     spacing_of,
 )
+from fairing._inner_vertices import with_inner_vertices
 from fairing._new_mesh import RemeshResult, read_only, report_fields
 from fairing._proportion import Limit
 from fairing._types import MeshError
@@ -39,11 +40,11 @@ def remesh(
 ) -> RemeshResult:
     """Fair a patch on a new mesh: :func:`fairing.fair`, and then other vertices and triangles for its surface.
 
-    Fixed vertices and the boundary's edges stay. ``origin`` says where each new vertex lies on the old patch, so that
-    what belongs to its vertices or corners can be carried over: what :func:`fairing.fair` makes of the old mesh, with
-    ``inner_fairness="conformal"`` by default, takes them there. ``spacing`` and ``inner`` are those of
-    :func:`fairing.fill`, the other parameters those of :func:`fairing.fair`. Where the new mesh is coarser than the
-    old one and has less than 1000 vertices, it is cut from the surface of the old one, and not solved again.
+    Fixed vertices and the boundary's edges stay; no vertex need be free. ``origin`` says where each new vertex lies on
+    the old patch, so that what belongs to its vertices or corners can be carried over: what :func:`fairing.fair` makes
+    of the old mesh, with ``inner_fairness="conformal"`` by default, takes them there. ``spacing`` and ``inner`` are
+    those of :func:`fairing.fill`, the other parameters those of :func:`fairing.fair`. Where the new mesh is coarser
+    than the old one and has less than 1000 vertices, it is cut from the surface of the old one, and not solved again.
 
     ``kept``, (e, 2): edges of the old mesh that the new one has, too, between new vertices at the same places of the
     surface, which ``result.old`` names: seams of a texture.
@@ -59,7 +60,13 @@ def remesh(
     length = spacing_of(spacing, inner)
     outside = options.pop("outside", None)
     refuse_made_here(options, progress)
+    if options.get("equation") == "minimal":
+        raise ValueError("equation: 'minimal' has no normals to continue; accepted are the others")
     watch = Watch(progress)
+    base = len(points)
+    refined = with_inner_vertices(points, faces, held, lines)
+    if refined is not None:
+        points, faces = refined.vertices, refined.triangles
     old = Patch(points, faces, held, given_normals)
     most = Limit.of(_count_on(old, length), max_vertices)
     border = old.border()
@@ -71,18 +78,20 @@ def remesh(
         held, given_normals = report.fixed, averaged[report.fixed]
     solved = Patch(report.vertices, faces, held, given_normals)
     most.check(solved.expected_new(length), border)
-    new, origin, old_vertex = solved.meshed_anew(len(points), lines, (length, 0), options, watch.part(0.4, 0.6))
+    new, origin, old_vertex = solved.meshed_anew(base, lines, (length, 0), options, watch.part(0.4, 0.6))
     watch.lap("mesh")
-    values = report_fields(report, len(points))
-    added = len(new.vertices) - len(points)
+    values = report_fields(report, base)
+    added = len(new.vertices) - base
     if added >= min(LEAST_COUNT, len(np.setdiff1d(faces, report.fixed))):
-        values = report_fields(new.faired("given", outside, options, watch.part(0.6, 1.0)), len(points))
+        values = report_fields(new.faired("given", outside, options, watch.part(0.6, 1.0)), base)
         values["triangles"] = new.triangles
     else:
-        values.update(cut_fields(new, len(points)))
+        values.update(cut_fields(new, base))
         values["mean_curvature"] = carried(report.mean_curvature, faces, origin)
     values["seconds"] = {**values["seconds"], **watch.seconds}
-    return RemeshResult(**values, origin=origin, old=read_only(old_vertex))
+    if refined is not None:
+        origin = refined.given(origin)
+    return RemeshResult(**values, origin=(read_only(origin[0]), read_only(origin[1])), old=read_only(old_vertex))
 
 
 def _count_on(old: Patch, spacing: Spacing) -> float:

@@ -22,6 +22,8 @@ def settled(outline: Outline, vertices: FloatArray, normals: FloatArray, joined:
     MeshError: LOOPS_NOT_JOINED where the normals of two loops that face each other point to different sides.
     """
     joined = joined and len(outline.loops) > 1
+    if not joined and not any(outline.bare):
+        return outline, normals
     rims = _rims(outline, vertices, normals)
     away = [rim.way_to_others < _AWAY if joined else leads_outside(rim.points, rim.normals) for rim in rims]
     turns = [is_away and bare for is_away, bare in zip(away, outline.bare, strict=True)]
