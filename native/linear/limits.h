@@ -9,7 +9,7 @@ inline constexpr int history_depth = 6;
 inline constexpr double longest_step = 0.1;
 
 // Line searches: how often a step is halved, and the share of the fall that its slope promises (Armijo).
-inline constexpr int most_halvings = 8;
+inline constexpr int most_halvings = 12;
 inline constexpr double armijo = 1e-4;
 
 // Rows and columns of a dense matrix that are worked on at once: what the cache holds.

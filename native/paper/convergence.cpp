@@ -8,10 +8,9 @@ namespace fairing {
 namespace {
 
 constexpr std::size_t fewest_steps = 4;
-constexpr std::size_t most_steps = 10;
 constexpr double fastest = 0.8;  // contraction
 
-constexpr std::size_t window = 10;  // cycles over which growth or rest shows
+constexpr std::size_t window = 10;  // cycles over which contraction, growth or rest shows
 constexpr double growth_of_alternation = 2.0;
 constexpr double hardly_falling = 0.97;  // lowest merit of a window over that of the window before
 constexpr double undone = 0.1;           // part of the moves that is left when two updates undo each other
@@ -22,7 +21,7 @@ constexpr int patience = 50;  // cycles without a hundredth less
 
 void RemainingChange::add(double step) {
     steps_.push_back(step);
-    if (steps_.size() > most_steps) steps_.pop_front();
+    if (steps_.size() > window) steps_.pop_front();
     if (steps_.size() == fewest_steps && first_ == 0.0) first_ = estimate();
 }
 

@@ -14,9 +14,8 @@ namespace fairing {
 
 namespace {
 
-constexpr int fairness_sweeps = 2;   // of step (2)
-constexpr int curvature_rounds = 2;  // of step (3)
-constexpr int curvature_sweeps = 3;  // of H in each of them
+constexpr int rounds = 2;            // of steps (2) and (3)
+constexpr int curvature_sweeps = 3;  // of H in each round of step (3)
 
 // Zero where the triangle is degenerate, as in FaceGeometry.
 Vector3 unit_normal(const Vector3& a, const Vector3& b, const Vector3& c) {
@@ -49,10 +48,10 @@ public:
                            handle(collapse.right));
         gather(collapse.removed);
         points.col(collapse.removed) = weighted_mean(stored_[0], points);
-        for (int sweep = 0; sweep < fairness_sweeps; ++sweep) {
+        for (int sweep = 0; sweep < rounds; ++sweep) {
             for_each_movable([&](std::size_t k) { points.col(stored_[k].centre) = weighted_mean(stored_[k], points); });
         }
-        for (int round = 0; round < curvature_rounds; ++round) make_fair(completed, points);
+        for (int round = 0; round < rounds; ++round) make_fair(completed, points);
         for (std::size_t k = 0; k < stored_count_; ++k) slot_[stored_[k].centre] = none;
     }
 

@@ -177,11 +177,10 @@ private:
     // False where many folds hardly fall in number within the first window of sweeps.
     bool spread(const Region& where) {
         constexpr int most_sweeps = 60;
-        constexpr int settling_sweeps = 3;  // once nothing is folded
-        constexpr std::size_t window = 10;
+        constexpr int settling_sweeps = 3;      // once nothing is folded
+        constexpr std::size_t window = 10;      // sweeps; the last few folds may stay twice as long
         constexpr double falls_at_first = 0.6;  // in a window
         constexpr double falls = 0.93;
-        constexpr std::size_t patience = 20;  // sweeps in which the last few folds may stay
         std::vector<double> folded{count_folded(where)};
         int settled = 0;
         for (int sweep = 0; sweep < most_sweeps && settled < settling_sweeps; ++sweep) {
@@ -189,7 +188,8 @@ private:
             folded.push_back(count_folded(where));
             settled = folded.back() > 0 ? 0 : settled + 1;
             if (folded.back() <= few_folds) {
-                const bool stays = folded.size() > patience && folded.back() >= folded[folded.size() - 1 - patience];
+                const bool stays =
+                    folded.size() > 2 * window && folded.back() >= folded[folded.size() - 1 - 2 * window];
                 if (folded.back() > 0 && stays) return true;
                 continue;
             }
