@@ -65,6 +65,7 @@ SurfacePoint TargetSurface::project(const Vector3& position, int start) const {
         const std::array<Vector3, 3> points{points_.col(corners[0]), points_.col(corners[1]), points_.col(corners[2])};
         const Vector3 weights = plane_weights(position, points[0], points[1], points[2]);
         int outside = 0;
+        if (face_normal(triangle).isZero()) break;  // no foot: without an area it would hold every walk
         if (weights.minCoeff(&outside) >= 0.0) return {triangle, weights};
         const int next = across(patch_.triangle_edges(outside, triangle), triangle);
         if (next == none) return {triangle, border_weights(position, points)};
