@@ -11,6 +11,8 @@ from typing import Any
 import bpy
 import numpy as np
 
+import fairing
+
 from ..core.arrays import Floats, Ints, Mask
 from ..core.engine import REFUSALS, Progress, sub_range
 from ..core.options import FairOptions
@@ -31,6 +33,8 @@ from .report_properties import clear, store_refusal
 
 PROFILE_STEP = 0.1  # of the wheel
 PRECISE = 0.1  # of the mouse's way while Shift is held
+PATIENCE = 2.0  # seconds for a preview: what is hard to find is sought once, when it is accepted
+SLOW = "This width takes longer: click to have it"
 
 previews: list[Callable[[list[Rounded]], None]] = []  # told what a run by the mouse would write; [] when it ends
 
@@ -199,11 +203,15 @@ class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):
         if self._wanted is None:
             return
         wanted, self._wanted = self._wanted, None
+        end = time.perf_counter() + PATIENCE
+        outcomes: list[Rounded] = []
         try:
-            outcomes = solve(self._tasks, wanted, lambda _fraction, _stage: None)
+            outcomes = solve(self._tasks, wanted, lambda _fraction, _stage: time.perf_counter() < end)
             self._shown, self._reason = (wanted, outcomes), ""
         except Refused as refusal:
-            self._shown, outcomes, self._reason = None, [], refusal.reason
+            self._shown, self._reason = None, refusal.reason
+        except fairing.Cancelled:
+            self._shown, self._reason = None, SLOW
         for preview in previews:
             preview(outcomes)
 

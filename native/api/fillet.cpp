@@ -76,10 +76,11 @@ std::vector<EndSide> ends_of(const SplitMesh& cut) {
 Vector3 weights_in(const SeamMesh& mesh, int triangle, const Vector3& place) {
     const int h = 3 * triangle;
     const Vector3 start = mesh.points.col(mesh.tail(h));
+    if (!(mesh.length[h] > 0.0)) return Vector3::Constant(1.0 / 3.0);
     const Vector3 x = (mesh.points.col(mesh.head(h)) - start) / mesh.length[h];
     const Vector3 to_apex = mesh.points.col(mesh.tail(SeamMesh::previous(h))) - start;
     const Vector3 y = (to_apex - to_apex.dot(x) * x).normalized();
-    const double apex = (place - start).dot(y) / mesh.apex[h][1];
+    const double apex = mesh.apex[h][1] > 0.0 ? (place - start).dot(y) / mesh.apex[h][1] : 0.0;
     const double head = ((place - start).dot(x) - apex * mesh.apex[h][0]) / mesh.length[h];
     return {1.0 - apex - head, head, apex};
 }
@@ -99,6 +100,21 @@ void add_boundary(const SeamMesh& mesh, const FilletInput& input, SideNormals& s
             seen[v].emplace_back(sides.normal(parent, weights), sides.curvature(parent, weights));
         }
     }
+    // The mean of the pieces there, where the side itself has no area.
+    const auto around = [&](int v) {
+        Vector3 sum = Vector3::Zero();
+        for (const auto t : result.mesh.triangles.colwise()) {
+            if (t[0] != v && t[1] != v && t[2] != v) continue;
+            std::array<Vector3, 3> at;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const int corner = t[static_cast<Eigen::Index>(c)];
+                at[c] =
+                    corner < old ? Vector3(input.vertices.col(corner)) : Vector3(result.mesh.points.col(corner - old));
+            }
+            sum += (at[1] - at[0]).cross(at[2] - at[0]);
+        }
+        return sum;
+    };
     result.normals.resize(3, static_cast<Eigen::Index>(seen.size()));
     result.curvatures.resize(static_cast<Eigen::Index>(seen.size()));
     for (const auto& [v, found] : seen) {
@@ -106,11 +122,14 @@ void add_boundary(const SeamMesh& mesh, const FilletInput& input, SideNormals& s
         Vector3 normal = Vector3::Zero();
         double curvature = 0.0;
         bool parted = false;
+        Vector3 first = Vector3::Zero();
         for (const auto& [n, h] : found) {
-            parted = parted || radians_between(n, found.front().first) > corner_angle;
+            if (first.isZero()) first = n;
+            parted = parted || (!n.isZero() && radians_between(n, first) > corner_angle);
             normal += n;
             curvature += h / static_cast<double>(found.size());
         }
+        if (normal.isZero()) normal = around(v);
         result.boundary.push_back(v);
         result.normals.col(k) = normal.normalized();
         result.curvatures[k] = curvature;
@@ -134,23 +153,34 @@ int root(Indices& parent, int k) {
     return k;
 }
 
-// Parts between seams without a wall, a border or a piece outside.
-Indices swallowed_vertices(const SeamMesh& mesh, const SplitMesh& cut) {
+// Parts between seams without a wall, a border or a piece outside, unless they lie between two that have one: fillets
+// from both sides meet there. `thin`: parts that reach no further from their seams are less than the new mesh shows.
+Indices swallowed_vertices(const SeamMesh& mesh, const SeamDistance& distance, const SplitMesh& cut, double thin) {
+    const Vector3 middle = Vector3::Constant(1.0 / 3.0);
     Indices part(mesh.triangles.cols());
     std::iota(part.begin(), part.end(), 0);
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
         if (mesh.twin[h] != none && mesh.seam[h] == none) part[root(part, h / 3)] = root(part, mesh.twin[h] / 3);
     }
     std::vector<char> open(mesh.triangles.cols(), 0);
+    std::vector<char> thick(mesh.triangles.cols(), 0);
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
         if (mesh.twin[h] == none) open[root(part, h / 3)] = 1;
+        if (distance.reaches(h / 3) && distance.at(h / 3, middle).distance > thin) thick[root(part, h / 3)] = 1;
     }
     for (std::size_t t = 0; t < cut.parent.size(); ++t) {
         if (cut.inside[t] == 0) open[root(part, cut.parent[t])] = 1;
     }
+    std::map<int, std::set<int>> beside;
+    for (int h = 0; h < mesh.half_edge_count(); ++h) {
+        if (mesh.seam[h] == none || mesh.twin[h] == none) continue;
+        const int other = root(part, mesh.twin[h] / 3);
+        if (open[other] != 0) beside[root(part, h / 3)].insert(other);
+    }
     std::set<int> found;
     for (int t = 0; t < mesh.triangles.cols(); ++t) {
-        if (open[root(part, t)] != 0) continue;
+        const int own = root(part, t);
+        if (open[own] != 0 || thick[own] == 0 || beside[own].size() > 1) continue;
         for (const int v : mesh.triangles.col(t)) found.insert(v);
     }
     return {found.begin(), found.end()};
@@ -161,8 +191,8 @@ Indices swallowed_vertices(const SeamMesh& mesh, const SplitMesh& cut) {
 FilletCut cut_fillet(const FilletInput& input, const ProgressCallback& callback) {
     const Progress progress(callback);
     const Checkpoints checkpoints(progress);
-    const SeamMesh undirected(input.vertices, input.triangles, input.seams, input.walls);
-    const SeamMesh mesh(input.vertices, input.triangles, directed(undirected, input.seams), input.walls);
+    SeamMesh mesh(input.vertices, input.triangles, input.seams, input.walls);
+    mesh.redirect(directed(mesh, input.seams));
     double widest = 0.0;
     for (const auto& [a, b] : input.seams) {
         for (const int v : {a, b}) widest = std::max({widest, input.widths.left[v], input.widths.right[v]});
@@ -173,7 +203,7 @@ FilletCut cut_fillet(const FilletInput& input, const ProgressCallback& callback)
     SideNormals sides(mesh, joined(input.seams, input.walls));
     result.mesh = cut_along(mesh, distance, points_of_fillet(mesh, distance, input, sides));
     result.weights = weights_in_parents(mesh, result.mesh);
-    result.swallowed = swallowed_vertices(mesh, result.mesh);
+    result.swallowed = swallowed_vertices(mesh, distance, result.mesh, 0.5 * input.spacing);
     progress.report(0.7, "cut");
     if (result.swallowed.empty()) add_boundary(mesh, input, sides, result);
     progress.report(1.0, "done");

@@ -118,9 +118,12 @@ private:
             }
         }
         pieces.make_delaunay();
-        for (const int s : segments_of_[t])
-            pieces.add_edge(local.at(number_[line_.segments[s].from]), local.at(number_[line_.segments[s].to]));
-        const std::vector<char> inside = sorted_out(t, pieces, local);
+        bool along_line = true;
+        for (const int s : segments_of_[t]) {
+            const LineSegment& segment = line_.segments[s];
+            along_line = pieces.add_edge(local.at(number_[segment.from]), local.at(number_[segment.to])) && along_line;
+        }
+        const std::vector<char> inside = along_line ? sorted_out(t, pieces, local) : sorted_by_middle(t, pieces);
         for (std::size_t k = 0; k < inside.size(); ++k) {
             const auto [a, b, c] = pieces.triangles()[k];
             add({number[a], number[b], number[c]}, t, inside[k] != 0);
@@ -153,6 +156,18 @@ private:
                 const int b = corners[(k + 1) % 3];
                 if (!pieces.is_held(a, b)) settle(pieces.at(b, a), inside[piece]);
             }
+        }
+        return inside;
+    }
+
+    // The same where the line could not be followed: each piece by itself.
+    [[nodiscard]] std::vector<char> sorted_by_middle(int t, const CutTriangle& pieces) const {
+        std::vector<char> inside;
+        for (const auto& [a, b, c] : pieces.triangles()) {
+            const Vector2 at = (pieces.place(a) + pieces.place(b) + pieces.place(c)) / 3.0;
+            const double apex = mesh_.apex[3 * t][1] > 0.0 ? at[1] / mesh_.apex[3 * t][1] : 0.0;
+            const double head = (at[0] - apex * mesh_.apex[3 * t][0]) / mesh_.length[3 * t];
+            inside.push_back(distance_.value(t, {1.0 - apex - head, head, apex}) < 0.0 ? 1 : 0);
         }
         return inside;
     }

@@ -1,8 +1,7 @@
 #include "fillet/cut_triangle.h"
 
 #include <algorithm>
-
-#include "base/errors.h"
+#include <limits>
 
 namespace fairing {
 
@@ -167,19 +166,17 @@ std::vector<std::array<int, 2>> CutTriangle::crossed(int a, int b) const {
     return result;
 }
 
-void CutTriangle::add_edge(int a, int b) {
+bool CutTriangle::add_edge(int a, int b) {
     const int between = point_between(a, b);
-    if (between != none) {
-        add_edge(a, between);
-        add_edge(between, b);
-        return;
-    }
-    while (at(a, b) == none && at(b, a) == none) {
+    if (between != none) return add_edge(a, between) && add_edge(between, b);
+    const std::size_t most = triangles_.size() * triangles_.size() + 1;  // flips: each edge crosses each other one once
+    for (std::size_t round = 0; at(a, b) == none && at(b, a) == none; ++round) {
         bool flipped = false;
         for (const auto& [c, d] : crossed(a, b)) flipped = flip(c, d) || flipped;
-        if (!flipped) throw SolverError("a triangle could not be cut along the end of a fillet");
+        if (!flipped || round == most) return false;
     }
     held_[sorted_pair(a, b)] = 1;
+    return true;
 }
 
 }  // namespace fairing

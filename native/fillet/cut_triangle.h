@@ -19,8 +19,11 @@ public:
     int add_on_side(int k, const Vector2& place);
     int add_inside(const Vector2& place);
     // Makes the triangles round, and then the straight way between two points an edge. A point on that way parts it.
+    // False where roundoff leaves no way to do so, in a triangle with nearly no area.
     void make_delaunay();
-    void add_edge(int a, int b);
+    [[nodiscard]] bool add_edge(int a, int b);
+
+    [[nodiscard]] const Vector2& place(int point) const { return places_[point]; }
 
     [[nodiscard]] const std::vector<Corners>& triangles() const { return triangles_; }
     // The triangle with this directed side, or `none`.

@@ -1,4 +1,5 @@
 // Points on seams and walls, which bound the triangles of a new mesh.
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -10,7 +11,8 @@ namespace fairing {
 namespace {
 
 constexpr double straight_angle = 1e-3;  // radians: fits to planes agree to 1e-6, those to arcs turn more
-constexpr double clear_of_line = 0.3;    // of the spacing: nearer to the end of the fillet a point brings a short edge
+constexpr double sliver = 0.1;         // of the spacing: points on both sides of lower triangles would nearly coincide
+constexpr double clear_of_line = 0.3;  // of the spacing: nearer to the end of the fillet a point brings a short edge
 
 Vector3 weights_along(int half_edge, double along) {
     Vector3 weights = Vector3::Zero();
@@ -39,6 +41,7 @@ void part_seams(const SeamMesh& mesh, double spacing, LevelLine& line) {
     }
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
         if (mesh.seam[h] == none || mesh.twin[h] == none || mesh.tail(h) > mesh.head(h)) continue;
+        if (std::min(mesh.apex[h][1], mesh.apex[mesh.twin[h]][1]) < sliver * spacing) continue;
         const int least = at_wall[mesh.tail(h)] != 0 && at_wall[mesh.head(h)] != 0 ? 2 : 1;
         const int count = std::max(least, parts(mesh, h, spacing));
         for (int k = 1; k < count; ++k) line.points.push_back(point_on(mesh, h, static_cast<double>(k) / count));

@@ -116,7 +116,7 @@ private:
     }
 
     [[nodiscard]] Vector3 weights_at(int h, const Vector2& place) const {
-        const double apex = place[1] / mesh_.apex[h][1];
+        const double apex = mesh_.apex[h][1] > 0.0 ? place[1] / mesh_.apex[h][1] : 0.0;
         const double head = (place[0] - apex * mesh_.apex[h][0]) / mesh_.length[h];
         return {1.0 - apex - head, head, apex};
     }

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 #include <Eigen/Geometry>
-
-#include "mesh/edges.h"
 
 namespace fairing {
 
@@ -25,22 +22,20 @@ int root(Indices& parent, int k) {
 SeamMesh::SeamMesh(const Points& given_points, const Triangles& given_triangles, const std::vector<VertexPair>& seams,
                    const std::vector<VertexPair>& walls)
     : points(given_points), triangles(given_triangles) {
-    pair_up(walls);
-    mark(seams);
+    const EdgeTable table = make_edges(triangles, static_cast<int>(points.cols()));
+    pair_up(table, walls);
+    mark(table, seams);
     measure();
     number_sheets();
 }
 
-void SeamMesh::pair_up(const std::vector<VertexPair>& walls) {
-    const EdgeTable table = make_edges(triangles, static_cast<int>(points.cols()));
+void SeamMesh::pair_up(const EdgeTable& table, const std::vector<VertexPair>& walls) {
     edge = table.edge_of_side;
     twin.assign(edge.size(), none);
-    sides_of_edge_.resize(table.size());
     std::vector<VertexPair> closed = walls;
     for (VertexPair& pair : closed) pair = sorted_pair(pair[0], pair[1]);
     std::sort(closed.begin(), closed.end());
     for (int e = 0; e < table.size(); ++e) {
-        for (int k = 0; k < table.side_count(e); ++k) sides_of_edge_[e].push_back(table.side(e, k));
         if (table.side_count(e) != 2 || std::binary_search(closed.begin(), closed.end(), table.ends[e])) continue;
         const int a = table.side(e, 0);
         const int b = table.side(e, 1);
@@ -50,21 +45,23 @@ void SeamMesh::pair_up(const std::vector<VertexPair>& walls) {
     }
 }
 
-void SeamMesh::mark(const std::vector<VertexPair>& seams) {
+void SeamMesh::mark(const EdgeTable& table, const std::vector<VertexPair>& seams) {
     seam.assign(edge.size(), none);
     left.assign(edge.size(), 0);
-    std::map<VertexPair, int> number;
-    for (int h = 0; h < half_edge_count(); ++h) number[sorted_pair(tail(h), head(h))] = edge[h];
     for (int s = 0; s < static_cast<int>(seams.size()); ++s) {
-        const auto [a, b] = seams[s];
-        const auto found = number.find(sorted_pair(a, b));
-        if (found == number.end()) continue;
-        const Indices& sides = sides_of_edge_[found->second];
-        if (sides.size() != 2 || twin[sides[0]] == none) continue;
-        for (const int h : sides) {
-            seam[h] = s;
-            left[h] = tail(h) == a ? 1 : 0;
-        }
+        const VertexPair wanted = sorted_pair(seams[s][0], seams[s][1]);
+        const auto found = std::lower_bound(table.ends.begin(), table.ends.end(), wanted);
+        if (found == table.ends.end() || *found != wanted) continue;
+        const int e = static_cast<int>(found - table.ends.begin());
+        if (table.side_count(e) != 2 || twin[table.side(e, 0)] == none) continue;
+        for (const int h : {table.side(e, 0), table.side(e, 1)}) seam[h] = s;
+    }
+    redirect(seams);
+}
+
+void SeamMesh::redirect(const std::vector<VertexPair>& seams) {
+    for (int h = 0; h < half_edge_count(); ++h) {
+        if (seam[h] != none) left[h] = tail(h) == seams[seam[h]][0] ? 1 : 0;
     }
 }
 

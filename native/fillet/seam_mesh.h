@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "base/types.h"
+#include "mesh/edges.h"
 
 namespace fairing {
 
@@ -35,6 +36,9 @@ struct SeamMesh {
     std::vector<Vector2> apex;    // the third corner in each half-edge's frame
     std::vector<double> opening;  // the triangle's angle at each half-edge's tail, radians
 
+    // Turns the seams: pairs in the order in which they were given.
+    void redirect(const std::vector<VertexPair>& seams);
+
     [[nodiscard]] int half_edge_count() const { return static_cast<int>(edge.size()); }
     [[nodiscard]] int tail(int h) const { return triangles(h % 3, h / 3); }
     [[nodiscard]] int head(int h) const { return triangles((h + 1) % 3, h / 3); }
@@ -48,11 +52,10 @@ struct SeamMesh {
     [[nodiscard]] Vector3 place(int triangle, const Vector3& weights) const;
 
 private:
-    void pair_up(const std::vector<VertexPair>& walls);
-    void mark(const std::vector<VertexPair>& seams);
+    void pair_up(const EdgeTable& table, const std::vector<VertexPair>& walls);
+    void mark(const EdgeTable& table, const std::vector<VertexPair>& seams);
     void measure();
     void number_sheets();
-    std::vector<Indices> sides_of_edge_;
 };
 
 }  // namespace fairing

@@ -1,5 +1,6 @@
 #include "fillet/side_normals.h"
 
+#include <cmath>
 #include <limits>
 
 #include <Eigen/Geometry>
@@ -42,7 +43,7 @@ Vector3 SideNormals::face_normal(int triangle) const {
 void SideNormals::average() {
     for (int h = 0; h < mesh_.half_edge_count(); ++h)
         normals_.col(copies_(h % 3, h / 3)) += mesh_.opening[h] * face_normal(h / 3);
-    for (auto normal : normals_.colwise()) normal.normalize();
+    for (auto normal : normals_.colwise()) normal.stableNormalize();
     std::vector<char> bent(known_.size(), 0);
     for (Eigen::Index t = 0; t < copies_.cols(); ++t) {
         const Vector3 normal = face_normal(static_cast<int>(t));
@@ -91,7 +92,8 @@ void SideNormals::find_at(const Indices& triangles) {
 Vector3 SideNormals::normal(int triangle, const Vector3& weights) const {
     Vector3 sum = Vector3::Zero();
     for (int k = 0; k < 3; ++k) sum += weights[k] * normals_.col(copies_(k, triangle));
-    return sum.normalized();
+    const double size = sum.norm();
+    return size > 0.0 ? Vector3(sum / size) : Vector3::Zero();
 }
 
 double SideNormals::curvature(int triangle, const Vector3& weights) const {
@@ -99,7 +101,22 @@ double SideNormals::curvature(int triangle, const Vector3& weights) const {
     for (int k = 0; k < 3; ++k) {
         if (weights[k] != 0.0) sum += weights[k] * curvatures_[copies_(k, triangle)];
     }
-    return sum;
+    return std::isfinite(sum) ? sum : -0.5 * divergence(triangle);
+}
+
+// Of the normals, interpolated over a triangle: gradients of its hat functions times them.
+double SideNormals::divergence(int triangle) const {
+    const Vector3 normal = face_normal(triangle);
+    double sum = 0.0;
+    double twice_area = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const Vector3 from = points_.col(copies_((k + 1) % 3, triangle));
+        const Vector3 to = points_.col(copies_((k + 2) % 3, triangle));
+        const Vector3 own = points_.col(copies_(k, triangle));
+        twice_area = (to - from).cross(own - from).norm();
+        sum += normal.cross(to - from).dot(normals_.col(copies_(k, triangle)));
+    }
+    return sum / twice_area;
 }
 
 }  // namespace fairing

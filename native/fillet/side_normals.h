@@ -16,12 +16,14 @@ public:
     // Finds them at the corners of these triangles. Asks whether to stop.
     void find_at(const Indices& triangles);
 
-    // In one of these triangles, with barycentric weights: a unit normal, and H in length⁻¹, NaN where not known.
+    // In one of these triangles, with barycentric weights: a unit normal, and H in length⁻¹; where no surface was
+    // fitted H = −½ div n of the normals at the triangle's corners. NaN in a triangle without area.
     [[nodiscard]] Vector3 normal(int triangle, const Vector3& weights) const;
     [[nodiscard]] double curvature(int triangle, const Vector3& weights) const;
 
 private:
     [[nodiscard]] Vector3 face_normal(int triangle) const;
+    [[nodiscard]] double divergence(int triangle) const;
     void mark_inner();
     void average();
 

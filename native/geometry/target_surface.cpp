@@ -65,6 +65,7 @@ SurfacePoint TargetSurface::project(const Vector3& position, int start) const {
         const std::array<Vector3, 3> points{points_.col(corners[0]), points_.col(corners[1]), points_.col(corners[2])};
         const Vector3 weights = plane_weights(position, points[0], points[1], points[2]);
         int outside = 0;
+        if (face_normal(triangle).isZero()) break;  // no foot: without an area it would hold every walk
         if (weights.minCoeff(&outside) >= 0.0) return {triangle, weights};
         const int next = across(patch_.triangle_edges(outside, triangle), triangle);
         if (next == none) return {triangle, border_weights(position, points)};
@@ -135,11 +136,27 @@ Vector3 TargetSurface::face_normal(int triangle) const {
     return (points_.col(corners[1]) - a).cross(points_.col(corners[2]) - a).normalized();
 }
 
+// Of a flat triangle, or of the nearest one that has an area.
+Vector3 TargetSurface::flat_normal(int triangle) const {
+    constexpr std::size_t most_triangles = 64;
+    Indices found{triangle};
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        const Vector3 normal = face_normal(found[k]);
+        if (normal.squaredNorm() > 0.5) return normal;
+        for (const int edge : patch_.triangle_edges.col(found[k])) {
+            const int next = across(edge, found[k]);
+            if (next == none || found.size() == most_triangles) continue;
+            if (std::find(found.begin(), found.end(), next) == found.end()) found.push_back(next);
+        }
+    }
+    return Vector3::Zero();
+}
+
 Vector3 TargetSurface::normal(const SurfacePoint& where) const {
     Vector3 sum = Vector3::Zero();
     for (int k = 0; k < 3; ++k) sum += where.weights[k] * normals_.col(patch_.triangles(k, where.triangle));
     const double size = sum.norm();
-    return size > 0.0 ? Vector3(sum / size) : face_normal(where.triangle);
+    return size > 0.0 ? Vector3(sum / size) : flat_normal(where.triangle);
 }
 
 double TargetSurface::interpolate(const VectorX& values, const SurfacePoint& where) const {

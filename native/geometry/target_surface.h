@@ -36,6 +36,7 @@ public:
 
 private:
     [[nodiscard]] int across(int edge, int triangle) const;
+    [[nodiscard]] Vector3 flat_normal(int triangle) const;
     [[nodiscard]] SurfacePoint nearest_around(const Vector3& position, int start) const;
 
     const Patch& patch_;

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -348,3 +349,13 @@ def test_a_vertex_group_scales_the_width() -> None:
         ends = points[np.isclose(points[:, 1 - side], 1.0) & (points[:, side] < 0.999) & (np.abs(points[:, 2]) < 0.999)]
         ends = ends[ends[:, side] > 0]
         assert np.abs(1 - ends[:, side] - (0.3 + 0.1 * ends[:, 2])).min() < 1e-5
+
+
+@pytest.mark.parametrize(("width", "status"), [(WIDTH, 0), (1.2, 2)])
+def test_the_command_line_rounds_hard_edges(tmp_path: Path, width: float, status: int) -> None:
+    obj = cube()
+    target = tmp_path / "rounded.blend"
+    given = ["--object", obj.name, "--output", str(target), "--fillet", "--width", str(width), "--edge-length", "0.1"]
+    assert module("run.cli").execute(given) == status
+    assert target.exists() == (status == 0)
+    assert (len(obj.data.polygons) > 6) == (status == 0)

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from fairing import _arguments, _core, _seams
 from fairing._fill import Patch, Spacing, refuse_made_here
+from fairing._first_mesh import FirstMesh, first_mesh, without_specks
 from fairing._interpolate import interpolate
 from fairing._measure import boundary_loops
 from fairing._new_mesh import FilletResult, read_only, report_fields
@@ -120,20 +121,23 @@ class Wishes:
 def _filled(points: FloatArray, faces: IntArray, seams: IntArray, cut: dict[str, Any], wishes: Wishes) -> FilletResult:
     """The new mesh within the line, faired."""
     watch, count = wishes.watch, len(points)
-    inside = cut["inside"]
     placed = np.concatenate([points, cut["points"]])
-    pieces, first, lines = _thinned(cut, placed, wishes.spacing)
-    patch = Patch(placed, first, cut["boundary"], cut["normals"])
+    inside = cut["inside"] = without_specks(cut, placed, wishes.spacing)
+    first = first_mesh(cut, placed, wishes.spacing)
+    rim = np.isin(cut["boundary"], np.concatenate(boundary_loops(first.triangles)))
+    patch = Patch(placed, first.triangles, cut["boundary"][rim], np.ascontiguousarray(cut["normals"][rim]))
     spacing = Spacing(wishes.spacing, even=True, flat=True)
-    new, origin, on_seam = patch.meshed_anew(len(placed), lines, (spacing, 0), wishes.options, watch.part(0.2, 0.4))
+    new, origin, on_seam = patch.meshed_anew(
+        len(placed), first.lines, (spacing, 0), wishes.options, watch.part(0.2, 0.4)
+    )
     watch.lap("mesh")
     chosen = dict(wishes.options)
     if chosen.get("continuity", "G1") == "G2":
-        chosen["fixed_curvatures"] = cut["curvatures"]
+        chosen["fixed_curvatures"] = cut["curvatures"][rim]
     report = new.faired("given", None, chosen, watch.part(0.4, 1.0))
     watch.lap("fair")
     kept = np.flatnonzero(~inside & _touched(cut["parent"], inside))
-    old, weights = _origins(cut, origin, pieces, len(placed) - count)
+    old, weights = _origins(cut, origin, first, len(placed) - count)
     parents = np.concatenate(
         [cut["parent"][kept], _under(new.triangles, old, count, np.flatnonzero(on_seam >= 0) + len(placed))]
     )
@@ -217,71 +221,17 @@ def _touched(parent: IntArray, inside: npt.NDArray[np.bool_]) -> npt.NDArray[np.
     return touched
 
 
-def _thinned(cut: dict[str, Any], placed: FloatArray, spacing: float) -> tuple[IntArray, IntArray, IntArray]:
-    """Pieces within the fillet (p,), their triangles (p, 3), and the seam's edges (l, 2): a new mesh begins with these.
-
-    Where these are far shorter than the spacing, as a boolean leaves them, they are closed: only a first mesh of the
-    surface is made with them, and it would be as fine.
-    """
-    whole = np.flatnonzero(cut["inside"])
-    triangles, lines = np.ascontiguousarray(cut["triangles"][whole]), cut["seams"]
-    merged = _merged(lines, placed, cut["boundary"], 0.5 * spacing)
-    closed = merged[triangles]
-    stays = (closed != np.roll(closed, 1, axis=1)).all(axis=1)
-    closed = closed[stays].astype(np.int32)
-    sides = closed[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    keys = np.sort(sides[:, 0].astype(np.int64) * _seams.LARGE + sides[:, 1])
-    if (keys[1:] == keys[:-1]).any() or len(boundary_loops(closed)) != len(boundary_loops(triangles)):
-        return whole, triangles, _between(lines, triangles)
-    ends = merged[lines]
-    ends = np.unique(np.sort(ends[ends[:, 0] != ends[:, 1]], axis=1), axis=0).astype(np.int32)
-    return whole[stays], np.ascontiguousarray(closed), _between(ends, closed)
-
-
-def _between(lines: IntArray, triangles: IntArray) -> IntArray:
-    """Those that are edges of two triangles."""
-    sides = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    known, uses = np.unique(_seams.keys_of(sides), return_counts=True)
-    inner: IntArray = np.ascontiguousarray(lines[np.isin(_seams.keys_of(lines), known[uses == 2])], dtype=np.int32)
-    return inner
-
-
-def _merged(lines: IntArray, placed: FloatArray, boundary: IntArray, least: float) -> npt.NDArray[np.int64]:
-    """(n,) the vertex that each becomes where edges shorter than that are closed; those of the boundary stay."""
-    stays = np.zeros(len(placed), dtype=bool)
-    stays[boundary] = True
-    branches = np.flatnonzero(np.bincount(lines.ravel(), minlength=len(placed)) > 2)
-    stays[branches] = True
-    merged = np.arange(len(placed))
-
-    def top(vertex: int) -> int:
-        while merged[vertex] != vertex:
-            vertex = int(merged[vertex])
-        return vertex
-
-    lengths = np.linalg.norm(placed[lines[:, 0]] - placed[lines[:, 1]], axis=1)
-    short = np.flatnonzero(lengths < least)
-    for k in short[np.argsort(lengths[short], kind="stable")].tolist():
-        a, b = top(int(lines[k, 0])), top(int(lines[k, 1]))
-        if a == b or (stays[a] and stays[b]) or np.linalg.norm(placed[a] - placed[b]) >= least:
-            continue
-        merged[a if stays[b] else b] = b if stays[b] else a
-    return np.array([top(vertex) for vertex in range(len(placed))]) if len(short) else merged
-
-
-def _origins(cut: dict[str, Any], origin: Any, inside: IntArray, line_count: int) -> tuple[IntArray, FloatArray]:
+def _origins(cut: dict[str, Any], origin: Any, within: FirstMesh, line_count: int) -> tuple[IntArray, FloatArray]:
     """Triangles (k,) of the old mesh and weights (k, 3) there, of the line's points and then of those within."""
-    corners = cut["weights"].reshape(-1, 3, 3)
     first = len(cut["points"])
     begin = cut["triangles"].max(initial=0) + 1 - first if first else 0
     place = np.zeros(line_count, dtype=np.int64)
     flat = cut["triangles"].ravel()
     on_line = np.flatnonzero(flat >= begin) if first else np.empty(0, np.int64)
     place[flat[on_line] - begin] = on_line
-    piece = inside[origin[0]]
-    within = np.einsum("kc,kcw->kw", origin[1], corners[piece])
-    old = np.concatenate([cut["parent"][place // 3], cut["parent"][piece]]).astype(np.int32)
-    weights = np.concatenate([cut["weights"][place], within])
+    inner = np.einsum("kc,kcw->kw", origin[1], within.weights[origin[0]])
+    old = np.concatenate([cut["parent"][place // 3], within.parents[origin[0]]]).astype(np.int32)
+    weights = np.concatenate([cut["weights"][place], inner])
     weights = np.clip(weights, 0.0, None)
     return old, weights / weights.sum(axis=1, keepdims=True)
 
