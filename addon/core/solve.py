@@ -100,17 +100,12 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
         vertices, around, sample = numbered(patch, *parts)
         weights = band_weights(world, patch, vertices, around, options.feather) if options.moves_band else None
         precision = precision_note(mesh)
-        notes = (
-            winding_note(turned)
-            + outline_notes(world, known.inward(patch))
-            + ((precision,) if precision else ())
-            + mesh.notes
-        )
+        odd = outline_notes(world, known.inward(patch)) + ((precision,) if precision else ())
     curvatures = known.curvatures if options.joins_curvature else None
     problem = engine.Problem(
         patch, world.positions[vertices], known.normals, vertices, around, curvatures, weights, sample
     )
-    return problem, known.notes + notes
+    return problem, known.notes + winding_note(turned) + odd + mesh.notes
 
 
 def _solve_again(

@@ -14,6 +14,7 @@ using OutlineEdges = std::vector<std::array<int, 2>>;
 
 struct SurroundingFit {
     std::vector<std::optional<SlopeFit>> fits;  // of each vertex asked for, in units of `size`
+    std::vector<char> parted;                   // by hard edges, and no side counts: the fit sees all
     Points centres;                             // 3 × k, likewise
     Points averaged;                            // 3 × k: unit mean normals of the adjacent triangles, zero without any
     VectorX lengths;                            // k: mean lengths of the adjacent edges, likewise; zero without any
