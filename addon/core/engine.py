@@ -15,7 +15,7 @@ from .arrays import Floats, Ints
 from .feather import naming_the_band
 from .findings import Origin
 from .options import FairOptions
-from .region import Patch
+from .region import Patch, nothing
 from .words import in_mesh_words
 
 Progress = Callable[[float, str], "bool | None"]
@@ -39,6 +39,7 @@ class Problem:
     curvatures: Floats | None = None  # (k,) H outside, NaN where it is not known; None: not to be continued
     weights: Floats | None = None  # (q,) each vertex's own factor; None: 1 inside, 0 outside
     sample: Ints = field(default_factory=lambda: np.empty((0, 3), dtype=np.int64))  # (s, 3) whose skin is copied
+    inward: Ints = field(default_factory=nothing)  # mesh vertices of the boundary with the slope of the selected faces
 
     @classmethod
     def of(cls, patch: Patch, points: Floats, normals: Floats, curvatures: Floats | None = None) -> Problem:

@@ -21,7 +21,7 @@ struct BoundaryNormals {
 };
 
 // At `vertices`, which don't move. `automatic`: inward_edges take the slope of the patch's own triangles, as far as
-// these agree on a surface: where the median standard error along such edges is .15 rad at most. `inside`: all outline
+// these agree on a surface: where the median standard error along such edges is .04 rad at most. `inside`: all outline
 // edges do. A vertex between edges of both kinds takes the slope outside. One that is on no outline edge, too.
 BoundaryNormals boundary_normals(const Surroundings& mesh, const Indices& vertices, const VertexPairs& creases,
                                  SideRule rule);

@@ -30,9 +30,6 @@ SurroundingFit blank_fit(const Points& points, const Triangles& triangles, const
 SurroundingFit fit_surroundings(const Points& points, const Triangles& triangles, const Indices& vertices,
                                 const VertexPairs& creases = {});
 
-// Radians: a fit with a larger standard error says little about the surface.
-inline constexpr double most_error = 0.15;
-
 struct SurroundingNormals {
     Points normals;            // 3 × k, unit; zero where there is no triangle
     std::vector<char> fitted;  // 0: averaged, for want of points
