@@ -75,8 +75,9 @@ py::array bad_outline_array(const DoubleArray& vertices, const IntArray& triangl
 }
 
 py::array feather_weight_array(const DoubleArray& vertices, const IntArray& inside, const IntArray& outside,
-                               double width) {
-    return from_vector(feather_weights(to_points(vertices), to_triangles(inside), to_triangles(outside), width));
+                               double width, const IntArray& stops) {
+    return from_vector(
+        feather_weights(to_points(vertices), to_triangles(inside), to_triangles(outside), width, to_indices(stops)));
 }
 
 std::pair<py::array, py::array> soft_base_arrays(const DoubleArray& vertices, const IntArray& triangles,
@@ -126,7 +127,7 @@ void bind_outline(py::module_& module) {
     module.def("bad_outline", &bad_outline_array, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
     module.def("mend_outline", &mended_outline_arrays, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
     module.def("feather_weights", &feather_weight_array, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
-               py::arg("width"));
+               py::arg("width"), py::arg("stops"));
     module.def("soft_base", &soft_base_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("base"), py::arg("faired"), py::arg("sizes"), py::arg("threads"), py::arg("progress"));
     module.def("visible_join", &visible_join_arrays, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
