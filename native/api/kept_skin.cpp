@@ -11,6 +11,7 @@
 #include "detail/low_pass.h"
 #include "geometry/hard_edges.h"
 #include "mesh/pieces.h"
+#include "outline/boundary_fit.h"
 #include "outline/sided_fits.h"
 
 namespace fairing {
@@ -49,7 +50,8 @@ bool are_chosen(const Points& normals, const Indices& rim, SidedFits& outside) {
 // these say nothing about the patch there.
 bool is_other_side(const Vector3& given, const std::optional<SlopeFit>& outside) {
     const double least = std::cos(hard_bend * std::numbers::pi / 180.0);
-    return outside && !given.isZero(0.0) && std::abs(direction(given).dot(outside->normal)) < least;
+    return outside && outside->error <= most_error && !given.isZero(0.0) &&
+           std::abs(direction(given).dot(outside->normal)) < least;
 }
 
 // The largest piece of the sample with an inside.

@@ -12,10 +12,6 @@ namespace fairing {
 
 namespace {
 
-// Radians: a top with noise of .1 edges has .03. The walls of a dent that ends in a jagged outline have .05 and more,
-// and so have faces stretched by a part that was moved aside.
-constexpr double most_error = 0.04;
-
 // How many of these edges end at each vertex.
 Indices counts_at(const VertexPairs& edges, Eigen::Index count) {
     Indices result(static_cast<std::size_t>(count), 0);

@@ -6,6 +6,11 @@
 
 namespace fairing {
 
+// Radians: the largest standard error with which a side of a hard edge is known. A top with noise of .1 edges has .03.
+// The walls of a dent that ends in a jagged outline have .05 and more, and so have faces stretched by a part that was
+// moved aside.
+inline constexpr double most_error = 0.04;
+
 enum class SideRule { automatic, inside };
 
 // Any triangles of the same vertices.
