@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import fairing
+import solids
 from curves import FloatArray
 from rough_sphere import IntArray, RoughSphere, rough_sphere
 
@@ -170,3 +171,20 @@ def test_warnings_name_the_callers_triangles() -> None:
 def test_what_is_refused(sphere: RoughSphere, options: dict[str, Any], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         sphere.fair(**options)
+
+
+@pytest.mark.parametrize("rings", [0, 1, 3])
+def test_a_band_ends_at_a_hard_edge(rings: int) -> None:
+    """A crease beside the patch is not rounded, and what lies beyond keeps its bits, as do faces at a hard outline."""
+    panel = solids.panel(rings)
+    found = fairing.boundary_normals(panel.vertices, panel.inside, panel.rim, outside=panel.outside)
+    crease = 0.3 + 0.05 * rings
+    result = fairing.fair(
+        panel.vertices, panel.inside, fixed=panel.rim, fixed_normals=found.normals, outside=panel.outside, feather=0.3
+    )
+    moved = panel.clean[result.moved, 1]
+    assert moved.max() < crease - 0.01
+    assert moved.min() < -0.4  # on the other side the band is as wide as ever
+    assert panel.error(result.vertices) < 1e-3
+    near = np.setdiff1d(result.moved, panel.inside)
+    assert np.abs(result.vertices[near, 2] - panel.clean[near, 2]).max() < 1e-3

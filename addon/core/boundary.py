@@ -101,12 +101,12 @@ def _fit(mesh: MeshArrays, patch: Patch, side: str, outside: Ints) -> _Fits:
     number[used] = np.arange(len(used))
     fits = fairing.boundary_normals(
         mesh.positions[used], number[inside], number[fixed[found]], outside=number[outside], side=side,
-        creases=_hard(mesh, used, number),
+        creases=hard_edges_of(mesh, used, number),
     )  # fmt: skip
     return _Fits(found, fits)
 
 
-def _hard(mesh: MeshArrays, used: Ints, number: Ints) -> Ints:
+def hard_edges_of(mesh: MeshArrays, used: Ints, number: Ints) -> Ints:
     """Return (c, 2) edges between the vertices `used` that no fit looks across, in the numbers (n,).
 
     These are creases, and edges marked sharp unless that is said of most.

@@ -41,6 +41,7 @@ class Problem:
     sample: Ints = field(default_factory=lambda: np.empty((0, 3), dtype=np.int64))  # (s, 3) whose skin is copied
     curve: Ints = field(default_factory=nothing)  # patch indices of fixed vertices that move before all else
     curve_points: Floats = field(default_factory=lambda: np.empty((0, 3)))  # where they go
+    inward: Ints = field(default_factory=nothing)  # mesh vertices of the boundary with the slope of the selected faces
 
     @classmethod
     def of(cls, patch: Patch, points: Floats, normals: Floats, curvatures: Floats | None = None) -> Problem:

@@ -11,6 +11,7 @@ import fairing
 
 from .around import joined_by_weight, staying
 from .arrays import Floats, Ints
+from .boundary import hard_edges_of
 from .options import FairOptions
 from .region import MeshArrays, Patch
 
@@ -68,4 +69,9 @@ def _faded(mesh: MeshArrays, patch: Patch, vertices: Ints, outside: Ints, feathe
     if not np.isin(patch.triangles, outside).any():
         return np.zeros(len(vertices))
     points = mesh.positions[vertices]
-    return np.array(fairing.feather_weights(points, patch.triangles, outside, feather, fixed=patch.fixed))
+    number = np.zeros(len(mesh.positions), dtype=np.int64)
+    number[vertices] = np.arange(len(vertices))
+    creases = hard_edges_of(mesh, vertices, number)
+    return np.array(
+        fairing.feather_weights(points, patch.triangles, outside, feather, fixed=patch.fixed, creases=creases)
+    )

@@ -226,7 +226,7 @@ def _new_problem(problem: Problem, part: NewPart, result: fairing.RemeshResult, 
         neighbours=None,
     )
     vertices = np.concatenate([own, others])
-    return Problem(patch, points, np.empty((0, 3)), vertices, number[outside])
+    return Problem(patch, points, np.empty((0, 3)), vertices, number[outside], inward=problem.inward)
 
 
 def _origin(problem: Problem, result: fairing.RemeshResult) -> Origin:

@@ -97,23 +97,19 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
         wide = options.takes_base
         outside = wide_outside(world, patch, options.feather) if wide else outside_triangles(world, patch)
         known = boundary(world, patch, options.boundary_normals, outside)
+        inward = known.inward(patch)
         parts = wound_alike(world, outside), wound_alike(world, sample_triangles(world))
         vertices, around, sample = numbered(patch, *parts)
         weights = band_weights(world, patch, vertices, around, options.feather) if options.moves_band else None
         precision = precision_note(mesh)
-        notes = (
-            winding_note(turned)
-            + outline_notes(world, known.inward(patch))
-            + ((precision,) if precision else ())
-            + mesh.notes
-        )
+        odd = outline_notes(world, inward) + ((precision,) if precision else ())
         curve, places = faired_curves(world) if options.fairs_pinned_edges else (nothing(), np.empty((0, 3)))
     curvatures = known.curvatures if options.joins_curvature else None
     problem = engine.Problem(
         patch, world.positions[vertices], known.normals, vertices, around, curvatures, weights, sample,
-        np.searchsorted(patch.vertices, curve), places,
+        np.searchsorted(patch.vertices, curve), places, inward,
     )  # fmt: skip
-    return problem, known.notes + notes
+    return problem, known.notes + winding_note(turned) + odd + mesh.notes
 
 
 def _solve_again(

@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "api/diagnose.h"
+#include "base/direction.h"
 #include "base/stopwatch.h"
 #include "detail/low_pass.h"
-#include "geometry/surface_fit.h"
+#include "geometry/hard_edges.h"
 #include "mesh/pieces.h"
+#include "outline/boundary_fit.h"
+#include "outline/sided_fits.h"
 
 namespace fairing {
 
@@ -27,20 +31,27 @@ Indices places_at_rim(std::span<const int> fixed, const Triangles& outside, Eige
 
 // Whether normals (3 × k) at the rim are others than triangles outside show, detail included, at more than half of some
 // vertices: then somebody chose them.
-bool are_chosen(const Points& normals, const Indices& rim, const Points& positions, const Triangles& outside) {
+bool are_chosen(const Points& normals, const Indices& rim, SidedFits& outside) {
     constexpr std::size_t most_samples = 12;
     constexpr double same = 2.0;  // standard errors
     constexpr double rounding = 1e-3;
-    SurfaceFits fits(positions, outside, Centre::free);
     const std::size_t step = 1 + (rim.size() - 1) / most_samples;
     int agree = 0;
     for (std::size_t k = 0; k < rim.size(); k += step) {
-        const auto fit = fits.at_vertex(rim[k]);
+        const auto fit = outside.at_vertex(rim[k]);
         if (!fit) continue;
         const double apart = (normals.col(static_cast<Eigen::Index>(k)) - fit->normal).norm();
         agree += apart <= same * fit->error + rounding ? 1 : -1;
     }
     return agree < 0;
+}
+
+// Whether a normal given is that of another side of a hard edge than the triangles outside, whose winding may differ:
+// these say nothing about the patch there.
+bool is_other_side(const Vector3& given, const std::optional<SlopeFit>& outside) {
+    const double least = std::cos(hard_bend * std::numbers::pi / 180.0);
+    return outside && outside->error <= most_error && !given.isZero(0.0) &&
+           std::abs(direction(given).dot(outside->normal)) < least;
 }
 
 // The largest piece of the sample with an inside.
@@ -105,15 +116,21 @@ BaseOutline KeptSkin::low_pass_outline(const ComponentData& data, const View<Poi
     const auto fixed = fixed_vertices(patch_);
     const Points positions = given;
     BaseOutline result{gather(positions, fixed), data.normals.gather(fixed)};
-    const Indices places = places_at_rim(fixed, data.outside, positions.cols());
+    Indices places = places_at_rim(fixed, data.outside, positions.cols());
     if (places.empty() || !positions(Eigen::all, data.outside.reshaped()).allFinite()) return result;
     Indices rim;
     for (int k : places) rim.push_back(fixed[k]);
+    bool keeps_normals = false;
+    if (data.given_normals) {
+        SidedFits fits(positions, data.outside, rim, {});
+        keeps_normals = are_chosen(result.normals(Eigen::all, places), rim, fits);
+        std::erase_if(places, [&](int k) { return is_other_side(result.normals.col(k), fits.at_vertex(fixed[k])); });
+        rim.clear();
+        for (int k : places) rim.push_back(fixed[k]);
+    }
     const double length = wavelength_ * normalise(result.points).diameter;
     const LowPass smooth = low_pass(positions, data.outside, rim, length);
     result.points(Eigen::all, places) = smooth.points;
-    const bool keeps_normals =
-        data.given_normals && are_chosen(result.normals(Eigen::all, places), rim, positions, data.outside);
     for (std::size_t k = 0; k < rim.size(); ++k) {
         if (!smooth.found[k]) continue;
         result.moved = true;

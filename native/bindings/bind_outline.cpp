@@ -69,8 +69,9 @@ py::array bad_outline_array(const DoubleArray& vertices, const IntArray& triangl
 }
 
 py::array feather_weight_array(const DoubleArray& vertices, const IntArray& inside, const IntArray& outside,
-                               double width) {
-    return from_vector(feather_weights(to_points(vertices), to_triangles(inside), to_triangles(outside), width));
+                               double width, const IntArray& stops) {
+    return from_vector(
+        feather_weights(to_points(vertices), to_triangles(inside), to_triangles(outside), width, to_indices(stops)));
 }
 
 std::pair<py::array, py::array> soft_base_arrays(const DoubleArray& vertices, const IntArray& triangles,
@@ -127,7 +128,7 @@ void bind_outline(py::module_& module) {
     module.def("bad_outline", &bad_outline_array, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
     module.def("mend_outline", &mended_outline_arrays, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
     module.def("feather_weights", &feather_weight_array, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
-               py::arg("width"));
+               py::arg("width"), py::arg("stops"));
     module.def("soft_base", &soft_base_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("base"), py::arg("faired"), py::arg("sizes"), py::arg("threads"), py::arg("progress"));
     module.def("fair_curve", &fair_curve_array, py::arg("places"), py::arg("directions"), py::arg("shares"));

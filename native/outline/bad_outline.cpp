@@ -10,6 +10,7 @@ namespace fairing {
 
 namespace {
 
+constexpr double least_error = 0.15;  // radians
 constexpr double least_height = 0.3;  // edges
 constexpr double times_median = 4.0;
 constexpr double largest_share = 0.15;  // of the outline
@@ -37,7 +38,7 @@ Doubts doubts_of(const SurroundingFit& fit) {
 
 Indices bad_vertices(const SurroundingFit& fit) {
     const Doubts doubts = doubts_of(fit);
-    const double error_bound = std::max(most_error, times_median * median(doubts.errors));
+    const double error_bound = std::max(least_error, times_median * median(doubts.errors));
     const double height_bound = std::max(least_height, times_median * median(doubts.heights));
     std::vector<std::pair<double, int>> bad;  // by how much, negative, so that the worst come first
     for (std::size_t k = 0; k < doubts.places.size(); ++k) {

@@ -49,8 +49,9 @@ double distance_to(const Vector3& point, const Vector3& a, const Vector3& b) {
 // it.
 class Walk {
 public:
-    Walk(const Points& points, const Triangles& outside, std::vector<Edge> edges)
+    Walk(const Points& points, const Triangles& outside, std::vector<Edge> edges, const std::vector<char>& stops)
         : points_(points),
+          stops_(stops),
           around_(outside, static_cast<int>(points.cols())),
           edges_(std::move(edges)),
           distance_(VectorX::Constant(points.cols(), std::numeric_limits<double>::infinity())) {
@@ -66,6 +67,7 @@ public:
             next_.pop();
             if (distance > distance_[v]) continue;
             if (distance > farthest) break;
+            if (stops_[v]) continue;
             checkpoint();
             for (int k = around_.begin[v]; k < around_.begin[v + 1]; ++k) spread(around_.neighbours[k], edge);
         }
@@ -97,6 +99,7 @@ private:
     }
 
     const Points& points_;
+    const std::vector<char>& stops_;
     VertexAdjacency around_;
     std::vector<Edge> edges_;
     std::map<int, Indices> edges_at_;
@@ -106,11 +109,15 @@ private:
 
 }  // namespace
 
-VectorX feather_weights(const Points& points, const Triangles& inside, const Triangles& outside, double width) {
-    const VectorX distance = Walk(points, outside, shared_edges(inside, outside)).distances(width);
+VectorX feather_weights(const Points& points, const Triangles& inside, const Triangles& outside, double width,
+                        const Indices& stops) {
+    std::vector<char> is_stop(static_cast<std::size_t>(points.cols()), 0);
+    for (const int v : stops) is_stop[v] = 1;
+    const VectorX distance = Walk(points, outside, shared_edges(inside, outside), is_stop).distances(width);
     const VectorX share = (distance / width).cwiseMin(1.0);
     VectorX weights = 1.0 - share.array().square() * (3.0 - 2.0 * share.array());
-    for (int v : inside.reshaped()) weights[v] = 1.0;
+    for (const int v : inside.reshaped()) weights[v] = 1.0;
+    for (const int v : stops) weights[v] = 0.0;
     return weights;
 }
 

@@ -13,6 +13,10 @@ namespace fairing {
 
 namespace {
 
+// How many times nearer a surface over the boundary has to be to the inside than to the outside. Over a dent in a ball
+// that ends in a crease it is far from both; over a dome that meets walls at 45° it is twice as near to the dome.
+constexpr double times_nearer = 2.0;
+
 // With one triangle on either side: sides 3 t + k of the two lists.
 struct Meeting {
     std::array<int, 2> ends;
@@ -68,7 +72,8 @@ std::vector<HardMeeting> hard_meetings(const PatchInMesh& mesh, const VertexPair
                          (alike ? -1.0 : 1.0) * normal_of(mesh.points, mesh.outside, edge.outside), 0.0};
         const Vector3 leaves = normal_of(closed, mesh.inside, edge.inside);
         const double length = (mesh.points.col(edge.ends[0]) - mesh.points.col(edge.ends[1])).norm();
-        hard.leans_in = length * (degrees_between(leaves, hard.outside) - degrees_between(leaves, hard.inside));
+        hard.leans_in =
+            length * (degrees_between(leaves, hard.outside) - times_nearer * degrees_between(leaves, hard.inside));
         result.push_back(hard);
     }
     return result;

@@ -17,8 +17,8 @@ struct PatchInMesh {
 VertexPairs outline_edges(const PatchInMesh& mesh);
 
 // Those of them at which the surface takes the slope of the patch's own triangles: hard edges that a surface over the
-// boundary (closing_surface over the vertices that are not `held`) leaves nearer to these than to those outside. The
-// top of a box has such an outline, a boss on a plate, or a pocket, has not. Edges in a row that bend alike decide
+// boundary (closing_surface over the vertices that are not `held`) leaves twice as near to these as to those outside.
+// The top of a box has such an outline, a boss on a plate, or a pocket, has not. Edges in a row that bend alike decide
 // together.
 VertexPairs inward_edges(const PatchInMesh& mesh, const VertexPairs& creases, const std::vector<char>& held);
 

@@ -50,7 +50,7 @@ Points moves(const Points& points, const Triangles& triangles, const VectorX& sh
     const SurroundingFit fit = fit_surroundings(points, triangles, moving);
     Points result = Points::Zero(3, points.cols());
     for (std::size_t k = 0; k < moving.size(); ++k) {
-        if (!fit.fits[k]) continue;
+        if (!fit.fits[k] || fit.parted[k]) continue;  // hard edges stay
         const double bound = farthest * fit.lengths[static_cast<Eigen::Index>(k)];
         const double height = std::clamp(fit.fits[k]->height, -bound, bound);
         result.col(moving[k]) = share[moving[k]] * fit.size * height * fit.fits[k]->normal;

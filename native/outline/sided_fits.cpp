@@ -33,6 +33,7 @@ SidedFits::SidedFits(const Points& points, const Triangles& triangles, const Ind
     : points_(points),
       near_(triangles_near(without_collapsed(triangles), at, points.cols())),
       side_of_(static_cast<std::size_t>(points.cols()), none),
+      is_parted_(side_of_.size(), 0),
       whole_(std::make_unique<SurfaceFits>(points_, near_, Centre::free)) {
     const VertexPairs edges = hard_edges(points_, near_, marked);
     if (edges.empty()) return;
@@ -62,10 +63,11 @@ void SidedFits::choose_sides(const Triangles& broken, const Indices& input_verte
         add(side_head(broken, side), at_border);
     }
     for (int copy = 0; copy < static_cast<int>(input_vertex.size()); ++copy) add(copy, side_of_);
-    for (int v : at) {
-        if (side_of_[v] == several) side_of_[v] = at_border[v];
+    for (std::size_t v = 0; v < side_of_.size(); ++v) {
+        if (side_of_[v] != several) continue;
+        is_parted_[v] = at_border[v] < 0 ? 1 : 0;
+        side_of_[v] = is_parted_[v] ? none : at_border[v];
     }
-    for (int& side : side_of_) side = side == several ? none : side;
 }
 
 std::optional<SlopeFit> SidedFits::at_vertex(int vertex) {

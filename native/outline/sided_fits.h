@@ -22,6 +22,8 @@ public:
     // At one of `at`. Where hard edges take the surface apart at the vertex, the side counts on which its border edges
     // between vertices of `at` lie; where these are on several, the fit sees all of them.
     [[nodiscard]] std::optional<SlopeFit> at_vertex(int vertex);
+    // Whether hard edges part the surface there, and no side counts.
+    [[nodiscard]] bool is_parted(int vertex) const { return is_parted_[vertex] != 0; }
     // The normalised sum of cross products on that side; zero without triangles.
     [[nodiscard]] Vector3 averaged(int vertex) const;
 
@@ -33,7 +35,8 @@ private:
     Triangles near_;
     Points copies_;
     Triangles broken_;
-    Indices side_of_;                        // of each vertex its copy that counts; `none`: the whole surface does
+    Indices side_of_;  // of each vertex its copy that counts; `none`: the whole surface does
+    std::vector<char> is_parted_;
     std::unique_ptr<SurfaceFits> one_side_;  // null without hard edges
     std::unique_ptr<SurfaceFits> whole_;
 };

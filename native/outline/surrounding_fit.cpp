@@ -58,6 +58,7 @@ VectorX edge_lengths(const Points& points, const Triangles& triangles, const Ind
 SurroundingFit blank_fit(const Points& points, const Triangles& triangles, const Indices& vertices, double size) {
     const Indices place = first_places(vertices, points.cols());
     SurroundingFit result{{},
+                          {},
                           points(Eigen::all, vertices),
                           Points(3, static_cast<Eigen::Index>(vertices.size())),
                           edge_lengths(points, triangles, vertices),
@@ -76,6 +77,7 @@ SurroundingFit fit_surroundings(const Points& given, const Triangles& triangles,
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         checkpoint();
         result.fits.push_back(fits.at_vertex(vertices[k]));
+        result.parted.push_back(fits.is_parted(vertices[k]) ? 1 : 0);
         result.averaged.col(static_cast<Eigen::Index>(k)) = fits.averaged(vertices[k]);
     }
     return result;

@@ -14,6 +14,7 @@ using OutlineEdges = std::vector<std::array<int, 2>>;
 
 struct SurroundingFit {
     std::vector<std::optional<SlopeFit>> fits;  // of each vertex asked for, in units of `size`
+    std::vector<char> parted;                   // by hard edges, and no side counts: the fit sees all
     Points centres;                             // 3 × k, likewise
     Points averaged;                            // 3 × k: unit mean normals of the adjacent triangles, zero without any
     VectorX lengths;                            // k: mean lengths of the adjacent edges, likewise; zero without any
@@ -28,9 +29,6 @@ SurroundingFit blank_fit(const Points& points, const Triangles& triangles, const
 // Fits with free centres, from one side of each hard edge (SidedFits); `creases` are hard edges, too.
 SurroundingFit fit_surroundings(const Points& points, const Triangles& triangles, const Indices& vertices,
                                 const VertexPairs& creases = {});
-
-// Radians: a fit with a larger standard error says little about the surface.
-inline constexpr double most_error = 0.15;
 
 struct SurroundingNormals {
     Points normals;            // 3 × k, unit; zero where there is no triangle

@@ -37,9 +37,9 @@ def boundary_normals(
 
     ``side``: "outside" takes the slope of the triangles outside, as :func:`fairing.surrounding_normals` does. "inside"
     takes that of the patch's own triangles beside the boundary, for the top of a box that is to stay flat. "automatic"
-    decides edge by edge. At hard edges (:func:`fairing.hard_edges`) the side counts to which a surface over the
-    boundary is nearer, and the outside everywhere else. The inside counts only where its triangles agree on a surface:
-    where the median standard error there is .15 rad at most. A vertex between edges of both kinds takes the outside.
+    decides edge by edge. At hard edges (:func:`fairing.hard_edges`) the inside counts where a surface over the boundary
+    is twice as near to it as to the outside, and where its triangles agree on a surface: where the median standard
+    error there is .04 rad at most. A vertex between edges of both kinds takes the outside.
 
     ``creases``: (c, 2) edges that are hard whatever they bend. Fits use one side of hard edges alone.
     """

@@ -11,6 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core, _mending
+from fairing._boundary_normals import boundary_normals
+from fairing._hard_edges import hard_edges
 from fairing._measure import edges_with_uses
 from fairing._mending import Answer, Boundary, Surroundings, marked
 from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
@@ -117,7 +119,7 @@ def _rounded(answer: Answer, parts: list[Part], band: Band, fade: Fade) -> tuple
         fair, soft = _core.soft_base(
             points, triangles, part.fixed, answer["base"], band.faired, sizes, fade.threads, ask
         )
-        near = _core.feather_weights(points, part.outside, part.inside, part.width)
+        near = _core.feather_weights(points, part.outside, part.inside, part.width, part.fixed[:0])
         free = np.setdiff1d(triangles, part.fixed)
         base[free] = fair[free]
         full[free] += near[free, None] * (soft - fair)[free]
@@ -136,11 +138,13 @@ def feather_weights(
     feather: float,
     *,
     fixed: npt.ArrayLike | None = None,
+    creases: npt.ArrayLike | None = None,
 ) -> FloatArray:
     """Return the ``weights`` (n,) that ``feather`` stands for in :func:`fairing.fair`, to be changed by hand.
 
-    1 inside, 1 − s² (3 − 2 s) in the band, s the distance from the boundary over the width, 0 beyond. The arguments
-    are those of :func:`fairing.fair`; ``feather`` is above 0.
+    1 inside, 1 − s² (3 − 2 s) in the band, s the distance from the boundary over the width, 0 beyond, and on hard edges
+    outside, at which the band ends (:func:`fairing.hard_edges`); ``creases``: (c, 2) edges that are hard whatever they
+    bend. The arguments are those of :func:`fairing.fair`; ``feather`` is above 0.
     """
     points = _arguments.floats("vertices", vertices)
     faces = _arguments.triangles_within(triangles, len(points))
@@ -149,33 +153,46 @@ def feather_weights(
     if share == 0.0:
         raise ValueError("feather: a number above 0 is needed: 0 is no band")
     around = Surroundings.of(points, faces, held, outside)
-    return _faded(Boundary(points, held, None), around, share)
+    named = _arguments.integers("creases", [] if creases is None else creases, 2)
+    edges = _arguments.indices_within("creases", named, len(points))
+    return _faded(Boundary(points, held, None), around, share, edges)
 
 
-def _faded(given: Boundary, around: Surroundings, share: float) -> FloatArray:
+def _hard(points: FloatArray, around: Surroundings, creases: IntArray) -> IntArray:
+    """Vertices at which bands end: on hard edges outside, and where the boundary is one that belongs to the patch."""
+    outside = hard_edges(points, around.outside, marked=creases)
+    own = boundary_normals(points, around.inside, around.rim, outside=around.outside, creases=creases)
+    return np.union1d(outside, around.rim[own.from_inside]).astype(np.int32)
+
+
+def _faded(given: Boundary, around: Surroundings, share: float, creases: IntArray = _arguments.NO_EDGES) -> FloatArray:
     """Weights of bands, each as wide as its component asks for."""
     points = given.vertices
+    stops = _hard(points, around, creases)
     component = _core.components(around.inside, given.fixed, len(points))
     weights = marked(around.inside, len(points)).astype(np.float64)
     for number in range(component.max(initial=-1) + 1):
         inside = around.inside[component == number]
         rim = points[np.intersect1d(inside, around.rim)]
         if len(rim):
-            faded = _core.feather_weights(points, inside, around.outside, share * _diameter(rim))
+            faded = _core.feather_weights(points, inside, around.outside, share * _diameter(rim), stops)
             np.maximum(weights, faded, out=weights)
+    weights[stops] = 0.0
     return weights
 
 
 def _band(given: Boundary, around: Surroundings, weights: FloatArray) -> Band:
     """Free the vertices of the triangles outside that have a weight.
 
-    Those on the mesh border or at edges with more than two triangles stay, as do pins and curves inside the patch.
+    Those on the mesh border or at edges with more than two triangles stay, as do pins and curves inside the patch, and
+    hard edges at which the band ends.
     """
     count = len(given.vertices)
     beyond = marked(around.outside, count)
     fixed = marked(around.rim if given.fixed is None else given.fixed, count)
     odd = _at_odd_edges(np.concatenate([around.inside, around.outside]), count)
-    held = odd | (fixed & ~beyond)
+    ends = marked(_hard(given.vertices, around, _arguments.NO_EDGES), count) & (weights == 0.0)
+    held = odd | (fixed & ~beyond) | ends
     return Band(marked(around.inside, count) & ~fixed & ~held, beyond & (weights > 0.0) & ~held, held, weights)
 
 
