@@ -8,11 +8,11 @@
 #include "api/diagnose.h"
 #include "base/direction.h"
 #include "base/stopwatch.h"
+#include "boundary/boundary_fit.h"
+#include "boundary/sided_fits.h"
 #include "detail/low_pass.h"
 #include "geometry/hard_edges.h"
 #include "mesh/pieces.h"
-#include "outline/boundary_fit.h"
-#include "outline/sided_fits.h"
 
 namespace fairing {
 

@@ -151,8 +151,8 @@ Points MultigridStep::displacement(const Points& points, const TangentPlanes& pl
     return solve_across(across, std::move(singles), effort);
 }
 
-Points MultigridStep::displacement(TurningPlanes&& gone, Effort effort) const {
-    TurningPlanes planes = std::move(gone);
+Points MultigridStep::displacement(TurningPlanes&& temporary, Effort effort) const {
+    TurningPlanes planes = std::move(temporary);
     Points across = pull(planes.points);
     planes.points.resize(3, 0);
     Planes singles = project(across, planes.normals, std::move(planes.shapes));

@@ -196,7 +196,7 @@ class Stand:
     def __init__(self) -> None:
         fillet = module("run.fillet")
         self._operator = fillet.MESH_OT_fair_fillet
-        self.told: list[Any] = []
+        self.reported: list[Any] = []
         for field in ("width_2", "spacing", "profile"):
             setattr(self, field, 0.0)
         self.width, self.continuity, self.width_group = 0.1, "G1", ""
@@ -209,7 +209,7 @@ class Stand:
         return method.__get__(self)
 
     def report(self, kinds: set[str], text: str) -> None:
-        self.told.append((kinds, text))
+        self.reported.append((kinds, text))
 
 
 def event(kind: str, value: str = "PRESS", at: tuple[int, int] = (0, 0), ascii: str = "") -> Any:
@@ -218,12 +218,12 @@ def event(kind: str, value: str = "PRESS", at: tuple[int, int] = (0, 0), ascii: 
 
 @pytest.fixture
 def shown() -> Any:
-    """What previews were told."""
-    told: list[Any] = []
+    """What previews were reported."""
+    reported: list[Any] = []
     fillet = module("run.fillet")
-    fillet.previews.append(told.append)
-    yield told
-    fillet.previews.remove(told.append)
+    fillet.previews.append(reported.append)
+    yield reported
+    fillet.previews.remove(reported.append)
 
 
 def dragged(stand: Stand, way: int) -> None:
@@ -288,7 +288,7 @@ def test_escape_leaves_every_bit(shown: Any) -> None:
         meshes.leave()
 
 
-def test_a_width_that_is_too_large_is_told_while_dragging(shown: Any) -> None:
+def test_a_width_that_is_too_large_is_reported_while_dragging(shown: Any) -> None:
     obj = cube()
     meshes.select(obj, np.ones(6, dtype=bool))
     meshes.edit(obj)
